@@ -1,0 +1,122 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# From a clean checkout on Debian 12 to a result: ./bootstrap.sh deps|build|demo|test
+set -euo pipefail
+
+readonly packages=(
+    build-essential cmake ninja-build git ca-certificates
+    libeigen3-dev libcgal-dev libassimp-dev catch2 libhwy-dev libtomlplusplus-dev libcli11-dev
+    libfmt-dev libspdlog-dev libhdf5-dev nlohmann-json3-dev zlib1g-dev python3 python3-h5py)
+
+usage() {
+    cat <<'END'
+usage: ./bootstrap.sh COMMAND
+  deps   installs the Debian packages that are missing (as root or with sudo)
+  build  deps, then the programs: build/release/bin/{spherize,icesolve,icepost}
+  demo   build, then the paper's 3D case from mesh to report
+  test   build, then the whole test suite (CI=true: compiler warnings are errors)
+END
+}
+
+fail() {
+    echo "bootstrap.sh: $*" >&2
+    exit 1
+}
+
+install_packages() {
+    local missing=() package state
+    for package in "${packages[@]}"; do
+        state=$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null || true)
+        [[ $state == installed ]] || missing+=("$package")
+    done
+    [[ ${#missing[@]} -eq 0 ]] && return
+    echo "installing ${missing[*]}" >&2
+    command -v apt-get >/dev/null ||
+        fail "no apt-get here; install these packages (Debian names): ${missing[*]}"
+
+    local apt=(env DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=300 -qq)
+    if [[ $(id -u) -ne 0 ]]; then
+        command -v sudo >/dev/null ||
+            fail "neither root nor sudo; as root, install: ${missing[*]}"
+        apt=(sudo "${apt[@]}")
+    fi
+    "${apt[@]}" update
+    "${apt[@]}" install --yes --no-install-recommends "${missing[@]}"
+}
+
+# one job per processor, and per 2 GB of memory: the CGAL files need up to 1.5 GB each
+job_count() {
+    local gigabyte=$((1024 * 1024 * 1024)) memory limit jobs
+    memory=$(($(awk '/^MemTotal:/ { print $2 }' /proc/meminfo) * 1024))
+    limit=$(cat /sys/fs/cgroup/memory.max 2>/dev/null || echo max) # a container's own bound
+    [[ $limit =~ ^[0-9]{1,18}$ ]] && ((limit < memory)) && memory=$limit
+    jobs=$(nproc)
+    # half a gigabyte is forgiven, because "4 GB" machines report a little less
+    local fitting=$(((memory + gigabyte / 2) / (2 * gigabyte)))
+    ((fitting < jobs)) && jobs=$fitting
+    echo $((jobs > 1 ? jobs : 1))
+}
+
+preset() {
+    [[ ${CI:-} == true ]] && echo ci || echo release
+}
+
+build_programs() {
+    cmake --preset "$(preset)"
+    cmake --build --preset "$(preset)" --parallel "$(job_count)"
+}
+
+run_demo() {
+    local bin=build/release/bin run=results/paper-3d
+    cases/prepare.sh cases/paper-3d
+    "$bin/icesolve" cases/paper-3d/case.cfg --out "$run"
+    "$bin/icepost" report "$run"
+    python3 - "$run/summary.json" <<'END'
+import json
+import sys
+with open(sys.argv[1], encoding="utf-8") as file:
+    resistance = json.load(file)["resistance"]
+print(f"\nresistance  {resistance['mean_N']:.0f} N +- {resistance['ci95_N'] or 0:.0f} N (95 %), "
+      f"contact {resistance['contact_mean_N']:.0f} N, friction {resistance['friction_mean_N']:.0f} N")
+END
+    echo "report      $PWD/$run/report.html"
+}
+
+run_tests() {
+    local log=build/release/ctest.log status=0
+    ctest --preset "$(preset)" --parallel "$(nproc)" --no-tests=error 2>&1 | tee "$log" || status=$?
+
+    # "98% tests passed, 2 tests failed out of 120": count what ran, from ctest's own words
+    local total failed skipped
+    total=$(sed -nE 's/.*tests passed, .* out of ([0-9]+)$/\1/p' "$log")
+    failed=$(sed -nE 's/.*tests passed, ([0-9]+) tests? failed out of .*/\1/p' "$log")
+    skipped=$(grep -cF '***Skipped' "$log" || true)
+    if [[ -z $total ]] || ((total <= skipped)); then fail "no test ran; see $log"; fi
+    echo "tests: $((total - failed - skipped)) passed, $failed failed, $skipped skipped"
+    return "$status"
+}
+
+cd "$(dirname "${BASH_SOURCE[0]}")"
+[[ $# -eq 1 ]] || { usage >&2; exit 2; }
+# one command a line: in "a && b" a failure inside a would not stop the script
+case $1 in
+    deps)
+        install_packages
+        ;;
+    build)
+        install_packages
+        build_programs
+        ;;
+    demo)
+        install_packages
+        build_programs
+        run_demo
+        ;;
+    test)
+        install_packages
+        build_programs
+        run_tests
+        ;;
+    -h | --help | help) usage ;;
+    *) usage >&2; exit 2 ;;
+esac

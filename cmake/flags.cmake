@@ -1,0 +1,20 @@
+# ice_flags: what every target of the project is compiled with.
+#
+# -ffp-contract=off: without it g++ fuses a*b + c where the machine can, so that results would differ
+# between instruction sets. CGAL's own -frounding-math stays with the targets that link CGAL.
+add_library(ice_flags INTERFACE)
+target_compile_options(ice_flags INTERFACE
+  -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
+  $<$<BOOL:${ICE_WARNINGS_AS_ERRORS}>:-Werror>)
+target_include_directories(ice_flags INTERFACE ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR}/generated)
+target_link_libraries(ice_flags INTERFACE Eigen3::Eigen fmt::fmt)
+
+# Header-only third parties reach us as system headers: their warnings are not ours.
+foreach(library IN ITEMS Eigen3::Eigen fmt::fmt spdlog::spdlog CLI11::CLI11 nlohmann_json::nlohmann_json)
+  if(TARGET ${library})
+    get_target_property(folders ${library} INTERFACE_INCLUDE_DIRECTORIES)
+    if(folders)
+      set_target_properties(${library} PROPERTIES INTERFACE_SYSTEM_INCLUDE_DIRECTORIES "${folders}")
+    endif()
+  endif()
+endforeach()

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "common/base/error.hpp"
+
+namespace ice {
+
+namespace {
+
+std::string join(const std::string& where, const std::string& what_happened,
+                 const std::string& remedy) {
+    std::string text = where.empty() ? what_happened : where + ": " + what_happened;
+    if (!remedy.empty()) text += "\n  " + remedy;
+    return text;
+}
+
+}  // namespace
+
+Error::Error(ExitCode code, const std::string& where, const std::string& what_happened,
+             const std::string& remedy)
+    : std::runtime_error(join(where, what_happened, remedy)), code_(code) {}
+
+Error bad_input(const std::string& where, const std::string& what_happened,
+                const std::string& remedy) {
+    return Error(ExitCode::bad_input, where, what_happened, remedy);
+}
+
+Error run_failed(const std::string& where, const std::string& what_happened,
+                 const std::string& remedy) {
+    return Error(ExitCode::failed, where, what_happened, remedy);
+}
+
+}  // namespace ice

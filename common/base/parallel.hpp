@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// OpenMP behind two functions; no other file includes or uses it.
+#pragma once
+
+#include <omp.h>
+
+#include <cstddef>
+
+namespace ice {
+
+/// Threads used by parallel_for from now on; 0 leaves OpenMP's own choice.
+inline void set_thread_count(int threads) {
+    if (threads > 0) omp_set_num_threads(threads);
+}
+
+inline int thread_count() { return omp_get_max_threads(); }
+
+/// Calls body(k) for k in [0, count), in chunks shared among the threads.
+///
+/// body(k) may write only what belongs to k: then the result has the same bits for any thread
+/// count. Below `serial_below` items it runs on the calling thread, because waking threads costs
+/// more than the work (about 5 us). body must not throw.
+template <class Body>
+void parallel_for(std::size_t count, std::size_t serial_below, const Body& body) {
+    if (count < serial_below || omp_get_max_threads() == 1) {
+        for (std::size_t k = 0; k < count; ++k) body(k);
+        return;
+    }
+#pragma omp parallel for schedule(dynamic, 16)
+    for (std::ptrdiff_t k = 0; k < static_cast<std::ptrdiff_t>(count); ++k)
+        body(static_cast<std::size_t>(k));
+}
+
+}  // namespace ice

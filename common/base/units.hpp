@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Units people write, turned into SI: "2 kn", "80 mm", "1.5 MPa".
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace ice {
+
+/// What a number measures. `none` is dimensionless and takes no unit.
+enum class Dimension { none, length, time, speed, angular_speed, acceleration, pressure, density, angle };
+
+struct Quantity {
+    double value;      ///< in SI
+    bool has_unit;     ///< false when the text was a bare number, taken as SI
+};
+
+/// Reads a number with an optional unit of that dimension, e.g. parse_quantity("80 mm", length).
+///
+/// "inf" and "nan" are read as such; the caller decides whether they are allowed.
+/// @return nothing when the text is no number, has text after the unit, or a unit of another dimension.
+std::optional<Quantity> parse_quantity(std::string_view text, Dimension dimension);
+
+/// Units accepted for a dimension, for messages: "km, m, cm, mm, ft, in"; "" for none.
+std::string unit_names(Dimension dimension);
+
+/// The SI unit itself: "m", "kg/m3", or "1" for none.
+std::string_view si_unit(Dimension dimension);
+
+}  // namespace ice

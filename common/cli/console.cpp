@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "common/cli/console.hpp"
+
+#include <spdlog/sinks/basic_file_sink.h>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <exception>
+#include <new>
+
+#include "common/base/error.hpp"
+
+namespace ice {
+
+namespace {
+
+volatile std::sig_atomic_t interrupt_flag = 0;
+
+void on_interrupt(int) {
+    if (interrupt_flag) _exit(static_cast<int>(ExitCode::interrupted));
+    interrupt_flag = 1;
+}
+
+}  // namespace
+
+bool stderr_is_terminal() {
+    return isatty(STDERR_FILENO) == 1 && std::getenv("CI") == nullptr;
+}
+
+void start_messages(Colour colour, bool quiet) {
+    const bool colourful =
+        colour == Colour::always || (colour == Colour::automatic && stderr_is_terminal() &&
+                                     std::getenv("NO_COLOR") == nullptr);
+    auto sink = std::make_shared<spdlog::sinks::stderr_color_sink_mt>(
+        colourful ? spdlog::color_mode::always : spdlog::color_mode::never);
+    sink->set_level(quiet ? spdlog::level::err : spdlog::level::info);
+    auto logger = std::make_shared<spdlog::logger>("ice", sink);
+    logger->set_pattern("%^%v%$");
+    spdlog::set_default_logger(logger);
+}
+
+void log_to_file(const std::filesystem::path& path) {
+    try {
+        auto sink = std::make_shared<spdlog::sinks::basic_file_sink_mt>(path.string(), true);
+        sink->set_pattern("%Y-%m-%d %H:%M:%S %l: %v");
+        spdlog::default_logger()->sinks().push_back(sink);
+        spdlog::default_logger()->flush_on(spdlog::level::info);
+    } catch (const spdlog::spdlog_ex&) {
+        throw run_failed(path.string(), "cannot be written",
+                         "check that the folder is writable and the disk is not full");
+    }
+}
+
+void say(const std::string& text) { spdlog::info("{}", text); }
+
+void say_warning(const std::string& text) { spdlog::warn("warning: {}", text); }
+
+int run_program(const std::string& name, const std::function<int()>& body) {
+    const auto complain = [&](const std::string& text) {
+        spdlog::error("{}: error: {}", name, text);
+    };
+    try {
+        return body();
+    } catch (const Error& error) {
+        complain(error.what());
+        return static_cast<int>(error.code());
+    } catch (const std::bad_alloc&) {
+        complain("out of memory\n  use a larger radius or spacing, or a smaller case");
+    } catch (const std::exception& error) {
+        complain(std::string(error.what()) + "\n  this is a fault of the program: please report it");
+    }
+    return static_cast<int>(ExitCode::failed);
+}
+
+void catch_interrupts() {
+    std::signal(SIGINT, on_interrupt);
+    std::signal(SIGTERM, on_interrupt);
+}
+
+bool interrupted() { return interrupt_flag != 0; }
+
+std::string command_line(int argc, const char* const* argv) {
+    std::string line;
+    for (int k = 0; k < argc; ++k) {
+        const std::string word =
+            k == 0 ? std::filesystem::path(argv[0]).filename().string() : argv[k];
+        const bool plain = word.find_first_of(" '\"$*?[]{}()<>|&;\\") == std::string::npos;
+        if (k > 0) line += ' ';
+        if (plain && !word.empty()) {
+            line += word;
+            continue;
+        }
+        line += '\'';
+        for (const char c : word) line += c == '\'' ? std::string("'\\''") : std::string(1, c);
+        line += '\'';
+    }
+    return line;
+}
+
+}  // namespace ice

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// What the three programs share on the command line: messages, exit codes, Ctrl-C.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+
+namespace ice {
+
+/// Colour of messages on stderr. `automatic`: on a terminal, unless NO_COLOR is set.
+enum class Colour { automatic, always, never };
+
+/// True when stderr is a terminal that redraws, i.e. no pipe, file or CI log (variable CI).
+bool stderr_is_terminal();
+
+/// Prepares messages: stderr with optional colour, nothing but errors when quiet.
+void start_messages(Colour colour, bool quiet);
+/// Also writes every message to a file from now on. @throws Error (exit code 1) if it cannot.
+void log_to_file(const std::filesystem::path& path);
+void say(const std::string& text);          ///< information
+void say_warning(const std::string& text);  ///< something the user should know
+
+/// Runs a program's body and turns exceptions into one message and the contract's exit code.
+int run_program(const std::string& name, const std::function<int()>& body);
+
+/// From now on Ctrl-C and SIGTERM only set a flag; a second one ends the program at once (130).
+void catch_interrupts();
+bool interrupted();
+
+/// The words of the command line joined, quoted where a shell needs it.
+std::string command_line(int argc, const char* const* argv);
+
+}  // namespace ice

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// HDF5 in terms of std::vector and std::string; the only header through which HDF5 is reached.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace ice {
+
+/// An open HDF5 file; closed by the destructor. Failures throw Error naming file and dataset.
+///
+/// Element types T: double, float, std::int64_t, std::int32_t, std::uint8_t. Shapes are row-major;
+/// the first dimension of an appendable dataset grows. Files use library bounds (earliest, v1.10)
+/// so that a file flushed before a crash can be opened.
+class Hdf5File {
+public:
+    enum class Mode { read, create };
+    Hdf5File(const std::filesystem::path& path, Mode mode);
+    ~Hdf5File();
+    Hdf5File(const Hdf5File&) = delete;
+    Hdf5File& operator=(const Hdf5File&) = delete;
+
+    // attributes of an object ("/" for the file)
+    void write_attribute(const std::string& object, const std::string& name, const std::string& text);
+    void write_attribute(const std::string& object, const std::string& name,
+                         const std::vector<double>& values, const std::vector<std::uint64_t>& shape);
+    void write_attribute(const std::string& object, const std::string& name, std::int64_t value);
+    std::string read_text_attribute(const std::string& object, const std::string& name) const;
+    std::vector<double> read_number_attribute(const std::string& object,
+                                              const std::string& name) const;
+    bool has_attribute(const std::string& object, const std::string& name) const;
+
+    // groups and whole datasets
+    void create_group(const std::string& name);
+    bool has(const std::string& name) const;
+    template <class T>
+    void write(const std::string& name, const T* data, const std::vector<std::uint64_t>& shape);
+    template <class T>
+    void write(const std::string& name, const std::vector<T>& data) {
+        write(name, data.data(), {data.size()});
+    }
+    void write_strings(const std::string& name, const std::vector<std::string>& texts);
+    template <class T>
+    std::vector<T> read(const std::string& name) const;
+    std::vector<std::string> read_strings(const std::string& name) const;
+    std::vector<std::uint64_t> shape(const std::string& name) const;
+
+    // datasets that grow along their first dimension; `row_shape` is the shape of one row
+    template <class T>
+    void create_appendable(const std::string& name, const std::vector<std::uint64_t>& row_shape,
+                           std::uint64_t rows_per_chunk);
+    template <class T>
+    void append(const std::string& name, const T* rows, std::uint64_t count);
+
+    // dimension scales make the file readable for xarray: label every dimension or none
+    void make_scale(const std::string& name);
+    void attach_scale(const std::string& dataset, unsigned dimension, const std::string& scale);
+
+    /// After flush(), what was written so far survives a crash of the program.
+    void flush();
+    /// Closes now and reports failure (the destructor cannot).
+    void close();
+
+private:
+    std::string describe(const std::string& object) const;
+    std::filesystem::path path_;
+    std::int64_t id_ = -1;
+};
+
+}  // namespace ice

@@ -1,0 +1,322 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Writer of run.h5. In: rows of the solver's recorder. Out: the layout listed in run_file.hpp.
+#include "common/formats/run_file.hpp"
+
+#include <algorithm>
+#include <system_error>
+
+#include "common/base/error.hpp"
+#include "common/formats/hdf5_file.hpp"
+
+namespace ice {
+
+namespace {
+
+constexpr std::uint64_t kFramesPerFlush = 20;  // also the chunk length: every chunk is written once
+constexpr std::uint64_t kHistoryChunk = 1024;
+constexpr std::uint64_t kHistoryPerFlush = 16384;  // runs that store few frames lose no more rows
+
+using Shape = std::vector<std::uint64_t>;
+using Scales = std::vector<std::string>;
+
+// A dataset that grows and the rows of it that are not on disk yet.
+template <class T>
+struct Column {
+    std::string name;
+    std::vector<T> rows;
+
+    template <class Vector>
+    void add(const Vector& v) {
+        for (Eigen::Index k = 0; k < v.size(); ++k) rows.push_back(static_cast<T>(v[k]));
+    }
+    void add_value(double value) { rows.push_back(static_cast<T>(value)); }
+    void add_all(const std::vector<Vec3>& points) {
+        for (const Vec3& p : points) add(p);
+    }
+    void append_to(Hdf5File& file, std::uint64_t count) {
+        file.append(name, rows.data(), count);
+        rows.clear();
+    }
+};
+
+// w, x, y, z: the order of the files (Eigen itself stores w last)
+Eigen::Vector4d wxyz(const Eigen::Quaterniond& q) { return {q.w(), q.x(), q.y(), q.z()}; }
+
+template <class T>
+std::vector<T> flatten(const std::vector<Vec3>& points) {
+    Column<T> flat;
+    flat.add_all(points);
+    return flat.rows;
+}
+
+void write_labels(Hdf5File& file, const std::string& name, const std::vector<std::string>& texts) {
+    file.write_strings(name, texts);
+    file.make_scale(name);
+}
+
+void attach_scales(Hdf5File& file, const std::string& name, const Scales& scales) {
+    for (unsigned k = 0; k < scales.size(); ++k) file.attach_scale(name, k, scales[k]);
+}
+
+template <class T>
+void create_column(Hdf5File& file, const std::string& name, const Shape& row, std::uint64_t chunk,
+                   const std::string& unit, const Scales& scales) {
+    file.create_appendable<T>(name, row, chunk);
+    file.write_attribute(name, "units", unit);
+    attach_scales(file, name, scales);
+}
+
+void write_attributes(Hdf5File& file, const RunHeader& header) {
+    file.write_attribute("/", "format", std::string("icesolve-result"));
+    file.write_attribute("/", "format_version", std::int64_t{1});
+    file.write_attribute("/", "dimension", std::int64_t{header.dimension});
+    file.write_attribute("/", "title", header.title);
+    file.write_attribute("/", "created_by", header.created_by);
+    file.write_attribute("/", "git_commit", header.git_commit);
+    file.write_attribute("/", "command_line", header.command_line);
+    file.write_attribute("/", "case_toml", header.case_toml);
+    file.write_attribute("/", "units", std::string("SI"));
+}
+
+// Meshes and spheres of all shapes one after the other; row s of an offset is where shape s begins.
+void write_shapes(Hdf5File& file, const RunHeader& header) {
+    // one list of region names for all shapes; the hull is first and so keeps its numbers
+    std::vector<std::string> names;
+    std::vector<std::int64_t> vertex_offset{0}, triangle_offset{0}, sphere_offset{0};
+    std::vector<float> vertices, spheres;
+    std::vector<std::int32_t> triangles, region;
+    for (const RunShape& shape : header.shapes) {
+        std::vector<std::int32_t> global;
+        for (const std::string& name : shape.mesh.region_names) {
+            const auto found = std::find(names.begin(), names.end(), name);
+            global.push_back(static_cast<std::int32_t>(found - names.begin()));
+            if (found == names.end()) names.push_back(name);
+        }
+        const auto flat = flatten<float>(shape.mesh.vertices);
+        vertices.insert(vertices.end(), flat.begin(), flat.end());
+        for (const auto& t : shape.mesh.triangles) triangles.insert(triangles.end(), t.begin(), t.end());
+        for (const std::int32_t r : shape.mesh.region)
+            region.push_back(global.at(static_cast<std::size_t>(r)));
+        for (std::size_t k = 0; k < shape.centers.size(); ++k) {
+            for (int c = 0; c < 3; ++c) spheres.push_back(static_cast<float>(shape.centers[k][c]));
+            spheres.push_back(static_cast<float>(shape.radii[k]));
+        }
+        vertex_offset.push_back(static_cast<std::int64_t>(vertices.size() / 3));
+        triangle_offset.push_back(static_cast<std::int64_t>(triangles.size() / 3));
+        sphere_offset.push_back(static_cast<std::int64_t>(spheres.size() / 4));
+    }
+    file.create_group("/shapes");
+    file.write("/shapes/vertex_offset", vertex_offset);
+    file.write("/shapes/vertices", vertices.data(), {vertices.size() / 3, 3});
+    file.write("/shapes/triangle_offset", triangle_offset);
+    file.write("/shapes/triangles", triangles.data(), {triangles.size() / 3, 3});
+    file.write("/shapes/region", region);
+    file.write("/shapes/sphere_offset", sphere_offset);
+    file.write("/shapes/spheres", spheres.data(), {spheres.size() / 4, 4});
+    write_labels(file, "/region_names", names.empty() ? std::vector<std::string>{"hull"} : names);
+}
+
+void write_bodies(Hdf5File& file, const RunHeader& header) {
+    const std::uint64_t count = header.body_shape.size();
+    std::vector<std::int32_t> ids(count);
+    for (std::size_t k = 0; k < count; ++k) ids[k] = static_cast<std::int32_t>(k + 1);
+    file.write("/frames/body", ids);
+    file.make_scale("/frames/body");
+    file.write("/frames/body_shape", header.body_shape);
+    file.write("/frames/body_group", header.body_group);
+    file.write("/frames/mass", header.body_mass);
+    file.write("/frames/inertia", flatten<double>(header.body_inertia).data(), {count, 3});
+    file.write_attribute("/frames/mass", "units", header.dimension == 2 ? "kg/m" : "kg");
+    file.write_attribute("/frames/inertia", "units", header.dimension == 2 ? "kg m" : "kg m2");
+    for (const char* name : {"/frames/body_shape", "/frames/body_group", "/frames/mass"})
+        attach_scales(file, name, {"/frames/body"});
+    attach_scales(file, "/frames/inertia", {"/frames/body", "/xyz"});
+}
+
+}  // namespace
+
+struct RunWriter::Buffers {
+    Buffers(const std::filesystem::path& path, const RunHeader& header);
+    void create_history(const RunHeader& header);
+    void create_frames(const RunHeader& header);
+    void write_all();
+
+    std::filesystem::path final_path, part_path;
+    Hdf5File file;
+    std::size_t bodies = 0;
+    std::uint64_t samples = 0, frames = 0;  // buffered, not on disk yet
+    std::vector<Eigen::Quaterniond> last_orientation;
+
+    // history: time, forces and moment [S,3], pose [S,7], scalars, then one table per tracked floe
+    Column<double> time, contact, friction, total, moment, pose;
+    Column<double> contacts, moving, overlap, energy;
+    std::vector<Column<double>> tracks;
+    // frames
+    Column<double> frame_time, ship_position;
+    Column<float> position, orientation, velocity, spin, floe_force;
+    Column<std::uint8_t> state;
+};
+
+RunWriter::Buffers::Buffers(const std::filesystem::path& path, const RunHeader& header)
+    : final_path(path),
+      part_path(path.string() + ".part"),
+      file(part_path, Hdf5File::Mode::create),
+      bodies(header.body_shape.size()) {
+    if (header.body_group.size() != bodies || header.body_mass.size() != bodies ||
+        header.body_inertia.size() != bodies)
+        throw run_failed(path.string(), "the floes' shapes, groups, masses differ in number",
+                         "this is a fault of the program: please report it");
+    write_attributes(file, header);
+    write_labels(file, "/xyz", {"x", "y", "z"});
+    write_labels(file, "/wxyz", {"w", "x", "y", "z"});
+    write_labels(file, "/pose_parts", {"x", "y", "z", "qw", "qx", "qy", "qz"});
+    write_shapes(file, header);
+    create_history(header);
+    create_frames(header);
+    file.flush();
+}
+
+void RunWriter::Buffers::create_history(const RunHeader& header) {
+    const std::string force = header.dimension == 2 ? "N/m" : "N";
+    const auto create = [&](Column<double>& column, const std::string& name, const Shape& row,
+                            const std::string& unit, const Scales& scales) {
+        column.name = name;
+        create_column<double>(file, name, row, kHistoryChunk, unit, scales);
+    };
+    create(time, "/time", {}, "s", {});
+    file.make_scale("/time");
+    file.create_group("/ship");
+    create(contact, "/ship/contact_force", {3}, force, {"/time", "/xyz"});
+    create(friction, "/ship/friction_force", {3}, force, {"/time", "/xyz"});
+    create(total, "/ship/force", {3}, force, {"/time", "/xyz"});
+    create(moment, "/ship/moment", {3}, force + " m", {"/time", "/xyz"});
+    create(pose, "/ship/pose", {7}, "m, 1", {"/time", "/pose_parts"});
+    create(contacts, "/ship/contacts", {}, "1", {"/time"});
+    create(moving, "/ship/moving_floes", {}, "1", {"/time"});
+    create(overlap, "/ship/max_overlap", {}, "m", {"/time"});
+    create(energy, "/ship/kinetic_energy", {}, header.dimension == 2 ? "J/m" : "J", {"/time"});
+
+    write_labels(file, "/track_columns", track_columns());
+    file.create_group("/tracked");
+    file.write("/tracked/floe", header.tracked);
+    file.make_scale("/tracked/floe");
+    std::string joined;
+    for (const std::string& name : track_columns()) joined += (joined.empty() ? "" : ",") + name;
+    tracks.resize(header.tracked.size());
+    for (std::size_t k = 0; k < tracks.size(); ++k) {
+        create(tracks[k], "/tracked/" + std::to_string(header.tracked[k]), {track_columns().size()},
+               "SI", {"/time", "/track_columns"});
+        file.write_attribute(tracks[k].name, "columns", joined);
+    }
+}
+
+void RunWriter::Buffers::create_frames(const RunHeader& header) {
+    const std::uint64_t n = bodies;
+    const auto create = [&]<class T>(Column<T>& column, const std::string& name, const Shape& row,
+                                     const std::string& unit, Scales scales) {
+        column.name = "/frames/" + name;
+        if (name != "frame_time") scales.insert(scales.begin(), "/frames/frame_time");
+        create_column<T>(file, column.name, row, kFramesPerFlush, unit, scales);
+    };
+    file.create_group("/frames");
+    write_bodies(file, header);
+    create(frame_time, "frame_time", {}, "s", {});
+    file.make_scale("/frames/frame_time");
+    create(ship_position, "ship_position", {3}, "m", {"/xyz"});
+    create(position, "position", {n, 3}, "m", {"/frames/body", "/xyz"});
+    create(orientation, "orientation", {n, 4}, "1", {"/frames/body", "/wxyz"});
+    create(velocity, "velocity", {n, 3}, "m/s", {"/frames/body", "/xyz"});
+    create(spin, "angular_velocity", {n, 3}, "rad/s", {"/frames/body", "/xyz"});
+    create(floe_force, "contact_force", {n, 3}, header.dimension == 2 ? "N/m" : "N",
+           {"/frames/body", "/xyz"});
+    create(state, "state", {n}, "1", {"/frames/body"});
+    file.write_attribute("/frames/orientation", "order", "w,x,y,z body to world");
+    file.write_attribute("/frames/contact_force", "meaning", "of the ship on the floe");
+    file.write_attribute("/frames/state", "meaning", "0 held, 1 moving, 2 behind the hull");
+}
+
+void RunWriter::Buffers::write_all() {
+    for (Column<double>* column : {&time, &contact, &friction, &total, &moment, &pose, &contacts,
+                                   &moving, &overlap, &energy})
+        column->append_to(file, samples);
+    for (Column<double>& column : tracks) column.append_to(file, samples);
+    samples = 0;
+
+    frame_time.append_to(file, frames);
+    ship_position.append_to(file, frames);
+    for (Column<float>* column : {&position, &orientation, &velocity, &spin, &floe_force})
+        column->append_to(file, frames);
+    state.append_to(file, frames);
+    frames = 0;
+    file.flush();
+}
+
+RunWriter::RunWriter(const std::filesystem::path& path, const RunHeader& header)
+    : buffers_(std::make_unique<Buffers>(path, header)) {}
+
+RunWriter::~RunWriter() = default;
+
+void RunWriter::add(const HistoryRow& row) {
+    Buffers& b = *buffers_;
+    // before the new row, when the tracked floes' rows of the last one are complete
+    if (b.samples >= kHistoryPerFlush) b.write_all();
+    b.time.add_value(row.time);
+    b.contact.add(row.contact_force);
+    b.friction.add(row.friction_force);
+    b.total.add(Vec3(row.contact_force + row.friction_force));
+    b.moment.add(row.moment);
+    b.pose.add(row.ship_position);
+    b.pose.add(Eigen::Vector4d(1.0, 0.0, 0.0, 0.0));  // the ship keeps its heading
+    b.contacts.add_value(row.contacts);
+    b.moving.add_value(row.moving_floes);
+    b.overlap.add_value(row.max_overlap);
+    b.energy.add_value(row.kinetic_energy);
+    ++b.samples;
+}
+
+void RunWriter::add_tracked(const std::vector<TrackRow>& rows) {
+    Buffers& b = *buffers_;
+    if (rows.size() != b.tracks.size())
+        throw run_failed(b.final_path.string(), "got another number of tracked floes than promised",
+                         "this is a fault of the program: please report it");
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+        b.tracks[k].add(rows[k].position);
+        b.tracks[k].add(wxyz(rows[k].orientation));
+        for (const Vec3& v : {rows[k].velocity, rows[k].angular_velocity, rows[k].contact_force,
+                              rows[k].friction_force, rows[k].ice_force})
+            b.tracks[k].add(v);
+    }
+}
+
+void RunWriter::add(const RunFrame& frame) {
+    Buffers& b = *buffers_;
+    b.frame_time.add_value(frame.time);
+    b.ship_position.add(frame.ship_position);
+    b.position.add_all(frame.position);
+    b.velocity.add_all(frame.velocity);
+    b.spin.add_all(frame.angular_velocity);
+    b.floe_force.add_all(frame.contact_force);
+    for (const FloeState state : frame.state) b.state.rows.push_back(static_cast<std::uint8_t>(state));
+    // q and -q are the same rotation: keep the sign nearer to the last frame, for interpolation
+    b.last_orientation.resize(b.bodies, Eigen::Quaterniond::Identity());
+    for (std::size_t k = 0; k < frame.orientation.size(); ++k) {
+        Eigen::Quaterniond q = frame.orientation[k];
+        if (q.dot(b.last_orientation[k]) < 0.0) q.coeffs() = -q.coeffs();
+        b.orientation.add(wxyz(q));
+        b.last_orientation[k] = q;
+    }
+    if (++b.frames >= kFramesPerFlush) b.write_all();
+}
+
+void RunWriter::finish() {
+    Buffers& b = *buffers_;
+    b.write_all();
+    b.file.close();
+    std::error_code error;
+    std::filesystem::rename(b.part_path, b.final_path, error);
+    if (error)
+        throw run_failed(b.final_path.string(), "cannot rename the finished file: " + error.message(),
+                         "check that the folder is writable");
+}
+
+}  // namespace ice

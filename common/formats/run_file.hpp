@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// `run.h5`: poses, shapes and forces of a run, readable by h5py and xarray.
+///
+/// Layout (S samples, F frames, B floes):
+///
+///     /time [S] s                      /ship/contact_force, friction_force, force, moment [S,3]
+///     /ship/pose [S,7] m, w x y z      /ship/contacts, moving_floes, max_overlap, kinetic_energy [S]
+///     /frames/frame_time [F] s         /frames/body [B]  (ids, from 1)
+///     /frames/position [F,B,3]         /frames/orientation [F,B,4] w x y z, body to world
+///     /frames/velocity, angular_velocity, contact_force [F,B,3]   /frames/state [F,B]
+///     /frames/ship_position [F,3]      /frames/body_shape, body_group, mass [B], inertia [B,3]
+///     /shapes/vertex_offset, vertices, triangle_offset, triangles, region, sphere_offset, spheres
+///     /tracked/floe [K] ids            /tracked/<id> [S,22], columns named in track_columns()
+///     /region_names, /xyz, /wxyz, /pose_parts, /track_columns   labels
+///
+/// Every dimension outside /shapes is labelled by a dimension scale, so that xarray knows it.
+/// Times, histories and masses are double, poses and meshes float.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "common/formats/run_data.hpp"
+
+namespace ice {
+
+/// Writes run.h5 while the run goes on, as `run.h5.part`, renamed by finish().
+///
+/// Rows are buffered and flushed to disk with every 20th frame, so that a killed run can be read up
+/// to there (without frames, with every 16384th sample). Quaternions are stored with the sign nearer
+/// to the frame before. All functions throw Error (exit code 1) naming the file when the disk is full.
+class RunWriter {
+public:
+    RunWriter(const std::filesystem::path& path, const RunHeader& header);
+    ~RunWriter();  ///< without finish() the .part file stays, readable up to its last flush
+
+    void add(const HistoryRow& row);
+    /// Call once after each add(HistoryRow) when floes are tracked.
+    /// @param rows one per tracked floe, in the order of header.tracked
+    void add_tracked(const std::vector<TrackRow>& rows);
+    void add(const RunFrame& frame);
+    /// Writes what is buffered, closes and renames. Nothing may be added afterwards.
+    void finish();
+
+private:
+    struct Buffers;
+    std::unique_ptr<Buffers> buffers_;
+};
+
+/// Names of the columns of /tracked/<id>, SI units, world axes; the times are those of /time.
+const std::vector<std::string>& track_columns();
+
+/// A whole run in memory.
+struct RunData {
+    RunHeader header;
+    std::vector<HistoryRow> history;
+    std::vector<std::vector<TrackRow>> tracks;  ///< per tracked floe
+    std::vector<RunFrame> frames;
+};
+
+/// Reads run.h5 (or run.h5.part of a killed run).
+/// @throws Error (exit code 2) naming the file and the dataset.
+RunData read_run(const std::filesystem::path& path);
+
+}  // namespace ice

@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Reader of run.h5: checks everything it indexes with, because a file may be damaged or foreign.
+#include <cmath>
+
+#include "common/base/error.hpp"
+#include "common/formats/hdf5_file.hpp"
+#include "common/formats/run_file.hpp"
+
+namespace ice {
+
+namespace {
+
+class Reader {
+public:
+    explicit Reader(const std::filesystem::path& path)
+        : path_(path), file_(path, Hdf5File::Mode::read) {}
+
+    RunData read() {
+        RunData run;
+        read_header(run.header);
+        read_shapes(run.header.shapes);
+        read_bodies(run.header);
+        read_history(run);
+        read_tracks(run);
+        read_frames(run);
+        return run;
+    }
+
+private:
+    void check(bool good, const std::string& dataset, const std::string& what) const {
+        if (!good)
+            throw bad_input(path_.string() + ": " + dataset, what, "run the case again with icesolve");
+    }
+
+    // values of a dataset whose shape must be `shape`
+    template <class T>
+    std::vector<T> read_as(const std::string& name, const std::vector<std::uint64_t>& shape) const {
+        check(file_.shape(name) == shape, name, "has another shape than the arrays beside it");
+        return file_.read<T>(name);
+    }
+
+    // [.., 3] as points
+    std::vector<Vec3> points(const std::string& name, std::vector<std::uint64_t> shape) const {
+        shape.push_back(3);
+        const auto flat = read_as<double>(name, shape);
+        std::vector<Vec3> out(flat.size() / 3);
+        for (std::size_t k = 0; k < out.size(); ++k)
+            out[k] = Vec3(flat[3 * k], flat[3 * k + 1], flat[3 * k + 2]);
+        return out;
+    }
+
+    std::uint64_t length(const std::string& name) const {
+        const auto shape = file_.shape(name);
+        check(shape.size() == 1, name, "is not a list");
+        return shape[0];
+    }
+
+    void read_header(RunHeader& header) const {
+        check(file_.has_attribute("/", "format") &&
+                  file_.read_text_attribute("/", "format") == "icesolve-result",
+              "/", "is not the result of a run (no attribute format = \"icesolve-result\")");
+        check(file_.read_number_attribute("/", "format_version")[0] == 1, "/",
+              "has a format_version this program does not know");
+        header.dimension = static_cast<int>(file_.read_number_attribute("/", "dimension")[0]);
+        check(header.dimension == 2 || header.dimension == 3, "dimension", "is neither 2 nor 3");
+        header.title = file_.read_text_attribute("/", "title");
+        header.created_by = file_.read_text_attribute("/", "created_by");
+        header.git_commit = file_.read_text_attribute("/", "git_commit");
+        header.command_line = file_.read_text_attribute("/", "command_line");
+        header.case_toml = file_.read_text_attribute("/", "case_toml");
+        header.tracked = file_.read<std::int32_t>("/tracked/floe");
+    }
+
+    // where each shape begins: 0 <= o[0] <= o[1] ... = rows
+    std::vector<std::int64_t> offsets(const std::string& name, std::size_t shapes,
+                                      std::uint64_t rows) const {
+        const auto offset = file_.read<std::int64_t>(name);
+        check(offset.size() == shapes + 1 && offset.front() == 0 &&
+                  offset.back() == static_cast<std::int64_t>(rows),
+              name, "does not cover the rows of all shapes");
+        for (std::size_t k = 1; k < offset.size(); ++k)
+            check(offset[k] >= offset[k - 1], name, "is not in rising order");
+        return offset;
+    }
+
+    void read_shapes(std::vector<RunShape>& shapes) const {
+        const std::uint64_t count = length("/shapes/vertex_offset");
+        check(count >= 1 && count < 1000000, "/shapes/vertex_offset", "has no shapes");
+        shapes.resize(count - 1);
+        const auto names = file_.read_strings("/region_names");
+        for (RunShape& shape : shapes) shape.mesh.region_names = names;
+        read_vertices(shapes);
+        read_triangles(shapes, names.size());
+        read_spheres(shapes);
+    }
+
+    void read_vertices(std::vector<RunShape>& shapes) const {
+        const std::uint64_t rows = file_.shape("/shapes/vertices").at(0);
+        const auto all = points("/shapes/vertices", {rows});
+        const auto offset = offsets("/shapes/vertex_offset", shapes.size(), rows);
+        for (std::size_t s = 0; s < shapes.size(); ++s)
+            shapes[s].mesh.vertices.assign(all.begin() + offset[s], all.begin() + offset[s + 1]);
+    }
+
+    void read_triangles(std::vector<RunShape>& shapes, std::size_t regions) const {
+        const std::uint64_t rows = file_.shape("/shapes/triangles").at(0);
+        const auto corners = read_as<std::int32_t>("/shapes/triangles", {rows, 3});
+        const auto region = read_as<std::int32_t>("/shapes/region", {rows});
+        const auto offset = offsets("/shapes/triangle_offset", shapes.size(), rows);
+        for (const std::int32_t r : region)
+            check(r >= 0 && r < static_cast<std::int32_t>(regions), "/shapes/region",
+                  "points outside /region_names");
+        for (std::size_t s = 0; s < shapes.size(); ++s) {
+            TriangleMesh& mesh = shapes[s].mesh;
+            const auto vertices = static_cast<std::int32_t>(mesh.vertices.size());
+            mesh.region.assign(region.begin() + offset[s], region.begin() + offset[s + 1]);
+            for (auto t = static_cast<std::size_t>(3 * offset[s]);
+                 t < static_cast<std::size_t>(3 * offset[s + 1]); t += 3) {
+                mesh.triangles.push_back({corners[t], corners[t + 1], corners[t + 2]});
+                for (const std::int32_t v : mesh.triangles.back())
+                    check(v >= 0 && v < vertices, "/shapes/triangles", "points outside the vertices");
+            }
+        }
+    }
+
+    void read_spheres(std::vector<RunShape>& shapes) const {
+        const std::uint64_t rows = file_.shape("/shapes/spheres").at(0);
+        const auto flat = read_as<double>("/shapes/spheres", {rows, 4});
+        const auto offset = offsets("/shapes/sphere_offset", shapes.size(), rows);
+        for (std::size_t s = 0; s < shapes.size(); ++s)
+            for (auto k = static_cast<std::size_t>(4 * offset[s]);
+                 k < static_cast<std::size_t>(4 * offset[s + 1]); k += 4) {
+                shapes[s].centers.emplace_back(flat[k], flat[k + 1], flat[k + 2]);
+                shapes[s].radii.push_back(flat[k + 3]);
+            }
+    }
+
+    void read_bodies(RunHeader& header) const {
+        const std::uint64_t bodies = length("/frames/body");
+        header.body_shape = read_as<std::int32_t>("/frames/body_shape", {bodies});
+        header.body_group = read_as<std::int32_t>("/frames/body_group", {bodies});
+        header.body_mass = read_as<double>("/frames/mass", {bodies});
+        header.body_inertia = points("/frames/inertia", {bodies});
+        for (const std::int32_t shape : header.body_shape)
+            check(shape >= 0 && shape < static_cast<std::int32_t>(header.shapes.size()),
+                  "/frames/body_shape", "points outside the shapes");
+        for (const std::int32_t id : header.tracked)
+            check(id >= 1 && id <= static_cast<std::int32_t>(bodies), "/tracked/floe",
+                  "names a floe that does not exist");
+    }
+
+    void read_history(RunData& run) const {
+        const auto time = file_.read<double>("/time");
+        const std::uint64_t n = time.size();
+        const auto contact = points("/ship/contact_force", {n});
+        const auto friction = points("/ship/friction_force", {n});
+        const auto moment = points("/ship/moment", {n});
+        const auto pose = read_as<double>("/ship/pose", {n, 7});
+        const auto contacts = read_as<double>("/ship/contacts", {n});
+        const auto moving = read_as<double>("/ship/moving_floes", {n});
+        const auto overlap = read_as<double>("/ship/max_overlap", {n});
+        const auto energy = read_as<double>("/ship/kinetic_energy", {n});
+        run.history.resize(n);
+        for (std::size_t k = 0; k < n; ++k)
+            run.history[k] = {time[k],
+                              contact[k],
+                              friction[k],
+                              moment[k],
+                              Vec3(pose[7 * k], pose[7 * k + 1], pose[7 * k + 2]),
+                              contacts[k],
+                              moving[k],
+                              overlap[k],
+                              energy[k]};
+    }
+
+    void read_tracks(RunData& run) const {
+        const std::uint64_t columns = track_columns().size();
+        for (const std::int32_t id : run.header.tracked) {
+            const auto flat = read_as<double>("/tracked/" + std::to_string(id),
+                                              {run.history.size(), columns});
+            std::vector<TrackRow> rows(run.history.size());
+            for (std::size_t k = 0; k < rows.size(); ++k) {
+                const double* v = flat.data() + columns * k;
+                TrackRow& row = rows[k];
+                row.time = run.history[k].time;
+                row.position = Vec3(v[0], v[1], v[2]);
+                row.orientation = Eigen::Quaterniond(v[3], v[4], v[5], v[6]);
+                row.velocity = Vec3(v[7], v[8], v[9]);
+                row.angular_velocity = Vec3(v[10], v[11], v[12]);
+                row.contact_force = Vec3(v[13], v[14], v[15]);
+                row.friction_force = Vec3(v[16], v[17], v[18]);
+                row.ice_force = Vec3(v[19], v[20], v[21]);
+            }
+            run.tracks.push_back(std::move(rows));
+        }
+    }
+
+    void read_frames(RunData& run) const {
+        const auto time = file_.read<double>("/frames/frame_time");
+        const std::uint64_t frames = time.size(), n = run.header.body_shape.size();
+        const auto ship = points("/frames/ship_position", {frames});
+        const auto position = points("/frames/position", {frames, n});
+        const auto orientation = read_as<double>("/frames/orientation", {frames, n, 4});
+        const auto velocity = points("/frames/velocity", {frames, n});
+        const auto spin = points("/frames/angular_velocity", {frames, n});
+        const auto force = points("/frames/contact_force", {frames, n});
+        const auto state = read_as<std::uint8_t>("/frames/state", {frames, n});
+        run.frames.resize(frames);
+        for (std::size_t f = 0; f < frames; ++f) {
+            RunFrame& frame = run.frames[f];
+            const auto part = [&](const std::vector<Vec3>& all) {
+                const auto begin = all.begin() + static_cast<std::ptrdiff_t>(f * n);
+                return std::vector<Vec3>(begin, begin + static_cast<std::ptrdiff_t>(n));
+            };
+            frame.time = time[f];
+            frame.ship_position = ship[f];
+            frame.position = part(position);
+            frame.velocity = part(velocity);
+            frame.angular_velocity = part(spin);
+            frame.contact_force = part(force);
+            for (std::size_t k = f * n; k < (f + 1) * n; ++k) {
+                const double* q = orientation.data() + 4 * k;
+                // stored as float: unit again
+                frame.orientation.push_back(Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized());
+                check(state[k] <= 2, "/frames/state", "holds a state that is not 0, 1 or 2");
+                frame.state.push_back(static_cast<FloeState>(state[k]));
+            }
+        }
+    }
+
+    std::filesystem::path path_;
+    Hdf5File file_;
+};
+
+}  // namespace
+
+const std::vector<std::string>& track_columns() {
+    static const std::vector<std::string> names{
+        "x",          "y",          "z",          "qw",          "qx",          "qy",
+        "qz",         "vx",         "vy",         "vz",          "wx",          "wy",
+        "wz",         "contact_fx", "contact_fy", "contact_fz",  "friction_fx", "friction_fy",
+        "friction_fz", "ice_fx",    "ice_fy",     "ice_fz"};
+    return names;
+}
+
+RunData read_run(const std::filesystem::path& path) { return Reader(path).read(); }
+
+}  // namespace ice

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "common/formats/spheres_file.hpp"
+
+#include <cmath>
+
+#include "common/base/error.hpp"
+#include "common/base/part_file.hpp"
+#include "common/formats/hdf5_file.hpp"
+
+namespace ice {
+
+namespace {
+
+constexpr const char* kFormat = "icesolve-spheres";
+constexpr std::int64_t kVersion = 1;
+
+template <class T>
+std::vector<T> flatten(const std::vector<Vec3>& points) {
+    std::vector<T> flat;
+    flat.reserve(3 * points.size());
+    for (const Vec3& p : points)
+        for (int k = 0; k < 3; ++k) flat.push_back(static_cast<T>(p[k]));
+    return flat;
+}
+
+std::vector<Vec3> unflatten(const std::vector<double>& flat) {
+    std::vector<Vec3> points(flat.size() / 3);
+    for (std::size_t k = 0; k < points.size(); ++k)
+        points[k] = Vec3(flat[3 * k], flat[3 * k + 1], flat[3 * k + 2]);
+    return points;
+}
+
+void write_solid(Hdf5File& file, const MassProperties& solid) {
+    file.create_group("/solid");
+    file.write_attribute("/solid", "volume", {solid.volume}, {});
+    file.write_attribute("/solid", "area", {solid.area}, {});
+    file.write_attribute("/solid", "centroid",
+                         {solid.centroid.x(), solid.centroid.y(), solid.centroid.z()}, {3});
+    std::vector<double> inertia;
+    for (int r = 0; r < 3; ++r)
+        for (int c = 0; c < 3; ++c) inertia.push_back(solid.inertia(r, c));
+    file.write_attribute("/solid", "inertia", inertia, {3, 3});
+}
+
+void write_mesh(Hdf5File& file, const TriangleMesh& mesh) {
+    file.create_group("/mesh");
+    file.write("/mesh/vertices", flatten<double>(mesh.vertices).data(), {mesh.vertices.size(), 3});
+    std::vector<std::int32_t> indices;
+    for (const auto& t : mesh.triangles) indices.insert(indices.end(), t.begin(), t.end());
+    file.write("/mesh/triangles", indices.data(), {mesh.triangles.size(), 3});
+    file.write("/mesh/region", mesh.region);
+}
+
+// Reads one file, with every complaint naming the file and the dataset.
+class Reader {
+public:
+    explicit Reader(const std::filesystem::path& path)
+        : path_(path), file_(path, Hdf5File::Mode::read) {}
+
+    SphereSet read() {
+        SphereSet set;
+        read_header(set);
+        read_solid(set.solid);
+        set.mesh.region_names = file_.read_strings("/region_names");
+        read_mesh(set.mesh);
+        read_arrays(set);
+        return set;
+    }
+
+private:
+    void check(bool good, const std::string& dataset, const std::string& what) const {
+        if (!good)
+            throw bad_input(path_.string() + ": " + dataset, what,
+                            "make the file again with spherize");
+    }
+
+    std::vector<double> finite(const std::string& name) const {
+        std::vector<double> values = file_.read<double>(name);
+        for (const double v : values) check(std::isfinite(v), name, "holds a NaN or infinity");
+        return values;
+    }
+
+    std::vector<Vec3> points(const std::string& name) const {
+        const auto shape = file_.shape(name);
+        check(shape.size() == 2 && shape[1] == 3, name, "is not an array of shape [N,3]");
+        return unflatten(finite(name));
+    }
+
+    void read_header(SphereSet& set) const {
+        check(file_.has_attribute("/", "format") &&
+                  file_.read_text_attribute("/", "format") == kFormat,
+              "/", "is not a sphere set (no attribute format = \"icesolve-spheres\")");
+        check(file_.read_number_attribute("/", "format_version")[0] == kVersion, "/",
+              "has a format_version this program does not know");
+        set.dimension = static_cast<int>(file_.read_number_attribute("/", "dimension")[0]);
+        check(set.dimension == 2 || set.dimension == 3, "dimension", "is neither 2 nor 3");
+        set.radius = file_.read_number_attribute("/", "radius")[0];
+        set.spacing = file_.read_number_attribute("/", "spacing")[0];
+        check(set.radius > 0 && std::isfinite(set.radius), "radius", "is not positive");
+        check(set.spacing > 0 && std::isfinite(set.spacing), "spacing", "is not positive");
+        set.mode = file_.read_text_attribute("/", "mode");
+        set.source_mesh = file_.read_text_attribute("/", "source_mesh");
+        set.source_sha256 = file_.read_text_attribute("/", "source_sha256");
+        set.created_by = file_.read_text_attribute("/", "created_by");
+        set.command_line = file_.read_text_attribute("/", "command_line");
+    }
+
+    void read_solid(MassProperties& solid) const {
+        solid.volume = file_.read_number_attribute("/solid", "volume")[0];
+        solid.area = file_.read_number_attribute("/solid", "area")[0];
+        const auto centroid = file_.read_number_attribute("/solid", "centroid");
+        const auto inertia = file_.read_number_attribute("/solid", "inertia");
+        check(centroid.size() == 3 && inertia.size() == 9, "/solid",
+              "has a centroid or inertia of the wrong size");
+        solid.centroid = Vec3(centroid[0], centroid[1], centroid[2]);
+        for (int k = 0; k < 9; ++k) solid.inertia(k / 3, k % 3) = inertia[static_cast<std::size_t>(k)];
+        check(solid.volume > 0 && std::isfinite(solid.volume), "/solid volume", "is not positive");
+        check(solid.inertia.allFinite() && solid.inertia.diagonal().minCoeff() > 0 &&
+                  solid.centroid.allFinite(),
+              "/solid", "has an inertia that no solid has");
+    }
+
+    void read_mesh(TriangleMesh& mesh) const {
+        mesh.vertices = points("/mesh/vertices");
+        const auto shape = file_.shape("/mesh/triangles");
+        check(shape.size() == 2 && shape[1] == 3, "/mesh/triangles", "is not of shape [T,3]");
+        const auto flat = file_.read<std::int32_t>("/mesh/triangles");
+        const auto vertex_count = static_cast<std::int32_t>(mesh.vertices.size());
+        for (const std::int32_t v : flat)
+            check(v >= 0 && v < vertex_count, "/mesh/triangles", "points outside the vertices");
+        mesh.triangles.resize(flat.size() / 3);
+        for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+            mesh.triangles[t] = {flat[3 * t], flat[3 * t + 1], flat[3 * t + 2]};
+        mesh.region = file_.read<std::int32_t>("/mesh/region");
+        check(mesh.region.size() == mesh.triangles.size(), "/mesh/region",
+              "has another length than /mesh/triangles");
+        check_regions(mesh.region, mesh.region_names.size(), "/mesh/region");
+    }
+
+    void check_regions(const std::vector<std::int32_t>& rows, std::size_t count,
+                       const std::string& name) const {
+        for (const std::int32_t row : rows)
+            check(row >= 0 && row < static_cast<std::int32_t>(count), name,
+                  "points outside /region_names");
+    }
+
+    void read_arrays(SphereSet& set) const {
+        set.centers = points("/center");
+        const std::size_t n = set.centers.size();
+        check(n > 0, "/center", "is empty");
+        set.radii = finite("/radius");
+        set.normals = points("/normal");
+        set.areas = finite("/area");
+        set.volumes = finite("/volume");
+        set.layers = file_.read<std::uint8_t>("/layer");
+        set.regions = file_.read<std::int32_t>("/region");
+        set.normal_spread = file_.has("/normal_spread") ? finite("/normal_spread")
+                                                        : std::vector<double>(n, 0.0);
+        for (const std::size_t size : {set.radii.size(), set.normals.size(), set.areas.size(),
+                                       set.volumes.size(), set.layers.size(), set.regions.size(),
+                                       set.normal_spread.size()})
+            check(size == n, "/center", "has another length than the arrays beside it");
+        check_regions(set.regions, set.mesh.region_names.size(), "/region");
+        for (std::size_t k = 0; k < n; ++k) {
+            check(set.radii[k] > 0, "/radius", "holds a radius that is not positive");
+            if (set.layers[k] == 0) continue;
+            const double length = set.normals[k].norm();
+            check(std::abs(length - 1.0) < 1e-3, "/normal", "holds a normal that is no unit vector");
+            set.normals[k] /= length;
+        }
+    }
+
+    std::filesystem::path path_;
+    Hdf5File file_;
+};
+
+}  // namespace
+
+void write_spheres(const std::filesystem::path& path, const SphereSet& set) {
+    PartFile part(path);
+    Hdf5File file(part.path(), Hdf5File::Mode::create);
+    file.write_attribute("/", "format", std::string(kFormat));
+    file.write_attribute("/", "format_version", kVersion);
+    file.write_attribute("/", "dimension", std::int64_t{set.dimension});
+    file.write_attribute("/", "radius", {set.radius}, {});
+    file.write_attribute("/", "spacing", {set.spacing}, {});
+    file.write_attribute("/", "mode", set.mode);
+    file.write_attribute("/", "source_mesh", set.source_mesh);
+    file.write_attribute("/", "source_sha256", set.source_sha256);
+    file.write_attribute("/", "created_by", set.created_by);
+    file.write_attribute("/", "command_line", set.command_line);
+    file.write_attribute("/", "units", std::string("SI"));
+
+    const std::uint64_t n = set.size();
+    const std::vector<float> spread(set.normal_spread.begin(), set.normal_spread.end());
+    file.write("/center", flatten<double>(set.centers).data(), {n, 3});
+    file.write("/radius", set.radii);
+    file.write("/normal", flatten<float>(set.normals).data(), {n, 3});
+    file.write("/normal_spread", spread);
+    file.write("/area", set.areas);
+    file.write("/volume", set.volumes);
+    file.write("/layer", set.layers);
+    file.write("/region", set.regions);
+    file.write_strings("/region_names", set.mesh.region_names);
+    write_solid(file, set.solid);
+    write_mesh(file, set.mesh);
+    file.close();
+    part.keep();
+}
+
+SphereSet read_spheres(const std::filesystem::path& path) { return Reader(path).read(); }
+
+}  // namespace ice

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// `*.spheres.h5`: the contract between spherize and icesolve (CONTRACT.md, section 3).
+#pragma once
+
+#include <filesystem>
+
+#include "common/formats/sphere_set.hpp"
+
+namespace ice {
+
+/// Writes a sphere set. Equal sets give equal bytes: no times are stored.
+/// @throws Error (exit code 1) when the file cannot be written; nothing half-written stays behind.
+void write_spheres(const std::filesystem::path& path, const SphereSet& set);
+
+/// Reads and checks a sphere set: format name and version, array lengths, finite numbers, positive
+/// radii and volume, unit normals on the surface, indices in range.
+///
+/// A file without `normal_spread` (format version 1 without the extra dataset) reads as spread 0.
+/// @throws Error (exit code 2) naming the file and the dataset.
+SphereSet read_spheres(const std::filesystem::path& path);
+
+}  // namespace ice

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// The parameters of a run, as the case file states them (CONTRACT.md, section 4).
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/geometry/triangle_mesh.hpp"
+
+namespace ice {
+
+enum class Pattern { grid, brick, single, file };
+/// Until when a floe is immovable (infinite mass).
+enum class Hold { never, until_hull_contact, until_contact, always };
+enum class NormalRule { surface, centres };
+enum class BuoyancyModel { none, centre, distributed };
+enum class DragModel { none, projected, panel };
+
+/// One [[floes]] table: floes of one shape.
+struct FloeGroup {
+    std::filesystem::path spheres;
+    Pattern pattern = Pattern::grid;
+    std::array<int, 2> count{1, 1};       ///< along x, y
+    std::array<double, 2> origin{0, 0};   ///< x of the first row's leading edge, y of the centre line
+    std::array<double, 2> gap{0, 0};      ///< between neighbours along x, y [m]
+    Hold hold = Hold::until_hull_contact;
+    Vec3 position = Vec3::Zero();         ///< pattern "single"; z is NaN for floating equilibrium
+    Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
+    Vec3 velocity = Vec3::Zero(), angular_velocity = Vec3::Zero();
+};
+
+struct Case {
+    std::string title;
+    int dimension = 3;
+    double duration = 0.0, time_step = 0.01;
+    double gravity = 9.81, water_density = 1000.0;
+
+    std::filesystem::path hull_spheres;
+    Vec3 hull_position = Vec3::Zero();
+    std::vector<std::pair<double, double>> speed_table;  ///< (t [s], u [m/s]), t rising; never empty
+
+    double ice_density = 900.0;
+    std::vector<FloeGroup> floes;
+
+    double restitution = 0.3, friction_ship_ice = 0.1, friction_ice_ice = 0.3;
+    NormalRule normal = NormalRule::surface;
+    double crushing_pressure = std::numeric_limits<double>::infinity();
+    int iterations = 30;
+    double tolerance = 1e-4;
+
+    BuoyancyModel buoyancy = BuoyancyModel::distributed;
+    DragModel drag = DragModel::panel;
+    double drag_coefficient = 1.0;
+
+    double frames_every = 0.1, history_every = 0.0;
+    std::vector<int> track;
+    double average_from = 0.0;
+
+    std::filesystem::path file;   ///< the case file
+    std::string resolved;         ///< every key with its value, as TOML
+
+    /// Speed of the ship at time t [m/s]: linear between the table's rows, constant outside.
+    double ship_speed(double time) const;
+};
+
+}  // namespace ice

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/case/case_schema.hpp"
+
+#include <cmath>
+
+namespace ice {
+
+namespace {
+
+constexpr double kInf = std::numeric_limits<double>::infinity();
+constexpr double kTiny = 1e-9;
+
+double number(const Value& v) { return std::get<double>(v); }
+int integer(const Value& v) { return static_cast<int>(std::get<std::int64_t>(v)); }
+const std::string& text(const Value& v) { return std::get<std::string>(v); }
+Vec3 vector3(const Value& v) {
+    const auto& x = std::get<std::vector<double>>(v);
+    return Vec3(x[0], x[1], x[2]);
+}
+std::array<double, 2> vector2(const Value& v) {
+    const auto& x = std::get<std::vector<double>>(v);
+    return {x[0], x[1]};
+}
+// index of a choice in its "a|b|c" list: enumerators are declared in the same order
+template <class Enum>
+Enum choice(const Value& v, std::string_view choices) {
+    int index = 0;
+    for (std::size_t begin = 0; begin <= choices.size(); ++index) {
+        const std::size_t end = std::min(choices.find('|', begin), choices.size());
+        if (choices.substr(begin, end - begin) == text(v)) break;
+        begin = end + 1;
+    }
+    return static_cast<Enum>(index);
+}
+
+constexpr std::string_view kPatterns = "grid|brick|single|file";
+constexpr std::string_view kHolds = "never|until-hull-contact|until-contact|always";
+constexpr std::string_view kNormals = "surface|centres";
+constexpr std::string_view kBuoyancies = "none|centre|distributed";
+constexpr std::string_view kDrags = "none|projected|panel";
+
+using D = Dimension;
+using G = FloeGroup;
+
+std::vector<Key> run_keys() {
+    return {
+        {"title", Kind::text, D::none, "\"\"", 0, 0, 0, "", "Title of the run, shown in every output.",
+         [](Case& c, G&, const Value& v) { c.title = text(v); }},
+        {"simulation.dimension", Kind::integer, D::none, "3", 2, 3, 0, "",
+         "3 for six degrees of freedom, 2 for motion in the x-z plane (per metre of breadth).",
+         [](Case& c, G&, const Value& v) { c.dimension = integer(v); }},
+        {"simulation.duration", Kind::number, D::time, "", kTiny, 1e6, 0, "",
+         "Simulated time.", [](Case& c, G&, const Value& v) { c.duration = number(v); }},
+        {"simulation.time_step", Kind::number, D::time, "0.01", 1e-6, 1.0, 0, "",
+         "Length of a step; the paper uses 0.005 s in 2D and 0.01 s in 3D.",
+         [](Case& c, G&, const Value& v) { c.time_step = number(v); }},
+        {"environment.gravity", Kind::number, D::acceleration, "9.81", 0, 100, 0, "",
+         "Gravitational acceleration.", [](Case& c, G&, const Value& v) { c.gravity = number(v); }},
+        {"environment.water_density", Kind::number, D::density, "1000.0", kTiny, 2000, 0, "",
+         "Density of the water.", [](Case& c, G&, const Value& v) { c.water_density = number(v); }},
+        {"hull.spheres", Kind::path, D::none, "", 0, 0, 0, "",
+         "Sphere set of the hull, made by spherize; relative to the case file.",
+         [](Case& c, G&, const Value& v) { c.hull_spheres = text(v); }},
+        {"hull.position", Kind::vector, D::length, "[0.0, 0.0, 0.0]", -1e6, 1e6, 3, "",
+         "World position of the hull mesh's origin at t = 0; calm water is z = 0.",
+         [](Case& c, G&, const Value& v) { c.hull_position = vector3(v); }},
+        {"hull.speed", Kind::number, D::speed, "-", -50, 50, 0, "",
+         "Constant speed along +x; give this or hull.speed_table.",
+         [](Case& c, G&, const Value& v) { c.speed_table = {{0.0, number(v)}}; }},
+        {"hull.speed_table", Kind::pair_list, D::speed, "-", -1e6, 1e6, 0, "",
+         "Rows [t, u]: speed u [m/s] at time t [s], linear between rows.",
+         [](Case& c, G&, const Value& v) {
+             c.speed_table = std::get<std::vector<std::pair<double, double>>>(v);
+         }},
+        {"ice.density", Kind::number, D::density, "900.0", kTiny, 2000, 0, "",
+         "Density of the ice.", [](Case& c, G&, const Value& v) { c.ice_density = number(v); }},
+    };
+}
+
+std::vector<Key> floe_keys() {
+    return {
+        {"floes.spheres", Kind::path, D::none, "", 0, 0, 0, "",
+         "Sphere set of these floes, made by spherize; relative to the case file.",
+         [](Case&, G& g, const Value& v) { g.spheres = text(v); }},
+        {"floes.pattern", Kind::choice, D::none, "\"grid\"", 0, 0, 0, kPatterns,
+         "How the floes lie: rows and columns, columns shifted by half a floe, or one floe.",
+         [](Case&, G& g, const Value& v) { g.pattern = choice<Pattern>(v, kPatterns); }},
+        {"floes.count", Kind::vector, D::none, "[1, 1]", 1, 1e5, 2, "",
+         "Number of floes along x and y.",
+         [](Case&, G& g, const Value& v) {
+             const auto n = vector2(v);
+             g.count = {static_cast<int>(n[0]), static_cast<int>(n[1])};
+         }},
+        {"floes.origin", Kind::vector, D::length, "[0.0, 0.0]", -1e6, 1e6, 2, "",
+         "x of the first row's edge that meets the ship first (its smallest x), y of the field's centre line.",
+         [](Case&, G& g, const Value& v) { g.origin = vector2(v); }},
+        {"floes.gap", Kind::vector, D::length, "[0.0, 0.0]", 0, 1e4, 2, "",
+         "Open water between neighbours along x and y.",
+         [](Case&, G& g, const Value& v) { g.gap = vector2(v); }},
+        {"floes.hold", Kind::choice, D::none, "\"until-hull-contact\"", 0, 0, 0, kHolds,
+         "Until when the floes are immovable; the paper holds them until the ship touches them.",
+         [](Case&, G& g, const Value& v) { g.hold = choice<Hold>(v, kHolds); }},
+        {"floes.position", Kind::vector, D::length, "-", -1e6, 1e6, 3, "",
+         "Pattern single: centre of mass; z left out (two numbers) gives floating equilibrium.",
+         [](Case&, G& g, const Value& v) {
+             const auto& x = std::get<std::vector<double>>(v);
+             g.position = Vec3(x[0], x[1], x.size() > 2 ? x[2] : std::nan(""));
+         }},
+        {"floes.orientation", Kind::vector, D::none, "[1.0, 0.0, 0.0, 0.0]", -1, 1, 4, "",
+         "Pattern single: quaternion w, x, y, z, body to world; normalised.",
+         [](Case&, G& g, const Value& v) {
+             const auto& q = std::get<std::vector<double>>(v);
+             g.orientation = Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
+         }},
+        {"floes.velocity", Kind::vector, D::speed, "[0.0, 0.0, 0.0]", -50, 50, 3, "",
+         "Pattern single: initial velocity of the centre of mass.",
+         [](Case&, G& g, const Value& v) { g.velocity = vector3(v); }},
+        {"floes.angular_velocity", Kind::vector, D::angular_speed, "[0.0, 0.0, 0.0]", -50, 50, 3,
+         "", "Pattern single: initial angular velocity, world axes.",
+         [](Case&, G& g, const Value& v) { g.angular_velocity = vector3(v); }},
+    };
+}
+
+std::vector<Key> model_keys() {
+    return {
+        {"contact.restitution", Kind::number, D::none, "0.3", 0, 1, 0, "",
+         "Normal speed after an impact over the speed before it.",
+         [](Case& c, G&, const Value& v) { c.restitution = number(v); }},
+        {"contact.friction_ship_ice", Kind::number, D::none, "0.1", 0, 10, 0, "",
+         "Coulomb's coefficient between hull and floe.",
+         [](Case& c, G&, const Value& v) { c.friction_ship_ice = number(v); }},
+        {"contact.friction_ice_ice", Kind::number, D::none, "0.3", 0, 10, 0, "",
+         "Coulomb's coefficient between floes.",
+         [](Case& c, G&, const Value& v) { c.friction_ice_ice = number(v); }},
+        {"contact.normal", Kind::choice, D::none, "\"surface\"", 0, 0, 0, kNormals,
+         "Contact normal: of the surfaces the spheres stand for, or from centre to centre (the paper).",
+         [](Case& c, G&, const Value& v) { c.normal = choice<NormalRule>(v, kNormals); }},
+        {"contact.crushing_pressure", Kind::number, D::pressure, "inf", 0, kInf, 0, "",
+         "Largest normal impulse of a contact is this pressure x its area x time_step; inf is rigid.",
+         [](Case& c, G&, const Value& v) { c.crushing_pressure = number(v); }},
+        {"contact.iterations", Kind::integer, D::none, "30", 1, 100000, 0, "",
+         "Upper bound of the contact solver's iterations in a stage of a step.",
+         [](Case& c, G&, const Value& v) { c.iterations = integer(v); }},
+        {"contact.tolerance", Kind::number, D::speed, "1e-4", 0, 10, 0, "",
+         "The solver stops when no contact's velocity changes by more than this in an iteration.",
+         [](Case& c, G&, const Value& v) { c.tolerance = number(v); }},
+        {"buoyancy.model", Kind::choice, D::none, "\"distributed\"", 0, 0, 0, kBuoyancies,
+         "Buoyancy at the centre of gravity (the paper), or with its moment, or none.",
+         [](Case& c, G&, const Value& v) { c.buoyancy = choice<BuoyancyModel>(v, kBuoyancies); }},
+        {"drag.model", Kind::choice, D::none, "\"panel\"", 0, 0, 0, kDrags,
+         "Drag on the projected area (the paper, Eq. 9), per panel with its moment, or none.",
+         [](Case& c, G&, const Value& v) { c.drag = choice<DragModel>(v, kDrags); }},
+        {"drag.coefficient", Kind::number, D::none, "1.0", 0, 100, 0, "",
+         "Drag coefficient C_d.",
+         [](Case& c, G&, const Value& v) { c.drag_coefficient = number(v); }},
+        {"output.frames_every", Kind::number, D::time, "0.1", kTiny, 1e6, 0, "",
+         "Time between stored poses.",
+         [](Case& c, G&, const Value& v) { c.frames_every = number(v); }},
+        {"output.history_every", Kind::number, D::time, "0.0", 0, 1e6, 0, "",
+         "Time between rows of the histories, forces averaged over it; 0 is every step.",
+         [](Case& c, G&, const Value& v) { c.history_every = number(v); }},
+        {"output.track", Kind::integer_list, D::none, "[]", 1, 1e9, 0, "",
+         "Floes (numbered from 1) with force histories of their own.",
+         [](Case& c, G&, const Value& v) {
+             for (const double id : std::get<std::vector<double>>(v))
+                 c.track.push_back(static_cast<int>(id));
+         }},
+        {"output.average_from", Kind::number, D::time, "-", 0, 1e6, 0, "",
+         "Statistics use times from here on; default a third of the duration.",
+         [](Case& c, G&, const Value& v) { c.average_from = number(v); }},
+    };
+}
+
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        std::size_t diagonal = row[0];
+        row[0] = i;
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const std::size_t above = row[j];
+            row[j] = std::min({row[j] + 1, row[j - 1] + 1,
+                               diagonal + (a[i - 1] == b[j - 1] ? 0 : 1)});
+            diagonal = above;
+        }
+    }
+    return row[b.size()];
+}
+
+}  // namespace
+
+const std::vector<Key>& case_keys() {
+    static const std::vector<Key> keys = [] {
+        std::vector<Key> all = run_keys();
+        for (const auto& part : {floe_keys(), model_keys()})
+            all.insert(all.end(), part.begin(), part.end());
+        return all;
+    }();
+    return keys;
+}
+
+const Key* find_key(std::string_view path) {
+    for (const Key& key : case_keys())
+        if (key.path == path) return &key;
+    return nullptr;
+}
+
+std::string nearest_key(std::string_view path) {
+    const Key* best = nullptr;
+    std::size_t least = std::max<std::size_t>(2, path.size() / 4) + 1;
+    for (const Key& key : case_keys()) {
+        // a right name in the wrong table is as near as a misspelt one
+        const auto tail = key.path.substr(key.path.rfind('.') + 1);
+        const std::size_t distance =
+            std::min(edit_distance(key.path, path),
+                     1 + edit_distance(tail, path.substr(path.rfind('.') + 1)));
+        if (distance < least) {
+            least = distance;
+            best = &key;
+        }
+    }
+    return best ? std::string(best->path) : "";
+}
+
+}  // namespace ice

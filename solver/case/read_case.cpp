@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/case/read_case.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <fstream>
+#include <iterator>
+
+#include "common/base/error.hpp"
+#include "solver/case/toml_document.hpp"
+
+namespace ice {
+
+namespace {
+
+constexpr std::uintmax_t kLargestCase = 64u << 20;  // 64 MB: a million lines fit many times
+
+std::string read_text(const std::filesystem::path& file) {
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(file, error))
+        throw bad_input(file.string(), "case file not found", "check the path");
+    if (std::filesystem::file_size(file, error) > kLargestCase)
+        throw bad_input(file.string(), "is too large for a case file (64 MB)",
+                        "is this the right file?");
+    std::ifstream in(file, std::ios::binary);
+    if (!in) throw bad_input(file.string(), "cannot be read", "check its permissions");
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+std::string toml_text(const Value& value, const Key& key) {
+    struct Writer {
+        const Key& key;
+        std::string operator()(double v) const {
+            const std::string text = fmt::format("{}", v);
+            // TOML floats need a point, an exponent or a name (inf)
+            return text.find_first_of(".einf") == std::string::npos ? text + ".0" : text;
+        }
+        std::string operator()(std::int64_t v) const { return fmt::format("{}", v); }
+        std::string operator()(const std::string& v) const {
+            std::string out = "\"";
+            for (const char c : v) {
+                if (c == '"' || c == '\\') out += '\\';
+                out += c;
+            }
+            return out + "\"";
+        }
+        std::string operator()(const std::vector<double>& v) const {
+            const bool whole = key.kind == Kind::integer_list || key.path == "floes.count";
+            std::string out = "[";
+            for (const double x : v)
+                out += (out.size() > 1 ? ", " : "") +
+                       (whole ? fmt::format("{}", static_cast<std::int64_t>(x)) : (*this)(x));
+            return out + "]";
+        }
+        std::string operator()(const std::vector<std::pair<double, double>>& v) const {
+            std::string out = "[";
+            for (const auto& [t, u] : v)
+                out += fmt::format("{}[{}, {}]", out.size() > 1 ? ", " : "", (*this)(t), (*this)(u));
+            return out + "]";
+        }
+    };
+    return std::visit(Writer{key}, value);
+}
+
+// Puts values, defaults and complaints about missing keys together.
+class Builder {
+public:
+    Builder(const std::filesystem::path& file, Values values, std::size_t groups,
+            Mistakes& mistakes)
+        : file_(file), values_(std::move(values)), groups_(groups), mistakes_(mistakes) {
+        case_.file = file;
+    }
+
+    Case build() {
+        check_choices();
+        case_.floes.resize(groups_);
+        std::string table;
+        const auto& keys = case_keys();
+        for (std::size_t k = 0; k < keys.size();) {
+            if (keys[k].path.starts_with("floes.")) {
+                k = build_floes(k);
+                continue;
+            }
+            FloeGroup unused;
+            open_table(keys[k], table);
+            take(keys[k], std::string(keys[k].path), unused);
+            ++k;
+        }
+        if (mistakes_.texts.empty()) check_case();
+        return case_;
+    }
+
+private:
+    void complain(const std::string& what) {
+        mistakes_.texts.push_back(file_.string() + ": error: " + what);
+    }
+
+    void open_table(const Key& key, std::string& table) {
+        const auto dot = key.path.rfind('.');
+        const std::string now(dot == std::string_view::npos ? "" : key.path.substr(0, dot));
+        if (now == table) return;
+        case_.resolved += "\n[" + now + "]\n";
+        table = now;
+    }
+
+    std::size_t build_floes(std::size_t first) {
+        const auto& keys = case_keys();
+        std::size_t end = first;
+        while (end < keys.size() && keys[end].path.starts_with("floes.")) ++end;
+        for (std::size_t g = 0; g < groups_; ++g) {
+            case_.resolved += "\n[[floes]]\n";
+            for (std::size_t k = first; k < end; ++k)
+                take(keys[k],
+                     fmt::format("floes.{}.{}", g, keys[k].path.substr(sizeof("floes.") - 1)),
+                     case_.floes[g]);
+        }
+        return end;
+    }
+
+    // stores the given value of a key, or its default
+    void take(const Key& key, const std::string& label, FloeGroup& group) {
+        auto given = values_.find(label);
+        if (given == values_.end() && key.default_text == "-") return;
+        if (given == values_.end() && key.default_text.empty()) {
+            complain(fmt::format("required key '{}' is missing ({})", label, key.doc));
+            return;
+        }
+        if (given == values_.end()) {
+            // the default goes the same way as a given value
+            const std::string line = fmt::format("{} = {}", key.path, key.default_text);
+            std::size_t unused = 0;
+            const Values defaults = read_toml(line, "default", mistakes_, unused);
+            if (defaults.empty()) return;
+            given = values_.emplace(label, defaults.begin()->second).first;
+        }
+        if (key.kind == Kind::path) given->second = resolve_path(key, given->second);
+        key.store(case_, group, given->second);
+        case_.resolved += fmt::format("{} = {}\n", key.path.substr(key.path.rfind('.') + 1),
+                                      toml_text(given->second, key));
+    }
+
+    Value resolve_path(const Key& key, const Value& value) {
+        std::filesystem::path path = std::get<std::string>(value);
+        if (path.is_relative()) path = std::filesystem::absolute(file_).parent_path() / path;
+        path = path.lexically_normal();
+        if (!std::filesystem::exists(path))
+            complain(fmt::format("{}: file {} not found; make it with spherize", key.path,
+                                 path.string()));
+        return path.string();
+    }
+
+    void check_choices() {
+        const bool speed = values_.contains("hull.speed");
+        const bool table = values_.contains("hull.speed_table");
+        if (speed == table)
+            complain(speed ? "hull.speed and hull.speed_table are both given; keep one"
+                           : "required key 'hull.speed' (or hull.speed_table) is missing");
+        if (groups_ == 0) complain("no [[floes]] table: a run needs at least one group of floes");
+        if (!values_.contains("output.average_from") && values_.contains("simulation.duration"))
+            values_["output.average_from"] =
+                std::get<double>(values_["simulation.duration"]) / 3.0;
+    }
+
+    void check_case() {
+        for (std::size_t g = 0; g < groups_; ++g) {
+            FloeGroup& group = case_.floes[g];
+            if (group.pattern == Pattern::file)
+                complain(fmt::format("floes.{}.pattern = \"file\" is not available in this version;"
+                                     " use grid, brick or single", g + 1));
+            if (group.pattern == Pattern::single &&
+                !values_.contains(fmt::format("floes.{}.position", g)))
+                complain(fmt::format("floes.{}.position is missing: pattern \"single\" needs it",
+                                     g + 1));
+            if (group.orientation.norm() < 1e-6)
+                complain(fmt::format("floes.{}.orientation is zero", g + 1));
+            group.orientation.normalize();
+        }
+        if (case_.average_from >= case_.duration)
+            complain("output.average_from is not before the end (simulation.duration)");
+        if (case_.time_step > case_.duration)
+            complain("simulation.time_step is longer than simulation.duration");
+    }
+
+    std::filesystem::path file_;
+    Values values_;
+    std::size_t groups_;
+    Mistakes& mistakes_;
+    Case case_;
+};
+
+// "floes.gap" of an override goes to every group
+void spread_to_groups(Values& values, std::size_t groups) {
+    for (const Key& key : case_keys()) {
+        const auto found = values.find(std::string(key.path));
+        if (!key.path.starts_with("floes.") || found == values.end()) continue;
+        for (std::size_t g = 0; g < groups; ++g)
+            values[fmt::format("floes.{}.{}", g, key.path.substr(sizeof("floes.") - 1))] =
+                found->second;
+        values.erase(found);
+    }
+}
+
+}  // namespace
+
+double Case::ship_speed(double time) const {
+    if (time <= speed_table.front().first) return speed_table.front().second;
+    for (std::size_t k = 1; k < speed_table.size(); ++k) {
+        const auto& [t0, u0] = speed_table[k - 1];
+        const auto& [t1, u1] = speed_table[k];
+        if (time <= t1) return u0 + (u1 - u0) * (time - t0) / (t1 - t0);
+    }
+    return speed_table.back().second;
+}
+
+Case read_case(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+    Mistakes mistakes;
+    std::size_t groups = 0;
+    Values values = read_toml(read_text(file), file.string(), mistakes, groups);
+    for (const std::string& text : overrides) {
+        Values given = read_override(text, mistakes);
+        spread_to_groups(given, groups);
+        // a speed replaces a table and the other way round
+        if (given.contains("hull.speed")) values.erase("hull.speed_table");
+        if (given.contains("hull.speed_table")) values.erase("hull.speed");
+        for (auto& [label, value] : given) values[label] = value;
+    }
+    // with a syntax error the rest of the file was not seen: missing keys would mislead
+    const bool unreadable = !mistakes.texts.empty() && values.empty();
+    Case result;
+    if (!unreadable) result = Builder(file, std::move(values), groups, mistakes).build();
+    if (mistakes.texts.empty()) return result;
+
+    std::string all = fmt::format("{} mistake{}", mistakes.texts.size(),
+                                  mistakes.texts.size() == 1 ? "" : "s");
+    for (const std::string& text : mistakes.texts) all += "\n" + text;
+    throw bad_input(file.string(), all, "icesolve --explain KEY tells what a key takes");
+}
+
+}  // namespace ice

@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/case/toml_document.hpp"
+
+// Debian's libtomlplusplus.so holds the version that throws
+#define TOML_HEADER_ONLY 0
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <sstream>
+
+namespace ice {
+
+namespace {
+
+class Document {
+public:
+    Document(const std::string& text, std::string name, Mistakes& mistakes)
+        : name_(std::move(name)), mistakes_(mistakes) {
+        std::istringstream in(text);
+        for (std::string line; std::getline(in, line);) lines_.push_back(line);
+    }
+
+    Values read(const std::string& text, std::size_t& floe_groups) {
+        toml::table root;
+        try {
+            root = toml::parse(text);
+        } catch (const toml::parse_error& error) {
+            complain(error.source(), std::string(error.description()), 1);
+            return {};
+        }
+        Values values;
+        walk(root, "", "", values, floe_groups);
+        return values;
+    }
+
+private:
+    void complain(const toml::source_region& where, const std::string& what, std::size_t width) {
+        const auto line = where.begin.line, column = where.begin.column;
+        std::string text = fmt::format("{}:{}:{}: error: {}", name_, line, column, what);
+        if (line >= 1 && line <= lines_.size())
+            text += fmt::format("\n{:5} | {}\n      | {}{}", line, lines_[line - 1],
+                                std::string(column > 0 ? column - 1 : 0, ' '),
+                                std::string(std::max<std::size_t>(width, 1), '^'));
+        mistakes_.texts.push_back(text);
+    }
+
+    // `path` is the schema's name of a table, `label` the one with the group's number
+    void walk(const toml::table& table, const std::string& path, const std::string& label,
+              Values& values, std::size_t& floe_groups) {
+        for (auto&& [key, node] : table) {
+            const std::string name(key.str());
+            const std::string full = path.empty() ? name : path + "." + name;
+            const std::string labelled = label.empty() ? name : label + "." + name;
+            const bool number = path == "floes" &&
+                                std::all_of(name.begin(), name.end(),
+                                            [](unsigned char c) { return std::isdigit(c); });
+            if (number && node.is_table()) {  // an override's floes.2.gap, numbered from 1
+                const auto group = std::to_string(std::max(std::atol(name.c_str()), 1l) - 1);
+                walk(*node.as_table(), path, label + "." + group, values, floe_groups);
+            } else if (const auto* rows = node.as_array(); rows && full == "floes") {
+                walk_floes(*rows, values, floe_groups);
+            } else if (const auto* inner = node.as_table(); inner && is_table(full)) {
+                walk(*inner, full, labelled, values, floe_groups);
+            } else {
+                read_key(key, node, full, labelled, values);
+            }
+        }
+    }
+
+    void walk_floes(const toml::array& rows, Values& values, std::size_t& floe_groups) {
+        for (const toml::node& row : rows) {
+            if (const auto* table = row.as_table())
+                walk(*table, "floes", "floes." + std::to_string(floe_groups), values, floe_groups);
+            else
+                complain(row.source(), "floes must be tables: write [[floes]] for each group", 1);
+            ++floe_groups;
+        }
+    }
+
+    static bool is_table(const std::string& path) {
+        return std::any_of(case_keys().begin(), case_keys().end(), [&](const Key& key) {
+            return key.path.starts_with(path + ".");
+        });
+    }
+
+    void read_key(const toml::key& name, const toml::node& node, const std::string& path,
+                  const std::string& label, Values& values) {
+        const Key* key = find_key(path);
+        if (key == nullptr) {
+            const std::string near = nearest_key(path);
+            complain(name.source(),
+                     "unknown key '" + path + "'" +
+                         (near.empty() ? "; icesolve --print-defaults lists all keys"
+                                       : "; did you mean '" + near + "'?"),
+                     name.str().size());
+            return;
+        }
+        Value value;
+        if (read_value(*key, node, value)) values[label] = value;
+    }
+
+    bool read_value(const Key& key, const toml::node& node, Value& out) {
+        switch (key.kind) {
+            case Kind::number: return read_number(key, node, out);
+            case Kind::integer: return read_integer(key, node, out);
+            case Kind::text:
+            case Kind::path:
+            case Kind::choice: return read_text(key, node, out);
+            case Kind::vector:
+            case Kind::integer_list: return read_list(key, node, out);
+            case Kind::pair_list: return read_pairs(key, node, out);
+        }
+        return false;
+    }
+
+    // a number in SI, or a text with a unit; range checked
+    bool read_scalar(const Key& key, Dimension dimension, const toml::node& node, double& out) {
+        if (const auto text = node.value<std::string_view>(); text && node.is_string()) {
+            const auto quantity = parse_quantity(*text, dimension);
+            if (!quantity) {
+                const std::string units = unit_names(dimension);
+                complain(node.source(),
+                         fmt::format("{} = \"{}\" is not a number with a unit it can have ({})",
+                                     key.path, *text,
+                                     units.empty() ? "it has none" : "use " + units),
+                         text->size() + 2);
+                return false;
+            }
+            out = quantity->value;
+        } else if (const auto number = node.value<double>(); number && node.is_number()) {
+            out = *number;
+        } else {
+            complain(node.source(),
+                     fmt::format("{} must be a number{}", key.path,
+                                 dimension == Dimension::none
+                                     ? ""
+                                     : " in " + std::string(si_unit(dimension)) +
+                                           " or a text with a unit"),
+                     1);
+            return false;
+        }
+        if (out >= key.low && out <= key.high) return true;
+        complain(node.source(),
+                 fmt::format("{} = {:g} is outside [{:g}, {:g}] {}", key.path, out, key.low,
+                             key.high,
+                             dimension == Dimension::none ? "" : si_unit(dimension)),
+                 1);
+        return false;
+    }
+
+    bool read_number(const Key& key, const toml::node& node, Value& out) {
+        double number = 0.0;
+        if (!read_scalar(key, key.dimension, node, number)) return false;
+        out = number;
+        return true;
+    }
+
+    bool read_integer(const Key& key, const toml::node& node, Value& out) {
+        double number = 0.0;
+        if (!node.is_integer()) {
+            complain(node.source(), fmt::format("{} must be a whole number", key.path), 1);
+            return false;
+        }
+        if (!read_scalar(key, Dimension::none, node, number)) return false;
+        out = static_cast<std::int64_t>(number);
+        return true;
+    }
+
+    bool read_text(const Key& key, const toml::node& node, Value& out) {
+        const auto text = node.value<std::string>();
+        if (!node.is_string() || !text) {
+            complain(node.source(), fmt::format("{} must be a text in quotes", key.path), 1);
+            return false;
+        }
+        const std::string list = "|" + std::string(key.choices) + "|";
+        if (key.kind == Kind::choice && list.find("|" + *text + "|") == std::string::npos) {
+            complain(node.source(),
+                     fmt::format("{} = \"{}\" is none of {}", key.path, *text, key.choices),
+                     text->size() + 2);
+            return false;
+        }
+        out = *text;
+        return true;
+    }
+
+    bool read_list(const Key& key, const toml::node& node, Value& out) {
+        const auto* list = node.as_array();
+        // a floe's position may leave out z
+        const std::size_t least = key.path == "floes.position" ? 2 : key.length;
+        if (!list || (key.kind == Kind::vector &&
+                      (list->size() < least || list->size() > key.length))) {
+            complain(node.source(),
+                     key.kind == Kind::vector
+                         ? fmt::format("{} must be a list of {} numbers", key.path, key.length)
+                         : fmt::format("{} must be a list", key.path),
+                     1);
+            return false;
+        }
+        const bool whole = key.kind == Kind::integer_list || key.path == "floes.count";
+        std::vector<double> values;
+        for (const toml::node& item : *list) {
+            double number = 0.0;
+            if (whole && !item.is_integer()) {
+                complain(item.source(), fmt::format("{} holds whole numbers", key.path), 1);
+                return false;
+            }
+            if (!read_scalar(key, key.dimension, item, number)) return false;
+            values.push_back(number);
+        }
+        out = values;
+        return true;
+    }
+
+    bool read_pairs(const Key& key, const toml::node& node, Value& out) {
+        std::vector<std::pair<double, double>> rows;
+        const auto* list = node.as_array();
+        for (std::size_t k = 0; list && k < list->size(); ++k) {
+            const auto* row = list->get(k)->as_array();
+            std::pair<double, double> pair;
+            if (!row || row->size() != 2 ||
+                !read_scalar(key, Dimension::time, *row->get(0), pair.first) ||
+                !read_scalar(key, key.dimension, *row->get(1), pair.second) ||
+                (!rows.empty() && pair.first <= rows.back().first)) {
+                complain(list->get(k)->source(),
+                         fmt::format("{} row {} must be [t, u] with t above the row before",
+                                     key.path, k + 1),
+                         1);
+                return false;
+            }
+            rows.push_back(pair);
+        }
+        if (rows.empty()) {
+            complain(node.source(), fmt::format("{} must be a list of [t, u]", key.path), 1);
+            return false;
+        }
+        out = rows;
+        return true;
+    }
+
+    std::string name_;
+    Mistakes& mistakes_;
+    std::vector<std::string> lines_;
+};
+
+bool parses(const std::string& text) {
+    try {
+        (void)toml::parse(text);
+        return true;
+    } catch (const toml::parse_error&) {
+        return false;
+    }
+}
+
+}  // namespace
+
+Values read_toml(const std::string& text, const std::string& name, Mistakes& mistakes,
+                 std::size_t& floe_groups) {
+    return Document(text, name, mistakes).read(text, floe_groups);
+}
+
+Values read_override(const std::string& text, Mistakes& mistakes) {
+    const auto equals = text.find('=');
+    if (equals == std::string::npos || equals == 0) {
+        mistakes.texts.push_back("--set " + text + ": error: write it as key=value");
+        return {};
+    }
+    const std::string key = text.substr(0, equals), value = text.substr(equals + 1);
+    std::string line = key + " = " + value;
+    if (!parses(line)) line = key + " = \"" + value + "\"";
+    std::size_t groups = 0;
+    return read_toml(line, "--set", mistakes, groups);
+}
+
+}  // namespace ice

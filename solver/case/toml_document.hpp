@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// A case file or an override as checked values; the only header behind which toml++ is used.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "solver/case/case_schema.hpp"
+
+namespace ice {
+
+/// Mistakes found so far, each "file:line:column: error: ..." with the line and a caret under it.
+struct Mistakes {
+    std::vector<std::string> texts;
+};
+
+/// Values of the keys given, checked against the schema. Keys of [[floes]] carry the group's
+/// number, from 0: "floes.0.gap"; an override without a number is kept as "floes.gap".
+using Values = std::map<std::string, Value>;
+
+/// Parses TOML and checks it. Mistakes are collected, never thrown.
+/// @param name   what messages call the text: the file, or "--set"
+Values read_toml(const std::string& text, const std::string& name, Mistakes& mistakes,
+                 std::size_t& floe_groups);
+
+/// Parses one `key=value` override: the value as TOML, or as text where that fails.
+Values read_override(const std::string& text, Mistakes& mistakes);
+
+}  // namespace ice

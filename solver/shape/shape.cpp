@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/shape/shape.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "common/base/error.hpp"
+
+namespace ice {
+
+namespace {
+
+// Panels are at most this share of the shape's extent. With 1/6 the damping torque of a turning
+// square plate, a cubic integrand, is within 1 % (midpoint rule).
+constexpr double kPanelShare = 1.0 / 6.0;
+
+// Largest number of panels of one shape; finer meshes keep their triangles.
+constexpr std::size_t kMostPanels = 4000;
+
+void split_into_panels(const Vec3 (&corner)[3], double longest, std::vector<Panel>& out) {
+    int edge = 0;
+    double length = 0.0;
+    for (int k = 0; k < 3; ++k) {
+        const double now = (corner[(k + 1) % 3] - corner[k]).norm();
+        if (now > length) {
+            length = now;
+            edge = k;
+        }
+    }
+    if (length > longest && out.size() < kMostPanels) {
+        // halve the longest edge: panels stay well shaped
+        const Vec3& a = corner[edge];
+        const Vec3& b = corner[(edge + 1) % 3];
+        const Vec3& c = corner[(edge + 2) % 3];
+        const Vec3 middle = 0.5 * (a + b);
+        split_into_panels({a, middle, c}, longest, out);
+        split_into_panels({middle, b, c}, longest, out);
+        return;
+    }
+    Panel panel;
+    for (int k = 0; k < 3; ++k) panel.corner[k] = corner[k];
+    panel.center = (corner[0] + corner[1] + corner[2]) / 3.0;
+    panel.area = 0.5 * (corner[1] - corner[0]).cross(corner[2] - corner[0]);
+    out.push_back(panel);
+}
+
+void build_panels(Shape& shape) {
+    const double longest = kPanelShare * shape.box.sizes().maxCoeff();
+    for (std::size_t t = 0; t < shape.mesh.triangles.size(); ++t) {
+        const Vec3 corner[3] = {shape.mesh.corner(t, 0), shape.mesh.corner(t, 1),
+                                shape.mesh.corner(t, 2)};
+        split_into_panels(corner, longest, shape.panels);
+    }
+}
+
+void copy_surface_spheres(const SphereSet& set, const Vec3& origin, Shape& shape) {
+    for (std::size_t k = 0; k < set.size(); ++k) {
+        if (set.layers[k] == 0) continue;
+        shape.center.push_back(set.centers[k] - origin);
+        shape.radius.push_back(set.radii[k]);
+        shape.normal.push_back(set.normals[k]);
+        shape.spread.push_back(set.normal_spread[k]);
+        shape.area.push_back(set.areas[k]);
+        shape.region.push_back(set.regions[k]);
+        shape.largest_radius = std::max(shape.largest_radius, set.radii[k]);
+    }
+}
+
+// The largest distance from a surface sphere to its nearest neighbour is the set's real spacing s.
+// A square lattice leaves points s / sqrt(2) from every sphere, a hexagonal one s / sqrt(3).
+double measure_reach(const Shape& shape, double nominal_spacing) {
+    const double limit = 3.0 * std::max(nominal_spacing, 2.0 * shape.largest_radius);
+    double spacing = 0.0;
+    for (std::size_t k = 0; k < shape.center.size(); ++k) {
+        double nearest = limit;
+        shape.grid.for_each_near(shape.center[k], nominal_spacing, [&](std::int32_t other) {
+            const double distance = (shape.center[other] - shape.center[k]).norm();
+            if (static_cast<std::size_t>(other) != k) nearest = std::min(nearest, distance);
+        });
+        if (nearest < limit) spacing = std::max(spacing, nearest);
+    }
+    return 0.75 * (spacing > 0.0 ? spacing : nominal_spacing);
+}
+
+}  // namespace
+
+Shape build_shape(const SphereSet& set, bool about_centre_of_mass) {
+    Shape shape;
+    const Vec3 origin = about_centre_of_mass ? set.solid.centroid : Vec3::Zero();
+    shape.dimension = set.dimension;
+    shape.region_names = set.mesh.region_names;
+    copy_surface_spheres(set, origin, shape);
+    if (shape.center.empty())
+        throw bad_input(set.source_mesh, "the sphere set has no surface spheres",
+                        "make it again with spherize");
+
+    shape.mesh = set.mesh;
+    for (Vec3& v : shape.mesh.vertices) v -= origin;
+    shape.solid = set.solid;
+    shape.solid.centroid -= origin;
+
+    for (const Vec3& v : shape.mesh.vertices) shape.box.extend(v);
+    for (std::size_t k = 0; k < shape.center.size(); ++k) {
+        shape.box.extend(shape.center[k] + Vec3::Constant(shape.radius[k]));
+        shape.box.extend(shape.center[k] - Vec3::Constant(shape.radius[k]));
+    }
+    if (set.dimension == 2) {
+        // discs are spheres in the plane; the prism's breadth must not widen searches
+        shape.box.min().y() = -shape.largest_radius;
+        shape.box.max().y() = shape.largest_radius;
+    }
+    shape.bounding_radius =
+        shape.box.min().cwiseAbs().cwiseMax(shape.box.max().cwiseAbs()).norm();
+    shape.grid = SphereGrid(shape.center, 2.0 * shape.largest_radius);
+    shape.reach = measure_reach(shape, set.spacing);
+    build_panels(shape);
+    return shape;
+}
+
+}  // namespace ice

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// What all bodies made from one sphere file share: contact spheres, mesh and mass integrals.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "common/formats/sphere_set.hpp"
+#include "solver/shape/sphere_grid.hpp"
+
+namespace ice {
+
+/// A piece of the surface small enough that the water's speed is even on it.
+struct Panel {
+    Vec3 corner[3];  ///< [m], body axes
+    Vec3 center;     ///< [m]
+    Vec3 area;       ///< outward normal x area [m2]
+};
+
+/// A form in its body axes: floes about the centre of mass, the hull in the ship frame.
+struct Shape {
+    int dimension = 3;
+
+    // the surface spheres, N each; interior spheres never touch anything first
+    std::vector<Vec3> center;          ///< [m]
+    std::vector<double> radius;        ///< [m]
+    std::vector<Vec3> normal;          ///< outward, unit
+    std::vector<double> spread;        ///< half-angle of the surface normals met there [rad]
+    std::vector<double> area;          ///< share of the surface [m2]
+    std::vector<std::int32_t> region;  ///< row of region_names
+    std::vector<std::string> region_names;
+    SphereGrid grid;                   ///< of `center`
+    double largest_radius = 0.0;       ///< [m]
+    double reach = 0.0;                ///< how far from its centre a sphere stands for the surface [m]
+
+    TriangleMesh mesh;                 ///< closed, body axes
+    std::vector<Panel> panels;         ///< the mesh in pieces, for drag
+    MassProperties solid;              ///< unit density; centroid in body axes (floes: zero)
+    Eigen::AlignedBox3d box;           ///< of mesh and spheres
+    double bounding_radius = 0.0;      ///< about the body origin [m]
+};
+
+/// Makes the shape of a floe (axes moved to the centre of mass) or of the hull (axes kept).
+/// @throws Error (exit code 2) when the set has no surface spheres.
+Shape build_shape(const SphereSet& set, bool about_centre_of_mass);
+
+}  // namespace ice
