@@ -8,7 +8,7 @@
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
-spherize=$(realpath "${SPHERIZE:-$root/build/release/bin/spherize}")
+spherize=$(realpath -m "${SPHERIZE:-$root/build/release/bin/spherize}")
 
 fail() {
     echo "prepare.sh: $*" >&2

@@ -59,8 +59,7 @@ std::optional<Quantity> parse_quantity(std::string_view text, Dimension dimensio
     double number = 0.0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
     if (error != std::errc{}) return std::nullopt;
-    const std::string_view name =
-        trim(text.substr(static_cast<std::size_t>(end - text.data())));
+    const std::string_view name = trim(text.substr(static_cast<std::size_t>(end - text.data())));
     if (name.empty()) return Quantity{number, false};
     for (const Unit& unit : kUnits)
         if (unit.dimension == dimension && unit.name == name)

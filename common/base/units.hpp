@@ -9,11 +9,21 @@
 namespace ice {
 
 /// What a number measures. `none` is dimensionless and takes no unit.
-enum class Dimension { none, length, time, speed, angular_speed, acceleration, pressure, density, angle };
+enum class Dimension {
+    none,
+    length,
+    time,
+    speed,
+    angular_speed,
+    acceleration,
+    pressure,
+    density,
+    angle
+};
 
 struct Quantity {
-    double value;      ///< in SI
-    bool has_unit;     ///< false when the text was a bare number, taken as SI
+    double value;   ///< in SI
+    bool has_unit;  ///< false when the text was a bare number, taken as SI
 };
 
 /// Reads a number with an optional unit of that dimension, e.g. parse_quantity("80 mm", length).

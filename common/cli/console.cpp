@@ -26,14 +26,12 @@ void on_interrupt(int) {
 
 }  // namespace
 
-bool stderr_is_terminal() {
-    return isatty(STDERR_FILENO) == 1 && std::getenv("CI") == nullptr;
-}
+bool stderr_is_terminal() { return isatty(STDERR_FILENO) == 1 && std::getenv("CI") == nullptr; }
 
 void start_messages(Colour colour, bool quiet) {
     const bool colourful =
-        colour == Colour::always || (colour == Colour::automatic && stderr_is_terminal() &&
-                                     std::getenv("NO_COLOR") == nullptr);
+        colour == Colour::always ||
+        (colour == Colour::automatic && stderr_is_terminal() && std::getenv("NO_COLOR") == nullptr);
     auto sink = std::make_shared<spdlog::sinks::stderr_color_sink_mt>(
         colourful ? spdlog::color_mode::always : spdlog::color_mode::never);
     sink->set_level(quiet ? spdlog::level::err : spdlog::level::info);
@@ -70,7 +68,8 @@ int run_program(const std::string& name, const std::function<int()>& body) {
     } catch (const std::bad_alloc&) {
         complain("out of memory\n  use a larger radius or spacing, or a smaller case");
     } catch (const std::exception& error) {
-        complain(std::string(error.what()) + "\n  this is a fault of the program: please report it");
+        complain(std::string(error.what()) +
+                 "\n  this is a fault of the program: please report it");
     }
     return static_cast<int>(ExitCode::failed);
 }

@@ -28,8 +28,8 @@ void Progress::update(double fraction, const std::string& note) {
     if (last_drawn_ >= 0.0 && now - last_drawn_ < 0.1 && fraction < 1.0) return;
     last_drawn_ = now;
     const int filled = static_cast<int>(fraction * 30.0);
-    fmt::print(stderr, "\r{} [{:#<{}}{:.<{}}] {:3.0f} %, {:.0f} s left, {}\033[K", label_, "", filled,
-               "", 30 - filled, 100.0 * fraction, left, note);
+    fmt::print(stderr, "\r{} [{:#<{}}{:.<{}}] {:3.0f} %, {:.0f} s left, {}\033[K", label_, "",
+               filled, "", 30 - filled, 100.0 * fraction, left, note);
     std::fflush(stderr);
 }
 

@@ -17,15 +17,25 @@ namespace {
 template <class T>
 hid_t memory_type();
 template <>
-hid_t memory_type<double>() { return H5T_NATIVE_DOUBLE; }
+hid_t memory_type<double>() {
+    return H5T_NATIVE_DOUBLE;
+}
 template <>
-hid_t memory_type<float>() { return H5T_NATIVE_FLOAT; }
+hid_t memory_type<float>() {
+    return H5T_NATIVE_FLOAT;
+}
 template <>
-hid_t memory_type<std::int64_t>() { return H5T_NATIVE_INT64; }
+hid_t memory_type<std::int64_t>() {
+    return H5T_NATIVE_INT64;
+}
 template <>
-hid_t memory_type<std::int32_t>() { return H5T_NATIVE_INT32; }
+hid_t memory_type<std::int32_t>() {
+    return H5T_NATIVE_INT32;
+}
 template <>
-hid_t memory_type<std::uint8_t>() { return H5T_NATIVE_UINT8; }
+hid_t memory_type<std::uint8_t>() {
+    return H5T_NATIVE_UINT8;
+}
 
 // closes an HDF5 handle when the scope ends
 class Handle {
@@ -115,9 +125,9 @@ void Hdf5File::write_attribute(const std::string& object, const std::string& nam
                                const std::vector<double>& values,
                                const std::vector<std::uint64_t>& shape) {
     const auto dims = to_hsize(shape);
-    const Handle space(dims.empty() ? H5Screate(H5S_SCALAR)
-                                    : H5Screate_simple(static_cast<int>(dims.size()), dims.data(),
-                                                       nullptr),
+    const Handle space(dims.empty()
+                           ? H5Screate(H5S_SCALAR)
+                           : H5Screate_simple(static_cast<int>(dims.size()), dims.data(), nullptr),
                        H5Sclose);
     const Handle attribute(H5Acreate_by_name(id_, object.c_str(), name.c_str(), H5T_IEEE_F64LE,
                                              space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
@@ -139,8 +149,7 @@ void Hdf5File::write_attribute(const std::string& object, const std::string& nam
 }
 
 bool Hdf5File::has_attribute(const std::string& object, const std::string& name) const {
-    return has(object) &&
-           H5Aexists_by_name(id_, object.c_str(), name.c_str(), H5P_DEFAULT) > 0;
+    return has(object) && H5Aexists_by_name(id_, object.c_str(), name.c_str(), H5P_DEFAULT) > 0;
 }
 
 std::string Hdf5File::read_text_attribute(const std::string& object,
@@ -184,8 +193,8 @@ std::vector<double> Hdf5File::read_number_attribute(const std::string& object,
 }
 
 void Hdf5File::create_group(const std::string& name) {
-    const Handle group(
-        H5Gcreate2(id_, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
+    const Handle group(H5Gcreate2(id_, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                       H5Gclose);
     if (group < 0)
         throw run_failed(describe(name), "cannot be created", "check that the disk is not full");
 }
@@ -206,8 +215,8 @@ void Hdf5File::write(const std::string& name, const T* data,
                                     properties, H5P_DEFAULT),
                          H5Dclose);
     const bool empty = product(shape) == 0;
-    if (dataset < 0 || (!empty && H5Dwrite(dataset, memory_type<T>(), H5S_ALL, H5S_ALL,
-                                           H5P_DEFAULT, data) < 0))
+    if (dataset < 0 ||
+        (!empty && H5Dwrite(dataset, memory_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0))
         throw run_failed(describe(name), "cannot be written", "check that the disk is not full");
 }
 
@@ -233,7 +242,8 @@ void Hdf5File::write_strings(const std::string& name, const std::vector<std::str
 
 std::vector<std::uint64_t> Hdf5File::shape(const std::string& name) const {
     if (!has(name))
-        throw bad_input(describe(name), "is missing", "make the file again with the tool that wrote it");
+        throw bad_input(describe(name), "is missing",
+                        "make the file again with the tool that wrote it");
     const Handle dataset(H5Dopen2(id_, name.c_str(), H5P_DEFAULT), H5Dclose);
     const Handle space(dataset < 0 ? -1 : H5Dget_space(dataset), H5Sclose);
     const int rank = space < 0 ? -1 : H5Sget_simple_extent_ndims(space);
@@ -345,12 +355,12 @@ void Hdf5File::attach_scale(const std::string& dataset, unsigned dimension,
                          "check that the disk is not full");
 }
 
-#define ICE_INSTANTIATE(T)                                                                   \
-    template void Hdf5File::write<T>(const std::string&, const T*,                           \
-                                     const std::vector<std::uint64_t>&);                     \
-    template std::vector<T> Hdf5File::read<T>(const std::string&) const;                     \
-    template void Hdf5File::create_appendable<T>(                                            \
-        const std::string&, const std::vector<std::uint64_t>&, std::uint64_t);               \
+#define ICE_INSTANTIATE(T)                                                     \
+    template void Hdf5File::write<T>(const std::string&, const T*,             \
+                                     const std::vector<std::uint64_t>&);       \
+    template std::vector<T> Hdf5File::read<T>(const std::string&) const;       \
+    template void Hdf5File::create_appendable<T>(                              \
+        const std::string&, const std::vector<std::uint64_t>&, std::uint64_t); \
     template void Hdf5File::append<T>(const std::string&, const T*, std::uint64_t);
 
 ICE_INSTANTIATE(double)

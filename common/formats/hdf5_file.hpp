@@ -23,9 +23,11 @@ public:
     Hdf5File& operator=(const Hdf5File&) = delete;
 
     // attributes of an object ("/" for the file)
-    void write_attribute(const std::string& object, const std::string& name, const std::string& text);
     void write_attribute(const std::string& object, const std::string& name,
-                         const std::vector<double>& values, const std::vector<std::uint64_t>& shape);
+                         const std::string& text);
+    void write_attribute(const std::string& object, const std::string& name,
+                         const std::vector<double>& values,
+                         const std::vector<std::uint64_t>& shape);
     void write_attribute(const std::string& object, const std::string& name, std::int64_t value);
     std::string read_text_attribute(const std::string& object, const std::string& name) const;
     std::vector<double> read_number_attribute(const std::string& object,

@@ -13,18 +13,19 @@ namespace ice {
 
 /// A body's form, shared by all floes made from one sphere file.
 struct RunShape {
-    TriangleMesh mesh;            ///< in body axes; floes: about the centre of mass, hull: ship frame
-    std::vector<Vec3> centers;    ///< contact spheres, same axes [m]
-    std::vector<double> radii;    ///< [m]
+    TriangleMesh mesh;          ///< in body axes; floes: about the centre of mass, hull: ship frame
+    std::vector<Vec3> centers;  ///< contact spheres, same axes [m]
+    std::vector<double> radii;  ///< [m]
 };
 
 /// What stays the same for the whole run. Shape 0 is the hull.
 struct RunHeader {
     int dimension = 3;
     std::string title, created_by, git_commit, command_line;
-    std::string case_toml;                 ///< the resolved case, verbatim
+    std::string case_toml;  ///< the resolved case, verbatim
     std::vector<RunShape> shapes;
-    std::vector<std::int32_t> body_shape;  ///< [Nb] row of shapes, one per floe; floe k has id k + 1
+    std::vector<std::int32_t>
+        body_shape;  ///< [Nb] row of shapes, one per floe; floe k has id k + 1
     std::vector<std::int32_t> body_group;  ///< [Nb] row of [[floes]] in the case
     std::vector<double> body_mass;         ///< [Nb] kg (2D: kg per metre of breadth)
     std::vector<Vec3> body_inertia;        ///< [Nb] diagonal about the mesh's axes [kg m2]
@@ -33,15 +34,15 @@ struct RunHeader {
 
 /// One history sample. Forces are those of the ice on the ship, world axes.
 struct HistoryRow {
-    double time = 0.0;                      ///< [s]
-    Vec3 contact_force = Vec3::Zero();      ///< normal parts [N] (2D: N per metre)
-    Vec3 friction_force = Vec3::Zero();     ///< tangential parts [N]
-    Vec3 moment = Vec3::Zero();             ///< about the mesh origin of the hull [N m]
-    Vec3 ship_position = Vec3::Zero();      ///< of the hull's mesh origin [m]
-    double contacts = 0.0;                  ///< contacts that carried an impulse (mean of the steps)
+    double time = 0.0;                   ///< [s]
+    Vec3 contact_force = Vec3::Zero();   ///< normal parts [N] (2D: N per metre)
+    Vec3 friction_force = Vec3::Zero();  ///< tangential parts [N]
+    Vec3 moment = Vec3::Zero();          ///< about the mesh origin of the hull [N m]
+    Vec3 ship_position = Vec3::Zero();   ///< of the hull's mesh origin [m]
+    double contacts = 0.0;               ///< contacts that carried an impulse (mean of the steps)
     double moving_floes = 0.0;
-    double max_overlap = 0.0;               ///< deepest overlap of the steps [m]
-    double kinetic_energy = 0.0;            ///< of the floes [J]
+    double max_overlap = 0.0;     ///< deepest overlap of the steps [m]
+    double kinetic_energy = 0.0;  ///< of the floes [J]
 };
 
 /// One history sample of a tracked floe.
@@ -65,7 +66,7 @@ struct RunFrame {
     std::vector<Vec3> position;                   ///< centres of mass [m]
     std::vector<Eigen::Quaterniond> orientation;  ///< body to world, sign continuous in time
     std::vector<Vec3> velocity, angular_velocity;
-    std::vector<Vec3> contact_force;              ///< of the ship on the floe, mean since last frame [N]
+    std::vector<Vec3> contact_force;  ///< of the ship on the floe, mean since last frame [N]
     std::vector<FloeState> state;
 };
 

@@ -94,7 +94,8 @@ void write_shapes(Hdf5File& file, const RunHeader& header) {
         }
         const auto flat = flatten<float>(shape.mesh.vertices);
         vertices.insert(vertices.end(), flat.begin(), flat.end());
-        for (const auto& t : shape.mesh.triangles) triangles.insert(triangles.end(), t.begin(), t.end());
+        for (const auto& t : shape.mesh.triangles)
+            triangles.insert(triangles.end(), t.begin(), t.end());
         for (const std::int32_t r : shape.mesh.region)
             region.push_back(global.at(static_cast<std::size_t>(r)));
         for (std::size_t k = 0; k < shape.centers.size(); ++k) {
@@ -296,7 +297,8 @@ void RunWriter::add(const RunFrame& frame) {
     b.velocity.add_all(frame.velocity);
     b.spin.add_all(frame.angular_velocity);
     b.floe_force.add_all(frame.contact_force);
-    for (const FloeState state : frame.state) b.state.rows.push_back(static_cast<std::uint8_t>(state));
+    for (const FloeState state : frame.state)
+        b.state.rows.push_back(static_cast<std::uint8_t>(state));
     // q and -q are the same rotation: keep the sign nearer to the last frame, for interpolation
     b.last_orientation.resize(b.bodies, Eigen::Quaterniond::Identity());
     for (std::size_t k = 0; k < frame.orientation.size(); ++k) {
@@ -315,7 +317,8 @@ void RunWriter::finish() {
     std::error_code error;
     std::filesystem::rename(b.part_path, b.final_path, error);
     if (error)
-        throw run_failed(b.final_path.string(), "cannot rename the finished file: " + error.message(),
+        throw run_failed(b.final_path.string(),
+                         "cannot rename the finished file: " + error.message(),
                          "check that the folder is writable");
 }
 

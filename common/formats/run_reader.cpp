@@ -29,7 +29,8 @@ public:
 private:
     void check(bool good, const std::string& dataset, const std::string& what) const {
         if (!good)
-            throw bad_input(path_.string() + ": " + dataset, what, "run the case again with icesolve");
+            throw bad_input(path_.string() + ": " + dataset, what,
+                            "run the case again with icesolve");
     }
 
     // values of a dataset whose shape must be `shape`
@@ -118,7 +119,8 @@ private:
                  t < static_cast<std::size_t>(3 * offset[s + 1]); t += 3) {
                 mesh.triangles.push_back({corners[t], corners[t + 1], corners[t + 2]});
                 for (const std::int32_t v : mesh.triangles.back())
-                    check(v >= 0 && v < vertices, "/shapes/triangles", "points outside the vertices");
+                    check(v >= 0 && v < vertices, "/shapes/triangles",
+                          "points outside the vertices");
             }
         }
     }
@@ -176,8 +178,8 @@ private:
     void read_tracks(RunData& run) const {
         const std::uint64_t columns = track_columns().size();
         for (const std::int32_t id : run.header.tracked) {
-            const auto flat = read_as<double>("/tracked/" + std::to_string(id),
-                                              {run.history.size(), columns});
+            const auto flat =
+                read_as<double>("/tracked/" + std::to_string(id), {run.history.size(), columns});
             std::vector<TrackRow> rows(run.history.size());
             for (std::size_t k = 0; k < rows.size(); ++k) {
                 const double* v = flat.data() + columns * k;
@@ -221,7 +223,8 @@ private:
             for (std::size_t k = f * n; k < (f + 1) * n; ++k) {
                 const double* q = orientation.data() + 4 * k;
                 // stored as float: unit again
-                frame.orientation.push_back(Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized());
+                frame.orientation.push_back(
+                    Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized());
                 check(state[k] <= 2, "/frames/state", "holds a state that is not 0, 1 or 2");
                 frame.state.push_back(static_cast<FloeState>(state[k]));
             }
@@ -236,10 +239,10 @@ private:
 
 const std::vector<std::string>& track_columns() {
     static const std::vector<std::string> names{
-        "x",          "y",          "z",          "qw",          "qx",          "qy",
-        "qz",         "vx",         "vy",         "vz",          "wx",          "wy",
-        "wz",         "contact_fx", "contact_fy", "contact_fz",  "friction_fx", "friction_fy",
-        "friction_fz", "ice_fx",    "ice_fy",     "ice_fz"};
+        "x",           "y",          "z",          "qw",         "qx",          "qy",
+        "qz",          "vx",         "vy",         "vz",         "wx",          "wy",
+        "wz",          "contact_fx", "contact_fy", "contact_fz", "friction_fx", "friction_fy",
+        "friction_fz", "ice_fx",     "ice_fy",     "ice_fz"};
     return names;
 }
 

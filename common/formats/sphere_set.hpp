@@ -15,10 +15,10 @@ namespace ice {
 /// areas, volumes and the solid's integrals are per metre of breadth; the mesh is the prism over
 /// y in [-0.5, 0.5] m.
 struct SphereSet {
-    int dimension = 3;         ///< 3 or 2
-    double radius = 0.0;       ///< nominal radius [m]
-    double spacing = 0.0;      ///< nominal distance of centres on the surface [m]
-    std::string mode;          ///< "fill" or "surface"
+    int dimension = 3;     ///< 3 or 2
+    double radius = 0.0;   ///< nominal radius [m]
+    double spacing = 0.0;  ///< nominal distance of centres on the surface [m]
+    std::string mode;      ///< "fill" or "surface"
     std::string source_mesh, source_sha256, created_by, command_line;
 
     std::vector<Vec3> centers;          ///< in the mesh's frame [m]

@@ -113,7 +113,8 @@ private:
         check(centroid.size() == 3 && inertia.size() == 9, "/solid",
               "has a centroid or inertia of the wrong size");
         solid.centroid = Vec3(centroid[0], centroid[1], centroid[2]);
-        for (int k = 0; k < 9; ++k) solid.inertia(k / 3, k % 3) = inertia[static_cast<std::size_t>(k)];
+        for (int k = 0; k < 9; ++k)
+            solid.inertia(k / 3, k % 3) = inertia[static_cast<std::size_t>(k)];
         check(solid.volume > 0 && std::isfinite(solid.volume), "/solid volume", "is not positive");
         check(solid.inertia.allFinite() && solid.inertia.diagonal().minCoeff() > 0 &&
                   solid.centroid.allFinite(),
@@ -154,18 +155,19 @@ private:
         set.volumes = finite("/volume");
         set.layers = file_.read<std::uint8_t>("/layer");
         set.regions = file_.read<std::int32_t>("/region");
-        set.normal_spread = file_.has("/normal_spread") ? finite("/normal_spread")
-                                                        : std::vector<double>(n, 0.0);
-        for (const std::size_t size : {set.radii.size(), set.normals.size(), set.areas.size(),
-                                       set.volumes.size(), set.layers.size(), set.regions.size(),
-                                       set.normal_spread.size()})
+        set.normal_spread =
+            file_.has("/normal_spread") ? finite("/normal_spread") : std::vector<double>(n, 0.0);
+        for (const std::size_t size :
+             {set.radii.size(), set.normals.size(), set.areas.size(), set.volumes.size(),
+              set.layers.size(), set.regions.size(), set.normal_spread.size()})
             check(size == n, "/center", "has another length than the arrays beside it");
         check_regions(set.regions, set.mesh.region_names.size(), "/region");
         for (std::size_t k = 0; k < n; ++k) {
             check(set.radii[k] > 0, "/radius", "holds a radius that is not positive");
             if (set.layers[k] == 0) continue;
             const double length = set.normals[k].norm();
-            check(std::abs(length - 1.0) < 1e-3, "/normal", "holds a normal that is no unit vector");
+            check(std::abs(length - 1.0) < 1e-3, "/normal",
+                  "holds a normal that is no unit vector");
             set.normals[k] /= length;
         }
     }

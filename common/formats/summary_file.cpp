@@ -32,9 +32,8 @@ Json force_json(const ForceStatistics& force) {
 Json regions_json(const std::map<std::string, RegionStatistics>& regions) {
     Json out = Json::object();
     for (const auto& [name, region] : regions)
-        out[name] = {{"hits", region.hits},
-                     {"max_impulse_Ns", region.max_impulse},
-                     {"mean_N", region.mean}};
+        out[name] = {
+            {"hits", region.hits}, {"max_impulse_Ns", region.max_impulse}, {"mean_N", region.mean}};
     return out;
 }
 
@@ -82,9 +81,9 @@ public:
     }
 
     ForceStatistics force(const std::string& key) const {
-        return {number(key + ".mean_N"), number(key + ".contact_mean_N"),
-                number(key + ".friction_mean_N"), number(key + ".std_N"), number(key + ".max_N"),
-                number(key + ".ci95_N")};
+        return {number(key + ".mean_N"),          number(key + ".contact_mean_N"),
+                number(key + ".friction_mean_N"), number(key + ".std_N"),
+                number(key + ".max_N"),           number(key + ".ci95_N")};
     }
 
     std::map<std::string, RegionStatistics> regions() const {
@@ -122,8 +121,8 @@ private:
     }
 
     double value_or_nan(const Json& json, const std::string& key) const {
-        return convert<std::optional<double>>(json, key)
-            .value_or(std::numeric_limits<double>::quiet_NaN());
+        return convert<std::optional<double>>(json, key).value_or(
+            std::numeric_limits<double>::quiet_NaN());
     }
 
     template <class T>

@@ -21,9 +21,9 @@ struct ForceStatistics {
 
 /// What one region of the hull felt.
 struct RegionStatistics {
-    std::int64_t hits = 0;           ///< times a floe began to touch the region
-    double max_impulse = 0.0;        ///< largest impulse of one floe in one step [N s]
-    std::array<double, 3> mean{};    ///< mean force of the ice on the region, world axes [N]
+    std::int64_t hits = 0;         ///< times a floe began to touch the region
+    double max_impulse = 0.0;      ///< largest impulse of one floe in one step [N s]
+    std::array<double, 3> mean{};  ///< mean force of the ice on the region, world axes [N]
 };
 
 /// Content of summary.json (schema icesolve-summary/1, CONTRACT.md section 5).
@@ -41,9 +41,9 @@ struct Summary {
     std::map<std::string, RegionStatistics> regions;
     double contacts_mean = 0.0, contacts_max = 0.0, max_overlap = 0.0;
     std::int64_t unconverged_steps = 0;
-    std::map<std::string, double> energy;                 ///< [J], keys end in _J
-    std::map<std::string, double> stage_seconds;          ///< wall time per stage of the step
-    std::optional<double> lindqvist_submersion;           ///< [N]; none where the hull has no waterline
+    std::map<std::string, double> energy;         ///< [J], keys end in _J
+    std::map<std::string, double> stage_seconds;  ///< wall time per stage of the step
+    std::optional<double> lindqvist_submersion;   ///< [N]; none where the hull has no waterline
     std::vector<std::string> warnings;
     std::string case_file, command_line;
 };

@@ -13,8 +13,8 @@ MassProperties measure_mass(const TriangleMesh& mesh) {
     for (const Vec3& v : mesh.vertices) box.extend(v);
     const Vec3 reference = box.center();
 
-    Vec3 first = Vec3::Zero();    // int x dV
-    Mat3 second = Mat3::Zero();   // int x x^T dV
+    Vec3 first = Vec3::Zero();   // int x dV
+    Mat3 second = Mat3::Zero();  // int x x^T dV
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         const Vec3 a = mesh.corner(t, 0) - reference;
         const Vec3 b = mesh.corner(t, 1) - reference;

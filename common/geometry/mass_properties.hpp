@@ -7,10 +7,10 @@ namespace ice {
 
 /// Exact integrals over a solid of unit density. In 2D per metre of breadth.
 struct MassProperties {
-    double volume = 0.0;            ///< [m3]; negative for a mesh turned inside out
-    double area = 0.0;              ///< of the surface [m2]
-    Vec3 centroid = Vec3::Zero();   ///< [m]
-    Mat3 inertia = Mat3::Zero();    ///< about the centroid, unit density [m5]
+    double volume = 0.0;           ///< [m3]; negative for a mesh turned inside out
+    double area = 0.0;             ///< of the surface [m2]
+    Vec3 centroid = Vec3::Zero();  ///< [m]
+    Mat3 inertia = Mat3::Zero();   ///< about the centroid, unit density [m5]
 };
 
 /// Integrates over the volume inside a closed mesh.

@@ -16,10 +16,10 @@ using Mat3 = Eigen::Matrix3d;
 ///
 /// Counter-clockwise seen from outside. `region` has one row of `region_names` per triangle.
 struct TriangleMesh {
-    std::vector<Vec3> vertices;                        ///< V points [m]
+    std::vector<Vec3> vertices;                          ///< V points [m]
     std::vector<std::array<std::int32_t, 3>> triangles;  ///< T triples of vertex indices
-    std::vector<std::int32_t> region;                  ///< T rows of region_names
-    std::vector<std::string> region_names{"hull"};     ///< row 0 is for unnamed parts
+    std::vector<std::int32_t> region;                    ///< T rows of region_names
+    std::vector<std::string> region_names{"hull"};       ///< row 0 is for unnamed parts
 
     Vec3 corner(std::size_t triangle, int k) const {
         return vertices[static_cast<std::size_t>(triangles[triangle][static_cast<std::size_t>(k)])];

@@ -25,11 +25,12 @@ enum class DragModel { none, projected, panel };
 struct FloeGroup {
     std::filesystem::path spheres;
     Pattern pattern = Pattern::grid;
-    std::array<int, 2> count{1, 1};       ///< along x, y
-    std::array<double, 2> origin{0, 0};   ///< x of the first row's leading edge, y of the centre line
-    std::array<double, 2> gap{0, 0};      ///< between neighbours along x, y [m]
+    std::array<int, 2> count{1, 1};  ///< along x, y
+    std::array<double, 2> origin{0,
+                                 0};  ///< x of the first row's leading edge, y of the centre line
+    std::array<double, 2> gap{0, 0};  ///< between neighbours along x, y [m]
     Hold hold = Hold::until_hull_contact;
-    Vec3 position = Vec3::Zero();         ///< pattern "single"; z is NaN for floating equilibrium
+    Vec3 position = Vec3::Zero();  ///< pattern "single"; z is NaN for floating equilibrium
     Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
     Vec3 velocity = Vec3::Zero(), angular_velocity = Vec3::Zero();
 };
@@ -42,7 +43,8 @@ struct Case {
 
     std::filesystem::path hull_spheres;
     Vec3 hull_position = Vec3::Zero();
-    std::vector<std::pair<double, double>> speed_table;  ///< (t [s], u [m/s]), t rising; never empty
+    std::vector<std::pair<double, double>>
+        speed_table;  ///< (t [s], u [m/s]), t rising; never empty
 
     double ice_density = 900.0;
     std::vector<FloeGroup> floes;
@@ -61,8 +63,8 @@ struct Case {
     std::vector<int> track;
     double average_from = 0.0;
 
-    std::filesystem::path file;   ///< the case file
-    std::string resolved;         ///< every key with its value, as TOML
+    std::filesystem::path file;  ///< the case file
+    std::string resolved;        ///< every key with its value, as TOML
 
     /// Speed of the ship at time t [m/s]: linear between the table's rows, constant outside.
     double ship_speed(double time) const;

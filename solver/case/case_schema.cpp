@@ -44,13 +44,14 @@ using G = FloeGroup;
 
 std::vector<Key> run_keys() {
     return {
-        {"title", Kind::text, D::none, "\"\"", 0, 0, 0, "", "Title of the run, shown in every output.",
+        {"title", Kind::text, D::none, "\"\"", 0, 0, 0, "",
+         "Title of the run, shown in every output.",
          [](Case& c, G&, const Value& v) { c.title = text(v); }},
         {"simulation.dimension", Kind::integer, D::none, "3", 2, 3, 0, "",
          "3 for six degrees of freedom, 2 for motion in the x-z plane (per metre of breadth).",
          [](Case& c, G&, const Value& v) { c.dimension = integer(v); }},
-        {"simulation.duration", Kind::number, D::time, "", kTiny, 1e6, 0, "",
-         "Simulated time.", [](Case& c, G&, const Value& v) { c.duration = number(v); }},
+        {"simulation.duration", Kind::number, D::time, "", kTiny, 1e6, 0, "", "Simulated time.",
+         [](Case& c, G&, const Value& v) { c.duration = number(v); }},
         {"simulation.time_step", Kind::number, D::time, "0.01", 1e-6, 1.0, 0, "",
          "Length of a step; the paper uses 0.005 s in 2D and 0.01 s in 3D.",
          [](Case& c, G&, const Value& v) { c.time_step = number(v); }},
@@ -66,7 +67,9 @@ std::vector<Key> run_keys() {
          [](Case& c, G&, const Value& v) { c.hull_position = vector3(v); }},
         {"hull.speed", Kind::number, D::speed, "-", -50, 50, 0, "",
          "Constant speed along +x; give this or hull.speed_table.",
-         [](Case& c, G&, const Value& v) { c.speed_table = {{0.0, number(v)}}; }},
+         [](Case& c, G&, const Value& v) {
+             c.speed_table = {{0.0, number(v)}};
+         }},
         {"hull.speed_table", Kind::pair_list, D::speed, "-", -1e6, 1e6, 0, "",
          "Rows [t, u]: speed u [m/s] at time t [s], linear between rows.",
          [](Case& c, G&, const Value& v) {
@@ -92,7 +95,8 @@ std::vector<Key> floe_keys() {
              g.count = {static_cast<int>(n[0]), static_cast<int>(n[1])};
          }},
         {"floes.origin", Kind::vector, D::length, "[0.0, 0.0]", -1e6, 1e6, 2, "",
-         "x of the first row's edge that meets the ship first (its smallest x), y of the field's centre line.",
+         "x of the first row's edge that meets the ship first (its smallest x), y of the field's "
+         "centre line.",
          [](Case&, G& g, const Value& v) { g.origin = vector2(v); }},
         {"floes.gap", Kind::vector, D::length, "[0.0, 0.0]", 0, 1e4, 2, "",
          "Open water between neighbours along x and y.",
@@ -133,10 +137,12 @@ std::vector<Key> model_keys() {
          "Coulomb's coefficient between floes.",
          [](Case& c, G&, const Value& v) { c.friction_ice_ice = number(v); }},
         {"contact.normal", Kind::choice, D::none, "\"surface\"", 0, 0, 0, kNormals,
-         "Contact normal: of the surfaces the spheres stand for, or from centre to centre (the paper).",
+         "Contact normal: of the surfaces the spheres stand for, or from centre to centre (the "
+         "paper).",
          [](Case& c, G&, const Value& v) { c.normal = choice<NormalRule>(v, kNormals); }},
         {"contact.crushing_pressure", Kind::number, D::pressure, "inf", 0, kInf, 0, "",
-         "Largest normal impulse of a contact is this pressure x its area x time_step; inf is rigid.",
+         "Largest normal impulse of a contact is this pressure x its area x time_step; inf is "
+         "rigid.",
          [](Case& c, G&, const Value& v) { c.crushing_pressure = number(v); }},
         {"contact.iterations", Kind::integer, D::none, "30", 1, 100000, 0, "",
          "Upper bound of the contact solver's iterations in a stage of a step.",
@@ -150,8 +156,7 @@ std::vector<Key> model_keys() {
         {"drag.model", Kind::choice, D::none, "\"panel\"", 0, 0, 0, kDrags,
          "Drag on the projected area (the paper, Eq. 9), per panel with its moment, or none.",
          [](Case& c, G&, const Value& v) { c.drag = choice<DragModel>(v, kDrags); }},
-        {"drag.coefficient", Kind::number, D::none, "1.0", 0, 100, 0, "",
-         "Drag coefficient C_d.",
+        {"drag.coefficient", Kind::number, D::none, "1.0", 0, 100, 0, "", "Drag coefficient C_d.",
          [](Case& c, G&, const Value& v) { c.drag_coefficient = number(v); }},
         {"output.frames_every", Kind::number, D::time, "0.1", kTiny, 1e6, 0, "",
          "Time between stored poses.",
@@ -179,8 +184,8 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
         row[0] = i;
         for (std::size_t j = 1; j <= b.size(); ++j) {
             const std::size_t above = row[j];
-            row[j] = std::min({row[j] + 1, row[j - 1] + 1,
-                               diagonal + (a[i - 1] == b[j - 1] ? 0 : 1)});
+            row[j] =
+                std::min({row[j] + 1, row[j - 1] + 1, diagonal + (a[i - 1] == b[j - 1] ? 0 : 1)});
             diagonal = above;
         }
     }

@@ -21,14 +21,15 @@ using Value = std::variant<double, std::int64_t, std::string, std::vector<double
 
 /// One key of the case file.
 struct Key {
-    std::string_view path;          ///< "contact.restitution"; of [[floes]]: "floes.gap"
+    std::string_view path;  ///< "contact.restitution"; of [[floes]]: "floes.gap"
     Kind kind;
     Dimension dimension;
-    std::string_view default_text;  ///< TOML literal; "" when the key is required, "-" when optional
-    double low, high;               ///< inclusive range of each number, SI
-    std::size_t length;             ///< of a vector
-    std::string_view choices;       ///< "grid|brick|single|file"
-    std::string_view doc;           ///< one sentence
+    std::string_view
+        default_text;          ///< TOML literal; "" when the key is required, "-" when optional
+    double low, high;          ///< inclusive range of each number, SI
+    std::size_t length;        ///< of a vector
+    std::string_view choices;  ///< "grid|brick|single|file"
+    std::string_view doc;      ///< one sentence
     void (*store)(Case&, FloeGroup&, const Value&);
 };
 

@@ -13,14 +13,22 @@ namespace {
 
 std::string kind_text(const Key& key) {
     switch (key.kind) {
-        case Kind::number: return "number";
-        case Kind::integer: return "integer";
-        case Kind::text: return "text";
-        case Kind::path: return "path";
-        case Kind::choice: return "one of " + std::string(key.choices);
-        case Kind::vector: return fmt::format("list of {} numbers", key.length);
-        case Kind::integer_list: return "list of integers";
-        case Kind::pair_list: return "list of [t, u]";
+        case Kind::number:
+            return "number";
+        case Kind::integer:
+            return "integer";
+        case Kind::text:
+            return "text";
+        case Kind::path:
+            return "path";
+        case Kind::choice:
+            return "one of " + std::string(key.choices);
+        case Kind::vector:
+            return fmt::format("list of {} numbers", key.length);
+        case Kind::integer_list:
+            return "list of integers";
+        case Kind::pair_list:
+            return "list of [t, u]";
     }
     return "";
 }
@@ -37,9 +45,11 @@ bool has_range(const Key& key) {
 
 std::string json_type(const Key& key) {
     switch (key.kind) {
-        case Kind::integer: return R"("type": "integer")";
+        case Kind::integer:
+            return R"("type": "integer")";
         case Kind::text:
-        case Kind::path: return R"("type": "string")";
+        case Kind::path:
+            return R"("type": "string")";
         case Kind::choice: {
             std::string list(key.choices);
             for (std::size_t at = 0; (at = list.find('|', at)) != std::string::npos; at += 4)
@@ -48,8 +58,10 @@ std::string json_type(const Key& key) {
         }
         case Kind::vector:
         case Kind::integer_list:
-        case Kind::pair_list: return R"("type": "array")";
-        case Kind::number: break;
+        case Kind::pair_list:
+            return R"("type": "array")";
+        case Kind::number:
+            break;
     }
     return R"("type": ["number", "string"])";  // a string carries a unit
 }
@@ -69,12 +81,12 @@ std::string explain_key(const std::string& path) {
                         near.empty() ? "icesolve --print-defaults lists all keys"
                                      : "did you mean '" + near + "'?");
     }
-    std::string out = fmt::format("{}\n  {}\n  {}, {}", key->path, key->doc, kind_text(*key),
-                                  default_note(*key));
+    std::string out =
+        fmt::format("{}\n  {}\n  {}, {}", key->path, key->doc, kind_text(*key), default_note(*key));
     if (has_range(*key)) out += fmt::format(", from {:g} to {:g}", key->low, key->high);
     if (key->dimension != Dimension::none)
-        out += fmt::format(", in {} (units: {})", si_unit(key->dimension),
-                           unit_names(key->dimension));
+        out +=
+            fmt::format(", in {} (units: {})", si_unit(key->dimension), unit_names(key->dimension));
     return out + "\n";
 }
 
@@ -100,8 +112,10 @@ std::string case_json_schema() {
         "  \"additionalProperties\": false,\n  \"properties\": {";
     std::string table, separator;
     const auto close_table = [&] {
-        if (table == "floes") out += "\n    } } }";
-        else if (!table.empty()) out += "\n    } }";
+        if (table == "floes")
+            out += "\n    } } }";
+        else if (!table.empty())
+            out += "\n    } }";
     };
     for (const Key& key : case_keys()) {
         const std::string now = table_of(key);

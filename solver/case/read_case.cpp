@@ -56,7 +56,8 @@ std::string toml_text(const Value& value, const Key& key) {
         std::string operator()(const std::vector<std::pair<double, double>>& v) const {
             std::string out = "[";
             for (const auto& [t, u] : v)
-                out += fmt::format("{}[{}, {}]", out.size() > 1 ? ", " : "", (*this)(t), (*this)(u));
+                out +=
+                    fmt::format("{}[{}, {}]", out.size() > 1 ? ", " : "", (*this)(t), (*this)(u));
             return out + "]";
         }
     };
@@ -122,6 +123,7 @@ private:
     void take(const Key& key, const std::string& label, FloeGroup& group) {
         auto given = values_.find(label);
         if (given == values_.end() && key.default_text == "-") return;
+        if (given == values_.end() && mistakes_.bad_keys.contains(label)) return;
         if (given == values_.end() && key.default_text.empty()) {
             complain(fmt::format("required key '{}' is missing ({})", label, key.doc));
             return;
@@ -153,21 +155,24 @@ private:
     void check_choices() {
         const bool speed = values_.contains("hull.speed");
         const bool table = values_.contains("hull.speed_table");
-        if (speed == table)
+        const bool bad = mistakes_.bad_keys.contains("hull.speed") ||
+                         mistakes_.bad_keys.contains("hull.speed_table");
+        if (speed == table && !bad)
             complain(speed ? "hull.speed and hull.speed_table are both given; keep one"
                            : "required key 'hull.speed' (or hull.speed_table) is missing");
         if (groups_ == 0) complain("no [[floes]] table: a run needs at least one group of floes");
         if (!values_.contains("output.average_from") && values_.contains("simulation.duration"))
-            values_["output.average_from"] =
-                std::get<double>(values_["simulation.duration"]) / 3.0;
+            values_["output.average_from"] = std::get<double>(values_["simulation.duration"]) / 3.0;
     }
 
     void check_case() {
         for (std::size_t g = 0; g < groups_; ++g) {
             FloeGroup& group = case_.floes[g];
             if (group.pattern == Pattern::file)
-                complain(fmt::format("floes.{}.pattern = \"file\" is not available in this version;"
-                                     " use grid, brick or single", g + 1));
+                complain(
+                    fmt::format("floes.{}.pattern = \"file\" is not available in this version;"
+                                " use grid, brick or single",
+                                g + 1));
             if (group.pattern == Pattern::single &&
                 !values_.contains(fmt::format("floes.{}.position", g)))
                 complain(fmt::format("floes.{}.position is missing: pattern \"single\" needs it",
@@ -231,8 +236,8 @@ Case read_case(const std::filesystem::path& file, const std::vector<std::string>
     if (!unreadable) result = Builder(file, std::move(values), groups, mistakes).build();
     if (mistakes.texts.empty()) return result;
 
-    std::string all = fmt::format("{} mistake{}", mistakes.texts.size(),
-                                  mistakes.texts.size() == 1 ? "" : "s");
+    std::string all =
+        fmt::format("{} mistake{}", mistakes.texts.size(), mistakes.texts.size() == 1 ? "" : "s");
     for (const std::string& text : mistakes.texts) all += "\n" + text;
     throw bad_input(file.string(), all, "icesolve --explain KEY tells what a key takes");
 }

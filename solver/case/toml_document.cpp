@@ -54,9 +54,9 @@ private:
             const std::string name(key.str());
             const std::string full = path.empty() ? name : path + "." + name;
             const std::string labelled = label.empty() ? name : label + "." + name;
-            const bool number = path == "floes" &&
-                                std::all_of(name.begin(), name.end(),
-                                            [](unsigned char c) { return std::isdigit(c); });
+            const bool number =
+                path == "floes" && std::all_of(name.begin(), name.end(),
+                                               [](unsigned char c) { return std::isdigit(c); });
             if (number && node.is_table()) {  // an override's floes.2.gap, numbered from 1
                 const auto group = std::to_string(std::max(std::atol(name.c_str()), 1l) - 1);
                 walk(*node.as_table(), path, label + "." + group, values, floe_groups);
@@ -81,9 +81,8 @@ private:
     }
 
     static bool is_table(const std::string& path) {
-        return std::any_of(case_keys().begin(), case_keys().end(), [&](const Key& key) {
-            return key.path.starts_with(path + ".");
-        });
+        return std::any_of(case_keys().begin(), case_keys().end(),
+                           [&](const Key& key) { return key.path.starts_with(path + "."); });
     }
 
     void read_key(const toml::key& name, const toml::node& node, const std::string& path,
@@ -99,19 +98,27 @@ private:
             return;
         }
         Value value;
-        if (read_value(*key, node, value)) values[label] = value;
+        if (read_value(*key, node, value))
+            values[label] = value;
+        else
+            mistakes_.bad_keys.insert(label);
     }
 
     bool read_value(const Key& key, const toml::node& node, Value& out) {
         switch (key.kind) {
-            case Kind::number: return read_number(key, node, out);
-            case Kind::integer: return read_integer(key, node, out);
+            case Kind::number:
+                return read_number(key, node, out);
+            case Kind::integer:
+                return read_integer(key, node, out);
             case Kind::text:
             case Kind::path:
-            case Kind::choice: return read_text(key, node, out);
+            case Kind::choice:
+                return read_text(key, node, out);
             case Kind::vector:
-            case Kind::integer_list: return read_list(key, node, out);
-            case Kind::pair_list: return read_pairs(key, node, out);
+            case Kind::integer_list:
+                return read_list(key, node, out);
+            case Kind::pair_list:
+                return read_pairs(key, node, out);
         }
         return false;
     }
@@ -122,11 +129,11 @@ private:
             const auto quantity = parse_quantity(*text, dimension);
             if (!quantity) {
                 const std::string units = unit_names(dimension);
-                complain(node.source(),
-                         fmt::format("{} = \"{}\" is not a number with a unit it can have ({})",
-                                     key.path, *text,
-                                     units.empty() ? "it has none" : "use " + units),
-                         text->size() + 2);
+                complain(
+                    node.source(),
+                    fmt::format("{} = \"{}\" is not a number with a unit it can have ({})",
+                                key.path, *text, units.empty() ? "it has none" : "use " + units),
+                    text->size() + 2);
                 return false;
             }
             out = quantity->value;
@@ -134,19 +141,18 @@ private:
             out = *number;
         } else {
             complain(node.source(),
-                     fmt::format("{} must be a number{}", key.path,
-                                 dimension == Dimension::none
-                                     ? ""
-                                     : " in " + std::string(si_unit(dimension)) +
-                                           " or a text with a unit"),
+                     fmt::format(
+                         "{} must be a number{}", key.path,
+                         dimension == Dimension::none
+                             ? ""
+                             : " in " + std::string(si_unit(dimension)) + " or a text with a unit"),
                      1);
             return false;
         }
         if (out >= key.low && out <= key.high) return true;
         complain(node.source(),
                  fmt::format("{} = {:g} is outside [{:g}, {:g}] {}", key.path, out, key.low,
-                             key.high,
-                             dimension == Dimension::none ? "" : si_unit(dimension)),
+                             key.high, dimension == Dimension::none ? "" : si_unit(dimension)),
                  1);
         return false;
     }
@@ -190,8 +196,8 @@ private:
         const auto* list = node.as_array();
         // a floe's position may leave out z
         const std::size_t least = key.path == "floes.position" ? 2 : key.length;
-        if (!list || (key.kind == Kind::vector &&
-                      (list->size() < least || list->size() > key.length))) {
+        if (!list ||
+            (key.kind == Kind::vector && (list->size() < least || list->size() > key.length))) {
             complain(node.source(),
                      key.kind == Kind::vector
                          ? fmt::format("{} must be a list of {} numbers", key.path, key.length)

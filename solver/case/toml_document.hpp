@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,7 @@ namespace ice {
 /// Mistakes found so far, each "file:line:column: error: ..." with the line and a caret under it.
 struct Mistakes {
     std::vector<std::string> texts;
+    std::set<std::string> bad_keys;  ///< keys given with a bad value: not missing as well
 };
 
 /// Values of the keys given, checked against the schema. Keys of [[floes]] carry the group's

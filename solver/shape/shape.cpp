@@ -2,7 +2,7 @@
 #include "solver/shape/shape.hpp"
 
 #include <algorithm>
-#include <limits>
+#include <cmath>
 
 #include "common/base/error.hpp"
 
@@ -59,7 +59,8 @@ void copy_surface_spheres(const SphereSet& set, const Vec3& origin, Shape& shape
         shape.center.push_back(set.centers[k] - origin);
         shape.radius.push_back(set.radii[k]);
         shape.normal.push_back(set.normals[k]);
-        shape.spread.push_back(set.normal_spread[k]);
+        shape.spread_cos.push_back(std::cos(set.normal_spread[k]));
+        shape.spread_sin.push_back(std::sin(set.normal_spread[k]));
         shape.area.push_back(set.areas[k]);
         shape.region.push_back(set.regions[k]);
         shape.largest_radius = std::max(shape.largest_radius, set.radii[k]);
@@ -109,8 +110,7 @@ Shape build_shape(const SphereSet& set, bool about_centre_of_mass) {
         shape.box.min().y() = -shape.largest_radius;
         shape.box.max().y() = shape.largest_radius;
     }
-    shape.bounding_radius =
-        shape.box.min().cwiseAbs().cwiseMax(shape.box.max().cwiseAbs()).norm();
+    shape.bounding_radius = shape.box.min().cwiseAbs().cwiseMax(shape.box.max().cwiseAbs()).norm();
     shape.grid = SphereGrid(shape.center, 2.0 * shape.largest_radius);
     shape.reach = measure_reach(shape, set.spacing);
     build_panels(shape);

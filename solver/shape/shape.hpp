@@ -27,19 +27,20 @@ struct Shape {
     std::vector<Vec3> center;          ///< [m]
     std::vector<double> radius;        ///< [m]
     std::vector<Vec3> normal;          ///< outward, unit
-    std::vector<double> spread;        ///< half-angle of the surface normals met there [rad]
+    std::vector<double> spread_cos;    ///< of the half-angle between `normal` and the surface
+    std::vector<double> spread_sin;    ///<   normals met there: 1 and 0 on a face
     std::vector<double> area;          ///< share of the surface [m2]
     std::vector<std::int32_t> region;  ///< row of region_names
     std::vector<std::string> region_names;
-    SphereGrid grid;                   ///< of `center`
-    double largest_radius = 0.0;       ///< [m]
-    double reach = 0.0;                ///< how far from its centre a sphere stands for the surface [m]
+    SphereGrid grid;              ///< of `center`
+    double largest_radius = 0.0;  ///< [m]
+    double reach = 0.0;           ///< how far from its centre a sphere stands for the surface [m]
 
-    TriangleMesh mesh;                 ///< closed, body axes
-    std::vector<Panel> panels;         ///< the mesh in pieces, for drag
-    MassProperties solid;              ///< unit density; centroid in body axes (floes: zero)
-    Eigen::AlignedBox3d box;           ///< of mesh and spheres
-    double bounding_radius = 0.0;      ///< about the body origin [m]
+    TriangleMesh mesh;             ///< closed, body axes
+    std::vector<Panel> panels;     ///< the mesh in pieces, for drag
+    MassProperties solid;          ///< unit density; centroid in body axes (floes: zero)
+    Eigen::AlignedBox3d box;       ///< of mesh and spheres
+    double bounding_radius = 0.0;  ///< about the body origin [m]
 };
 
 /// Makes the shape of a floe (axes moved to the centre of mass) or of the hull (axes kept).

@@ -10,8 +10,8 @@ namespace ice {
 
 /// The part of a body below z = 0.
 struct Submerged {
-    double volume = 0.0;          ///< [m3], 2D per metre of breadth
-    Vec3 centre = Vec3::Zero();   ///< of that volume, relative to the body origin, world axes [m]
+    double volume = 0.0;         ///< [m3], 2D per metre of breadth
+    Vec3 centre = Vec3::Zero();  ///< of that volume, relative to the body origin, world axes [m]
 };
 
 /// Submerged volume and its centre, exactly.

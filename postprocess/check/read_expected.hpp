@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// `expected.toml`: which numbers of a run's summary should be how large, and why. toml++ only here.
+///
+///     [[expect]]
+///     key = "resistance.mean_N"   # dotted key of summary.json
+///     value = 1400.0              # with abs and/or rel; or min and/or max instead
+///     rel = 0.25
+///     why = "Lindqvist's submersion part, which knows no jam"
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace ice::check {
+
+/// One [[expect]] entry. Either `value`, or `min` and/or `max`.
+struct Expectation {
+    std::string key, why;
+    std::optional<double> value, min, max;
+    double abs = 0.0, rel = 0.0;  ///< allowed |difference| <= max(abs, rel * |value|)
+    int line = 0, column = 0;     ///< of the key in the file, from 1
+};
+
+/// Reads and checks the file.
+///
+/// @throws Error (exit code 2) with file:line:column for TOML errors, unknown names (with the
+///         nearest known one), wrong types, negative tolerances, entries without a bound.
+std::vector<Expectation> read_expected(const std::filesystem::path& path);
+
+}  // namespace ice::check

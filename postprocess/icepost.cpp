@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// icepost: a run folder -> report, pictures, ParaView files, or a verdict on its numbers.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "common/base/error.hpp"
+#include "common/base/part_file.hpp"
+#include "common/base/version.hpp"
+#include "common/cli/console.hpp"
+#include "postprocess/check/check_run.hpp"
+#include "postprocess/paraview/write_paraview.hpp"
+#include "postprocess/report/pictures.hpp"
+#include "postprocess/report/write_report.hpp"
+
+namespace {
+
+struct Options {
+    std::filesystem::path run, out, expected, junit;
+    std::size_t every = 1;
+    double time = 0.0;
+    std::string from = "below";
+    bool quiet = false;
+};
+
+int report(const Options& o) {
+    const auto run = ice::read::read_run_folder(o.run);
+    const auto file = o.out.empty() ? run.path / "report.html" : o.out;
+    ice::report::write_report(run, file);
+    ice::say(fmt::format("wrote {}", file.string()));
+    return 0;
+}
+
+int view(const Options& o) {
+    const auto run = ice::read::read_run_folder(o.run);
+    ice::write_text_file(
+        o.out, ice::report::draw_view(run.data, *ice::views::parse_view(o.from), o.time));
+    ice::say(fmt::format("wrote {}", o.out.string()));
+    return 0;
+}
+
+int paraview(const Options& o) {
+    const auto run = ice::read::read_run_folder(o.run);
+    const auto folder = o.out.empty() ? run.path / "paraview" : o.out;
+    const std::size_t count = ice::paraview::write_paraview(run.data, folder, o.every);
+    ice::say(fmt::format("wrote {} frames: open {}", count, (folder / "run.pvd").string()));
+    return 0;
+}
+
+int check(const Options& o) {
+    const auto expected = ice::check::read_expected(o.expected);
+    const auto numbers = ice::read_json_numbers(ice::read::find_summary(o.run));
+    const auto verdicts = ice::check::check_numbers(numbers, expected, o.expected);
+    fmt::print("{}", ice::check::verdict_table(verdicts));
+    if (!o.junit.empty())
+        ice::write_text_file(o.junit, ice::check::junit_text(verdicts, o.run.string()));
+    return ice::check::all_passed(verdicts) ? 0 : static_cast<int>(ice::ExitCode::failed);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    Options o;
+    CLI::App app{"icepost: reports, pictures and checks of icesolve's run folders"};
+    app.set_version_flag("--version", fmt::format("{} ({})", ice::version(), ice::git_commit()));
+    app.footer("Exit codes: 0 ok, 1 the check failed or a file cannot be written, 2 bad input.");
+    app.require_subcommand(1);
+    app.add_flag("-q,--quiet", o.quiet, "only errors");
+    const auto command = [&](const char* name, const char* text) {
+        auto* sub = app.add_subcommand(name, text)->fallthrough();
+        sub->add_option("RUN", o.run, "run folder made by icesolve")->required();
+        return sub;
+    };
+    auto* make_report = command("report", "write RUN/report.html, one file that opens anywhere");
+    make_report->add_option("-o,--out", o.out, "another file");
+    auto* draw = command("view", "draw hull and ice at one instant as SVG");
+    draw->add_option("--time", o.time, "the frame nearest to this time [s]")->required();
+    draw->add_option("--from", o.from, "below, top, side, front or quarter")
+        ->check(CLI::IsMember({"below", "top", "side", "front", "quarter"}));
+    draw->add_option("-o,--out", o.out, "the SVG file")->required();
+    auto* export_files = command("paraview", "write PVD and VTP files for ParaView");
+    export_files->add_option("-o,--out", o.out, "folder (default RUN/paraview)");
+    export_files->add_option("--every", o.every, "keep each N-th frame")->check(CLI::Range(1, 1000000));
+    auto* compare = command("check", "compare summary.json with expected numbers");
+    compare->add_option("EXPECTED", o.expected, "TOML file with [[expect]] entries")->required();
+    compare->add_option("--junit", o.junit, "also write the verdicts as JUnit XML");
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? 0 : static_cast<int>(ice::ExitCode::bad_input);
+    }
+    ice::start_messages(ice::Colour::automatic, o.quiet);
+    return ice::run_program("icepost", [&] {
+        if (make_report->parsed()) return report(o);
+        if (draw->parsed()) return view(o);
+        return export_files->parsed() ? paraview(o) : check(o);
+    });
+}

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "postprocess/read/run_folder.hpp"
+
+#include "common/base/error.hpp"
+
+namespace ice::read {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kRemedy = "give the folder that icesolve wrote, e.g. results/channel";
+
+fs::path folder_of(const fs::path& path) {
+    if (!fs::exists(path)) throw bad_input(path.string(), "run folder not found", kRemedy);
+    if (fs::is_directory(path)) return path;
+    return path.has_parent_path() ? path.parent_path() : fs::path(".");
+}
+
+}  // namespace
+
+RunFolder read_run_folder(const fs::path& path) {
+    RunFolder run;
+    run.path = folder_of(path);
+    const fs::path whole = run.path / "run.h5", part = run.path / "run.h5.part";
+    if (!fs::exists(whole) && !fs::exists(part))
+        throw bad_input(run.path.string(), "holds no run.h5", kRemedy);
+    run.data = read_run(fs::exists(whole) ? whole : part);
+    if (fs::exists(run.path / "summary.json"))
+        run.summary = read_summary(run.path / "summary.json");
+    return run;
+}
+
+fs::path find_summary(const fs::path& path) {
+    if (!fs::exists(path)) throw bad_input(path.string(), "run folder not found", kRemedy);
+    const fs::path file = fs::is_directory(path) ? path / "summary.json" : path;
+    if (!fs::exists(file))
+        throw bad_input(path.string(), "holds no summary.json: the run did not end", kRemedy);
+    return file;
+}
+
+}  // namespace ice::read

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "common/base/error.hpp"
+#include "postprocess/report/page.hpp"
+#include "postprocess/report/pictures.hpp"
+#include "postprocess/views/chart.hpp"
+
+namespace ice::report {
+
+using views::SceneView;
+using views::ViewFrom;
+
+namespace {
+
+std::size_t nearest_frame(const RunData& run, double time) {
+    const auto nearest = std::min_element(
+        run.frames.begin(), run.frames.end(), [&](const RunFrame& a, const RunFrame& b) {
+            return std::abs(a.time - time) < std::abs(b.time - time);
+        });
+    return static_cast<std::size_t>(nearest - run.frames.begin());
+}
+
+// evenly spaced up to the end; the first moments, when nothing is touched yet, are left out
+std::vector<std::size_t> choose_frames(const RunData& run, std::size_t count) {
+    std::vector<std::size_t> chosen;
+    const double end = run.frames.back().time;
+    for (std::size_t k = 1; k <= count; ++k) {
+        const std::size_t frame =
+            nearest_frame(run, end * static_cast<double>(k) / static_cast<double>(count));
+        if (chosen.empty() || chosen.back() != frame) chosen.push_back(frame);
+    }
+    return chosen;
+}
+
+}  // namespace
+
+views::ViewOptions view_options(const RunData& run) {
+    views::ViewOptions options;
+    if (run.frames.empty() || run.header.shapes.empty()) return options;
+    double length = 10.0, hull_half = 0.0, field_half = 0.0;
+    Eigen::AlignedBox3d hull;
+    for (const Vec3& v : run.header.shapes[0].mesh.vertices) hull.extend(v);
+    if (!hull.isEmpty()) {
+        length = hull.sizes().x();
+        hull_half = std::max(std::abs(hull.min().y()), std::abs(hull.max().y()));
+    }
+    const RunFrame& first = run.frames.front();
+    for (std::size_t b = 0; b < first.position.size(); ++b) {
+        double radius = 0.0;
+        const auto shape = static_cast<std::size_t>(run.header.body_shape[b]);
+        for (const Vec3& v : run.header.shapes[shape].mesh.vertices)
+            radius = std::max(radius, std::abs(v.y()));
+        field_half = std::max(
+            field_half, std::abs(first.position[b].y() - first.ship_position.y()) + radius);
+    }
+    options.half_breadth = std::max(1.3 * hull_half, std::min(field_half, 0.4 * length));
+    options.waterline = -first.ship_position.z();
+    return options;
+}
+
+std::vector<views::Trail> make_trails(const RunData& run) {
+    static const std::vector<std::string> colors{views::kPurple, views::kGreen, views::kBlack,
+                                                 views::kBlue, views::kOrange};
+    std::vector<views::Trail> trails;
+    for (std::size_t k = 0; k < run.tracks.size(); ++k) {
+        views::Trail trail;
+        trail.floe = run.header.tracked[k];
+        trail.color = colors[k % colors.size()];
+        const std::size_t count = run.tracks[k].size(), stride = count / 1000 + 1;
+        for (std::size_t s = 0; s < count; s += stride) {
+            trail.time.push_back(run.tracks[k][s].time);
+            trail.offset.emplace_back(run.tracks[k][s].position - run.history[s].ship_position);
+        }
+        trails.push_back(std::move(trail));
+    }
+    return trails;
+}
+
+std::string draw_view(const RunData& run, ViewFrom from, double time) {
+    if (run.frames.empty())
+        throw bad_input(run.header.title, "the run has no frames to draw",
+                        "set output.frames_every in the case and run it again");
+    views::ViewOptions options = view_options(run);
+    options.legend = true;
+    options.width = 900.0;
+    return SceneView(run.header, from, options)
+        .draw(run.frames[nearest_frame(run, time)], make_trails(run));
+}
+
+std::string scene_section(const RunData& run, std::size_t budget) {
+    if (run.frames.empty()) return "";
+    const bool flat = run.header.dimension == 2;
+    const auto instants = choose_frames(run, flat ? 6 : 4);
+    const auto trails = make_trails(run);
+    // the most telling views first: they are the last to be dropped
+    const std::vector<ViewFrom> sides =
+        flat ? std::vector<ViewFrom>{ViewFrom::side}
+             : std::vector<ViewFrom>{ViewFrom::below, ViewFrom::side, ViewFrom::top, ViewFrom::front};
+    std::vector<std::vector<std::string>> pictures(instants.size());
+    std::string hulls;
+    std::size_t used = 0, dropped = 0;
+    for (std::size_t v = 0; v < sides.size(); ++v) {
+        views::ViewOptions options = view_options(run);
+        options.hull_id = fmt::format("hull-{}", v);
+        const SceneView view(run.header, sides[v], options);
+        hulls += view.define_hull();
+        for (std::size_t k = 0; k < instants.size(); ++k) {
+            std::string picture = view.draw(run.frames[instants[k]], trails);
+            if (used + picture.size() > budget) {
+                ++dropped;
+                continue;
+            }
+            used += picture.size();
+            pictures[k].push_back(std::move(picture));
+        }
+    }
+    std::string body = hulls + "<div class=\"legend\">" + views::draw_legend(640.0) + "</div>\n";
+    if (flat) {
+        std::vector<std::string> all;
+        for (auto& group : pictures) all.insert(all.end(), group.begin(), group.end());
+        body += figures(all);
+    } else {
+        for (std::size_t k = 0; k < instants.size(); ++k)
+            if (!pictures[k].empty())
+                body += fmt::format("<h3>t = {:.2f} s</h3>\n", run.frames[instants[k]].time) +
+                        figures(pictures[k]);
+    }
+    if (dropped > 0)
+        body += fmt::format(
+            "<p>{} more views would make this page too large; draw them with icepost view.</p>\n",
+            dropped);
+    return section("views", "Hull and ice",
+                   "The picture moves with the ship. Paths are those of tracked floes as seen from the "
+                   "ship; the dashed line is calm water.",
+                   body);
+}
+
+}  // namespace ice::report

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "postprocess/report/tables.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "postprocess/report/page.hpp"
+#include "postprocess/views/svg.hpp"
+
+namespace ice::report {
+
+using views::escape;
+using views::readable;
+
+namespace {
+
+double size_of(double value) { return std::isfinite(value) ? std::abs(value) : 0.0; }
+
+double largest_of(const ForceStatistics& f) {
+    return std::max({size_of(f.mean), size_of(f.contact_mean), size_of(f.friction_mean),
+                     size_of(f.std)});
+}
+
+std::string with_interval(const ForceUnit& unit, const ForceStatistics& force) {
+    return unit.text(force.mean) + " \u00b1 " + unit.text(force.ci95);
+}
+
+std::string card(const std::string& value, const std::string& name) {
+    return "<div class=\"card\"><b>" + escape(value) + "</b><span>" + escape(name) +
+           "</span></div>\n";
+}
+
+std::string spelled(std::string key) {
+    if (key.size() > 2 && key.ends_with("_J")) key.resize(key.size() - 2);
+    std::replace(key.begin(), key.end(), '_', ' ');
+    return key;
+}
+
+}  // namespace
+
+std::string ForceUnit::text(double force) const { return readable(force / newtons); }
+
+ForceUnit choose_unit(double largest, int dimension) {
+    const std::string per = dimension == 2 ? "/m" : "";
+    const double size = size_of(largest);
+    if (size >= 1e7) return {"MN" + per, 1e6};
+    if (size >= 1e4) return {"kN" + per, 1e3};
+    return {"N" + per, 1.0};
+}
+
+std::string key_numbers(const Summary& s) {
+    const ForceUnit unit = choose_unit(s.resistance.mean, s.dimension);
+    std::string out = "<div class=\"cards\">\n";
+    out += card(with_interval(unit, s.resistance) + " " + unit.name, "mean ice resistance, 95 %");
+    if (s.lindqvist_submersion)
+        out += card(unit.text(*s.lindqvist_submersion) + " " + unit.name,
+                    "Lindqvist (1989), submersion part");
+    out += card(fmt::format("{} / {}", s.floes_moved, s.floes_total), "floes moved / in all");
+    out += card(readable(s.simulated_s) + " s", "simulated");
+    out += card(readable(s.simulated_s / s.wall_s) + " \u00d7", "real time");
+    return out + "</div>\n";
+}
+
+std::string force_table(const Summary& s) {
+    const ForceUnit unit = choose_unit(
+        std::max({largest_of(s.resistance), largest_of(s.lateral), largest_of(s.vertical)}),
+        s.dimension);
+    const auto row = [&](const std::string& name, const ForceStatistics& f) {
+        return std::vector<std::string>{name,
+                                        with_interval(unit, f),
+                                        unit.text(f.contact_mean),
+                                        unit.text(f.friction_mean),
+                                        unit.text(f.std),
+                                        unit.text(f.max)};
+    };
+    std::vector<std::vector<std::string>> rows{row("Resistance (\u2212x)", s.resistance)};
+    if (s.lindqvist_submersion)
+        rows.push_back({"  Lindqvist (1989), submersion part only",
+                        unit.text(*s.lindqvist_submersion), "", "", "", ""});
+    if (s.dimension == 3) rows.push_back(row("Lateral (y, to port)", s.lateral));
+    rows.push_back(row("Vertical (z, up)", s.vertical));
+    return table({"Component [" + unit.name + "]", "Mean \u00b1 95 %", "Contact", "Friction",
+                  "Std. deviation", "Largest"},
+                 rows);
+}
+
+std::string region_table(const Summary& s) {
+    if (s.regions.empty()) return "";
+    double largest = 0.0;
+    for (const auto& [name, region] : s.regions)
+        for (const double v : region.mean) largest = std::max(largest, size_of(v));
+    const ForceUnit unit = choose_unit(largest, s.dimension);
+    const std::string impulse = s.dimension == 2 ? "Largest impulse [N s/m]" : "Largest impulse [N s]";
+    std::vector<std::vector<std::string>> rows;
+    for (const auto& [name, r] : s.regions)
+        rows.push_back({name, std::to_string(r.hits), readable(r.max_impulse), unit.text(r.mean[0]),
+                        unit.text(r.mean[1]), unit.text(r.mean[2])});
+    return table({"Region", "Hits", impulse, "Mean x [" + unit.name + "]",
+                  "Mean y [" + unit.name + "]", "Mean z [" + unit.name + "]"},
+                 rows);
+}
+
+std::string numerics_table(const Summary& s) {
+    std::vector<std::pair<std::string, std::string>> rows{
+        {"Contacts with an impulse", "mean " + readable(s.contacts_mean) + ", largest " +
+                                         readable(s.contacts_max) + " per step"},
+        {"Deepest overlap", readable(1000.0 * s.max_overlap) + " mm"},
+        {"Steps that did not converge", fmt::format("{} of {}", s.unconverged_steps, s.steps)},
+        {"Spheres", fmt::format("{} hull, {} ice", s.hull_spheres, s.ice_spheres)}};
+    for (const auto& [key, value] : s.energy)
+        rows.emplace_back("Energy: " + spelled(key),
+                          readable(value) + (s.dimension == 2 ? " J/m" : " J"));
+    for (const auto& [key, value] : s.stage_seconds)
+        rows.emplace_back("Computing time: " + spelled(key), readable(value) + " s");
+    return facts(rows);
+}
+
+std::string warning_list(const std::vector<std::string>& warnings) {
+    if (warnings.empty()) return "";
+    std::string out = "<section id=\"warnings\" class=\"warnings\">\n<b>Warnings of the run</b>\n<ul>\n";
+    for (const std::string& text : warnings) out += "<li>" + escape(text) + "</li>\n";
+    return out + "</ul>\n</section>\n";
+}
+
+}  // namespace ice::report

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include "postprocess/read/run_folder.hpp"
+
+namespace ice::report {
+
+/// Unit in which a group of forces reads best.
+struct ForceUnit {
+    std::string name;      ///< "N", "kN", "MN"; in 2D "N/m", ...
+    double newtons = 1.0;  ///< one unit in newtons
+    std::string text(double force) const;  ///< number in this unit, without the unit's name
+};
+
+/// @param largest magnitude the unit is chosen for [N]; NaN counts as 0
+ForceUnit choose_unit(double largest, int dimension);
+
+/// The key numbers as cards: resistance, Lindqvist, speed-up, floes.
+std::string key_numbers(const Summary& summary);
+/// Mean with its interval, parts, scatter and maximum of the three components, and Lindqvist.
+std::string force_table(const Summary& summary);
+/// One row per region of the hull; "" when there are none.
+std::string region_table(const Summary& summary);
+/// Contacts, overlap, energy: whether the numbers can be trusted.
+std::string numerics_table(const Summary& summary);
+/// The warnings as a list; "" when there are none.
+std::string warning_list(const std::vector<std::string>& warnings);
+
+}  // namespace ice::report

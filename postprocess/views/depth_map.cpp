@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "postprocess/views/depth_map.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace ice::views {
+
+namespace {
+
+constexpr double kNothing = -std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+DepthMap::DepthMap(const TriangleMesh& mesh, const Projection& projection, int columns) {
+    if (mesh.triangles.empty()) return;
+    Eigen::AlignedBox3d box;
+    for (const Vec3& v : mesh.vertices) box.extend(projection.apply(v));
+    cell_ = std::max(box.sizes().x(), box.sizes().y()) / columns;
+    if (!(cell_ > 0.0)) return;
+    right0_ = box.min().x();
+    up0_ = box.min().y();
+    columns_ = static_cast<int>(box.sizes().x() / cell_) + 1;
+    rows_ = static_cast<int>(box.sizes().y() / cell_) + 1;
+    nearest_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), kNothing);
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+        draw(projection.apply(mesh.corner(t, 0)), projection.apply(mesh.corner(t, 1)),
+             projection.apply(mesh.corner(t, 2)));
+}
+
+void DepthMap::draw(const Vec3& a, const Vec3& b, const Vec3& c) {
+    const double area = (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
+    if (area == 0.0) return;
+    const auto column = [&](double right) { return static_cast<int>((right - right0_) / cell_); };
+    const auto row = [&](double up) { return static_cast<int>((up - up0_) / cell_); };
+    const int first = std::max(0, column(std::min({a.x(), b.x(), c.x()})));
+    const int last = std::min(columns_ - 1, column(std::max({a.x(), b.x(), c.x()})));
+    const int bottom = std::max(0, row(std::min({a.y(), b.y(), c.y()})));
+    const int top = std::min(rows_ - 1, row(std::max({a.y(), b.y(), c.y()})));
+    for (int r = bottom; r <= top; ++r)
+        for (int k = first; k <= last; ++k) {
+            const double x = right0_ + (k + 0.5) * cell_, y = up0_ + (r + 0.5) * cell_;
+            // barycentric coordinates; the sign of the area cancels
+            const double wb = ((x - a.x()) * (c.y() - a.y()) - (y - a.y()) * (c.x() - a.x())) / area;
+            const double wc = ((b.x() - a.x()) * (y - a.y()) - (b.y() - a.y()) * (x - a.x())) / area;
+            if (wb < 0.0 || wc < 0.0 || wb + wc > 1.0) continue;
+            double& cell = nearest_[static_cast<std::size_t>(r * columns_ + k)];
+            cell = std::max(cell, a.z() + wb * (b.z() - a.z()) + wc * (c.z() - a.z()));
+        }
+}
+
+double DepthMap::nearness(double right, double up) const {
+    if (columns_ == 0 || right < right0_ || up < up0_) return kNothing;
+    const double k = (right - right0_) / cell_, r = (up - up0_) / cell_;
+    if (k >= columns_ || r >= rows_) return kNothing;
+    return nearest_[static_cast<std::size_t>(static_cast<int>(r) * columns_ + static_cast<int>(k))];
+}
+
+}  // namespace ice::views

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Meshes prepared for drawing: fewer, larger polygons.
+#pragma once
+
+#include <vector>
+
+#include "common/geometry/triangle_mesh.hpp"
+
+namespace ice::views {
+
+/// A flat polygon, counter-clockwise seen from outside.
+struct Face {
+    std::vector<Vec3> corners;  ///< [m]
+    Vec3 normal;                ///< outward, unit
+    Vec3 center() const;        ///< mean of the corners
+};
+
+/// Merges neighbouring triangles whose normals agree within 0.5 degrees into polygons.
+///
+/// Where merged triangles surround a hole they stay triangles. Degenerate triangles vanish.
+std::vector<Face> make_faces(const TriangleMesh& mesh);
+
+/// A mesh cut by the plane z = `level`, corners on the plane shared by both parts.
+struct CutMesh {
+    TriangleMesh below, above;
+    std::vector<std::pair<Vec3, Vec3>> section;  ///< pieces of the line where the plane cuts [m]
+};
+CutMesh cut_mesh(const TriangleMesh& mesh, double level);
+
+/// Merges vertices that lie in one cell of a grid; triangles that collapse vanish. For pictures
+/// only: volume and closedness are not kept. Meshes of up to `most` triangles come back unchanged.
+TriangleMesh simplify_mesh(const TriangleMesh& mesh, std::size_t most);
+
+}  // namespace ice::views

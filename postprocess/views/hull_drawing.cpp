@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "postprocess/views/hull_drawing.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace ice::views {
+
+namespace {
+
+const Eigen::Vector3i kUnderWater(186, 84, 62), kAboveWater(112, 124, 136);
+constexpr std::size_t kMostTriangles = 3000;  // a picture of 560 px shows no more
+constexpr std::size_t kEdgesShown = 400;      // beyond, edges of the faces would only blacken
+
+struct Painted {
+    const Face* face;
+    std::string color;
+    double nearness;
+};
+
+std::vector<Painted> visible_faces(const std::vector<Face>& faces, const Eigen::Vector3i& color,
+                                   const Projection& projection) {
+    std::vector<Painted> painted;
+    for (const Face& face : faces)
+        if (face.normal.dot(projection.toward) > 1e-6)
+            painted.push_back({&face, shade(color, brightness(face.normal, projection)),
+                               projection.apply(face.center()).z()});
+    return painted;
+}
+
+std::string outline(const std::vector<Vec3>& corners, const Projection& projection,
+                    const PageScale& scale) {
+    std::vector<Vec2> points;
+    for (const Vec3& c : corners) {
+        const Vec3 p = projection.apply(c);
+        points.push_back(scale.pixel(p.x(), p.y()));
+    }
+    return path_data(points, true);
+}
+
+// edges between a face that looks at the viewer and one that does not
+std::string silhouette(const TriangleMesh& mesh, const Projection& projection,
+                       const PageScale& scale) {
+    std::map<std::pair<std::int32_t, std::int32_t>, int> edges;  // +1 facing, -1 not
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const bool facing = mesh.area_vector(t).dot(projection.toward) > 1e-9;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::int32_t a = mesh.triangles[t][k], b = mesh.triangles[t][(k + 1) % 3];
+            edges[{std::min(a, b), std::max(a, b)}] += facing ? 1 : 0;
+        }
+    }
+    std::string data;
+    for (const auto& [edge, facing] : edges) {
+        if (facing != 1) continue;
+        std::vector<Vec2> points;
+        for (const std::int32_t v : {edge.first, edge.second}) {
+            const Vec3 p = projection.apply(mesh.vertices[static_cast<std::size_t>(v)]);
+            points.push_back(scale.pixel(p.x(), p.y()));
+        }
+        data += path_data(points, false);
+    }
+    return data;
+}
+
+}  // namespace
+
+double brightness(const Vec3& normal, const Projection& projection) {
+    const Vec3 light =
+        (projection.toward - 0.45 * projection.right + 0.6 * projection.up).normalized();
+    const double value = 0.62 + 0.46 * std::max(0.0, normal.dot(light));
+    return std::round(value * 40.0) / 40.0;
+}
+
+std::string draw_hull(const TriangleMesh& mesh, const Projection& projection,
+                      const PageScale& scale, double waterline) {
+    const TriangleMesh simple = simplify_mesh(mesh, kMostTriangles);
+    const CutMesh cut = cut_mesh(simple, waterline);
+    const auto below = make_faces(cut.below), above = make_faces(cut.above);
+    auto painted = visible_faces(below, kUnderWater, projection);
+    const auto dry = visible_faces(above, kAboveWater, projection);
+    painted.insert(painted.end(), dry.begin(), dry.end());
+    std::stable_sort(painted.begin(), painted.end(),
+                     [](const Painted& a, const Painted& b) { return a.nearness < b.nearness; });
+
+    const bool edges = painted.size() <= kEdgesShown;
+    std::string out = edges ? "<g stroke=\"#3d2a24\" stroke-opacity=\"0.45\" stroke-width=\"0.6\" "
+                              "stroke-linejoin=\"round\">\n"
+                            : "<g stroke-width=\"0.6\" stroke-linejoin=\"round\">\n";
+    for (std::size_t k = 0; k < painted.size();) {
+        // neighbours in depth of equal colour share an element
+        std::string data;
+        const std::string color = painted[k].color;
+        for (; k < painted.size() && painted[k].color == color; ++k)
+            data += outline(painted[k].face->corners, projection, scale);
+        out += fmt::format("<path d=\"{}\" fill=\"{}\"{}/>\n", data, color,
+                           edges ? "" : " stroke=\"" + color + "\"");
+    }
+    out += "</g>\n";
+    out += fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"#222\" stroke-width=\"1.6\" "
+                       "stroke-linecap=\"round\"/>\n",
+                       silhouette(simple, projection, scale));
+    if (std::abs(projection.toward.z()) > 0.9) {
+        std::string data;
+        for (const auto& [a, b] : cut.section) {
+            const Vec3 p = projection.apply(a), q = projection.apply(b);
+            data += path_data({scale.pixel(p.x(), p.y()), scale.pixel(q.x(), q.y())}, false);
+        }
+        out += fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"#0b3c5d\" stroke-width=\"1.2\" "
+                           "stroke-dasharray=\"5 3\"/>\n",
+                           data);
+    }
+    return out;
+}
+
+}  // namespace ice::views

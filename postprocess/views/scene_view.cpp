@@ -1,0 +1,324 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "postprocess/views/scene_view.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "postprocess/views/axis.hpp"
+#include "postprocess/views/chart.hpp"
+#include "postprocess/views/depth_map.hpp"
+#include "postprocess/views/hull_drawing.hpp"
+
+namespace ice::views {
+
+namespace {
+
+struct StateStyle {
+    Eigen::Vector3i color;
+    const char* meaning;
+};
+
+const StateStyle& style_of(FloeState state) {
+    static const StateStyle held{{222, 230, 236}, "held"}, moving{{133, 191, 232}, "moving"},
+        behind{{243, 205, 130}, "behind the ship"};
+    return state == FloeState::held ? held : state == FloeState::moving ? moving : behind;
+}
+
+constexpr double kLeft = 52.0, kRight = 10.0, kTop = 26.0, kBottom = 40.0;  // margins [px]
+
+// what is shown, in metres on the page, relative to the ship
+struct Window {
+    double left, right, bottom, top;
+};
+
+Window choose_window(const Eigen::AlignedBox3d& hull, ViewFrom from, const ViewOptions& options,
+                     double floe_size, bool flat) {
+    const double length = std::max(hull.sizes().x(), 1e-3);
+    const double side = options.half_breadth > 0.0 ? options.half_breadth : 0.45 * length;
+    const double aft = hull.min().x() - 0.3 * length, ahead = hull.max().x() + 0.4 * length;
+    const double deep = hull.min().z() - std::max(0.06 * length, 1.1 * floe_size);
+    const double high = std::max(hull.max().z(), options.waterline) + (flat ? 0.05 : 0.03) * length;
+    switch (from) {
+        case ViewFrom::below:
+        case ViewFrom::top: return {aft, ahead, -side, side};
+        case ViewFrom::side: return {aft, ahead, deep, high};
+        case ViewFrom::front: return {-side, side, deep, high};
+        case ViewFrom::quarter: break;
+    }
+    const Projection p = projection_of(from);
+    const Eigen::AlignedBox3d shown(Vec3(hull.min().x() - 0.1 * length, -0.8 * side, hull.min().z()),
+                                    Vec3(hull.max().x() + 0.3 * length, 0.8 * side, hull.max().z()));
+    Eigen::AlignedBox3d page;
+    for (int k = 0; k < 8; ++k)
+        page.extend(p.apply(shown.corner(static_cast<Eigen::AlignedBox3d::CornerType>(k))));
+    return {page.min().x(), page.max().x(), page.min().y(), page.max().y()};
+}
+
+// One floe to paint.
+struct Item {
+    std::size_t body;
+    double nearness;
+    bool before_hull;
+};
+
+}  // namespace
+
+struct SceneView::Parts {
+    ViewFrom from;
+    ViewOptions options;
+    Projection projection;
+    Window window{};
+    PageScale scale;
+    double width = 0.0, height = 0.0;  // of the plot area [px]
+    std::vector<std::vector<Face>> faces;  // per shape, body axes
+    std::vector<double> radius;            // of each shape about its origin [m]
+    std::vector<std::int32_t> body_shape;
+    Eigen::AlignedBox3d hull_box;
+    std::unique_ptr<DepthMap> depth;
+    std::string hull;
+
+    double nearness_to_hull(const Face& face, const Vec3& at, const Mat3& turn) const;
+    std::vector<Item> sort_floes(const RunFrame& frame) const;
+    std::string draw_floe(std::size_t body, const RunFrame& frame, bool outlined) const;
+    std::string draw_floes(const RunFrame& frame, const std::vector<Trail>& trails) const;
+    std::string draw_trails(const RunFrame& frame, const std::vector<Trail>& trails) const;
+    std::string draw_frame_axes(const RunFrame& frame) const;
+    std::string draw_water() const;
+    Vec2 place(const Vec3& offset) const {
+        const Vec3 p = projection.apply(offset);
+        return scale.pixel(p.x(), p.y());
+    }
+};
+
+SceneView::SceneView(const RunHeader& header, ViewFrom from, const ViewOptions& options)
+    : parts_(std::make_unique<Parts>()) {
+    Parts& s = *parts_;
+    s.from = from;
+    s.options = options;
+    s.projection = projection_of(from);
+    s.body_shape = header.body_shape;
+    double floe_size = 0.0;
+    for (std::size_t k = 0; k < header.shapes.size(); ++k) {
+        const TriangleMesh& mesh = header.shapes[k].mesh;
+        s.faces.push_back(k == 0 ? std::vector<Face>{} : make_faces(simplify_mesh(mesh, 400)));
+        double radius = 0.0;
+        for (const Vec3& v : mesh.vertices) radius = std::max(radius, v.norm());
+        s.radius.push_back(radius);
+        if (k > 0) floe_size = std::max(floe_size, radius);
+    }
+    TriangleMesh hull;
+    if (!header.shapes.empty()) hull = header.shapes[0].mesh;
+    for (const Vec3& v : hull.vertices) s.hull_box.extend(v);
+    if (hull.vertices.empty()) s.hull_box = Eigen::AlignedBox3d(Vec3(-5, -1, -1), Vec3(5, 1, 1));
+
+    s.window = choose_window(s.hull_box, from, options, floe_size, header.dimension == 2);
+    const double across = s.window.right - s.window.left, tall = s.window.top - s.window.bottom;
+    // as wide as asked for, but not taller than three quarters of that
+    const double room = options.width - kLeft - kRight;
+    const double per_metre = std::min(room / across, 0.75 * room / tall);
+    s.width = across * per_metre;
+    s.height = tall * per_metre;
+    s.scale = {s.window.left, s.window.top, 0.0, 0.0, per_metre};
+    s.depth = std::make_unique<DepthMap>(hull, s.projection, 400);
+    s.hull = draw_hull(hull, s.projection, s.scale, options.waterline);
+}
+
+SceneView::~SceneView() = default;
+
+std::string SceneView::define_hull() const {
+    return fmt::format(
+        "<svg width=\"0\" height=\"0\" style=\"position:absolute\" aria-hidden=\"true\"><defs>"
+        "<g id=\"{}\">\n{}</g></defs></svg>\n",
+        escape(parts_->options.hull_id), parts_->hull);
+}
+
+// > 0 when the face is nearer to the viewer than the hull where both are seen
+double SceneView::Parts::nearness_to_hull(const Face& face, const Vec3& at,
+                                          const Mat3& turn) const {
+    double sum = 0.0;
+    for (const Vec3& corner : face.corners) {
+        const Vec3 p = projection.apply(at + turn * corner);
+        const double hull_nearness = depth->nearness(p.x(), p.y());
+        if (std::isfinite(hull_nearness)) sum += p.z() - hull_nearness;
+    }
+    return sum;
+}
+
+std::vector<Item> SceneView::Parts::sort_floes(const RunFrame& frame) const {
+    std::vector<Item> items;
+    for (std::size_t b = 0; b < frame.position.size() && b < body_shape.size(); ++b) {
+        const auto shape = static_cast<std::size_t>(body_shape[b]);
+        const Vec3 offset = frame.position[b] - frame.ship_position;
+        const Vec3 p = projection.apply(offset);
+        const double r = radius[shape];
+        if (p.x() + r < window.left || p.x() - r > window.right || p.y() + r < window.bottom ||
+            p.y() - r > window.top)
+            continue;
+        if (from == ViewFrom::front && offset.x() - r > hull_box.max().x()) continue;
+        const Mat3 turn = frame.orientation[b].toRotationMatrix();
+        double nearer = 0.0;
+        for (const Face& face : faces[shape]) nearer += nearness_to_hull(face, offset, turn);
+        items.push_back({b, p.z(), nearer >= 0.0});
+    }
+    std::stable_sort(items.begin(), items.end(),
+                     [](const Item& a, const Item& b) { return a.nearness < b.nearness; });
+    return items;
+}
+
+std::string SceneView::Parts::draw_floe(std::size_t body, const RunFrame& frame,
+                                        bool outlined) const {
+    const auto shape = static_cast<std::size_t>(body_shape[body]);
+    const Vec3 offset = frame.position[body] - frame.ship_position;
+    const Mat3 turn = frame.orientation[body].toRotationMatrix();
+    const FloeState state = frame.state[body];
+    const bool touched = frame.contact_force[body].squaredNorm() > 0.0;
+    // held floes between viewer and hull would hide it
+    const bool veil = state == FloeState::held && (from == ViewFrom::side || from == ViewFrom::front);
+    std::string out;
+    for (const Face& face : faces[shape]) {
+        const Vec3 normal = turn * face.normal;
+        if (normal.dot(projection.toward) <= 1e-6) continue;
+        std::vector<Vec2> points;
+        for (const Vec3& corner : face.corners) points.push_back(place(offset + turn * corner));
+        out += fmt::format("<path d=\"{}\" fill=\"{}\"{}{}/>", path_data(points, true),
+                           shade(style_of(state).color, brightness(normal, projection)),
+                           veil ? " opacity=\".45\"" : "",
+                           outlined  ? " stroke=\"#111\" stroke-width=\"1.5\""
+                           : touched ? " stroke=\"#d55e00\" stroke-width=\"1.3\""
+                                     : "");
+    }
+    return out + "\n";
+}
+
+std::string SceneView::Parts::draw_floes(const RunFrame& frame,
+                                         const std::vector<Trail>& trails) const {
+    const auto items = sort_floes(frame);
+    std::string behind, before;
+    for (const Item& item : items) {
+        const bool outlined = std::any_of(trails.begin(), trails.end(), [&](const Trail& trail) {
+            return trail.floe == static_cast<std::int32_t>(item.body) + 1;
+        });
+        (item.before_hull ? before : behind) += draw_floe(item.body, frame, outlined);
+    }
+    const std::string open = "<g stroke=\"#51697a\" stroke-width=\".5\" stroke-linejoin=\"round\">\n";
+    std::string ship = options.hull_id.empty()
+                           ? hull
+                           : fmt::format("<use href=\"#{}\"/>\n", escape(options.hull_id));
+    // seen from above the hull would hide what happens under it
+    if (from == ViewFrom::top) ship = "<g opacity=\"0.62\">" + ship + "</g>\n";
+    return open + behind + "</g>\n" + ship + open + before + "</g>\n";
+}
+
+std::string SceneView::Parts::draw_trails(const RunFrame& frame,
+                                          const std::vector<Trail>& trails) const {
+    std::string out;
+    for (const Trail& trail : trails) {
+        std::vector<Vec2> points;
+        for (std::size_t k = 0; k < trail.time.size() && trail.time[k] <= frame.time; ++k) {
+            const Vec2 p = place(trail.offset[k]);
+            // steps below half a pixel only make the file longer
+            if (points.empty() || (p - points.back()).norm() > 0.5) points.push_back(p);
+        }
+        const std::string data = path_data(points, false);
+        if (!data.empty())
+            out += fmt::format(
+                "<path d=\"{}\" fill=\"none\" stroke=\"#fff\" stroke-width=\"3\" opacity=\".7\"/>"
+                "<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.6\"/>\n",
+                data, data, trail.color);
+        const auto body = static_cast<std::size_t>(trail.floe - 1);
+        if (body >= frame.position.size()) continue;
+        const Vec2 at = place(frame.position[body] - frame.ship_position);
+        out += text_element(at.x(), at.y() + 4.5, std::to_string(trail.floe), "middle",
+                            "font-weight=\"700\" font-size=\"12\" stroke=\"#fff\" stroke-width=\"3\" "
+                            "paint-order=\"stroke\"");
+    }
+    return out;
+}
+
+std::string SceneView::Parts::draw_water() const {
+    std::string out = fmt::format("<rect width=\"{}\" height=\"{}\" fill=\"#fbfdfe\"/>\n",
+                                  pixels(width), pixels(height));
+    if (from == ViewFrom::quarter || from == ViewFrom::top || from == ViewFrom::below)
+        return fmt::format("<rect width=\"{}\" height=\"{}\" fill=\"#e4f0f7\"/>\n", pixels(width),
+                           pixels(height));
+    const double y = scale.pixel(0.0, options.waterline).y();
+    out += fmt::format("<rect y=\"{}\" width=\"{}\" height=\"{}\" fill=\"#e4f0f7\"/>\n", pixels(y),
+                       pixels(width), pixels(std::max(0.0, height - y)));
+    return out;
+}
+
+std::string SceneView::Parts::draw_frame_axes(const RunFrame& frame) const {
+    const Vec3& ship = frame.ship_position;
+    const double x_shift = from == ViewFrom::front ? ship.y() : ship.x();
+    Axis x{window.left + x_shift, window.right + x_shift, kLeft, kLeft + width};
+    Axis y{window.bottom, window.top, kTop + height, kTop};
+    std::string x_title = "x [m]", y_title = "y [m], to port";
+    if (from == ViewFrom::side || from == ViewFrom::front) {
+        y.low -= options.waterline;  // heights above the water
+        y.high -= options.waterline;
+        y_title = "z [m]";
+    } else if (from == ViewFrom::below) {
+        y.low = -(window.bottom) + ship.y();
+        y.high = -(window.top) + ship.y();
+    } else {
+        y.low += ship.y();
+        y.high += ship.y();
+    }
+    if (from == ViewFrom::front) x_title = "y [m], to port";
+    return draw_axes(x, y, x_title, y_title);
+}
+
+std::string SceneView::draw(const RunFrame& frame, const std::vector<Trail>& trails) const {
+    const Parts& s = *parts_;
+    const bool oblique = s.from == ViewFrom::quarter;
+    const double total_width = kLeft + s.width + kRight;
+    const double legend = s.options.legend ? 26.0 : 0.0;
+    const double total_height = kTop + s.height + (oblique ? 8.0 : kBottom) + legend;
+    const std::string title = fmt::format("{}, t = {:.2f} s", view_caption(s.from), frame.time);
+    std::string out = svg_open(total_width, total_height, title);
+    out += text_element(kLeft, 17.0, title, "start", "font-weight=\"600\"");
+    if (!oblique) out += s.draw_frame_axes(frame);
+    // the inner svg cuts off what reaches out of the plot area
+    out += fmt::format("<svg x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\">\n", pixels(kLeft),
+                       pixels(kTop), pixels(s.width), pixels(s.height));
+    out += s.draw_water();
+    out += s.draw_floes(frame, trails);
+    if (s.from == ViewFrom::side || s.from == ViewFrom::front) {
+        const double y = s.scale.pixel(0.0, s.options.waterline).y();
+        out += line_element(0.0, y, s.width, y,
+                            "stroke=\"#2b7bb9\" stroke-width=\"1\" stroke-dasharray=\"8 3\"");
+    }
+    out += s.draw_trails(frame, trails);
+    out += "</svg>\n";
+    out += fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"none\" "
+                       "stroke=\"#8a949c\"/>\n",
+                       pixels(kLeft), pixels(kTop), pixels(s.width), pixels(s.height));
+    if (s.options.legend)
+        out += fmt::format("<svg y=\"{}\">{}</svg>\n", pixels(total_height - legend),
+                           draw_legend(total_width));
+    return out + "</svg>\n";
+}
+
+std::string draw_legend(double width) {
+    std::string out = fmt::format(
+        "<svg width=\"{}\" height=\"22\" role=\"img\" font-family=\"system-ui,Arial,sans-serif\" "
+        "font-size=\"12\" fill=\"#222\"><title>Meaning of the colours</title>\n",
+        pixels(width));
+    double x = 8.0;
+    const auto add = [&](const std::string& fill, const std::string& stroke, const char* text) {
+        out += fmt::format("<rect x=\"{}\" y=\"4\" width=\"16\" height=\"11\" fill=\"{}\" "
+                           "stroke=\"{}\" stroke-width=\"1.3\"/>",
+                           pixels(x), fill, stroke);
+        out += text_element(x + 21.0, 14.0, text, "start");
+        x += 21.0 + 6.4 * static_cast<double>(std::string(text).size()) + 12.0;
+    };
+    for (const FloeState state : {FloeState::held, FloeState::moving, FloeState::behind})
+        add(shade(style_of(state).color, 1.0), "#51697a", style_of(state).meaning);
+    add(shade(style_of(FloeState::moving).color, 1.0), kOrange, "touched by the ship");
+    add(shade(style_of(FloeState::moving).color, 1.0), "#111", "tracked, with path");
+    return out + "</svg>\n";
+}
+
+}  // namespace ice::views

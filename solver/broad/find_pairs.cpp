@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/broad/find_pairs.hpp"
+
+#include <algorithm>
+
+#include "solver/shape/sphere_grid.hpp"
+
+namespace ice {
+
+namespace {
+
+double bounding_radius(const Scene& scene, std::size_t i) {
+    return scene.shapes[static_cast<std::size_t>(scene.bodies.shape[i])].bounding_radius;
+}
+
+bool near_ship(const Scene& scene, std::size_t i, double margin) {
+    const Bodies& b = scene.bodies;
+    const Vec3 at = b.rotation[kShip].transpose() * (b.position[i] - b.position[kShip]);
+    const double range = bounding_radius(scene, i) + margin;
+    return scene.shapes[0].box.squaredExteriorDistance(at) <= range * range;
+}
+
+bool near_floes(const Scene& scene, std::size_t i, std::size_t j, double margin) {
+    const Bodies& b = scene.bodies;
+    const double range = bounding_radius(scene, i) + bounding_radius(scene, j) + margin;
+    return (b.position[j] - b.position[i]).squaredNorm() <= range * range;
+}
+
+BodyPair make_pair(std::size_t a, std::size_t b) {
+    return {static_cast<std::int32_t>(a), static_cast<std::int32_t>(b)};
+}
+
+}  // namespace
+
+void find_pairs(const Scene& scene, double margin, std::vector<BodyPair>& out) {
+    out.clear();
+    const Bodies& b = scene.bodies;
+    double largest = 0.0;
+    for (std::size_t i = 1; i < b.size(); ++i) {
+        largest = std::max(largest, bounding_radius(scene, i));
+        if (near_ship(scene, i, margin)) out.push_back(make_pair(kShip, i));
+    }
+    if (largest == 0.0) return;
+
+    // only moving floes ask; a pair of two moving ones is reported by the lower
+    const SphereGrid grid({b.position.data() + 1, b.size() - 1}, 2.0 * largest + margin);
+    for (std::size_t i = 1; i < b.size(); ++i) {
+        if (b.held[i]) continue;
+        const double range = bounding_radius(scene, i) + largest + margin;
+        grid.for_each_near(b.position[i], range, [&](std::int32_t item) {
+            const std::size_t j = static_cast<std::size_t>(item) + 1;
+            if (j == i || (!b.held[j] && j < i)) return;
+            if (near_floes(scene, i, j, margin))
+                out.push_back(make_pair(std::min(i, j), std::max(i, j)));
+        });
+    }
+    std::sort(out.begin(), out.end());
+}
+
+namespace reference {
+
+void find_pairs(const Scene& scene, double margin, std::vector<BodyPair>& out) {
+    out.clear();
+    const Bodies& b = scene.bodies;
+    for (std::size_t i = 1; i < b.size(); ++i)
+        if (near_ship(scene, i, margin)) out.push_back(make_pair(kShip, i));
+    for (std::size_t i = 1; i < b.size(); ++i)
+        for (std::size_t j = i + 1; j < b.size(); ++j)
+            if (!(b.held[i] && b.held[j]) && near_floes(scene, i, j, margin))
+                out.push_back(make_pair(i, j));
+}
+
+}  // namespace reference
+
+}  // namespace ice

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "solver/scene/bodies.hpp"
+
+namespace ice {
+
+/// Two bodies that may touch within the step; a < b, so a hull pair has a = 0.
+struct BodyPair {
+    std::int32_t a, b;
+    friend bool operator==(const BodyPair&, const BodyPair&) = default;
+    friend auto operator<=>(const BodyPair&, const BodyPair&) = default;
+};
+
+/// Pairs whose bounding spheres (for the ship: its box) come within `margin` [m] of each other.
+///
+/// A uniform grid over the floes' positions, so the cost is O(floes). Pairs of two held floes are
+/// left out: neither can move. Sorted by a, then b; the answer does not depend on thread count.
+void find_pairs(const Scene& scene, double margin, std::vector<BodyPair>& out);
+
+namespace reference {
+/// The same by testing all pairs: the definition and the oracle of the tests.
+void find_pairs(const Scene& scene, double margin, std::vector<BodyPair>& out);
+}  // namespace reference
+
+}  // namespace ice

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/contact/constraints.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "common/base/parallel.hpp"
+
+namespace ice {
+
+namespace {
+
+Mat3 cross_matrix(const Vec3& r) {
+    Mat3 m;
+    m << 0, -r.z(), r.y(), r.z(), 0, -r.x(), -r.y(), r.x(), 0;
+    return m;
+}
+
+// K with K j = change of v_r by impulse j; k(d) = d . K d
+Mat3 response(const Bodies& bodies, const Constraint& c) {
+    const Mat3 ra = cross_matrix(c.arm_a), rb = cross_matrix(c.arm_b);
+    return (bodies.inverse_mass[c.a] + bodies.inverse_mass[c.b]) * Mat3::Identity() -
+           ra * bodies.inverse_inertia_world[c.a] * ra -
+           rb * bodies.inverse_inertia_world[c.b] * rb;
+}
+
+// Largest k(d) over unit tangents d: the greater eigenvalue of K in the tangent plane. Stepping
+// with it, friction converges to exactly opposite the sliding direction.
+double largest_tangent_response(const Mat3& k, const Vec3& n) {
+    // any tangent will do; the axis least along n is never parallel to it
+    int axis = 0;
+    n.cwiseAbs().minCoeff(&axis);
+    const Vec3 s = n.cross(Vec3::Unit(axis)).normalized();
+    const Vec3 t = n.cross(s);
+    const double ss = s.dot(k * s), tt = t.dot(k * t), st = s.dot(k * t);
+    return 0.5 * (ss + tt) + std::sqrt(0.25 * (ss - tt) * (ss - tt) + st * st);
+}
+
+}  // namespace
+
+Vec3 relative_velocity(const Bodies& bodies, const Constraint& c) {
+    return bodies.velocity[c.b] + bodies.angular_velocity[c.b].cross(c.arm_b) -
+           bodies.velocity[c.a] - bodies.angular_velocity[c.a].cross(c.arm_a);
+}
+
+void apply_impulse(Bodies& bodies, const Constraint& c, const Vec3& j) {
+    bodies.velocity[c.a] -= bodies.inverse_mass[c.a] * j;
+    bodies.velocity[c.b] += bodies.inverse_mass[c.b] * j;
+    bodies.angular_velocity[c.a] -= bodies.inverse_inertia_world[c.a] * c.arm_a.cross(j);
+    bodies.angular_velocity[c.b] += bodies.inverse_inertia_world[c.b] * c.arm_b.cross(j);
+}
+
+void build_constraints(const Bodies& bodies, const std::vector<Contact>& contacts,
+                       const ContactLaw& law, std::vector<Constraint>& out) {
+    out.resize(contacts.size());
+    parallel_for(contacts.size(), 256, [&](std::size_t k) {
+        const Contact& contact = contacts[k];
+        Constraint c;
+        c.a = contact.a;
+        c.b = contact.b;
+        c.normal = contact.normal;
+        c.arm_a = contact.point - bodies.position[c.a];
+        c.arm_b = contact.point - bodies.position[c.b];
+        c.turn_a = bodies.inverse_inertia_world[c.a] * c.arm_a.cross(c.normal);
+        c.turn_b = bodies.inverse_inertia_world[c.b] * c.arm_b.cross(c.normal);
+        const Mat3 response_matrix = response(bodies, c);
+        const double normal_response = c.normal.dot(response_matrix * c.normal);
+        const double tangent_response = largest_tangent_response(response_matrix, c.normal);
+        c.normal_mass = normal_response > 0.0 ? 1.0 / normal_response : 0.0;
+        c.tangent_mass = tangent_response > 0.0 ? 1.0 / tangent_response : 0.0;
+        c.friction =
+            c.a == static_cast<std::int32_t>(kShip) ? law.friction_ship_ice : law.friction_ice_ice;
+        c.strength = law.crushing_pressure * contact.area * law.dt;
+        c.gap = contact.gap;
+        c.approach = relative_velocity(bodies, c).dot(c.normal);
+        out[k] = c;
+    });
+}
+
+void WarmStart::recall(const std::vector<Contact>& contacts,
+                       std::vector<Constraint>& constraints) const {
+    const auto before = [](const Entry& e, const Contact& c) {
+        return std::tie(e.a, e.b, e.key) < std::tie(c.a, c.b, c.key);
+    };
+    for (std::size_t k = 0; k < contacts.size(); ++k) {
+        const Contact& contact = contacts[k];
+        const auto found = std::lower_bound(entries_.begin(), entries_.end(), contact, before);
+        if (found == entries_.end() || found->a != contact.a || found->b != contact.b ||
+            found->key != contact.key)
+            continue;
+        Constraint& c = constraints[k];
+        c.rest_normal = std::min(found->normal, std::max(c.strength - c.impact_normal, 0.0));
+        c.rest_tangent = found->tangent - found->tangent.dot(c.normal) * c.normal;
+        const double most = c.friction * c.rest_normal, size = c.rest_tangent.norm();
+        if (size > most) c.rest_tangent *= most / size;
+    }
+}
+
+void WarmStart::remember(const std::vector<Contact>& contacts,
+                         const std::vector<Constraint>& constraints) {
+    entries_.clear();
+    for (std::size_t k = 0; k < contacts.size(); ++k)
+        if (constraints[k].rest_normal > 0.0)
+            entries_.push_back({contacts[k].a, contacts[k].b, contacts[k].key,
+                                constraints[k].rest_normal, constraints[k].rest_tangent});
+    std::sort(entries_.begin(), entries_.end(), [](const Entry& l, const Entry& r) {
+        return std::tie(l.a, l.b, l.key) < std::tie(r.a, r.b, r.key);
+    });
+}
+
+}  // namespace ice

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Contacts as the solver sees them: lever arms, effective masses, bounds and impulses.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "solver/narrow/find_contacts.hpp"
+
+namespace ice {
+
+/// What a contact may carry; from the case.
+struct ContactLaw {
+    double restitution = 0.3;
+    double friction_ship_ice = 0.1;
+    double friction_ice_ice = 0.3;
+    double crushing_pressure = 0.0;  ///< [Pa]; inf for rigid
+    int iterations = 30;             ///< upper bound per stage
+    double tolerance = 1e-4;         ///< [m/s]
+    double dt = 0.0;                 ///< [s]
+};
+
+/// One contact in the solver; impulses act on b, their opposites on a.
+struct Constraint {
+    std::int32_t a, b;
+    Vec3 normal;                 ///< from a to b
+    Vec3 arm_a, arm_b;           ///< r = p - x [m]
+    Vec3 turn_a, turn_b;         ///< I^-1 (r x n), world [rad/s per N s]
+    double normal_mass;          ///< 1 / k(n) [kg]; 0 where neither body can move
+    double tangent_mass;         ///< 1 / largest k(d) over tangents d [kg]
+    double friction;             ///< Coulomb's coefficient
+    double strength;             ///< largest normal impulse per step: p A dt [N s]
+    double gap;                  ///< at the start of the step [m]
+    double approach;             ///< v_r . n at the start of the step [m/s], < 0 approaching
+    double impact_normal = 0.0;  ///< normal impulse of the impact stage [N s]
+    Vec3 impact_tangent = Vec3::Zero();
+    double rest_normal = 0.0;  ///< normal impulse of the resting stage [N s]
+    Vec3 rest_tangent = Vec3::Zero();
+
+    double total_normal() const { return impact_normal + rest_normal; }
+    Vec3 total_tangent() const { return impact_tangent + rest_tangent; }
+    bool crushed() const { return total_normal() >= strength * (1.0 - 1e-9); }
+};
+
+/// Prepares contacts with the bodies' present pose and velocity:
+///
+///     v_r  = (v_b + w_b x r_b) - (v_a + w_a x r_a)
+///     k(d) = 1/m_a + 1/m_b + d . [ (I_a^-1 (r_a x d)) x r_a + (I_b^-1 (r_b x d)) x r_b ]
+///
+/// One constraint per contact, same order.
+void build_constraints(const Bodies& bodies, const std::vector<Contact>& contacts,
+                       const ContactLaw& law, std::vector<Constraint>& out);
+
+/// v_r at a constraint from the bodies' present velocities [m/s].
+Vec3 relative_velocity(const Bodies& bodies, const Constraint& c);
+
+/// Gives impulse j [N s] to b and -j to a: velocities and angular velocities change.
+void apply_impulse(Bodies& bodies, const Constraint& c, const Vec3& j);
+
+/// Resting impulses of the last step, found again by (a, b, key): the solver's first guess.
+class WarmStart {
+public:
+    /// Sets rest_normal and rest_tangent of the contacts known from the last step. The tangential
+    /// part is projected on the new tangent plane and the new cone.
+    void recall(const std::vector<Contact>& contacts, std::vector<Constraint>& constraints) const;
+    /// @pre contacts ordered by (a, b), as ContactFinder gives them
+    void remember(const std::vector<Contact>& contacts, const std::vector<Constraint>& constraints);
+
+private:
+    struct Entry {
+        std::int32_t a, b;
+        std::uint64_t key;
+        double normal;
+        Vec3 tangent;
+    };
+    std::vector<Entry> entries_;  ///< sorted by (a, b, key)
+};
+
+}  // namespace ice

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Projected Gauss-Seidel ("sequential impulses") over the contacts in their order: each contact in
+// turn gets the impulse that satisfies its own conditions, given all others; repeated until no
+// contact velocity changes any more. The fixed point satisfies all conditions together.
+#include "solver/contact/solve_contacts.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ice {
+
+namespace {
+
+// Overlap that is left alone [m]: contacts that just touch stay contacts.
+constexpr double kSlop = 1e-4;
+
+// Share of the overlap beyond kSlop removed in a step. 1 would overshoot where contacts share a
+// body; 0.2 is the usual value of split-impulse solvers.
+constexpr double kPushShare = 0.2;
+
+// Most a contact is pushed apart in a step [m], so that a deep overlap opens smoothly.
+constexpr double kMostPush = 0.005;
+
+constexpr int kSeparationIterations = 10;
+
+// Accumulated impulse of a stage within its bounds; returns the change of contact velocity.
+struct StageImpulse {
+    double& normal;
+    Vec3& tangent;
+};
+
+double update_normal(Bodies& bodies, const Constraint& c, double wanted, double bound,
+                     double& accumulated) {
+    const double speed = relative_velocity(bodies, c).dot(c.normal);
+    const double next =
+        std::clamp(accumulated + (wanted - speed) * c.normal_mass, 0.0, std::max(bound, 0.0));
+    const double change = next - accumulated;
+    if (change == 0.0) return 0.0;
+    accumulated = next;
+    apply_impulse(bodies, c, change * c.normal);
+    return std::abs(change) / c.normal_mass;
+}
+
+double update_friction(Bodies& bodies, const Constraint& c, const StageImpulse& j) {
+    if (c.friction == 0.0) return 0.0;
+    const Vec3 v = relative_velocity(bodies, c);
+    const Vec3 sliding = v - v.dot(c.normal) * c.normal;
+    Vec3 next = j.tangent - c.tangent_mass * sliding;
+    const double most = c.friction * j.normal, size = next.norm();
+    if (size > most) next *= most / size;
+    const Vec3 change = next - j.tangent;
+    if (change.isZero(0.0)) return 0.0;
+    j.tangent = next;
+    apply_impulse(bodies, c, change);
+    return change.norm() / c.tangent_mass;
+}
+
+// Calls update(c), which returns a change of velocity, over all constraints until it is small.
+template <class Update>
+SolveReport iterate(std::vector<Constraint>& constraints, const ContactLaw& law,
+                    const Update& update) {
+    SolveReport report;
+    while (report.iterations < law.iterations) {
+        ++report.iterations;
+        report.residual = 0.0;
+        for (Constraint& c : constraints)
+            if (c.normal_mass > 0.0) report.residual = std::max(report.residual, update(c));
+        if (report.residual <= law.tolerance) return report;
+    }
+    report.converged = report.residual <= law.tolerance;
+    return report;
+}
+
+bool meets_within_step(const Constraint& c, double dt) {
+    return c.gap + dt * std::min(c.approach, 0.0) <= 0.0;
+}
+
+}  // namespace
+
+SolveReport resolve_impacts(Bodies& bodies, std::vector<Constraint>& constraints,
+                            const ContactLaw& law) {
+    const bool approaching = std::any_of(
+        constraints.begin(), constraints.end(),
+        [&](const Constraint& c) { return c.approach < 0.0 && meets_within_step(c, law.dt); });
+    if (!approaching) return {};
+    return iterate(constraints, law, [&](Constraint& c) {
+        if (!meets_within_step(c, law.dt)) return 0.0;
+        double wanted = -law.restitution * std::min(c.approach, 0.0);
+        const double speed = relative_velocity(bodies, c).dot(c.normal);
+        if (c.impact_normal + (wanted - speed) * c.normal_mass > c.strength) wanted = 0.0;
+        const double change = update_normal(bodies, c, wanted, c.strength, c.impact_normal);
+        return std::max(change, update_friction(bodies, c, {c.impact_normal, c.impact_tangent}));
+    });
+}
+
+SolveReport resolve_rest(Bodies& bodies, std::vector<Constraint>& constraints,
+                         const ContactLaw& law) {
+    for (Constraint& c : constraints) {
+        if (c.normal_mass == 0.0) c.rest_normal = 0.0;
+        if (c.rest_normal > 0.0)
+            apply_impulse(bodies, c, c.rest_normal * c.normal + c.rest_tangent);
+        else
+            c.rest_tangent.setZero();
+    }
+    return iterate(constraints, law, [&](Constraint& c) {
+        const double wanted = -std::max(c.gap, 0.0) / law.dt;
+        const double change =
+            update_normal(bodies, c, wanted, c.strength - c.impact_normal, c.rest_normal);
+        return std::max(change, update_friction(bodies, c, {c.rest_normal, c.rest_tangent}));
+    });
+}
+
+void separate_overlaps(const Bodies& bodies, const std::vector<Constraint>& constraints,
+                       const ContactLaw& law, Nudges& out) {
+    out.shift.assign(bodies.size(), Vec3::Zero());
+    out.turn.assign(bodies.size(), Vec3::Zero());
+    struct Push {
+        const Constraint* c;
+        double wanted, done;
+    };
+    std::vector<Push> pushes;
+    for (const Constraint& c : constraints) {
+        const double gap = c.gap + law.dt * relative_velocity(bodies, c).dot(c.normal);
+        if (gap < -kSlop && c.normal_mass > 0.0 && !c.crushed())
+            pushes.push_back({&c, std::min(kPushShare * (-gap - kSlop), kMostPush), 0.0});
+    }
+    for (int iteration = 0; iteration < kSeparationIterations; ++iteration)
+        for (Push& push : pushes) {
+            const Constraint& c = *push.c;
+            const Vec3 move = out.shift[c.b] + out.turn[c.b].cross(c.arm_b) - out.shift[c.a] -
+                              out.turn[c.a].cross(c.arm_a);
+            const double next =
+                std::max(push.done + (push.wanted - move.dot(c.normal)) * c.normal_mass, 0.0);
+            const double change = next - push.done;
+            push.done = next;
+            out.shift[c.a] -= change * bodies.inverse_mass[c.a] * c.normal;
+            out.shift[c.b] += change * bodies.inverse_mass[c.b] * c.normal;
+            out.turn[c.a] -= change * c.turn_a;
+            out.turn[c.b] += change * c.turn_b;
+        }
+}
+
+}  // namespace ice

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Many contacts at once: impulses that satisfy all contact conditions together.
+#pragma once
+
+#include <vector>
+
+#include "solver/contact/constraints.hpp"
+
+namespace ice {
+
+/// How an iterative stage ended.
+struct SolveReport {
+    int iterations = 0;
+    double residual = 0.0;  ///< largest change of a contact velocity in the last iteration [m/s]
+    bool converged = true;  ///< residual <= tolerance
+};
+
+/// Impact stage: contacts that meet within the step bounce, on the velocities before the loads.
+///
+/// For every contact with gap + dt min(v_r0 . n, 0) <= 0, accumulated impulses J_n, J_t such that
+///
+///     0 <= J_n <= strength,   v_r . n >= -e min(v_r0 . n, 0)  with equality where J_n > 0,
+///     |J_t| <= mu J_n, opposite to the sliding.
+///
+/// A contact that reaches its strength does not rebound (e = 0 for it). Contacts at rest have
+/// v_r0 . n = 0 and do not bounce, without any threshold (Guendelman, Bridson, Fedkiw, ACM TOG
+/// 22(3), 2003, section 5).
+SolveReport resolve_impacts(Bodies& bodies, std::vector<Constraint>& constraints,
+                            const ContactLaw& law);
+
+/// Resting stage, after the loads: no contact closes further than its gap, v_r . n >= -max(gap, 0)/dt,
+/// with what strength the impact stage left. Starts from rest_normal and rest_tangent as given.
+SolveReport resolve_rest(Bodies& bodies, std::vector<Constraint>& constraints,
+                         const ContactLaw& law);
+
+/// Small moves that shrink overlaps; they change poses, never velocities or reported forces.
+struct Nudges {
+    std::vector<Vec3> shift;  ///< per body [m]
+    std::vector<Vec3> turn;   ///< per body, rotation vector [rad]
+};
+
+/// Moves overlapping bodies apart by a part of the overlap that this step's velocities leave.
+///
+/// The same inequality solver on displacements instead of velocities: n . (d_b - d_a) >= push.
+/// Crushed contacts are left alone: that ice is gone.
+void separate_overlaps(const Bodies& bodies, const std::vector<Constraint>& constraints,
+                       const ContactLaw& law, Nudges& out);
+
+}  // namespace ice

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// icesolve: case file in, run folder out. Command line only; the work is in step/run.cpp.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "common/base/error.hpp"
+#include "common/base/parallel.hpp"
+#include "common/base/version.hpp"
+#include "common/cli/console.hpp"
+#include "common/cli/progress.hpp"
+#include "solver/case/case_schema.hpp"
+#include "solver/case/read_case.hpp"
+#include "solver/record/recorder.hpp"
+#include "solver/step/run.hpp"
+
+namespace {
+
+struct Options {
+    std::string case_file, out, explain, simd = "auto", colour = "auto";
+    std::vector<std::string> overrides;
+    int threads = 0;
+    std::int64_t hash_every = 0;
+    bool check = false, schema = false, defaults = false, json = false, quiet = false;
+};
+
+void declare(CLI::App& app, Options& o) {
+    app.set_version_flag("--version", fmt::format("icesolve {} ({}, {})", ice::version(),
+                                                  ice::git_commit(), ice::compiler()));
+    app.add_option("case", o.case_file, "Case file (TOML)");
+    app.add_option("--out", o.out, "Run folder (default results/<case stem>)");
+    app.add_option("--set", o.overrides, "key=value, replaces a key of the case; repeatable")
+        ->allow_extra_args(false)
+        ->take_all();
+    app.add_option("--threads", o.threads, "Threads (default: all cores)")
+        ->check(CLI::Range(1, 4096));
+    app.add_option("--simd", o.simd, "Instruction set; this version runs scalar code")
+        ->check(CLI::IsMember({"auto", "scalar"}));
+    app.add_option("--hash-every", o.hash_every, "Print step and state hash every N steps")
+        ->check(CLI::PositiveNumber);
+    app.add_flag("--check", o.check, "Read and build everything, run nothing");
+    app.add_option("--explain", o.explain, "Tell what a case key takes")->type_name("KEY");
+    app.add_flag("--print-schema", o.schema, "JSON schema of the case file");
+    app.add_flag("--print-defaults", o.defaults, "A complete case with all defaults");
+    app.add_flag("--json", o.json, "Print the summary as JSON on stdout");
+    app.add_flag("-q,--quiet", o.quiet, "No progress, no messages but errors");
+    app.add_option("--color", o.colour, "Colour of messages")
+        ->check(CLI::IsMember({"auto", "always", "never"}));
+    app.footer("Exit codes: 0 ok; 1 the run failed; 2 bad command line or case; 130 interrupted.");
+}
+
+int report(const ice::Summary& s, const Options& o, const std::string& folder) {
+    if (o.json) fmt::print("{}", ice::summary_text(s));
+    const char* unit = s.dimension == 2 ? "N/m" : "N";
+    ice::say(
+        fmt::format("resistance {:.1f} +- {:.1f} {} (contact {:.1f}, friction {:.1f}), {} of "
+                    "{} floes moved, {} behind, deepest overlap {:.1f} mm",
+                    s.resistance.mean, s.resistance.ci95, unit, s.resistance.contact_mean,
+                    s.resistance.friction_mean, s.floes_moved, s.floes_total, s.floes_behind,
+                    1e3 * s.max_overlap));
+    if (s.lindqvist_submersion)
+        ice::say(
+            fmt::format("Lindqvist's submersion resistance: {:.1f} N", *s.lindqvist_submersion));
+    for (const std::string& warning : s.warnings) ice::say_warning(warning);
+    ice::say(fmt::format("{} s simulated in {:.1f} s ({:.1f}x real time); results in {}",
+                         s.simulated_s, s.wall_s, s.simulated_s / s.wall_s, folder));
+    return static_cast<int>(s.status == "interrupted" ? ice::ExitCode::interrupted
+                                                      : ice::ExitCode::ok);
+}
+
+int run_case(const Options& o, const std::string& command_line) {
+    ice::set_thread_count(o.threads);
+    const ice::Case parameters = ice::read_case(o.case_file, o.overrides);
+    ice::World world = ice::build_world(parameters);
+    if (o.check) {
+        ice::say(fmt::format("{}: good, {} floes", o.case_file, world.scene.bodies.size() - 1));
+        return 0;
+    }
+    const std::filesystem::path folder =
+        o.out.empty() ? std::filesystem::path("results") / parameters.file.stem()
+                      : std::filesystem::path(o.out);
+    std::filesystem::create_directories(folder);
+    ice::log_to_file(folder / "run.log");
+    ice::say(fmt::format("icesolve {} ({}): {}", ice::version(), ice::git_commit(), command_line));
+    ice::catch_interrupts();
+    ice::Progress progress("icesolve", o.quiet);
+    const ice::Timer timer;
+    const auto watch = [&](double done, const ice::World& w) {
+        progress.update(done, fmt::format("{:.1f}x real time", w.time / timer.seconds()));
+        if (o.hash_every > 0 && w.steps % o.hash_every == 0)
+            fmt::print("{} {:016x}\n", w.steps, ice::state_hash(w.scene, w.constraints));
+        return !ice::interrupted();
+    };
+    const ice::Summary summary = ice::run(world, {folder, command_line, watch});
+    progress.finish();
+    return report(summary, o, folder.string());
+}
+
+int run_icesolve(const Options& o, const std::string& command_line) {
+    if (!o.explain.empty()) {
+        fmt::print("{}", ice::explain_key(o.explain));
+    } else if (o.schema) {
+        fmt::print("{}", ice::case_json_schema());
+    } else if (o.defaults) {
+        fmt::print("{}", ice::default_case_text());
+    } else if (o.case_file.empty()) {
+        throw ice::bad_input("", "no case file given", "icesolve --help lists what it takes");
+    } else {
+        return run_case(o, command_line);
+    }
+    return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app(
+        "Simulates ice pieces sliding and rotating around a ship: case in, run folder out.",
+        "icesolve");
+    Options o;
+    declare(app, o);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        // CLI11's own codes start at 100; help and version end with 0
+        return app.exit(error) == 0 ? 0 : static_cast<int>(ice::ExitCode::bad_input);
+    }
+    const auto colour = o.colour == "always"  ? ice::Colour::always
+                        : o.colour == "never" ? ice::Colour::never
+                                              : ice::Colour::automatic;
+    ice::start_messages(colour, o.quiet);
+    return ice::run_program("icesolve",
+                            [&] { return run_icesolve(o, ice::command_line(argc, argv)); });
+}

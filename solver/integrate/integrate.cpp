@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/integrate/integrate.hpp"
+
+#include "common/base/parallel.hpp"
+#include "solver/integrate/rotation.hpp"
+#include "solver/water/hydrostatics.hpp"
+
+namespace ice {
+
+namespace {
+
+// Items below which threads cost more than they save, measured with icesolve on 2 cores.
+constexpr std::size_t kSerialBodies = 64;
+
+WaterLoad load_of(const Scene& scene, const Case& p, std::size_t i) {
+    const Bodies& b = scene.bodies;
+    const Shape& shape = scene.shapes[static_cast<std::size_t>(b.shape[i])];
+    const Motion motion{b.rotation[i], b.position[i].z(), b.velocity[i], b.angular_velocity[i]};
+    WaterLoad load;
+    if (p.drag == DragModel::projected)
+        load = projected_drag(shape, motion, p.drag_coefficient, p.water_density);
+    if (p.drag == DragModel::panel)
+        load = panel_drag(shape, motion, p.drag_coefficient, p.water_density);
+    load.force.z() -= b.mass[i] * p.gravity;
+    if (p.buoyancy != BuoyancyModel::none) {
+        const Submerged wet = measure_submerged(shape, b.rotation[i], b.position[i].z());
+        const Vec3 lift(0.0, 0.0, p.water_density * p.gravity * wet.volume);
+        load.force += lift;
+        if (p.buoyancy == BuoyancyModel::distributed) load.moment += wet.centre.cross(lift);
+    }
+    if (scene.dimension == 2) {
+        // the plane's other components are rounding only; they must not add up over a run
+        load.force.y() = load.moment.x() = load.moment.z() = 0.0;
+    }
+    return load;
+}
+
+}  // namespace
+
+void measure_loads(const Scene& scene, const Case& parameters, std::vector<WaterLoad>& out) {
+    out.assign(scene.bodies.size(), {});
+    parallel_for(scene.bodies.size(), kSerialBodies, [&](std::size_t i) {
+        if (i != kShip && !scene.bodies.held[i]) out[i] = load_of(scene, parameters, i);
+    });
+}
+
+void apply_loads(Bodies& bodies, const std::vector<WaterLoad>& loads, double dt) {
+    for (std::size_t i = 1; i < bodies.size(); ++i) {
+        bodies.velocity[i] += dt * bodies.inverse_mass[i] * loads[i].force;
+        bodies.angular_velocity[i] += dt * (bodies.inverse_inertia_world[i] * loads[i].moment);
+    }
+}
+
+void store_momenta(Bodies& bodies, const std::vector<Vec3>& angular_velocity_start) {
+    for (std::size_t i = 1; i < bodies.size(); ++i) {
+        if (bodies.held[i]) continue;
+        const Mat3& r = bodies.rotation[i];
+        const Vec3 change = bodies.angular_velocity[i] - angular_velocity_start[i];
+        bodies.momentum[i] = bodies.mass[i] * bodies.velocity[i];
+        if (!change.isZero(0.0))
+            bodies.angular_momentum[i] += r * (bodies.inertia[i] * (r.transpose() * change));
+    }
+}
+
+void advance_poses(Scene& scene, const Nudges& nudges, double dt) {
+    Bodies& b = scene.bodies;
+    b.position[kShip] += dt * b.velocity[kShip];
+    parallel_for(b.size(), kSerialBodies, [&](std::size_t i) {
+        if (i == kShip || b.held[i]) return;
+        b.position[i] += dt * b.velocity[i] + nudges.shift[i];
+        b.orientation[i] =
+            advance_orientation(b.orientation[i], b.inverse_inertia[i], b.angular_momentum[i], dt);
+        if (!nudges.turn[i].isZero(0.0))
+            b.orientation[i] = (exponential_map(nudges.turn[i]) * b.orientation[i]).normalized();
+        update_derived(b, i);
+    });
+}
+
+double kinetic_energy(const Bodies& bodies) {
+    double energy = 0.0;
+    for (std::size_t i = 1; i < bodies.size(); ++i)
+        if (!bodies.held[i])
+            energy += 0.5 * (bodies.momentum[i].dot(bodies.velocity[i]) +
+                             bodies.angular_momentum[i].dot(bodies.angular_velocity[i]));
+    return energy;
+}
+
+}  // namespace ice

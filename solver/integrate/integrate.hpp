@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Loads change momenta; momenta move bodies.
+#pragma once
+
+#include <vector>
+
+#include "solver/case/case.hpp"
+#include "solver/contact/solve_contacts.hpp"
+#include "solver/scene/bodies.hpp"
+#include "solver/water/drag.hpp"
+
+namespace ice {
+
+/// Gravity, buoyancy and drag on every free floe, force and moment about the centre of mass.
+/// Entries of held floes and the ship are zero. In 2D only x, z and the moment about y act.
+void measure_loads(const Scene& scene, const Case& parameters, std::vector<WaterLoad>& out);
+
+/// Velocities after the loads act for dt: v += F dt / m, w += I^-1 T dt.
+void apply_loads(Bodies& bodies, const std::vector<WaterLoad>& loads, double dt);
+
+/// Takes the velocity changes of the step into the momenta: P = m v, L += I (w - w_start).
+/// Untouched floes keep L bit for bit, so torque-free motion conserves it.
+void store_momenta(Bodies& bodies, const std::vector<Vec3>& angular_velocity_start);
+
+/// Moves all bodies by dt with their momenta, the ship with its velocity, then by the nudges;
+/// afterwards derived quantities are up to date.
+void advance_poses(Scene& scene, const Nudges& nudges, double dt);
+
+/// Kinetic energy of the free floes [J]: sum of P.v/2 + L.w/2.
+double kinetic_energy(const Bodies& bodies);
+
+}  // namespace ice

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/integrate/rotation.hpp"
+
+namespace ice {
+
+namespace {
+
+Vec3 angular_velocity_at(const Eigen::Quaterniond& orientation, const Mat3& inverse_inertia_body,
+                         const Vec3& angular_momentum) {
+    const Mat3 r = orientation.toRotationMatrix();
+    return r * (inverse_inertia_body * (r.transpose() * angular_momentum));
+}
+
+}  // namespace
+
+Eigen::Quaterniond exponential_map(const Vec3& angle) {
+    Vec3 half = 0.5 * angle;
+    int squarings = 0;
+    while (half.squaredNorm() > 0.25) {
+        half *= 0.5;
+        ++squarings;
+    }
+    // Horner in x^2; at |x| <= 1/2 the terms left out are below 1e-17
+    const double x2 = half.squaredNorm();
+    double sinc = 1.0, cosine = 1.0;
+    for (int k = 6; k >= 1; --k) {
+        sinc = 1.0 - x2 / ((2.0 * k) * (2.0 * k + 1.0)) * sinc;
+        cosine = 1.0 - x2 / ((2.0 * k - 1.0) * (2.0 * k)) * cosine;
+    }
+    Eigen::Quaterniond q(cosine, sinc * half.x(), sinc * half.y(), sinc * half.z());
+    for (; squarings > 0; --squarings) q = q * q;
+    return q.normalized();
+}
+
+Eigen::Quaterniond advance_orientation(const Eigen::Quaterniond& orientation,
+                                       const Mat3& inverse_inertia_body,
+                                       const Vec3& angular_momentum, double dt) {
+    const auto turn = [&](const Vec3& angle) -> Vec3 {
+        const Eigen::Quaterniond q = exponential_map(angle) * orientation;
+        return dt * angular_velocity_at(q, inverse_inertia_body, angular_momentum);
+    };
+    const Vec3 k1 = turn(Vec3::Zero());
+    if (k1.isZero(0.0)) return orientation;
+    const Vec3 k2 = turn(0.5 * k1);
+    const Vec3 k3 = turn(0.5 * k2 - 0.125 * k1.cross(k2));
+    const Vec3 k4 = turn(k3);
+    const Vec3 whole = (k1 + 2.0 * k2 + 2.0 * k3 + k4 - 0.5 * k1.cross(k4)) / 6.0;
+    return (exponential_map(whole) * orientation).normalized();
+}
+
+}  // namespace ice

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include "common/geometry/triangle_mesh.hpp"
+
+namespace ice {
+
+/// Unit quaternion of a rotation vector [rad]: (cos |a|/2, sin(|a|/2) a/|a|).
+///
+/// Sine and cosine by their Taylor series, so that the bits do not depend on the system's libm;
+/// angles beyond 1 rad are halved first and the result squared. Exact to rounding.
+Eigen::Quaterniond exponential_map(const Vec3& angle);
+
+/// Orientation after dt of torque-free rotation with constant angular momentum L (world axes).
+///
+/// The exponential map with angular velocities w(q) = R(q) I^-1 R(q)^T L at the start, twice at the
+/// middle and at the end, combined to fourth order (Munthe-Kaas, Applied Numerical Mathematics 29,
+/// 1999):
+///
+///     k1 = dt w(q),                        k2 = dt w(exp(k1/2) q),
+///     k3 = dt w(exp(k2/2 - k1 x k2/8) q),  k4 = dt w(exp(k3) q),
+///     q' = exp((k1 + 2 k2 + 2 k3 + k4 - k1 x k4 / 2) / 6) q
+///
+/// Why not the midpoint alone: near the unstable middle axis of a 1 x 0.8 x 0.3 m floe its energy
+/// error reaches 1.3e-4 at |w| dt = 0.05; this stays below the 1e-6 asked for (motion_test.cpp).
+Eigen::Quaterniond advance_orientation(const Eigen::Quaterniond& orientation,
+                                       const Mat3& inverse_inertia_body,
+                                       const Vec3& angular_momentum, double dt);
+
+}  // namespace ice

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Narrow phase: body pairs -> contacts with point, normal, gap and area.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "solver/broad/find_pairs.hpp"
+#include "solver/case/case.hpp"
+#include "solver/scene/bodies.hpp"
+
+namespace ice {
+
+/// A place where two bodies touch or may touch within the step.
+struct Contact {
+    std::int32_t a, b;                ///< bodies, a < b; a = 0 is the ship
+    std::int32_t sphere_a, sphere_b;  ///< surface spheres of their shapes
+    std::uint64_t key;                ///< the same contact has the same key in the next step
+    Vec3 point;                       ///< midway between the surfaces, world axes [m]
+    Vec3 normal;                      ///< unit, from a to b
+    double gap;                       ///< [m], negative where the surfaces overlap
+    double area;                      ///< share of the ice surface that presses here [m2]
+    std::int32_t region;              ///< hull region; -1 between floes
+};
+
+/// Finds the contacts of all pairs, in pair order; threads share the pairs, not a pair.
+///
+/// Rule "centres" (the paper): every two spheres with gap <= margin are a contact.
+/// Rule "surface": every probe sphere (measure_gap_surface) has one contact per face of the other
+/// body that it faces: of the spheres that stand for the same face, the laterally nearest, within
+/// the shape's `reach`. So a face's contacts are as many as its probes, not probes times spheres.
+///
+/// Area: an ice sphere's share of the surface, seen along the normal, split among the contacts the
+/// sphere has with that body; the smaller one between two floes.
+///
+/// @param margin  [m] per pair is dt times a bound of the pair's closing speed, plus this much
+class ContactFinder {
+public:
+    void find(const Scene& scene, const std::vector<BodyPair>& pairs, NormalRule rule, double dt,
+              double margin, std::vector<Contact>& out);
+
+private:
+    std::vector<std::vector<Contact>> per_pair_;  // kept between steps: no allocation once warm
+};
+
+namespace reference {
+/// The contacts of one pair by testing every sphere with every other: the definition for tests.
+void find_contacts(const Scene& scene, BodyPair pair, NormalRule rule, double margin,
+                   std::vector<Contact>& out);
+}  // namespace reference
+
+}  // namespace ice

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/record/csv_file.hpp"
+
+#include <fmt/format.h>
+
+#include <system_error>
+
+#include "common/base/error.hpp"
+
+namespace ice {
+
+namespace {
+
+std::filesystem::path part_of(const std::filesystem::path& path) { return path.string() + ".part"; }
+
+void append(std::vector<double>& row, const Vec3& v) {
+    row.insert(row.end(), {v.x(), v.y(), v.z()});
+}
+
+}  // namespace
+
+const char* const kForceColumns =
+    "time_s,contact_fx_N,contact_fy_N,contact_fz_N,friction_fx_N,friction_fy_N,friction_fz_N,"
+    "contacts,moving_floes,max_overlap_m,kinetic_energy_J";
+
+const char* const kFloeColumns =
+    "time_s,x_m,y_m,z_m,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz,contact_fx_N,contact_fy_N,contact_fz_N,"
+    "friction_fx_N,friction_fy_N,friction_fz_N,ice_fx_N,ice_fy_N,ice_fz_N";
+
+CsvFile::CsvFile(std::filesystem::path path, const std::string& header)
+    : path_(std::move(path)), out_(part_of(path_), std::ios::binary) {
+    out_ << header << '\n';
+    if (!out_)
+        throw run_failed(path_.string(), "cannot be written",
+                         "check that the folder is writable and the disk is not full");
+}
+
+void CsvFile::add(const std::vector<double>& row) {
+    std::string line;
+    for (const double value : row) line += fmt::format("{}{:.9g}", line.empty() ? "" : ",", value);
+    out_ << line << '\n';
+    if (!out_)
+        throw run_failed(path_.string(), "cannot be written", "check that the disk is not full");
+}
+
+void CsvFile::finish() {
+    out_.close();
+    std::error_code error;
+    std::filesystem::rename(part_of(path_), path_, error);
+    if (!out_ || error)
+        throw run_failed(path_.string(), "cannot be completed", "check that the disk is not full");
+}
+
+std::vector<double> csv_row(const HistoryRow& row) {
+    std::vector<double> out{row.time};
+    append(out, row.contact_force);
+    append(out, row.friction_force);
+    out.insert(out.end(), {row.contacts, row.moving_floes, row.max_overlap, row.kinetic_energy});
+    return out;
+}
+
+std::vector<double> csv_row(const TrackRow& row) {
+    std::vector<double> out{row.time};
+    append(out, row.position);
+    const auto& q = row.orientation;
+    out.insert(out.end(), {q.w(), q.x(), q.y(), q.z()});
+    for (const Vec3& v :
+         {row.velocity, row.angular_velocity, row.contact_force, row.friction_force, row.ice_force})
+        append(out, v);
+    return out;
+}
+
+}  // namespace ice

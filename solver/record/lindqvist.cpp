@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/record/lindqvist.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace ice {
+
+namespace {
+
+using Segment = std::pair<Vec3, Vec3>;
+
+// Where the plane z = height cuts the mesh, as loose segments. Vertices on the plane count as
+// above it, so that every cut triangle gives exactly one segment.
+std::vector<Segment> cut(const TriangleMesh& mesh, double height) {
+    std::vector<Segment> out;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        std::vector<Vec3> ends;
+        for (int k = 0; k < 3; ++k) {
+            const Vec3 p = mesh.corner(t, k), q = mesh.corner(t, (k + 1) % 3);
+            if ((p.z() >= height) == (q.z() >= height)) continue;
+            ends.push_back(p + (q - p) * ((height - p.z()) / (q.z() - p.z())));
+        }
+        if (ends.size() == 2) out.emplace_back(ends[0], ends[1]);
+    }
+    return out;
+}
+
+double foremost(const std::vector<Segment>& section) {
+    double x = -1e300;
+    for (const auto& [p, q] : section) x = std::max({x, p.x(), q.x()});
+    return x;
+}
+
+// Foremost x at which the section is at least `half_breadth` off the centre line.
+double foremost_at(const std::vector<Segment>& section, double half_breadth) {
+    double x = -1e300;
+    for (const auto& [p, q] : section) {
+        const double yp = std::abs(p.y()), yq = std::abs(q.y());
+        if (std::max(yp, yq) < half_breadth) continue;
+        if (std::min(yp, yq) >= half_breadth)
+            x = std::max({x, p.x(), q.x()});
+        else
+            x = std::max(x, p.x() + (q.x() - p.x()) * (half_breadth - yp) / (yq - yp));
+    }
+    return x;
+}
+
+}  // namespace
+
+std::optional<HullForm> measure_hull_form(const TriangleMesh& hull, double waterline) {
+    const std::vector<Segment> water = cut(hull, waterline);
+    if (water.empty()) return std::nullopt;
+    double x_low = 1e300, y_low = 1e300, y_high = -1e300, z_low = 1e300;
+    for (const auto& [p, q] : water) {
+        x_low = std::min({x_low, p.x(), q.x()});
+        y_low = std::min({y_low, p.y(), q.y()});
+        y_high = std::max({y_high, p.y(), q.y()});
+    }
+    for (const Vec3& v : hull.vertices) z_low = std::min(z_low, v.z());
+
+    HullForm form;
+    const double bow = foremost(water);
+    form.length = bow - x_low;
+    form.breadth = y_high - y_low;
+    form.draught = waterline - z_low;
+    const double depth = 0.1 * form.draught;
+    const std::vector<Segment> deeper = cut(hull, waterline - depth);
+    const double rake = bow - foremost(deeper);
+    const double run = bow - foremost_at(water, 0.25 * form.breadth);
+    if (deeper.empty() || !(form.draught > 0.0) || !(run > 1e-6 * form.length)) return std::nullopt;
+    form.stem_angle = std::atan2(depth, std::max(rake, 0.0));
+    form.entrance_angle = std::atan2(0.25 * form.breadth, run);
+    return form;
+}
+
+double lindqvist_submersion(const HullForm& hull, const IceConditions& ice) {
+    const double sin_phi = std::sin(hull.stem_angle), cos_phi = std::cos(hull.stem_angle);
+    const double tan_phi = std::tan(hull.stem_angle), tan_alpha = std::tan(hull.entrance_angle);
+    const double psi = std::atan(tan_phi / std::sin(hull.entrance_angle));
+    const double b = hull.breadth, t = hull.draught;
+    const double covered = 0.7 * hull.length - t / tan_phi - b / (4.0 * tan_alpha) +
+                           t * cos_phi * std::cos(psi) *
+                               std::sqrt(1.0 / (sin_phi * sin_phi) + 1.0 / (tan_alpha * tan_alpha));
+    const double weight = (ice.water_density - ice.ice_density) * ice.gravity * ice.thickness * b;
+    const double at_rest = weight * (t * (b + t) / (b + 2.0 * t) + ice.friction * covered);
+    return at_rest * (1.0 + 9.4 * ice.speed / std::sqrt(ice.gravity * hull.length));
+}
+
+}  // namespace ice

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/record/measure_step.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <tuple>
+
+#include "solver/integrate/integrate.hpp"
+
+namespace ice {
+
+namespace {
+
+// A ship contact that still closes faster than this [m/s] after the solver is jammed: 1 cm/s is far
+// above any tolerance in use and far below a ship's speed.
+constexpr double kJamSpeed = 0.01;
+
+void add_region(std::vector<RegionImpulse>& regions, std::int32_t floe, std::int32_t region,
+                const Vec3& impulse) {
+    regions.push_back({floe, region, impulse});
+}
+
+// Contacts of one floe and region become one entry.
+void merge_regions(std::vector<RegionImpulse>& regions) {
+    const auto key = [](const RegionImpulse& r) { return std::tuple(r.floe, r.region); };
+    std::stable_sort(regions.begin(), regions.end(),
+                     [&](const auto& l, const auto& r) { return key(l) < key(r); });
+    std::size_t kept = 0;
+    for (const RegionImpulse& r : regions) {
+        if (kept > 0 && key(regions[kept - 1]) == key(r))
+            regions[kept - 1].impulse += r.impulse;
+        else
+            regions[kept++] = r;
+    }
+    regions.resize(kept);
+}
+
+void find_jam(const Scene& scene, const Constraint& c, double dt, StepRecord& out) {
+    const double closing =
+        relative_velocity(scene.bodies, c).dot(c.normal) + std::max(c.gap, 0.0) / dt;
+    if (c.crushed() || closing > -kJamSpeed) return;
+    if (out.jammed_contacts++ > 0) return;
+    out.jammed_floe = c.b;
+    out.jam_point = scene.bodies.position[c.b] + c.arm_b;
+}
+
+}  // namespace
+
+StepRecord measure_step(const Scene& scene, const std::vector<Contact>& contacts,
+                        const std::vector<Constraint>& constraints, double dt) {
+    StepRecord out;
+    for (std::size_t k = 0; k < constraints.size(); ++k) {
+        const Constraint& c = constraints[k];
+        const double normal = c.total_normal();
+        if (normal <= 0.0) continue;
+        ++out.contacts;
+        out.max_overlap = std::max(out.max_overlap, -c.gap);
+        if (c.a != static_cast<std::int32_t>(kShip)) continue;
+        // impulses act on the floe; the ship feels the opposite
+        const Vec3 push = -normal * c.normal, rub = -c.total_tangent();
+        out.contact_force += push / dt;
+        out.friction_force += rub / dt;
+        out.moment += c.arm_a.cross(Vec3(push + rub)) / dt;
+        add_region(out.regions, c.b, contacts[k].region, push + rub);
+        find_jam(scene, c, dt, out);
+    }
+    merge_regions(out.regions);
+    for (std::size_t i = 1; i < scene.bodies.size(); ++i)
+        out.moving_floes += scene.bodies.held[i] ? 0 : 1;
+    out.kinetic_energy = kinetic_energy(scene.bodies);
+    return out;
+}
+
+void measure_floe_forces(const std::vector<Constraint>& constraints, double dt,
+                         std::vector<FloeForces>& out) {
+    std::fill(out.begin(), out.end(), FloeForces{});
+    for (const Constraint& c : constraints) {
+        const Vec3 push = c.total_normal() / dt * c.normal, rub = c.total_tangent() / dt;
+        if (c.a == static_cast<std::int32_t>(kShip)) {
+            out[c.b].contact -= push;
+            out[c.b].friction -= rub;
+        } else {
+            out[c.b].ice += push + rub;
+            out[c.a].ice -= push + rub;
+        }
+    }
+}
+
+}  // namespace ice

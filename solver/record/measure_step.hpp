@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// What one step did, as forces: impulses over dt, those of the ice on the ship.
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "solver/contact/constraints.hpp"
+#include "solver/scene/bodies.hpp"
+
+namespace ice {
+
+/// Impulse of one floe on one region of the hull in a step [N s].
+struct RegionImpulse {
+    std::int32_t floe, region;
+    Vec3 impulse;
+};
+
+struct StepRecord {
+    Vec3 contact_force = Vec3::Zero();   ///< on the ship, normal parts [N]
+    Vec3 friction_force = Vec3::Zero();  ///< on the ship, tangential parts [N]
+    Vec3 moment = Vec3::Zero();          ///< on the ship about its mesh origin [N m]
+    int contacts = 0;                    ///< that carried an impulse
+    int moving_floes = 0;
+    double max_overlap = 0.0;            ///< [m]
+    double kinetic_energy = 0.0;         ///< [J]
+    std::vector<RegionImpulse> regions;  ///< sorted by floe, region; only with an impulse
+
+    /// Ship contacts that the solver could not stop: the floe is jammed, rigid contact has no
+    /// finite force there. The first one's floe, or 0.
+    int jammed_contacts = 0;
+    std::int32_t jammed_floe = 0;
+    Vec3 jam_point = Vec3::Zero();
+};
+
+/// Forces on one floe in a step.
+struct FloeForces {
+    Vec3 contact = Vec3::Zero();   ///< this floe on the ship, normal part [N]
+    Vec3 friction = Vec3::Zero();  ///< this floe on the ship, tangential part [N]
+    Vec3 ice = Vec3::Zero();       ///< of the other floes on this one [N]
+};
+
+/// Sums up a step. @pre the constraints hold the impulses of the step just done.
+StepRecord measure_step(const Scene& scene, const std::vector<Contact>& contacts,
+                        const std::vector<Constraint>& constraints, double dt);
+
+/// Forces on every body by one pass over the constraints; `out` has one entry per body.
+void measure_floe_forces(const std::vector<Constraint>& constraints, double dt,
+                         std::vector<FloeForces>& out);
+
+}  // namespace ice

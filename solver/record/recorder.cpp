@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/record/recorder.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "common/base/state_hash.hpp"
+#include "common/base/version.hpp"
+
+namespace ice {
+
+namespace {
+
+RunHeader make_header(const Case& parameters, const Scene& scene, const std::string& command) {
+    RunHeader header;
+    header.dimension = scene.dimension;
+    header.title = parameters.title;
+    header.created_by = std::string("icesolve ") + version();
+    header.git_commit = git_commit();
+    header.command_line = command;
+    header.case_toml = parameters.resolved;
+    for (const Shape& shape : scene.shapes)
+        header.shapes.push_back({shape.mesh, shape.center, shape.radius});
+    const Bodies& b = scene.bodies;
+    for (std::size_t i = 1; i < b.size(); ++i) {
+        header.body_shape.push_back(b.shape[i]);
+        header.body_group.push_back(b.group[i]);
+        header.body_mass.push_back(b.mass[i]);
+        header.body_inertia.push_back(b.inertia[i].diagonal());
+    }
+    header.tracked.assign(parameters.track.begin(), parameters.track.end());
+    return header;
+}
+
+FloeState state_of(const Scene& scene, std::size_t i) {
+    if (is_behind(scene, i)) return FloeState::behind;
+    return scene.bodies.held[i] ? FloeState::held : FloeState::moving;
+}
+
+}  // namespace
+
+bool is_behind(const Scene& scene, std::size_t floe) {
+    return scene.bodies.position[floe].x() <
+           scene.bodies.position[kShip].x() + scene.shapes[0].box.min().x();
+}
+
+std::uint64_t state_hash(const Scene& scene, const std::vector<Constraint>& constraints) {
+    StateHash hash;
+    const auto add = [&](const Vec3& v) {
+        for (int d = 0; d < 3; ++d) hash.add(v[d]);
+    };
+    const Bodies& b = scene.bodies;
+    for (std::size_t i = 0; i < b.size(); ++i) {
+        add(b.position[i]);
+        for (const double x : b.orientation[i].coeffs()) hash.add(x);
+        add(b.momentum[i]);
+        add(b.angular_momentum[i]);
+    }
+    for (const Constraint& c : constraints) {
+        hash.add(c.total_normal());
+        add(c.total_tangent());
+    }
+    return hash.value();
+}
+
+Recorder::Recorder(const std::filesystem::path& folder, const Case& parameters, const Scene& scene,
+                   const std::string& command_line)
+    : parameters_(parameters),
+      dt_(parameters.time_step),
+      run_(folder / "run.h5", make_header(parameters, scene, command_line)),
+      forces_(folder / "forces.csv", kForceColumns),
+      tally_(scene.shapes[0].region_names, parameters.average_from),
+      floe_forces_(scene.bodies.size()),
+      tracked_sum_(parameters.track.size()),
+      frame_impulse_(scene.bodies.size(), Vec3::Zero()),
+      last_orientation_(scene.bodies.orientation) {
+    for (const int id : parameters.track)
+        floe_files_.emplace_back(folder / fmt::format("floe_{}.csv", id), kFloeColumns);
+    const std::vector<Contact> no_contacts;
+    const std::vector<Constraint> no_constraints;
+    add_frame({scene, no_contacts, no_constraints, 0.0, true});
+}
+
+void Recorder::add(const StepView& view) {
+    const StepRecord record = measure_step(view.scene, view.contacts, view.constraints, dt_);
+    tally_.add(record, view.time, dt_, view.scene.ship_velocity.x(), view.converged);
+    measure_floe_forces(view.constraints, dt_, floe_forces_);
+    for (std::size_t i = 1; i < floe_forces_.size(); ++i)
+        frame_impulse_[i] -= dt_ * (floe_forces_[i].contact + floe_forces_[i].friction);
+    add_history(view, record);
+    // half a step of tolerance: times are multiples of dt up to rounding
+    if (view.time + 0.5 * dt_ >= static_cast<double>(frames_) * parameters_.frames_every)
+        add_frame(view);
+}
+
+void Recorder::add_history(const StepView& view, const StepRecord& record) {
+    ++row_steps_;
+    row_.contact_force += record.contact_force;
+    row_.friction_force += record.friction_force;
+    row_.moment += record.moment;
+    row_.contacts += record.contacts;
+    row_.moving_floes = record.moving_floes;
+    row_.max_overlap = std::max(row_.max_overlap, record.max_overlap);
+    row_.kinetic_energy = record.kinetic_energy;
+    for (std::size_t k = 0; k < tracked_sum_.size(); ++k) {
+        const FloeForces& now = floe_forces_[static_cast<std::size_t>(parameters_.track[k])];
+        tracked_sum_[k].contact += now.contact;
+        tracked_sum_[k].friction += now.friction;
+        tracked_sum_[k].ice += now.ice;
+    }
+    const double due = static_cast<double>(rows_ + 1) * parameters_.history_every;
+    if (view.time + 0.5 * dt_ >= due) flush_history(view);
+}
+
+void Recorder::flush_history(const StepView& view) {
+    if (row_steps_ == 0) return;
+    const double share = 1.0 / row_steps_;
+    row_.time = view.time;
+    row_.contact_force *= share;
+    row_.friction_force *= share;
+    row_.moment *= share;
+    row_.contacts *= share;
+    row_.ship_position = view.scene.bodies.position[kShip];
+    run_.add(row_);
+    forces_.add(csv_row(row_));
+
+    std::vector<TrackRow> tracks(tracked_sum_.size());
+    const Bodies& b = view.scene.bodies;
+    for (std::size_t k = 0; k < tracks.size(); ++k) {
+        const auto i = static_cast<std::size_t>(parameters_.track[k]);
+        tracks[k] = {view.time,
+                     b.position[i],
+                     b.orientation[i],
+                     b.velocity[i],
+                     b.angular_velocity[i],
+                     share * tracked_sum_[k].contact,
+                     share * tracked_sum_[k].friction,
+                     share * tracked_sum_[k].ice};
+        floe_files_[k].add(csv_row(tracks[k]));
+        tracked_sum_[k] = {};
+    }
+    run_.add_tracked(tracks);
+    row_ = {};
+    row_steps_ = 0;
+    ++rows_;
+}
+
+void Recorder::add_frame(const StepView& view) {
+    const Bodies& b = view.scene.bodies;
+    RunFrame frame;
+    frame.time = view.time;
+    frame.ship_position = b.position[kShip];
+    const double span = view.time - last_frame_;
+    for (std::size_t i = 1; i < b.size(); ++i) {
+        // q and -q are the same pose: keep the sign that moves least, for interpolation
+        Quaternion q = b.orientation[i];
+        if (q.dot(last_orientation_[i]) < 0.0) q.coeffs() *= -1.0;
+        last_orientation_[i] = q;
+        frame.position.push_back(b.position[i]);
+        frame.orientation.push_back(q);
+        frame.velocity.push_back(b.velocity[i]);
+        frame.angular_velocity.push_back(b.angular_velocity[i]);
+        frame.contact_force.push_back(span > 0.0 ? Vec3(frame_impulse_[i] / span) : Vec3::Zero());
+        frame.state.push_back(state_of(view.scene, i));
+    }
+    run_.add(frame);
+    std::fill(frame_impulse_.begin(), frame_impulse_.end(), Vec3::Zero());
+    last_frame_ = view.time;
+    ++frames_;
+}
+
+void Recorder::finish(const StepView& view, Summary& summary) {
+    flush_history(view);
+    if (view.time > last_frame_) add_frame(view);
+    run_.finish();
+    forces_.finish();
+    for (CsvFile& file : floe_files_) file.finish();
+    tally_.fill(summary);
+    summary.state_hash = state_hash(view.scene, view.constraints);
+    const Bodies& b = view.scene.bodies;
+    summary.floes_total = static_cast<std::int64_t>(b.size()) - 1;
+    for (std::size_t i = 1; i < b.size(); ++i) {
+        summary.floes_moved += b.held[i] ? 0 : 1;
+        summary.floes_behind += is_behind(view.scene, i) ? 1 : 0;
+        summary.ice_spheres += static_cast<std::int64_t>(
+            view.scene.shapes[static_cast<std::size_t>(b.shape[i])].center.size());
+    }
+    summary.hull_spheres = static_cast<std::int64_t>(view.scene.shapes[0].center.size());
+}
+
+}  // namespace ice

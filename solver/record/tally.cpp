@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/record/tally.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "solver/record/statistics.hpp"
+
+namespace ice {
+
+namespace {
+
+// Steps beyond this share that did not converge or jammed are worth a warning.
+constexpr double kWorthWarning = 0.01;
+
+ForceStatistics statistics(const std::vector<double>& total, const std::vector<double>& contact,
+                           const std::vector<double>& friction, double sign) {
+    ForceStatistics out;
+    const MeanInterval interval = batch_means(total);
+    out.mean = sign * interval.mean;
+    out.ci95 = interval.half_width;
+    out.contact_mean = sign * batch_means(contact).mean;
+    out.friction_mean = sign * batch_means(friction).mean;
+    out.std = standard_deviation(total);
+    for (const double force : total)
+        if (std::abs(force) > std::abs(out.max)) out.max = sign * force;
+    return out;
+}
+
+}  // namespace
+
+Tally::Tally(std::vector<std::string> region_names, double average_from)
+    : region_names_(std::move(region_names)),
+      average_from_(average_from),
+      regions_(region_names_.size()) {}
+
+void Tally::add(const StepRecord& record, double time, double dt, double ship_speed,
+                bool converged) {
+    ++steps_;
+    unconverged_ += converged ? 0 : 1;
+    contacts_ += record.contacts;
+    contacts_max_ = std::max<double>(contacts_max_, record.contacts);
+    max_overlap_ = std::max(max_overlap_, record.max_overlap);
+    kinetic_ = record.kinetic_energy;
+    kinetic_max_ = std::max(kinetic_max_, kinetic_);
+    // the ship pushes with what the ice pushes back
+    ship_work_ -= (record.contact_force.x() + record.friction_force.x()) * ship_speed * dt;
+    add_jam(record, time);
+
+    const bool averaged = time >= average_from_ - 1e-9;
+    add_regions(record, averaged);
+    if (!averaged) return;
+    averaged_time_ += dt;
+    for (int d = 0; d < 3; ++d) {
+        contact_[d].push_back(record.contact_force[d]);
+        friction_[d].push_back(record.friction_force[d]);
+        total_[d].push_back(record.contact_force[d] + record.friction_force[d]);
+    }
+}
+
+void Tally::add_regions(const StepRecord& record, bool averaged) {
+    std::set<std::pair<std::int32_t, std::int32_t>> now;
+    for (const RegionImpulse& r : record.regions) {
+        Region& region = regions_[static_cast<std::size_t>(r.region)];
+        now.emplace(r.floe, r.region);
+        if (!touching_.contains({r.floe, r.region})) ++region.hits;
+        region.max_impulse = std::max(region.max_impulse, r.impulse.norm());
+        if (averaged) region.impulse += r.impulse;
+    }
+    touching_.swap(now);
+}
+
+void Tally::add_jam(const StepRecord& record, double time) {
+    if (record.jammed_contacts == 0) return;
+    if (jammed_steps_++ > 0) return;
+    first_jam_time_ = time;
+    first_jam_floe_ = record.jammed_floe;
+    first_jam_point_ = record.jam_point;
+}
+
+void Tally::fill(Summary& summary) const {
+    summary.average_from = average_from_;
+    // resistance is positive when it slows the ship
+    summary.resistance = statistics(total_[0], contact_[0], friction_[0], -1.0);
+    summary.lateral = statistics(total_[1], contact_[1], friction_[1], 1.0);
+    summary.vertical = statistics(total_[2], contact_[2], friction_[2], 1.0);
+    for (std::size_t r = 0; r < regions_.size(); ++r) {
+        RegionStatistics& out = summary.regions[region_names_[r]];
+        out.hits = regions_[r].hits;
+        out.max_impulse = regions_[r].max_impulse;
+        for (int d = 0; d < 3; ++d)
+            out.mean[static_cast<std::size_t>(d)] =
+                averaged_time_ > 0.0 ? regions_[r].impulse[d] / averaged_time_ : 0.0;
+    }
+    const double steps = std::max<double>(1.0, static_cast<double>(steps_));
+    summary.contacts_mean = contacts_ / steps;
+    summary.contacts_max = contacts_max_;
+    summary.max_overlap = max_overlap_;
+    summary.unconverged_steps = unconverged_;
+    summary.energy["ship_work_J"] = ship_work_;
+    summary.energy["kinetic_J"] = kinetic_;
+    summary.energy["kinetic_max_J"] = kinetic_max_;
+    if (static_cast<double>(unconverged_) > kWorthWarning * steps)
+        summary.warnings.push_back(
+            fmt::format("{} of {} steps did not reach contact.tolerance within contact.iterations",
+                        unconverged_, steps_));
+    if (jammed_steps_ > 0)
+        summary.warnings.push_back(fmt::format(
+            "jam: in {} of {} steps a floe could not give way between hull and held ice, first "
+            "floe {} at t = {:.2f} s, x = {:.2f}, y = {:.2f}, z = {:.2f} m; with rigid contact "
+            "the force there depends on time_step and iterations: set contact.crushing_pressure",
+            jammed_steps_, steps_, first_jam_floe_, first_jam_time_, first_jam_point_.x(),
+            first_jam_point_.y(), first_jam_point_.z()));
+}
+
+}  // namespace ice

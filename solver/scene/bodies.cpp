@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/scene/bodies.hpp"
+
+namespace ice {
+
+void update_derived(Bodies& bodies, std::size_t i) {
+    bodies.rotation[i] = bodies.orientation[i].toRotationMatrix();
+    if (i == kShip) return;
+    if (bodies.held[i]) {
+        bodies.velocity[i] = bodies.angular_velocity[i] = Vec3::Zero();
+        bodies.inverse_mass[i] = 0.0;
+        bodies.inverse_inertia_world[i] = Mat3::Zero();
+        return;
+    }
+    const Mat3& r = bodies.rotation[i];
+    bodies.inverse_mass[i] = 1.0 / bodies.mass[i];
+    bodies.inverse_inertia_world[i] = r * bodies.inverse_inertia[i] * r.transpose();
+    bodies.velocity[i] = bodies.momentum[i] / bodies.mass[i];
+    bodies.angular_velocity[i] = bodies.inverse_inertia_world[i] * bodies.angular_momentum[i];
+}
+
+void release(Bodies& bodies, std::size_t i) {
+    bodies.held[i] = 0;
+    update_derived(bodies, i);
+}
+
+}  // namespace ice

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/scene/build_scene.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+
+#include "common/base/error.hpp"
+#include "common/formats/spheres_file.hpp"
+#include "solver/water/hydrostatics.hpp"
+
+namespace ice {
+
+namespace {
+
+constexpr double kMostFloes = 1e7;
+
+Shape read_shape(const std::filesystem::path& file, int dimension, bool about_centre_of_mass) {
+    const SphereSet set = read_spheres(file);
+    if (set.dimension != dimension)
+        throw bad_input(
+            file.string(),
+            fmt::format("is a {}D set in a case of dimension {}", set.dimension, dimension),
+            dimension == 2 ? "make it with spherize --slice y=0"
+                           : "make it with spherize without --slice");
+    return build_shape(set, about_centre_of_mass);
+}
+
+// Centres of a group's floes in the x-y plane. `low` and `size` are the shape's box in the
+// group's orientation, relative to the centre of mass.
+std::vector<Vec3> place_group(const FloeGroup& group, const Vec3& low, const Vec3& size,
+                              bool planar) {
+    if (group.pattern == Pattern::single) return {group.position};
+    const double pitch_x = size.x() + group.gap[0];
+    const double pitch_y = planar ? 0.0 : size.y() + group.gap[1];
+    std::vector<Vec3> places;
+    for (int row = 0; row < group.count[1]; ++row)
+        for (int column = 0; column < group.count[0]; ++column) {
+            double across = (row - 0.5 * (group.count[1] - 1)) * pitch_y;
+            if (group.pattern == Pattern::brick && column % 2 == 1) across += 0.5 * pitch_y;
+            const double centre_y = low.y() + 0.5 * size.y();  // box centre off the centre of mass
+            places.emplace_back(group.origin[0] - low.x() + column * pitch_x,
+                                planar ? 0.0 : group.origin[1] + across - centre_y, std::nan(""));
+        }
+    return places;
+}
+
+void add_group(Scene& scene, const Case& parameters, std::size_t g, std::int32_t shape_row) {
+    const FloeGroup& group = parameters.floes[g];
+    const Shape& shape = scene.shapes[static_cast<std::size_t>(shape_row)];
+    const Mat3 rotation = group.orientation.toRotationMatrix();
+    Eigen::AlignedBox3d box;
+    for (const Vec3& v : shape.mesh.vertices) box.extend(rotation * v);
+    const double count = static_cast<double>(group.count[0]) * group.count[1];
+    if (count + static_cast<double>(scene.bodies.size()) > kMostFloes)
+        throw bad_input(fmt::format("floes.{}.count", g + 1), "asks for more than 10 million floes",
+                        "use fewer floes");
+
+    const double fraction = parameters.ice_density / parameters.water_density;
+    double height = std::nan("");
+    for (Vec3 place : place_group(group, box.min(), box.sizes(), parameters.dimension == 2)) {
+        if (std::isnan(place.z())) {
+            if (fraction >= 1.0)
+                throw bad_input(fmt::format("floes.{}", g + 1),
+                                "ice as dense as water has no floating equilibrium",
+                                "state z in position, or lower ice.density");
+            if (std::isnan(height)) height = floating_height(shape, rotation, fraction);
+            place.z() = height;
+        }
+        const std::size_t i =
+            add_floe(scene, shape_row, parameters.ice_density, place, group.orientation,
+                     static_cast<std::int32_t>(g), group.hold != Hold::never);
+        if (group.pattern != Pattern::single) continue;
+        Bodies& b = scene.bodies;
+        const Mat3 inertia_world = rotation * b.inertia[i] * rotation.transpose();
+        b.momentum[i] = b.mass[i] * group.velocity;
+        b.angular_momentum[i] = inertia_world * group.angular_velocity;
+        update_derived(b, i);
+    }
+}
+
+}  // namespace
+
+Scene make_scene(Shape hull, const Vec3& position, const Vec3& velocity) {
+    Scene scene;
+    scene.dimension = hull.dimension;
+    scene.ship_velocity = velocity;
+    scene.shapes.push_back(std::move(hull));
+    Bodies& b = scene.bodies;
+    b.shape.push_back(0);
+    b.group.push_back(-1);
+    b.mass.push_back(0.0);
+    b.inertia.push_back(Mat3::Zero());
+    b.inverse_inertia.push_back(Mat3::Zero());
+    b.position.push_back(position);
+    b.orientation.push_back(Quaternion::Identity());
+    b.momentum.push_back(Vec3::Zero());
+    b.angular_momentum.push_back(Vec3::Zero());
+    b.held.push_back(0);
+    b.rotation.push_back(Mat3::Identity());
+    b.velocity.push_back(velocity);
+    b.angular_velocity.push_back(Vec3::Zero());
+    b.inverse_mass.push_back(0.0);
+    b.inverse_inertia_world.push_back(Mat3::Zero());
+    return scene;
+}
+
+std::size_t add_floe(Scene& scene, std::int32_t shape_row, double density, const Vec3& position,
+                     const Quaternion& orientation, std::int32_t group, bool held) {
+    const Shape& shape = scene.shapes[static_cast<std::size_t>(shape_row)];
+    Bodies& b = scene.bodies;
+    const Mat3 inertia = density * shape.solid.inertia;
+    Mat3 inverse = Mat3::Zero();
+    if (scene.dimension == 2)
+        inverse(1, 1) = 1.0 / inertia(1, 1);
+    else
+        inverse = inertia.inverse();
+    b.shape.push_back(shape_row);
+    b.group.push_back(group);
+    b.mass.push_back(density * shape.solid.volume);
+    b.inertia.push_back(inertia);
+    b.inverse_inertia.push_back(inverse);
+    b.position.push_back(position);
+    b.orientation.push_back(orientation);
+    b.momentum.push_back(Vec3::Zero());
+    b.angular_momentum.push_back(Vec3::Zero());
+    b.held.push_back(held ? 1 : 0);
+    b.rotation.push_back(Mat3::Identity());
+    b.velocity.push_back(Vec3::Zero());
+    b.angular_velocity.push_back(Vec3::Zero());
+    b.inverse_mass.push_back(0.0);
+    b.inverse_inertia_world.push_back(Mat3::Zero());
+    update_derived(b, b.size() - 1);
+    return b.size() - 1;
+}
+
+Scene build_scene(const Case& parameters) {
+    Scene scene = make_scene(read_shape(parameters.hull_spheres, parameters.dimension, false),
+                             parameters.hull_position, Vec3(parameters.ship_speed(0.0), 0.0, 0.0));
+    std::map<std::filesystem::path, std::int32_t> rows;  // equal files share a shape
+    for (std::size_t g = 0; g < parameters.floes.size(); ++g) {
+        const auto& file = parameters.floes[g].spheres;
+        if (!rows.contains(file)) {
+            rows[file] = static_cast<std::int32_t>(scene.shapes.size());
+            scene.shapes.push_back(read_shape(file, parameters.dimension, true));
+        }
+        add_group(scene, parameters, g, rows[file]);
+    }
+    for (const int id : parameters.track)
+        if (id >= static_cast<int>(scene.bodies.size()))
+            throw bad_input(
+                "output.track",
+                fmt::format("floe {} does not exist: there are {}", id, scene.bodies.size() - 1),
+                "floes are numbered from 1 in the order of [[floes]], x fastest");
+    return scene;
+}
+
+}  // namespace ice

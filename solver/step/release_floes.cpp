@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/step/release_floes.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+namespace ice {
+
+namespace {
+
+bool touches(const Bodies& b, const Contact& c, double dt) {
+    const auto velocity_at = [&](std::int32_t i) -> Vec3 {
+        return b.velocity[i] + b.angular_velocity[i].cross(Vec3(c.point - b.position[i]));
+    };
+    const double approach = (velocity_at(c.b) - velocity_at(c.a)).dot(c.normal);
+    return c.gap + dt * std::min(approach, 0.0) <= 0.0;
+}
+
+// May `touched` be let go by a contact with `other`?
+bool lets_go(const Scene& scene, const Case& parameters, std::int32_t touched, std::int32_t other) {
+    const Bodies& b = scene.bodies;
+    if (touched == static_cast<std::int32_t>(kShip) || !b.held[touched]) return false;
+    const bool ship = other == static_cast<std::int32_t>(kShip);
+    switch (parameters.floes[static_cast<std::size_t>(b.group[touched])].hold) {
+        case Hold::never:
+            return true;
+        case Hold::until_hull_contact:
+            return ship;
+        case Hold::until_contact:
+            return ship || !b.held[other];
+        case Hold::always:
+            return false;
+    }
+    return false;
+}
+
+}  // namespace
+
+bool release_touched(Scene& scene, const Case& parameters, const std::vector<Contact>& contacts) {
+    bool any = false;
+    for (const Contact& c : contacts) {
+        const bool a = lets_go(scene, parameters, c.a, c.b);
+        const bool b = lets_go(scene, parameters, c.b, c.a);
+        if ((!a && !b) || !touches(scene.bodies, c, parameters.time_step)) continue;
+        if (a) release(scene.bodies, c.a);
+        if (b) release(scene.bodies, c.b);
+        any = true;
+    }
+    return any;
+}
+
+}  // namespace ice

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "solver/case/case.hpp"
+#include "solver/narrow/find_contacts.hpp"
+
+namespace ice {
+
+/// Releases held floes that are touched within the step, by the rule of their group:
+/// until-hull-contact by the ship only, until-contact by the ship or a moving floe.
+///
+/// A contact touches when gap + dt min(v_r . n, 0) <= 0.
+/// @return true when a floe was released, so that contacts must be looked for again
+bool release_touched(Scene& scene, const Case& parameters, const std::vector<Contact>& contacts);
+
+}  // namespace ice

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "common/formats/summary_file.hpp"
+#include "solver/step/step.hpp"
+
+namespace ice {
+
+/// What the caller of a run may watch and decide.
+struct RunOptions {
+    std::filesystem::path folder;  ///< run folder; created
+    std::string command_line;
+    /// Called after every step with (fraction done, world); false ends the run as "interrupted".
+    std::function<bool(double, const World&)> keep_going = [](double, const World&) {
+        return true;
+    };
+};
+
+/// A case made ready: sphere sets read, floes placed.
+World build_world(const Case& parameters);
+
+/// Runs a world to its case's duration and writes the run folder.
+///
+/// A body whose position is no longer finite ends the run with an Error (exit code 1) naming step
+/// and floe.
+Summary run(World& world, const RunOptions& options);
+
+}  // namespace ice

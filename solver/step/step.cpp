@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// In:  bodies at time t.   Out: bodies at t + dt, and the impulses in world.constraints.
+#include "solver/step/step.hpp"
+
+#include <algorithm>
+
+#include "common/base/timer.hpp"
+#include "solver/step/release_floes.hpp"
+
+namespace ice {
+
+namespace {
+
+// Contacts are found this much [m] before they touch, beyond what the bodies' speeds ask for: loads
+// may speed a floe up within the step by about g dt^2 / 2 = 0.5 mm at dt = 0.01 s.
+constexpr double kMargin = 5e-4;
+
+// Runs one stage and adds its time to the table.
+template <class Work>
+void timed(World& w, Stage stage, const Work& work) {
+    const Timer timer;
+    work();
+    w.stage_seconds[static_cast<std::size_t>(stage)] += timer.seconds();
+}
+
+// Distance [m] that any two bodies' surfaces may come closer within a step.
+double closest_approach(const World& w) {
+    const Bodies& b = w.scene.bodies;
+    double speed = 0.0;
+    for (std::size_t i = 0; i < b.size(); ++i) {
+        const double radius = w.scene.shapes[static_cast<std::size_t>(b.shape[i])].bounding_radius;
+        speed = std::max(speed, b.velocity[i].norm() + b.angular_velocity[i].norm() * radius);
+    }
+    return 2.0 * speed * w.parameters.time_step + kMargin;
+}
+
+}  // namespace
+
+ContactLaw contact_law(const Case& p) {
+    return {p.restitution, p.friction_ship_ice, p.friction_ice_ice, p.crushing_pressure,
+            p.iterations,  p.tolerance,         p.time_step};
+}
+
+void step(World& w) {
+    const double dt = w.parameters.time_step;
+    const ContactLaw law = contact_law(w.parameters);
+    Bodies& bodies = w.scene.bodies;
+
+    // the ship goes as prescribed: its speed at mid-step carries it to the end of the step
+    w.scene.ship_velocity = Vec3(w.parameters.ship_speed(w.time + 0.5 * dt), 0.0, 0.0);
+    bodies.velocity[kShip] = w.scene.ship_velocity;
+
+    // who touches whom; a floe let go may touch neighbours that did not matter while it was held
+    do {
+        timed(w, Stage::broad, [&] { find_pairs(w.scene, closest_approach(w), w.pairs); });
+        timed(w, Stage::narrow, [&] {
+            w.finder.find(w.scene, w.pairs, w.parameters.normal, dt, kMargin, w.contacts);
+        });
+    } while (release_touched(w.scene, w.parameters, w.contacts));
+    w.angular_velocity_start = bodies.angular_velocity;
+
+    // impacts act on the velocities before the loads, so that ice at rest does not bounce
+    timed(w, Stage::contact, [&] {
+        build_constraints(bodies, w.contacts, law, w.constraints);
+        w.impacts = resolve_impacts(bodies, w.constraints, law);
+    });
+
+    // gravity, buoyancy and drag change velocities; resting contacts then carry those loads
+    timed(w, Stage::water, [&] {
+        measure_loads(w.scene, w.parameters, w.loads);
+        apply_loads(bodies, w.loads, dt);
+    });
+    timed(w, Stage::contact, [&] {
+        w.warm_start.recall(w.contacts, w.constraints);
+        w.rest = resolve_rest(bodies, w.constraints, law);
+        w.warm_start.remember(w.contacts, w.constraints);
+    });
+
+    // overlap that the finite step left is taken out of the poses, not of the velocities
+    timed(w, Stage::contact, [&] { separate_overlaps(bodies, w.constraints, law, w.nudges); });
+    timed(w, Stage::integrate, [&] {
+        store_momenta(bodies, w.angular_velocity_start);
+        advance_poses(w.scene, w.nudges, dt);
+    });
+    ++w.steps;
+    w.time = static_cast<double>(w.steps) * dt;
+}
+
+}  // namespace ice

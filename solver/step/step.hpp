@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// One step of the method; step.cpp is its table of contents.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "solver/broad/find_pairs.hpp"
+#include "solver/case/case.hpp"
+#include "solver/contact/solve_contacts.hpp"
+#include "solver/integrate/integrate.hpp"
+#include "solver/narrow/find_contacts.hpp"
+#include "solver/scene/bodies.hpp"
+
+namespace ice {
+
+enum class Stage { broad, narrow, contact, water, integrate, count };
+constexpr std::array<const char*, static_cast<std::size_t>(Stage::count)> kStageNames{
+    "broad", "narrow", "contact", "water", "integrate"};
+
+/// A scene in motion with everything a step reuses from the one before.
+struct World {
+    Case parameters;
+    Scene scene;
+    double time = 0.0;  ///< [s]
+    std::int64_t steps = 0;
+
+    std::vector<BodyPair> pairs;
+    std::vector<Contact> contacts;
+    std::vector<Constraint> constraints;
+    std::vector<WaterLoad> loads;
+    Nudges nudges;
+    WarmStart warm_start;
+    ContactFinder finder;
+    std::vector<Vec3> angular_velocity_start;
+
+    SolveReport impacts, rest;  ///< of the last step
+    std::array<double, static_cast<std::size_t>(Stage::count)> stage_seconds{};
+};
+
+/// Contact parameters of a case, for a step of its length.
+ContactLaw contact_law(const Case& parameters);
+
+/// Advances the world by parameters.time_step. Afterwards `constraints` hold the step's impulses.
+void step(World& world);
+
+}  // namespace ice

@@ -1,0 +1,26 @@
+# Every source names its licence in the first line (after #!), and no work is left behind in words.
+#   cmake -DROOT=<repository> -P tests/architecture/check_text.cmake
+cmake_minimum_required(VERSION 3.25)
+include(${CMAKE_CURRENT_LIST_DIR}/rules.cmake)
+
+find_sources(sources hpp cpp cpp.in py sh)
+foreach(source IN LISTS sources)
+  read_lines(${source} lines)
+  list(POP_FRONT lines first)
+  if(first MATCHES "^#!")
+    list(POP_FRONT lines first)
+  endif()
+  if(NOT first MATCHES "^(//|#) SPDX-License-Identifier: GPL-3\\.0-or-later$")
+    fault("${source} does not begin with its SPDX line")
+  endif()
+
+  foreach(line IN LISTS lines)
+    if(line MATCHES "(TODO|FIXME|XXX|HACK)")
+      set(word ${CMAKE_MATCH_1})
+      if(NOT line MATCHES "${word}\\(#[0-9]+\\)")
+        fault("${source} says ${word} without an issue, as in ${word}(#12)")
+      endif()
+    endif()
+  endforeach()
+endforeach()
+finish("text")

@@ -1,0 +1,74 @@
+# The architecture in one place: which folders there are, in data-flow order, and who may use what.
+# Read by the check_*.cmake scripts; each takes -DROOT=<repository>.
+
+# A file may include its own folder and the ones before it: of common/ and of its own tool, never of
+# another tool. The last entry of a tool is its top folder with the main program.
+set(order_common common/base common/geometry common/formats common/cli)
+set(order_preprocess preprocess/load preprocess/clean preprocess/measure preprocess/slice
+  preprocess/fill preprocess/write preprocess)
+set(order_solver solver/case solver/shape solver/water solver/scene solver/broad solver/narrow
+  solver/contact solver/integrate solver/record solver/step solver)
+set(order_postprocess postprocess/read postprocess/views postprocess/report postprocess/paraview
+  postprocess/check postprocess)
+set(tools preprocess solver postprocess)
+
+# Third-party headers and the files that may include them: pairs of regular expressions.
+set(quarantine
+  "<assimp/"         "^preprocess/load/"
+  "<CGAL/"           "^preprocess/(clean|measure|slice)/"
+  "<toml"            "^(solver/case|postprocess/check)/"
+  "<(hdf5|H5)"       "^common/formats/"
+  "<nlohmann/"       "^common/formats/"
+  "<hwy/"            "_simd\\.cpp$"
+  "<omp\\.h>"        "^common/base/parallel\\.hpp$"
+  "<spdlog/"         "^common/cli/"
+  "<CLI/"            "^(common/cli/|(preprocess/spherize|solver/icesolve|postprocess/icepost)\\.cpp$)"
+  "<(zlib|zconf)\\." "^postprocess/(paraview|report)/"
+  "<catch2/"         "^tests/")
+
+set(max_columns 100)
+set(max_lines 500)
+set(many_lines 300) # listed, not refused
+
+# Sources under ROOT relative to it, of the given kinds (hpp cpp py sh), without samples and builds.
+function(find_sources out)
+  set(found "")
+  foreach(kind IN LISTS ARGN)
+    foreach(folder IN ITEMS cases common meshes postprocess preprocess solver tests)
+      file(GLOB_RECURSE part RELATIVE ${ROOT} ${ROOT}/${folder}/*.${kind})
+      list(APPEND found ${part})
+    endforeach()
+    file(GLOB part RELATIVE ${ROOT} ${ROOT}/*.${kind})
+    list(APPEND found ${part})
+  endforeach()
+  list(FILTER found EXCLUDE REGEX "^tests/architecture/samples/|/node_modules/")
+  if(NOT found)
+    message(FATAL_ERROR "no sources under ${ROOT}; give -DROOT=<repository>")
+  endif()
+  set(${out} ${found} PARENT_SCOPE)
+endfunction()
+
+# The lines of a file as a list. Characters that mean something in a CMake list become "_".
+function(read_lines path out)
+  file(READ ${ROOT}/${path} text)
+  string(REGEX REPLACE "[][;\\]" "_" text "${text}")
+  string(REGEX REPLACE "\n$" "" text "${text}")
+  string(REPLACE "\n" ";" text "${text}")
+  set(${out} "${text}" PARENT_SCOPE)
+endfunction()
+
+# A fault is printed as one line that begins with "fault:" and makes the script fail at its end.
+function(fault text)
+  message(NOTICE "fault: ${text}")
+  get_property(count GLOBAL PROPERTY faults)
+  math(EXPR count "0${count} + 1")
+  set_property(GLOBAL PROPERTY faults ${count})
+endfunction()
+
+function(finish what)
+  get_property(count GLOBAL PROPERTY faults)
+  if(count)
+    message(FATAL_ERROR "${what}: ${count} faults")
+  endif()
+  message(STATUS "${what}: no faults")
+endfunction()

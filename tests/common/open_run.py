@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""open_run.py PROGRAM: opens what PROGRAM writes with h5py, and with xarray where installed."""
+import os
+import subprocess
+import sys
+import tempfile
+
+try:
+    import h5py
+except ImportError:
+    print("skipped: h5py is not installed (apt-get install python3-h5py)")
+    sys.exit(77)
+
+with tempfile.TemporaryDirectory() as folder:
+    path = os.path.join(folder, "run.h5")
+    subprocess.run([sys.argv[1], path, "--killed"], check=True)
+    with h5py.File(path + ".part", "r") as run:
+        assert run["frames/position"].shape == (40, 6, 3), run["frames/position"].shape
+        assert run["time"].shape == (400,)
+
+    subprocess.run([sys.argv[1], path], check=True)
+    with h5py.File(path, "r") as run:
+        assert run.attrs["format"] == "icesolve-result"
+        assert run.attrs["case_toml"].startswith("title")
+        assert run["frames/position"].shape == (45, 6, 3)
+        assert run["ship/force"].dims[0].keys() == ["time"]
+        assert run["tracked/6"].shape == (450, 22)
+
+        def every_dimension_has_a_label(name, item):
+            if not isinstance(item, h5py.Dataset) or h5py.h5ds.is_scale(item.id):
+                return
+            labelled = [len(dim) > 0 for dim in item.dims]
+            assert all(labelled) or (not any(labelled) and name.startswith("shapes/")), name
+
+        run.visititems(every_dimension_has_a_label)
+
+    try:
+        import xarray
+    except ImportError:
+        print("xarray is not installed: only h5py was tried")
+        sys.exit(0)
+    for group, variable, dims in [("ship", "force", ("time", "xyz")),
+                                  ("frames", "orientation", ("frame_time", "body", "wxyz")),
+                                  ("tracked", "6", ("time", "track_columns"))]:
+        for engine in ("h5netcdf", "netcdf4"):
+            try:
+                data = xarray.open_dataset(path, group=group, engine=engine)
+            except ValueError as error:
+                if "unrecognized engine" not in str(error):
+                    raise
+                continue
+            assert data[variable].dims == dims, (engine, data[variable].dims)
+            assert abs(float(data[variable].sum())) >= 0.0
+            print(engine, group, "ok")

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "common/formats/run_file.hpp"
+
+#include <sys/wait.h>
+
+#include <catch2/catch.hpp>
+
+#include "common/formats/hdf5_file.hpp"
+#include "tests/common/fixtures.hpp"
+
+using namespace ice;
+using namespace ice::test;
+
+namespace {
+
+// poses are stored as float: 1e-6 of some 10 m
+constexpr double kPose = 1e-6;
+
+double distance(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+    if (a.size() != b.size()) return 1e300;
+    double most = 0.0;
+    for (std::size_t k = 0; k < a.size(); ++k) most = std::max(most, (a[k] - b[k]).norm());
+    return most;
+}
+
+void check_frame(const RunFrame& a, const RunFrame& b) {
+    CHECK(a.time == b.time);
+    CHECK(a.ship_position == b.ship_position);
+    CHECK(distance(a.position, b.position) < kPose);
+    CHECK(distance(a.velocity, b.velocity) < kPose);
+    CHECK(distance(a.angular_velocity, b.angular_velocity) < kPose);
+    CHECK(distance(a.contact_force, b.contact_force) < 300 * kPose);
+    CHECK(a.state == b.state);
+    REQUIRE(a.orientation.size() == b.orientation.size());
+    for (std::size_t k = 0; k < a.orientation.size(); ++k)
+        CHECK(a.orientation[k].angularDistance(b.orientation[k]) < kPose);
+}
+
+void check_history(const RunData& a, const RunData& b, std::size_t rows) {
+    REQUIRE(b.history.size() == rows);
+    for (std::size_t k = 0; k < rows; ++k) {
+        const HistoryRow &x = a.history[k], &y = b.history[k];
+        REQUIRE(x.time == y.time);
+        REQUIRE(x.contact_force == y.contact_force);
+        REQUIRE(x.friction_force == y.friction_force);
+        REQUIRE(x.moment == y.moment);
+        REQUIRE(x.ship_position == y.ship_position);
+        REQUIRE(x.contacts == y.contacts);
+        REQUIRE(x.moving_floes == y.moving_floes);
+        REQUIRE(x.max_overlap == y.max_overlap);
+        REQUIRE(x.kinetic_energy == y.kinetic_energy);
+    }
+}
+
+}  // namespace
+
+TEST_CASE("a run of 6 floes, 45 frames and 450 samples comes back", "[formats]") {
+    const TempFolder folder;
+    const RunData run = make_run({.dimension = GENERATE(2, 3)});
+    write_run(folder / "run.h5", run);
+    CHECK(folder.file_count() == 1);  // no .part left
+    const RunData back = read_run(folder / "run.h5");
+
+    CHECK(back.header.dimension == run.header.dimension);
+    CHECK(back.header.title == run.header.title);
+    CHECK(back.header.case_toml == run.header.case_toml);
+    CHECK(back.header.command_line == run.header.command_line);
+    CHECK(back.header.body_shape == run.header.body_shape);
+    CHECK(back.header.body_group == run.header.body_group);
+    CHECK(back.header.body_mass == run.header.body_mass);
+    CHECK(back.header.body_inertia == run.header.body_inertia);
+    CHECK(back.header.tracked == run.header.tracked);
+    check_history(run, back, 450);
+    REQUIRE(back.frames.size() == 45);
+    for (std::size_t f = 0; f < 45; ++f) check_frame(run.frames[f], back.frames[f]);
+    REQUIRE(back.tracks.size() == 2);
+    REQUIRE(back.tracks[1].size() == 450);
+    CHECK(back.tracks[1][449].contact_force == run.tracks[1][449].contact_force);
+    CHECK(back.tracks[1][449].ice_force == run.tracks[1][449].ice_force);
+    CHECK(back.tracks[1][449].orientation.coeffs() == run.tracks[1][449].orientation.coeffs());
+    CHECK(back.tracks[0][7].time == run.history[7].time);
+}
+
+TEST_CASE("meshes, regions and spheres of the shapes come back to float precision", "[formats]") {
+    const TempFolder folder;
+    const RunData run = make_run();
+    write_run(folder / "run.h5", run);
+    const RunData back = read_run(folder / "run.h5");
+    REQUIRE(back.header.shapes.size() == 2);
+    for (std::size_t s = 0; s < 2; ++s) {
+        const RunShape &a = run.header.shapes[s], &b = back.header.shapes[s];
+        CHECK(distance(a.mesh.vertices, b.mesh.vertices) < kPose);
+        CHECK(a.mesh.triangles == b.mesh.triangles);
+        CHECK(distance(a.centers, b.centers) < kPose);
+        CHECK(b.radii.size() == a.radii.size());
+        for (std::size_t t = 0; t < a.mesh.region.size(); ++t)
+            CHECK(b.mesh.region_names[static_cast<std::size_t>(b.mesh.region[t])] ==
+                  a.mesh.region_names[static_cast<std::size_t>(a.mesh.region[t])]);
+    }
+    CHECK(back.header.shapes[0].mesh.region_names == run.header.shapes[0].mesh.region_names);
+}
+
+TEST_CASE("a run killed after 45 frames can be read up to the flush at frame 40", "[formats]") {
+    const TempFolder folder;
+    const RunData run = make_run();
+    const pid_t child = fork();
+    if (child == 0) {
+        RunWriter writer(folder / "run.h5", run.header);
+        add_frames(writer, run, 45);
+        _exit(0);  // as a kill: no destructor runs
+    }
+    int status = 0;
+    waitpid(child, &status, 0);
+    REQUIRE(status == 0);
+    CHECK_FALSE(std::filesystem::exists(folder / "run.h5"));
+    const RunData back = read_run(folder / "run.h5.part");
+    REQUIRE(back.frames.size() == 40);
+    check_history(run, back, 400);
+    check_frame(run.frames[39], back.frames[39]);
+}
+
+TEST_CASE("a copy of the .part file taken during the run can be read", "[formats]") {
+    const TempFolder folder;
+    const RunData run = make_run();
+    const std::size_t frames = GENERATE(0u, 19u, 20u, 41u);
+    RunWriter writer(folder / "run.h5", run.header);
+    add_frames(writer, run, frames);
+    std::filesystem::copy(folder / "run.h5.part", folder / "copy.h5");
+    CHECK(read_run(folder / "copy.h5").frames.size() == frames / 20 * 20);
+}
+
+TEST_CASE("a run without frames is flushed with every 16384th sample", "[formats]") {
+    const TempFolder folder;
+    const RunData run = make_run();
+    RunWriter writer(folder / "run.h5", run.header);
+    for (int k = 0; k < 16385; ++k) {
+        writer.add(run.history[0]);
+        writer.add_tracked({run.tracks[0][0], run.tracks[1][0]});
+    }
+    std::filesystem::copy(folder / "run.h5.part", folder / "copy.h5");
+    CHECK(read_run(folder / "copy.h5").history.size() == 16384);
+    writer.finish();
+    CHECK(read_run(folder / "run.h5").tracks[1].size() == 16385);
+}
+
+TEST_CASE("a run with 0 floes and one with 0 samples come back", "[formats]") {
+    const TempFolder folder;
+    write_run(folder / "a.h5", make_run({.floes = 0, .frames = 3}));
+    CHECK(read_run(folder / "a.h5").frames.size() == 3);
+    RunWriter writer(folder / "b.h5", make_run().header);
+    writer.finish();
+    CHECK(read_run(folder / "b.h5").history.empty());
+}
+
+TEST_CASE("orientations are stored with the sign nearer to the frame before", "[formats]") {
+    const TempFolder folder;
+    RunData run = make_run({.floes = 1, .frames = 10});
+    for (std::size_t f = 0; f < 10; ++f) {
+        Eigen::Quaterniond q(Eigen::AngleAxisd(0.4 * static_cast<double>(f), Vec3::UnitZ()));
+        if (f % 2) q.coeffs() = -q.coeffs();
+        run.frames[f].orientation = {q};
+    }
+    write_run(folder / "run.h5", run);
+    const RunData back = read_run(folder / "run.h5");
+    for (std::size_t f = 1; f < 10; ++f)
+        CHECK(back.frames[f].orientation[0].dot(back.frames[f - 1].orientation[0]) > 0.9);
+}
+
+TEST_CASE("what is no result, or cut off, is refused with the file's name", "[formats]") {
+    const TempFolder folder;
+    CHECK_THAT(error_text([&] { read_run(folder / "run.h5"); }), Catch::Contains("file not found"));
+    { Hdf5File file(folder / "other.h5", Hdf5File::Mode::create); }
+    CHECK_THAT(error_text([&] { read_run(folder / "other.h5"); }),
+               Catch::Contains("is not the result of a run"));
+    write_run(folder / "run.h5", make_run());
+    const std::string bytes = read_bytes(folder / "run.h5");
+    for (std::size_t part = 1; part < 8; ++part) {
+        write_bytes(folder / "cut.h5", bytes.substr(0, bytes.size() * part / 8));
+        CHECK_THAT(error_text([&] { read_run(folder / "cut.h5"); }), Catch::Contains("cut.h5"));
+    }
+}
+
+TEST_CASE("a run cannot be started in a folder that does not exist", "[formats]") {
+    const TempFolder folder;
+    CHECK_THAT(error_text([&] { RunWriter(folder / "no/run.h5", make_run().header); }),
+               Catch::Contains("cannot be created"));
+}

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "common/formats/summary_file.hpp"
+
+#include <catch2/catch.hpp>
+#include <limits>
+
+#include "common/base/version.hpp"
+#include "tests/common/fixtures.hpp"
+
+using namespace ice;
+using namespace ice::test;
+
+namespace {
+
+Summary make_summary() {
+    Summary s;
+    s.title = "Pre-sawn channel";
+    s.simd = "avx2";
+    s.steps = 3000;
+    s.simulated_s = 30.0;
+    s.wall_s = 7.5;
+    s.threads = 2;
+    s.state_hash = 0x00ab12cd34ef5678ull;
+    s.hull_spheres = 1200;
+    s.ice_spheres = 43200;
+    s.floes_total = 180;
+    s.floes_moved = 90;
+    s.floes_behind = 12;
+    s.average_from = 10.0;
+    s.resistance = {1100.5, 1000.25, 100.25, 220.0, 3100.0, 12.5};
+    s.lateral = {1.0, 2.0, 3.0, 4.0, 5.0, 6.0};
+    s.vertical = {0.1, 0.2, 0.3, 0.4, 0.5, 1.0 / 3.0};
+    s.regions["bow"] = {17, 42.5, {-900.0, 1.0, 200.0}};
+    s.contacts_mean = 12.5;
+    s.contacts_max = 40.0;
+    s.max_overlap = 0.001;
+    s.unconverged_steps = 3;
+    s.energy["kinetic_J"] = 55.0;
+    s.stage_seconds["narrow"] = 2.5;
+    s.lindqvist_submersion = 950.0;
+    s.warnings = {"floe 3 fell off"};
+    s.case_file = "channel.cfg";
+    return s;
+}
+
+Summary written_and_read(const Summary& summary) {
+    const TempFolder folder;
+    write_bytes(folder / "summary.json", summary_text(summary));
+    return read_summary(folder / "summary.json");
+}
+
+}  // namespace
+
+TEST_CASE("a summary comes back with all digits", "[formats]") {
+    const Summary s = make_summary(), back = written_and_read(s);
+    CHECK(back.status == "completed");
+    CHECK(back.title == s.title);
+    CHECK(back.steps == 3000);
+    CHECK(back.state_hash == s.state_hash);
+    CHECK(back.ice_spheres == 43200);
+    CHECK(back.floes_behind == 12);
+    CHECK(back.average_from == 10.0);
+    CHECK(back.resistance.mean == 1100.5);
+    CHECK(back.resistance.ci95 == 12.5);
+    CHECK(back.vertical.ci95 == 1.0 / 3.0);
+    CHECK(back.regions.at("bow").hits == 17);
+    CHECK(back.regions.at("bow").mean == s.regions.at("bow").mean);
+    CHECK(back.unconverged_steps == 3);
+    CHECK(back.energy == s.energy);
+    CHECK(back.stage_seconds == s.stage_seconds);
+    CHECK(back.lindqvist_submersion == s.lindqvist_submersion);
+    CHECK(back.warnings == s.warnings);
+    CHECK(back.case_file == "channel.cfg");
+    CHECK(summary_text(back) == summary_text(s));
+}
+
+TEST_CASE("summary.json holds the contract's keys in the contract's order", "[formats]") {
+    const std::string text = summary_text(make_summary());
+    std::size_t at = 0;
+    for (const char* key :
+         {"schema", "status", "title", "steps", "simulated_s", "wall_s", "realtime_factor", "threads",
+          "simd", "state_hash", "spheres", "hull", "ice", "floes", "total", "moved", "behind",
+          "resistance", "mean_N", "contact_mean_N", "friction_mean_N", "std_N", "max_N", "ci95_N",
+          "lateral", "vertical", "regions", "hits", "max_impulse_Ns", "mean_N", "contacts", "mean",
+          "max", "max_overlap_m", "unconverged_steps", "energy", "lindqvist_submersion_N", "warnings",
+          "version", "git_commit", "compiler"}) {
+        CAPTURE(key);
+        const std::size_t found = text.find("\"" + std::string(key) + "\":", at);
+        REQUIRE(found != std::string::npos);
+        at = found;
+    }
+    CHECK_THAT(text, Catch::Contains("\"schema\": \"icesolve-summary/1\""));
+    CHECK_THAT(text, Catch::Contains("\"state_hash\": \"00ab12cd34ef5678\""));
+    CHECK_THAT(text, Catch::Contains("\"realtime_factor\": 4.0"));
+    CHECK_THAT(text, Catch::Contains(std::string("\"version\": \"") + version()));
+}
+
+TEST_CASE("numbers that are not finite become null and read back as NaN", "[formats]") {
+    Summary s = make_summary();
+    s.resistance.ci95 = std::numeric_limits<double>::quiet_NaN();
+    s.wall_s = 0.0;  // then the real-time factor is infinite
+    s.lindqvist_submersion.reset();
+    CHECK_THAT(summary_text(s), Catch::Contains("\"ci95_N\": null"));
+    CHECK_THAT(summary_text(s), Catch::Contains("\"realtime_factor\": null"));
+    CHECK_THAT(summary_text(s), Catch::Contains("\"lindqvist_submersion_N\": null"));
+    const Summary back = written_and_read(s);
+    CHECK(std::isnan(back.resistance.ci95));
+    CHECK_FALSE(back.lindqvist_submersion);
+}
+
+TEST_CASE("all numbers of a JSON file are found by dotted key", "[formats]") {
+    const TempFolder folder;
+    write_bytes(folder / "summary.json", summary_text(make_summary()));
+    const auto numbers = read_json_numbers(folder / "summary.json");
+    CHECK(numbers.at("resistance.mean_N") == 1100.5);
+    CHECK(numbers.at("floes.moved") == 90.0);
+    CHECK(numbers.at("regions.bow.mean_N.0") == -900.0);
+    CHECK(numbers.at("energy.kinetic_J") == 55.0);
+    CHECK(numbers.count("title") == 0);
+}
+
+TEST_CASE("a summary with a missing key or a wrong type names file and key", "[formats]") {
+    const TempFolder folder;
+    const std::string text = summary_text(make_summary());
+    const auto complaint = [&](const std::string& from, const std::string& to) {
+        std::string changed = text;
+        changed.replace(changed.find(from), from.size(), to);
+        write_bytes(folder / "summary.json", changed);
+        return error_text([&] { read_summary(folder / "summary.json"); });
+    };
+    CHECK_THAT(complaint("\"std_N\"", "\"std\""),
+               Catch::Contains("summary.json: resistance.std_N: is missing"));
+    CHECK_THAT(complaint("\"steps\": 3000", "\"steps\": \"many\""),
+               Catch::Contains("steps: has the wrong type"));
+    CHECK_THAT(complaint("icesolve-summary/1", "other/1"),
+               Catch::Contains("schema: is not icesolve-summary/1"));
+    CHECK_THAT(complaint("{", ""), Catch::Contains("is not valid JSON"));
+    CHECK_THAT(error_text([&] { read_summary(folder / "no.json"); }),
+               Catch::Contains("file not found"));
+}
+
+TEST_CASE("spherize's JSON holds the contract's keys", "[formats]") {
+    SpheresReport report;
+    report.spheres = 240;
+    report.inertia_unit_density = {1, 2, 3, 0, 0, 0};
+    report.thin_features.push_back({{1.0, 2.0, 3.0}, 0.05});
+    report.repairs.emplace_back("weld", 12);
+    report.guessed["up"] = "z";
+    report.seconds["fill"] = 0.5;
+    const TempFolder folder;
+    const std::string text = spheres_report_text(report);
+    write_bytes(folder / "x.json", text);
+    const auto numbers = read_json_numbers(folder / "x.json");
+    for (const char* key :
+         {"dimension", "radius_m", "spacing_m", "spheres", "surface_spheres", "volume_m3", "area_m2",
+          "centroid_m.2", "inertia_unit_density.5", "protrusion_max_m", "covering_radius_m",
+          "gap_p50_m", "gap_p99_m", "gap_max_m", "normal_error_mean_deg", "normal_error_p99_deg",
+          "thin_features.0.at_m.1", "thin_features.0.size_m", "repairs.0.count", "seconds.fill"}) {
+        CAPTURE(key);
+        CHECK(numbers.count(key) == 1);
+    }
+    CHECK(numbers.at("spheres") == 240.0);
+    CHECK_THAT(text, Catch::Contains("\"schema\": \"spherize/1\""));
+    CHECK_THAT(text, Catch::Contains("\"step\": \"weld\""));
+    CHECK_THAT(text, Catch::Contains("\"up\": \"z\""));
+}

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "common/base/units.hpp"
+
+using namespace ice;
+
+namespace {
+
+double si(const char* text, Dimension dimension) {
+    const auto quantity = parse_quantity(text, dimension);
+    REQUIRE(quantity);
+    return quantity->value;
+}
+
+}  // namespace
+
+TEST_CASE("2 kn are 1.02888... m/s, 80 mm are 0.08 m, 1.5 MPa are 1.5e6 Pa", "[base]") {
+    CHECK(si("2 kn", Dimension::speed) == Approx(1.0288888888888889).epsilon(1e-15));
+    CHECK(si("80 mm", Dimension::length) == Approx(0.08).epsilon(1e-15));
+    CHECK(si("1.5 MPa", Dimension::pressure) == Approx(1.5e6).epsilon(1e-15));
+    CHECK(si("180 deg", Dimension::angle) == Approx(3.141592653589793).epsilon(1e-15));
+    CHECK(si("3.6 km/h", Dimension::speed) == Approx(1.0).epsilon(1e-15));
+    CHECK(si("0.9 t/m3", Dimension::density) == Approx(900.0).epsilon(1e-15));
+}
+
+TEST_CASE("a bare number is SI and says that it had no unit", "[base]") {
+    const auto quantity = parse_quantity(" +0.25 ", Dimension::length);
+    REQUIRE(quantity);
+    CHECK(quantity->value == 0.25);
+    CHECK_FALSE(quantity->has_unit);
+    CHECK(parse_quantity("0.25m", Dimension::length)->has_unit);
+    CHECK(parse_quantity("-1e-3", Dimension::none)->value == -1e-3);
+}
+
+TEST_CASE("a unit of another dimension, an unknown one or text behind it is refused", "[base]") {
+    const char* text = GENERATE("2 kg", "2 m/s", "2 mm x", "m", "", "  ", "2,5 m", "two m", "2 MM");
+    CAPTURE(text);
+    CHECK_FALSE(parse_quantity(text, Dimension::length));
+}
+
+TEST_CASE("a dimensionless number takes no unit", "[base]") {
+    CHECK_FALSE(parse_quantity("0.3 m", Dimension::none));
+    CHECK(unit_names(Dimension::none).empty());
+    CHECK(si_unit(Dimension::none) == "1");
+}
+
+TEST_CASE("inf is read as infinity", "[base]") {
+    CHECK(std::isinf(si("inf", Dimension::pressure)));
+    CHECK(std::isinf(si("inf MPa", Dimension::pressure)));
+}
+
+TEST_CASE("messages can name the SI unit and all units of a dimension", "[base]") {
+    CHECK(si_unit(Dimension::density) == "kg/m3");
+    CHECK(unit_names(Dimension::length) == "m, km, cm, mm, ft, in");
+}

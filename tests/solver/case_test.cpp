@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Case files: values, units, overrides, and the text of every complaint.
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "common/base/error.hpp"
+#include "solver/case/case_schema.hpp"
+#include "solver/case/read_case.hpp"
+
+using namespace ice;
+
+namespace {
+
+const std::string kGood = R"(title = "test"
+[simulation]
+duration = 30.0
+time_step = "5 ms"
+[hull]
+spheres = "hull.spheres.h5"
+speed = "2 kn"
+[[floes]]
+spheres = "floe.spheres.h5"
+count = [20, 9]
+gap = ["20 mm", 0.02]
+hold = "always"
+[contact]
+crushing_pressure = "1.5 MPa"
+[output]
+track = [1, 2]
+)";
+
+// A folder with a case file and the files it names.
+class CaseFolder {
+public:
+    explicit CaseFolder(const std::string& text) {
+        static int number = 0;
+        folder_ =
+            std::filesystem::temp_directory_path() /
+            ("icesolve-case-test-" + std::to_string(::getpid()) + "-" + std::to_string(++number));
+        std::filesystem::create_directories(folder_);
+        std::ofstream(folder_ / "hull.spheres.h5") << "x";
+        std::ofstream(folder_ / "floe.spheres.h5") << "x";
+        std::ofstream(file()) << text;
+    }
+    ~CaseFolder() { std::filesystem::remove_all(folder_); }
+    std::filesystem::path file() const { return folder_ / "case.cfg"; }
+
+private:
+    std::filesystem::path folder_;
+};
+
+std::string complaint(const std::string& text, const std::vector<std::string>& overrides = {}) {
+    const CaseFolder folder(text);
+    try {
+        read_case(folder.file(), overrides);
+    } catch (const Error& error) {
+        CHECK(error.code() == ExitCode::bad_input);
+        return error.what();
+    }
+    return "";
+}
+
+std::string with(const std::string& from, const std::string& to) {
+    std::string text = kGood;
+    return text.replace(text.find(from), from.size(), to);
+}
+
+bool contains(const std::string& text, const std::string& part) {
+    if (text.find(part) != std::string::npos) return true;
+    UNSCOPED_INFO("not found: " << part << "\nin: " << text);
+    return false;
+}
+
+}  // namespace
+
+TEST_CASE("a case reads with units, defaults and derived values", "[case]") {
+    const CaseFolder folder(kGood);
+    const Case c = read_case(folder.file());
+    CHECK(c.time_step == Approx(0.005));
+    CHECK(c.ship_speed(3.0) == Approx(2.0 * 1852.0 / 3600.0));
+    CHECK(c.floes.size() == 1);
+    CHECK(c.floes[0].count == std::array<int, 2>{20, 9});
+    CHECK(c.floes[0].gap[0] == Approx(0.02));
+    CHECK(c.floes[0].hold == Hold::always);
+    CHECK(c.crushing_pressure == Approx(1.5e6));
+    CHECK(c.average_from == Approx(10.0));  // a third of the duration
+    CHECK(c.track == std::vector<int>{1, 2});
+    CHECK(c.normal == NormalRule::surface);
+    CHECK(c.buoyancy == BuoyancyModel::distributed);
+    CHECK(c.floes[0].spheres.is_absolute());
+}
+
+TEST_CASE("the resolved case reads back as the same case", "[case][property]") {
+    const CaseFolder folder(kGood);
+    const Case first = read_case(folder.file(), {"contact.restitution=0.12345678901234567"});
+    const CaseFolder again(first.resolved);
+    const Case second = read_case(again.file());
+    CHECK(second.resolved == first.resolved);
+    CHECK(second.restitution == 0.12345678901234567);
+}
+
+TEST_CASE("overrides are read as TOML, then as text with a unit", "[case]") {
+    const CaseFolder folder(kGood);
+    const Case c =
+        read_case(folder.file(), {"ice.density=917 kg/m3", "hull.speed_table=[[0,1],[10,2]]",
+                                  "floes.1.hold=never", "floes.gap=[0.1,0.2]"});
+    CHECK(c.ice_density == 917.0);
+    CHECK(c.ship_speed(5.0) == Approx(1.5));
+    CHECK(c.ship_speed(-1.0) == 1.0);
+    CHECK(c.ship_speed(99.0) == 2.0);
+    CHECK(c.floes[0].hold == Hold::never);
+    CHECK(c.floes[0].gap[1] == 0.2);
+}
+
+TEST_CASE("mistakes are named with line, column and remedy", "[case][errors]") {
+    CHECK(contains(complaint(with("duration", "duratoin")),
+                   ":3:1: error: unknown key 'simulation.duratoin'; did you mean "
+                   "'simulation.duration'?"));
+    CHECK(contains(complaint(with("\"5 ms\"", "\"5 kg\"")), "use s, ms, min, h"));
+    CHECK(contains(complaint(with("30.0", "-1.0")), "simulation.duration = -1 is outside"));
+    CHECK(contains(complaint(with("30.0", "nan")), "simulation.duration = nan is outside"));
+    CHECK(contains(complaint(with("\"always\"", "\"forever\"")),
+                   "never|until-hull-contact|until-contact|always"));
+    CHECK(contains(complaint(with("[20, 9]", "[20]")), "must be a list of 2 numbers"));
+    CHECK(contains(complaint(with("[20, 9]", "[2.5, 9]")), "holds whole numbers"));
+    CHECK(contains(complaint(with("speed = \"2 kn\"", "")), "'hull.speed' (or hull.speed_table)"));
+    CHECK(contains(complaint(with("duration = 30.0", "")),
+                   "required key 'simulation.duration' is missing"));
+    CHECK(contains(complaint(with("hull.spheres.h5", "hulk.spheres.h5")), "make it with spherize"));
+    CHECK(contains(complaint(with("[[floes]]", "[floes]")), "floes"));
+    CHECK(contains(complaint(with("duration = 30.0", "duration = ")), ":3:"));
+    CHECK(contains(complaint(with("time_step = \"5 ms\"", "time_step = 0.01\ntime_step = 0.02")),
+                   ":5:"));
+    CHECK(contains(complaint(kGood, {"ice.densty=900"}), "did you mean 'ice.density'?"));
+    CHECK(contains(complaint(kGood, {"nonsense"}), "write it as key=value"));
+    CHECK(contains(complaint(kGood, {"floes.pattern=file"}), "not available"));
+    CHECK(contains(complaint(kGood, {"floes.pattern=single"}), "position is missing"));
+    CHECK(contains(complaint(kGood, {"output.average_from=99"}), "not before the end"));
+}
+
+TEST_CASE("all mistakes come in one go", "[case][errors]") {
+    const std::string text =
+        complaint(with("duration = 30.0", "duration = -1.0\nspeeed = 3\n") + "foo = 1\n");
+    CHECK(contains(text, "3 mistakes"));
+}
+
+TEST_CASE("a missing case file is named", "[case][errors]") {
+    CHECK_THROWS_WITH(read_case("/nonexistent/case.cfg"), Catch::Contains("not found"));
+}
+
+TEST_CASE("the default case parses as TOML and every key explains itself", "[case]") {
+    for (const Key& key : case_keys())
+        CHECK(contains(explain_key(std::string(key.path)), key.path.data()));
+    CHECK_THROWS_WITH(explain_key("contact.restitutoin"), Catch::Contains("contact.restitution"));
+    CHECK(contains(default_case_text(), "restitution = 0.3"));
+    CHECK(contains(case_json_schema(), "\"crushing_pressure\""));
+}

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Impulses of single contacts against their closed forms.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "solver/contact/solve_contacts.hpp"
+#include "solver/scene/build_scene.hpp"
+#include "tests/support/make_sphere_sets.hpp"
+
+using namespace ice;
+
+namespace {
+
+// Rounding of about a hundred operations on numbers of order one; the solver's own tolerance is set
+// far below it.
+constexpr double kRounding = 1e-12;
+
+ContactLaw exact_law(double restitution, double friction) {
+    return {restitution, friction, friction, std::numeric_limits<double>::infinity(),
+            2000,        1e-15,    0.01};
+}
+
+// Two free boxes; the contact is put where the test wants it.
+Scene two_boxes() {
+    Scene scene = make_scene(build_shape(test::make_box_set(Vec3(4, 4, 1), 0.1, 0.2), false),
+                             Vec3(0, 0, 100), Vec3::Zero());
+    scene.shapes.push_back(build_shape(test::make_box_set(Vec3(1, 0.8, 0.3), 0.05, 0.1), true));
+    add_floe(scene, 1, 900.0, Vec3(0, 0, 0), Quaternion::Identity(), 0, false);
+    add_floe(scene, 1, 500.0, Vec3(0.9, 0.1, 0.2),
+             Quaternion(Eigen::AngleAxisd(0.3, Vec3(1, 2, 3).normalized())), 0, false);
+    return scene;
+}
+
+Contact contact_at(const Vec3& point, const Vec3& normal) {
+    return {1, 2, 0, 0, 0, point, normal.normalized(), -0.001, 0.01, -1};
+}
+
+Mat3 cross_matrix(const Vec3& r) {
+    Mat3 m;
+    m << 0, -r.z(), r.y(), r.z(), 0, -r.x(), -r.y(), r.x(), 0;
+    return m;
+}
+
+// K of the contact equations, from masses and inertias directly
+Mat3 response(const Bodies& b, const Vec3& point) {
+    Mat3 k = Mat3::Zero();
+    for (const std::size_t i : {std::size_t{1}, std::size_t{2}}) {
+        const Mat3 r = cross_matrix(point - b.position[i]);
+        const Mat3 turn = b.orientation[i].toRotationMatrix();
+        const Mat3 inertia = turn * b.inertia[i] * turn.transpose();
+        k += Mat3::Identity() / b.mass[i] - r * inertia.inverse() * r;
+    }
+    return k;
+}
+
+struct Outcome {
+    Vec3 impulse, velocity_before, velocity_after;
+    Mat3 k;
+};
+
+Outcome collide(Scene& scene, const Contact& contact, const Vec3& v1, const Vec3& v2,
+                const ContactLaw& law) {
+    Bodies& b = scene.bodies;
+    b.velocity[1] = v1;
+    b.velocity[2] = v2;
+    b.angular_velocity[1] = Vec3(0.3, -0.2, 0.5);
+    b.angular_velocity[2] = Vec3(-0.4, 0.1, 0.2);
+    std::vector<Constraint> constraints;
+    build_constraints(b, {contact}, law, constraints);
+    Outcome out;
+    out.k = response(b, contact.point);
+    out.velocity_before = relative_velocity(b, constraints[0]);
+    REQUIRE(resolve_impacts(b, constraints, law).converged);
+    out.velocity_after = relative_velocity(b, constraints[0]);
+    out.impulse =
+        constraints[0].total_normal() * constraints[0].normal + constraints[0].total_tangent();
+    return out;
+}
+
+}  // namespace
+
+TEST_CASE("without friction the impulse is -(1+e) v.n / k(n), to 1e-12", "[contact][analytic]") {
+    const double e = GENERATE(0.0, 0.3, 1.0);
+    Scene scene = two_boxes();
+    const Contact contact = contact_at(Vec3(0.45, 0.3, 0.1), Vec3(1, 0.2, 0.5));
+    const Outcome o =
+        collide(scene, contact, Vec3(1, 0.2, 0), Vec3(-0.5, 0, 0.1), exact_law(e, 0.0));
+    const Vec3& n = contact.normal;
+    const double expected = -(1.0 + e) * o.velocity_before.dot(n) / n.dot(o.k * n);
+    CHECK(o.impulse.dot(n) == Approx(expected).epsilon(kRounding));
+    CHECK((o.impulse - expected * n).norm() <= kRounding * expected);
+}
+
+TEST_CASE("a sticking contact stops all sliding and keeps e of the closing speed, to 1e-12",
+          "[contact][analytic]") {
+    const double e = 0.3;
+    Scene scene = two_boxes();
+    const Contact contact = contact_at(Vec3(0.45, 0.3, 0.1), Vec3(1, 0.2, 0.5));
+    const Outcome o =
+        collide(scene, contact, Vec3(1, 0.2, 0), Vec3(-0.5, 0, 0.1), exact_law(e, 50.0));
+    // J = K^-1 (v' - v) with v' = -e v.n n
+    const Vec3& n = contact.normal;
+    const Vec3 after = -e * o.velocity_before.dot(n) * n;
+    const Vec3 expected = o.k.inverse() * (after - o.velocity_before);
+    CHECK((o.impulse - expected).norm() <= kRounding * expected.norm());
+    CHECK((o.velocity_after - after).norm() <= kRounding);
+}
+
+TEST_CASE("a sliding contact has friction mu J_n against the sliding that is left, to 1e-12",
+          "[contact][analytic]") {
+    const double e = 0.3, mu = 0.1;
+    Scene scene = two_boxes();
+    const Contact contact = contact_at(Vec3(0.45, 0.3, 0.1), Vec3(1, 0.2, 0.5));
+    const Outcome o = collide(scene, contact, Vec3(1, 3, 0), Vec3(-0.5, -2, 0.1), exact_law(e, mu));
+    const Vec3& n = contact.normal;
+    const Vec3 sliding = o.velocity_after - o.velocity_after.dot(n) * n;
+    REQUIRE(sliding.norm() > 0.5);
+    // J = J_n (n - mu t), t the direction of sliding: one unknown, from the normal condition
+    const Vec3 direction = n - mu * sliding.normalized();
+    const double normal = -(1.0 + e) * o.velocity_before.dot(n) / n.dot(o.k * direction);
+    CHECK((o.impulse - normal * direction).norm() <= kRounding * normal);
+}
+
+TEST_CASE("a separating contact gets no impulse", "[contact]") {
+    Scene scene = two_boxes();
+    const Contact contact = contact_at(Vec3(0.45, 0, 0), Vec3(1, 0, 0));
+    const Outcome o = collide(scene, contact, Vec3(-1, 0, 0), Vec3(1, 0, 0), exact_law(0.3, 0.3));
+    CHECK(o.impulse == Vec3::Zero());
+}
+
+TEST_CASE("a contact gives b what it takes from a: momentum and angular momentum stay",
+          "[contact][property]") {
+    Scene scene = two_boxes();
+    Bodies& b = scene.bodies;
+    const auto momenta = [&] {
+        Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();
+        for (const std::size_t i : {std::size_t{1}, std::size_t{2}}) {
+            const Mat3 r = b.rotation[i];
+            linear += b.mass[i] * b.velocity[i];
+            angular += b.mass[i] * b.position[i].cross(b.velocity[i]) +
+                       r * b.inertia[i] * r.transpose() * b.angular_velocity[i];
+        }
+        return std::pair(linear, angular);
+    };
+    b.velocity[1] = Vec3(1, 0.3, 0);
+    const ContactLaw law = exact_law(0.3, 0.3);
+    std::vector<Constraint> constraints;
+    build_constraints(b, {contact_at(Vec3(0.45, 0.3, 0.1), Vec3(1, 0.2, 0.5))}, law, constraints);
+    const auto before = momenta();
+    resolve_impacts(b, constraints, law);
+    const auto after = momenta();
+    CHECK(constraints[0].total_normal() > 1.0);
+    CHECK((after.first - before.first).norm() <= kRounding * before.first.norm());
+    CHECK((after.second - before.second).norm() <= kRounding * before.first.norm());
+}
+
+TEST_CASE("crushing bounds the impulse by pressure x area x dt and takes the rebound away",
+          "[contact][analytic]") {
+    Scene scene = two_boxes();
+    const Contact contact = contact_at(Vec3(0.45, 0, 0), Vec3(1, 0, 0));
+    ContactLaw law = exact_law(0.3, 0.0);
+    law.crushing_pressure = 2e5;  // 0.2 MPa on 0.01 m2 for 0.01 s: 20 N s
+    const Outcome o = collide(scene, contact, Vec3(5, 0, 0), Vec3(-5, 0, 0), law);
+    CHECK(o.impulse.norm() == Approx(20.0).epsilon(kRounding));
+    CHECK(o.velocity_after.dot(contact.normal) < 0.0);
+}
+
+TEST_CASE("a contact that can stop but not throw back its body leaves it at rest",
+          "[contact][analytic]") {
+    Scene scene = two_boxes();
+    const Contact contact = contact_at(Vec3(0.45, 0, 0), Vec3(1, 0, 0));
+    const Outcome free =
+        collide(scene, contact, Vec3(1, 0, 0), Vec3(-1, 0, 0), exact_law(0.3, 0.0));
+    Scene again = two_boxes();
+    ContactLaw law = exact_law(0.3, 0.0);
+    law.crushing_pressure = 0.9 * free.impulse.norm() / (0.01 * 0.01);
+    const Outcome o = collide(again, contact, Vec3(1, 0, 0), Vec3(-1, 0, 0), law);
+    CHECK(o.velocity_after.dot(contact.normal) == Approx(0.0).margin(kRounding));
+}

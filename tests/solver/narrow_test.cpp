@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Gaps, contacts and pairs.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <random>
+
+#include "solver/broad/find_pairs.hpp"
+#include "solver/narrow/find_contacts.hpp"
+#include "solver/narrow/measure_gap.hpp"
+#include "tests/support/make_worlds.hpp"
+
+using namespace ice;
+
+namespace {
+
+SphereSurface face(const Vec3& center, double radius, const Vec3& normal) {
+    return {center, radius, normal, 1.0, 0.0};
+}
+
+SphereSurface edge(const Vec3& center, double radius, const Vec3& normal) {
+    return {center, radius, normal, std::sqrt(0.5), std::sqrt(0.5)};
+}
+
+// Floes at random poses around a hull, some held.
+World scattered_world(unsigned seed, int floes) {
+    Case p = test::empty_space(0.01);
+    World w = test::plate_world(p, Vec3(4, 2, 0.6), 0.1, 0.15, -0.3);
+    const auto box = test::add_shape(w, test::make_box_set(Vec3(1, 0.8, 0.3), 0.05, 0.1));
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> unit(-1.0, 1.0);
+    for (int k = 0; k < floes; ++k) {
+        const Vec3 at(3.0 * unit(random), 2.0 * unit(random), 1.0 * unit(random));
+        const Quaternion q(unit(random), unit(random), unit(random), unit(random));
+        add_floe(w.scene, box, 900.0, at, q.normalized(), 0, k % 3 == 0);
+    }
+    return w;
+}
+
+bool same(const Contact& l, const Contact& r) {
+    return l.a == r.a && l.b == r.b && l.sphere_a == r.sphere_a && l.sphere_b == r.sphere_b &&
+           l.key == r.key && l.gap == r.gap && l.normal == r.normal && l.point == r.point &&
+           l.area == r.area && l.region == r.region;
+}
+
+}  // namespace
+
+TEST_CASE("two unit spheres 3 m apart leave a gap of 1 m", "[narrow][analytic]") {
+    const Gap gap = measure_gap_centres(face(Vec3::Zero(), 1, Vec3::UnitX()),
+                                        face(Vec3(3, 0, 0), 1, -Vec3::UnitX()));
+    CHECK(gap.gap == 1.0);
+    CHECK(gap.normal == Vec3::UnitX());
+    CHECK(gap.valid);
+}
+
+TEST_CASE("coincident centres give no contact", "[narrow][degenerate]") {
+    const SphereSurface s = face(Vec3(1, 2, 3), 0.1, Vec3::UnitZ());
+    CHECK_FALSE(measure_gap_centres(s, s).valid);
+    CHECK_FALSE(measure_gap_surface(s, s, true).valid);
+}
+
+TEST_CASE("a sphere beside another on a flat face has the face's gap, not the spheres'",
+          "[narrow][analytic]") {
+    // surface z = 0.1 under which a's face looks up; b is 7 cm aside, its lowest point at z = 0.13
+    const SphereSurface a = face(Vec3::Zero(), 0.1, Vec3::UnitZ());
+    const SphereSurface b = face(Vec3(0.07, 0, 0.18), 0.05, -Vec3::UnitZ());
+    const Gap gap = measure_gap_surface(a, b, true);
+    CHECK(gap.gap == Approx(0.03).epsilon(1e-14));
+    CHECK(gap.normal == Vec3::UnitZ());
+    CHECK(gap.lateral_sq == Approx(0.0049).epsilon(1e-12));
+    CHECK(measure_gap_surface(a, b, false).gap == Approx(0.03).epsilon(1e-14));
+}
+
+TEST_CASE("an edge on a face takes the face's normal, whichever body has it",
+          "[narrow][analytic]") {
+    const SphereSurface flat = face(Vec3::Zero(), 0.1, Vec3::UnitZ());
+    const SphereSurface sharp = edge(Vec3(0.03, 0, 0.14), 0.05, Vec3(1, 0, -1).normalized());
+    const Gap forth = measure_gap_surface(flat, sharp, false);
+    const Gap back = measure_gap_surface(sharp, flat, false);
+    CHECK(forth.normal == Vec3::UnitZ());
+    CHECK(forth.a_is_surface);
+    CHECK(back.normal == -Vec3::UnitZ());
+    CHECK_FALSE(back.a_is_surface);
+    CHECK(forth.gap == Approx(-0.01).epsilon(1e-12));
+    CHECK(back.gap == Approx(-0.01).epsilon(1e-12));
+}
+
+TEST_CASE("an edge across an edge meets along the line of centres", "[narrow][analytic]") {
+    const SphereSurface a = edge(Vec3::Zero(), 0.1, Vec3::UnitX());
+    const SphereSurface b = edge(Vec3(0.15, 0.03, 0), 0.05, -Vec3::UnitX());
+    const Gap gap = measure_gap_surface(a, b, false);
+    CHECK((gap.normal - Vec3(0.15, 0.03, 0).normalized()).norm() < 1e-15);
+}
+
+TEST_CASE("faces turned away from each other do not touch", "[narrow]") {
+    const SphereSurface a = face(Vec3::Zero(), 0.1, -Vec3::UnitZ());
+    CHECK_FALSE(measure_gap_surface(a, face(Vec3(0, 0, 0.1), 0.05, Vec3::UnitZ()), false).valid);
+}
+
+TEST_CASE("a floe face under a flat hull has one contact per floe sphere, all with the same gap",
+          "[narrow][analytic]") {
+    World w = test::plate_world(test::empty_space(0.01), Vec3(6, 4, 0.4), 0.1,
+                                GENERATE(0.05, 0.1, 0.2), 0.0);
+    const auto box = test::add_shape(w, test::make_box_set(Vec3(1, 0.8, 0.3), 0.05, 0.1));
+    add_floe(w.scene, box, 900.0, Vec3(0.03, 0.04, -0.152), Quaternion::Identity(), 0, false);
+    std::vector<Contact> contacts;
+    reference::find_contacts(w.scene, {0, 1}, NormalRule::surface, 0.01, contacts);
+    CHECK(contacts.size() == 80);  // 10 x 8 spheres of the floe's upper face
+    double area = 0.0;
+    for (const Contact& c : contacts) {
+        REQUIRE(c.gap == Approx(0.002).epsilon(1e-9));
+        REQUIRE((c.normal + Vec3::UnitZ()).norm() < 1e-12);
+        area += c.area;
+    }
+    // shares of the make_box_set are 0.01 m2 per face and sphere
+    CHECK(area == Approx(0.8).epsilon(1e-6));
+}
+
+TEST_CASE("the grid finds the contacts that testing every sphere with every other finds",
+          "[narrow][equivalence]") {
+    World w = scattered_world(GENERATE(1u, 2u, 3u), 40);
+    const NormalRule rule = GENERATE(NormalRule::centres, NormalRule::surface);
+    std::vector<BodyPair> pairs;
+    find_pairs(w.scene, 0.01, pairs);
+    ContactFinder finder;
+    std::vector<Contact> found, expected;
+    finder.find(w.scene, pairs, rule, 0.0, 0.002, found);
+    for (const BodyPair& pair : pairs)
+        reference::find_contacts(w.scene, pair, rule, 0.002, expected);
+    REQUIRE(expected.size() > 100);
+    REQUIRE(found.size() == expected.size());
+    for (std::size_t k = 0; k < found.size(); ++k) REQUIRE(same(found[k], expected[k]));
+}
+
+TEST_CASE("the broad phase finds the pairs that testing all finds", "[broad][equivalence]") {
+    World w = scattered_world(GENERATE(1u, 2u, 3u, 4u), 200);
+    std::vector<BodyPair> found, expected;
+    find_pairs(w.scene, 0.05, found);
+    reference::find_pairs(w.scene, 0.05, expected);
+    CHECK(expected.size() > 200);
+    CHECK(found == expected);
+}
+
+TEST_CASE("no floe, one floe and two held floes make no ice-ice pair", "[broad][degenerate]") {
+    World w = test::plate_world(test::empty_space(0.01), Vec3(1, 1, 1), 0.1, 0.2, 50.0);
+    std::vector<BodyPair> pairs{{1, 2}};
+    find_pairs(w.scene, 0.1, pairs);
+    CHECK(pairs.empty());
+    const auto box = test::add_shape(w, test::make_box_set(Vec3(1, 0.8, 0.3), 0.05, 0.1));
+    add_floe(w.scene, box, 900.0, Vec3::Zero(), Quaternion::Identity(), 0, true);
+    add_floe(w.scene, box, 900.0, Vec3(0.5, 0, 0), Quaternion::Identity(), 0, true);
+    find_pairs(w.scene, 0.1, pairs);
+    CHECK(pairs.empty());
+}
+
+TEST_CASE("a grid query finds every point in range", "[shape][property]") {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> unit(-1.0, 1.0);
+    std::vector<Vec3> points;
+    for (int k = 0; k < 500; ++k) points.emplace_back(3 * unit(random), unit(random), unit(random));
+    const SphereGrid grid(points, GENERATE(0.05, 0.3, 10.0));
+    for (int k = 0; k < 50; ++k) {
+        const Vec3 at(4 * unit(random), 2 * unit(random), 2 * unit(random));
+        const double range = 0.4;
+        std::size_t expected = 0, found = 0;
+        for (const Vec3& p : points) expected += (p - at).norm() <= range;
+        grid.for_each_near(at, range, [&](std::int32_t i) {
+            found += (points[static_cast<std::size_t>(i)] - at).norm() <= range;
+        });
+        REQUIRE(found == expected);
+    }
+    CHECK(SphereGrid({}, 1.0).cell_count() == 0);
+}

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Statistics, the empirical formula, and the forces a step reports.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "solver/record/lindqvist.hpp"
+#include "solver/record/measure_step.hpp"
+#include "solver/record/statistics.hpp"
+#include "solver/record/tally.hpp"
+#include "tests/support/make_worlds.hpp"
+
+using namespace ice;
+
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+}  // namespace
+
+TEST_CASE("the mean of a constant series is that constant, with no width", "[record][analytic]") {
+    const std::vector<double> series(1000, 3.5);
+    CHECK(batch_means(series).mean == 3.5);
+    CHECK(batch_means(series).half_width == 0.0);
+    CHECK(batch_means({}).mean == 0.0);
+}
+
+TEST_CASE("the 95 % interval covers the mean of an autocorrelated series at least 9 times in 10",
+          "[record][property]") {
+    // first-order autoregression, correlation time 20 samples, 4000 samples: batches of 200
+    std::mt19937 random(11);
+    std::normal_distribution<double> normal;
+    int covered = 0;
+    for (int trial = 0; trial < 500; ++trial) {
+        std::vector<double> series;
+        double x = normal(random) / std::sqrt(1.0 - 0.95 * 0.95);
+        for (int k = 0; k < 4000; ++k) {
+            x = 0.95 * x + normal(random);
+            series.push_back(x + 7.0);
+        }
+        const MeanInterval m = batch_means(series);
+        covered += std::abs(m.mean - 7.0) <= m.half_width;
+    }
+    CHECK(covered >= 450);
+    CHECK(covered < 500);
+}
+
+TEST_CASE("Lindqvist's submersion resistance of the paper's ship is 1.4 kN at 0.5 m/s",
+          "[record][analytic]") {
+    // L 10, B 2, T 1.44, h 0.3, mu 0.1, phi 35 and alpha 30 degrees, density difference 100:
+    // potential part 597 N, friction 339 N, speed factor 1.47 (worked by hand from the formula)
+    const HullForm hull{10.0, 2.0, 1.44, 35 * kDegree, 30 * kDegree};
+    const IceConditions ice{0.3, 0.1, 900.0, 1000.0, 9.81, 0.5};
+    CHECK(lindqvist_submersion(hull, ice) == Approx(1381.0).epsilon(0.001));
+    IceConditions smooth = ice;
+    smooth.friction = smooth.speed = 0.0;
+    CHECK(lindqvist_submersion(hull, smooth) ==
+          Approx(100 * 9.81 * 0.3 * 2 * 1.44 * (2 + 1.44) / (2 + 2 * 1.44)).epsilon(1e-12));
+}
+
+TEST_CASE("cos psi sqrt(1/sin^2 phi + 1/tan^2 alpha) is 1/tan phi: friction at rest is closed",
+          "[record][analytic]") {
+    const double phi = 28 * kDegree, alpha = 22 * kDegree;
+    const HullForm hull{12.0, 3.0, 1.2, phi, alpha};
+    const IceConditions a{0.3, 0.2, 900, 1000, 9.81, 0.0}, b{0.3, 0.0, 900, 1000, 9.81, 0.0};
+    const double friction = lindqvist_submersion(hull, a) - lindqvist_submersion(hull, b);
+    const double covered = 0.7 * 12.0 - 1.2 / std::tan(phi) - 3.0 / (4 * std::tan(alpha)) +
+                           1.2 * std::cos(phi) / std::tan(phi);
+    CHECK(friction == Approx(100 * 9.81 * 0.3 * 3.0 * 0.2 * covered).epsilon(1e-12));
+}
+
+TEST_CASE("hull angles are measured from the mesh at the waterline", "[record][analytic]") {
+    // a wedge: stem raked by 40 degrees, waterline half angle 25 degrees, 2 m broad, floor at -1
+    const double rake = 1.0 / std::tan(40 * kDegree), run = 1.0 / std::tan(25 * kDegree);
+    TriangleMesh mesh;
+    const auto section = [&](double z) {
+        const double x = 10.0 + z * rake;
+        mesh.vertices.insert(mesh.vertices.end(),
+                             {Vec3(x, 0, z), Vec3(x - run, 1, z), Vec3(-20, 1, z), Vec3(-20, -1, z),
+                              Vec3(x - run, -1, z)});
+    };
+    section(-1.0);
+    section(0.5);
+    for (int k = 0; k < 5; ++k) {
+        const int n = (k + 1) % 5;
+        mesh.triangles.push_back({k, n, 5 + k});
+        mesh.triangles.push_back({n, 5 + n, 5 + k});
+    }
+    const auto form = measure_hull_form(mesh, 0.0);
+    REQUIRE(form);
+    CHECK(form->length == Approx(30.0));
+    CHECK(form->breadth == Approx(2.0));
+    CHECK(form->draught == Approx(1.0));
+    CHECK(form->stem_angle == Approx(40 * kDegree));
+    CHECK(form->entrance_angle == Approx(25 * kDegree));
+    CHECK_FALSE(measure_hull_form(mesh, 5.0));
+}
+
+TEST_CASE("forces are the opposite of what the floe feels, split into normal and friction",
+          "[record]") {
+    Case p = test::empty_space(0.01);
+    p.speed_table = {{0.0, 1.0}};
+    World w = test::plate_world(p, Vec3(4, 4, 0.4), 0.1, 0.1, 0.0);
+    const auto box = test::add_shape(w, test::make_box_set(Vec3(1, 0.8, 0.3), 0.05, 0.1));
+    const std::size_t i =
+        add_floe(w.scene, box, 900.0, Vec3(0, 0, -0.151), Quaternion::Identity(), 0, false);
+    w.scene.bodies.momentum[i] = w.scene.bodies.mass[i] * Vec3(0, 0, 0.5);
+    update_derived(w.scene.bodies, i);
+    const Vec3 before = w.scene.bodies.momentum[i];
+    step(w);
+    const StepRecord r = measure_step(w.scene, w.contacts, w.constraints, 0.01);
+    const Vec3 change = w.scene.bodies.momentum[i] - before;
+    CHECK((r.contact_force + r.friction_force + change / 0.01).norm() <
+          1e-9 * change.norm() / 0.01);
+    CHECK(r.contact_force.z() > 0.0);   // ice from below lifts the ship
+    CHECK(r.friction_force.x() < 0.0);  // and holds it back
+    CHECK(r.friction_force.norm() <= 0.1 * r.contact_force.norm() * (1 + 1e-9));
+    REQUIRE(r.regions.size() == 1);
+    CHECK(r.regions[0].floe == 1);
+
+    std::vector<FloeForces> forces(2);
+    measure_floe_forces(w.constraints, 0.01, forces);
+    CHECK((forces[1].contact - r.contact_force).norm() < 1e-9);
+}
+
+TEST_CASE("a touch that lasts is one hit, a second touch another", "[record]") {
+    Tally tally({"hull", "bow"}, 0.0);
+    StepRecord touching, apart;
+    touching.regions = {{3, 1, Vec3(-2, 0, 0)}};
+    for (const StepRecord* r : {&touching, &touching, &apart, &touching})
+        tally.add(*r, 0.1, 0.1, 1.0, true);
+    Summary summary;
+    tally.fill(summary);
+    CHECK(summary.regions["bow"].hits == 2);
+    CHECK(summary.regions["bow"].max_impulse == 2.0);
+    CHECK(summary.regions["bow"].mean[0] == Approx(-6.0 / 0.4));
+    CHECK(summary.regions["hull"].hits == 0);
+}

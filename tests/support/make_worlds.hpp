@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Small worlds made in code.
+#pragma once
+
+#include "solver/scene/build_scene.hpp"
+#include "solver/step/step.hpp"
+#include "tests/support/make_sphere_sets.hpp"
+
+namespace ice::test {
+
+/// No water, no gravity, one group of free floes: only contacts act.
+inline Case empty_space(double dt) {
+    Case p;
+    p.time_step = dt;
+    p.duration = 1e6;
+    p.gravity = 0.0;
+    p.buoyancy = BuoyancyModel::none;
+    p.drag = DragModel::none;
+    p.speed_table = {{0.0, 0.0}};
+    p.floes.resize(1);
+    p.floes[0].hold = Hold::never;
+    p.iterations = 1000;
+    p.tolerance = 1e-12;
+    return p;
+}
+
+/// A world whose hull is a plate `size` with its lower face at height z; add floes to it.
+inline World plate_world(const Case& parameters, const Vec3& size, double radius, double spacing,
+                         double lower_face_z) {
+    World w;
+    w.parameters = parameters;
+    w.scene = make_scene(build_shape(make_box_set(size, radius, spacing), false),
+                         Vec3(0, 0, lower_face_z + 0.5 * size.z()),
+                         Vec3(parameters.ship_speed(0.0), 0, 0));
+    return w;
+}
+
+/// Adds floes' shape; returns its row.
+inline std::int32_t add_shape(World& w, const SphereSet& set) {
+    w.scene.shapes.push_back(build_shape(set, true));
+    return static_cast<std::int32_t>(w.scene.shapes.size()) - 1;
+}
+
+/// Normal and tangential force of the ship's contacts on the floes in the last step [N].
+inline std::pair<Vec3, Vec3> ship_on_ice(const World& w) {
+    Vec3 normal = Vec3::Zero(), tangent = Vec3::Zero();
+    for (const Constraint& c : w.constraints)
+        if (c.a == 0) {
+            normal += c.total_normal() / w.parameters.time_step * c.normal;
+            tangent += c.total_tangent() / w.parameters.time_step;
+        }
+    return {normal, tangent};
+}
+
+}  // namespace ice::test
