@@ -33,8 +33,8 @@ int report(const Options& o) {
 
 int view(const Options& o) {
     const auto run = ice::read::read_run_folder(o.run);
-    ice::write_text_file(
-        o.out, ice::report::draw_view(run.data, *ice::views::parse_view(o.from), o.time));
+    ice::write_text_file(o.out,
+                         ice::report::draw_view(run.data, *ice::views::parse_view(o.from), o.time));
     ice::say(fmt::format("wrote {}", o.out.string()));
     return 0;
 }
@@ -80,7 +80,8 @@ int main(int argc, char** argv) {
     draw->add_option("-o,--out", o.out, "the SVG file")->required();
     auto* export_files = command("paraview", "write PVD and VTP files for ParaView");
     export_files->add_option("-o,--out", o.out, "folder (default RUN/paraview)");
-    export_files->add_option("--every", o.every, "keep each N-th frame")->check(CLI::Range(1, 1000000));
+    export_files->add_option("--every", o.every, "keep each N-th frame")
+        ->check(CLI::Range(1, 1000000));
     auto* compare = command("check", "compare summary.json with expected numbers");
     compare->add_option("EXPECTED", o.expected, "TOML file with [[expect]] entries")->required();
     compare->add_option("--junit", o.junit, "also write the verdicts as JUnit XML");

@@ -74,6 +74,8 @@ Hdf5File::Hdf5File(const std::filesystem::path& path, Mode mode) : path_(path) {
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // our messages name the remedy, HDF5's do not
     const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
     H5Pset_libver_bounds(access, H5F_LIBVER_EARLIEST, H5F_LIBVER_V110);
+    // without locks a run can be looked at while it goes on, and file systems without locks work
+    H5Pset_file_locking(access, false, true);
     if (mode == Mode::read) {
         if (!std::filesystem::exists(path))
             throw bad_input(path.string(), "file not found", "check the path");

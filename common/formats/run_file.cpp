@@ -7,6 +7,7 @@
 
 #include "common/base/error.hpp"
 #include "common/formats/hdf5_file.hpp"
+#include "common/formats/run_parts.hpp"
 
 namespace ice {
 
@@ -18,6 +19,8 @@ constexpr std::uint64_t kHistoryPerFlush = 16384;  // runs that store few frames
 
 using Shape = std::vector<std::uint64_t>;
 using Scales = std::vector<std::string>;
+using run_parts::attach_scales;
+using run_parts::write_labels;
 
 // A dataset that grows and the rows of it that are not on disk yet.
 template <class T>
@@ -43,22 +46,6 @@ struct Column {
 Eigen::Vector4d wxyz(const Eigen::Quaterniond& q) { return {q.w(), q.x(), q.y(), q.z()}; }
 
 template <class T>
-std::vector<T> flatten(const std::vector<Vec3>& points) {
-    Column<T> flat;
-    flat.add_all(points);
-    return flat.rows;
-}
-
-void write_labels(Hdf5File& file, const std::string& name, const std::vector<std::string>& texts) {
-    file.write_strings(name, texts);
-    file.make_scale(name);
-}
-
-void attach_scales(Hdf5File& file, const std::string& name, const Scales& scales) {
-    for (unsigned k = 0; k < scales.size(); ++k) file.attach_scale(name, k, scales[k]);
-}
-
-template <class T>
 void create_column(Hdf5File& file, const std::string& name, const Shape& row, std::uint64_t chunk,
                    const std::string& unit, const Scales& scales) {
     file.create_appendable<T>(name, row, chunk);
@@ -76,62 +63,6 @@ void write_attributes(Hdf5File& file, const RunHeader& header) {
     file.write_attribute("/", "command_line", header.command_line);
     file.write_attribute("/", "case_toml", header.case_toml);
     file.write_attribute("/", "units", std::string("SI"));
-}
-
-// Meshes and spheres of all shapes one after the other; row s of an offset is where shape s begins.
-void write_shapes(Hdf5File& file, const RunHeader& header) {
-    // one list of region names for all shapes; the hull is first and so keeps its numbers
-    std::vector<std::string> names;
-    std::vector<std::int64_t> vertex_offset{0}, triangle_offset{0}, sphere_offset{0};
-    std::vector<float> vertices, spheres;
-    std::vector<std::int32_t> triangles, region;
-    for (const RunShape& shape : header.shapes) {
-        std::vector<std::int32_t> global;
-        for (const std::string& name : shape.mesh.region_names) {
-            const auto found = std::find(names.begin(), names.end(), name);
-            global.push_back(static_cast<std::int32_t>(found - names.begin()));
-            if (found == names.end()) names.push_back(name);
-        }
-        const auto flat = flatten<float>(shape.mesh.vertices);
-        vertices.insert(vertices.end(), flat.begin(), flat.end());
-        for (const auto& t : shape.mesh.triangles)
-            triangles.insert(triangles.end(), t.begin(), t.end());
-        for (const std::int32_t r : shape.mesh.region)
-            region.push_back(global.at(static_cast<std::size_t>(r)));
-        for (std::size_t k = 0; k < shape.centers.size(); ++k) {
-            for (int c = 0; c < 3; ++c) spheres.push_back(static_cast<float>(shape.centers[k][c]));
-            spheres.push_back(static_cast<float>(shape.radii[k]));
-        }
-        vertex_offset.push_back(static_cast<std::int64_t>(vertices.size() / 3));
-        triangle_offset.push_back(static_cast<std::int64_t>(triangles.size() / 3));
-        sphere_offset.push_back(static_cast<std::int64_t>(spheres.size() / 4));
-    }
-    file.create_group("/shapes");
-    file.write("/shapes/vertex_offset", vertex_offset);
-    file.write("/shapes/vertices", vertices.data(), {vertices.size() / 3, 3});
-    file.write("/shapes/triangle_offset", triangle_offset);
-    file.write("/shapes/triangles", triangles.data(), {triangles.size() / 3, 3});
-    file.write("/shapes/region", region);
-    file.write("/shapes/sphere_offset", sphere_offset);
-    file.write("/shapes/spheres", spheres.data(), {spheres.size() / 4, 4});
-    write_labels(file, "/region_names", names.empty() ? std::vector<std::string>{"hull"} : names);
-}
-
-void write_bodies(Hdf5File& file, const RunHeader& header) {
-    const std::uint64_t count = header.body_shape.size();
-    std::vector<std::int32_t> ids(count);
-    for (std::size_t k = 0; k < count; ++k) ids[k] = static_cast<std::int32_t>(k + 1);
-    file.write("/frames/body", ids);
-    file.make_scale("/frames/body");
-    file.write("/frames/body_shape", header.body_shape);
-    file.write("/frames/body_group", header.body_group);
-    file.write("/frames/mass", header.body_mass);
-    file.write("/frames/inertia", flatten<double>(header.body_inertia).data(), {count, 3});
-    file.write_attribute("/frames/mass", "units", header.dimension == 2 ? "kg/m" : "kg");
-    file.write_attribute("/frames/inertia", "units", header.dimension == 2 ? "kg m" : "kg m2");
-    for (const char* name : {"/frames/body_shape", "/frames/body_group", "/frames/mass"})
-        attach_scales(file, name, {"/frames/body"});
-    attach_scales(file, "/frames/inertia", {"/frames/body", "/xyz"});
 }
 
 }  // namespace
@@ -171,7 +102,7 @@ RunWriter::Buffers::Buffers(const std::filesystem::path& path, const RunHeader& 
     write_labels(file, "/xyz", {"x", "y", "z"});
     write_labels(file, "/wxyz", {"w", "x", "y", "z"});
     write_labels(file, "/pose_parts", {"x", "y", "z", "qw", "qx", "qy", "qz"});
-    write_shapes(file, header);
+    run_parts::write_shapes(file, header);
     create_history(header);
     create_frames(header);
     file.flush();
@@ -190,7 +121,7 @@ void RunWriter::Buffers::create_history(const RunHeader& header) {
     create(contact, "/ship/contact_force", {3}, force, {"/time", "/xyz"});
     create(friction, "/ship/friction_force", {3}, force, {"/time", "/xyz"});
     create(total, "/ship/force", {3}, force, {"/time", "/xyz"});
-    create(moment, "/ship/moment", {3}, force + " m", {"/time", "/xyz"});
+    create(moment, "/ship/moment", {3}, header.dimension == 2 ? "N" : "N m", {"/time", "/xyz"});
     create(pose, "/ship/pose", {7}, "m, 1", {"/time", "/pose_parts"});
     create(contacts, "/ship/contacts", {}, "1", {"/time"});
     create(moving, "/ship/moving_floes", {}, "1", {"/time"});
@@ -220,7 +151,7 @@ void RunWriter::Buffers::create_frames(const RunHeader& header) {
         create_column<T>(file, column.name, row, kFramesPerFlush, unit, scales);
     };
     file.create_group("/frames");
-    write_bodies(file, header);
+    run_parts::write_bodies(file, header);
     create(frame_time, "frame_time", {}, "s", {});
     file.make_scale("/frames/frame_time");
     create(ship_position, "ship_position", {3}, "m", {"/xyz"});

@@ -3,8 +3,8 @@
 ///
 /// Layout (S samples, F frames, B floes):
 ///
-///     /time [S] s                      /ship/contact_force, friction_force, force, moment [S,3]
-///     /ship/pose [S,7] m, w x y z      /ship/contacts, moving_floes, max_overlap, kinetic_energy [S]
+///     /time [S] s                    /ship/contact_force, friction_force, force, moment [S,3]
+///     /ship/pose [S,7] m, w x y z    /ship/contacts, moving_floes, max_overlap, kinetic_energy [S]
 ///     /frames/frame_time [F] s         /frames/body [B]  (ids, from 1)
 ///     /frames/position [F,B,3]         /frames/orientation [F,B,4] w x y z, body to world
 ///     /frames/velocity, angular_velocity, contact_force [F,B,3]   /frames/state [F,B]
@@ -27,8 +27,10 @@ namespace ice {
 /// Writes run.h5 while the run goes on, as `run.h5.part`, renamed by finish().
 ///
 /// Rows are buffered and flushed to disk with every 20th frame, so that a killed run can be read up
-/// to there (without frames, with every 16384th sample). Quaternions are stored with the sign nearer
-/// to the frame before. All functions throw Error (exit code 1) naming the file when the disk is full.
+/// to there (without frames, with every 16384th sample). Quaternions are stored with the sign
+/// nearer to the frame before.
+///
+/// All functions throw Error (exit code 1) naming the file when the disk is full.
 class RunWriter {
 public:
     RunWriter(const std::filesystem::path& path, const RunHeader& header);

@@ -50,6 +50,12 @@ private:
         return out;
     }
 
+    std::uint64_t rows_of(const std::string& name) const {
+        const auto shape = file_.shape(name);
+        check(!shape.empty(), name, "is a single value");
+        return shape[0];
+    }
+
     std::uint64_t length(const std::string& name) const {
         const auto shape = file_.shape(name);
         check(shape.size() == 1, name, "is not a list");
@@ -96,7 +102,7 @@ private:
     }
 
     void read_vertices(std::vector<RunShape>& shapes) const {
-        const std::uint64_t rows = file_.shape("/shapes/vertices").at(0);
+        const std::uint64_t rows = rows_of("/shapes/vertices");
         const auto all = points("/shapes/vertices", {rows});
         const auto offset = offsets("/shapes/vertex_offset", shapes.size(), rows);
         for (std::size_t s = 0; s < shapes.size(); ++s)
@@ -104,7 +110,7 @@ private:
     }
 
     void read_triangles(std::vector<RunShape>& shapes, std::size_t regions) const {
-        const std::uint64_t rows = file_.shape("/shapes/triangles").at(0);
+        const std::uint64_t rows = rows_of("/shapes/triangles");
         const auto corners = read_as<std::int32_t>("/shapes/triangles", {rows, 3});
         const auto region = read_as<std::int32_t>("/shapes/region", {rows});
         const auto offset = offsets("/shapes/triangle_offset", shapes.size(), rows);
@@ -126,7 +132,7 @@ private:
     }
 
     void read_spheres(std::vector<RunShape>& shapes) const {
-        const std::uint64_t rows = file_.shape("/shapes/spheres").at(0);
+        const std::uint64_t rows = rows_of("/shapes/spheres");
         const auto flat = read_as<double>("/shapes/spheres", {rows, 4});
         const auto offset = offsets("/shapes/sphere_offset", shapes.size(), rows);
         for (std::size_t s = 0; s < shapes.size(); ++s)

@@ -82,8 +82,8 @@ std::string verdict_table(const std::vector<Verdict>& verdicts) {
 
 std::string junit_text(const std::vector<Verdict>& verdicts, const std::string& suite) {
     using views::escape;
-    const auto missed = std::count_if(verdicts.begin(), verdicts.end(),
-                                      [](const Verdict& v) { return !v.passed; });
+    const auto missed =
+        std::count_if(verdicts.begin(), verdicts.end(), [](const Verdict& v) { return !v.passed; });
     std::string out = fmt::format(
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuite name=\"{}\" tests=\"{}\" "
         "failures=\"{}\">\n",
@@ -92,10 +92,10 @@ std::string junit_text(const std::vector<Verdict>& verdicts, const std::string& 
         out += fmt::format("<testcase classname=\"{}\" name=\"{}\">", escape(suite),
                            escape(v.expected.key));
         if (!v.passed)
-            out += fmt::format("<failure message=\"{}\">{}</failure>",
-                               escape(fmt::format("{} is not {}", number_text(v.actual),
-                                                  describe(v.expected))),
-                               escape(v.expected.why));
+            out += fmt::format(
+                "<failure message=\"{}\">{}</failure>",
+                escape(fmt::format("{} is not {}", number_text(v.actual), describe(v.expected))),
+                escape(v.expected.why));
         out += "</testcase>\n";
     }
     return out + "</testsuite>\n";

@@ -31,7 +31,7 @@ std::string nearest_name(const std::string& wrong, const std::vector<std::string
     std::size_t least = 0;
     for (const std::string& name : names) {
         const std::size_t distance = edit_distance(wrong, name);
-        if (3 * distance > std::max(wrong.size(), name.size())) continue;
+        if (5 * distance > 2 * std::max(wrong.size(), name.size())) continue;
         if (best.empty() || distance < least) {
             best = name;
             least = distance;

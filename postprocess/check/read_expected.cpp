@@ -38,7 +38,8 @@ public:
                             "add one: [[expect]], key = \"resistance.mean_N\", min = 0");
         std::vector<Expectation> expectations;
         for (const toml::node& node : *entries) {
-            if (!node.is_table()) throw fault(node.source(), "expect is no table", "write [[expect]]");
+            if (!node.is_table())
+                throw fault(node.source(), "expect is no table", "write [[expect]]");
             expectations.push_back(read_entry(*node.as_table()));
         }
         return expectations;
@@ -47,8 +48,8 @@ public:
 private:
     Error fault(const toml::source_region& at, const std::string& what,
                 const std::string& remedy) const {
-        return bad_input(fmt::format("{}:{}:{}", path_.string(), at.begin.line, at.begin.column), what,
-                         remedy);
+        return bad_input(fmt::format("{}:{}:{}", path_.string(), at.begin.line, at.begin.column),
+                         what, remedy);
     }
 
     Error unknown(const toml::key& name, const std::vector<std::string>& known) const {
@@ -95,7 +96,8 @@ private:
         e.max = number(entry, "max");
         e.abs = tolerance(entry, "abs");
         e.rel = tolerance(entry, "rel");
-        const bool bounded = e.min || e.max, tolerant = entry.contains("abs") || entry.contains("rel");
+        const bool bounded = e.min || e.max,
+                   tolerant = entry.contains("abs") || entry.contains("rel");
         if (e.value.has_value() == bounded || e.value.has_value() != tolerant)
             throw fault(key->source(), fmt::format("'{}' has no clear bound", e.key),
                         "give value with abs or rel, or else min and/or max");

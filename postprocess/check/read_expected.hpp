@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// `expected.toml`: which numbers of a run's summary should be how large, and why. toml++ only here.
+/// `expected.toml`: which numbers of a run's summary should be how large, and why.
 ///
 ///     [[expect]]
 ///     key = "resistance.mean_N"   # dotted key of summary.json

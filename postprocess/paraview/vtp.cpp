@@ -28,11 +28,11 @@ public:
         } else {
             uLongf packed = compressBound(size);
             std::vector<Bytef> block(packed);
-            if (compress2(block.data(), &packed,
-                          reinterpret_cast<const Bytef*>(array.bytes.data()), size, 5) != Z_OK)
+            if (compress2(block.data(), &packed, reinterpret_cast<const Bytef*>(array.bytes.data()),
+                          size, 5) != Z_OK)
                 throw run_failed(array.name, "cannot be compressed", "free some memory");
-            for (const std::uint64_t number : {std::uint64_t{1}, size, std::uint64_t{0},
-                                               static_cast<std::uint64_t>(packed)})
+            for (const std::uint64_t number :
+                 {std::uint64_t{1}, size, std::uint64_t{0}, static_cast<std::uint64_t>(packed)})
                 append_number(number);
             bytes_.append(reinterpret_cast<const char*>(block.data()), packed);
         }
@@ -68,14 +68,15 @@ std::string data_element(const char* tag, const std::vector<VtpArray>& arrays, A
 }
 
 // cells with `corners` points each
-std::string cells_element(const char* tag, const std::vector<std::int32_t>& connectivity, int corners,
-                          Appended& data) {
+std::string cells_element(const char* tag, const std::vector<std::int32_t>& connectivity,
+                          int corners, Appended& data) {
     std::vector<std::int32_t> offsets;
     for (std::size_t end = static_cast<std::size_t>(corners); end <= connectivity.size();
          end += static_cast<std::size_t>(corners))
         offsets.push_back(static_cast<std::int32_t>(end));
     return data_element(
-        tag, {make_array("connectivity", 1, connectivity), make_array("offsets", 1, offsets)}, data);
+        tag, {make_array("connectivity", 1, connectivity), make_array("offsets", 1, offsets)},
+        data);
 }
 
 }  // namespace
@@ -97,7 +98,8 @@ std::string vtp_text(const VtpFile& file) {
     Appended data;
     std::string out =
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" "
-        "byte_order=\"LittleEndian\" header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n";
+        "byte_order=\"LittleEndian\" header_type=\"UInt64\" "
+        "compressor=\"vtkZLibDataCompressor\">\n";
     out += fmt::format(
         "<PolyData><Piece NumberOfPoints=\"{}\" NumberOfVerts=\"{}\" NumberOfLines=\"0\" "
         "NumberOfStrips=\"0\" NumberOfPolys=\"{}\">\n",

@@ -17,14 +17,15 @@ struct VtpArray {
 };
 
 VtpArray make_array(const std::string& name, int components, const std::vector<float>& values);
-VtpArray make_array(const std::string& name, int components, const std::vector<std::int32_t>& values);
+VtpArray make_array(const std::string& name, int components,
+                    const std::vector<std::int32_t>& values);
 
 /// Points, and triangles between them or, when there are none, a vertex per point.
 struct VtpFile {
-    std::vector<float> points;             ///< 3 per point [m]
-    std::vector<std::int32_t> triangles;   ///< 3 indices of points each
-    std::vector<VtpArray> point_data;      ///< a row per point
-    std::vector<VtpArray> cell_data;       ///< a row per triangle or vertex
+    std::vector<float> points;            ///< 3 per point [m]
+    std::vector<std::int32_t> triangles;  ///< 3 indices of points each
+    std::vector<VtpArray> point_data;     ///< a row per point
+    std::vector<VtpArray> cell_data;      ///< a row per triangle or vertex
 };
 
 /// The file's content.

@@ -31,7 +31,8 @@ struct BodyColumns {
         add_point(velocity, frame.velocity[b]);
         add_point(angular_velocity, frame.angular_velocity[b]);
         const Eigen::Quaterniond& q = frame.orientation[b];
-        for (const double v : {q.w(), q.x(), q.y(), q.z()}) orientation.push_back(static_cast<float>(v));
+        for (const double v : {q.w(), q.x(), q.y(), q.z()})
+            orientation.push_back(static_cast<float>(v));
     }
     std::vector<VtpArray> surface_arrays() const {
         return {make_array("body", 1, body),
@@ -53,7 +54,8 @@ VtpFile floe_surfaces(const RunHeader& header, const RunFrame& frame) {
     VtpFile file;
     BodyColumns columns;
     for (std::size_t b = 0; b < frame.position.size(); ++b) {
-        const TriangleMesh& mesh = header.shapes[static_cast<std::size_t>(header.body_shape[b])].mesh;
+        const TriangleMesh& mesh =
+            header.shapes[static_cast<std::size_t>(header.body_shape[b])].mesh;
         const auto first = static_cast<std::int32_t>(file.points.size() / 3);
         const Mat3 turn = frame.orientation[b].toRotationMatrix();
         for (const Vec3& v : mesh.vertices) add_point(file.points, frame.position[b] + turn * v);
@@ -80,7 +82,8 @@ VtpFile floe_points(const RunHeader& header, const RunFrame& frame) {
 VtpFile surface(const TriangleMesh& mesh, const Vec3& shift) {
     VtpFile file;
     for (const Vec3& v : mesh.vertices) add_point(file.points, shift + v);
-    for (const auto& t : mesh.triangles) file.triangles.insert(file.triangles.end(), t.begin(), t.end());
+    for (const auto& t : mesh.triangles)
+        file.triangles.insert(file.triangles.end(), t.begin(), t.end());
     file.cell_data = {make_array("region", 1, mesh.region)};
     return file;
 }
@@ -89,9 +92,9 @@ VtpFile surface(const TriangleMesh& mesh, const Vec3& shift) {
 class Collection {
 public:
     void add(double time, int part, const std::string& name, const std::string& file) {
-        lines_ += fmt::format(
-            "<DataSet timestep=\"{:.9g}\" part=\"{}\" name=\"{}\" file=\"{}\"/>\n", time, part, name,
-            file);
+        lines_ +=
+            fmt::format("<DataSet timestep=\"{:.9g}\" part=\"{}\" name=\"{}\" file=\"{}\"/>\n",
+                        time, part, name, file);
     }
     void write(const fs::path& path) const {
         write_text_file(path,

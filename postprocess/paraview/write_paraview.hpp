@@ -14,6 +14,7 @@ namespace ice::paraview {
 ///     hull.pvd     the hull where it was; per triangle region
 ///     bodies.pvd   a point per floe with orientation (w, x, y, z), shape, state and forces, to be
 ///                  drawn with "3D Glyphs" (orientation mode Quaternion) and shapes.vtm as table
+///                  contact_force is that of the ship on the floe [N]
 ///     frames/      the .vtp files, one per frame and kind
 ///
 /// One file per frame, because readers of VTK 9.2 handle several steps in one file wrongly.

@@ -53,13 +53,16 @@ std::string average_chart(const RunData& run, const std::vector<double>& time, d
     });
     const auto friction =
         column(run.history, [](const HistoryRow& r) { return -r.friction_force.x(); });
-    const double window = std::max((time.back() - time.front()) / 30.0, 1e-9);
+    // a thirtieth of the run, cut to one digit
+    const double raw = std::max((time.back() - time.front()) / 30.0, 1e-9);
+    const double digit = std::pow(10.0, std::floor(std::log10(raw)));
+    const double window = std::floor(raw / digit) * digit;
     Chart chart;
     chart.title = fmt::format("Resistance, moving average over {} s", views::readable(window));
     Curve all{"contact + friction", views::kBlue,
               views::moving_average(time, total, 0.5 * window, 400), 1.8, ""};
-    Curve part{"friction", views::kOrange,
-               views::moving_average(time, friction, 0.5 * window, 400), 1.8, "7 2"};
+    Curve part{"friction", views::kOrange, views::moving_average(time, friction, 0.5 * window, 400),
+               1.8, "7 2"};
     double most = 0.0;
     for (const auto& p : all.points) most = std::max(most, std::abs(p.y()));
     const ForceUnit unit = choose_unit(most, run.header.dimension);
@@ -88,8 +91,8 @@ std::string history_section(const RunData& run, double average_from, double mean
             column(run.history, [&](const HistoryRow& r) { return r.contact_force[axis]; });
         const auto friction =
             column(run.history, [&](const HistoryRow& r) { return r.friction_force[axis]; });
-        const ForceUnit unit = choose_unit(std::max(largest_of(contact), largest_of(friction)),
-                                           run.header.dimension);
+        const ForceUnit unit =
+            choose_unit(std::max(largest_of(contact), largest_of(friction)), run.header.dimension);
         Chart chart;
         chart.title = fmt::format("Force of the ice on the ship, {}", kAxis[axis]);
         chart.y_title = fmt::format("f{} [{}]", kAxis[axis], unit.name);
@@ -98,11 +101,12 @@ std::string history_section(const RunData& run, double average_from, double mean
         if (std::isfinite(mean)) chart.averaged = {average_from, time.back()};
         charts.push_back(draw_chart(chart));
     }
-    return section("histories", "Force histories",
-                   "A force is the sum of the impulses of a step divided by the time step, so the height "
-                   "of a single hit depends on the step. Curves are thinned; every peak is kept. Shaded: "
-                   "the time over which means are taken.",
-                   figures(charts));
+    return section(
+        "histories", "Force histories",
+        "A force is the sum of the impulses of a step divided by the time step, so the height "
+        "of a single hit depends on the step. Curves are thinned; every peak is kept. Shaded: "
+        "the time over which means are taken.",
+        figures(charts));
 }
 
 std::string track_section(const RunData& run) {

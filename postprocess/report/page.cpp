@@ -20,7 +20,8 @@ header h1 { margin: 0 0 .3rem; font-size: 1.6rem; line-height: 1.25; }
 header p { margin: .2rem 0 0; color: #dce8f0; }
 main, .inner { max-width: 1200px; margin: 0 auto; padding: 0 1rem; }
 section { margin: 2rem 0; }
-h2 { font-size: 1.2rem; margin: 0 0 .4rem; padding-bottom: .25rem; border-bottom: 2px solid #0b3c5d; }
+h2 { font-size: 1.2rem; margin: 0 0 .4rem; padding-bottom: .25rem;
+     border-bottom: 2px solid #0b3c5d; }
 h3 { font-size: 1rem; margin: 1.2rem 0 .3rem; }
 section > p { margin: .3rem 0 .8rem; color: #45535f; max-width: 60rem; }
 .status { display: inline-block; padding: .05rem .6rem; border-radius: 1rem; font-weight: 600;
@@ -44,8 +45,10 @@ table.facts td { text-align: left; white-space: normal; vertical-align: top;
 table.facts td:first-child { white-space: nowrap; color: #45535f; }
 .figures { display: grid; gap: .8rem; align-items: start;
            grid-template-columns: repeat(auto-fit, minmax(min(100%, 30rem), 1fr)); }
-.figures svg, .legend svg { width: 100%; height: auto; max-width: 46rem; }
+.figures svg { width: 100%; height: auto; max-width: 46rem; }
+.opening svg { width: 100%; height: auto; max-width: 66rem; }
 .legend { overflow-x: auto; }
+.legend svg { width: auto; }
 details { margin: .6rem 0; }
 summary { cursor: pointer; font-weight: 600; }
 pre { background: #f4f7f9; padding: .8rem; overflow-x: auto; font-size: .85rem; line-height: 1.4; }
@@ -63,7 +66,8 @@ std::string make_page(const std::string& title, const std::string& body) {
         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\" />\n<title>";
     out += escape(title) + "</title>\n<style>" + kStyle + "</style>\n</head>\n<body>\n" + body;
     out += "<footer><div class=\"inner\">Made by icepost " + escape(version()) + " (" +
-           escape(git_commit()) + "). Forces are those of the ice on the ship; x forward, y to port, "
+           escape(git_commit()) +
+           "). Forces are those of the ice on the ship; x forward, y to port, "
            "z up.</div></footer>\n</body>\n</html>\n";
     return out;
 }

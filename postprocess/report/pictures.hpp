@@ -9,14 +9,15 @@
 
 namespace ice::report {
 
-/// Views of hull and ice at several instants spread over the run: in 3D from below, above, starboard
-/// and ahead; in 2D from the side. "" for a run without frames.
-/// @param budget bytes; when a field is so large that the views need more, the least telling ones are
-///        left out and the section says so
+/// Views of hull and ice at several instants spread over the run: in 3D from below, above,
+/// starboard and ahead; in 2D from the side. "" for a run without frames.
+/// @param budget bytes; when a field is so large that the views need more, the least telling ones
+///        are left out and the section says so
 std::string scene_section(const RunData& run, std::size_t budget);
 
 /// Force histories of the ship: moving average of the resistance, then each component.
-/// @param average_from start of the statistics [s]; @param mean of the resistance [N], NaN if unknown
+/// @param average_from start of the statistics [s]
+/// @param mean of the resistance [N], NaN if unknown
 std::string history_section(const RunData& run, double average_from, double mean);
 
 /// Force histories of the tracked floes; "" when there are none.

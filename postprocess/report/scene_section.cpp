@@ -9,6 +9,7 @@
 #include "postprocess/report/page.hpp"
 #include "postprocess/report/pictures.hpp"
 #include "postprocess/views/chart.hpp"
+#include "postprocess/views/floe_style.hpp"
 
 namespace ice::report {
 
@@ -55,8 +56,8 @@ views::ViewOptions view_options(const RunData& run) {
         const auto shape = static_cast<std::size_t>(run.header.body_shape[b]);
         for (const Vec3& v : run.header.shapes[shape].mesh.vertices)
             radius = std::max(radius, std::abs(v.y()));
-        field_half = std::max(
-            field_half, std::abs(first.position[b].y() - first.ship_position.y()) + radius);
+        field_half = std::max(field_half,
+                              std::abs(first.position[b].y() - first.ship_position.y()) + radius);
     }
     options.half_breadth = std::max(1.3 * hull_half, std::min(field_half, 0.4 * length));
     options.waterline = -first.ship_position.z();
@@ -100,10 +101,19 @@ std::string scene_section(const RunData& run, std::size_t budget) {
     // the most telling views first: they are the last to be dropped
     const std::vector<ViewFrom> sides =
         flat ? std::vector<ViewFrom>{ViewFrom::side}
-             : std::vector<ViewFrom>{ViewFrom::below, ViewFrom::side, ViewFrom::top, ViewFrom::front};
+             : std::vector<ViewFrom>{ViewFrom::below, ViewFrom::top, ViewFrom::side,
+                                     ViewFrom::front};
     std::vector<std::vector<std::string>> pictures(instants.size());
-    std::string hulls;
+    std::string hulls, opening;
     std::size_t used = 0, dropped = 0;
+    if (!flat) {
+        views::ViewOptions options = view_options(run);
+        options.width = 1000.0;
+        opening = SceneView(run.header, ViewFrom::quarter, options)
+                      .draw(run.frames[instants[instants.size() / 2]], trails);
+        used = opening.size();
+        if (used > budget / 3) opening.clear();
+    }
     for (std::size_t v = 0; v < sides.size(); ++v) {
         views::ViewOptions options = view_options(run);
         options.hull_id = fmt::format("hull-{}", v);
@@ -120,6 +130,7 @@ std::string scene_section(const RunData& run, std::size_t budget) {
         }
     }
     std::string body = hulls + "<div class=\"legend\">" + views::draw_legend(640.0) + "</div>\n";
+    if (!opening.empty()) body += "<div class=\"opening\">" + opening + "</div>\n";
     if (flat) {
         std::vector<std::string> all;
         for (auto& group : pictures) all.insert(all.end(), group.begin(), group.end());
@@ -134,10 +145,11 @@ std::string scene_section(const RunData& run, std::size_t budget) {
         body += fmt::format(
             "<p>{} more views would make this page too large; draw them with icepost view.</p>\n",
             dropped);
-    return section("views", "Hull and ice",
-                   "The picture moves with the ship. Paths are those of tracked floes as seen from the "
-                   "ship; the dashed line is calm water.",
-                   body);
+    return section(
+        "views", "Hull and ice",
+        "The picture moves with the ship. Paths are those of tracked floes as seen from the "
+        "ship; the dashed line is calm water.",
+        body);
 }
 
 }  // namespace ice::report

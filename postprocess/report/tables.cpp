@@ -19,12 +19,17 @@ namespace {
 double size_of(double value) { return std::isfinite(value) ? std::abs(value) : 0.0; }
 
 double largest_of(const ForceStatistics& f) {
-    return std::max({size_of(f.mean), size_of(f.contact_mean), size_of(f.friction_mean),
-                     size_of(f.std)});
+    return std::max(
+        {size_of(f.mean), size_of(f.contact_mean), size_of(f.friction_mean), size_of(f.std)});
 }
 
 std::string with_interval(const ForceUnit& unit, const ForceStatistics& force) {
-    return unit.text(force.mean) + " \u00b1 " + unit.text(force.ci95);
+    // two digits of the interval say all that the mean is worth
+    ForceUnit fine = unit;
+    const double interval = size_of(force.ci95) / unit.newtons;
+    if (interval > 0.0)
+        fine.decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(interval))), 0, 4);
+    return fine.text(force.mean) + " \u00b1 " + fine.text(force.ci95);
 }
 
 std::string card(const std::string& value, const std::string& name) {
@@ -40,14 +45,20 @@ std::string spelled(std::string key) {
 
 }  // namespace
 
-std::string ForceUnit::text(double force) const { return readable(force / newtons); }
+std::string ForceUnit::text(double force) const {
+    return std::isfinite(force) ? fmt::format("{:.{}f}", force / newtons, decimals) : "n/a";
+}
 
 ForceUnit choose_unit(double largest, int dimension) {
     const std::string per = dimension == 2 ? "/m" : "";
     const double size = size_of(largest);
-    if (size >= 1e7) return {"MN" + per, 1e6};
-    if (size >= 1e4) return {"kN" + per, 1e3};
-    return {"N" + per, 1.0};
+    ForceUnit unit{"N" + per, 1.0, 0};
+    if (size >= 1e4) unit = {"kN" + per, 1e3, 0};
+    if (size >= 1e7) unit = {"MN" + per, 1e6, 0};
+    if (size > 0.0)
+        unit.decimals =
+            std::clamp(3 - static_cast<int>(std::floor(std::log10(size / unit.newtons))), 0, 6);
+    return unit;
 }
 
 std::string key_numbers(const Summary& s) {
@@ -92,11 +103,15 @@ std::string region_table(const Summary& s) {
     for (const auto& [name, region] : s.regions)
         for (const double v : region.mean) largest = std::max(largest, size_of(v));
     const ForceUnit unit = choose_unit(largest, s.dimension);
-    const std::string impulse = s.dimension == 2 ? "Largest impulse [N s/m]" : "Largest impulse [N s]";
+    const std::string impulse =
+        s.dimension == 2 ? "Largest impulse [N s/m]" : "Largest impulse [N s]";
     std::vector<std::vector<std::string>> rows;
-    for (const auto& [name, r] : s.regions)
+    for (const auto& [name, r] : s.regions) {
+        if (name == "hull" && r.hits == 0)
+            continue;  // parts without a name, of which there are none
         rows.push_back({name, std::to_string(r.hits), readable(r.max_impulse), unit.text(r.mean[0]),
                         unit.text(r.mean[1]), unit.text(r.mean[2])});
+    }
     return table({"Region", "Hits", impulse, "Mean x [" + unit.name + "]",
                   "Mean y [" + unit.name + "]", "Mean z [" + unit.name + "]"},
                  rows);
@@ -119,7 +134,8 @@ std::string numerics_table(const Summary& s) {
 
 std::string warning_list(const std::vector<std::string>& warnings) {
     if (warnings.empty()) return "";
-    std::string out = "<section id=\"warnings\" class=\"warnings\">\n<b>Warnings of the run</b>\n<ul>\n";
+    std::string out =
+        "<section id=\"warnings\" class=\"warnings\">\n<b>Warnings of the run</b>\n<ul>\n";
     for (const std::string& text : warnings) out += "<li>" + escape(text) + "</li>\n";
     return out + "</ul>\n</section>\n";
 }

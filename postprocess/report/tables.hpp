@@ -9,8 +9,9 @@ namespace ice::report {
 
 /// Unit in which a group of forces reads best.
 struct ForceUnit {
-    std::string name;      ///< "N", "kN", "MN"; in 2D "N/m", ...
-    double newtons = 1.0;  ///< one unit in newtons
+    std::string name;                      ///< "N", "kN", "MN"; in 2D "N/m", ...
+    double newtons = 1.0;                  ///< one unit in newtons
+    int decimals = 0;                      ///< that give the largest number 4 digits
     std::string text(double force) const;  ///< number in this unit, without the unit's name
 };
 

@@ -18,16 +18,18 @@ using views::readable;
 
 namespace {
 
-constexpr std::size_t kSceneBudget = 1100000;  // bytes: with the histories the page stays below 2 MB
-constexpr std::size_t kMostTracked = 8;        // floes with charts of their own
+constexpr std::size_t kSceneBudget =
+    1100000;                             // bytes: with the histories the page stays below 2 MB
+constexpr std::size_t kMostTracked = 8;  // floes with charts of their own
 constexpr std::size_t kMostCaseText = 200000;  // bytes of the case shown
 
 std::string page_header(const read::RunFolder& run) {
     const std::string status = run.summary ? run.summary->status : "interrupted";
     std::string line = run.data.header.dimension == 2 ? "2D, per metre of breadth" : "3D";
     if (run.summary)
-        line += fmt::format(", {} s in {} steps, {} threads, {}", readable(run.summary->simulated_s),
-                            run.summary->steps, run.summary->threads, run.summary->simd);
+        line +=
+            fmt::format(", {} s in {} steps, {} threads, {}", readable(run.summary->simulated_s),
+                        run.summary->steps, run.summary->threads, run.summary->simd);
     else if (!run.data.history.empty())
         line += fmt::format(", recorded up to {} s", readable(run.data.history.back().time));
     return "<header><div class=\"inner\">\n<h1>" + escape(run.data.header.title) +
@@ -46,10 +48,11 @@ std::string statistics(const Summary& s) {
                    force_table(s));
     const std::string regions = region_table(s);
     if (!regions.empty())
-        out += section("regions", "Regions of the hull",
-                       "A hit is counted when a floe begins to touch the region; an impulse is that of "
-                       "one floe in one step.",
-                       regions);
+        out += section(
+            "regions", "Regions of the hull",
+            "A hit is counted when a floe begins to touch the region; an impulse is that of "
+            "one floe in one step.",
+            regions);
     return out;
 }
 
@@ -90,12 +93,13 @@ std::string make_report(const read::RunFolder& run) {
     if (run.summary)
         body += statistics(*run.summary);
     else
-        body += warning_list({"The run ended before it wrote summary.json: there are no statistics, "
-                              "and pictures and histories end with the last flush."});
+        body +=
+            warning_list({"The run ended before it wrote summary.json: there are no statistics, "
+                          "and pictures and histories end with the last flush."});
     body += scene_section(data, kSceneBudget);
-    body += history_section(data, run.summary ? run.summary->average_from : 0.0,
-                            run.summary ? run.summary->resistance.mean
-                                        : std::numeric_limits<double>::quiet_NaN());
+    body += history_section(
+        data, run.summary ? run.summary->average_from : 0.0,
+        run.summary ? run.summary->resistance.mean : std::numeric_limits<double>::quiet_NaN());
     body += track_section(data);
     if (run.summary)
         body += section("numerics", "Contacts, energy and computing time", "",

@@ -47,7 +47,7 @@ void widen(double& low, double& high) {
         high += 1.0;
         return;
     }
-    const double step = choose_step(high - low, 5);
+    const double step = choose_step(high - low, 8);
     low = std::floor(low / step) * step;
     high = std::ceil(high / step) * step;
 }
@@ -57,9 +57,9 @@ std::string draw_axes(const Axis& x, const Axis& y, const std::string& x_title,
     std::string out;
     // about one label per 70 pixels across and per 34 pixels up
     const auto xs = choose_ticks(std::min(x.low, x.high), std::max(x.low, x.high),
-                                  static_cast<int>((x.to - x.from) / 70.0) + 1);
+                                 static_cast<int>((x.to - x.from) / 70.0) + 1);
     const auto ys = choose_ticks(std::min(y.low, y.high), std::max(y.low, y.high),
-                                  static_cast<int>((y.from - y.to) / 34.0) + 1);
+                                 static_cast<int>((y.from - y.to) / 34.0) + 1);
     const auto step = [](const std::vector<double>& ticks) {
         return ticks.size() > 1 ? ticks[1] - ticks[0] : 1.0;
     };

@@ -29,9 +29,9 @@ std::string draw_legend(const Chart& chart, double x, double y) {
     std::string out;
     const auto add = [&](const std::string& name, const std::string& color,
                          const std::string& dash) {
-        out += line_element(x, y - 4.0, x + 20.0, y - 4.0,
-                            fmt::format("stroke=\"{}\" stroke-width=\"2.5\"{}", color,
-                                        dash_attribute(dash)));
+        out += line_element(
+            x, y - 4.0, x + 20.0, y - 4.0,
+            fmt::format("stroke=\"{}\" stroke-width=\"2.5\"{}", color, dash_attribute(dash)));
         out += text_element(x + 25.0, y, name, "start");
         x += 25.0 + 7.0 * static_cast<double>(name.size()) + 16.0;
     };
@@ -71,15 +71,17 @@ std::string draw_chart(const Chart& chart) {
     if (chart.level) ys.add(*chart.level);
     widen(ys.low, ys.high);
     if (!(xs.high > xs.low)) xs.high = xs.low + 1.0;
+    // a history begins one step after 0: the axis begins at 0
+    if (xs.low > 0.0 && xs.low < 0.02 * xs.high) xs.low = 0.0;
 
     const Axis x{xs.low, xs.high, 68.0, chart.width - 12.0};
     const Axis y{ys.low, ys.high, chart.height - 42.0, 46.0};
     if (chart.averaged) {
         const double from = std::clamp(x.pixel(chart.averaged->first), x.from, x.to);
         const double to = std::clamp(x.pixel(chart.averaged->second), x.from, x.to);
-        out += fmt::format(
-            "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"#f1f5f8\"/>\n", pixels(from),
-            pixels(y.to), pixels(to - from), pixels(y.from - y.to));
+        out +=
+            fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"#f1f5f8\"/>\n",
+                        pixels(from), pixels(y.to), pixels(to - from), pixels(y.from - y.to));
     }
     out += draw_axes(x, y, chart.x_title, chart.y_title);
     out += line_element(x.from, y.pixel(0.0), x.to, y.pixel(0.0), "stroke=\"#8a949c\"");

@@ -14,8 +14,8 @@ namespace ice::views {
 struct Curve {
     std::string name, color;
     std::vector<Vec2> points;
-    double width = 1.2;         ///< of the line [px]
-    std::string dash;           ///< SVG dash pattern, e.g. "6 3": tells curves apart without colour
+    double width = 1.2;  ///< of the line [px]
+    std::string dash;    ///< SVG dash pattern, e.g. "6 3": tells curves apart without colour
 };
 
 /// A line chart over time.

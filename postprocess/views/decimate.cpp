@@ -46,9 +46,9 @@ std::vector<Vec2> moving_average(const std::vector<double>& x, const std::vector
         const auto first = std::lower_bound(x.begin(), x.end(), at - half_width) - x.begin();
         const auto last = std::upper_bound(x.begin(), x.end(), at + half_width) - x.begin();
         if (last > first)
-            curve.emplace_back(at, (sum[static_cast<std::size_t>(last)] -
-                                    sum[static_cast<std::size_t>(first)]) /
-                                       static_cast<double>(last - first));
+            curve.emplace_back(
+                at, (sum[static_cast<std::size_t>(last)] - sum[static_cast<std::size_t>(first)]) /
+                        static_cast<double>(last - first));
     }
     return curve;
 }

@@ -43,8 +43,10 @@ void DepthMap::draw(const Vec3& a, const Vec3& b, const Vec3& c) {
         for (int k = first; k <= last; ++k) {
             const double x = right0_ + (k + 0.5) * cell_, y = up0_ + (r + 0.5) * cell_;
             // barycentric coordinates; the sign of the area cancels
-            const double wb = ((x - a.x()) * (c.y() - a.y()) - (y - a.y()) * (c.x() - a.x())) / area;
-            const double wc = ((b.x() - a.x()) * (y - a.y()) - (b.y() - a.y()) * (x - a.x())) / area;
+            const double wb =
+                ((x - a.x()) * (c.y() - a.y()) - (y - a.y()) * (c.x() - a.x())) / area;
+            const double wc =
+                ((b.x() - a.x()) * (y - a.y()) - (b.y() - a.y()) * (x - a.x())) / area;
             if (wb < 0.0 || wc < 0.0 || wb + wc > 1.0) continue;
             double& cell = nearest_[static_cast<std::size_t>(r * columns_ + k)];
             cell = std::max(cell, a.z() + wb * (b.z() - a.z()) + wc * (c.z() - a.z()));

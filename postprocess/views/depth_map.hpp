@@ -14,7 +14,8 @@ namespace ice::views {
 /// hull at its own place does not.
 class DepthMap {
 public:
-    /// Rasters the mesh with `columns` cells across its projected box; an empty mesh covers nothing.
+    /// Rasters the mesh with `columns` cells along the longer side of its projected box; an empty
+    /// mesh covers nothing.
     DepthMap(const TriangleMesh& mesh, const Projection& projection, int columns);
 
     /// Nearness of the surface at a place on the page [m]; -infinity where the body is not.

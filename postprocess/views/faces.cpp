@@ -58,7 +58,9 @@ std::vector<std::int32_t> border_loop(const TriangleMesh& mesh,
 std::vector<Vec3> corners_of(const TriangleMesh& mesh, const std::vector<std::int32_t>& loop) {
     std::vector<Vec3> corners;
     const std::size_t n = loop.size();
-    const auto at = [&](std::size_t k) { return mesh.vertices[static_cast<std::size_t>(loop[k % n])]; };
+    const auto at = [&](std::size_t k) {
+        return mesh.vertices[static_cast<std::size_t>(loop[k % n])];
+    };
     for (std::size_t k = 0; k < n; ++k) {
         const Vec3 in = at(k) - at(k + n - 1), out = at(k + 1) - at(k);
         if (in.cross(out).norm() > 1e-6 * in.norm() * out.norm() || in.dot(out) < 0.0)
@@ -106,7 +108,8 @@ std::vector<Face> make_faces(const TriangleMesh& mesh) {
             faces.pop_back();
         }
         for (const std::size_t t : triangles)
-            faces.push_back({{mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)}, normals[t]});
+            faces.push_back(
+                {{mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)}, normals[t]});
     }
     return faces;
 }
@@ -168,8 +171,10 @@ TriangleMesh simplify_mesh(const TriangleMesh& mesh, std::size_t most) {
         std::vector<double> count;
         for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
             const Vec3 p = (mesh.vertices[v] - box.min()) / size;
-            const std::array<long, 3> cell{std::lround(p.x()), std::lround(p.y()), std::lround(p.z())};
-            target[v] = cell_vertex.emplace(cell, static_cast<std::int32_t>(sum.size())).first->second;
+            const std::array<long, 3> cell{std::lround(p.x()), std::lround(p.y()),
+                                           std::lround(p.z())};
+            target[v] =
+                cell_vertex.emplace(cell, static_cast<std::int32_t>(sum.size())).first->second;
             const auto row = static_cast<std::size_t>(target[v]);
             if (row == sum.size()) {
                 sum.push_back(Vec3::Zero());

@@ -70,8 +70,8 @@ std::string silhouette(const TriangleMesh& mesh, const Projection& projection,
 
 double brightness(const Vec3& normal, const Projection& projection) {
     const Vec3 light =
-        (projection.toward - 0.45 * projection.right + 0.6 * projection.up).normalized();
-    const double value = 0.62 + 0.46 * std::max(0.0, normal.dot(light));
+        (projection.toward - 0.45 * projection.right + 0.5 * projection.up).normalized();
+    const double value = 0.68 + 0.38 * std::max(0.0, normal.dot(light));
     return std::round(value * 40.0) / 40.0;
 }
 
@@ -100,18 +100,20 @@ std::string draw_hull(const TriangleMesh& mesh, const Projection& projection,
                            edges ? "" : " stroke=\"" + color + "\"");
     }
     out += "</g>\n";
-    out += fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"#222\" stroke-width=\"1.6\" "
-                       "stroke-linecap=\"round\"/>\n",
-                       silhouette(simple, projection, scale));
+    out += fmt::format(
+        "<path d=\"{}\" fill=\"none\" stroke=\"#222\" stroke-width=\"1.6\" "
+        "stroke-linecap=\"round\"/>\n",
+        silhouette(simple, projection, scale));
     if (std::abs(projection.toward.z()) > 0.9) {
         std::string data;
         for (const auto& [a, b] : cut.section) {
             const Vec3 p = projection.apply(a), q = projection.apply(b);
             data += path_data({scale.pixel(p.x(), p.y()), scale.pixel(q.x(), q.y())}, false);
         }
-        out += fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"#0b3c5d\" stroke-width=\"1.2\" "
-                           "stroke-dasharray=\"5 3\"/>\n",
-                           data);
+        out += fmt::format(
+            "<path d=\"{}\" fill=\"none\" stroke=\"#0b3c5d\" stroke-width=\"1.2\" "
+            "stroke-dasharray=\"5 3\"/>\n",
+            data);
     }
     return out;
 }

@@ -11,21 +11,21 @@ namespace ice::views {
 
 /// Metres on the page -> pixels; the same scale both ways, up is up.
 struct PageScale {
-    double left = 0.0, top = 0.0;      ///< metres at pixel (x0, y0)
-    double x0 = 0.0, y0 = 0.0;         ///< [px]
-    double per_metre = 1.0;            ///< [px/m]
+    double left = 0.0, top = 0.0;  ///< metres at pixel (x0, y0)
+    double x0 = 0.0, y0 = 0.0;     ///< [px]
+    double per_metre = 1.0;        ///< [px/m]
     Vec2 pixel(double right, double up) const {
         return {x0 + (right - left) * per_metre, y0 + (top - up) * per_metre};
     }
 };
 
-/// The hull as SVG: faces under and above the waterline in different colours, shaded, far ones first,
-/// then its silhouette and, from above and below, its waterline.
+/// The hull as SVG: faces under and above the waterline in different colours, shaded, far ones
+/// first, then its silhouette and, from above and below, its waterline.
 /// @param mesh in the ship frame; @param waterline height of the water there [m]
 std::string draw_hull(const TriangleMesh& mesh, const Projection& projection,
                       const PageScale& scale, double waterline);
 
-/// Brightness of a face in [0.6, 1.1], in steps that the eye does not see: light comes from the
+/// Brightness of a face in [0.68, 1.06], in steps that the eye does not see: light comes from the
 /// viewer's upper left.
 double brightness(const Vec3& normal, const Projection& projection);
 

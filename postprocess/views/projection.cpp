@@ -8,11 +8,16 @@ namespace ice::views {
 Projection projection_of(ViewFrom from) {
     const Vec3 x = Vec3::UnitX(), y = Vec3::UnitY(), z = Vec3::UnitZ();
     switch (from) {
-        case ViewFrom::below: return {x, -y, -z};
-        case ViewFrom::top: return {x, y, z};
-        case ViewFrom::side: return {x, z, -y};
-        case ViewFrom::front: return {y, z, x};
-        case ViewFrom::quarter: break;
+        case ViewFrom::below:
+            return {x, -y, -z};
+        case ViewFrom::top:
+            return {x, y, z};
+        case ViewFrom::side:
+            return {x, z, -y};
+        case ViewFrom::front:
+            return {y, z, x};
+        case ViewFrom::quarter:
+            break;
     }
     const Vec3 toward = Vec3(0.45, -0.72, -0.53).normalized();
     const Vec3 right = z.cross(toward).normalized();
@@ -30,11 +35,16 @@ std::optional<ViewFrom> parse_view(const std::string& name) {
 
 std::string view_caption(ViewFrom from) {
     switch (from) {
-        case ViewFrom::below: return "From below";
-        case ViewFrom::top: return "From above";
-        case ViewFrom::side: return "From starboard";
-        case ViewFrom::front: return "From ahead";
-        case ViewFrom::quarter: break;
+        case ViewFrom::below:
+            return "From below";
+        case ViewFrom::top:
+            return "From above";
+        case ViewFrom::side:
+            return "From starboard";
+        case ViewFrom::front:
+            return "From ahead";
+        case ViewFrom::quarter:
+            break;
     }
     return "From ahead and below";
 }

@@ -9,52 +9,15 @@
 #include "postprocess/views/axis.hpp"
 #include "postprocess/views/chart.hpp"
 #include "postprocess/views/depth_map.hpp"
+#include "postprocess/views/floe_style.hpp"
 #include "postprocess/views/hull_drawing.hpp"
+#include "postprocess/views/view_window.hpp"
 
 namespace ice::views {
 
 namespace {
 
-struct StateStyle {
-    Eigen::Vector3i color;
-    const char* meaning;
-};
-
-const StateStyle& style_of(FloeState state) {
-    static const StateStyle held{{222, 230, 236}, "held"}, moving{{133, 191, 232}, "moving"},
-        behind{{243, 205, 130}, "behind the ship"};
-    return state == FloeState::held ? held : state == FloeState::moving ? moving : behind;
-}
-
 constexpr double kLeft = 52.0, kRight = 10.0, kTop = 26.0, kBottom = 40.0;  // margins [px]
-
-// what is shown, in metres on the page, relative to the ship
-struct Window {
-    double left, right, bottom, top;
-};
-
-Window choose_window(const Eigen::AlignedBox3d& hull, ViewFrom from, const ViewOptions& options,
-                     double floe_size, bool flat) {
-    const double length = std::max(hull.sizes().x(), 1e-3);
-    const double side = options.half_breadth > 0.0 ? options.half_breadth : 0.45 * length;
-    const double aft = hull.min().x() - 0.3 * length, ahead = hull.max().x() + 0.4 * length;
-    const double deep = hull.min().z() - std::max(0.06 * length, 1.1 * floe_size);
-    const double high = std::max(hull.max().z(), options.waterline) + (flat ? 0.05 : 0.03) * length;
-    switch (from) {
-        case ViewFrom::below:
-        case ViewFrom::top: return {aft, ahead, -side, side};
-        case ViewFrom::side: return {aft, ahead, deep, high};
-        case ViewFrom::front: return {-side, side, deep, high};
-        case ViewFrom::quarter: break;
-    }
-    const Projection p = projection_of(from);
-    const Eigen::AlignedBox3d shown(Vec3(hull.min().x() - 0.1 * length, -0.8 * side, hull.min().z()),
-                                    Vec3(hull.max().x() + 0.3 * length, 0.8 * side, hull.max().z()));
-    Eigen::AlignedBox3d page;
-    for (int k = 0; k < 8; ++k)
-        page.extend(p.apply(shown.corner(static_cast<Eigen::AlignedBox3d::CornerType>(k))));
-    return {page.min().x(), page.max().x(), page.min().y(), page.max().y()};
-}
 
 // One floe to paint.
 struct Item {
@@ -68,10 +31,11 @@ struct Item {
 struct SceneView::Parts {
     ViewFrom from;
     ViewOptions options;
+    bool flat = false;  // a 2D run
     Projection projection;
     Window window{};
     PageScale scale;
-    double width = 0.0, height = 0.0;  // of the plot area [px]
+    double width = 0.0, height = 0.0;      // of the plot area [px]
     std::vector<std::vector<Face>> faces;  // per shape, body axes
     std::vector<double> radius;            // of each shape about its origin [m]
     std::vector<std::int32_t> body_shape;
@@ -97,6 +61,7 @@ SceneView::SceneView(const RunHeader& header, ViewFrom from, const ViewOptions& 
     Parts& s = *parts_;
     s.from = from;
     s.options = options;
+    s.flat = header.dimension == 2;
     s.projection = projection_of(from);
     s.body_shape = header.body_shape;
     double floe_size = 0.0;
@@ -113,7 +78,7 @@ SceneView::SceneView(const RunHeader& header, ViewFrom from, const ViewOptions& 
     for (const Vec3& v : hull.vertices) s.hull_box.extend(v);
     if (hull.vertices.empty()) s.hull_box = Eigen::AlignedBox3d(Vec3(-5, -1, -1), Vec3(5, 1, 1));
 
-    s.window = choose_window(s.hull_box, from, options, floe_size, header.dimension == 2);
+    s.window = choose_window(s.hull_box, from, floe_size, options.half_breadth, options.waterline);
     const double across = s.window.right - s.window.left, tall = s.window.top - s.window.bottom;
     // as wide as asked for, but not taller than three quarters of that
     const double room = options.width - kLeft - kRight;
@@ -175,7 +140,8 @@ std::string SceneView::Parts::draw_floe(std::size_t body, const RunFrame& frame,
     const FloeState state = frame.state[body];
     const bool touched = frame.contact_force[body].squaredNorm() > 0.0;
     // held floes between viewer and hull would hide it
-    const bool veil = state == FloeState::held && (from == ViewFrom::side || from == ViewFrom::front);
+    const bool veil =
+        state == FloeState::held && !flat && (from == ViewFrom::side || from == ViewFrom::front);
     std::string out;
     for (const Face& face : faces[shape]) {
         const Vec3 normal = turn * face.normal;
@@ -183,7 +149,7 @@ std::string SceneView::Parts::draw_floe(std::size_t body, const RunFrame& frame,
         std::vector<Vec2> points;
         for (const Vec3& corner : face.corners) points.push_back(place(offset + turn * corner));
         out += fmt::format("<path d=\"{}\" fill=\"{}\"{}{}/>", path_data(points, true),
-                           shade(style_of(state).color, brightness(normal, projection)),
+                           shade(floe_style(state).color, brightness(normal, projection)),
                            veil ? " opacity=\".45\"" : "",
                            outlined  ? " stroke=\"#111\" stroke-width=\"1.5\""
                            : touched ? " stroke=\"#d55e00\" stroke-width=\"1.3\""
@@ -202,7 +168,8 @@ std::string SceneView::Parts::draw_floes(const RunFrame& frame,
         });
         (item.before_hull ? before : behind) += draw_floe(item.body, frame, outlined);
     }
-    const std::string open = "<g stroke=\"#51697a\" stroke-width=\".5\" stroke-linejoin=\"round\">\n";
+    const std::string open =
+        "<g stroke=\"#51697a\" stroke-width=\".5\" stroke-linejoin=\"round\">\n";
     std::string ship = options.hull_id.empty()
                            ? hull
                            : fmt::format("<use href=\"#{}\"/>\n", escape(options.hull_id));
@@ -230,9 +197,10 @@ std::string SceneView::Parts::draw_trails(const RunFrame& frame,
         const auto body = static_cast<std::size_t>(trail.floe - 1);
         if (body >= frame.position.size()) continue;
         const Vec2 at = place(frame.position[body] - frame.ship_position);
-        out += text_element(at.x(), at.y() + 4.5, std::to_string(trail.floe), "middle",
-                            "font-weight=\"700\" font-size=\"12\" stroke=\"#fff\" stroke-width=\"3\" "
-                            "paint-order=\"stroke\"");
+        out +=
+            text_element(at.x(), at.y() + 4.5, std::to_string(trail.floe), "middle",
+                         "font-weight=\"700\" font-size=\"12\" stroke=\"#fff\" stroke-width=\"3\" "
+                         "paint-order=\"stroke\"");
     }
     return out;
 }
@@ -292,32 +260,13 @@ std::string SceneView::draw(const RunFrame& frame, const std::vector<Trail>& tra
     }
     out += s.draw_trails(frame, trails);
     out += "</svg>\n";
-    out += fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"none\" "
-                       "stroke=\"#8a949c\"/>\n",
-                       pixels(kLeft), pixels(kTop), pixels(s.width), pixels(s.height));
+    out += fmt::format(
+        "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"none\" "
+        "stroke=\"#8a949c\"/>\n",
+        pixels(kLeft), pixels(kTop), pixels(s.width), pixels(s.height));
     if (s.options.legend)
         out += fmt::format("<svg y=\"{}\">{}</svg>\n", pixels(total_height - legend),
                            draw_legend(total_width));
-    return out + "</svg>\n";
-}
-
-std::string draw_legend(double width) {
-    std::string out = fmt::format(
-        "<svg width=\"{}\" height=\"22\" role=\"img\" font-family=\"system-ui,Arial,sans-serif\" "
-        "font-size=\"12\" fill=\"#222\"><title>Meaning of the colours</title>\n",
-        pixels(width));
-    double x = 8.0;
-    const auto add = [&](const std::string& fill, const std::string& stroke, const char* text) {
-        out += fmt::format("<rect x=\"{}\" y=\"4\" width=\"16\" height=\"11\" fill=\"{}\" "
-                           "stroke=\"{}\" stroke-width=\"1.3\"/>",
-                           pixels(x), fill, stroke);
-        out += text_element(x + 21.0, 14.0, text, "start");
-        x += 21.0 + 6.4 * static_cast<double>(std::string(text).size()) + 12.0;
-    };
-    for (const FloeState state : {FloeState::held, FloeState::moving, FloeState::behind})
-        add(shade(style_of(state).color, 1.0), "#51697a", style_of(state).meaning);
-    add(shade(style_of(FloeState::moving).color, 1.0), kOrange, "touched by the ship");
-    add(shade(style_of(FloeState::moving).color, 1.0), "#111", "tracked, with path");
     return out + "</svg>\n";
 }
 

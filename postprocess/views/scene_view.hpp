@@ -13,18 +13,18 @@ namespace ice::views {
 
 /// Path of a floe's centre of mass as the ship sees it.
 struct Trail {
-    std::int32_t floe = 0;         ///< id, from 1
+    std::int32_t floe = 0;  ///< id, from 1
     std::string color;
-    std::vector<double> time;      ///< [s], rising
-    std::vector<Vec3> offset;      ///< position minus ship position [m]
+    std::vector<double> time;  ///< [s], rising
+    std::vector<Vec3> offset;  ///< position minus ship position [m]
 };
 
 struct ViewOptions {
-    double width = 560.0;          ///< of the picture [px]; its height follows
-    double half_breadth = 0.0;     ///< shown to each side of the centre line [m]; 0: 0.45 ship lengths
-    double waterline = 0.0;        ///< height of the calm water in the ship frame [m]
-    bool legend = false;           ///< explain the colours below the picture
-    std::string hull_id;           ///< draw the hull by reference to define_hull(); empty: in place
+    double width = 560.0;       ///< of the picture [px]; its height follows
+    double half_breadth = 0.0;  ///< shown to each side of the centre line [m]; 0: 0.45 ship lengths
+    double waterline = 0.0;     ///< height of the calm water in the ship frame [m]
+    bool legend = false;        ///< explain the colours below the picture
+    std::string hull_id;        ///< draw the hull by reference to define_hull(); empty: in place
 };
 
 /// Draws frames of one run from one side. The picture moves with the ship, so the hull is prepared
@@ -47,8 +47,5 @@ private:
     struct Parts;
     std::unique_ptr<Parts> parts_;
 };
-
-/// Colours of the floes' states with their meaning, as SVG of the given width, 22 px high.
-std::string draw_legend(double width);
 
 }  // namespace ice::views

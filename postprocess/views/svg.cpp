@@ -13,7 +13,7 @@ namespace {
 // length of the UTF-8 sequence that begins at text[k], or 0 where it is none
 std::size_t utf8_length(const std::string& text, std::size_t k) {
     const auto byte = static_cast<unsigned char>(text[k]);
-    const std::size_t length = byte < 0x80                    ? 1
+    const std::size_t length = byte < 0x80                   ? 1
                                : byte >= 0xc2 && byte < 0xe0 ? 2
                                : byte >= 0xe0 && byte < 0xf0 ? 3
                                : byte >= 0xf0 && byte < 0xf5 ? 4
@@ -110,7 +110,12 @@ std::string readable(double value) {
     if (size == 0.0) return "0";
     if (size < 1e-4 || size >= 1e7) return fmt::format("{:.3e}", value);
     const int before = static_cast<int>(std::floor(std::log10(size))) + 1;
-    return fmt::format("{:.{}f}", value, std::clamp(4 - before, 0, 7));
+    std::string text = fmt::format("{:.{}f}", value, std::clamp(4 - before, 0, 7));
+    if (text.find('.') != std::string::npos) {
+        text.erase(text.find_last_not_of('0') + 1);
+        if (text.back() == '.') text.pop_back();
+    }
+    return text;
 }
 
 std::string shade(const Eigen::Vector3i& rgb, double brightness) {

@@ -31,7 +31,8 @@ std::string line_element(double x1, double y1, double x2, double y2, const std::
 /// Opening <svg> with a viewBox in pixels, a title for screen readers and the common font.
 std::string svg_open(double width, double height, const std::string& title);
 
-/// A number for people: 4 significant digits, no exponent between 1e-4 and 1e7, "n/a" for NaN.
+/// A number for people: 4 significant digits, no exponent between 1e-4 and 1e7, no zeros at its
+/// end, "n/a" for NaN.
 std::string readable(double value);
 
 /// Colour "#rrggbb" from base colour times brightness in [0, 1.3], each channel cut at 255.

@@ -55,7 +55,7 @@ void apply_impulse(Bodies& bodies, const Constraint& c, const Vec3& j) {
 void build_constraints(const Bodies& bodies, const std::vector<Contact>& contacts,
                        const ContactLaw& law, std::vector<Constraint>& out) {
     out.resize(contacts.size());
-    parallel_for(contacts.size(), 256, [&](std::size_t k) {
+    parallel_for(contacts.size(), 1024, [&](std::size_t k) {
         const Contact& contact = contacts[k];
         Constraint c;
         c.a = contact.a;

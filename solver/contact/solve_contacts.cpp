@@ -64,8 +64,13 @@ SolveReport iterate(std::vector<Constraint>& constraints, const ContactLaw& law,
     while (report.iterations < law.iterations) {
         ++report.iterations;
         report.residual = 0.0;
-        for (Constraint& c : constraints)
+        // every other sweep runs backwards: news travels along a chain of floes both ways
+        const bool forwards = report.iterations % 2 == 1;
+        const std::size_t count = constraints.size();
+        for (std::size_t k = 0; k < count; ++k) {
+            Constraint& c = constraints[forwards ? k : count - 1 - k];
             if (c.normal_mass > 0.0) report.residual = std::max(report.residual, update(c));
+        }
         if (report.residual <= law.tolerance) return report;
     }
     report.converged = report.residual <= law.tolerance;

@@ -10,7 +10,7 @@ namespace ice {
 namespace {
 
 // Items below which threads cost more than they save, measured with icesolve on 2 cores.
-constexpr std::size_t kSerialBodies = 64;
+constexpr std::size_t kSerialBodies = 512;
 
 WaterLoad load_of(const Scene& scene, const Case& p, std::size_t i) {
     const Bodies& b = scene.bodies;

@@ -193,7 +193,7 @@ double closing_speed(const Scene& scene, BodyPair pair) {
 void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs, NormalRule rule,
                          double dt, double margin, std::vector<Contact>& out) {
     if (per_pair_.size() < pairs.size()) per_pair_.resize(pairs.size());
-    parallel_for(pairs.size(), 8, [&](std::size_t k) {
+    parallel_for(pairs.size(), 32, [&](std::size_t k) {
         thread_local std::vector<Candidate> candidates;
         per_pair_[k].clear();
         find_pair_contacts(scene, pairs[k], rule, dt * closing_speed(scene, pairs[k]) + margin,

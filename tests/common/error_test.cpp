@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <catch2/catch.hpp>
-
 #include "common/base/error.hpp"
+
+#include <catch2/catch.hpp>
 
 using namespace ice;
 

@@ -121,7 +121,8 @@ inline RunData make_run(const RunSize& size = {}) {
         for (std::size_t k = 0; k < size.floes; ++k) {
             const double row = static_cast<double>(k / 2), side = k % 2 ? 1.0 : -1.0;
             const double x = 8.5 + 1.1 * row;
-            const bool pushed = x - 0.5 < 8.0 + frame.time;  // the bow at x = 8 m + t has reached it
+            const bool pushed =
+                x - 0.5 < 8.0 + frame.time;  // the bow at x = 8 m + t has reached it
             const double angle = pushed ? 1.5 * frame.time : 0.0;
             frame.position.emplace_back(x, size.dimension == 2 ? 0.0 : 0.5 * side,
                                         pushed ? -0.85 : -0.08);
@@ -133,8 +134,8 @@ inline RunData make_run(const RunSize& size = {}) {
         }
         for (std::size_t s = 0; s < size.samples_per_frame; ++s) {
             HistoryRow row;
-            row.time = frame.time + 0.1 * static_cast<double>(s) /
-                                        static_cast<double>(size.samples_per_frame);
+            row.time = frame.time +
+                       0.1 * static_cast<double>(s) / static_cast<double>(size.samples_per_frame);
             row.contact_force = Vec3(-1000.0 + 200.0 * std::sin(2 * pi * row.time),
                                      50.0 * std::cos(2 * pi * row.time), 400.0);
             row.friction_force = 0.1 * row.contact_force;

@@ -55,9 +55,9 @@ TEST_CASE("texts of 0, 3 and 100000 characters come back, UTF-8 included", "[for
 
 TEST_CASE("lists of 0 to 3 texts of different lengths come back", "[formats]") {
     const TempFolder folder;
-    const std::vector<std::string> texts = GENERATE(std::vector<std::string>{},
-                                                    std::vector<std::string>{""},
-                                                    std::vector<std::string>{"bow", "", "stern"});
+    const std::vector<std::string> texts =
+        GENERATE(std::vector<std::string>{}, std::vector<std::string>{""},
+                 std::vector<std::string>{"bow", "", "stern"});
     {
         Hdf5File file(folder / "x.h5", Mode::create);
         file.write_strings("/names", texts);
@@ -77,7 +77,8 @@ TEST_CASE("rows of 0 floes can be appended: [2,0,3]", "[formats]") {
     CHECK(file.read<float>("/position").empty());
 }
 
-TEST_CASE("reading what is missing or of another kind names the file and the dataset", "[formats]") {
+TEST_CASE("reading what is missing or of another kind names the file and the dataset",
+          "[formats]") {
     const TempFolder folder;
     {
         Hdf5File file(folder / "x.h5", Mode::create);
@@ -88,7 +89,8 @@ TEST_CASE("reading what is missing or of another kind names the file and the dat
     }
     const Hdf5File file(folder / "x.h5", Mode::read);
     const auto text_of = [&](const auto& body) { return error_text(body); };
-    CHECK_THAT(text_of([&] { file.read<double>("/no"); }), Catch::Contains("x.h5: /no: is missing"));
+    CHECK_THAT(text_of([&] { file.read<double>("/no"); }),
+               Catch::Contains("x.h5: /no: is missing"));
     CHECK_THAT(text_of([&] { file.read<double>("/no/where"); }), Catch::Contains("is missing"));
     CHECK_THAT(text_of([&] { file.read<double>("/group"); }), Catch::Contains("is not a dataset"));
     CHECK_THAT(text_of([&] { file.read<double>("/names"); }),

@@ -24,9 +24,8 @@ TEST_CASE("the result has the same bits for 1, 2 and 4 threads", "[base]") {
     for (const int threads : {1, 2, 4}) {
         set_thread_count(threads);
         std::vector<double> out(5000);
-        parallel_for(out.size(), 100, [&](std::size_t k) {
-            out[k] = std::sqrt(static_cast<double>(k)) / 3.0;
-        });
+        parallel_for(out.size(), 100,
+                     [&](std::size_t k) { out[k] = std::sqrt(static_cast<double>(k)) / 3.0; });
         results.push_back(out);
     }
     set_thread_count(before);

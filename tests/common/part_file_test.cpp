@@ -42,7 +42,8 @@ TEST_CASE("keep() gives the file its final name and replaces an older one", "[ba
     CHECK(folder.file_count() == 1);
 }
 
-TEST_CASE("writing a text into a folder that does not exist is an error naming the file", "[base]") {
+TEST_CASE("writing a text into a folder that does not exist is an error naming the file",
+          "[base]") {
     const TempFolder folder;
     const std::string text = error_text([&] { write_text_file(folder / "no/x.csv", "1"); });
     CHECK_THAT(text, Catch::Contains("no/x.csv: cannot be written"));

@@ -2,8 +2,10 @@
 #include "common/formats/run_file.hpp"
 
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <catch2/catch.hpp>
+#include <csignal>
 
 #include "common/formats/hdf5_file.hpp"
 #include "tests/common/fixtures.hpp"
@@ -100,23 +102,36 @@ TEST_CASE("meshes, regions and spheres of the shapes come back to float precisio
     CHECK(back.header.shapes[0].mesh.region_names == run.header.shapes[0].mesh.region_names);
 }
 
-TEST_CASE("a run killed after 45 frames can be read up to the flush at frame 40", "[formats]") {
+TEST_CASE("a run of 45 frames so far, alive or killed, can be read up to the flush at frame 40",
+          "[formats]") {
     const TempFolder folder;
     const RunData run = make_run();
+    int ready[2] = {};
+    REQUIRE(pipe(ready) == 0);
     const pid_t child = fork();
     if (child == 0) {
         RunWriter writer(folder / "run.h5", run.header);
         add_frames(writer, run, 45);
-        _exit(0);  // as a kill: no destructor runs
+        const bool told = write(ready[1], "x", 1) == 1;
+        while (told) pause();
+        _exit(1);
     }
+    char byte = 0;
+    REQUIRE(read(ready[0], &byte, 1) == 1);
+    const RunData alive = read_run(folder / "run.h5.part");
+    kill(child, SIGKILL);
     int status = 0;
     waitpid(child, &status, 0);
-    REQUIRE(status == 0);
+    close(ready[0]);
+    close(ready[1]);
+    CHECK(WIFSIGNALED(status));
     CHECK_FALSE(std::filesystem::exists(folder / "run.h5"));
-    const RunData back = read_run(folder / "run.h5.part");
-    REQUIRE(back.frames.size() == 40);
-    check_history(run, back, 400);
-    check_frame(run.frames[39], back.frames[39]);
+    const RunData killed = read_run(folder / "run.h5.part");
+    for (const RunData* back : {&alive, &killed}) {
+        REQUIRE(back->frames.size() == 40);
+        check_history(run, *back, 400);
+        check_frame(run.frames[39], back->frames[39]);
+    }
 }
 
 TEST_CASE("a copy of the .part file taken during the run can be read", "[formats]") {

@@ -98,7 +98,8 @@ TEST_CASE("writing a set twice, a second apart, gives equal bytes", "[formats]")
 TEST_CASE("the message names the dataset that holds a NaN", "[formats]") {
     CHECK_THAT(spoiled([](SphereSet& s) { s.centers[2].y() = kNan; }),
                Catch::Contains("x.spheres.h5: /center: holds a NaN or infinity"));
-    CHECK_THAT(spoiled([](SphereSet& s) { s.volumes[0] = kNan; }), Catch::Contains("/volume: holds"));
+    CHECK_THAT(spoiled([](SphereSet& s) { s.volumes[0] = kNan; }),
+               Catch::Contains("/volume: holds"));
     CHECK_THAT(spoiled([](SphereSet& s) { s.mesh.vertices[0].x() = kNan; }),
                Catch::Contains("/mesh/vertices: holds"));
 }

@@ -77,13 +77,47 @@ TEST_CASE("a summary comes back with all digits", "[formats]") {
 TEST_CASE("summary.json holds the contract's keys in the contract's order", "[formats]") {
     const std::string text = summary_text(make_summary());
     std::size_t at = 0;
-    for (const char* key :
-         {"schema", "status", "title", "steps", "simulated_s", "wall_s", "realtime_factor", "threads",
-          "simd", "state_hash", "spheres", "hull", "ice", "floes", "total", "moved", "behind",
-          "resistance", "mean_N", "contact_mean_N", "friction_mean_N", "std_N", "max_N", "ci95_N",
-          "lateral", "vertical", "regions", "hits", "max_impulse_Ns", "mean_N", "contacts", "mean",
-          "max", "max_overlap_m", "unconverged_steps", "energy", "lindqvist_submersion_N", "warnings",
-          "version", "git_commit", "compiler"}) {
+    for (const char* key : {"schema",
+                            "status",
+                            "title",
+                            "steps",
+                            "simulated_s",
+                            "wall_s",
+                            "realtime_factor",
+                            "threads",
+                            "simd",
+                            "state_hash",
+                            "spheres",
+                            "hull",
+                            "ice",
+                            "floes",
+                            "total",
+                            "moved",
+                            "behind",
+                            "resistance",
+                            "mean_N",
+                            "contact_mean_N",
+                            "friction_mean_N",
+                            "std_N",
+                            "max_N",
+                            "ci95_N",
+                            "lateral",
+                            "vertical",
+                            "regions",
+                            "hits",
+                            "max_impulse_Ns",
+                            "mean_N",
+                            "contacts",
+                            "mean",
+                            "max",
+                            "max_overlap_m",
+                            "unconverged_steps",
+                            "energy",
+                            "lindqvist_submersion_N",
+                            "warnings",
+                            "version",
+                            "git_commit",
+                            "compiler"}) {
         CAPTURE(key);
         const std::size_t found = text.find("\"" + std::string(key) + "\":", at);
         REQUIRE(found != std::string::npos);
@@ -151,11 +185,26 @@ TEST_CASE("spherize's JSON holds the contract's keys", "[formats]") {
     const std::string text = spheres_report_text(report);
     write_bytes(folder / "x.json", text);
     const auto numbers = read_json_numbers(folder / "x.json");
-    for (const char* key :
-         {"dimension", "radius_m", "spacing_m", "spheres", "surface_spheres", "volume_m3", "area_m2",
-          "centroid_m.2", "inertia_unit_density.5", "protrusion_max_m", "covering_radius_m",
-          "gap_p50_m", "gap_p99_m", "gap_max_m", "normal_error_mean_deg", "normal_error_p99_deg",
-          "thin_features.0.at_m.1", "thin_features.0.size_m", "repairs.0.count", "seconds.fill"}) {
+    for (const char* key : {"dimension",
+                            "radius_m",
+                            "spacing_m",
+                            "spheres",
+                            "surface_spheres",
+                            "volume_m3",
+                            "area_m2",
+                            "centroid_m.2",
+                            "inertia_unit_density.5",
+                            "protrusion_max_m",
+                            "covering_radius_m",
+                            "gap_p50_m",
+                            "gap_p99_m",
+                            "gap_max_m",
+                            "normal_error_mean_deg",
+                            "normal_error_p99_deg",
+                            "thin_features.0.at_m.1",
+                            "thin_features.0.size_m",
+                            "repairs.0.count",
+                            "seconds.fill"}) {
         CAPTURE(key);
         CHECK(numbers.count(key) == 1);
     }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "common/base/units.hpp"
+
 #include <catch2/catch.hpp>
 #include <cmath>
-
-#include "common/base/units.hpp"
 
 using namespace ice;
 

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include "common/formats/run_data.hpp"
+
+namespace ice::views {
+
+/// How floes of one state look.
+struct FloeStyle {
+    Eigen::Vector3i color;  ///< red, green, blue in [0, 255]
+    const char* meaning;    ///< for the legend
+};
+const FloeStyle& floe_style(FloeState state);
+
+/// Colours of the floes' states with their meaning, as SVG of the given width, 22 px high.
+std::string draw_legend(double width);
+
+}  // namespace ice::views

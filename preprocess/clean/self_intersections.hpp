@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "common/geometry/triangle_mesh.hpp"
+
+namespace ice {
+
+/// Pairs of triangles that cross or touch other than along a shared edge or corner, decided with
+/// exact predicates (CGAL).
+std::vector<std::pair<std::size_t, std::size_t>> find_self_intersections(const TriangleMesh& mesh);
+
+}  // namespace ice

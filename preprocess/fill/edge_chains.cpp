@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "preprocess/fill/edge_chains.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace ice {
+
+namespace {
+
+constexpr double kSharpCos = 0.94;     // cosine of 20 degrees between face normals
+constexpr double kStraightCos = 0.94;  // polylines turn less than 20 degrees at a vertex
+
+struct SharpEdge {
+    std::int32_t a, b;  // vertices, a < b
+    Vec3 inward;        // from the edge to where a sphere of unit radius would sit
+    bool used = false;
+};
+
+std::vector<SharpEdge> find_sharp_edges(const SurfaceTree& tree) {
+    const TriangleMesh& mesh = tree.mesh();
+    std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> first;
+    std::vector<SharpEdge> out;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::int32_t a = mesh.triangles[t][k], b = mesh.triangles[t][(k + 1) % 3];
+            const auto [found, fresh] =
+                first.try_emplace({std::min(a, b), std::max(a, b)}, static_cast<std::int32_t>(t));
+            if (fresh) continue;
+            const Vec3& n1 = tree.normal(found->second);
+            const Vec3& n2 = tree.normal(static_cast<std::int32_t>(t));
+            // convex: the second triangle's far corner lies behind the first's plane
+            const Vec3 far = mesh.corner(t, static_cast<int>((k + 2) % 3)) -
+                             mesh.vertices[static_cast<std::size_t>(a)];
+            if (n1.dot(n2) > kSharpCos || n1.dot(far) >= 0.0) continue;
+            const Vec3 sum = n1 + n2;
+            if (sum.norm() < 0.2) continue;  // a knife's edge: no sphere fits
+            // on both planes shifted inwards by 1: -2 (n1 + n2) / |n1 + n2|^2
+            out.push_back({std::min(a, b), std::max(a, b), -2.0 / sum.squaredNorm() * sum});
+        }
+    std::sort(out.begin(), out.end(), [](const SharpEdge& l, const SharpEdge& r) {
+        return std::pair(l.a, l.b) < std::pair(r.a, r.b);
+    });
+    return out;
+}
+
+// Follows edges from `at` in direction `from` as long as exactly one continues nearly straight.
+void follow(const TriangleMesh& mesh, const std::map<std::int32_t, std::vector<std::size_t>>& at_vertex,
+            std::vector<SharpEdge>& edges, std::int32_t vertex, Vec3 heading,
+            std::vector<std::pair<std::size_t, std::int32_t>>& path) {
+    while (true) {
+        std::size_t next = edges.size();
+        std::int32_t target = -1;
+        for (const std::size_t e : at_vertex.at(vertex)) {
+            if (edges[e].used) continue;
+            const std::int32_t other = edges[e].a == vertex ? edges[e].b : edges[e].a;
+            const Vec3 d = (mesh.vertices[static_cast<std::size_t>(other)] -
+                            mesh.vertices[static_cast<std::size_t>(vertex)])
+                               .normalized();
+            if (d.dot(heading) < kStraightCos) continue;
+            next = e;
+            target = other;
+        }
+        if (target < 0) return;
+        edges[next].used = true;
+        path.emplace_back(next, target);
+        heading = (mesh.vertices[static_cast<std::size_t>(target)] -
+                   mesh.vertices[static_cast<std::size_t>(vertex)])
+                      .normalized();
+        vertex = target;
+    }
+}
+
+void append_points(const Vec3& a, const Vec3& b, const Vec3& shift, double step,
+                   std::vector<Vec3>& out) {
+    const int n = std::max(1, static_cast<int>(std::ceil((b - a).norm() / step)));
+    for (int k = 0; k <= n; ++k) out.push_back(a + static_cast<double>(k) / n * (b - a) + shift);
+}
+
+}  // namespace
+
+std::vector<std::vector<Vec3>> trace_sharp_edges(const SurfaceTree& tree, double radius,
+                                                 double step) {
+    const TriangleMesh& mesh = tree.mesh();
+    std::vector<SharpEdge> edges = find_sharp_edges(tree);
+    std::map<std::int32_t, std::vector<std::size_t>> at_vertex;
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+        at_vertex[edges[e].a].push_back(e);
+        at_vertex[edges[e].b].push_back(e);
+    }
+    const auto point = [&](std::int32_t v) { return mesh.vertices[static_cast<std::size_t>(v)]; };
+    std::vector<std::vector<Vec3>> out;
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+        if (edges[e].used) continue;
+        edges[e].used = true;
+        // backwards from a, then forwards from b: one polyline through both
+        std::vector<std::pair<std::size_t, std::int32_t>> back, forth;
+        const Vec3 heading = (point(edges[e].b) - point(edges[e].a)).normalized();
+        follow(mesh, at_vertex, edges, edges[e].b, heading, forth);
+        follow(mesh, at_vertex, edges, edges[e].a, -heading, back);
+        std::vector<Vec3> line;
+        std::int32_t from = back.empty() ? edges[e].a : back.back().second;
+        for (std::size_t k = back.size(); k-- > 0;) {
+            const std::int32_t to = k == 0 ? edges[e].a : back[k - 1].second;
+            append_points(point(from), point(to), radius * edges[back[k].first].inward, step, line);
+            from = to;
+        }
+        append_points(point(edges[e].a), point(edges[e].b), radius * edges[e].inward, step, line);
+        from = edges[e].b;
+        for (const auto& [edge, to] : forth) {
+            append_points(point(from), point(to), radius * edges[edge].inward, step, line);
+            from = to;
+        }
+        out.push_back(std::move(line));
+    }
+    return out;
+}
+
+std::vector<std::vector<Vec3>> trace_section(const SurfaceTree& tree, double radius, double step) {
+    const TriangleMesh& mesh = tree.mesh();
+    // sides of the prism by the vertex they start from: the two of a loop's corners with low y
+    std::map<std::int32_t, std::pair<std::int32_t, Vec3>> next;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const Vec3& n = tree.normal(static_cast<std::int32_t>(t));
+        if (std::abs(n.y()) > 0.5) continue;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::int32_t a = mesh.triangles[t][k], b = mesh.triangles[t][(k + 1) % 3];
+            const Vec3 &pa = mesh.vertices[static_cast<std::size_t>(a)],
+                       &pb = mesh.vertices[static_cast<std::size_t>(b)];
+            if (pa.y() > 0.0 || pb.y() > 0.0) continue;
+            // with the outward normal to the right: the loop's own direction
+            const bool along = n.cross(pb - pa).y() > 0.0;
+            next[along ? b : a] = {along ? a : b, n};
+        }
+    }
+    std::vector<std::vector<Vec3>> out;
+    while (!next.empty()) {
+        std::vector<Vec3> line;
+        for (auto at = next.begin(); at != next.end();) {
+            const auto [to, n] = at->second;
+            Vec3 a = mesh.vertices[static_cast<std::size_t>(at->first)],
+                 b = mesh.vertices[static_cast<std::size_t>(to)];
+            a.y() = b.y() = 0.0;
+            append_points(a, b, -radius * n, step, line);
+            next.erase(at);
+            at = next.find(to);
+        }
+        line.push_back(line.front());
+        out.push_back(std::move(line));
+    }
+    return out;
+}
+
+std::vector<Vec3> resample(const std::vector<Vec3>& polyline, double spacing) {
+    std::vector<Vec3> out;
+    std::size_t begin = 0;
+    while (begin + 1 < polyline.size()) {
+        // a run ends where the line turns, or at its end
+        std::size_t end = begin + 1;
+        double length = (polyline[end] - polyline[begin]).norm();
+        while (end + 1 < polyline.size()) {
+            const Vec3 in = (polyline[end] - polyline[end - 1]).normalized();
+            const Vec3 next = polyline[end + 1] - polyline[end];
+            if (in.dot(next.normalized()) < kStraightCos) break;
+            length += next.norm();
+            ++end;
+        }
+        const int n = std::max(1, static_cast<int>(std::ceil(length / spacing - 1e-6)));
+        double walked = 0.0;
+        std::size_t at = begin;
+        for (int k = out.empty() ? 0 : 1; k < n; ++k) {
+            const double target = length * k / n;
+            while (walked + (polyline[at + 1] - polyline[at]).norm() < target && at + 2 <= end) {
+                walked += (polyline[at + 1] - polyline[at]).norm();
+                ++at;
+            }
+            const Vec3 piece = polyline[at + 1] - polyline[at];
+            out.push_back(polyline[at] + (target - walked) / piece.norm() * piece);
+        }
+        out.push_back(polyline[end]);
+        begin = end;
+    }
+    if (out.empty()) out = polyline;
+    return out;
+}
+
+}  // namespace ice

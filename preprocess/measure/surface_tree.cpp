@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "preprocess/measure/surface_tree.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+namespace ice {
+
+namespace {
+
+constexpr std::int32_t kLeafSize = 4;
+
+// Where on a triangle its nearest point lies: 0-2 corners, 3-5 edges ab, bc, ca, 6 the face.
+struct TrianglePoint {
+    Vec3 point;
+    int feature;
+};
+
+// Voronoi regions of the triangle, corner by corner and edge by edge (Ericson, Real-Time Collision
+// Detection, section 5.1.5).
+TrianglePoint closest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
+    const Vec3 ab = b - a, ac = c - a, ap = p - a;
+    const double d1 = ab.dot(ap), d2 = ac.dot(ap);
+    if (d1 <= 0.0 && d2 <= 0.0) return {a, 0};
+    const Vec3 bp = p - b;
+    const double d3 = ab.dot(bp), d4 = ac.dot(bp);
+    if (d3 >= 0.0 && d4 <= d3) return {b, 1};
+    const Vec3 cp = p - c;
+    const double d5 = ab.dot(cp), d6 = ac.dot(cp);
+    if (d6 >= 0.0 && d5 <= d6) return {c, 2};
+    const double vc = d1 * d4 - d3 * d2;
+    if (vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0) return {a + d1 / (d1 - d3) * ab, 3};
+    const double va = d3 * d6 - d5 * d4;
+    if (va <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0)
+        return {b + (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (c - b), 4};
+    const double vb = d5 * d2 - d1 * d6;
+    if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0) return {a + d2 / (d2 - d6) * ac, 5};
+    // inside the face: the projection on its plane, more exact than barycentric sums
+    const Vec3 n = ab.cross(ac);
+    return {p - n * (n.dot(ap) / n.squaredNorm()), 6};
+}
+
+double box_distance_sq(const Eigen::AlignedBox3d& box, const Vec3& p) {
+    return box.squaredExteriorDistance(p);
+}
+
+double corner_angle(const Vec3& at, const Vec3& b, const Vec3& c) {
+    const Vec3 u = (b - at).normalized(), v = (c - at).normalized();
+    return std::acos(std::clamp(u.dot(v), -1.0, 1.0));
+}
+
+}  // namespace
+
+SurfaceTree::SurfaceTree(const TriangleMesh& mesh) : mesh_(mesh) {
+    const auto count = static_cast<std::int32_t>(mesh.triangles.size());
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+        centers_.push_back((mesh.corner(t, 0) + mesh.corner(t, 1) + mesh.corner(t, 2)) / 3.0);
+    order_.resize(static_cast<std::size_t>(count));
+    std::iota(order_.begin(), order_.end(), 0);
+    build(0, count);
+    build_normals();
+}
+
+std::int32_t SurfaceTree::build(std::int32_t first, std::int32_t count) {
+    const auto index = static_cast<std::int32_t>(nodes_.size());
+    nodes_.emplace_back();
+    Eigen::AlignedBox3d box, centers;
+    for (std::int32_t k = first; k < first + count; ++k) {
+        const auto t = static_cast<std::size_t>(order_[static_cast<std::size_t>(k)]);
+        for (int c = 0; c < 3; ++c) box.extend(mesh_.corner(t, c));
+        centers.extend(centers_[t]);
+    }
+    nodes_[static_cast<std::size_t>(index)].box = box;
+    if (count <= kLeafSize) {
+        nodes_[static_cast<std::size_t>(index)].first = first;
+        nodes_[static_cast<std::size_t>(index)].count = count;
+        return index;
+    }
+    int axis = 0;
+    centers.sizes().maxCoeff(&axis);
+    const std::int32_t half = count / 2;
+    // ties by triangle number, so that equal meshes give equal trees
+    std::nth_element(order_.begin() + first, order_.begin() + first + half,
+                     order_.begin() + first + count, [&](std::int32_t l, std::int32_t r) {
+                         const double cl = centers_[static_cast<std::size_t>(l)][axis];
+                         const double cr = centers_[static_cast<std::size_t>(r)][axis];
+                         return cl < cr || (cl == cr && l < r);
+                     });
+    build(first, half);
+    const std::int32_t right = build(first + half, count - half);
+    nodes_[static_cast<std::size_t>(index)].right = right;
+    return index;
+}
+
+void SurfaceTree::build_normals() {
+    normals_.resize(mesh_.triangles.size());
+    corner_normals_.assign(mesh_.vertices.size(), Vec3::Zero());
+    edge_normals_.resize(mesh_.triangles.size());
+    std::map<std::pair<std::int32_t, std::int32_t>, Vec3> edges;
+    const auto edge_key = [&](std::size_t t, std::size_t k) {
+        const auto a = mesh_.triangles[t][k], b = mesh_.triangles[t][(k + 1) % 3];
+        return std::pair(std::min(a, b), std::max(a, b));
+    };
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+        normals_[t] = mesh_.area_vector(t).normalized();
+        for (int k = 0; k < 3; ++k) {
+            const double angle = corner_angle(mesh_.corner(t, k), mesh_.corner(t, (k + 1) % 3),
+                                              mesh_.corner(t, (k + 2) % 3));
+            const auto kk = static_cast<std::size_t>(k);
+            corner_normals_[static_cast<std::size_t>(mesh_.triangles[t][kk])] += angle * normals_[t];
+            edges.try_emplace(edge_key(t, kk), Vec3::Zero()).first->second += normals_[t];
+        }
+    }
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
+        for (std::size_t k = 0; k < 3; ++k) edge_normals_[t][k] = edges.at(edge_key(t, k));
+}
+
+bool SurfaceTree::is_inside(const Vec3& p, const Foot& foot, int feature) const {
+    const auto t = static_cast<std::size_t>(foot.triangle);
+    const auto k = static_cast<std::size_t>(feature);
+    const Vec3& normal = feature < 3
+                             ? corner_normals_[static_cast<std::size_t>(mesh_.triangles[t][k])]
+                         : feature < 6 ? edge_normals_[t][k - 3]
+                                       : normals_[t];
+    return (p - foot.point).dot(normal) < 0.0;
+}
+
+Foot SurfaceTree::closest(const Vec3& p) const {
+    Foot best;
+    double best_sq = std::numeric_limits<double>::infinity();
+    int feature = 6;
+    std::int32_t stack[64];
+    int depth = 0;
+    stack[depth++] = 0;
+    while (depth > 0) {
+        const std::int32_t at = stack[--depth];
+        const Node& node = nodes_[static_cast<std::size_t>(at)];
+        if (box_distance_sq(node.box, p) >= best_sq) continue;
+        if (node.count == 0) {
+            // the nearer child is looked at first: it usually rules out the other
+            const std::int32_t left = at + 1, right = node.right;
+            const bool left_first =
+                box_distance_sq(nodes_[static_cast<std::size_t>(left)].box, p) <=
+                box_distance_sq(nodes_[static_cast<std::size_t>(right)].box, p);
+            stack[depth++] = left_first ? right : left;
+            stack[depth++] = left_first ? left : right;
+            continue;
+        }
+        for (std::int32_t k = node.first; k < node.first + node.count; ++k) {
+            const std::int32_t t = order_[static_cast<std::size_t>(k)];
+            const auto tt = static_cast<std::size_t>(t);
+            const TrianglePoint q = closest_on_triangle(p, mesh_.corner(tt, 0), mesh_.corner(tt, 1),
+                                                        mesh_.corner(tt, 2));
+            const double sq = (p - q.point).squaredNorm();
+            if (sq > best_sq || (sq == best_sq && t > best.triangle)) continue;
+            best_sq = sq;
+            best.point = q.point;
+            best.triangle = t;
+            feature = q.feature;
+        }
+    }
+    best.distance = std::sqrt(best_sq);
+    best.inside = is_inside(p, best, feature);
+    return best;
+}
+
+void SurfaceTree::within(const Vec3& p, double range, std::vector<Foot>& out) const {
+    out.clear();
+    std::int32_t stack[64];
+    int depth = 0;
+    stack[depth++] = 0;
+    while (depth > 0) {
+        const std::int32_t at = stack[--depth];
+        const Node& node = nodes_[static_cast<std::size_t>(at)];
+        if (box_distance_sq(node.box, p) > range * range) continue;
+        if (node.count == 0) {
+            stack[depth++] = node.right;
+            stack[depth++] = at + 1;
+            continue;
+        }
+        for (std::int32_t k = node.first; k < node.first + node.count; ++k) {
+            const std::int32_t t = order_[static_cast<std::size_t>(k)];
+            const auto tt = static_cast<std::size_t>(t);
+            const TrianglePoint q = closest_on_triangle(p, mesh_.corner(tt, 0), mesh_.corner(tt, 1),
+                                                        mesh_.corner(tt, 2));
+            const double distance = (p - q.point).norm();
+            if (distance <= range) out.push_back({q.point, distance, false, t});
+        }
+    }
+    std::sort(out.begin(), out.end(),
+              [](const Foot& l, const Foot& r) { return l.triangle < r.triangle; });
+}
+
+}  // namespace ice

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Distances to a closed triangle mesh.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <vector>
+
+#include "common/geometry/triangle_mesh.hpp"
+
+namespace ice {
+
+/// The point of a mesh nearest to some point.
+struct Foot {
+    Vec3 point = Vec3::Zero();    ///< on the surface [m]
+    double distance = 0.0;        ///< [m], >= 0
+    bool inside = false;          ///< the asked point lies in the solid
+    std::int32_t triangle = -1;
+};
+
+/// Closest-point and range queries by a tree of boxes over the triangles.
+///
+/// Inside or outside follows the angle-weighted normal of the nearest face, edge or corner
+/// (Baerentzen and Aanaes, IEEE TVCG 11(3), 2005): right for every closed, consistently oriented
+/// mesh. A point on the surface counts as outside. Thread-safe once built.
+class SurfaceTree {
+public:
+    /// @pre mesh is closed and outward oriented; it must outlive the tree
+    explicit SurfaceTree(const TriangleMesh& mesh);
+
+    Foot closest(const Vec3& p) const;
+
+    /// Feet on all triangles nearer than `range` to p, in triangle order. `inside` is not set.
+    void within(const Vec3& p, double range, std::vector<Foot>& out) const;
+
+    const TriangleMesh& mesh() const { return mesh_; }
+    const Vec3& normal(std::int32_t triangle) const {
+        return normals_[static_cast<std::size_t>(triangle)];
+    }
+
+private:
+    struct Node {
+        Eigen::AlignedBox3d box;
+        std::int32_t first = 0, count = 0;  ///< leaf: range of order_; inner node: count 0
+        std::int32_t right = 0;             ///< inner node: second child; the first is the next node
+    };
+
+    std::int32_t build(std::int32_t first, std::int32_t count);
+    void build_normals();
+    bool is_inside(const Vec3& p, const Foot& foot, int feature) const;
+
+    const TriangleMesh& mesh_;
+    std::vector<Node> nodes_;
+    std::vector<std::int32_t> order_;
+    std::vector<Vec3> centers_;
+    std::vector<Vec3> normals_;                       ///< per triangle
+    std::vector<Vec3> corner_normals_;                ///< per vertex, angle-weighted
+    std::vector<std::array<Vec3, 3>> edge_normals_;   ///< per triangle and edge: sum of both faces
+};
+
+}  // namespace ice

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "postprocess/views/chart.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "postprocess/views/axis.hpp"
+#include "postprocess/views/decimate.hpp"
+#include "tests/postprocess/make_folder.hpp"
+
+using namespace ice::views;
+using ice::test::count;
+using ice::test::tag_fault;
+
+TEST_CASE("20000 samples become at most 2000 points that keep a hit of one sample", "[views]") {
+    std::vector<double> x, y;
+    for (int k = 0; k < 20000; ++k) {
+        x.push_back(0.005 * k);
+        y.push_back(std::sin(0.01 * k));
+    }
+    y[12345] = 50.0;
+    y[12346] = -60.0;
+    const auto kept = decimate(x, y, 1000);
+    CHECK(kept.size() <= 2000);
+    CHECK(kept.size() > 1500);
+    double high = 0.0, low = 0.0;
+    for (std::size_t k = 0; k < kept.size(); ++k) {
+        high = std::max(high, kept[k].y());
+        low = std::min(low, kept[k].y());
+        if (k > 0) REQUIRE(kept[k].x() > kept[k - 1].x());
+    }
+    CHECK(high == 50.0);
+    CHECK(low == -60.0);
+}
+
+TEST_CASE("short curves stay whole; NaN is left out; all at one time does not divide by 0",
+          "[views]") {
+    CHECK(decimate({0, 1, 2}, {1, NAN, 3}, 10).size() == 2);
+    CHECK(decimate({}, {}, 10).empty());
+    CHECK(decimate(std::vector<double>(100, 1.0), std::vector<double>(100, 2.0), 10).size() == 1);
+}
+
+TEST_CASE("the moving average of a constant is the constant, of one sample nothing", "[views]") {
+    const auto curve = moving_average({0, 1, 2, 3}, {5, 5, 5, 5}, 0.6, 7);
+    REQUIRE(curve.size() == 7);
+    for (const auto& p : curve) CHECK(p.y() == Approx(5.0));
+    CHECK(moving_average({0}, {5}, 1.0, 7).empty());
+}
+
+TEST_CASE("ticks of 0 to 30 are 0, 10, 20, 30; labels have no needless decimals", "[views]") {
+    CHECK(choose_ticks(0.0, 30.0, 4) == std::vector<double>{0, 10, 20, 30});
+    CHECK(choose_ticks(-0.1, 0.1, 5).size() == 5);
+    CHECK(choose_ticks(2.0, 2.0, 5) == std::vector<double>{2.0});
+    CHECK(tick_label(0.5, 0.5) == "0.5");
+    CHECK(tick_label(20.0, 10.0) == "20");
+    CHECK(tick_label(-1e-17, 0.1) == "0.0");
+}
+
+TEST_CASE("a chart names its axes, curves and mean, and is well-formed", "[views]") {
+    Chart chart;
+    chart.title = "f < g";
+    chart.y_title = "fx [N]";
+    chart.curves = {{"contact", kBlue, {{0, 0}, {1, -5}, {2, 3}}, 1.0, ""},
+                    {"friction", kOrange, {{0, 1}, {2, 1}}, 1.0, "6 3"}};
+    chart.level = 1.5;
+    chart.level_name = "mean";
+    chart.averaged = {1.0, 2.0};
+    const std::string svg = draw_chart(chart);
+    for (const char* text : {"f &lt; g", "fx [N]", "time [s]", ">contact<", ">friction<", ">mean<"})
+        CHECK_THAT(svg, Catch::Contains(text));
+    CHECK(tag_fault(svg).empty());
+    CHECK(count(svg, "<path") == 2);
+}
+
+TEST_CASE("a chart without points says 'no data'", "[views]") {
+    CHECK_THAT(draw_chart({}), Catch::Contains("no data"));
+    Chart one;
+    one.curves = {{"a", kBlue, {{1, 1}}, 1.0, ""}};
+    CHECK(tag_fault(draw_chart(one)).empty());
+}

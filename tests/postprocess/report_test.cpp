@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <catch2/catch.hpp>
+
+#include "postprocess/report/pictures.hpp"
+#include "postprocess/report/tables.hpp"
+#include "postprocess/report/write_report.hpp"
+#include "tests/postprocess/make_folder.hpp"
+
+using namespace ice;
+using namespace ice::test;
+using namespace ice::report;
+
+namespace {
+
+constexpr std::size_t kTwoMegabytes = 2000000;
+
+}  // namespace
+
+TEST_CASE("the report of a 3D run contains its numbers, pictures and origin", "[report]") {
+    const std::string html = make_report(make_folder());
+    for (const char* text : {"1107 \u00b1 12",
+                             "1006",
+                             "101",
+                             "1320",
+                             "954",
+                             "Lindqvist (1989), submersion part",  // forces
+                             "bottom",
+                             "37",
+                             "8.25",
+                             "-777",
+                             "Lateral",                                     // regions
+                             "a floe &lt;7&gt; left the field &amp; sank",  // warnings
+                             "From below, t = ",
+                             "From above, t = ",
+                             "From starboard, t = ",
+                             "From ahead, t = ",
+                             "Force of the ice on the ship, x",
+                             "Floe 6 on the ship, contact",  // charts
+                             "density = 900.0",
+                             "icesolve box.cfg --out box",
+                             "abc123",
+                             "completed"}) {
+        CAPTURE(text);
+        CHECK(html.find(text) != std::string::npos);
+    }
+    CHECK_THAT(html, Catch::Contains("Box among floes &lt;test &amp; &quot;quotes&quot;&gt;"));
+    CHECK(html.size() < kTwoMegabytes);
+}
+
+TEST_CASE("the report of a 2D run is per metre, without lateral force and views from above",
+          "[report]") {
+    const std::string html = make_report(make_folder({.dimension = 2}));
+    CHECK_THAT(html, Catch::Contains("N/m"));
+    CHECK(html.find("Lateral") == std::string::npos);
+    CHECK(html.find("From above") == std::string::npos);
+    CHECK(count(html, "<title>From starboard") == 6);
+}
+
+TEST_CASE("the report needs no script and no network", "[report]") {
+    const std::string html = make_report(make_folder());
+    CHECK(html.find("<script") == std::string::npos);
+    for (const char* attribute : {"src=\"", "url(", "@import", "<link"}) {
+        CAPTURE(attribute);
+        CHECK(html.find(attribute) == std::string::npos);
+    }
+    CHECK(count(html, "href=\"") == count(html, "href=\"#"));
+    // the only addresses are names of XML languages
+    CHECK(count(html, "http") == count(html, "http://www.w3.org/"));
+}
+
+TEST_CASE("the report is well-formed and its ids are unique", "[report]") {
+    const std::string html = make_report(make_folder({.dimension = GENERATE(2, 3)}));
+    CHECK(tag_fault(html).empty());
+    std::vector<std::string> ids;
+    for (std::size_t at = html.find(" id=\""); at != std::string::npos;
+         at = html.find(" id=\"", at + 1))
+        ids.push_back(html.substr(at + 5, html.find('"', at + 5) - at - 5));
+    std::sort(ids.begin(), ids.end());
+    CHECK(std::adjacent_find(ids.begin(), ids.end()) == ids.end());
+}
+
+TEST_CASE("1500 floes and 90000 samples give a report below 2 MB", "[report]") {
+    RunData run = make_run({.floes = 1500, .frames = 45, .samples_per_frame = 2000});
+    // a field of 1500 floes around the ship, not in two rows
+    for (RunFrame& frame : run.frames)
+        for (std::size_t k = 0; k < 1500; ++k) {
+            frame.position[k] = Vec3(0.3 * static_cast<double>(k % 50) - 2.0,
+                                     0.25 * static_cast<double>(k / 50) - 3.7, -0.1);
+            frame.orientation[k] = Eigen::AngleAxisd(0.3 * static_cast<double>(k), Vec3::UnitX());
+        }
+    read::RunFolder folder = make_folder();
+    folder.data = std::move(run);
+    const std::string html = make_report(folder);
+    CHECK(html.size() < kTwoMegabytes);
+    CHECK(tag_fault(html).empty());
+    CHECK_THAT(html, Catch::Contains("more views would make this page too large"));
+    CHECK_THAT(html, Catch::Contains("From below, t = "));
+}
+
+TEST_CASE("a killed run is reported without statistics, one without samples too", "[report]") {
+    read::RunFolder folder = make_folder();
+    folder.summary.reset();
+    const std::string html = make_report(folder);
+    CHECK_THAT(html, Catch::Contains(">interrupted<"));
+    CHECK_THAT(html, Catch::Contains("before it wrote summary.json"));
+    CHECK(tag_fault(html).empty());
+    folder.data.frames.clear();
+    folder.data.history.clear();
+    folder.data.tracks.clear();
+    CHECK_THAT(make_report(folder), Catch::Contains("recorded no history"));
+}
+
+TEST_CASE("NaN in the summary shows as n/a", "[report]") {
+    read::RunFolder folder = make_folder();
+    folder.summary->resistance.ci95 = std::nan("");
+    folder.summary->lindqvist_submersion.reset();
+    const std::string html = make_report(folder);
+    CHECK_THAT(html, Catch::Contains("1107 \u00b1 n/a"));
+    CHECK(html.find("Lindqvist (1989)") == std::string::npos);
+}
+
+TEST_CASE("forces of 5 N, 12 kN and 30 MN get units and 4 digits; 2D is per metre", "[report]") {
+    CHECK(choose_unit(5.0, 3).name == "N");
+    CHECK(choose_unit(5.0, 3).text(5.0) == "5.000");
+    CHECK(choose_unit(1107.0, 3).text(1107.4) == "1107");
+    CHECK(choose_unit(-12345.0, 2).name == "kN/m");
+    CHECK(choose_unit(-12345.0, 2).text(-12345.0) == "-12.35");
+    CHECK(choose_unit(3e7, 3).text(3e7) == "30.00");
+    CHECK(choose_unit(std::nan(""), 3).name == "N");
+}
+
+TEST_CASE("a view of one instant is a picture with a legend; without frames an error", "[report]") {
+    const RunData run = make_run();
+    const std::string svg = draw_view(run, views::ViewFrom::below, 2.04);
+    CHECK_THAT(svg, Catch::Contains("t = 2.00 s"));
+    CHECK_THAT(svg, Catch::Contains("touched by the ship"));
+    CHECK(tag_fault(svg).empty());
+    RunData none = run;
+    none.frames.clear();
+    CHECK_THAT(error_text([&] { draw_view(none, views::ViewFrom::below, 0.0); }),
+               Catch::Contains("no frames"));
+}

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "postprocess/views/scene_view.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "postprocess/views/floe_style.hpp"
+#include "postprocess/views/hull_drawing.hpp"
+#include "tests/postprocess/make_folder.hpp"
+
+using namespace ice;
+using namespace ice::test;
+using namespace ice::views;
+
+namespace {
+
+// first x of the first path that has the given text in its element
+double first_x(const std::string& svg, const std::string& mark) {
+    const std::size_t at = svg.find(mark);
+    REQUIRE(at != std::string::npos);
+    const std::size_t path = svg.rfind("d=\"M", at);
+    REQUIRE(path != std::string::npos);
+    return std::stod(svg.substr(path + 4));
+}
+
+// a hull of 8 x 2 x 1.2 m (x from 0 to 8) and one moving floe
+std::string draw_one(ViewFrom from, const Vec3& at, FloeState state = FloeState::moving) {
+    RunData run = make_run({.floes = 1, .frames = 1});
+    run.frames[0].position[0] = at;
+    run.frames[0].state[0] = state;
+    run.frames[0].contact_force[0] = Vec3::UnitX();  // marks its outline
+    return SceneView(run.header, from, {}).draw(run.frames[0], {});
+}
+
+const char* kTouched = "stroke=\"#d55e00\"";
+
+// whether the floe is painted after the hull, i.e. in front of it
+bool painted_in_front(ViewFrom from, const Vec3& at) {
+    const std::string svg = draw_one(from, at);
+    const std::size_t hull = svg.find("stroke-linecap=\"round\""), floe = svg.find(kTouched);
+    REQUIRE(hull != std::string::npos);
+    REQUIRE(floe != std::string::npos);
+    return floe > hull;
+}
+
+}  // namespace
+
+TEST_CASE("all five views of a run are well-formed and show hull, floes, axes and time",
+          "[views]") {
+    const auto from = GENERATE(ViewFrom::below, ViewFrom::top, ViewFrom::side, ViewFrom::front,
+                               ViewFrom::quarter);
+    const RunData run = make_run();
+    ViewOptions options;
+    options.legend = true;
+    const std::string svg = SceneView(run.header, from, options).draw(run.frames[30], {});
+    CHECK(tag_fault(svg).empty());
+    CHECK(count(svg, "<path") > 6);
+    CHECK_THAT(svg, Catch::Contains("t = 3.00 s"));
+    CHECK_THAT(svg, Catch::Contains("touched by the ship"));
+    if (from != ViewFrom::quarter) CHECK_THAT(svg, Catch::Contains("[m]"));
+    CHECK(svg.find("nan") == std::string::npos);
+    CHECK(svg.find("inf") == std::string::npos);
+}
+
+TEST_CASE("a floe under the bottom is in front of the hull from below and behind it from above",
+          "[views]") {
+    CHECK(painted_in_front(ViewFrom::below, {4.0, 0.0, -0.85}));
+    CHECK_FALSE(painted_in_front(ViewFrom::top, {4.0, 0.0, -0.85}));
+}
+
+TEST_CASE("a floe at starboard hides the hull from starboard, one at port is hidden", "[views]") {
+    CHECK(painted_in_front(ViewFrom::side, {4.0, -1.5, -0.3}));
+    CHECK_FALSE(painted_in_front(ViewFrom::side, {4.0, 1.5, -0.3}));
+}
+
+TEST_CASE("a floe ahead of the stem is left out from ahead, one under it is drawn", "[views]") {
+    CHECK(draw_one(ViewFrom::front, {9.5, 0.0, -0.1}).find(kTouched) == std::string::npos);
+    CHECK(draw_one(ViewFrom::front, {7.0, 0.0, -0.85}).find(kTouched) != std::string::npos);
+}
+
+TEST_CASE("a floe ahead is drawn to the right of one aft; one far away is not drawn", "[views]") {
+    const double ahead = first_x(draw_one(ViewFrom::below, {8.6, 0.0, -0.1}), kTouched);
+    const double aft = first_x(draw_one(ViewFrom::below, {-1.0, 0.0, -0.1}), kTouched);
+    CHECK(ahead > aft + 300.0);
+    CHECK(draw_one(ViewFrom::below, {50.0, 0.0, -0.1}).find(kTouched) == std::string::npos);
+}
+
+TEST_CASE("the picture moves with the ship: hull and floe at the same place 100 m later",
+          "[views]") {
+    RunData run = make_run({.floes = 1, .frames = 2});
+    run.frames[1] = run.frames[0];
+    run.frames[1].ship_position += Vec3(100.0, 0.0, 0.0);
+    run.frames[1].position[0] += Vec3(100.0, 0.0, 0.0);
+    run.header.tracked.clear();
+    const SceneView view(run.header, ViewFrom::side, {});
+    const std::string a = view.draw(run.frames[0], {}), b = view.draw(run.frames[1], {});
+    const auto paths = [](const std::string& svg) { return svg.substr(svg.find("<path")); };
+    CHECK(paths(a) == paths(b));
+    CHECK(a != b);  // the axis has other numbers
+}
+
+TEST_CASE("a tracked floe is numbered and its path is drawn up to the frame's time", "[views]") {
+    const RunData run = make_run();
+    Trail trail{6, "#aa4499", {0.0, 1.0, 2.0, 3.0}, {}};
+    for (int k = 0; k < 4; ++k) trail.offset.emplace_back(8.0 - 2.0 * k, 0.0, -0.5);
+    const SceneView view(run.header, ViewFrom::side, {});
+    const std::string early = view.draw(run.frames[11], {trail});
+    const std::string late = view.draw(run.frames[40], {trail});
+    CHECK_THAT(late, Catch::Contains(">6</text>"));
+    CHECK(count(late, "#aa4499") == 1);
+    CHECK(late.size() > early.size());
+}
+
+TEST_CASE("with an id the hull is defined once and referred to", "[views]") {
+    const RunData run = make_run();
+    ViewOptions options;
+    options.hull_id = "h1";
+    const SceneView view(run.header, ViewFrom::below, options);
+    CHECK(tag_fault(view.define_hull()).empty());
+    CHECK_THAT(view.define_hull(), Catch::Contains("<g id=\"h1\">"));
+    CHECK_THAT(view.draw(run.frames[0], {}), Catch::Contains("<use href=\"#h1\"/>"));
+}
+
+TEST_CASE("faces turned to the light are brighter, within 0.68 and 1.06", "[views]") {
+    const Projection p = projection_of(ViewFrom::top);
+    const double lit = brightness(p.toward, p), dark = brightness(-p.toward, p);
+    CHECK(lit > dark);
+    CHECK(lit <= 1.1);
+    CHECK(dark == Approx(0.68).margin(0.02));
+}
+
+TEST_CASE("runs without floes or with an empty hull can be drawn", "[views]") {
+    RunData run = make_run({.floes = 0, .frames = 1});
+    CHECK(tag_fault(SceneView(run.header, ViewFrom::below, {}).draw(run.frames[0], {})).empty());
+    run.header.shapes[0].mesh = TriangleMesh{};
+    CHECK(tag_fault(SceneView(run.header, ViewFrom::side, {}).draw(run.frames[0], {})).empty());
+    CHECK(parse_view("below") == ViewFrom::below);
+    CHECK_FALSE(parse_view("under"));
+}
