@@ -43,7 +43,7 @@ void start_messages(Colour colour, bool quiet) {
 void log_to_file(const std::filesystem::path& path) {
     try {
         auto sink = std::make_shared<spdlog::sinks::basic_file_sink_mt>(path.string(), true);
-        sink->set_pattern("%Y-%m-%d %H:%M:%S %l: %v");
+        sink->set_pattern("%Y-%m-%d %H:%M:%S  %v");
         spdlog::default_logger()->sinks().push_back(sink);
         spdlog::default_logger()->flush_on(spdlog::level::info);
     } catch (const spdlog::spdlog_ex&) {

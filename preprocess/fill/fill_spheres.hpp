@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "common/formats/sphere_set.hpp"
+#include "common/formats/summary_file.hpp"
+#include "preprocess/slice/slice_solid.hpp"
+
+namespace ice {
+
+enum class Arrangement { conforming, lattice };
+
+struct FillOptions {
+    double radius = 0.1;           ///< [m]
+    double spacing = 0.0;          ///< of the surface layer [m]; 0: the radius (lattice: 2 R always)
+    Arrangement arrangement = Arrangement::conforming;
+    bool surface_only = false;     ///< drop the interior
+};
+
+/// Fills a closed solid with contact spheres of one radius: surface spheres first, then interior.
+///
+/// Conforming: a layer tangent to the surface from inside (fill/shell.hpp), then a cubic lattice of
+/// pitch 2 R at least 2 R below the surface. Lattice: fill/lattice.hpp. Shares, normals and the
+/// certificate are filled in; names and provenance are the caller's.
+///
+/// @throws Error (exit code 2) when no sphere fits, naming the largest radius that does
+SphereSet fill_spheres(const TriangleMesh& solid, const FillOptions& options,
+                       SpheresReport& report);
+
+/// The same for a section: discs in the plane y = 0, everything per metre of breadth.
+SphereSet fill_discs(const Section& section, const std::vector<std::string>& region_names,
+                     const FillOptions& options, SpheresReport& report);
+
+}  // namespace ice

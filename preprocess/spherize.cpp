@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// spherize: mesh in, sphere set out. Command line only; each step is a folder.
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <map>
+
+#include "common/base/error.hpp"
+#include "common/base/parallel.hpp"
+#include "common/base/part_file.hpp"
+#include "common/base/timer.hpp"
+#include "common/base/units.hpp"
+#include "common/base/version.hpp"
+#include "common/cli/console.hpp"
+#include "common/formats/spheres_file.hpp"
+#include "preprocess/clean/check_solid.hpp"
+#include "preprocess/clean/weld.hpp"
+#include "preprocess/fill/fill_spheres.hpp"
+#include "preprocess/load/read_mesh.hpp"
+#include "preprocess/write/report_text.hpp"
+
+namespace {
+
+struct Options {
+    std::string mesh, out, arrangement = "conforming", mode = "fill", slice, units, mirror, json;
+    std::string repair = "auto", solid = "envelope";
+    std::vector<std::string> exports;
+    ice::ReadOptions read;
+    ice::FillOptions fill;
+    int threads = 0;
+    bool check = false, quiet = false;
+};
+
+void declare(CLI::App& app, Options& o) {
+    app.set_version_flag("--version", fmt::format("spherize {} ({}, {})", ice::version(),
+                                                  ice::git_commit(), ice::compiler()));
+    app.add_option("mesh", o.mesh, "Closed surface mesh (OBJ, STL, PLY, ...)")->required();
+    app.add_option("-o,--output", o.out, "Sphere file (default <mesh stem>.spheres.h5)");
+    app.add_option("-r,--radius", o.fill.radius, "Sphere radius [m]")->check(CLI::PositiveNumber);
+    app.add_option("-s,--spacing", o.fill.spacing, "Centre distance on the surface [m] (radius)")
+        ->check(CLI::PositiveNumber);
+    app.add_option("--arrangement", o.arrangement, "conforming or lattice")
+        ->check(CLI::IsMember({"conforming", "lattice"}));
+    app.add_option("--mode", o.mode, "fill, or surface to drop the interior")
+        ->check(CLI::IsMember({"fill", "surface"}));
+    app.add_option("--slice", o.slice, "y=VALUE: 2D set from that section");
+    app.add_option("--solid", o.solid, "envelope or material")
+        ->check(CLI::IsMember({"envelope", "material"}));
+    const std::map<std::string, double> units{
+        {"mm", 1e-3}, {"cm", 1e-2}, {"m", 1.0}, {"ft", 0.3048}, {"in", 0.0254}};
+    auto* unit = app.add_option("--units", o.read.scale, "Unit of the file: mm, cm, m, ft, in")
+                     ->transform(CLI::CheckedTransformer(units));
+    app.add_option("--scale", o.read.scale, "Metres per file unit")
+        ->check(CLI::PositiveNumber)
+        ->excludes(unit);
+    app.add_option("--up", o.read.up, "File axis that points up")->check(CLI::IsMember({"y", "z"}));
+    app.add_option("--forward", o.read.forward, "File direction of the bow")
+        ->check(CLI::IsMember({"+x", "-x", "+y", "-y", "+z", "-z"}));
+    app.add_option("--mirror", o.mirror, "y: the file holds one half of the hull")
+        ->check(CLI::IsMember({"y"}));
+    app.add_option("--repair", o.repair, "auto or strict")
+        ->check(CLI::IsMember({"auto", "strict"}));
+    app.add_flag("--check", o.check, "Diagnose the mesh only");
+    app.add_option("--export", o.exports, "Also write the set as csv; repeatable")
+        ->check(CLI::IsMember({"csv"}));
+    app.add_option("--json", o.json, "Write the certificate as JSON");
+    app.add_option("--threads", o.threads, "Threads (default: all cores)")
+        ->check(CLI::Range(1, 4096));
+    app.add_flag("-q,--quiet", o.quiet, "No messages but errors");
+    app.footer("Exit codes: 0 ok; 1 failed; 2 bad command line or mesh.");
+}
+
+// Welds and checks; refuses by name what is no solid.
+ice::TriangleMesh make_solid(const Options& o, ice::SpheresReport& report) {
+    ice::TriangleMesh mesh = ice::read_mesh(o.mesh, o.read);
+    const ice::WeldCounts counts = ice::weld(mesh);
+    for (const auto& [step, count] :
+         {std::pair{"vertices merged", counts.merged_vertices},
+          std::pair{"degenerate triangles dropped", counts.degenerate_triangles},
+          std::pair{"duplicate triangles dropped", counts.duplicate_triangles}})
+        if (count > 0) report.repairs.emplace_back(step, count);
+    const ice::SolidDiagnosis diagnosis = ice::diagnose_solid(mesh);
+    if (diagnosis.inside_out && o.repair == "auto") {
+        ice::flip(mesh);
+        report.repairs.emplace_back("surface turned inside out, triangles flipped",
+                                    static_cast<std::int64_t>(mesh.triangles.size()));
+    } else if (!diagnosis.good()) {
+        throw ice::bad_input(o.mesh, "is not the closed surface of a solid: " + diagnosis.text(),
+                             "close and orient it in the program that made it, then export again");
+    }
+    return mesh;
+}
+
+double slice_offset(const std::string& slice) {
+    const auto offset = slice.starts_with("y=")
+                            ? ice::parse_quantity(slice.substr(2), ice::Dimension::length)
+                            : std::nullopt;
+    if (!offset)
+        throw ice::bad_input("--slice " + slice, "is not y=VALUE", "write for instance --slice y=0");
+    return offset->value;
+}
+
+int run_spherize(Options& o, const std::string& command_line) {
+    const ice::Timer timer;
+    ice::set_thread_count(o.threads);
+    o.read.mirror_y = o.mirror == "y";
+    o.fill.surface_only = o.mode == "surface";
+    o.fill.arrangement =
+        o.arrangement == "lattice" ? ice::Arrangement::lattice : ice::Arrangement::conforming;
+
+    ice::SpheresReport report;
+    const ice::TriangleMesh mesh = make_solid(o, report);
+    report.seconds["read"] = timer.seconds();
+    if (o.check) {
+        fmt::print("{}: closed solid, {} triangles, {:.9g} m3\n", o.mesh, mesh.triangles.size(),
+                   ice::measure_mass(mesh).volume);
+        return 0;
+    }
+    ice::SphereSet set =
+        o.slice.empty() ? ice::fill_spheres(mesh, o.fill, report)
+                        : ice::fill_discs(ice::slice_solid(mesh, slice_offset(o.slice)),
+                                          mesh.region_names, o.fill, report);
+    const std::filesystem::path source(o.mesh);
+    const std::string stem =
+        o.out.empty() ? source.stem().string() + ".spheres.h5" : o.out;
+    set.source_mesh = report.source_mesh = source.filename().string();
+    set.source_sha256 = ice::file_sha256(source);
+    set.created_by = fmt::format("spherize {} ({})", ice::version(), ice::git_commit());
+    set.command_line = report.command_line = command_line;
+    if (!report.thin_features.empty())
+        report.warnings.push_back(fmt::format("{} parts are too thin for a sphere of radius {:g} m",
+                                              report.thin_features.size(), o.fill.radius));
+    ice::write_spheres(stem, set);
+    report.seconds["total"] = timer.seconds();
+    if (!o.json.empty()) ice::write_text_file(o.json, ice::spheres_report_text(report));
+    if (!o.exports.empty())
+        ice::write_text_file(std::filesystem::path(stem).replace_extension(".csv"),
+                             ice::csv_text(set));
+    if (!o.quiet) fmt::print("{}", ice::report_text(report, stem));
+    for (const std::string& warning : report.warnings) ice::say_warning(warning);
+    return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app("Fills a closed mesh with contact spheres: mesh in, sphere set out.", "spherize");
+    Options o;
+    declare(app, o);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? 0 : static_cast<int>(ice::ExitCode::bad_input);
+    }
+    ice::start_messages(ice::Colour::automatic, o.quiet);
+    return ice::run_program("spherize",
+                            [&] { return run_spherize(o, ice::command_line(argc, argv)); });
+}
