@@ -32,8 +32,8 @@ def closed_forms():
     """Volumes from the dimensions alone, without the meshes."""
     profile_2d = hull_profile_area(10.0, 1.5, 35.0, 2.4, [0.4, 0.5, 1.5, 1.5, 0.0])
     profile_3d = hull_profile_area(10.0, 1.8, 35.0, 2.4, [0.66, 0.86, 1.8, 1.8, 0.0])
-    # the wedge takes from the full breadth two triangles of 1 by 1 / tan 30 deg at every height
-    wedge = 1.8 * 1.0 / math.tan(math.radians(30.0))
+    # the wedge takes from the full breadth two triangles of 1 by 1 / tan 70 deg at every height
+    wedge = 1.8 * 1.0 / math.tan(math.radians(70.0))
     return {
         "paper-hull-2d": profile_2d,
         "paper-hull-3d": 2.0 * profile_3d - wedge,

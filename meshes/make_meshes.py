@@ -35,7 +35,7 @@ def hull_2d(length=10.0, depth=1.5, draught=1.2, stem_deg=35.0, breadth=1.0,
     return loft([at_y(profile, -half), at_y(profile, half)], HULL_EDGES, caps=("side", "side"))
 
 
-def hull_3d(length=10.0, breadth=2.0, depth=1.8, draught=1.44, stem_deg=35.0, entrance_deg=30.0,
+def hull_3d(length=10.0, breadth=2.0, depth=1.8, draught=1.44, stem_deg=35.0, entrance_deg=70.0,
             bottom_end=2.4, slope_end=(1.2, -0.5), counter_end=-0.3):
     """Wedge bow, vertical parallel sides, the 2D profile in the centre plane.
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // spherize: mesh in, sphere set out. Command line only; each step is a folder.
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <map>
 
 #include "common/base/error.hpp"
@@ -96,7 +96,8 @@ double slice_offset(const std::string& slice) {
                             ? ice::parse_quantity(slice.substr(2), ice::Dimension::length)
                             : std::nullopt;
     if (!offset)
-        throw ice::bad_input("--slice " + slice, "is not y=VALUE", "write for instance --slice y=0");
+        throw ice::bad_input("--slice " + slice, "is not y=VALUE",
+                             "write for instance --slice y=0");
     return offset->value;
 }
 
@@ -116,13 +117,12 @@ int run_spherize(Options& o, const std::string& command_line) {
                    ice::measure_mass(mesh).volume);
         return 0;
     }
-    ice::SphereSet set =
-        o.slice.empty() ? ice::fill_spheres(mesh, o.fill, report)
-                        : ice::fill_discs(ice::slice_solid(mesh, slice_offset(o.slice)),
-                                          mesh.region_names, o.fill, report);
+    ice::SphereSet set = o.slice.empty()
+                             ? ice::fill_spheres(mesh, o.fill, report)
+                             : ice::fill_discs(ice::slice_solid(mesh, slice_offset(o.slice)),
+                                               mesh.region_names, o.fill, report);
     const std::filesystem::path source(o.mesh);
-    const std::string stem =
-        o.out.empty() ? source.stem().string() + ".spheres.h5" : o.out;
+    const std::string stem = o.out.empty() ? source.stem().string() + ".spheres.h5" : o.out;
     set.source_mesh = report.source_mesh = source.filename().string();
     set.source_sha256 = ice::file_sha256(source);
     set.created_by = fmt::format("spherize {} ({})", ice::version(), ice::git_commit());

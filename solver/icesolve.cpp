@@ -55,9 +55,9 @@ int report(const ice::Summary& s, const Options& o, const std::string& folder) {
     const char* unit = s.dimension == 2 ? "N/m" : "N";
     ice::say(
         fmt::format("resistance {:.1f} +- {:.1f} {} (contact {:.1f}, friction {:.1f}), {} of "
-                    "{} floes moved, {} behind, deepest overlap {:.1f} mm",
+                    "{} floes moved, deepest overlap {:.1f} mm",
                     s.resistance.mean, s.resistance.ci95, unit, s.resistance.contact_mean,
-                    s.resistance.friction_mean, s.floes_moved, s.floes_total, s.floes_behind,
+                    s.resistance.friction_mean, s.floes_moved, s.floes_total,
                     1e3 * s.max_overlap));
     if (s.lindqvist_submersion)
         ice::say(

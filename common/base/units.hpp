@@ -29,7 +29,8 @@ struct Quantity {
 /// Reads a number with an optional unit of that dimension, e.g. parse_quantity("80 mm", length).
 ///
 /// "inf" and "nan" are read as such; the caller decides whether they are allowed.
-/// @return nothing when the text is no number, has text after the unit, or a unit of another dimension.
+/// @return nothing when the text is no number, has text after the unit, or a unit of another
+///         dimension
 std::optional<Quantity> parse_quantity(std::string_view text, Dimension dimension);
 
 /// Units accepted for a dimension, for messages: "km, m, cm, mm, ft, in"; "" for none.

@@ -32,9 +32,12 @@ SolidDiagnosis diagnose_solid(const TriangleMesh& mesh) {
     for (const auto& [edge, use] : edges) {
         const int count = use.forwards + use.backwards;
         if (count == 2 && use.forwards == 1) continue;
-        if (count == 1) ++out.open_edges;
-        else if (count == 2) ++out.inconsistent_edges;
-        else ++out.crowded_edges;
+        if (count == 1)
+            ++out.open_edges;
+        else if (count == 2)
+            ++out.inconsistent_edges;
+        else
+            ++out.crowded_edges;
         if (!seen)
             out.example = 0.5 * (mesh.vertices[static_cast<std::size_t>(edge.first)] +
                                  mesh.vertices[static_cast<std::size_t>(edge.second)]);

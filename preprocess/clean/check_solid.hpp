@@ -9,17 +9,15 @@ namespace ice {
 
 /// What keeps a triangle mesh from being the surface of a solid.
 struct SolidDiagnosis {
-    std::int64_t open_edges = 0;              ///< edges with one triangle
-    std::int64_t crowded_edges = 0;           ///< edges with three or more triangles
-    std::int64_t inconsistent_edges = 0;      ///< both triangles run the same way along the edge
-    std::int64_t intersecting_pairs = 0;      ///< triangles that cross; counted when the rest is good
-    Vec3 example = Vec3::Zero();              ///< a point on the first fault found [m]
-    double volume = 0.0;                      ///< signed [m3]; negative: inside out
-    bool inside_out = false;                  ///< good but for its orientation
+    std::int64_t open_edges = 0;          ///< edges with one triangle
+    std::int64_t crowded_edges = 0;       ///< edges with three or more triangles
+    std::int64_t inconsistent_edges = 0;  ///< both triangles run the same way along the edge
+    std::int64_t intersecting_pairs = 0;  ///< triangles that cross; counted when the rest is good
+    Vec3 example = Vec3::Zero();          ///< a point on the first fault found [m]
+    double volume = 0.0;                  ///< signed [m3]; negative: inside out
+    bool inside_out = false;              ///< good but for its orientation
 
-    bool closed() const {
-        return open_edges == 0 && crowded_edges == 0 && inconsistent_edges == 0;
-    }
+    bool closed() const { return open_edges == 0 && crowded_edges == 0 && inconsistent_edges == 0; }
     bool good() const { return closed() && intersecting_pairs == 0 && volume > 0.0; }
     /// One line per fault, "12 open edges, the first at x = ..., y = ..., z = ...".
     std::string text() const;

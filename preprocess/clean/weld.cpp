@@ -34,8 +34,8 @@ std::vector<std::int32_t> find_representatives(const std::vector<Vec3>& vertices
         const Cell at = cell_of(vertices[k]);
         auto found = static_cast<std::int32_t>(k);
         for (int n = 0; n < 27; ++n) {
-            const auto near = cells.find(
-                {at[0] + n % 3 - 1, at[1] + n / 3 % 3 - 1, at[2] + n / 9 - 1});
+            const auto near =
+                cells.find({at[0] + n % 3 - 1, at[1] + n / 3 % 3 - 1, at[2] + n / 9 - 1});
             if (near == cells.end()) continue;
             for (const std::int32_t other : near->second)
                 if ((vertices[static_cast<std::size_t>(other)] - vertices[k]).norm() <= tolerance)

@@ -13,14 +13,15 @@ namespace ice {
 
 namespace {
 
-constexpr double kThinGap = 2.5;       // radii; sharp convex edges of 60 degrees lose 1, of 40 degrees 1.9
+constexpr double kThinGap =
+    2.5;  // radii; sharp convex edges of 60 degrees lose 1, of 40 degrees 1.9
 constexpr double kReachable = 1e-6;    // radii by which the other side may be nearer
 constexpr double kFaceSpread = 0.087;  // 5 degrees
 
 struct Measure {
     double gap = 0.0;
-    double cover = -1.0;          // -1 where no sphere can touch
-    double normal_error = -1.0;   // [rad]
+    double cover = -1.0;         // -1 where no sphere can touch
+    double normal_error = -1.0;  // [rad]
 };
 
 Measure measure(const SurfaceTree& tree, const SphereSet& set, const PointGrid& grid,
@@ -37,8 +38,7 @@ Measure measure(const SurfaceTree& tree, const SphereSet& set, const PointGrid& 
     out.cover = near.distance;
     const auto k = static_cast<std::size_t>(near.index);
     if (set.normal_spread[k] < kFaceSpread)
-        out.normal_error =
-            std::acos(std::clamp(set.normals[k].dot(sample.normal), -1.0, 1.0));
+        out.normal_error = std::acos(std::clamp(set.normals[k].dot(sample.normal), -1.0, 1.0));
     return out;
 }
 
@@ -86,9 +86,8 @@ void certify(const SurfaceTree& tree, const std::vector<SurfaceSample>& samples,
     for (std::size_t k = 0; k < set.size(); ++k)
         if (set.layers[k] == 1) surface.add(set.centers[k]);
     std::vector<Measure> measures(samples.size());
-    parallel_for(samples.size(), 512, [&](std::size_t k) {
-        measures[k] = measure(tree, set, surface, samples[k]);
-    });
+    parallel_for(samples.size(), 512,
+                 [&](std::size_t k) { measures[k] = measure(tree, set, surface, samples[k]); });
     std::vector<double> beyond(set.size());
     parallel_for(set.size(), 512, [&](std::size_t k) {
         const Foot foot = tree.closest(set.centers[k]);

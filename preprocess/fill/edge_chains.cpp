@@ -46,7 +46,8 @@ std::vector<SharpEdge> find_sharp_edges(const SurfaceTree& tree) {
 }
 
 // Follows edges from `at` in direction `from` as long as exactly one continues nearly straight.
-void follow(const TriangleMesh& mesh, const std::map<std::int32_t, std::vector<std::size_t>>& at_vertex,
+void follow(const TriangleMesh& mesh,
+            const std::map<std::int32_t, std::vector<std::size_t>>& at_vertex,
             std::vector<SharpEdge>& edges, std::int32_t vertex, Vec3 heading,
             std::vector<std::pair<std::size_t, std::int32_t>>& path) {
     while (true) {

@@ -29,8 +29,10 @@ double inscribed_radius(const SurfaceTree& tree, int dimension) {
         return foot.inside ? foot.distance : -foot.distance;
     };
     for (int k = 0; k < kPoints * kPoints * kPoints; ++k) {
-        Vec3 p = box.min() + box.sizes().cwiseProduct(Vec3(k % kPoints + 0.5, k / kPoints % kPoints + 0.5,
-                                                           k / (kPoints * kPoints) + 0.5)) / kPoints;
+        Vec3 p = box.min() +
+                 box.sizes().cwiseProduct(Vec3(k % kPoints + 0.5, k / kPoints % kPoints + 0.5,
+                                               k / (kPoints * kPoints) + 0.5)) /
+                     kPoints;
         if (dimension == 2) p.y() = 0.0;
         if (const double now = depth_at(p); now > depth) {
             depth = now;
@@ -54,8 +56,8 @@ void add_spheres(SphereSet& set, const std::vector<Vec3>& centers, std::uint8_t 
     set.layers.insert(set.layers.end(), centers.size(), layer);
 }
 
-void place(const SurfaceTree& tree, const std::vector<SurfaceSample>& samples,
-           const FillOptions& o, SphereSet& set, SpheresReport& report) {
+void place(const SurfaceTree& tree, const std::vector<SurfaceSample>& samples, const FillOptions& o,
+           SphereSet& set, SpheresReport& report) {
     const Timer timer;
     if (o.arrangement == Arrangement::lattice) {
         const Lattice lattice = fill_lattice(tree, o.radius, o.radius, set.dimension);

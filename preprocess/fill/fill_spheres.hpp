@@ -10,10 +10,10 @@ namespace ice {
 enum class Arrangement { conforming, lattice };
 
 struct FillOptions {
-    double radius = 0.1;           ///< [m]
-    double spacing = 0.0;          ///< of the surface layer [m]; 0: the radius (lattice: 2 R always)
+    double radius = 0.1;   ///< [m]
+    double spacing = 0.0;  ///< of the surface layer [m]; 0: the radius (lattice: 2 R always)
     Arrangement arrangement = Arrangement::conforming;
-    bool surface_only = false;     ///< drop the interior
+    bool surface_only = false;  ///< drop the interior
 };
 
 /// Fills a closed solid with contact spheres of one radius: surface spheres first, then interior.

@@ -56,13 +56,15 @@ Lattice fill_lattice(const SurfaceTree& tree, double radius, double clearance, i
         const double below = std::floor((face - box.min()[d]) / pitch + kRounding);
         first[d] = face + radius - below * pitch;
         if (first[d] - pitch > box.min()[d]) first[d] -= pitch;
-        count[k] = static_cast<std::int64_t>(
-            std::floor((box.max()[d] - first[d]) / pitch + kRounding)) + 1;
+        count[k] =
+            static_cast<std::int64_t>(std::floor((box.max()[d] - first[d]) / pitch + kRounding)) +
+            1;
     }
     const double total = static_cast<double>(count[0]) * static_cast<double>(count[1]) *
                          static_cast<double>(count[2]);
     if (total > kMostPoints)
-        throw bad_input("--radius", fmt::format("the solid's box holds {:.2g} lattice points", total),
+        throw bad_input("--radius",
+                        fmt::format("the solid's box holds {:.2g} lattice points", total),
                         "use a larger radius, or --mode surface");
 
     std::vector<std::uint8_t> full(static_cast<std::size_t>(total));

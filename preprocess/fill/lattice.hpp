@@ -9,8 +9,8 @@ namespace ice {
 
 /// A cubic lattice of spheres wholly inside a solid.
 struct Lattice {
-    std::vector<Vec3> centers;          ///< ordered z slowest, x fastest
-    std::vector<std::uint8_t> outer;    ///< 1 where one of the six neighbours (four in 2D) is missing
+    std::vector<Vec3> centers;        ///< ordered z slowest, x fastest
+    std::vector<std::uint8_t> outer;  ///< 1 where one of the six neighbours (four in 2D) is missing
 };
 
 /// Fills a solid with a cubic lattice of pitch 2 R whose spheres lie inside it.

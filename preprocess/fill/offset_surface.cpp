@@ -10,7 +10,7 @@ namespace ice {
 namespace {
 
 constexpr int kMostSteps = 40;
-constexpr double kExact = 1e-10;         // of the radius: when a distance counts as reached
+constexpr double kExact = 1e-10;              // of the radius: when a distance counts as reached
 constexpr double kSameDirection = 0.9999995;  // cosine of 1e-3 rad: conditions that are one
 
 // g . move >= need
@@ -87,7 +87,7 @@ std::optional<Vec3> settle(const SurfaceTree& tree, const Vec3& start, double ra
 }
 
 std::vector<Vec3> touch_directions(const SurfaceTree& tree, const Vec3& center, double radius) {
-    constexpr double kTouch = 1e-5;       // of the radius
+    constexpr double kTouch = 1e-5;         // of the radius
     constexpr double kSameTouch = 0.99995;  // cosine of 0.01 rad
     std::vector<Foot> feet;
     tree.within(center, radius * (1.0 + kTouch), feet);

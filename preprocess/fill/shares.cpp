@@ -24,9 +24,11 @@ std::size_t surface_count(const SphereSet& set) {
 void set_normals(const SurfaceTree& tree, SphereSet& set, std::size_t count) {
     parallel_for(count, 64, [&](std::size_t k) {
         auto directions = touch_directions(tree, set.centers[k], set.radii[k]);
-        if (set.dimension == 2) std::erase_if(directions, [](const Vec3& d) { return std::abs(d.y()) > 0.5; });
+        if (set.dimension == 2)
+            std::erase_if(directions, [](const Vec3& d) { return std::abs(d.y()) > 0.5; });
         if (directions.empty())
-            directions.push_back((tree.closest(set.centers[k]).point - set.centers[k]).normalized());
+            directions.push_back(
+                (tree.closest(set.centers[k]).point - set.centers[k]).normalized());
         Vec3 sum = Vec3::Zero();
         for (const Vec3& d : directions) sum += d;
         // opposite faces cancel where a part is exactly as thick as the sphere
@@ -44,14 +46,15 @@ std::vector<Vec3> volume_points(const SurfaceTree& tree, const SphereSet& set) {
     for (const Vec3& v : tree.mesh().vertices) box.extend(v);
     Vec3 size = box.sizes();
     if (set.dimension == 2) size.y() = 1.0;
-    const double pitch = set.dimension == 2
-                             ? std::max(0.4 * set.radius, std::sqrt(size.x() * size.z() / kMostCells))
-                             : std::max(0.4 * set.radius, std::cbrt(size.prod() / kMostCells));
+    const double pitch =
+        set.dimension == 2 ? std::max(0.4 * set.radius, std::sqrt(size.x() * size.z() / kMostCells))
+                           : std::max(0.4 * set.radius, std::cbrt(size.prod() / kMostCells));
     std::int64_t n[3];
     for (int d = 0; d < 3; ++d)
-        n[d] = set.dimension == 2 && d == 1
-                   ? 1
-                   : std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(size[d] / pitch)));
+        n[d] =
+            set.dimension == 2 && d == 1
+                ? 1
+                : std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(size[d] / pitch)));
     std::vector<Vec3> points(static_cast<std::size_t>(n[0] * n[1] * n[2]));
     std::vector<std::uint8_t> inside(points.size());
     parallel_for(points.size(), 1024, [&](std::size_t k) {
@@ -59,7 +62,8 @@ std::vector<Vec3> volume_points(const SurfaceTree& tree, const SphereSet& set) {
         const double at[3] = {static_cast<double>(i % n[0]), static_cast<double>(i / n[0] % n[1]),
                               static_cast<double>(i / (n[0] * n[1]))};
         for (int d = 0; d < 3; ++d)
-            points[k][d] = box.min()[d] + (at[d] + 0.5) / static_cast<double>(n[d]) * box.sizes()[d];
+            points[k][d] =
+                box.min()[d] + (at[d] + 0.5) / static_cast<double>(n[d]) * box.sizes()[d];
         if (set.dimension == 2) points[k].y() = 0.0;
         inside[k] = tree.closest(points[k]).inside;
     });
@@ -90,8 +94,7 @@ void match_moments(SphereSet& set) {
         target << set.solid.volume, set.solid.volume * (set.solid.centroid - mean);
         // in 2D y has no spread: least squares leaves its factor alone
         const Eigen::Vector4d lack = target - moments.col(0);
-        const Eigen::Vector4d factor =
-            moments.completeOrthogonalDecomposition().solve(lack);
+        const Eigen::Vector4d factor = moments.completeOrthogonalDecomposition().solve(lack);
         for (std::size_t k = 0; k < set.size(); ++k)
             set.volumes[k] *= 1.0 + factor[0] + factor.tail<3>().dot(set.centers[k] - mean);
     }
@@ -139,8 +142,8 @@ void share_surface(const SurfaceTree& tree, const std::vector<SurfaceSample>& sa
                 set.regions[k] = region;
             }
         if (by_region[k].empty())
-            set.regions[k] = tree.mesh().region[static_cast<std::size_t>(
-                tree.closest(set.centers[k]).triangle)];
+            set.regions[k] =
+                tree.mesh().region[static_cast<std::size_t>(tree.closest(set.centers[k]).triangle)];
     }
 }
 
@@ -160,7 +163,8 @@ void share_volume(const SurfaceTree& tree, bool equal, SphereSet& set) {
                 limit *= 4.0;
             } while (owner[k] < 0);
         });
-        for (const std::int32_t sphere : owner) set.volumes[static_cast<std::size_t>(sphere)] += 1.0;
+        for (const std::int32_t sphere : owner)
+            set.volumes[static_cast<std::size_t>(sphere)] += 1.0;
     }
     match_moments(set);
 }

@@ -14,10 +14,10 @@ namespace ice {
 namespace {
 
 // In units of the spacing.
-constexpr double kEdgeSeparation = 0.5;    // between spheres of different edges
-constexpr double kFaceSeparation = 0.75;   // a hexagon's seams: nearer than this is not placed
-constexpr double kMirrorGap = 0.36;        // half of kFaceSeparation: a sphere and its image
-constexpr double kCovered = 0.65;          // every reachable sample has a sphere this near
+constexpr double kEdgeSeparation = 0.5;   // between spheres of different edges
+constexpr double kFaceSeparation = 0.75;  // a hexagon's seams: nearer than this is not placed
+constexpr double kMirrorGap = 0.36;       // half of kFaceSeparation: a sphere and its image
+constexpr double kCovered = 0.65;         // every reachable sample has a sphere this near
 
 class ShellMaker {
 public:
@@ -76,8 +76,10 @@ private:
             const auto c = settle(tree_, start, o_.radius);
             // a jump means the edge is too sharp for a sphere on the way
             if (c && !path.empty() && (*c - path.back()).norm() > o_.spacing) flush();
-            if (c) path.push_back(*c);
-            else flush();
+            if (c)
+                path.push_back(*c);
+            else
+                flush();
         }
         flush();
     }

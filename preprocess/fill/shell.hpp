@@ -12,7 +12,7 @@ struct ShellOptions {
     double radius = 0.1;   ///< [m]
     double spacing = 0.1;  ///< wanted distance of neighbours [m]
     int dimension = 3;
-    bool mirror = false;   ///< the solid is symmetric about y = 0: make the layer so, bit for bit
+    bool mirror = false;  ///< the solid is symmetric about y = 0: make the layer so, bit for bit
 };
 
 /// Centres of spheres that touch the surface from inside, spaced evenly: the conforming layer.

@@ -12,7 +12,8 @@ constexpr double kMostSamples = 2e6;
 
 // The k^2 equal triangles of a triangle, centres only.
 void add_triangle(const TriangleMesh& mesh, std::size_t t, int k, std::vector<SurfaceSample>& out) {
-    const Vec3 a = mesh.corner(t, 0), u = (mesh.corner(t, 1) - a) / k, v = (mesh.corner(t, 2) - a) / k;
+    const Vec3 a = mesh.corner(t, 0), u = (mesh.corner(t, 1) - a) / k,
+               v = (mesh.corner(t, 2) - a) / k;
     const Vec3 area = mesh.area_vector(t);
     const double share = area.norm() / (static_cast<double>(k) * k);
     const Vec3 normal = area.normalized();
@@ -44,8 +45,8 @@ void add_strips(const TriangleMesh& mesh, std::size_t t, double size,
     const int k = std::max(1, static_cast<int>(std::ceil(length / size)));
     const Vec3 normal = mesh.area_vector(t).normalized();
     for (int i = 0; i < k; ++i)
-        out.push_back({a + (i + 0.5) / k * (b - a), normal, length / k,
-                       static_cast<std::int32_t>(t)});
+        out.push_back(
+            {a + (i + 0.5) / k * (b - a), normal, length / k, static_cast<std::int32_t>(t)});
 }
 
 }  // namespace

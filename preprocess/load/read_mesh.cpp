@@ -88,7 +88,8 @@ private:
         const bool reflects = here.topLeftCorner<3, 3>().determinant() < 0.0;
         for (unsigned k = 0; k < mesh.mNumVertices; ++k) {
             const aiVector3D& v = mesh.mVertices[k];
-            const Eigen::Vector4d p = here * Eigen::Vector4d(undo_float(v.x), undo_float(v.y), undo_float(v.z), 1.0);
+            const Eigen::Vector4d p =
+                here * Eigen::Vector4d(undo_float(v.x), undo_float(v.y), undo_float(v.z), 1.0);
             out_.vertices.push_back(turn_ * p.head<3>());
         }
         const std::int32_t region = region_of(mesh, node);

@@ -11,10 +11,10 @@ namespace ice {
 
 /// How a file's numbers become metres in the ship frame (x forward, y to port, z up).
 struct ReadOptions {
-    double scale = 1.0;            ///< metres per file unit
-    std::string up = "z";          ///< file axis that points up: "y" or "z"
-    std::string forward = "+x";    ///< direction, after `up`, of the bow: +x -x +y -y +z -z
-    bool mirror_y = false;         ///< add the mirror image across y = 0 (half hulls)
+    double scale = 1.0;          ///< metres per file unit
+    std::string up = "z";        ///< file axis that points up: "y" or "z"
+    std::string forward = "+x";  ///< direction, after `up`, of the bow: +x -x +y -y +z -z
+    bool mirror_y = false;       ///< add the mirror image across y = 0 (half hulls)
 };
 
 /// Reads any format assimp knows (OBJ, STL, PLY, OFF, DAE, glTF, ...), keeping group names.

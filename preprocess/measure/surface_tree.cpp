@@ -109,7 +109,8 @@ void SurfaceTree::build_normals() {
             const double angle = corner_angle(mesh_.corner(t, k), mesh_.corner(t, (k + 1) % 3),
                                               mesh_.corner(t, (k + 2) % 3));
             const auto kk = static_cast<std::size_t>(k);
-            corner_normals_[static_cast<std::size_t>(mesh_.triangles[t][kk])] += angle * normals_[t];
+            corner_normals_[static_cast<std::size_t>(mesh_.triangles[t][kk])] +=
+                angle * normals_[t];
             edges.try_emplace(edge_key(t, kk), Vec3::Zero()).first->second += normals_[t];
         }
     }

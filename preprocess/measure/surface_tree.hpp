@@ -11,9 +11,9 @@ namespace ice {
 
 /// The point of a mesh nearest to some point.
 struct Foot {
-    Vec3 point = Vec3::Zero();    ///< on the surface [m]
-    double distance = 0.0;        ///< [m], >= 0
-    bool inside = false;          ///< the asked point lies in the solid
+    Vec3 point = Vec3::Zero();  ///< on the surface [m]
+    double distance = 0.0;      ///< [m], >= 0
+    bool inside = false;        ///< the asked point lies in the solid
     std::int32_t triangle = -1;
 };
 
@@ -41,7 +41,7 @@ private:
     struct Node {
         Eigen::AlignedBox3d box;
         std::int32_t first = 0, count = 0;  ///< leaf: range of order_; inner node: count 0
-        std::int32_t right = 0;             ///< inner node: second child; the first is the next node
+        std::int32_t right = 0;  ///< inner node: second child; the first is the next node
     };
 
     std::int32_t build(std::int32_t first, std::int32_t count);
@@ -52,9 +52,9 @@ private:
     std::vector<Node> nodes_;
     std::vector<std::int32_t> order_;
     std::vector<Vec3> centers_;
-    std::vector<Vec3> normals_;                       ///< per triangle
-    std::vector<Vec3> corner_normals_;                ///< per vertex, angle-weighted
-    std::vector<std::array<Vec3, 3>> edge_normals_;   ///< per triangle and edge: sum of both faces
+    std::vector<Vec3> normals_;                      ///< per triangle
+    std::vector<Vec3> corner_normals_;               ///< per vertex, angle-weighted
+    std::vector<std::array<Vec3, 3>> edge_normals_;  ///< per triangle and edge: sum of both faces
 };
 
 }  // namespace ice

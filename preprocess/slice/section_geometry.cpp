@@ -61,8 +61,8 @@ std::vector<std::vector<Vec3>> orient_loops(std::vector<std::vector<Vec3>> loops
     for (std::size_t k = 0; k < loops.size(); ++k) {
         int around = 0;
         for (std::size_t other = 0; other < loops.size(); ++other)
-            around += other != k && polygons[other].bounded_side(polygons[k][0]) ==
-                                        CGAL::ON_BOUNDED_SIDE;
+            around +=
+                other != k && polygons[other].bounded_side(polygons[k][0]) == CGAL::ON_BOUNDED_SIDE;
         const bool anticlockwise = polygons[k].orientation() == CGAL::COUNTERCLOCKWISE;
         if (anticlockwise != (around % 2 == 0)) std::reverse(loops[k].begin(), loops[k].end());
     }
@@ -72,9 +72,8 @@ std::vector<std::vector<Vec3>> orient_loops(std::vector<std::vector<Vec3>> loops
 std::vector<std::array<std::int32_t, 3>> triangulate(const std::vector<std::vector<Vec3>>& loops) {
     using Vertex = CGAL::Triangulation_vertex_base_with_info_2<std::int32_t, Kernel>;
     using Face = CGAL::Constrained_triangulation_face_base_2<Kernel>;
-    using Delaunay =
-        CGAL::Constrained_Delaunay_triangulation_2<Kernel,
-                                                   CGAL::Triangulation_data_structure_2<Vertex, Face>>;
+    using Delaunay = CGAL::Constrained_Delaunay_triangulation_2<
+        Kernel, CGAL::Triangulation_data_structure_2<Vertex, Face>>;
     Delaunay delaunay;
     std::vector<Polygon> polygons;
     std::int32_t index = 0;
@@ -92,8 +91,8 @@ std::vector<std::array<std::int32_t, 3>> triangulate(const std::vector<std::vect
     for (const auto& face : delaunay.finite_face_handles()) {
         const auto p = [&](int k) { return face->vertex(k)->point(); };
         if (inside(polygons, CGAL::centroid(p(0), p(1), p(2))))
-            out.push_back({face->vertex(0)->info(), face->vertex(1)->info(),
-                           face->vertex(2)->info()});
+            out.push_back(
+                {face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()});
     }
     return out;
 }

@@ -16,8 +16,8 @@ std::string report_text(const SpheresReport& r, const std::string& output) {
     line("on the surface", fmt::format("{}, spaced {:g} m", r.surface_spheres, r.spacing));
     line("volume", fmt::format("{:.9g} {}", r.volume, flat ? "m3 per metre of breadth" : "m3"));
     line("area", fmt::format("{:.9g} {}", r.area, flat ? "m2 per metre of breadth" : "m2"));
-    line("centroid", fmt::format("{:.6g}, {:.6g}, {:.6g} m", r.centroid[0], r.centroid[1],
-                                 r.centroid[2]));
+    line("centroid",
+         fmt::format("{:.6g}, {:.6g}, {:.6g} m", r.centroid[0], r.centroid[1], r.centroid[2]));
     line("protrusion", fmt::format("{:.2g} m at most", r.protrusion_max));
     line("covering radius", fmt::format("{:.3g} m ({:.2f} of the spacing)", r.covering_radius,
                                         r.covering_radius / r.spacing));
@@ -31,8 +31,8 @@ std::string report_text(const SpheresReport& r, const std::string& output) {
     for (std::size_t k = 0; k < r.thin_features.size(); ++k) {
         const ThinFeature& f = r.thin_features[k];
         if (k == 10) {
-            line("too thin", fmt::format("and {} more (--json lists all)",
-                                         r.thin_features.size() - k));
+            line("too thin",
+                 fmt::format("and {} more (--json lists all)", r.thin_features.size() - k));
             break;
         }
         line("too thin", fmt::format("{:.3g} m long at {:.4g}, {:.4g}, {:.4g} m", f.size, f.at[0],
@@ -45,8 +45,8 @@ std::string csv_text(const SphereSet& set) {
     std::string out = "x_m,y_m,z_m,radius_m,nx,ny,nz,layer,region\n";
     for (std::size_t k = 0; k < set.size(); ++k)
         out += fmt::format("{},{},{},{},{},{},{},{},{}\n", set.centers[k].x(), set.centers[k].y(),
-                           set.centers[k].z(), set.radii[k], set.normals[k].x(),
-                           set.normals[k].y(), set.normals[k].z(), set.layers[k],
+                           set.centers[k].z(), set.radii[k], set.normals[k].x(), set.normals[k].y(),
+                           set.normals[k].z(), set.layers[k],
                            set.mesh.region_names[static_cast<std::size_t>(set.regions[k])]);
     return out;
 }

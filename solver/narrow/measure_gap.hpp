@@ -32,14 +32,15 @@ Gap measure_gap_centres(const SphereSurface& a, const SphereSurface& b);
 /// Our rule: a sphere touches its surface from inside, so the surface near it is the sphere's cap
 /// over the normals that meet there: a plane on a face, an arc on an edge.
 ///
-/// Each side proposes the direction of its cap nearest to the line of centres; the flatter side (the
-/// smaller spread) is the surface, the other one the probe. On equal spread `prefer_a` decides for
+/// Each side proposes the direction of its cap nearest to the line of centres; the flatter side
+/// (the smaller spread) is the surface, the other one the probe. On equal spread `prefer_a` decides for
 /// a, else the mean of both proposals is taken. With n chosen,
 ///
 ///     gap = n . (c_b - c_a) - (r_a + r_b),
 ///
 /// exact for a face on a face, an edge on a face and an edge across an edge: a flat hull is flat
-/// whatever its spacing. Invalid when the centres are not on the proper sides (n . (c_b - c_a) <= 0).
+/// whatever its spacing. Invalid when the centres are not on the proper sides,
+/// n . (c_b - c_a) <= 0.
 Gap measure_gap_surface(const SphereSurface& a, const SphereSurface& b, bool prefer_a);
 
 }  // namespace ice

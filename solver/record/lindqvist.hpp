@@ -34,8 +34,8 @@ struct IceConditions {
     double speed;          ///< V [m/s]
 };
 
-/// Submersion resistance [N], Lindqvist, "A straightforward method for calculation of ice resistance
-/// of ships", POAC 1989: with psi = arctan(tan phi / sin alpha),
+/// Submersion resistance [N], Lindqvist, "A straightforward method for calculation of ice
+/// resistance of ships", POAC 1989: with psi = arctan(tan phi / sin alpha),
 ///
 ///     R_s0 = (rho_w - rho_i) g h B [ T (B + T) / (B + 2 T) + mu ( 0.7 L - T / tan phi
 ///            - B / (4 tan alpha) + T cos phi cos psi sqrt(1 / sin^2 phi + 1 / tan^2 alpha) ) ]

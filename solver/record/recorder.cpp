@@ -34,8 +34,8 @@ RunHeader make_header(const Case& parameters, const Scene& scene, const std::str
 }
 
 FloeState state_of(const Scene& scene, std::size_t i) {
-    if (is_behind(scene, i)) return FloeState::behind;
-    return scene.bodies.held[i] ? FloeState::held : FloeState::moving;
+    if (scene.bodies.held[i]) return FloeState::held;
+    return is_behind(scene, i) ? FloeState::behind : FloeState::moving;
 }
 
 }  // namespace

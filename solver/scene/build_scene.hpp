@@ -12,7 +12,7 @@ namespace ice {
 /// equilibrium unless a single floe states z. "brick" shifts every other column (along x) by half a
 /// floe and its gap along y.
 ///
-/// @throws Error (exit code 2) naming the file or key: set of the wrong dimension, tracked floe that
+/// @throws Error (exit code 2) naming file or key: set of the wrong dimension, tracked floe that
 ///         does not exist, floe denser than water without a stated z, more than 10 million floes.
 Scene build_scene(const Case& parameters);
 

@@ -59,8 +59,10 @@ void copy_surface_spheres(const SphereSet& set, const Vec3& origin, Shape& shape
         shape.center.push_back(set.centers[k] - origin);
         shape.radius.push_back(set.radii[k]);
         shape.normal.push_back(set.normals[k]);
-        shape.spread_cos.push_back(std::cos(set.normal_spread[k]));
-        shape.spread_sin.push_back(std::sin(set.normal_spread[k]));
+        // rounded to float: the last bit of cos differs between systems' libraries, a run must not
+        const double cosine = static_cast<float>(std::cos(set.normal_spread[k]));
+        shape.spread_cos.push_back(cosine);
+        shape.spread_sin.push_back(std::sqrt(1.0 - cosine * cosine));
         shape.area.push_back(set.areas[k]);
         shape.region.push_back(set.regions[k]);
         shape.largest_radius = std::max(shape.largest_radius, set.radii[k]);
