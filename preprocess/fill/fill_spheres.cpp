@@ -106,7 +106,7 @@ SphereSet fill(const TriangleMesh& solid, const TriangleMesh& space, int dimensi
 
     const SurfaceTree tree(space);
     const auto samples =
-        sample_surface(space, std::min(set.spacing, 2.0 * o.radius) / 3.0, dimension);
+        sample_surface(space, std::min(set.spacing, 2.0 * o.radius) / 4.0, dimension);
     place(tree, samples, o, set, report);
     if (set.centers.empty() || set.layers.front() == 0)
         throw bad_input("--radius",

@@ -91,6 +91,9 @@ std::vector<Vec3> touch_directions(const SurfaceTree& tree, const Vec3& center, 
     constexpr double kSameTouch = 0.99995;  // cosine of 0.01 rad
     std::vector<Foot> feet;
     tree.within(center, radius * (1.0 + kTouch), feet);
+    // the nearest first: the other triangles of a face have their feet a little aside
+    std::stable_sort(feet.begin(), feet.end(),
+                     [](const Foot& l, const Foot& r) { return l.distance < r.distance; });
     std::vector<Vec3> directions;
     for (const Foot& foot : feet) {
         const Vec3 u = (foot.point - center).normalized();

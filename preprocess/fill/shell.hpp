@@ -21,9 +21,9 @@ struct ShellOptions {
 /// `spacing` apart. Then faces, by an advancing front: from a placed sphere the six places of a
 /// hexagon around it are tried, settled on the offset surface and kept if no neighbour is nearer
 /// than 0.75 spacing. At last every surface sample that a sphere could touch but that has none
-/// within 0.65 spacing gets its own.
+/// within 0.6 spacing gets its own.
 ///
-/// @param samples  of the surface, spaced at most a third of `spacing`
+/// @param samples  of the surface, spaced at most a quarter of `spacing`
 /// The result depends on the mesh and options alone; parts too thin for a sphere stay empty.
 std::vector<Vec3> make_shell(const SurfaceTree& tree, const std::vector<SurfaceSample>& samples,
                              const ShellOptions& options);

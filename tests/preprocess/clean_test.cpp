@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Welding and the diagnosis of what is no solid.
+#include <catch2/catch.hpp>
+
+#include "preprocess/clean/check_solid.hpp"
+#include "preprocess/clean/weld.hpp"
+#include "tests/support/make_meshes.hpp"
+
+using namespace ice;
+
+namespace {
+
+// Every triangle with corners of its own, as in an STL file.
+TriangleMesh unwelded(const TriangleMesh& mesh) {
+    TriangleMesh out;
+    out.region_names = mesh.region_names;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const auto first = static_cast<std::int32_t>(out.vertices.size());
+        for (int k = 0; k < 3; ++k) out.vertices.push_back(mesh.corner(t, k));
+        out.triangles.push_back({first, first + 1, first + 2});
+        out.region.push_back(mesh.region[t]);
+    }
+    return out;
+}
+
+}  // namespace
+
+TEST_CASE("welding gives a box its 8 corners back and counts what it merged", "[clean]") {
+    TriangleMesh mesh = unwelded(test::make_box_mesh(Vec3(1, 0.8, 0.3)));
+    const WeldCounts counts = weld(mesh);
+    CHECK(mesh.vertices.size() == 8);
+    CHECK(mesh.triangles.size() == 12);
+    CHECK(counts.merged_vertices == 28);
+    CHECK(diagnose_solid(mesh).good());
+}
+
+TEST_CASE("degenerate and repeated triangles are dropped and counted", "[clean]") {
+    TriangleMesh mesh = test::make_box_mesh(Vec3(1, 1, 1));
+    const auto t = mesh.triangles[0];
+    mesh.triangles.push_back({t[1], t[2], t[0]});  // the same one, other corner first
+    mesh.triangles.push_back({0, 0, 1});
+    mesh.region.resize(14, 0);
+    const WeldCounts counts = weld(mesh);
+    CHECK(counts.duplicate_triangles == 1);
+    CHECK(counts.degenerate_triangles == 1);
+    CHECK(diagnose_solid(mesh).good());
+}
+
+TEST_CASE("vertices a ten-millionth of the size apart are one", "[clean]") {
+    TriangleMesh mesh = unwelded(test::make_box_mesh(Vec3(10, 2, 2)));
+    for (std::size_t k = 0; k < mesh.vertices.size(); k += 2) mesh.vertices[k].x() += 1e-6;
+    weld(mesh);
+    CHECK(mesh.vertices.size() == 8);
+}
+
+TEST_CASE("each fault of a box is named and counted", "[clean][errors]") {
+    TriangleMesh box = test::make_box_mesh(Vec3(1, 1, 1));
+    SECTION("a missing triangle opens three edges") {
+        box.triangles.pop_back();
+        box.region.pop_back();
+        const SolidDiagnosis d = diagnose_solid(box);
+        CHECK(d.open_edges == 3);
+        CHECK_FALSE(d.good());
+        CHECK_THAT(d.text(), Catch::Contains("3 open edges"));
+    }
+    SECTION("a triangle turned over is inconsistent along three edges") {
+        std::swap(box.triangles[0][1], box.triangles[0][2]);
+        const SolidDiagnosis d = diagnose_solid(box);
+        CHECK(d.inconsistent_edges == 3);
+        CHECK_THAT(d.text(), Catch::Contains("face opposite ways"));
+    }
+    SECTION("a box turned inside out is known as that") {
+        flip(box);
+        const SolidDiagnosis d = diagnose_solid(box);
+        CHECK(d.inside_out);
+        CHECK_THAT(d.text(), Catch::Contains("inside out"));
+    }
+    SECTION("a corner pulled through the opposite face crosses it") {
+        box.vertices[7] = Vec3(-2, -2, -2);
+        const SolidDiagnosis d = diagnose_solid(box);
+        CHECK(d.intersecting_pairs > 0);
+        CHECK_THAT(d.text(), Catch::Contains("cross"));
+    }
+    SECTION("a fin glued to an edge crowds it") {
+        box.vertices.emplace_back(3, 3, 3);
+        box.triangles.push_back({0, 1, 8});
+        box.region.push_back(0);
+        CHECK(diagnose_solid(box).crowded_edges == 1);
+    }
+}
+
+TEST_CASE("the curved test hull and globe are solids with the right volume", "[clean][analytic]") {
+    const TriangleMesh globe = test::make_globe(1.0, 40), hull = test::make_wigley(10, 2, 1, 60, 16);
+    CHECK(diagnose_solid(globe).text() == "");
+    CHECK(diagnose_solid(hull).text() == "");
+    CHECK(measure_mass(globe).volume == Approx(4.0 / 3.0 * 3.14159265).epsilon(0.005));  // facets
+    // L B T (2/3)^2 of parabolic waterlines and sections
+    CHECK(measure_mass(hull).volume == Approx(10 * 2 * 1 * 4.0 / 9.0).epsilon(0.01));
+}
