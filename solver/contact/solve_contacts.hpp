@@ -29,7 +29,8 @@ SolveReport resolve_impacts(Bodies& bodies, std::vector<Constraint>& constraints
                             const ContactLaw& law);
 
 /// Resting stage, after the loads: no contact closes further than its gap,
-/// v_r . n >= -max(gap, 0) / dt, with what strength the impact stage left. Starts from rest_normal and rest_tangent as given.
+/// v_r . n >= -max(gap, 0) / dt, with what strength the impact stage left. Starts from
+/// rest_normal and rest_tangent as given.
 SolveReport resolve_rest(Bodies& bodies, std::vector<Constraint>& constraints,
                          const ContactLaw& law);
 

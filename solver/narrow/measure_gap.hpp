@@ -33,8 +33,8 @@ Gap measure_gap_centres(const SphereSurface& a, const SphereSurface& b);
 /// over the normals that meet there: a plane on a face, an arc on an edge.
 ///
 /// Each side proposes the direction of its cap nearest to the line of centres; the flatter side
-/// (the smaller spread) is the surface, the other one the probe. On equal spread `prefer_a` decides for
-/// a, else the mean of both proposals is taken. With n chosen,
+/// (the smaller spread) is the surface, the other one the probe. On equal spread `prefer_a`
+/// decides for a, else the mean of both proposals is taken. With n chosen,
 ///
 ///     gap = n . (c_b - c_a) - (r_a + r_b),
 ///

@@ -90,7 +90,8 @@ TEST_CASE("each fault of a box is named and counted", "[clean][errors]") {
 }
 
 TEST_CASE("the curved test hull and globe are solids with the right volume", "[clean][analytic]") {
-    const TriangleMesh globe = test::make_globe(1.0, 40), hull = test::make_wigley(10, 2, 1, 60, 16);
+    const TriangleMesh globe = test::make_globe(1.0, 40);
+    const TriangleMesh hull = test::make_wigley(10, 2, 1, 60, 16);
     CHECK(diagnose_solid(globe).text() == "");
     CHECK(diagnose_solid(hull).text() == "");
     CHECK(measure_mass(globe).volume == Approx(4.0 / 3.0 * 3.14159265).epsilon(0.005));  // facets

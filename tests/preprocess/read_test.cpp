@@ -110,7 +110,7 @@ TEST_CASE("scale, up and forward turn the file's axes into the ship's", "[load]"
     CHECK_THROWS_WITH(read_mesh(file.path(), options), Catch::Contains("up axis"));
 }
 
-TEST_CASE("--mirror y doubles half a box into a closed one", "[load]") {
+TEST_CASE("option mirror y doubles half a box into a closed one", "[load]") {
     // the half with y >= 0 of a 2 x 2 x 2 box, open in the plane y = 0
     TriangleMesh half = test::make_box_mesh(Vec3(2, 1, 2));
     for (Vec3& v : half.vertices) v.y() += 0.5;
