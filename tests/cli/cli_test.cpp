@@ -239,7 +239,7 @@ TEST_CASE("the resolved case repeats the run to the same bits", "[cli][determini
           read_summary(w / "b/summary.json").state_hash);
 }
 
-TEST_CASE("--hash-every prints a line of step and hash", "[cli]") {
+TEST_CASE("option --hash-every prints a line of step and hash", "[cli]") {
     const Workshop w;
     w.make_case();
     const Result r = w.run("icesolve case.cfg -q --hash-every 200");
@@ -247,7 +247,7 @@ TEST_CASE("--hash-every prints a line of step and hash", "[cli]") {
     CHECK(r.out.starts_with("200 "));
 }
 
-TEST_CASE("--json prints the summary on stdout, and only that", "[cli]") {
+TEST_CASE("option --json prints the summary on stdout, and only that", "[cli]") {
     const Workshop w;
     w.make_case();
     const Result r = w.run("icesolve case.cfg -q --json");
@@ -256,7 +256,7 @@ TEST_CASE("--json prints the summary on stdout, and only that", "[cli]") {
     CHECK_THAT(r.out, Catch::Contains("\"schema\": \"icesolve-summary/1\""));
 }
 
-TEST_CASE("--check builds everything and writes nothing", "[cli]") {
+TEST_CASE("option --check builds everything and writes nothing", "[cli]") {
     const Workshop w;
     w.make_case();
     const Result r = w.run("icesolve case.cfg --check");
@@ -287,7 +287,7 @@ TEST_CASE("bad cases end with exit code 2, name the place and leave nothing", "[
     CHECK_FALSE(fs::exists(w / "results"));
 }
 
-TEST_CASE("--explain, --print-schema and --print-defaults print and end with 0", "[cli]") {
+TEST_CASE("option --explain, --print-schema and --print-defaults print and end with 0", "[cli]") {
     const Workshop w;
     CHECK_THAT(w.run("icesolve --explain contact.restitution").out,
                Catch::Contains("default 0.3") && Catch::Contains("from 0 to 1"));
