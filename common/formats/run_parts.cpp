@@ -3,20 +3,9 @@
 
 #include <algorithm>
 
+#include "common/formats/flatten.hpp"
+
 namespace ice::run_parts {
-
-namespace {
-
-template <class T>
-std::vector<T> flatten(const std::vector<Vec3>& points) {
-    std::vector<T> flat;
-    flat.reserve(3 * points.size());
-    for (const Vec3& p : points)
-        for (int k = 0; k < 3; ++k) flat.push_back(static_cast<T>(p[k]));
-    return flat;
-}
-
-}  // namespace
 
 void write_labels(Hdf5File& file, const std::string& name, const std::vector<std::string>& texts) {
     file.write_strings(name, texts);

@@ -5,6 +5,7 @@
 
 #include "common/base/error.hpp"
 #include "common/base/part_file.hpp"
+#include "common/formats/flatten.hpp"
 #include "common/formats/hdf5_file.hpp"
 
 namespace ice {
@@ -13,15 +14,6 @@ namespace {
 
 constexpr const char* kFormat = "icesolve-spheres";
 constexpr std::int64_t kVersion = 1;
-
-template <class T>
-std::vector<T> flatten(const std::vector<Vec3>& points) {
-    std::vector<T> flat;
-    flat.reserve(3 * points.size());
-    for (const Vec3& p : points)
-        for (int k = 0; k < 3; ++k) flat.push_back(static_cast<T>(p[k]));
-    return flat;
-}
 
 std::vector<Vec3> unflatten(const std::vector<double>& flat) {
     std::vector<Vec3> points(flat.size() / 3);

@@ -12,6 +12,7 @@
 #include <cmath>
 
 #include "common/base/error.hpp"
+#include "preprocess/load/read_obj.hpp"
 
 namespace ice {
 
@@ -54,8 +55,7 @@ double undo_float(float x) {
 
 class Collector {
 public:
-    Collector(const aiScene& scene, const Mat3& turn, double scale)
-        : scene_(scene), turn_(scale * turn) {}
+    explicit Collector(const aiScene& scene) : scene_(scene) {}
 
     TriangleMesh collect() {
         walk(*scene_.mRootNode, Mat4::Identity());
@@ -90,7 +90,7 @@ private:
             const aiVector3D& v = mesh.mVertices[k];
             const Eigen::Vector4d p =
                 here * Eigen::Vector4d(undo_float(v.x), undo_float(v.y), undo_float(v.z), 1.0);
-            out_.vertices.push_back(turn_ * p.head<3>());
+            out_.vertices.push_back(p.head<3>());
         }
         const std::int32_t region = region_of(mesh, node);
         for (unsigned k = 0; k < mesh.mNumFaces; ++k) {
@@ -106,7 +106,6 @@ private:
     }
 
     const aiScene& scene_;
-    Mat3 turn_;
     TriangleMesh out_;
 };
 
@@ -115,6 +114,26 @@ void check_finite(const TriangleMesh& mesh, const std::filesystem::path& file) {
         if (!mesh.vertices[k].allFinite())
             throw bad_input(file.string(), fmt::format("vertex {} is not a finite number", k + 1),
                             "repair or export the mesh again");
+}
+
+// Faces that lie in the plane y = 0 close a half hull there; in the whole hull they are inside it.
+std::int64_t drop_centre_plane(TriangleMesh& mesh) {
+    Eigen::AlignedBox3d box;
+    for (const Vec3& v : mesh.vertices) box.extend(v);
+    const double flat = 1e-9 * box.diagonal().norm();
+    std::size_t kept = 0;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        bool in_plane = true;
+        for (int k = 0; k < 3; ++k)
+            in_plane = in_plane && std::abs(mesh.corner(t, k).y()) <= flat;
+        if (in_plane) continue;
+        mesh.triangles[kept] = mesh.triangles[t];
+        mesh.region[kept++] = mesh.region[t];
+    }
+    const auto dropped = static_cast<std::int64_t>(mesh.triangles.size() - kept);
+    mesh.triangles.resize(kept);
+    mesh.region.resize(kept);
+    return dropped;
 }
 
 void add_mirror_image(TriangleMesh& mesh) {
@@ -131,14 +150,7 @@ void add_mirror_image(TriangleMesh& mesh) {
     }
 }
 
-}  // namespace
-
-TriangleMesh read_mesh(const std::filesystem::path& file, const ReadOptions& options) {
-    std::error_code error;
-    if (!std::filesystem::is_regular_file(file, error))
-        throw bad_input(file.string(), "mesh file not found", "check the path");
-    const Mat3 turn = orientation(options);
-
+TriangleMesh read_with_assimp(const std::filesystem::path& file) {
     Assimp::Importer importer;
     importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
     importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,
@@ -149,11 +161,34 @@ TriangleMesh read_mesh(const std::filesystem::path& file, const ReadOptions& opt
         throw bad_input(file.string(),
                         fmt::format("cannot be read as a mesh ({})", importer.GetErrorString()),
                         "formats are OBJ, STL, PLY, OFF, DAE, glTF and others assimp reads");
-    TriangleMesh mesh = Collector(*scene, turn, options.scale).collect();
+    return Collector(*scene).collect();
+}
+
+bool is_obj(const std::filesystem::path& file) {
+    const std::string extension = file.extension().string();
+    return extension.size() == 4 && (extension[1] | 32) == 'o' && (extension[2] | 32) == 'b' &&
+           (extension[3] | 32) == 'j';
+}
+
+}  // namespace
+
+TriangleMesh read_mesh(const std::filesystem::path& file, const ReadOptions& options,
+                       std::int64_t* centre_plane_dropped) {
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(file, error))
+        throw bad_input(file.string(), "mesh file not found", "check the path");
+    const Mat3 turn = options.scale * orientation(options);
+
+    TriangleMesh mesh = is_obj(file) ? read_obj(file) : read_with_assimp(file);
     check_finite(mesh, file);
     if (mesh.triangles.empty())
         throw bad_input(file.string(), "holds no triangles", "export the hull's surface as a mesh");
-    if (options.mirror_y) add_mirror_image(mesh);
+    for (Vec3& v : mesh.vertices) v = turn * v;
+    if (options.mirror_y) {
+        const std::int64_t dropped = drop_centre_plane(mesh);
+        if (centre_plane_dropped != nullptr) *centre_plane_dropped = dropped;
+        add_mirror_image(mesh);
+    }
     return mesh;
 }
 

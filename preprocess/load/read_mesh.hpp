@@ -17,16 +17,20 @@ struct ReadOptions {
     bool mirror_y = false;       ///< add the mirror image across y = 0 (half hulls)
 };
 
-/// Reads any format assimp knows (OBJ, STL, PLY, OFF, DAE, glTF, ...), keeping group names.
+/// Reads OBJ (read_obj) and any format assimp knows (STL, PLY, OFF, DAE, glTF, ...), with names.
 ///
 /// Polygons are split into triangles; points and lines are dropped. Every node's transformation is
 /// applied in double precision; a reflecting one turns its triangles over. A group, object or node
 /// name becomes the region of its triangles; unnamed parts are region 0, "hull". The order of
 /// `region_names` is that of the file. Vertices are as the file has them: not welded.
 ///
+/// With `mirror_y`, triangles in the plane y = 0 go first (a half hull closed by its centre plane);
+/// `centre_plane_dropped`, where given, takes their number.
+///
 /// @throws Error (exit code 2) naming the file: not found, not readable by assimp, no triangles,
 ///         NaN or infinite vertices (with their number), impossible up/forward pair.
-TriangleMesh read_mesh(const std::filesystem::path& file, const ReadOptions& options);
+TriangleMesh read_mesh(const std::filesystem::path& file, const ReadOptions& options,
+                       std::int64_t* centre_plane_dropped = nullptr);
 
 /// SHA-256 of a file's bytes, 64 hex digits. @throws Error (exit code 2) when it cannot be read.
 std::string file_sha256(const std::filesystem::path& file);

@@ -42,10 +42,6 @@ TrianglePoint closest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, c
     return {p - n * (n.dot(ap) / n.squaredNorm()), 6};
 }
 
-double box_distance_sq(const Eigen::AlignedBox3d& box, const Vec3& p) {
-    return box.squaredExteriorDistance(p);
-}
-
 double corner_angle(const Vec3& at, const Vec3& b, const Vec3& c) {
     const Vec3 u = (b - at).normalized(), v = (c - at).normalized();
     return std::acos(std::clamp(u.dot(v), -1.0, 1.0));
@@ -128,40 +124,49 @@ bool SurfaceTree::is_inside(const Vec3& p, const Foot& foot, int feature) const 
     return (p - foot.point).dot(normal) < 0.0;
 }
 
-Foot SurfaceTree::closest(const Vec3& p) const {
-    Foot best;
-    double best_sq = std::numeric_limits<double>::infinity();
-    int feature = 6;
+// Visits the leaves whose boxes are not ruled out by skip(distance squared), the nearer child of a
+// node first: in a closest-point search it usually rules out the other.
+template <class Skip, class Visit>
+void SurfaceTree::visit_leaves(const Vec3& p, const Skip& skip, const Visit& visit) const {
     std::int32_t stack[64];
     int depth = 0;
     stack[depth++] = 0;
     while (depth > 0) {
         const std::int32_t at = stack[--depth];
         const Node& node = nodes_[static_cast<std::size_t>(at)];
-        if (box_distance_sq(node.box, p) >= best_sq) continue;
+        if (skip(node.box.squaredExteriorDistance(p))) continue;
         if (node.count == 0) {
-            // the nearer child is looked at first: it usually rules out the other
             const std::int32_t left = at + 1, right = node.right;
-            const bool left_first =
-                box_distance_sq(nodes_[static_cast<std::size_t>(left)].box, p) <=
-                box_distance_sq(nodes_[static_cast<std::size_t>(right)].box, p);
+            const auto distance = [&](std::int32_t child) {
+                return nodes_[static_cast<std::size_t>(child)].box.squaredExteriorDistance(p);
+            };
+            const bool left_first = distance(left) <= distance(right);
             stack[depth++] = left_first ? right : left;
             stack[depth++] = left_first ? left : right;
             continue;
         }
-        for (std::int32_t k = node.first; k < node.first + node.count; ++k) {
-            const std::int32_t t = order_[static_cast<std::size_t>(k)];
+        for (std::int32_t k = node.first; k < node.first + node.count; ++k)
+            visit(order_[static_cast<std::size_t>(k)]);
+    }
+}
+
+Foot SurfaceTree::closest(const Vec3& p) const {
+    Foot best;
+    double best_sq = std::numeric_limits<double>::infinity();
+    int feature = 6;
+    visit_leaves(
+        p, [&](double sq) { return sq >= best_sq; },
+        [&](std::int32_t t) {
             const auto tt = static_cast<std::size_t>(t);
             const TrianglePoint q = closest_on_triangle(p, mesh_.corner(tt, 0), mesh_.corner(tt, 1),
                                                         mesh_.corner(tt, 2));
             const double sq = (p - q.point).squaredNorm();
-            if (sq > best_sq || (sq == best_sq && t > best.triangle)) continue;
+            if (sq > best_sq || (sq == best_sq && t > best.triangle)) return;
             best_sq = sq;
             best.point = q.point;
             best.triangle = t;
             feature = q.feature;
-        }
-    }
+        });
     best.distance = std::sqrt(best_sq);
     best.inside = is_inside(p, best, feature);
     return best;
@@ -169,27 +174,15 @@ Foot SurfaceTree::closest(const Vec3& p) const {
 
 void SurfaceTree::within(const Vec3& p, double range, std::vector<Foot>& out) const {
     out.clear();
-    std::int32_t stack[64];
-    int depth = 0;
-    stack[depth++] = 0;
-    while (depth > 0) {
-        const std::int32_t at = stack[--depth];
-        const Node& node = nodes_[static_cast<std::size_t>(at)];
-        if (box_distance_sq(node.box, p) > range * range) continue;
-        if (node.count == 0) {
-            stack[depth++] = node.right;
-            stack[depth++] = at + 1;
-            continue;
-        }
-        for (std::int32_t k = node.first; k < node.first + node.count; ++k) {
-            const std::int32_t t = order_[static_cast<std::size_t>(k)];
+    visit_leaves(
+        p, [&](double sq) { return sq > range * range; },
+        [&](std::int32_t t) {
             const auto tt = static_cast<std::size_t>(t);
             const TrianglePoint q = closest_on_triangle(p, mesh_.corner(tt, 0), mesh_.corner(tt, 1),
                                                         mesh_.corner(tt, 2));
             const double distance = (p - q.point).norm();
             if (distance <= range) out.push_back({q.point, distance, false, t});
-        }
-    }
+        });
     std::sort(out.begin(), out.end(),
               [](const Foot& l, const Foot& r) { return l.triangle < r.triangle; });
 }

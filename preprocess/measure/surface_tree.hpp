@@ -44,6 +44,8 @@ private:
         std::int32_t right = 0;  ///< inner node: second child; the first is the next node
     };
 
+    template <class Skip, class Visit>
+    void visit_leaves(const Vec3& p, const Skip& skip, const Visit& visit) const;
     std::int32_t build(std::int32_t first, std::int32_t count);
     void build_normals();
     bool is_inside(const Vec3& p, const Foot& foot, int feature) const;
