@@ -35,15 +35,16 @@ void declare(CLI::App& app, Options& o) {
         ->take_all();
     app.add_option("--threads", o.threads, "Threads (default: all cores)")
         ->check(CLI::Range(1, 4096));
-    app.add_option("--simd", o.simd, "Instruction set; this version runs scalar code")
-        ->check(CLI::IsMember({"auto", "scalar"}));
-    app.add_option("--hash-every", o.hash_every, "Print step and state hash every N steps")
-        ->check(CLI::PositiveNumber);
+    app.add_option("--simd", o.simd, "Instruction set; results have the same bits on all")
+        ->check(CLI::IsMember({"auto", "scalar", "sse4", "avx2", "avx512"}));
+    auto* hashes =
+        app.add_option("--hash-every", o.hash_every, "Print step and state hash every N steps")
+            ->check(CLI::PositiveNumber);
     app.add_flag("--check", o.check, "Read and build everything, run nothing");
     app.add_option("--explain", o.explain, "Tell what a case key takes")->type_name("KEY");
     app.add_flag("--print-schema", o.schema, "JSON schema of the case file");
     app.add_flag("--print-defaults", o.defaults, "A complete case with all defaults");
-    app.add_flag("--json", o.json, "Print the summary as JSON on stdout");
+    app.add_flag("--json", o.json, "Print the summary as JSON on stdout")->excludes(hashes);
     app.add_flag("-q,--quiet", o.quiet, "No progress, no messages but errors");
     app.add_option("--color", o.colour, "Colour of messages")
         ->check(CLI::IsMember({"auto", "always", "never"}));
@@ -54,11 +55,10 @@ int report(const ice::Summary& s, const Options& o, const std::string& folder) {
     if (o.json) fmt::print("{}", ice::summary_text(s));
     const char* unit = s.dimension == 2 ? "N/m" : "N";
     ice::say(
-        fmt::format("resistance {:.1f} +- {:.1f} {} (contact {:.1f}, friction {:.1f}), {} of "
+        fmt::format("resistance {:.1f} +- {:.1f} {} (95 %; contact {:.1f}, friction {:.1f}), {} of "
                     "{} floes moved, deepest overlap {:.1f} mm",
                     s.resistance.mean, s.resistance.ci95, unit, s.resistance.contact_mean,
-                    s.resistance.friction_mean, s.floes_moved, s.floes_total,
-                    1e3 * s.max_overlap));
+                    s.resistance.friction_mean, s.floes_moved, s.floes_total, 1e3 * s.max_overlap));
     if (s.lindqvist_submersion)
         ice::say(
             fmt::format("Lindqvist's submersion resistance: {:.1f} N", *s.lindqvist_submersion));
@@ -80,9 +80,11 @@ int run_case(const Options& o, const std::string& command_line) {
     const std::filesystem::path folder =
         o.out.empty() ? std::filesystem::path("results") / parameters.file.stem()
                       : std::filesystem::path(o.out);
-    std::filesystem::create_directories(folder);
+    ice::make_run_folder(folder);
     ice::log_to_file(folder / "run.log");
     ice::say(fmt::format("icesolve {} ({}): {}", ice::version(), ice::git_commit(), command_line));
+    if (o.simd != "auto" && o.simd != "scalar")
+        ice::say_warning("--simd " + o.simd + ": this version has scalar code only and runs that");
     ice::catch_interrupts();
     ice::Progress progress("icesolve", o.quiet);
     const ice::Timer timer;

@@ -266,6 +266,12 @@ std::vector<T> Hdf5File::read(const std::string& name) const {
     const Handle dataset(H5Dopen2(id_, name.c_str(), H5P_DEFAULT), H5Dclose);
     const Handle type(H5Dget_type(dataset), H5Tclose);
     const H5T_class_t kind = H5Tget_class(type);
+    // an array that was never stored takes no room in the file: do not believe its size
+    constexpr std::uint64_t kHarmless = 1u << 26, kBestCompression = 2000;
+    if (count * sizeof(T) > kHarmless &&
+        H5Dget_storage_size(dataset) < count * sizeof(T) / kBestCompression)
+        throw bad_input(describe(name), "claims more values than the file holds",
+                        "make the file again with the tool that wrote it");
     std::vector<T> values(count);
     const bool numeric = kind == H5T_INTEGER || kind == H5T_FLOAT;
     if (!numeric || (count > 0 && H5Dread(dataset, memory_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT,

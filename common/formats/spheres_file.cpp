@@ -84,8 +84,9 @@ private:
               "/", "is not a sphere set (no attribute format = \"icesolve-spheres\")");
         check(file_.read_number_attribute("/", "format_version")[0] == kVersion, "/",
               "has a format_version this program does not know");
-        set.dimension = static_cast<int>(file_.read_number_attribute("/", "dimension")[0]);
-        check(set.dimension == 2 || set.dimension == 3, "dimension", "is neither 2 nor 3");
+        const double dimension = file_.read_number_attribute("/", "dimension")[0];
+        check(dimension == 2.0 || dimension == 3.0, "dimension", "is neither 2 nor 3");
+        set.dimension = static_cast<int>(dimension);
         set.radius = file_.read_number_attribute("/", "radius")[0];
         set.spacing = file_.read_number_attribute("/", "spacing")[0];
         check(set.radius > 0 && std::isfinite(set.radius), "radius", "is not positive");
@@ -141,6 +142,9 @@ private:
         set.centers = points("/center");
         const std::size_t n = set.centers.size();
         check(n > 0, "/center", "is empty");
+        for (const char* name : {"/radius", "/area", "/volume", "/layer", "/region"})
+            check(file_.shape(name) == std::vector<std::uint64_t>{n}, name,
+                  "has another length than /center");
         set.radii = finite("/radius");
         set.normals = points("/normal");
         set.areas = finite("/area");
@@ -156,6 +160,10 @@ private:
         check_regions(set.regions, set.mesh.region_names.size(), "/region");
         for (std::size_t k = 0; k < n; ++k) {
             check(set.radii[k] > 0, "/radius", "holds a radius that is not positive");
+            check(set.areas[k] >= 0, "/area", "holds a negative area");
+            check(set.layers[k] <= 1, "/layer", "holds a layer other than 0 and 1");
+            check(k == 0 || set.layers[k] <= set.layers[k - 1], "/layer",
+                  "does not have the surface spheres first");
             if (set.layers[k] == 0) continue;
             const double length = set.normals[k].norm();
             check(std::abs(length - 1.0) < 1e-3, "/normal",

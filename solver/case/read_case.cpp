@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
 
@@ -14,6 +16,7 @@ namespace ice {
 
 namespace {
 
+constexpr double kMostSteps = 1e8;
 constexpr std::uintmax_t kLargestCase = 64u << 20;  // 64 MB: a million lines fit many times
 
 std::string read_text(const std::filesystem::path& file) {
@@ -40,6 +43,11 @@ std::string toml_text(const Value& value, const Key& key) {
         std::string operator()(const std::string& v) const {
             std::string out = "\"";
             for (const char c : v) {
+                // TOML allows no bare control characters
+                if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
+                    out += fmt::format("\\u{:04X}", static_cast<unsigned>(c));
+                    continue;
+                }
                 if (c == '"' || c == '\\') out += '\\';
                 out += c;
             }
@@ -97,6 +105,22 @@ private:
         mistakes_.texts.push_back(file_.string() + ": error: " + what);
     }
 
+    // ... about a key that was given, at its place
+    void complain_at(const std::string& label, const std::string& what) {
+        const auto place = mistakes_.places.find(label);
+        mistakes_.texts.push_back(
+            (place == mistakes_.places.end() ? file_.string() : place->second) +
+            ": error: " + what);
+    }
+
+    // "floes.0.gap" as people count: floes.1.gap
+    static std::string counted_from_one(const std::string& label) {
+        if (!label.starts_with("floes.")) return label;
+        const auto dot = label.find('.', sizeof("floes.") - 1);
+        return fmt::format("floes.{}{}", std::atol(label.c_str() + sizeof("floes.") - 1) + 1,
+                           label.substr(dot));
+    }
+
     void open_table(const Key& key, std::string& table) {
         const auto dot = key.path.rfind('.');
         const std::string now(dot == std::string_view::npos ? "" : key.path.substr(0, dot));
@@ -125,7 +149,8 @@ private:
         if (given == values_.end() && key.default_text == "-") return;
         if (given == values_.end() && mistakes_.bad_keys.contains(label)) return;
         if (given == values_.end() && key.default_text.empty()) {
-            complain(fmt::format("required key '{}' is missing ({})", label, key.doc));
+            complain(
+                fmt::format("required key '{}' is missing ({})", counted_from_one(label), key.doc));
             return;
         }
         if (given == values_.end()) {
@@ -136,19 +161,19 @@ private:
             if (defaults.empty()) return;
             given = values_.emplace(label, defaults.begin()->second).first;
         }
-        if (key.kind == Kind::path) given->second = resolve_path(key, given->second);
+        if (key.kind == Kind::path) given->second = resolve_path(label, given->second);
         key.store(case_, group, given->second);
         case_.resolved += fmt::format("{} = {}\n", key.path.substr(key.path.rfind('.') + 1),
                                       toml_text(given->second, key));
     }
 
-    Value resolve_path(const Key& key, const Value& value) {
+    Value resolve_path(const std::string& label, const Value& value) {
         std::filesystem::path path = std::get<std::string>(value);
         if (path.is_relative()) path = std::filesystem::absolute(file_).parent_path() / path;
         path = path.lexically_normal();
         if (!std::filesystem::exists(path))
-            complain(fmt::format("{}: file {} not found; make it with spherize", key.path,
-                                 path.string()));
+            complain_at(label, fmt::format("{}: file {} not found; make it with spherize",
+                                           counted_from_one(label), path.string()));
         return path.string();
     }
 
@@ -166,25 +191,55 @@ private:
     }
 
     void check_case() {
-        for (std::size_t g = 0; g < groups_; ++g) {
-            FloeGroup& group = case_.floes[g];
-            if (group.pattern == Pattern::file)
-                complain(
-                    fmt::format("floes.{}.pattern = \"file\" is not available in this version;"
-                                " use grid, brick or single",
-                                g + 1));
-            if (group.pattern == Pattern::single &&
-                !values_.contains(fmt::format("floes.{}.position", g)))
-                complain(fmt::format("floes.{}.position is missing: pattern \"single\" needs it",
-                                     g + 1));
-            if (group.orientation.norm() < 1e-6)
-                complain(fmt::format("floes.{}.orientation is zero", g + 1));
-            group.orientation.normalize();
-        }
+        for (std::size_t g = 0; g < groups_; ++g) check_group(g);
         if (case_.average_from >= case_.duration)
-            complain("output.average_from is not before the end (simulation.duration)");
+            complain_at("output.average_from",
+                        "output.average_from is not before the end (simulation.duration)");
         if (case_.time_step > case_.duration)
-            complain("simulation.time_step is longer than simulation.duration");
+            complain_at("simulation.time_step",
+                        "simulation.time_step is longer than simulation.duration");
+        if (case_.duration / case_.time_step > kMostSteps)
+            complain_at("simulation.time_step",
+                        fmt::format("simulation.duration / time_step asks for more than {:g} steps",
+                                    kMostSteps));
+        std::vector<int> track = case_.track;
+        std::sort(track.begin(), track.end());
+        const auto twice = std::adjacent_find(track.begin(), track.end());
+        if (twice != track.end())
+            complain_at("output.track", fmt::format("output.track names floe {} twice", *twice));
+    }
+
+    void check_group(std::size_t g) {
+        FloeGroup& group = case_.floes[g];
+        const auto label = [&](const char* key) { return fmt::format("floes.{}.{}", g, key); };
+        const auto wrong = [&](const char* key, const std::string& what) {
+            complain_at(label(key), fmt::format("floes.{}.{} {}", g + 1, key, what));
+        };
+        if (group.pattern == Pattern::file)
+            wrong("pattern",
+                  "= \"file\" is not available in this version; use grid, brick or single");
+        if (group.pattern == Pattern::single && !values_.contains(label("position")))
+            wrong("position", "is missing: pattern \"single\" needs it");
+        if (group.orientation.norm() < 1e-6)
+            wrong("orientation", "is zero");
+        else
+            group.orientation.normalize();
+        const bool moves = !group.velocity.isZero(0.0) || !group.angular_velocity.isZero(0.0);
+        if (moves && group.hold != Hold::never)
+            wrong("velocity", "is given, but a held floe does not move; set hold = \"never\"");
+        if (case_.dimension == 2) check_plane(group, wrong);
+    }
+
+    // 2D is motion in the plane y = 0: nothing may lean or move out of it
+    template <class Wrong>
+    static void check_plane(const FloeGroup& group, const Wrong& wrong) {
+        const std::string out = "leaves the plane y = 0 of a 2D case";
+        if (group.count[1] != 1) wrong("count", "has more than one row along y in a 2D case");
+        if (group.position.y() != 0.0) wrong("position", out);
+        if (group.velocity.y() != 0.0) wrong("velocity", out);
+        if (group.orientation.x() != 0.0 || group.orientation.z() != 0.0) wrong("orientation", out);
+        if (group.angular_velocity.x() != 0.0 || group.angular_velocity.z() != 0.0)
+            wrong("angular_velocity", out);
     }
 
     std::filesystem::path file_;
@@ -223,7 +278,7 @@ Case read_case(const std::filesystem::path& file, const std::vector<std::string>
     std::size_t groups = 0;
     Values values = read_toml(read_text(file), file.string(), mistakes, groups);
     for (const std::string& text : overrides) {
-        Values given = read_override(text, mistakes);
+        Values given = read_override(text, groups, mistakes);
         spread_to_groups(given, groups);
         // a speed replaces a table and the other way round
         if (given.contains("hull.speed")) values.erase("hull.speed_table");

@@ -58,8 +58,16 @@ private:
                 path == "floes" && std::all_of(name.begin(), name.end(),
                                                [](unsigned char c) { return std::isdigit(c); });
             if (number && node.is_table()) {  // an override's floes.2.gap, numbered from 1
-                const auto group = std::to_string(std::max(std::atol(name.c_str()), 1l) - 1);
-                walk(*node.as_table(), path, label + "." + group, values, floe_groups);
+                const long group = name.size() < 9 ? std::atol(name.c_str()) : 0;
+                if (group < 1 || group > static_cast<long>(floe_groups))
+                    complain(key.source(),
+                             fmt::format("there is no floes.{}: the case has {} group(s), numbered "
+                                         "from 1",
+                                         name, floe_groups),
+                             name.size());
+                else
+                    walk(*node.as_table(), path, label + "." + std::to_string(group - 1), values,
+                         floe_groups);
             } else if (const auto* rows = node.as_array(); rows && full == "floes") {
                 walk_floes(*rows, values, floe_groups);
             } else if (const auto* inner = node.as_table(); inner && is_table(full)) {
@@ -97,6 +105,8 @@ private:
                      name.str().size());
             return;
         }
+        mistakes_.places[label] =
+            fmt::format("{}:{}:{}", name_, name.source().begin.line, name.source().begin.column);
         Value value;
         if (read_value(*key, node, value))
             values[label] = value;
@@ -267,7 +277,7 @@ Values read_toml(const std::string& text, const std::string& name, Mistakes& mis
     return Document(text, name, mistakes).read(text, floe_groups);
 }
 
-Values read_override(const std::string& text, Mistakes& mistakes) {
+Values read_override(const std::string& text, std::size_t floe_groups, Mistakes& mistakes) {
     const auto equals = text.find('=');
     if (equals == std::string::npos || equals == 0) {
         mistakes.texts.push_back("--set " + text + ": error: write it as key=value");
@@ -276,8 +286,7 @@ Values read_override(const std::string& text, Mistakes& mistakes) {
     const std::string key = text.substr(0, equals), value = text.substr(equals + 1);
     std::string line = key + " = " + value;
     if (!parses(line)) line = key + " = \"" + value + "\"";
-    std::size_t groups = 0;
-    return read_toml(line, "--set", mistakes, groups);
+    return read_toml(line, "--set", mistakes, floe_groups);
 }
 
 }  // namespace ice

@@ -15,6 +15,7 @@ namespace ice {
 struct Mistakes {
     std::vector<std::string> texts;
     std::set<std::string> bad_keys;  ///< keys given with a bad value: not missing as well
+    std::map<std::string, std::string> places;  ///< "file:line:column" of each key given
 };
 
 /// Values of the keys given, checked against the schema. Keys of [[floes]] carry the group's
@@ -27,6 +28,7 @@ Values read_toml(const std::string& text, const std::string& name, Mistakes& mis
                  std::size_t& floe_groups);
 
 /// Parses one `key=value` override: the value as TOML, or as text where that fails.
-Values read_override(const std::string& text, Mistakes& mistakes);
+/// @param floe_groups  [[floes]] tables of the case; an override of another is a mistake
+Values read_override(const std::string& text, std::size_t floe_groups, Mistakes& mistakes);
 
 }  // namespace ice

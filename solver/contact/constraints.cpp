@@ -72,7 +72,10 @@ void build_constraints(const Bodies& bodies, const std::vector<Contact>& contact
         c.tangent_mass = tangent_response > 0.0 ? 1.0 / tangent_response : 0.0;
         c.friction =
             c.a == static_cast<std::int32_t>(kShip) ? law.friction_ship_ice : law.friction_ice_ice;
-        c.strength = law.crushing_pressure * contact.area * law.dt;
+        // rigid stays rigid for a sphere that stands for no area
+        c.strength = std::isinf(law.crushing_pressure)
+                         ? law.crushing_pressure
+                         : law.crushing_pressure * contact.area * law.dt;
         c.gap = contact.gap;
         c.approach = relative_velocity(bodies, c).dot(c.normal);
         out[k] = c;

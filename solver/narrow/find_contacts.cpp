@@ -96,10 +96,12 @@ double facing_area(const Shape& shape, std::int32_t k, const Vec3& outward) {
     return shape.area[k] * std::max(facing, kLeastFacing);
 }
 
-std::int32_t contacts_of(const std::vector<Candidate>& all, std::int32_t Candidate::*side,
-                         std::int32_t sphere) {
-    return static_cast<std::int32_t>(std::count_if(
-        all.begin(), all.end(), [&](const Candidate& c) { return c.*side == sphere; }));
+// Contacts per sphere of one side; spheres not in contact have none.
+std::vector<std::int32_t> count_contacts(const std::vector<Candidate>& all,
+                                         std::int32_t Candidate::*side, std::size_t spheres) {
+    std::vector<std::int32_t> count(spheres, 0);
+    for (const Candidate& c : all) ++count[static_cast<std::size_t>(c.*side)];
+    return count;
 }
 
 void emit(const PairView& view, const std::vector<Candidate>& candidates,
@@ -107,6 +109,11 @@ void emit(const PairView& view, const std::vector<Candidate>& candidates,
     const Bodies& bodies = view.scene.bodies;
     const Mat3& rotation = bodies.rotation[view.pair.a];
     const bool ship = view.pair.a == static_cast<std::int32_t>(kShip);
+    if (candidates.empty()) return;
+    const auto shared_b = count_contacts(candidates, &Candidate::j, view.shape_b.center.size());
+    // the hull has many spheres and its shares are not asked for
+    const auto shared_a = count_contacts(ship ? std::vector<Candidate>{} : candidates,
+                                         &Candidate::i, ship ? 0 : view.shape_a.center.size());
     std::int32_t last_probe = -1, face = 0;
     for (const Candidate& c : candidates) {
         Contact contact;
@@ -125,10 +132,10 @@ void emit(const PairView& view, const std::vector<Candidate>& candidates,
         contact.point = rotation * local + bodies.position[view.pair.a];
         const Vec3 normal_b = view.turn.transpose() * c.gap.normal;
         contact.area =
-            facing_area(view.shape_b, c.j, -normal_b) / contacts_of(candidates, &Candidate::j, c.j);
+            facing_area(view.shape_b, c.j, -normal_b) / shared_b[static_cast<std::size_t>(c.j)];
         if (!ship)
             contact.area = std::min(contact.area, facing_area(view.shape_a, c.i, c.gap.normal) /
-                                                      contacts_of(candidates, &Candidate::i, c.i));
+                                                      shared_a[static_cast<std::size_t>(c.i)]);
         contact.region = ship ? view.shape_a.region[c.i] : -1;
         // a probe slides over many surface spheres: the probe and its face's rank are what lasts
         const std::int32_t probe = (c.probe() << 1) | (c.gap.a_is_surface ? 1 : 0);

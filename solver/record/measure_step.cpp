@@ -52,9 +52,9 @@ StepRecord measure_step(const Scene& scene, const std::vector<Contact>& contacts
     for (std::size_t k = 0; k < constraints.size(); ++k) {
         const Constraint& c = constraints[k];
         const double normal = c.total_normal();
+        out.max_overlap = std::max(out.max_overlap, -c.gap);
         if (normal <= 0.0) continue;
         ++out.contacts;
-        out.max_overlap = std::max(out.max_overlap, -c.gap);
         if (c.a != static_cast<std::int32_t>(kShip)) continue;
         // impulses act on the floe; the ship feels the opposite
         const Vec3 push = -normal * c.normal, rub = -c.total_tangent();

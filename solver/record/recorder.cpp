@@ -184,9 +184,9 @@ void Recorder::finish(const StepView& view, Summary& summary) {
         summary.floes_moved += b.held[i] ? 0 : 1;
         summary.floes_behind += is_behind(view.scene, i) ? 1 : 0;
         summary.ice_spheres += static_cast<std::int64_t>(
-            view.scene.shapes[static_cast<std::size_t>(b.shape[i])].center.size());
+            view.scene.shapes[static_cast<std::size_t>(b.shape[i])].sphere_count);
     }
-    summary.hull_spheres = static_cast<std::int64_t>(view.scene.shapes[0].center.size());
+    summary.hull_spheres = static_cast<std::int64_t>(view.scene.shapes[0].sphere_count);
 }
 
 }  // namespace ice

@@ -13,7 +13,7 @@ constexpr std::size_t kBatches = 20;
 constexpr double kStudent = 2.093;  // t(0.975, 19)
 
 double mean_of(std::span<const double> series) {
-    return series.empty() ? 0.0
+    return series.empty() ? std::nan("")
                           : std::accumulate(series.begin(), series.end(), 0.0) /
                                 static_cast<double>(series.size());
 }
@@ -29,7 +29,7 @@ double standard_deviation(std::span<const double> series) {
 }
 
 MeanInterval batch_means(std::span<const double> series) {
-    MeanInterval out{mean_of(series), 0.0};
+    MeanInterval out{mean_of(series), std::nan("")};
     const std::size_t length = series.size() / kBatches;
     if (length < 2) return out;
     std::vector<double> means(kBatches);

@@ -12,17 +12,17 @@ namespace ice {
 
 namespace {
 
-// Steps beyond this share that did not converge or jammed are worth a warning.
+// Steps beyond this share that did not converge are worth a warning; a jam always is.
 constexpr double kWorthWarning = 0.01;
 
 ForceStatistics statistics(const std::vector<double>& total, const std::vector<double>& contact,
                            const std::vector<double>& friction, double sign) {
     ForceStatistics out;
     const MeanInterval interval = batch_means(total);
-    out.mean = sign * interval.mean;
+    out.mean = sign * interval.mean + 0.0;  // no -0
     out.ci95 = interval.half_width;
-    out.contact_mean = sign * batch_means(contact).mean;
-    out.friction_mean = sign * batch_means(friction).mean;
+    out.contact_mean = sign * batch_means(contact).mean + 0.0;
+    out.friction_mean = sign * batch_means(friction).mean + 0.0;
     out.std = standard_deviation(total);
     for (const double force : total)
         if (std::abs(force) > std::abs(out.max)) out.max = sign * force;
@@ -108,9 +108,10 @@ void Tally::fill(Summary& summary) const {
                         unconverged_, steps_));
     if (jammed_steps_ > 0)
         summary.warnings.push_back(fmt::format(
-            "jam: in {} of {} steps a floe could not give way between hull and held ice, first "
-            "floe {} at t = {:.2f} s, x = {:.2f}, y = {:.2f}, z = {:.2f} m; with rigid contact "
-            "the force there depends on time_step and iterations: set contact.crushing_pressure",
+            "jam: in {} of {} steps a floe squeezed between the hull and other ice could not give "
+            "way, first floe {} at t = {:.2f} s, x = {:.2f}, y = {:.2f}, z = {:.2f} m; with rigid "
+            "contact the force there depends on time_step and iterations: set "
+            "contact.crushing_pressure",
             jammed_steps_, steps_, first_jam_floe_, first_jam_time_, first_jam_point_.x(),
             first_jam_point_.y(), first_jam_point_.z()));
 }

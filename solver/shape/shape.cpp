@@ -91,6 +91,7 @@ Shape build_shape(const SphereSet& set, bool about_centre_of_mass) {
     Shape shape;
     const Vec3 origin = about_centre_of_mass ? set.solid.centroid : Vec3::Zero();
     shape.dimension = set.dimension;
+    shape.sphere_count = set.size();
     shape.region_names = set.mesh.region_names;
     copy_surface_spheres(set, origin, shape);
     if (shape.center.empty())

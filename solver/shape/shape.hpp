@@ -32,9 +32,10 @@ struct Shape {
     std::vector<double> area;          ///< share of the surface [m2]
     std::vector<std::int32_t> region;  ///< row of region_names
     std::vector<std::string> region_names;
-    SphereGrid grid;              ///< of `center`
-    double largest_radius = 0.0;  ///< [m]
-    double reach = 0.0;           ///< how far from its centre a sphere stands for the surface [m]
+    std::size_t sphere_count = 0;  ///< of the whole set, interior included
+    SphereGrid grid;               ///< of `center`
+    double largest_radius = 0.0;   ///< [m]
+    double reach = 0.0;            ///< how far from its centre a sphere stands for the surface [m]
 
     TriangleMesh mesh;             ///< closed, body axes
     std::vector<Panel> panels;     ///< the mesh in pieces, for drag

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/base/error.hpp"
@@ -22,12 +23,14 @@ StepView view_of(const World& w) {
     return {w.scene, w.contacts, w.constraints, w.time, w.impacts.converged && w.rest.converged};
 }
 
+constexpr double kFarAway = 1e7;  // [m]
+
 void check_finite(const World& w) {
     const Bodies& b = w.scene.bodies;
     for (std::size_t i = 1; i < b.size(); ++i)
-        if (!b.position[i].allFinite() || !b.velocity[i].allFinite())
+        if (!(b.position[i].norm() < kFarAway) || !b.velocity[i].allFinite())
             throw run_failed(fmt::format("step {}, floe {}", w.steps, i),
-                             "its position is no longer a number",
+                             "its position is no longer a number, or is beyond any sea",
                              "use a smaller simulation.time_step");
 }
 
@@ -63,12 +66,42 @@ void fill_run(const World& w, double wall_seconds, Summary& s) {
         s.stage_seconds[kStageNames[k]] = w.stage_seconds[k];
 }
 
-void make_folder(const std::filesystem::path& folder) {
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (error)
-        throw run_failed(folder.string(), "cannot be created: " + error.message(),
-                         "choose another folder with --out");
+// What two floes, or a floe and the hull, overlap at the start is pushed out with large forces that
+// say nothing about the ice: worth a warning that names the place.
+constexpr double kInitialOverlap = 1e-3;  // [m]
+
+void warn_of_initial_overlap(const World& w, Summary& summary) {
+    std::vector<BodyPair> pairs;
+    std::vector<Contact> contacts;
+    ContactFinder finder;
+    find_pairs(w.scene, 0.0, pairs);
+    finder.find(w.scene, pairs, w.parameters.normal, 0.0, 0.0, contacts);
+    const auto deepest =
+        std::min_element(contacts.begin(), contacts.end(),
+                         [](const Contact& l, const Contact& r) { return l.gap < r.gap; });
+    if (deepest == contacts.end() || deepest->gap > -kInitialOverlap) return;
+    const auto name = [](std::int32_t body) {
+        return body == 0 ? std::string("the hull") : fmt::format("floe {}", body);
+    };
+    summary.warnings.push_back(fmt::format(
+        "{} and {} overlap by {:.3g} m at the start, at x = {:.2f}, y = {:.2f}, z = {:.2f} m; move "
+        "the hull or widen floes.gap",
+        name(deepest->a), name(deepest->b), -deepest->gap, deepest->point.x(), deepest->point.y(),
+        deepest->point.z()));
+}
+
+void write_summary(const World& w, const RunOptions& options, double wall_seconds, double thickness,
+                   Recorder& recorder, Summary& summary) {
+    recorder.finish(view_of(w), summary);
+    summary.lindqvist_submersion = lindqvist_of(w, thickness);
+    fill_run(w, wall_seconds, summary);
+    write_text_file(options.folder / "summary.json", summary_text(summary));
+}
+
+void remove_parts(const std::filesystem::path& folder) {
+    std::error_code ignored;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, ignored))
+        if (entry.path().extension() == ".part") std::filesystem::remove(entry.path(), ignored);
 }
 
 }  // namespace
@@ -80,38 +113,66 @@ World build_world(const Case& parameters) {
     return world;
 }
 
+void make_run_folder(const std::filesystem::path& folder) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error)
+        throw run_failed(folder.string(), "cannot be created: " + error.message(),
+                         "choose another folder with --out");
+    // a run into the same folder replaces the old one: nothing of it may look like a result
+    std::error_code ignored;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
+        const std::string name = entry.path().filename().string();
+        const bool old = name == "summary.json" || name == "report.html" || name == "run.h5" ||
+                         name == "forces.csv" || name.starts_with("floe_") ||
+                         name.ends_with(".part");
+        if (old) std::filesystem::remove(entry.path(), ignored);
+    }
+}
+
 Summary run(World& world, const RunOptions& options) {
     const Timer timer;
     const Case& p = world.parameters;
-    make_folder(options.folder);
-    // a run into the same folder replaces the old one: nothing of it may look like a result
-    std::error_code ignored;
-    for (const char* name : {"summary.json", "report.html", "run.h5", "forces.csv"})
-        std::filesystem::remove(options.folder / name, ignored);
-    write_text_file(options.folder / "case.resolved.cfg",
-                    fmt::format("# {} {} ({})\n# {}\n{}", "icesolve", version(), git_commit(),
-                                options.command_line, p.resolved));
+    make_run_folder(options.folder);
+    std::string command = options.command_line;
+    std::replace(command.begin(), command.end(), '\n', ' ');  // it stands in a comment
+    write_text_file(
+        options.folder / "case.resolved.cfg",
+        fmt::format("# icesolve {} ({})\n# {}\n{}", version(), git_commit(), command, p.resolved));
     const double thickness = ice_thickness(world);
+    const auto steps = static_cast<std::int64_t>(std::llround(p.duration / p.time_step));
 
     Recorder recorder(options.folder, p, world.scene, options.command_line);
     Summary summary;
     summary.command_line = options.command_line;
-    const auto steps = static_cast<std::int64_t>(std::llround(p.duration / p.time_step));
-    while (world.steps < steps) {
-        step(world);
-        recorder.add(view_of(world));
-        if (world.steps % 100 == 0) check_finite(world);
-        const double done = static_cast<double>(world.steps) / static_cast<double>(steps);
-        if (!options.keep_going(done, world)) {
-            summary.status = "interrupted";
-            break;
+    if (std::abs(static_cast<double>(steps) * p.time_step - p.duration) > 1e-9 * p.duration)
+        summary.warnings.push_back(
+            fmt::format("simulation.duration is not a whole number of steps: {:g} s are simulated",
+                        static_cast<double>(steps) * p.time_step));
+    warn_of_initial_overlap(world, summary);
+    try {
+        while (world.steps < steps) {
+            step(world);
+            check_finite(world);
+            recorder.add(view_of(world));
+            const double done = static_cast<double>(world.steps) / static_cast<double>(steps);
+            if (!options.keep_going(done, world)) {
+                summary.status = "interrupted";
+                break;
+            }
         }
+        write_summary(world, options, timer.seconds(), thickness, recorder, summary);
+    } catch (const Error& error) {
+        // what was computed up to here is kept where it can be written, and says that it failed
+        summary.status = "failed";
+        summary.warnings.push_back(error.what());
+        try {
+            write_summary(world, options, timer.seconds(), thickness, recorder, summary);
+        } catch (const Error&) {
+            remove_parts(options.folder);
+        }
+        throw;
     }
-    check_finite(world);
-    recorder.finish(view_of(world), summary);
-    summary.lindqvist_submersion = lindqvist_of(world, thickness);
-    fill_run(world, timer.seconds(), summary);
-    write_text_file(options.folder / "summary.json", summary_text(summary));
     return summary;
 }
 

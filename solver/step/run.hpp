@@ -24,10 +24,14 @@ struct RunOptions {
 /// A case made ready: sphere sets read, floes placed.
 World build_world(const Case& parameters);
 
+/// Creates the run folder and removes an older run's files from it.
+/// @throws Error (exit code 1) when it cannot be created
+void make_run_folder(const std::filesystem::path& folder);
+
 /// Runs a world to its case's duration and writes the run folder.
 ///
 /// A body whose position is no longer finite ends the run with an Error (exit code 1) naming step
-/// and floe.
+/// and floe; the folder then holds what was computed, with the status "failed".
 Summary run(World& world, const RunOptions& options);
 
 }  // namespace ice
