@@ -230,6 +230,74 @@ TEST_CASE("the same case gives the same state hash for 1, 2, 3 and 4 threads",
     CHECK(hashes.size() == 1);
 }
 
+TEST_CASE("a 3D field of 600 moving floes gives the same hash for 1, 2 and 3 threads",
+          "[cli][determinism]") {
+    // large enough that every loop that threads share really is shared
+    const Workshop w;
+    REQUIRE(w.run("spherize " ICE_MESHES "/paper-hull-3d.obj -s 0.2 -q -o hull.h5").code == 0);
+    REQUIRE(w.run("spherize " ICE_MESHES
+                  "/paper-floe-3d.obj -r 0.05 --arrangement lattice -q -o floe.h5")
+                .code == 0);
+    w.write("field.cfg", R"([simulation]
+duration = 0.4
+[hull]
+spheres = "hull.h5"
+position = [-9.3, 0, 0]
+speed = 1.0
+[[floes]]
+spheres = "floe.h5"
+count = [30, 20]
+gap = [0.0, 0.0]
+hold = "never"
+)");
+    std::set<std::uint64_t> hashes;
+    double contacts = 0.0;
+    for (const int threads : {1, 2, 3}) {
+        REQUIRE(w.run("icesolve field.cfg -q --out r --threads " + std::to_string(threads)).code ==
+                0);
+        const Summary s = read_summary(w / "r/summary.json");
+        hashes.insert(s.state_hash);
+        contacts = s.contacts_max;
+    }
+    CHECK(contacts > 0.0);
+    CHECK(hashes.size() == 1);
+}
+
+TEST_CASE("a run that fails on the way says so in its summary and leaves no .part files",
+          "[cli][errors]") {
+    const Workshop w;
+    w.make_case("[environment]\ngravity = 0.0\n");
+    const Result r = w.run(
+        "icesolve case.cfg --set floes.hold=never --set floes.pattern=single "
+        "--set floes.position=[5,0,-0.16] --set floes.velocity=[50,0,0] --set drag.model=none "
+        "--set simulation.duration=999000 --set simulation.time_step=1 "
+        "--set output.track=[] --set output.history_every=1000 --set output.frames_every=10000");
+    CAPTURE(r.err);
+    CHECK(r.code == 1);
+    CHECK_THAT(r.err, Catch::Contains("step") && Catch::Contains("floe 1"));
+    CHECK(read_summary(w / "results/case/summary.json").status == "failed");
+    for (const std::string& name : w.files()) CHECK(name.find(".part") == std::string::npos);
+}
+
+TEST_CASE("an old run's files do not survive a new run into the same folder", "[cli]") {
+    const Workshop w;
+    w.make_case();
+    REQUIRE(w.run("icesolve case.cfg -q").code == 0);
+    REQUIRE(fs::exists(w / "results/case/floe_1.csv"));
+    w.write("results/case/run.h5.part", "old");
+    REQUIRE(w.run("icesolve case.cfg -q --set output.track=[]").code == 0);
+    CHECK_FALSE(fs::exists(w / "results/case/floe_1.csv"));
+    CHECK_FALSE(fs::exists(w / "results/case/run.h5.part"));
+}
+
+TEST_CASE("floes that overlap at the start are named in the warnings", "[cli]") {
+    const Workshop w;
+    w.make_case();
+    const Result r = w.run("icesolve case.cfg --set hull.position=[-8,0,0]");
+    CHECK(r.code == 0);
+    CHECK_THAT(r.err, Catch::Contains("the hull and floe") && Catch::Contains("overlap by"));
+}
+
 TEST_CASE("the resolved case repeats the run to the same bits", "[cli][determinism]") {
     const Workshop w;
     w.make_case();

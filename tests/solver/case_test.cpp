@@ -103,6 +103,14 @@ TEST_CASE("the resolved case reads back as the same case", "[case][property]") {
     CHECK(second.restitution == 0.12345678901234567);
 }
 
+TEST_CASE("a title with control characters survives in the resolved case", "[case]") {
+    const CaseFolder folder(with("\"test\"", R"("a\nb\t\"c\" \\ d")"));
+    const Case first = read_case(folder.file());
+    CHECK(first.title == "a\nb\t\"c\" \\ d");
+    const CaseFolder again(first.resolved);
+    CHECK(read_case(again.file()).title == first.title);
+}
+
 TEST_CASE("overrides are read as TOML, then as text with a unit", "[case]") {
     const CaseFolder folder(kGood);
     const Case c =
@@ -140,6 +148,23 @@ TEST_CASE("mistakes are named with line, column and remedy", "[case][errors]") {
     CHECK(contains(complaint(kGood, {"floes.pattern=file"}), "not available"));
     CHECK(contains(complaint(kGood, {"floes.pattern=single"}), "position is missing"));
     CHECK(contains(complaint(kGood, {"output.average_from=99"}), "not before the end"));
+    CHECK(contains(complaint(kGood, {"output.track=[2,2]"}), "names floe 2 twice"));
+    CHECK(contains(complaint(kGood, {"floes.2.gap=[0,0]"}), "there is no floes.2"));
+    CHECK(contains(complaint(kGood, {"floes.0.gap=[0,0]"}), "there is no floes.0"));
+    CHECK(contains(complaint(kGood, {"simulation.time_step=1e-6", "simulation.duration=1e6"}),
+                   "more than 1e+08 steps"));
+    CHECK(contains(complaint(with("spheres = \"floe.spheres.h5\"", "")),
+                   "'floes.1.spheres' is missing"));
+    CHECK(contains(complaint(with("floe.spheres.h5", "flow.spheres.h5")), ":9:1: error:"));
+    const std::vector<std::string> single{"floes.pattern=single", "floes.position=[0,0]",
+                                          "floes.velocity=[1,0,0]"};
+    CHECK(contains(complaint(kGood, single), "a held floe does not move"));
+    for (const char* out : {"floes.position=[0,3,0]", "floes.orientation=[1,0.1,0,0]",
+                            "floes.count=[5,3]", "floes.velocity=[0,1,0]"})
+        CHECK(contains(
+            complaint(kGood, {"simulation.dimension=2", "floes.hold=never", "floes.pattern=single",
+                              "floes.position=[0,0,0]", "floes.count=[5,1]", out}),
+            " 2D case"));
 }
 
 TEST_CASE("all mistakes come in one go", "[case][errors]") {
@@ -157,5 +182,16 @@ TEST_CASE("the default case parses as TOML and every key explains itself", "[cas
         CHECK(contains(explain_key(std::string(key.path)), key.path.data()));
     CHECK_THROWS_WITH(explain_key("contact.restitutoin"), Catch::Contains("contact.restitution"));
     CHECK(contains(default_case_text(), "restitution = 0.3"));
+    // what is printed reads back without a mistake, once the required keys are filled in
+    std::string text = default_case_text();
+    for (const auto& [from, to] : std::vector<std::pair<std::string, std::string>>{
+             {"# duration = ...", "duration = 1.0"},
+             {"[hull]\n# spheres = ...", "[hull]\nspheres = \"hull.spheres.h5\""},
+             {"# speed = ...", "speed = 1.0"},
+             {"[[floes]]\n# spheres = ...", "[[floes]]\nspheres = \"floe.spheres.h5\""}}) {
+        REQUIRE(text.find(from) != std::string::npos);
+        text.replace(text.find(from), from.size(), to);
+    }
+    CHECK(complaint(text) == "");
     CHECK(contains(case_json_schema(), "\"crushing_pressure\""));
 }

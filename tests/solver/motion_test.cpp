@@ -162,3 +162,103 @@ TEST_CASE("a held floe stays until the ship touches it, and 'always' stays for g
     CHECK(w.scene.bodies.held[i] == (hold == Hold::always ? 1 : 0));
     CHECK((w.scene.bodies.position[i].x() > 1.5) == (hold != Hold::always));
 }
+
+TEST_CASE("until-contact: a moving floe releases the next in a row, until-hull-contact does not",
+          "[step][hold]") {
+    const Hold hold = GENERATE(Hold::until_contact, Hold::until_hull_contact);
+    Case p = test::empty_space(0.01);
+    p.floes.resize(2);
+    p.floes[0].hold = Hold::never;
+    p.floes[1].hold = hold;
+    World w = test::plate_world(p, Vec3(1, 1, 1), 0.1, 0.2, 50.0);
+    const auto box = test::add_shape(w, test::make_box_set(Vec3(1, 0.8, 0.3), 0.05, 0.1));
+    const std::size_t first =
+        add_floe(w.scene, box, 900.0, Vec3(0, 0, 0), Quaternion::Identity(), 0, false);
+    const std::size_t next =
+        add_floe(w.scene, box, 900.0, Vec3(1.1, 0, 0), Quaternion::Identity(), 1, true);
+    Bodies& b = w.scene.bodies;
+    b.momentum[first] = b.mass[first] * Vec3(1, 0, 0);
+    update_derived(b, first);
+    for (int k = 0; k < 30; ++k) step(w);
+    CHECK(b.held[next] == (hold == Hold::until_contact ? 0 : 1));
+    if (hold == Hold::until_contact) {
+        // two equal masses, e = 0.3: (1 - e) / 2 and (1 + e) / 2 of the speed
+        CHECK(b.velocity[first].x() == Approx(0.35).epsilon(1e-6));
+        CHECK(b.velocity[next].x() == Approx(0.65).epsilon(1e-6));
+    } else {
+        // as from a wall; 24 contacts share it, and 1000 iterations leave 3e-5 of it
+        CHECK(b.velocity[first].x() == Approx(-0.3).epsilon(1e-4));
+    }
+}
+
+TEST_CASE("a crushed patch carries pressure x area, whatever the spheres", "[step][analytic]") {
+    // a floe driven against a plate: p A with A the face's share of the contacts
+    const double spacing = GENERATE(0.05, 0.1);
+    Case p = test::empty_space(0.01);
+    p.crushing_pressure = 1e3;  // 1 kPa on about 0.8 m2: far less than what would stop the floe
+    p.friction_ship_ice = 0.0;
+    World w = test::plate_world(p, Vec3(4, 4, 0.4), 0.1, 0.1, 0.0);
+    const SphereSet set = test::make_box_set(Vec3(1, 0.8, 0.3), 0.05, spacing);
+    const auto box = test::add_shape(w, set);
+    const std::size_t i =
+        add_floe(w.scene, box, 900.0, Vec3(0.01, 0.02, -0.1501), Quaternion::Identity(), 0, false);
+    w.scene.bodies.momentum[i] = w.scene.bodies.mass[i] * Vec3(0, 0, 1.0);
+    update_derived(w.scene.bodies, i);
+    step(w);
+    // the test set gives every sphere on the upper face a cell of spacing^2 there
+    double area = 0.0;
+    for (std::size_t k = 0; k < set.size(); ++k)
+        if (set.normals[k].z() > 0.3) area += spacing * spacing;
+    CHECK(-test::ship_on_ice(w).first.z() == Approx(1e3 * area).epsilon(1e-6));
+}
+
+TEST_CASE("2D: a prism that hits a plate off its centre turns as plane mechanics says",
+          "[step][2d][analytic]") {
+    Case p = test::empty_space(0.001);
+    p.dimension = 2;
+    p.restitution = 0.3;
+    p.friction_ship_ice = 0.0;
+    World w;
+    w.parameters = p;
+    w.scene = make_scene(build_shape(test::make_box_set(Vec3(4, 1, 0.4), 0.1, 0.05, 2), false),
+                         Vec3(0, 0, 0.2), Vec3::Zero());
+    const auto box = test::add_shape(w, test::make_box_set(Vec3(1, 1, 0.4), 0.1, 0.05, 2));
+    // turned by 0.3 rad about y: the corner disc at (-0.4, 0, 0.1) of its axes is the highest
+    const double turn = 0.3, cosine = std::cos(turn), sine = std::sin(turn);
+    const Vec3 corner(-0.4 * cosine + 0.1 * sine, 0, 0.4 * sine + 0.1 * cosine);
+    const std::size_t i = add_floe(w.scene, box, 900.0, Vec3(0, 0, -corner.z() - 0.1 - 1e-5),
+                                   Quaternion(Eigen::AngleAxisd(turn, Vec3::UnitY())), 0, false);
+    Bodies& b = w.scene.bodies;
+    b.momentum[i] = b.mass[i] * Vec3(0, 0, 0.5);
+    update_derived(b, i);
+    step(w);
+    // J = (1 + e) v / (1/m + x^2 / I), down on the floe at the lever arm x of the corner
+    const double inertia = 900.0 * 0.4 * (1 + 0.16) / 12, x = corner.x();
+    const double impulse = 1.3 * 0.5 / (1 / b.mass[i] + x * x / inertia);
+    CHECK(b.velocity[i].z() == Approx(0.5 - impulse / b.mass[i]).epsilon(1e-9));
+    // moment about y of a force -J e_z at x: x J
+    CHECK(b.angular_velocity[i].y() == Approx(x * impulse / inertia).epsilon(1e-9));
+    CHECK(b.velocity[i].y() == 0.0);
+    CHECK(b.angular_velocity[i].x() == 0.0);
+    CHECK(b.angular_velocity[i].z() == 0.0);
+}
+
+TEST_CASE("drag slows a motion down but never turns it round, however long the step",
+          "[step][water]") {
+    Case p = test::empty_space(1.0);
+    p.drag = GENERATE(DragModel::projected, DragModel::panel);
+    p.drag_coefficient = 100.0;
+    World w = test::plate_world(p, Vec3(1, 1, 1), 0.1, 0.2, 100.0);
+    const auto box = test::add_shape(w, test::make_box_set(Vec3(1, 0.8, 0.3), 0.05, 0.1));
+    const std::size_t i =
+        add_floe(w.scene, box, 900.0, Vec3(0, 0, -50), Quaternion::Identity(), 0, false);
+    Bodies& b = w.scene.bodies;
+    b.momentum[i] = b.mass[i] * Vec3(50, 3, 1);
+    b.angular_momentum[i] = Vec3(10, 500, 20);
+    update_derived(b, i);
+    const double energy = kinetic_energy(b);
+    for (int k = 0; k < 5; ++k) {
+        step(w);
+        REQUIRE(kinetic_energy(b) <= energy);
+    }
+}
