@@ -25,11 +25,20 @@ struct Options {
     std::string mesh, out, arrangement = "conforming", mode = "fill", slice, units, mirror, json;
     std::string repair = "auto", solid = "envelope";
     std::vector<std::string> exports;
+    std::map<std::string, std::string> guessed;
     ice::ReadOptions read;
     ice::FillOptions fill;
     int threads = 0;
     bool check = false, quiet = false;
 };
+
+// What the command line left to the program is said, and stored.
+void note_guesses(const CLI::App& app, Options& o) {
+    const auto given = [&](const char* name) { return app.count(name) > 0; };
+    if (!given("--units") && !given("--scale")) o.guessed["units"] = "m, as the file has them";
+    if (!given("--up")) o.guessed["up"] = "z";
+    if (!given("--forward")) o.guessed["forward"] = "+x";
+}
 
 void declare(CLI::App& app, Options& o) {
     app.set_version_flag("--version", fmt::format("spherize {} ({}, {})", ice::version(),
@@ -72,7 +81,10 @@ void declare(CLI::App& app, Options& o) {
 
 // Welds and checks; refuses by name what is no solid.
 ice::TriangleMesh make_solid(const Options& o, ice::SpheresReport& report) {
-    ice::TriangleMesh mesh = ice::read_mesh(o.mesh, o.read);
+    std::int64_t centre_plane = 0;
+    ice::TriangleMesh mesh = ice::read_mesh(o.mesh, o.read, &centre_plane);
+    if (centre_plane > 0)
+        report.repairs.emplace_back("triangles in the centre plane dropped", centre_plane);
     const ice::WeldCounts counts = ice::weld(mesh);
     for (const auto& [step, count] :
          {std::pair{"vertices merged", counts.merged_vertices},
@@ -109,12 +121,23 @@ int run_spherize(Options& o, const std::string& command_line) {
     o.fill.arrangement =
         o.arrangement == "lattice" ? ice::Arrangement::lattice : ice::Arrangement::conforming;
 
+    if (o.arrangement == "lattice" && o.fill.spacing > 0.0)
+        throw ice::bad_input("--spacing", "has no meaning for a lattice, whose pitch is 2 R",
+                             "leave it out, or use --arrangement conforming");
+
     ice::SpheresReport report;
+    report.guessed = o.guessed;
     const ice::TriangleMesh mesh = make_solid(o, report);
     report.seconds["read"] = timer.seconds();
     if (o.check) {
+        const ice::MassProperties mass = ice::measure_mass(mesh);
         fmt::print("{}: closed solid, {} triangles, {:.9g} m3\n", o.mesh, mesh.triangles.size(),
-                   ice::measure_mass(mesh).volume);
+                   mass.volume);
+        for (const auto& [step, count] : report.repairs)
+            fmt::print("  repaired: {}: {}\n", step, count);
+        report.volume = mass.volume;
+        report.area = mass.area;
+        if (!o.json.empty()) ice::write_text_file(o.json, ice::spheres_report_text(report));
         return 0;
     }
     ice::SphereSet set = o.slice.empty()
@@ -130,7 +153,7 @@ int run_spherize(Options& o, const std::string& command_line) {
     if (!report.thin_features.empty())
         report.warnings.push_back(fmt::format("{} parts are too thin for a sphere of radius {:g} m",
                                               report.thin_features.size(), o.fill.radius));
-    ice::write_spheres(stem, set);
+    ice::write_spheres(stem, set, report);
     report.seconds["total"] = timer.seconds();
     if (!o.json.empty()) ice::write_text_file(o.json, ice::spheres_report_text(report));
     if (!o.exports.empty())
@@ -152,6 +175,7 @@ int main(int argc, char** argv) {
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? 0 : static_cast<int>(ice::ExitCode::bad_input);
     }
+    note_guesses(app, o);
     ice::start_messages(ice::Colour::automatic, o.quiet);
     return ice::run_program("spherize",
                             [&] { return run_spherize(o, ice::command_line(argc, argv)); });

@@ -178,7 +178,32 @@ private:
 
 }  // namespace
 
-void write_spheres(const std::filesystem::path& path, const SphereSet& set) {
+namespace {
+
+void write_certificate(Hdf5File& file, SpheresReport& c) {
+    c.seconds.clear();  // equal calls give equal bytes
+    file.write_attribute("/", "certificate", spheres_report_text(c));
+    for (const auto& [name, value] : std::initializer_list<std::pair<const char*, double>>{
+             {"protrusion_max_m", c.protrusion_max},
+             {"covering_radius_m", c.covering_radius},
+             {"gap_p50_m", c.gap_p50},
+             {"gap_p99_m", c.gap_p99},
+             {"gap_max_m", c.gap_max},
+             {"normal_error_mean_deg", c.normal_error_mean_deg},
+             {"normal_error_p99_deg", c.normal_error_p99_deg}})
+        file.write_attribute("/", name, {value}, {});
+    for (const auto& [name, count] : std::initializer_list<std::pair<const char*, std::size_t>>{
+             {"spheres", static_cast<std::size_t>(c.spheres)},
+             {"surface_spheres", static_cast<std::size_t>(c.surface_spheres)},
+             {"thin_features", c.thin_features.size()},
+             {"repairs", c.repairs.size()}})
+        file.write_attribute("/", name, static_cast<std::int64_t>(count));
+}
+
+}  // namespace
+
+void write_spheres(const std::filesystem::path& path, const SphereSet& set,
+                   SpheresReport certificate) {
     PartFile part(path);
     Hdf5File file(part.path(), Hdf5File::Mode::create);
     file.write_attribute("/", "format", std::string(kFormat));
@@ -192,6 +217,7 @@ void write_spheres(const std::filesystem::path& path, const SphereSet& set) {
     file.write_attribute("/", "created_by", set.created_by);
     file.write_attribute("/", "command_line", set.command_line);
     file.write_attribute("/", "units", std::string("SI"));
+    write_certificate(file, certificate);
 
     const std::uint64_t n = set.size();
     const std::vector<float> spread(set.normal_spread.begin(), set.normal_spread.end());

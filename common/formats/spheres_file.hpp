@@ -5,12 +5,16 @@
 #include <filesystem>
 
 #include "common/formats/sphere_set.hpp"
+#include "common/formats/summary_file.hpp"
 
 namespace ice {
 
-/// Writes a sphere set. Equal sets give equal bytes: no times are stored.
+/// Writes a sphere set and its certificate: the attribute "certificate" of "/" holds it as JSON
+/// (schema spherize/1), its numbers are attributes of their own under the same names.
+/// Equal sets give equal bytes: no times are stored.
 /// @throws Error (exit code 1) when the file cannot be written; nothing half-written stays behind.
-void write_spheres(const std::filesystem::path& path, const SphereSet& set);
+void write_spheres(const std::filesystem::path& path, const SphereSet& set,
+                   SpheresReport certificate = {});
 
 /// Reads and checks a sphere set: format name and version, array lengths, finite numbers, positive
 /// radii and volume, unit normals on the surface, indices in range.

@@ -81,8 +81,11 @@ WeldCounts weld(TriangleMesh& mesh) {
         out.triangles.push_back(corner);
         out.region.push_back(mesh.region[t]);
     }
-    counts.merged_vertices = static_cast<std::int64_t>(mesh.vertices.size()) -
-                             static_cast<std::int64_t>(out.vertices.size());
+    // the same point written several times is how files and readers store corners: no repair
+    for (std::size_t k = 0; k < mesh.vertices.size(); ++k) {
+        const auto first = static_cast<std::size_t>(representative[k]);
+        counts.merged_vertices += mesh.vertices[k] != mesh.vertices[first];
+    }
     mesh = std::move(out);
     return counts;
 }

@@ -7,7 +7,7 @@ namespace ice {
 
 /// What weld() did, for the report.
 struct WeldCounts {
-    std::int64_t merged_vertices = 0;
+    std::int64_t merged_vertices = 0;       ///< moved onto another one; equal ones do not count
     std::int64_t degenerate_triangles = 0;  ///< dropped: two equal corners after merging
     std::int64_t duplicate_triangles = 0;   ///< dropped: same three corners, same side
 };

@@ -17,6 +17,9 @@ namespace ice {
 
 namespace {
 
+// Volume shares whose centroid is off by more than this many radii are worth a warning.
+constexpr double kCentroidMiss = 1e-6;
+
 // Radius of the largest sphere found inside [m]: the deepest point of a coarse grid, then uphill.
 double inscribed_radius(const SurfaceTree& tree, int dimension) {
     Eigen::AlignedBox3d box;
@@ -117,7 +120,12 @@ SphereSet fill(const TriangleMesh& solid, const TriangleMesh& space, int dimensi
 
     const Timer timer;
     share_surface(tree, samples, set);
-    share_volume(tree, o.arrangement == Arrangement::lattice, set);
+    const double miss = share_volume(tree, o.arrangement == Arrangement::lattice, set);
+    if (!(miss <= kCentroidMiss * o.radius))
+        report.warnings.push_back(fmt::format(
+            "the volume shares miss the centroid by {:.3g} m: too few spheres to stand for the "
+            "volume; mass and inertia are exact all the same",
+            miss));
     report.seconds["shares"] = timer.seconds();
     certify(tree, samples, set, report);
     report.seconds["certificate"] = timer.seconds() - report.seconds["shares"];

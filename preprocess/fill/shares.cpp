@@ -147,7 +147,7 @@ void share_surface(const SurfaceTree& tree, const std::vector<SurfaceSample>& sa
     }
 }
 
-void share_volume(const SurfaceTree& tree, bool equal, SphereSet& set) {
+double share_volume(const SurfaceTree& tree, bool equal, SphereSet& set) {
     if (equal) {
         set.volumes.assign(set.size(), 1.0);
     } else {
@@ -167,6 +167,12 @@ void share_volume(const SurfaceTree& tree, bool equal, SphereSet& set) {
             set.volumes[static_cast<std::size_t>(sphere)] += 1.0;
     }
     match_moments(set);
+    Vec3 first = Vec3::Zero();
+    for (std::size_t k = 0; k < set.size(); ++k) {
+        if (!(set.volumes[k] > 0.0)) return std::nan("");
+        first += set.volumes[k] * set.centers[k];
+    }
+    return (first / set.solid.volume - set.solid.centroid).norm();
 }
 
 }  // namespace ice

@@ -22,8 +22,10 @@ void share_surface(const SurfaceTree& tree, const std::vector<SurfaceSample>& sa
 
 /// Shares the volume: each sphere takes the lattice points of the solid nearest to it, then all
 /// shares are multiplied by 1 + a + b . (x - mean), with the four numbers that make them sum to the
-/// volume and their first moments to the centroid. All positive.
+/// volume and their first moments to the centroid. Where the centres lie in a plane or on a line
+/// that misses the centroid no shares can do that: the rest is returned.
 /// @param equal  start from equal shares instead (the lattice: every sphere stands for its cell)
-void share_volume(const SurfaceTree& tree, bool equal, SphereSet& set);
+/// @return distance of the shares' centroid from the solid's [m]; NaN where a share is not positive
+double share_volume(const SurfaceTree& tree, bool equal, SphereSet& set);
 
 }  // namespace ice

@@ -12,7 +12,6 @@
 #include <cmath>
 
 #include "common/base/error.hpp"
-#include "preprocess/load/read_obj.hpp"
 
 namespace ice {
 
@@ -124,8 +123,7 @@ std::int64_t drop_centre_plane(TriangleMesh& mesh) {
     std::size_t kept = 0;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         bool in_plane = true;
-        for (int k = 0; k < 3; ++k)
-            in_plane = in_plane && std::abs(mesh.corner(t, k).y()) <= flat;
+        for (int k = 0; k < 3; ++k) in_plane = in_plane && std::abs(mesh.corner(t, k).y()) <= flat;
         if (in_plane) continue;
         mesh.triangles[kept] = mesh.triangles[t];
         mesh.region[kept++] = mesh.region[t];
@@ -164,12 +162,6 @@ TriangleMesh read_with_assimp(const std::filesystem::path& file) {
     return Collector(*scene).collect();
 }
 
-bool is_obj(const std::filesystem::path& file) {
-    const std::string extension = file.extension().string();
-    return extension.size() == 4 && (extension[1] | 32) == 'o' && (extension[2] | 32) == 'b' &&
-           (extension[3] | 32) == 'j';
-}
-
 }  // namespace
 
 TriangleMesh read_mesh(const std::filesystem::path& file, const ReadOptions& options,
@@ -179,7 +171,7 @@ TriangleMesh read_mesh(const std::filesystem::path& file, const ReadOptions& opt
         throw bad_input(file.string(), "mesh file not found", "check the path");
     const Mat3 turn = options.scale * orientation(options);
 
-    TriangleMesh mesh = is_obj(file) ? read_obj(file) : read_with_assimp(file);
+    TriangleMesh mesh = read_with_assimp(file);
     check_finite(mesh, file);
     if (mesh.triangles.empty())
         throw bad_input(file.string(), "holds no triangles", "export the hull's surface as a mesh");

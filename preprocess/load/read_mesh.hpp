@@ -17,7 +17,10 @@ struct ReadOptions {
     bool mirror_y = false;       ///< add the mirror image across y = 0 (half hulls)
 };
 
-/// Reads OBJ (read_obj) and any format assimp knows (STL, PLY, OFF, DAE, glTF, ...), with names.
+/// Reads any format assimp knows (OBJ, STL, PLY, OFF, DAE, glTF, ...), with the parts' names.
+///
+/// assimp keeps coordinates as floats; the shortest decimal of the float is taken, which is what
+/// the file said where it said it in seven digits or fewer.
 ///
 /// Polygons are split into triangles; points and lines are dropped. Every node's transformation is
 /// applied in double precision; a reflecting one turns its triangles over. A group, object or node

@@ -106,7 +106,7 @@ TEST_CASE("the message names the dataset that holds a NaN", "[formats]") {
 
 TEST_CASE("wrong lengths, radii, normals and indices are each named", "[formats]") {
     CHECK_THAT(spoiled([](SphereSet& s) { s.radii.pop_back(); }),
-               Catch::Contains("has another length than the arrays beside it"));
+               Catch::Contains("/radius: has another length than /center"));
     CHECK_THAT(spoiled([](SphereSet& s) { s.radii[1] = 0.0; }),
                Catch::Contains("/radius: holds a radius that is not positive"));
     CHECK_THAT(spoiled([](SphereSet& s) { s.normals[0] *= 0.9; }),

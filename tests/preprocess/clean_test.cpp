@@ -25,12 +25,12 @@ TriangleMesh unwelded(const TriangleMesh& mesh) {
 
 }  // namespace
 
-TEST_CASE("welding gives a box its 8 corners back and counts what it merged", "[clean]") {
+TEST_CASE("welding gives a box its 8 corners back; equal corners are no repair", "[clean]") {
     TriangleMesh mesh = unwelded(test::make_box_mesh(Vec3(1, 0.8, 0.3)));
     const WeldCounts counts = weld(mesh);
     CHECK(mesh.vertices.size() == 8);
     CHECK(mesh.triangles.size() == 12);
-    CHECK(counts.merged_vertices == 28);
+    CHECK(counts.merged_vertices == 0);
     CHECK(diagnose_solid(mesh).good());
 }
 
@@ -49,7 +49,7 @@ TEST_CASE("degenerate and repeated triangles are dropped and counted", "[clean]"
 TEST_CASE("vertices a ten-millionth of the size apart are one", "[clean]") {
     TriangleMesh mesh = unwelded(test::make_box_mesh(Vec3(10, 2, 2)));
     for (std::size_t k = 0; k < mesh.vertices.size(); k += 2) mesh.vertices[k].x() += 1e-6;
-    weld(mesh);
+    CHECK(weld(mesh).merged_vertices > 0);
     CHECK(mesh.vertices.size() == 8);
 }
 

@@ -183,6 +183,15 @@ TEST_CASE("a solid in which nothing fits names the largest radius that does", "[
                       Catch::Contains("no sphere of radius 0.06") && Catch::Contains("0.05 m"));
 }
 
+TEST_CASE("shares that cannot meet the centroid say so", "[fill][degenerate]") {
+    // one layer of a lattice in a box 1.5 diameters thick lies below the middle
+    SpheresReport report;
+    fill_spheres(test::make_box_mesh(Vec3(1, 0.8, 0.15)), options(0.05, 0, Arrangement::lattice),
+                 report);
+    REQUIRE(report.warnings.size() == 1);
+    CHECK_THAT(report.warnings[0], Catch::Contains("centroid by 0.025 m"));
+}
+
 TEST_CASE("a fin too thin for a sphere is listed with its place and size", "[fill]") {
     // a 2 m box with a 1 m fin of 2 cm under it, as one closed mesh: a prism over a T section
     Section section;
