@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <Eigen/Geometry>
 #include <map>
 
 #include "common/base/error.hpp"
@@ -13,11 +14,11 @@
 #include "common/base/version.hpp"
 #include "common/cli/console.hpp"
 #include "common/formats/spheres_file.hpp"
-#include "preprocess/clean/check_solid.hpp"
-#include "preprocess/clean/weld.hpp"
+#include "preprocess/clean/make_solid.hpp"
 #include "preprocess/fill/fill_spheres.hpp"
 #include "preprocess/load/read_mesh.hpp"
 #include "preprocess/write/report_text.hpp"
+#include "preprocess/write/vtp_text.hpp"
 
 namespace {
 
@@ -53,7 +54,7 @@ void declare(CLI::App& app, Options& o) {
     app.add_option("--mode", o.mode, "fill, or surface to drop the interior")
         ->check(CLI::IsMember({"fill", "surface"}));
     app.add_option("--slice", o.slice, "y=VALUE: 2D set from that section");
-    app.add_option("--solid", o.solid, "envelope or material")
+    app.add_option("--solid", o.solid, "envelope (fill inner voids and double skins) or material")
         ->check(CLI::IsMember({"envelope", "material"}));
     const std::map<std::string, double> units{
         {"mm", 1e-3}, {"cm", 1e-2}, {"m", 1.0}, {"ft", 0.3048}, {"in", 0.0254}};
@@ -70,8 +71,8 @@ void declare(CLI::App& app, Options& o) {
     app.add_option("--repair", o.repair, "auto or strict")
         ->check(CLI::IsMember({"auto", "strict"}));
     app.add_flag("--check", o.check, "Diagnose the mesh only");
-    app.add_option("--export", o.exports, "Also write the set as csv; repeatable")
-        ->check(CLI::IsMember({"csv"}));
+    app.add_option("--export", o.exports, "Also write the set as csv or vtp; repeatable")
+        ->check(CLI::IsMember({"csv", "vtp"}));
     app.add_option("--json", o.json, "Write the certificate as JSON");
     app.add_option("--threads", o.threads, "Threads (default: all cores)")
         ->check(CLI::Range(1, 4096));
@@ -79,28 +80,41 @@ void declare(CLI::App& app, Options& o) {
     app.footer("Exit codes: 0 ok; 1 failed; 2 bad command line or mesh.");
 }
 
-// Welds and checks; refuses by name what is no solid.
-ice::TriangleMesh make_solid(const Options& o, ice::SpheresReport& report) {
+// Ships are metres to half a kilometre long, floes not much less than a hand.
+void doubt_size(const ice::TriangleMesh& mesh, ice::SpheresReport& report) {
+    Eigen::AlignedBox3d box;
+    for (const ice::Vec3& v : mesh.vertices) box.extend(v);
+    const double length = box.sizes().maxCoeff();
+    if (length >= 0.05 && length <= 600.0) return;
+    report.warnings.push_back(fmt::format(
+        "the solid is {:.3g} m long: if that is wrong, give --units or --scale", length));
+}
+
+ice::TriangleMesh read_solid(const Options& o, ice::SpheresReport& report) {
     std::int64_t centre_plane = 0;
     ice::TriangleMesh mesh = ice::read_mesh(o.mesh, o.read, &centre_plane);
     if (centre_plane > 0)
         report.repairs.emplace_back("triangles in the centre plane dropped", centre_plane);
-    const ice::WeldCounts counts = ice::weld(mesh);
-    for (const auto& [step, count] :
-         {std::pair{"vertices merged", counts.merged_vertices},
-          std::pair{"degenerate triangles dropped", counts.degenerate_triangles},
-          std::pair{"duplicate triangles dropped", counts.duplicate_triangles}})
-        if (count > 0) report.repairs.emplace_back(step, count);
-    const ice::SolidDiagnosis diagnosis = ice::diagnose_solid(mesh);
-    if (diagnosis.inside_out && o.repair == "auto") {
-        ice::flip(mesh);
-        report.repairs.emplace_back("surface turned inside out, triangles flipped",
-                                    static_cast<std::int64_t>(mesh.triangles.size()));
-    } else if (!diagnosis.good()) {
-        throw ice::bad_input(o.mesh, "is not the closed surface of a solid: " + diagnosis.text(),
-                             "close and orient it in the program that made it, then export again");
-    }
+    const ice::SolidOptions options{
+        o.solid == "material" ? ice::SolidKind::material : ice::SolidKind::envelope,
+        o.repair == "strict"};
+    mesh = ice::make_solid(std::move(mesh), o.mesh, options, report.repairs);
+    doubt_size(mesh, report);
     return mesh;
+}
+
+// --check: what the mesh is and what was done to it, no spheres.
+int report_check(const Options& o, const ice::TriangleMesh& mesh, ice::SpheresReport& report) {
+    const ice::MassProperties mass = ice::measure_mass(mesh);
+    fmt::print("{}: closed solid, {} triangles, {:.9g} m3\n", o.mesh, mesh.triangles.size(),
+               mass.volume);
+    for (const auto& [step, count] : report.repairs)
+        fmt::print("  repaired: {}: {}\n", step, count);
+    report.volume = mass.volume;
+    report.area = mass.area;
+    if (!o.json.empty()) ice::write_text_file(o.json, ice::spheres_report_text(report));
+    for (const std::string& warning : report.warnings) ice::say_warning(warning);
+    return 0;
 }
 
 double slice_offset(const std::string& slice) {
@@ -127,19 +141,9 @@ int run_spherize(Options& o, const std::string& command_line) {
 
     ice::SpheresReport report;
     report.guessed = o.guessed;
-    const ice::TriangleMesh mesh = make_solid(o, report);
+    const ice::TriangleMesh mesh = read_solid(o, report);
     report.seconds["read"] = timer.seconds();
-    if (o.check) {
-        const ice::MassProperties mass = ice::measure_mass(mesh);
-        fmt::print("{}: closed solid, {} triangles, {:.9g} m3\n", o.mesh, mesh.triangles.size(),
-                   mass.volume);
-        for (const auto& [step, count] : report.repairs)
-            fmt::print("  repaired: {}: {}\n", step, count);
-        report.volume = mass.volume;
-        report.area = mass.area;
-        if (!o.json.empty()) ice::write_text_file(o.json, ice::spheres_report_text(report));
-        return 0;
-    }
+    if (o.check) return report_check(o, mesh, report);
     ice::SphereSet set = o.slice.empty()
                              ? ice::fill_spheres(mesh, o.fill, report)
                              : ice::fill_discs(ice::slice_solid(mesh, slice_offset(o.slice)),
@@ -156,9 +160,9 @@ int run_spherize(Options& o, const std::string& command_line) {
     ice::write_spheres(stem, set, report);
     report.seconds["total"] = timer.seconds();
     if (!o.json.empty()) ice::write_text_file(o.json, ice::spheres_report_text(report));
-    if (!o.exports.empty())
-        ice::write_text_file(std::filesystem::path(stem).replace_extension(".csv"),
-                             ice::csv_text(set));
+    for (const std::string& format : o.exports)
+        ice::write_text_file(std::filesystem::path(stem).replace_extension("." + format),
+                             format == "csv" ? ice::csv_text(set) : ice::vtp_text(set));
     if (!o.quiet) fmt::print("{}", ice::report_text(report, stem));
     for (const std::string& warning : report.warnings) ice::say_warning(warning);
     return 0;

@@ -3,51 +3,33 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <map>
-
 #include "common/geometry/mass_properties.hpp"
+#include "preprocess/clean/edge_table.hpp"
 #include "preprocess/clean/self_intersections.hpp"
 
 namespace ice {
 
-namespace {
-
-struct EdgeUse {
-    int forwards = 0, backwards = 0;
-};
-
-}  // namespace
-
 SolidDiagnosis diagnose_solid(const TriangleMesh& mesh) {
     SolidDiagnosis out;
-    std::map<std::pair<std::int32_t, std::int32_t>, EdgeUse> edges;
-    for (const auto& t : mesh.triangles)
-        for (std::size_t k = 0; k < 3; ++k) {
-            const std::int32_t a = t[k], b = t[(k + 1) % 3];
-            EdgeUse& use = edges[{std::min(a, b), std::max(a, b)}];
-            ++(a < b ? use.forwards : use.backwards);
-        }
     bool seen = false;
-    for (const auto& [edge, use] : edges) {
-        const int count = use.forwards + use.backwards;
-        if (count == 2 && use.forwards == 1) continue;
-        if (count == 1)
-            ++out.open_edges;
-        else if (count == 2)
-            ++out.inconsistent_edges;
-        else
-            ++out.crowded_edges;
+    for (const MeshEdge& edge : edge_table(mesh)) {
+        if (edge.regular()) continue;
+        ++(edge.count == 1   ? out.open_edges
+           : edge.count == 2 ? out.inconsistent_edges
+                             : out.crowded_edges);
         if (!seen)
-            out.example = 0.5 * (mesh.vertices[static_cast<std::size_t>(edge.first)] +
-                                 mesh.vertices[static_cast<std::size_t>(edge.second)]);
+            out.example = 0.5 * (mesh.vertices[static_cast<std::size_t>(edge.a)] +
+                                 mesh.vertices[static_cast<std::size_t>(edge.b)]);
         seen = true;
     }
     out.volume = measure_mass(mesh).volume;
     if (!out.closed()) return out;
     const auto pairs = find_self_intersections(mesh);
     out.intersecting_pairs = static_cast<std::int64_t>(pairs.size());
-    if (!pairs.empty()) out.example = mesh.corner(pairs.front().first, 0);
+    if (!pairs.empty()) {
+        const std::size_t t = pairs.front().first;
+        out.example = (mesh.corner(t, 0) + mesh.corner(t, 1) + mesh.corner(t, 2)) / 3.0;
+    }
     out.inside_out = pairs.empty() && out.volume < 0.0;
     return out;
 }

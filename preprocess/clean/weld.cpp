@@ -3,9 +3,13 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <map>
-#include <set>
+#include <unordered_map>
+#include <unordered_set>
+
+#include "preprocess/clean/edge_table.hpp"
+#include "preprocess/clean/keep_triangles.hpp"
 
 namespace ice {
 
@@ -13,27 +17,52 @@ namespace {
 
 constexpr double kTolerance = 1e-6;  // of the diagonal: rounding of single-precision files
 
-using Cell = std::array<std::int64_t, 3>;
+using Key = std::array<std::uint64_t, 3>;
 
-// For each vertex the first vertex within the tolerance, itself if none.
-std::vector<std::int32_t> find_representatives(const std::vector<Vec3>& vertices) {
+struct HashKey {
+    std::size_t operator()(const Key& key) const {
+        std::uint64_t value = 0xcbf29ce484222325ull;
+        for (const std::uint64_t word : key) {
+            value = (value ^ word) * 0x9e3779b97f4a7c15ull;
+            value ^= value >> 32;
+        }
+        return static_cast<std::size_t>(value);
+    }
+};
+
+// For each vertex the first with the same coordinates; 0 and -0 are the same.
+std::vector<std::int32_t> find_equal(const std::vector<Vec3>& vertices) {
+    std::unordered_map<Key, std::int32_t, HashKey> first;
+    first.reserve(vertices.size());
+    std::vector<std::int32_t> representative(vertices.size());
+    for (std::size_t k = 0; k < vertices.size(); ++k) {
+        Key key;
+        for (int d = 0; d < 3; ++d)
+            key[static_cast<std::size_t>(d)] = std::bit_cast<std::uint64_t>(vertices[k][d] + 0.0);
+        representative[k] = first.try_emplace(key, static_cast<std::int32_t>(k)).first->second;
+    }
+    return representative;
+}
+
+// For each vertex the first within the tolerance, itself if none.
+std::vector<std::int32_t> find_near(const std::vector<Vec3>& vertices) {
     Eigen::AlignedBox3d box;
     for (const Vec3& v : vertices) box.extend(v);
     const double tolerance = std::max(kTolerance * box.diagonal().norm(), 1e-300);
     // cells of twice the tolerance: near vertices lie in the same or a neighbouring cell
-    const auto cell_of = [&](const Vec3& v) -> Cell {
-        Cell cell;
+    const auto cell_of = [&](const Vec3& v) -> Key {
+        Key cell;
         for (int d = 0; d < 3; ++d)
-            cell[static_cast<std::size_t>(d)] =
-                static_cast<std::int64_t>(std::floor((v[d] - box.min()[d]) / (2.0 * tolerance)));
+            cell[static_cast<std::size_t>(d)] = static_cast<std::uint64_t>(
+                std::floor((v[d] - box.min()[d]) / (2.0 * tolerance)) + 1.0);
         return cell;
     };
-    std::map<Cell, std::vector<std::int32_t>> cells;
+    std::unordered_map<Key, std::vector<std::int32_t>, HashKey> cells;
     std::vector<std::int32_t> representative(vertices.size());
     for (std::size_t k = 0; k < vertices.size(); ++k) {
-        const Cell at = cell_of(vertices[k]);
+        const Key at = cell_of(vertices[k]);
         auto found = static_cast<std::int32_t>(k);
-        for (int n = 0; n < 27; ++n) {
+        for (std::uint64_t n = 0; n < 27; ++n) {
             const auto near =
                 cells.find({at[0] + n % 3 - 1, at[1] + n / 3 % 3 - 1, at[2] + n / 9 - 1});
             if (near == cells.end()) continue;
@@ -47,46 +76,47 @@ std::vector<std::int32_t> find_representatives(const std::vector<Vec3>& vertices
     return representative;
 }
 
+// Gives corners their representatives, drops what collapses or repeats. Returns the vertices
+// merged.
+std::int64_t merge(TriangleMesh& mesh, const std::vector<std::int32_t>& representative,
+                   WeldCounts& counts) {
+    std::vector<std::uint8_t> keep(mesh.triangles.size(), 1);
+    std::unordered_set<Key, HashKey> seen;
+    seen.reserve(mesh.triangles.size());
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        auto& corner = mesh.triangles[t];
+        for (std::int32_t& v : corner) v = representative[static_cast<std::size_t>(v)];
+        if (corner[0] == corner[1] || corner[1] == corner[2] || corner[2] == corner[0]) {
+            ++counts.degenerate_triangles;
+            keep[t] = 0;
+            continue;
+        }
+        // the same triangle whichever corner comes first; its other side is another triangle
+        std::array<std::int32_t, 3> turned = corner;
+        std::rotate(turned.begin(), std::min_element(turned.begin(), turned.end()), turned.end());
+        Key key;
+        std::transform(turned.begin(), turned.end(), key.begin(),
+                       [](std::int32_t v) { return static_cast<std::uint64_t>(v); });
+        if (seen.insert(key).second) continue;
+        ++counts.duplicate_triangles;
+        keep[t] = 0;
+    }
+    std::int64_t merged = 0;
+    for (std::size_t k = 0; k < representative.size(); ++k)
+        merged += representative[k] != static_cast<std::int32_t>(k);
+    keep_triangles(mesh, keep);
+    return merged;
+}
+
 }  // namespace
 
 WeldCounts weld(TriangleMesh& mesh) {
     WeldCounts counts;
-    const auto representative = find_representatives(mesh.vertices);
-    TriangleMesh out;
-    out.region_names = mesh.region_names;
-    std::vector<std::int32_t> renumbered(mesh.vertices.size(), -1);
-    std::set<std::array<std::int32_t, 3>> seen;
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-        std::array<std::int32_t, 3> corner = mesh.triangles[t];
-        for (std::int32_t& v : corner) v = representative[static_cast<std::size_t>(v)];
-        if (corner[0] == corner[1] || corner[1] == corner[2] || corner[2] == corner[0]) {
-            ++counts.degenerate_triangles;
-            continue;
-        }
-        // the same triangle whichever corner comes first; its other side is another triangle
-        std::array<std::int32_t, 3> key = corner;
-        std::rotate(key.begin(), std::min_element(key.begin(), key.end()), key.end());
-        if (!seen.insert(key).second) {
-            ++counts.duplicate_triangles;
-            continue;
-        }
-        for (std::int32_t& v : corner) {
-            std::int32_t& index = renumbered[static_cast<std::size_t>(v)];
-            if (index < 0) {
-                index = static_cast<std::int32_t>(out.vertices.size());
-                out.vertices.push_back(mesh.vertices[static_cast<std::size_t>(v)]);
-            }
-            v = index;
-        }
-        out.triangles.push_back(corner);
-        out.region.push_back(mesh.region[t]);
-    }
-    // the same point written several times is how files and readers store corners: no repair
-    for (std::size_t k = 0; k < mesh.vertices.size(); ++k) {
-        const auto first = static_cast<std::size_t>(representative[k]);
-        counts.merged_vertices += mesh.vertices[k] != mesh.vertices[first];
-    }
-    mesh = std::move(out);
+    counts.equal_vertices = merge(mesh, find_equal(mesh.vertices), counts);
+    const auto edges = edge_table(mesh);
+    const bool open = std::any_of(edges.begin(), edges.end(),
+                                  [](const MeshEdge& edge) { return edge.count == 1; });
+    if (open) counts.near_vertices = merge(mesh, find_near(mesh.vertices), counts);
     return counts;
 }
 

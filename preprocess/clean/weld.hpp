@@ -7,14 +7,17 @@ namespace ice {
 
 /// What weld() did, for the report.
 struct WeldCounts {
-    std::int64_t merged_vertices = 0;       ///< moved onto another one; equal ones do not count
+    std::int64_t equal_vertices = 0;        ///< merged: the same point written several times
+    std::int64_t near_vertices = 0;         ///< merged: within the tolerance
     std::int64_t degenerate_triangles = 0;  ///< dropped: two equal corners after merging
     std::int64_t duplicate_triangles = 0;   ///< dropped: same three corners, same side
 };
 
-/// Merges vertices that are equal or within 1e-6 of the mesh's diagonal, and drops triangles that
-/// collapse or repeat. Unused vertices go. The first of merged vertices keeps its position, so the
-/// result does not depend on anything but the order in the file.
+/// Merges equal vertices; then, only where edges stay open, vertices within 1e-6 of the mesh's
+/// diagonal. A mesh that is closed as it stands keeps every coordinate.
+///
+/// Triangles that collapse or repeat are dropped, unused vertices go. The first of merged vertices
+/// keeps its position, so the result depends on nothing but the order in the file. Cost O(V + T).
 WeldCounts weld(TriangleMesh& mesh);
 
 }  // namespace ice

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "common/base/parallel.hpp"
-#include "preprocess/fill/point_grid.hpp"
+#include "preprocess/fill/nearest_points.hpp"
 
 namespace ice {
 
@@ -24,17 +24,13 @@ struct Measure {
     double normal_error = -1.0;  // [rad]
 };
 
-Measure measure(const SurfaceTree& tree, const SphereSet& set, const PointGrid& grid,
+Measure measure(const SurfaceTree& tree, const SphereSet& set, const NearestPoints& surface,
                 const SurfaceSample& sample) {
     Measure out;
-    const double far = 1e3 * set.spacing + 1e3 * set.radius;
-    const auto to_center = grid.nearest(sample.point, far);
-    out.gap = to_center.index < 0 ? far : std::max(to_center.distance - set.radius, 0.0);
+    out.gap = std::max(surface.nearest(sample.point).distance - set.radius, 0.0);
     const Vec3 seat = sample.point - set.radius * sample.normal;
-    const Foot foot = tree.closest(seat);
-    if (!foot.inside || foot.distance < set.radius * (1.0 - kReachable)) return out;
-    const auto near = grid.nearest(seat, far);
-    if (near.index < 0) return out;
+    if (!tree.is_clear(seat, set.radius * (1.0 - kReachable))) return out;
+    const auto near = surface.nearest(seat);
     out.cover = near.distance;
     const auto k = static_cast<std::size_t>(near.index);
     if (set.normal_spread[k] < kFaceSpread)
@@ -82,9 +78,9 @@ std::vector<ThinFeature> group(std::vector<Vec3> points, double distance) {
 
 void certify(const SurfaceTree& tree, const std::vector<SurfaceSample>& samples,
              const SphereSet& set, SpheresReport& report) {
-    PointGrid surface(set.spacing);
-    for (std::size_t k = 0; k < set.size(); ++k)
-        if (set.layers[k] == 1) surface.add(set.centers[k]);
+    const auto surface_count =
+        static_cast<std::size_t>(std::count(set.layers.begin(), set.layers.end(), std::uint8_t{1}));
+    const NearestPoints surface(std::span(set.centers).first(surface_count));
     std::vector<Measure> measures(samples.size());
     parallel_for(samples.size(), 512,
                  [&](std::size_t k) { measures[k] = measure(tree, set, surface, samples[k]); });

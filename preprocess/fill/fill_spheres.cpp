@@ -5,11 +5,13 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 
 #include "common/base/error.hpp"
 #include "common/base/timer.hpp"
 #include "preprocess/fill/certificate.hpp"
 #include "preprocess/fill/lattice.hpp"
+#include "preprocess/fill/mirror_shares.hpp"
 #include "preprocess/fill/shares.hpp"
 #include "preprocess/fill/shell.hpp"
 
@@ -19,6 +21,7 @@ namespace {
 
 // Volume shares whose centroid is off by more than this many radii are worth a warning.
 constexpr double kCentroidMiss = 1e-6;
+constexpr double kMostSpheres = 3e7;  // 250 bytes each while they are made
 
 // Radius of the largest sphere found inside [m]: the deepest point of a coarse grid, then uphill.
 double inscribed_radius(const SurfaceTree& tree, int dimension) {
@@ -54,16 +57,30 @@ double inscribed_radius(const SurfaceTree& tree, int dimension) {
     return depth;
 }
 
+// An absurd number of spheres is a wrong unit more often than a wish.
+void refuse_too_many(const SphereSet& set, const FillOptions& o) {
+    const double wide = 2.0 * o.radius;
+    const bool flat = set.dimension == 2;
+    double count =
+        flat ? set.solid.volume / (wide * wide) : set.solid.volume / (wide * wide * wide);
+    if (o.surface_only) count = 0.0;
+    if (o.arrangement == Arrangement::conforming && !flat)
+        count += 1.155 * set.solid.area / (set.spacing * set.spacing);  // a hexagonal layer
+    if (count < kMostSpheres) return;
+    throw bad_input("--radius", fmt::format("the solid would take about {:.1g} spheres", count),
+                    "are the mesh's --units right? Otherwise use a larger --radius and --spacing");
+}
+
 void add_spheres(SphereSet& set, const std::vector<Vec3>& centers, std::uint8_t layer) {
     set.centers.insert(set.centers.end(), centers.begin(), centers.end());
     set.layers.insert(set.layers.end(), centers.size(), layer);
 }
 
 void place(const SurfaceTree& tree, const std::vector<SurfaceSample>& samples, const FillOptions& o,
-           SphereSet& set, SpheresReport& report) {
+           bool mirror, SphereSet& set, SpheresReport& report) {
     const Timer timer;
     if (o.arrangement == Arrangement::lattice) {
-        const Lattice lattice = fill_lattice(tree, o.radius, o.radius, set.dimension);
+        const Lattice lattice = fill_lattice(tree, o.radius, o.radius, set.dimension, mirror);
         for (const std::uint8_t outer : {std::uint8_t{1}, std::uint8_t{0}}) {
             std::vector<Vec3> part;
             for (std::size_t k = 0; k < lattice.centers.size(); ++k)
@@ -73,11 +90,11 @@ void place(const SurfaceTree& tree, const std::vector<SurfaceSample>& samples, c
         report.seconds["lattice"] = timer.seconds();
         return;
     }
-    const bool mirror = set.dimension == 3 && is_mirror_symmetric(tree);
     add_spheres(set, make_shell(tree, samples, {o.radius, set.spacing, set.dimension, mirror}), 1);
     report.seconds["surface_layer"] = timer.seconds();
     if (o.surface_only) return;
-    add_spheres(set, fill_lattice(tree, o.radius, 2.0 * o.radius, set.dimension).centers, 0);
+    add_spheres(set, fill_lattice(tree, o.radius, 2.0 * o.radius, set.dimension, mirror).centers,
+                0);
     report.seconds["interior"] = timer.seconds() - report.seconds["surface_layer"];
 }
 
@@ -107,10 +124,12 @@ SphereSet fill(const TriangleMesh& solid, const TriangleMesh& space, int dimensi
     set.mesh = solid;
     set.solid = measure_mass(solid);
 
+    refuse_too_many(set, o);
     const SurfaceTree tree(space);
+    const bool mirror = dimension == 3 && is_mirror_symmetric(tree);
     const auto samples =
         sample_surface(space, std::min(set.spacing, 2.0 * o.radius) / 4.0, dimension);
-    place(tree, samples, o, set, report);
+    place(tree, samples, o, mirror, set, report);
     if (set.centers.empty() || set.layers.front() == 0)
         throw bad_input("--radius",
                         fmt::format("no sphere of radius {:g} m fits into the solid", o.radius),
@@ -126,6 +145,7 @@ SphereSet fill(const TriangleMesh& solid, const TriangleMesh& space, int dimensi
             "the volume shares miss the centroid by {:.3g} m: too few spheres to stand for the "
             "volume; mass and inertia are exact all the same",
             miss));
+    if (mirror) mirror_shares(set);
     report.seconds["shares"] = timer.seconds();
     certify(tree, samples, set, report);
     report.seconds["certificate"] = timer.seconds() - report.seconds["shares"];

@@ -15,13 +15,19 @@ struct Lattice {
 
 /// Fills a solid with a cubic lattice of pitch 2 R whose spheres lie inside it.
 ///
-/// Along each axis the lattice is tangent to the largest flat face square to that axis (the lower
-/// end of the box where there is none), so that a box of whole multiples of 2 R is filled from face
-/// to face: the paper's floe of 1 x 0.8 x 0.3 m takes 10 x 8 x 3 spheres of 0.05 m.
+/// Along each axis: where flat faces square to it bound the box at both ends and the extent is a
+/// multiple of 2 R, the lattice is tangent to both, so that the paper's floe of 1 x 0.8 x 0.3 m
+/// takes 10 x 8 x 3 spheres of 0.05 m. Otherwise it is tangent to the largest flat face; centred in
+/// the box where there is none, where the two end faces are equally large, and along y for a solid
+/// that is symmetric about y = 0 (its lattice is then symmetric, bit for bit).
 ///
 /// @param clearance  smallest distance of a centre from the surface [m]; R for touching spheres.
 ///                   Points nearer than it by less than 1e-9 of it count as inside.
-/// In 2D one layer at y = 0.
-Lattice fill_lattice(const SurfaceTree& tree, double radius, double clearance, int dimension);
+/// @param mirror     the solid is symmetric about y = 0
+/// In 2D one layer at y = 0. Blocks far from the surface are decided as a whole, so the cost is
+/// O(surface / R^2) distances, and one byte per lattice point of the box.
+/// @throws Error (exit code 2) when the box holds more than 1e9 lattice points
+Lattice fill_lattice(const SurfaceTree& tree, double radius, double clearance, int dimension,
+                     bool mirror);
 
 }  // namespace ice

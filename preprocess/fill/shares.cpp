@@ -7,14 +7,15 @@
 #include <map>
 
 #include "common/base/parallel.hpp"
+#include "preprocess/fill/nearest_points.hpp"
 #include "preprocess/fill/offset_surface.hpp"
-#include "preprocess/fill/point_grid.hpp"
 
 namespace ice {
 
 namespace {
 
 constexpr double kMostCells = 3e5;  // sampling points of the volume
+constexpr int kMostPasses = 50;     // of the moments; two where no share comes near zero
 
 std::size_t surface_count(const SphereSet& set) {
     return static_cast<std::size_t>(
@@ -40,50 +41,70 @@ void set_normals(const SurfaceTree& tree, SphereSet& set, std::size_t count) {
     });
 }
 
-// Lattice points inside the solid: a plain grid over its box, shifted off its faces.
+// Lattice points inside the solid: a plain grid over its box, half a pitch off its faces.
 std::vector<Vec3> volume_points(const SurfaceTree& tree, const SphereSet& set) {
     Eigen::AlignedBox3d box;
     for (const Vec3& v : tree.mesh().vertices) box.extend(v);
+    const bool flat = set.dimension == 2;
     Vec3 size = box.sizes();
-    if (set.dimension == 2) size.y() = 1.0;
+    if (flat) size.y() = 1.0;
     const double pitch =
-        set.dimension == 2 ? std::max(0.4 * set.radius, std::sqrt(size.x() * size.z() / kMostCells))
-                           : std::max(0.4 * set.radius, std::cbrt(size.prod() / kMostCells));
-    std::int64_t n[3];
+        std::max(0.4 * set.radius, flat ? std::sqrt(size.x() * size.z() / kMostCells)
+                                        : std::cbrt(size.prod() / kMostCells));
+    std::size_t n[3];
     for (int d = 0; d < 3; ++d)
-        n[d] =
-            set.dimension == 2 && d == 1
-                ? 1
-                : std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(size[d] / pitch)));
-    std::vector<Vec3> points(static_cast<std::size_t>(n[0] * n[1] * n[2]));
-    std::vector<std::uint8_t> inside(points.size());
-    parallel_for(points.size(), 1024, [&](std::size_t k) {
-        const auto i = static_cast<std::int64_t>(k);
-        const double at[3] = {static_cast<double>(i % n[0]), static_cast<double>(i / n[0] % n[1]),
-                              static_cast<double>(i / (n[0] * n[1]))};
-        for (int d = 0; d < 3; ++d)
-            points[k][d] =
-                box.min()[d] + (at[d] + 0.5) / static_cast<double>(n[d]) * box.sizes()[d];
-        if (set.dimension == 2) points[k].y() = 0.0;
-        inside[k] = tree.closest(points[k]).inside;
+        n[d] = flat && d == 1 ? 1 : static_cast<std::size_t>(std::ceil(size[d] / pitch));
+    const auto point = [&](std::size_t i, std::size_t row) {
+        const Vec3 cell(static_cast<double>(i), static_cast<double>(row % n[1]),
+                        static_cast<double>(row / n[1]));
+        const Vec3 count(static_cast<double>(n[0]), static_cast<double>(n[1]),
+                         static_cast<double>(n[2]));
+        Vec3 p =
+            box.min() + (cell + Vec3::Constant(0.5)).cwiseQuotient(count).cwiseProduct(box.sizes());
+        if (flat) p.y() = 0.0;
+        return p;
+    };
+    std::vector<std::vector<Vec3>> rows(n[1] * n[2]);
+    parallel_for(rows.size(), 16, [&](std::size_t row) {
+        const double step = box.sizes().x() / static_cast<double>(n[0]);
+        for (std::size_t i = 0; i < n[0];) {
+            // no surface is nearer than the foot, so neighbours within that distance are like this
+            const Foot foot = tree.closest(point(i, row));
+            const auto like = 1 + static_cast<std::size_t>(0.999 * foot.distance / step);
+            const std::size_t end = std::min(n[0], i + like);
+            for (; i < end; ++i)
+                if (foot.inside) rows[row].push_back(point(i, row));
+        }
     });
     std::vector<Vec3> out;
-    for (std::size_t k = 0; k < points.size(); ++k)
-        if (inside[k]) out.push_back(points[k]);
+    for (const auto& row : rows) out.insert(out.end(), row.begin(), row.end());
     return out;
 }
 
-// Multiplies the shares so that sum v = V and sum v x = V centroid, changing them least.
-void match_moments(SphereSet& set) {
-    Vec3 mean = Vec3::Zero();
+// Distance from the centroid of the shares to the solid's [m]; along y there is none in 2D.
+double moment_error(const SphereSet& set) {
     double sum = 0.0;
+    Vec3 first = Vec3::Zero();
     for (std::size_t k = 0; k < set.size(); ++k) {
         sum += set.volumes[k];
-        mean += set.volumes[k] * set.centers[k];
+        first += set.volumes[k] * (set.centers[k] - set.solid.centroid);
     }
-    mean /= sum;
-    // twice: the second pass takes out the rounding of the first
-    for (int pass = 0; pass < 2; ++pass) {
+    if (set.dimension == 2) first.y() = 0.0;
+    return first.norm() / sum;
+}
+
+// Multiplies the shares so that sum v = V and sum v x = V centroid, changing them least. Repeated:
+// for the rounding, and where a share would become negative, which is then held just above zero.
+void match_moments(SphereSet& set) {
+    const double least = 1e-3 * set.solid.volume / static_cast<double>(set.size());
+    for (int pass = 0; pass < kMostPasses; ++pass) {
+        Vec3 mean = Vec3::Zero();
+        double sum = 0.0;
+        for (std::size_t k = 0; k < set.size(); ++k) {
+            sum += set.volumes[k];
+            mean += set.volumes[k] * set.centers[k];
+        }
+        mean /= sum;
         Eigen::Matrix4d moments = Eigen::Matrix4d::Zero();
         for (std::size_t k = 0; k < set.size(); ++k) {
             Eigen::Vector4d u;
@@ -92,11 +113,18 @@ void match_moments(SphereSet& set) {
         }
         Eigen::Vector4d target;
         target << set.solid.volume, set.solid.volume * (set.solid.centroid - mean);
-        // in 2D y has no spread: least squares leaves its factor alone
+        // where the spheres have no spread (y in 2D) least squares leaves the factor alone
         const Eigen::Vector4d lack = target - moments.col(0);
         const Eigen::Vector4d factor = moments.completeOrthogonalDecomposition().solve(lack);
-        for (std::size_t k = 0; k < set.size(); ++k)
-            set.volumes[k] *= 1.0 + factor[0] + factor.tail<3>().dot(set.centers[k] - mean);
+        bool raised = false;
+        for (std::size_t k = 0; k < set.size(); ++k) {
+            double& v = set.volumes[k];
+            v *= 1.0 + factor[0] + factor.tail<3>().dot(set.centers[k] - mean);
+            if (v >= 0.5 * least) continue;
+            v = least;
+            raised = true;
+        }
+        if (!raised && pass > 0) return;
     }
 }
 
@@ -111,16 +139,10 @@ void share_surface(const SurfaceTree& tree, const std::vector<SurfaceSample>& sa
     set.regions.assign(set.size(), 0);
     set_normals(tree, set, count);
 
-    PointGrid grid(set.spacing);
-    for (std::size_t k = 0; k < count; ++k) grid.add(set.centers[k]);
+    const NearestPoints surface(std::span(set.centers).first(count));
     std::vector<std::int32_t> owner(samples.size());
     parallel_for(samples.size(), 1024, [&](std::size_t k) {
-        const Vec3 at = samples[k].point - set.radius * samples[k].normal;
-        double limit = set.spacing;
-        do {
-            owner[k] = grid.nearest(at, limit).index;
-            limit *= 4.0;
-        } while (owner[k] < 0);
+        owner[k] = surface.nearest(samples[k].point - set.radius * samples[k].normal).index;
     });
     std::vector<std::map<std::int32_t, double>> by_region(count);
     double total = 0.0;
@@ -132,9 +154,9 @@ void share_surface(const SurfaceTree& tree, const std::vector<SurfaceSample>& sa
             samples[k].area;
     }
     // in 2D the two flat ends belong to no disc
-    const double surface = set.dimension == 2 ? total : set.solid.area;
+    const double whole = set.dimension == 2 ? total : set.solid.area;
     for (std::size_t k = 0; k < count; ++k) {
-        set.areas[k] *= surface / total;
+        set.areas[k] *= whole / total;
         double most = 0.0;
         for (const auto& [region, area] : by_region[k])
             if (area > most) {
@@ -151,28 +173,17 @@ double share_volume(const SurfaceTree& tree, bool equal, SphereSet& set) {
     if (equal) {
         set.volumes.assign(set.size(), 1.0);
     } else {
-        set.volumes.assign(set.size(), 1e-3);  // no share is zero
-        PointGrid grid(set.spacing);
-        for (const Vec3& c : set.centers) grid.add(c);
+        set.volumes.assign(set.size(), 0.0);
+        const NearestPoints spheres(set.centers);
         const auto points = volume_points(tree, set);
         std::vector<std::int32_t> owner(points.size());
-        parallel_for(points.size(), 1024, [&](std::size_t k) {
-            double limit = set.spacing;
-            do {
-                owner[k] = grid.nearest(points[k], limit).index;
-                limit *= 4.0;
-            } while (owner[k] < 0);
-        });
+        parallel_for(points.size(), 1024,
+                     [&](std::size_t k) { owner[k] = spheres.nearest(points[k]).index; });
         for (const std::int32_t sphere : owner)
             set.volumes[static_cast<std::size_t>(sphere)] += 1.0;
     }
     match_moments(set);
-    Vec3 first = Vec3::Zero();
-    for (std::size_t k = 0; k < set.size(); ++k) {
-        if (!(set.volumes[k] > 0.0)) return std::nan("");
-        first += set.volumes[k] * set.centers[k];
-    }
-    return (first / set.solid.volume - set.solid.centroid).norm();
+    return moment_error(set);
 }
 
 }  // namespace ice

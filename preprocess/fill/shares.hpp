@@ -25,7 +25,8 @@ void share_surface(const SurfaceTree& tree, const std::vector<SurfaceSample>& sa
 /// volume and their first moments to the centroid. Where the centres lie in a plane or on a line
 /// that misses the centroid no shares can do that: the rest is returned.
 /// @param equal  start from equal shares instead (the lattice: every sphere stands for its cell)
-/// @return distance of the shares' centroid from the solid's [m]; NaN where a share is not positive
+/// @return distance of the shares' centroid from the solid's [m]: rounding, unless the spheres lie
+///         all to one side of it (too few of them)
 double share_volume(const SurfaceTree& tree, bool equal, SphereSet& set);
 
 }  // namespace ice

@@ -3,8 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numeric>
+
+#include "preprocess/clean/edge_table.hpp"
 
 namespace ice {
 
@@ -42,6 +43,16 @@ TrianglePoint closest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, c
     return {p - n * (n.dot(ap) / n.squaredNorm()), 6};
 }
 
+// Squared distance of a point from a box, 0 inside; plain arithmetic, the hottest line of all.
+double box_distance_sq(const Vec3& low, const Vec3& high, const Vec3& p) {
+    double sum = 0.0;
+    for (int d = 0; d < 3; ++d) {
+        const double gap = std::max(std::max(low[d] - p[d], p[d] - high[d]), 0.0);
+        sum += gap * gap;
+    }
+    return sum;
+}
+
 double corner_angle(const Vec3& at, const Vec3& b, const Vec3& c) {
     const Vec3 u = (b - at).normalized(), v = (c - at).normalized();
     return std::acos(std::clamp(u.dot(v), -1.0, 1.0));
@@ -55,7 +66,14 @@ SurfaceTree::SurfaceTree(const TriangleMesh& mesh) : mesh_(mesh) {
         centers_.push_back((mesh.corner(t, 0) + mesh.corner(t, 1) + mesh.corner(t, 2)) / 3.0);
     order_.resize(static_cast<std::size_t>(count));
     std::iota(order_.begin(), order_.end(), 0);
+    nodes_.reserve(mesh.triangles.size());
     build(0, count);
+    corners_.reserve(order_.size());
+    for (const std::int32_t t : order_) {
+        const auto tt = static_cast<std::size_t>(t);
+        corners_.push_back({mesh.corner(tt, 0), mesh.corner(tt, 1), mesh.corner(tt, 2)});
+    }
+    centers_ = {};
     build_normals();
 }
 
@@ -68,7 +86,8 @@ std::int32_t SurfaceTree::build(std::int32_t first, std::int32_t count) {
         for (int c = 0; c < 3; ++c) box.extend(mesh_.corner(t, c));
         centers.extend(centers_[t]);
     }
-    nodes_[static_cast<std::size_t>(index)].box = box;
+    nodes_[static_cast<std::size_t>(index)].low = box.min();
+    nodes_[static_cast<std::size_t>(index)].high = box.max();
     if (count <= kLeafSize) {
         nodes_[static_cast<std::size_t>(index)].first = first;
         nodes_[static_cast<std::size_t>(index)].count = count;
@@ -94,24 +113,28 @@ void SurfaceTree::build_normals() {
     normals_.resize(mesh_.triangles.size());
     corner_normals_.assign(mesh_.vertices.size(), Vec3::Zero());
     edge_normals_.resize(mesh_.triangles.size());
-    std::map<std::pair<std::int32_t, std::int32_t>, Vec3> edges;
-    const auto edge_key = [&](std::size_t t, std::size_t k) {
-        const auto a = mesh_.triangles[t][k], b = mesh_.triangles[t][(k + 1) % 3];
-        return std::pair(std::min(a, b), std::max(a, b));
-    };
     for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
         normals_[t] = mesh_.area_vector(t).normalized();
         for (int k = 0; k < 3; ++k) {
             const double angle = corner_angle(mesh_.corner(t, k), mesh_.corner(t, (k + 1) % 3),
                                               mesh_.corner(t, (k + 2) % 3));
-            const auto kk = static_cast<std::size_t>(k);
-            corner_normals_[static_cast<std::size_t>(mesh_.triangles[t][kk])] +=
-                angle * normals_[t];
-            edges.try_emplace(edge_key(t, kk), Vec3::Zero()).first->second += normals_[t];
+            const auto v = mesh_.triangles[t][static_cast<std::size_t>(k)];
+            corner_normals_[static_cast<std::size_t>(v)] += angle * normals_[t];
         }
     }
-    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
-        for (std::size_t k = 0; k < 3; ++k) edge_normals_[t][k] = edges.at(edge_key(t, k));
+    for (const MeshEdge& edge : edge_table(mesh_)) {
+        Vec3 sum = Vec3::Zero();
+        for (const std::int32_t t : edge.triangles)
+            if (t >= 0) sum += normals_[static_cast<std::size_t>(t)];
+        for (const std::int32_t t : edge.triangles) {
+            if (t < 0) continue;
+            const auto& corner = mesh_.triangles[static_cast<std::size_t>(t)];
+            for (std::size_t k = 0; k < 3; ++k) {
+                const auto [a, b] = std::minmax({corner[k], corner[(k + 1) % 3]});
+                if (a == edge.a && b == edge.b) edge_normals_[static_cast<std::size_t>(t)][k] = sum;
+            }
+        }
+    }
 }
 
 bool SurfaceTree::is_inside(const Vec3& p, const Foot& foot, int feature) const {
@@ -134,11 +157,12 @@ void SurfaceTree::visit_leaves(const Vec3& p, const Skip& skip, const Visit& vis
     while (depth > 0) {
         const std::int32_t at = stack[--depth];
         const Node& node = nodes_[static_cast<std::size_t>(at)];
-        if (skip(node.box.squaredExteriorDistance(p))) continue;
+        if (skip(box_distance_sq(node.low, node.high, p))) continue;
         if (node.count == 0) {
             const std::int32_t left = at + 1, right = node.right;
             const auto distance = [&](std::int32_t child) {
-                return nodes_[static_cast<std::size_t>(child)].box.squaredExteriorDistance(p);
+                const Node& box = nodes_[static_cast<std::size_t>(child)];
+                return box_distance_sq(box.low, box.high, p);
             };
             const bool left_first = distance(left) <= distance(right);
             stack[depth++] = left_first ? right : left;
@@ -146,7 +170,7 @@ void SurfaceTree::visit_leaves(const Vec3& p, const Skip& skip, const Visit& vis
             continue;
         }
         for (std::int32_t k = node.first; k < node.first + node.count; ++k)
-            visit(order_[static_cast<std::size_t>(k)]);
+            visit(order_[static_cast<std::size_t>(k)], corners_[static_cast<std::size_t>(k)]);
     }
 }
 
@@ -156,10 +180,8 @@ Foot SurfaceTree::closest(const Vec3& p) const {
     int feature = 6;
     visit_leaves(
         p, [&](double sq) { return sq >= best_sq; },
-        [&](std::int32_t t) {
-            const auto tt = static_cast<std::size_t>(t);
-            const TrianglePoint q = closest_on_triangle(p, mesh_.corner(tt, 0), mesh_.corner(tt, 1),
-                                                        mesh_.corner(tt, 2));
+        [&](std::int32_t t, const Corners& corner) {
+            const TrianglePoint q = closest_on_triangle(p, corner[0], corner[1], corner[2]);
             const double sq = (p - q.point).squaredNorm();
             if (sq > best_sq || (sq == best_sq && t > best.triangle)) return;
             best_sq = sq;
@@ -176,15 +198,24 @@ void SurfaceTree::within(const Vec3& p, double range, std::vector<Foot>& out) co
     out.clear();
     visit_leaves(
         p, [&](double sq) { return sq > range * range; },
-        [&](std::int32_t t) {
-            const auto tt = static_cast<std::size_t>(t);
-            const TrianglePoint q = closest_on_triangle(p, mesh_.corner(tt, 0), mesh_.corner(tt, 1),
-                                                        mesh_.corner(tt, 2));
+        [&](std::int32_t t, const Corners& corner) {
+            const TrianglePoint q = closest_on_triangle(p, corner[0], corner[1], corner[2]);
             const double distance = (p - q.point).norm();
             if (distance <= range) out.push_back({q.point, distance, false, t});
         });
     std::sort(out.begin(), out.end(),
               [](const Foot& l, const Foot& r) { return l.triangle < r.triangle; });
+}
+
+bool SurfaceTree::is_clear(const Vec3& p, double range) const {
+    bool clear = true;
+    visit_leaves(
+        p, [&](double sq) { return !clear || sq >= range * range; },
+        [&](std::int32_t, const Corners& corner) {
+            const TrianglePoint q = closest_on_triangle(p, corner[0], corner[1], corner[2]);
+            if ((p - q.point).squaredNorm() < range * range) clear = false;
+        });
+    return clear;
 }
 
 }  // namespace ice

@@ -32,6 +32,10 @@ public:
     /// Feet on all triangles nearer than `range` to p, in triangle order. `inside` is not set.
     void within(const Vec3& p, double range, std::vector<Foot>& out) const;
 
+    /// True when no point of the surface is nearer than `range` to p. Much cheaper than closest()
+    /// where the range is small, because it never looks farther.
+    bool is_clear(const Vec3& p, double range) const;
+
     const TriangleMesh& mesh() const { return mesh_; }
     const Vec3& normal(std::int32_t triangle) const {
         return normals_[static_cast<std::size_t>(triangle)];
@@ -39,10 +43,12 @@ public:
 
 private:
     struct Node {
-        Eigen::AlignedBox3d box;
+        Vec3 low, high;                     ///< box of all its triangles
         std::int32_t first = 0, count = 0;  ///< leaf: range of order_; inner node: count 0
         std::int32_t right = 0;  ///< inner node: second child; the first is the next node
     };
+
+    using Corners = std::array<Vec3, 3>;
 
     template <class Skip, class Visit>
     void visit_leaves(const Vec3& p, const Skip& skip, const Visit& visit) const;
@@ -53,9 +59,10 @@ private:
     const TriangleMesh& mesh_;
     std::vector<Node> nodes_;
     std::vector<std::int32_t> order_;
-    std::vector<Vec3> centers_;
-    std::vector<Vec3> normals_;                      ///< per triangle
-    std::vector<Vec3> corner_normals_;               ///< per vertex, angle-weighted
+    std::vector<Corners> corners_;      ///< of the triangles in the order of order_: read in a row
+    std::vector<Vec3> centers_;         ///< while building only
+    std::vector<Vec3> normals_;         ///< per triangle
+    std::vector<Vec3> corner_normals_;  ///< per vertex, angle-weighted
     std::vector<std::array<Vec3, 3>> edge_normals_;  ///< per triangle and edge: sum of both faces
 };
 

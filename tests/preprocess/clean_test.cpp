@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "preprocess/clean/check_solid.hpp"
+#include "preprocess/clean/make_solid.hpp"
 #include "preprocess/clean/weld.hpp"
 #include "tests/support/make_meshes.hpp"
 
@@ -30,7 +31,8 @@ TEST_CASE("welding gives a box its 8 corners back; equal corners are no repair",
     const WeldCounts counts = weld(mesh);
     CHECK(mesh.vertices.size() == 8);
     CHECK(mesh.triangles.size() == 12);
-    CHECK(counts.merged_vertices == 0);
+    CHECK(counts.equal_vertices == 28);
+    CHECK(counts.near_vertices == 0);
     CHECK(diagnose_solid(mesh).good());
 }
 
@@ -49,7 +51,7 @@ TEST_CASE("degenerate and repeated triangles are dropped and counted", "[clean]"
 TEST_CASE("vertices a ten-millionth of the size apart are one", "[clean]") {
     TriangleMesh mesh = unwelded(test::make_box_mesh(Vec3(10, 2, 2)));
     for (std::size_t k = 0; k < mesh.vertices.size(); k += 2) mesh.vertices[k].x() += 1e-6;
-    CHECK(weld(mesh).merged_vertices > 0);
+    CHECK(weld(mesh).near_vertices > 0);
     CHECK(mesh.vertices.size() == 8);
 }
 
@@ -97,4 +99,77 @@ TEST_CASE("the curved test hull and globe are solids with the right volume", "[c
     CHECK(measure_mass(globe).volume == Approx(4.0 / 3.0 * 3.14159265).epsilon(0.005));  // facets
     // L B T (2/3)^2 of parabolic waterlines and sections
     CHECK(measure_mass(hull).volume == Approx(10 * 2 * 1 * 4.0 / 9.0).epsilon(0.01));
+}
+
+namespace {
+
+// Adds a box at a place, turned inside out when told so.
+void add_box(TriangleMesh& mesh, const Vec3& size, const Vec3& at, bool turned) {
+    TriangleMesh part = test::make_box_mesh(size);
+    if (turned) flip(part);
+    const auto first = static_cast<std::int32_t>(mesh.vertices.size());
+    for (const Vec3& v : part.vertices) mesh.vertices.push_back(v + at);
+    for (const auto& t : part.triangles)
+        mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+    mesh.region.insert(mesh.region.end(), part.triangles.size(), 0);
+}
+
+double solid_volume(const TriangleMesh& mesh, SolidKind kind, Repairs& repairs) {
+    const TriangleMesh solid = make_solid(mesh, "test", {kind, false}, repairs);
+    CHECK(diagnose_solid(solid).good());
+    return measure_mass(solid).volume;
+}
+
+}  // namespace
+
+TEST_CASE("shells inside a hull: filled in the envelope, voids or skins in the material",
+          "[clean][analytic]") {
+    TriangleMesh mesh;
+    Repairs repairs;
+    add_box(mesh, Vec3(2, 2, 2), Vec3::Zero(), false);
+    SECTION("an inward box inside is a void") {
+        add_box(mesh, Vec3(1, 1, 1), Vec3::Zero(), true);
+        CHECK(solid_volume(mesh, SolidKind::material, repairs) == Approx(7).epsilon(1e-14));
+        CHECK(repairs.empty());
+        CHECK(solid_volume(mesh, SolidKind::envelope, repairs) == Approx(8).epsilon(1e-14));
+        CHECK(repairs == Repairs{{"surfaces inside the envelope dropped", 1}});
+    }
+    SECTION("an outward box inside is a second skin, not a second volume") {
+        add_box(mesh, Vec3(1, 1, 1), Vec3::Zero(), false);
+        CHECK(solid_volume(mesh, SolidKind::material, repairs) == Approx(8).epsilon(1e-14));
+        CHECK(repairs == Repairs{{"surfaces inside the material dropped", 1}});
+        CHECK(solid_volume(mesh, SolidKind::envelope, repairs) == Approx(8).epsilon(1e-14));
+    }
+    SECTION("a body inside a void is material again") {
+        add_box(mesh, Vec3(1, 1, 1), Vec3::Zero(), true);
+        add_box(mesh, Vec3(0.5, 0.5, 0.5), Vec3::Zero(), false);
+        CHECK(solid_volume(mesh, SolidKind::material, repairs) == Approx(7.125).epsilon(1e-14));
+        CHECK(solid_volume(mesh, SolidKind::envelope, repairs) == Approx(8).epsilon(1e-14));
+    }
+    SECTION("all of it inside out is the same solid, and said") {
+        add_box(mesh, Vec3(1, 1, 1), Vec3::Zero(), true);
+        flip(mesh);
+        CHECK(solid_volume(mesh, SolidKind::material, repairs) == Approx(7).epsilon(1e-14));
+        CHECK(repairs == Repairs{{"inside-out surfaces turned over", 2}});
+    }
+    SECTION("a second body that faces inwards adds its volume instead of taking it away") {
+        add_box(mesh, Vec3(1, 1, 1), Vec3(5, 0, 0), true);
+        CHECK(solid_volume(mesh, SolidKind::envelope, repairs) == Approx(9).epsilon(1e-14));
+        CHECK(repairs == Repairs{{"inside-out surfaces turned over", 1}});
+        CHECK_THROWS_WITH(make_solid(mesh, "ship.obj", {SolidKind::envelope, true}, repairs),
+                          Catch::Contains("ship.obj") && Catch::Contains("inside out"));
+    }
+    SECTION("bodies that overlap are refused") {
+        add_box(mesh, Vec3(2, 2, 2), Vec3(1.5, 0.1, 0.2), false);
+        CHECK_THROWS_WITH(make_solid(mesh, "ship.obj", {}, repairs), Catch::Contains("cross"));
+    }
+}
+
+TEST_CASE("a closed mesh keeps coordinates nearer than the welding tolerance", "[clean]") {
+    TriangleMesh mesh;
+    add_box(mesh, Vec3(100, 100, 100), Vec3::Zero(), false);
+    add_box(mesh, Vec3(1e-5, 1e-5, 1e-5), Vec3(200, 0, 0), false);  // tolerance 2e-4
+    const WeldCounts counts = weld(mesh);
+    CHECK(mesh.vertices.size() == 16);
+    CHECK(counts.near_vertices + counts.degenerate_triangles == 0);
 }

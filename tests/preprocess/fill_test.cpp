@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Sphere sets: counts, exact integrals, tangency, cover, shares, symmetry, threads.
 #include <catch2/catch.hpp>
+#include <map>
 #include <numeric>
-#include <set>
 
 #include "common/base/parallel.hpp"
 #include "preprocess/fill/fill_spheres.hpp"
+#include "preprocess/fill/lattice.hpp"
+#include "preprocess/fill/nearest_points.hpp"
 #include "tests/preprocess/solid_oracle.hpp"
 #include "tests/support/make_meshes.hpp"
 
@@ -118,13 +120,64 @@ TEST_CASE("every place a sphere can touch has one within 0.7 of the spacing", "[
 
 TEST_CASE("a symmetric hull gets mirror images port and starboard, bit for bit",
           "[fill][property]") {
+    // 1.9 m broad: no multiple of the lattice pitch
+    const auto arrangement = GENERATE(Arrangement::conforming, Arrangement::lattice);
+    SpheresReport report;
+    const SphereSet set =
+        fill_spheres(test::make_wigley(10, 1.9, 1, 40, 12), options(0.1, 0, arrangement), report);
+    std::map<std::array<double, 3>, std::size_t> all;
+    for (std::size_t k = 0; k < set.size(); ++k)
+        all[{set.centers[k].x(), set.centers[k].y(), set.centers[k].z()}] = k;
+    for (std::size_t k = 0; k < set.size(); ++k) {
+        const Vec3& c = set.centers[k];
+        const auto image = all.find({c.x(), c.y() == 0 ? 0.0 : -c.y(), c.z()});
+        REQUIRE(image != all.end());
+        const std::size_t m = image->second;
+        REQUIRE(set.layers[k] == set.layers[m]);
+        REQUIRE(set.areas[k] == set.areas[m]);
+        REQUIRE(set.volumes[k] == set.volumes[m]);
+        REQUIRE(set.normals[k] ==
+                Vec3(set.normals[m].x(), -set.normals[m].y(), set.normals[m].z()));
+    }
+    check_shares(set);
+}
+
+TEST_CASE("a lattice that cannot fill a box from face to face is centred in it",
+          "[fill][analytic]") {
+    SpheresReport report;
+    const SphereSet set = fill_spheres(test::make_box_mesh(Vec3(1.37, 0.93, 0.61)),
+                                       options(0.05, 0, Arrangement::lattice), report);
+    CHECK(set.size() == 13 * 9 * 6);
+    Vec3 sum = Vec3::Zero();
+    for (const Vec3& c : set.centers) sum += c;
+    CHECK(sum.norm() < 1e-12 * static_cast<double>(set.size()));
+    check_shares(set);
+}
+
+TEST_CASE("a lattice stands on the largest flat face", "[fill][analytic]") {
+    // the deck of the curved hull, at z = 0
     SpheresReport report;
     const SphereSet set = fill_spheres(test::make_wigley(10, 2, 1, 40, 12),
-                                       options(0.1, 0, Arrangement::conforming, true), report);
-    std::set<std::array<double, 3>> all;
-    for (const Vec3& c : set.centers) all.insert({c.x(), c.y(), c.z()});
-    for (const Vec3& c : set.centers)
-        REQUIRE(all.contains({c.x(), c.y() == 0 ? 0.0 : -c.y(), c.z()}));
+                                       options(0.07, 0, Arrangement::lattice), report);
+    double top = -1e300;
+    for (const Vec3& c : set.centers) top = std::max(top, c.z());
+    CHECK(top == Approx(-0.07).epsilon(1e-9));
+}
+
+TEST_CASE("blocks of a lattice are decided as its single points are", "[fill][equivalence]") {
+    const TriangleMesh globe = test::make_globe(1.0, 24);
+    const SurfaceTree tree(globe);
+    const double radius = 0.031;
+    const Lattice lattice = fill_lattice(tree, radius, 2 * radius, 3, true);
+    std::size_t expected = 0;
+    const auto n = static_cast<int>(std::floor(1.0 / radius));
+    for (int i = 0; i < n * n * n; ++i) {
+        const Vec3 p =
+            2 * radius * (Vec3(i % n, i / n % n, i / (n * n)) - Vec3::Constant(0.5 * (n - 1)));
+        const Foot foot = tree.closest(p);
+        expected += foot.inside && foot.distance >= 2 * radius;
+    }
+    CHECK(lattice.centers.size() == expected);
 }
 
 TEST_CASE("the set does not depend on the number of threads", "[fill][determinism]") {
@@ -177,6 +230,13 @@ TEST_CASE("discs of a rectangle stand on its outline, corners included, at most 
     CHECK(lattice.size() == 10);  // 5 x 2
 }
 
+TEST_CASE("an absurd number of spheres is refused with the unit as the likely cause",
+          "[fill][errors]") {
+    SpheresReport report;
+    CHECK_THROWS_WITH(fill_spheres(test::make_box_mesh(Vec3(1000, 800, 300)), options(0.1), report),
+                      Catch::Contains("spheres") && Catch::Contains("--units"));
+}
+
 TEST_CASE("a solid in which nothing fits names the largest radius that does", "[fill][errors]") {
     SpheresReport report;
     CHECK_THROWS_WITH(fill_spheres(test::make_box_mesh(Vec3(1, 1, 0.1)), options(0.06), report),
@@ -184,12 +244,20 @@ TEST_CASE("a solid in which nothing fits names the largest radius that does", "[
 }
 
 TEST_CASE("shares that cannot meet the centroid say so", "[fill][degenerate]") {
-    // one layer of a lattice in a box 1.5 diameters thick lies below the middle
+    // a roof over a flat floor takes one row of spheres: no shares reach up to its centroid
+    Section section;
+    const double x[3] = {-0.3, 0.3, 0}, z[3] = {0, 0, 0.2};
+    section.loops.emplace_back();
+    for (int k = 0; k < 3; ++k) {
+        const Vec3 a(x[k], 0, z[k]), b(x[(k + 1) % 3], 0, z[(k + 1) % 3]);
+        const Vec3 d = (b - a).normalized();
+        section.loops[0].push_back({a, b, Vec3(d.z(), 0, -d.x()), 0});
+    }
     SpheresReport report;
-    fill_spheres(test::make_box_mesh(Vec3(1, 0.8, 0.15)), options(0.05, 0, Arrangement::lattice),
-                 report);
+    fill_spheres(extrude(section, {"hull"}), options(0.06, 0, Arrangement::lattice), report);
     REQUIRE(report.warnings.size() == 1);
-    CHECK_THAT(report.warnings[0], Catch::Contains("centroid by 0.025 m"));
+    // the centroid is at a third of 0.2 m, the row at 0.06 m
+    CHECK_THAT(report.warnings[0], Catch::Contains("centroid by 0.00667 m"));
 }
 
 TEST_CASE("a fin too thin for a sphere is listed with its place and size", "[fill]") {
@@ -208,4 +276,21 @@ TEST_CASE("a fin too thin for a sphere is listed with its place and size", "[fil
     REQUIRE(report.thin_features.size() == 1);
     CHECK(report.thin_features[0].at[2] == Approx(-0.6).margin(0.2));
     CHECK(report.thin_features[0].size == Approx(1.25).margin(0.3));
+}
+
+TEST_CASE("the nearest point is the one a search of all finds, the first of equals",
+          "[fill][equivalence]") {
+    std::vector<Vec3> points;
+    for (int k = 0; k < 700; ++k)  // a coarse grid visited in a scattered order, with repeats
+        points.emplace_back(k * 37 % 9, k * 53 % 7, k * 71 % 5);
+    const NearestPoints tree(points);
+    for (int k = 0; k < 2000; ++k) {
+        const Vec3 p(0.5 * (k * 31 % 23) - 1, 0.5 * (k * 17 % 19) - 1, 0.5 * (k * 13 % 17) - 1);
+        std::size_t best = 0;
+        for (std::size_t i = 1; i < points.size(); ++i)
+            if ((points[i] - p).squaredNorm() < (points[best] - p).squaredNorm()) best = i;
+        const auto found = tree.nearest(p);
+        REQUIRE(found.index == static_cast<std::int32_t>(best));
+        REQUIRE(found.distance == (points[best] - p).norm());
+    }
 }

@@ -21,6 +21,8 @@ TEST_CASE("distances to a unit box", "[measure][analytic]") {
     tree.within(Vec3(0.4, 0.4, 0), 0.2, feet);
     REQUIRE(feet.size() == 2);  // one triangle of each of the two near faces
     for (const Foot& foot : feet) CHECK(foot.distance == Approx(0.1));
+    CHECK(tree.is_clear(Vec3(0.2, 0, 0), 0.3 - 1e-12));
+    CHECK_FALSE(tree.is_clear(Vec3(0.2, 0, 0), 0.3 + 1e-12));
 }
 
 TEST_CASE("inside and distance equal CGAL's on 3000 points of each solid",
