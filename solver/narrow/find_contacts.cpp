@@ -15,6 +15,10 @@ namespace {
 // Normals closer than 30 degrees belong to the same face of a probe's neighbourhood.
 constexpr double kSameFaceCos = 0.866;
 
+// A pair takes about a microsecond: below this many, waking threads costs more than they save, and
+// much more on a busy machine.
+constexpr std::size_t kSerialPairs = 256;
+
 // An edge that presses sideways still has some area, so that no contact is without strength.
 constexpr double kLeastFacing = 0.05;
 
@@ -200,7 +204,7 @@ double closing_speed(const Scene& scene, BodyPair pair) {
 void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs, NormalRule rule,
                          double dt, double margin, std::vector<Contact>& out) {
     if (per_pair_.size() < pairs.size()) per_pair_.resize(pairs.size());
-    parallel_for(pairs.size(), 32, [&](std::size_t k) {
+    parallel_for(pairs.size(), kSerialPairs, [&](std::size_t k) {
         thread_local std::vector<Candidate> candidates;
         per_pair_[k].clear();
         find_pair_contacts(scene, pairs[k], rule, dt * closing_speed(scene, pairs[k]) + margin,
