@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <Eigen/Geometry>
+#include <cmath>
 #include <map>
 
 #include "common/base/error.hpp"
@@ -41,14 +42,22 @@ void note_guesses(const CLI::App& app, Options& o) {
     if (!given("--forward")) o.guessed["forward"] = "+x";
 }
 
+// CLI11's own check for positive numbers answers with the largest double, in digits.
+std::string positive_metres(const std::string& text) {
+    const auto number = ice::parse_quantity(text, ice::Dimension::none);
+    return number && number->value > 0.0 && std::isfinite(number->value)
+               ? std::string()
+               : text + " is not a positive number of metres (0.15, without a unit)";
+}
+
 void declare(CLI::App& app, Options& o) {
     app.set_version_flag("--version", fmt::format("spherize {} ({}, {})", ice::version(),
                                                   ice::git_commit(), ice::compiler()));
     app.add_option("mesh", o.mesh, "Closed surface mesh (OBJ, STL, PLY, ...)")->required();
     app.add_option("-o,--output", o.out, "Sphere file (default <mesh stem>.spheres.h5)");
-    app.add_option("-r,--radius", o.fill.radius, "Sphere radius [m]")->check(CLI::PositiveNumber);
+    app.add_option("-r,--radius", o.fill.radius, "Sphere radius [m]")->check(positive_metres);
     app.add_option("-s,--spacing", o.fill.spacing, "Centre distance on the surface [m] (radius)")
-        ->check(CLI::PositiveNumber);
+        ->check(positive_metres);
     app.add_option("--arrangement", o.arrangement, "conforming or lattice")
         ->check(CLI::IsMember({"conforming", "lattice"}));
     app.add_option("--mode", o.mode, "fill, or surface to drop the interior")
@@ -61,7 +70,7 @@ void declare(CLI::App& app, Options& o) {
     auto* unit = app.add_option("--units", o.read.scale, "Unit of the file: mm, cm, m, ft, in")
                      ->transform(CLI::CheckedTransformer(units));
     app.add_option("--scale", o.read.scale, "Metres per file unit")
-        ->check(CLI::PositiveNumber)
+        ->check(positive_metres)
         ->excludes(unit);
     app.add_option("--up", o.read.up, "File axis that points up")->check(CLI::IsMember({"y", "z"}));
     app.add_option("--forward", o.read.forward, "File direction of the bow")

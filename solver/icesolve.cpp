@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <cstdio>
 
 #include "common/base/error.hpp"
@@ -54,11 +55,14 @@ void declare(CLI::App& app, Options& o) {
 int report(const ice::Summary& s, const Options& o, const std::string& folder) {
     if (o.json) fmt::print("{}", ice::summary_text(s));
     const char* unit = s.dimension == 2 ? "N/m" : "N";
-    ice::say(
-        fmt::format("resistance {:.1f} +- {:.1f} {} (95 %; contact {:.1f}, friction {:.1f}), {} of "
-                    "{} floes moved, deepest overlap {:.1f} mm",
-                    s.resistance.mean, s.resistance.ci95, unit, s.resistance.contact_mean,
-                    s.resistance.friction_mean, s.floes_moved, s.floes_total, 1e3 * s.max_overlap));
+    const std::string interval = std::isfinite(s.resistance.ci95)
+                                     ? fmt::format("+- {:.1f} {} (95 %)", s.resistance.ci95, unit)
+                                     : std::string(unit) + " (too short for an interval)";
+    ice::say(fmt::format(
+        "resistance {:.1f} {}, contact {:.1f}, friction {:.1f}; {} of {} floes moved, deepest "
+        "overlap {:.1f} mm",
+        s.resistance.mean, interval, s.resistance.contact_mean, s.resistance.friction_mean,
+        s.floes_moved, s.floes_total, 1e3 * s.max_overlap));
     if (s.lindqvist_submersion)
         ice::say(
             fmt::format("Lindqvist's submersion resistance: {:.1f} N", *s.lindqvist_submersion));

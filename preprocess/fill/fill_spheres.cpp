@@ -67,8 +67,13 @@ void refuse_too_many(const SphereSet& set, const FillOptions& o) {
     if (o.arrangement == Arrangement::conforming && !flat)
         count += 1.155 * set.solid.area / (set.spacing * set.spacing);  // a hexagonal layer
     if (count < kMostSpheres) return;
-    throw bad_input("--radius", fmt::format("the solid would take about {:.1g} spheres", count),
-                    "are the mesh's --units right? Otherwise use a larger --radius and --spacing");
+    Eigen::AlignedBox3d box;
+    for (const Vec3& v : set.mesh.vertices) box.extend(v);
+    throw bad_input("--radius",
+                    fmt::format("a solid of {:.5g} x {:.5g} x {:.5g} m would take about {:.1g} "
+                                "spheres of {:g} m",
+                                box.sizes().x(), box.sizes().y(), box.sizes().z(), count, o.radius),
+                    "if the mesh is in millimetres give --units mm; else use a larger radius");
 }
 
 void add_spheres(SphereSet& set, const std::vector<Vec3>& centers, std::uint8_t layer) {

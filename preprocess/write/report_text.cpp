@@ -27,7 +27,7 @@ std::string report_text(const SpheresReport& r, const std::string& output) {
                                      r.normal_error_p99_deg));
     for (const auto& [step, count] : r.repairs)
         line("repaired", fmt::format("{}: {}", step, count));
-    for (const auto& [what, value] : r.guessed) line("guessed", what + ": " + value);
+    for (const auto& [what, value] : r.guessed) line("assumed", what + ": " + value);
     for (std::size_t k = 0; k < r.thin_features.size(); ++k) {
         const ThinFeature& f = r.thin_features[k];
         if (k == 10) {

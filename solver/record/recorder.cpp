@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "common/base/state_hash.hpp"
 #include "common/base/version.hpp"
@@ -31,6 +33,14 @@ RunHeader make_header(const Case& parameters, const Scene& scene, const std::str
     }
     header.tracked.assign(parameters.track.begin(), parameters.track.end());
     return header;
+}
+
+// Half the smallest ice sphere: deeper, and spheres slip past each other.
+double worrying_overlap(const Scene& scene) {
+    double smallest = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 1; k < scene.shapes.size(); ++k)
+        for (const double radius : scene.shapes[k].radius) smallest = std::min(smallest, radius);
+    return 0.5 * smallest;
 }
 
 FloeState state_of(const Scene& scene, std::size_t i) {
@@ -70,7 +80,8 @@ Recorder::Recorder(const std::filesystem::path& folder, const Case& parameters, 
       dt_(parameters.time_step),
       run_(folder / "run.h5", make_header(parameters, scene, command_line)),
       forces_(folder / "forces.csv", kForceColumns),
-      tally_(scene.shapes[0].region_names, parameters.average_from),
+      tally_({scene.shapes[0].region_names, parameters.average_from,
+              std::isinf(parameters.crushing_pressure), worrying_overlap(scene)}),
       floe_forces_(scene.bodies.size()),
       tracked_sum_(parameters.track.size()),
       frame_impulse_(scene.bodies.size(), Vec3::Zero()),

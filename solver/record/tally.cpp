@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <numeric>
 
 #include "solver/record/statistics.hpp"
 
@@ -14,6 +16,19 @@ namespace {
 
 // Steps beyond this share that did not converge are worth a warning; a jam always is.
 constexpr double kWorthWarning = 0.01;
+
+// ... and so is a mean of which this share comes from a hundredth of the steps.
+constexpr double kWorryingPeaks = 0.2;
+
+// Share of sum |f| that the 1 % of steps with the largest |f| carry; 0 for fewer than 100 steps.
+double share_of_largest(std::vector<double> force) {
+    if (force.size() < 100) return 0.0;
+    for (double& f : force) f = std::abs(f);
+    std::sort(force.begin(), force.end(), std::greater<>());
+    const auto few = force.begin() + static_cast<std::ptrdiff_t>(force.size() / 100);
+    const double all = std::accumulate(force.begin(), force.end(), 0.0);
+    return all > 0.0 ? std::accumulate(force.begin(), few, 0.0) / all : 0.0;
+}
 
 ForceStatistics statistics(const std::vector<double>& total, const std::vector<double>& contact,
                            const std::vector<double>& friction, double sign) {
@@ -31,10 +46,8 @@ ForceStatistics statistics(const std::vector<double>& total, const std::vector<d
 
 }  // namespace
 
-Tally::Tally(std::vector<std::string> region_names, double average_from)
-    : region_names_(std::move(region_names)),
-      average_from_(average_from),
-      regions_(region_names_.size()) {}
+Tally::Tally(TallyOptions options)
+    : options_(std::move(options)), regions_(options_.region_names.size()) {}
 
 void Tally::add(const StepRecord& record, double time, double dt, double ship_speed,
                 bool converged) {
@@ -42,14 +55,17 @@ void Tally::add(const StepRecord& record, double time, double dt, double ship_sp
     unconverged_ += converged ? 0 : 1;
     contacts_ += record.contacts;
     contacts_max_ = std::max<double>(contacts_max_, record.contacts);
-    max_overlap_ = std::max(max_overlap_, record.max_overlap);
+    if (record.max_overlap > max_overlap_) {
+        max_overlap_ = record.max_overlap;
+        deepest_time_ = time;
+    }
     kinetic_ = record.kinetic_energy;
     kinetic_max_ = std::max(kinetic_max_, kinetic_);
     // the ship pushes with what the ice pushes back
     ship_work_ -= (record.contact_force.x() + record.friction_force.x()) * ship_speed * dt;
     add_jam(record, time);
 
-    const bool averaged = time >= average_from_ - 1e-9;
+    const bool averaged = time >= options_.average_from - 1e-9;
     add_regions(record, averaged);
     if (!averaged) return;
     averaged_time_ += dt;
@@ -81,13 +97,13 @@ void Tally::add_jam(const StepRecord& record, double time) {
 }
 
 void Tally::fill(Summary& summary) const {
-    summary.average_from = average_from_;
+    summary.average_from = options_.average_from;
     // resistance is positive when it slows the ship
     summary.resistance = statistics(total_[0], contact_[0], friction_[0], -1.0);
     summary.lateral = statistics(total_[1], contact_[1], friction_[1], 1.0);
     summary.vertical = statistics(total_[2], contact_[2], friction_[2], 1.0);
     for (std::size_t r = 0; r < regions_.size(); ++r) {
-        RegionStatistics& out = summary.regions[region_names_[r]];
+        RegionStatistics& out = summary.regions[options_.region_names[r]];
         out.hits = regions_[r].hits;
         out.max_impulse = regions_[r].max_impulse;
         for (int d = 0; d < 3; ++d)
@@ -102,18 +118,38 @@ void Tally::fill(Summary& summary) const {
     summary.energy["ship_work_J"] = ship_work_;
     summary.energy["kinetic_J"] = kinetic_;
     summary.energy["kinetic_max_J"] = kinetic_max_;
+    warn(summary);
+}
+
+void Tally::warn(Summary& summary) const {
+    const double steps = std::max<double>(1.0, static_cast<double>(steps_));
     if (static_cast<double>(unconverged_) > kWorthWarning * steps)
-        summary.warnings.push_back(
-            fmt::format("{} of {} steps did not reach contact.tolerance within contact.iterations",
-                        unconverged_, steps_));
+        summary.warnings.push_back(fmt::format(
+            "{} of {} steps ({:.0f} %) did not reach contact.tolerance within contact.iterations; "
+            "raise the iterations, and trust the mean if it stays within its interval",
+            unconverged_, steps_, 100.0 * static_cast<double>(unconverged_) / steps));
     if (jammed_steps_ > 0)
         summary.warnings.push_back(fmt::format(
             "jam: in {} of {} steps a floe squeezed between the hull and other ice could not give "
-            "way, first floe {} at t = {:.2f} s, x = {:.2f}, y = {:.2f}, z = {:.2f} m; with rigid "
-            "contact the force there depends on time_step and iterations: set "
-            "contact.crushing_pressure",
+            "way, first floe {} at t = {:.2f} s, x = {:.2f}, y = {:.2f}, z = {:.2f} m; {}",
             jammed_steps_, steps_, first_jam_floe_, first_jam_time_, first_jam_point_.x(),
-            first_jam_point_.y(), first_jam_point_.z()));
+            first_jam_point_.y(), first_jam_point_.z(),
+            options_.rigid ? "with rigid contact the force there depends on time_step and "
+                             "iterations: set contact.crushing_pressure"
+                           : "the solver ran out of iterations there: raise contact.iterations"));
+    const double peaks = share_of_largest(total_[0]);
+    if (peaks > kWorryingPeaks)
+        summary.warnings.push_back(fmt::format(
+            "{:.0f} % of the force along x comes from 1 % of the steps: squeezed or hit floes, not "
+            "sliding ones, decide the mean",
+            100.0 * peaks));
+    if (max_overlap_ > options_.worrying_overlap)
+        summary.warnings.push_back(fmt::format(
+            "overlap reached {:.1f} mm at t = {:.2f} s: bodies were pushed through each other; "
+            "lower time_step, raise contact.iterations or contact.crushing_pressure",
+            1e3 * max_overlap_, deepest_time_));
+    if (contacts_max_ == 0.0)
+        summary.warnings.push_back("nothing touched anything: is the hull on its way to the ice?");
 }
 
 }  // namespace ice

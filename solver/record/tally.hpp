@@ -12,12 +12,18 @@
 
 namespace ice {
 
+/// What Tally needs to know of a run.
+struct TallyOptions {
+    std::vector<std::string> region_names;  ///< of the hull
+    double average_from = 0.0;              ///< [s]; means use steps that end at or after it
+    bool rigid = true;                      ///< contact.crushing_pressure is inf
+    double worrying_overlap = 0.0;          ///< [m]; deeper ones are worth a warning
+};
+
 /// Collects what summary.json states, step by step.
 class Tally {
 public:
-    /// @param region_names  of the hull
-    /// @param average_from  [s]; means use steps that end at or after it
-    Tally(std::vector<std::string> region_names, double average_from);
+    explicit Tally(TallyOptions options);
 
     /// @param ship_speed  [m/s], for the work done by the ship
     /// @param converged   of both solver stages
@@ -36,15 +42,17 @@ private:
     void add_regions(const StepRecord& record, bool averaged);
     void add_jam(const StepRecord& record, double time);
 
-    std::vector<std::string> region_names_;
-    double average_from_, averaged_time_ = 0.0;
+    void warn(Summary& summary) const;
+
+    TallyOptions options_;
+    double averaged_time_ = 0.0;
     std::vector<double> total_[3], contact_[3], friction_[3];  ///< per averaged step, per axis [N]
     std::vector<Region> regions_;
     std::set<std::pair<std::int32_t, std::int32_t>> touching_;  ///< (floe, region) of the last step
     std::int64_t steps_ = 0, unconverged_ = 0, jammed_steps_ = 0;
     double contacts_ = 0.0, contacts_max_ = 0.0, max_overlap_ = 0.0;
     double ship_work_ = 0.0, kinetic_ = 0.0, kinetic_max_ = 0.0;
-    double first_jam_time_ = 0.0;
+    double first_jam_time_ = 0.0, deepest_time_ = 0.0;
     std::int32_t first_jam_floe_ = 0;
     Vec3 first_jam_point_ = Vec3::Zero();
 };

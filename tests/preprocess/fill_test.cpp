@@ -243,6 +243,14 @@ TEST_CASE("a solid in which nothing fits names the largest radius that does", "[
                       Catch::Contains("no sphere of radius 0.06") && Catch::Contains("0.05 m"));
 }
 
+TEST_CASE("a hull in millimetres is refused with its size and the option to give",
+          "[fill][errors]") {
+    SpheresReport report;
+    CHECK_THROWS_WITH(
+        fill_spheres(test::make_box_mesh(Vec3(12000, 3000, 1000)), options(0.15), report),
+        Catch::Contains("12000 x 3000 x 1000 m") && Catch::Contains("--units mm"));
+}
+
 TEST_CASE("shares that cannot meet the centroid say so", "[fill][degenerate]") {
     // a roof over a flat floor takes one row of spheres: no shares reach up to its centroid
     Section section;

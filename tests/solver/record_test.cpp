@@ -126,7 +126,7 @@ TEST_CASE("forces are the opposite of what the floe feels, split into normal and
 }
 
 TEST_CASE("a touch that lasts is one hit, a second touch another", "[record]") {
-    Tally tally({"hull", "bow"}, 0.0);
+    Tally tally({{"hull", "bow"}, 0.0, true, 0.01});
     StepRecord touching, apart;
     touching.regions = {{3, 1, Vec3(-2, 0, 0)}};
     for (const StepRecord* r : {&touching, &touching, &apart, &touching})
