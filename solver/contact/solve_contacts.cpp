@@ -24,12 +24,14 @@ constexpr double kMostPush = 0.005;
 
 constexpr int kSeparationIterations = 10;
 
-// Accumulated impulse of a stage within its bounds; returns the change of contact velocity.
+// What a stage has given a contact so far [N s].
 struct StageImpulse {
     double& normal;
     Vec3& tangent;
 };
 
+// Both updates bring one contact to its conditions, the others being as they are, and return by how
+// much its velocity changed [m/s].
 double update_normal(Bodies& bodies, const Constraint& c, double wanted, double bound,
                      double& accumulated) {
     const double speed = relative_velocity(bodies, c).dot(c.normal);
