@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// OpenMP behind two functions; no other file includes or uses it.
+/// OpenMP behind a few functions; no other file includes or uses it.
 #pragma once
 
 #include <omp.h>
@@ -27,6 +27,14 @@ void parallel_for(std::size_t count, std::size_t serial_below, const Body& body)
         return;
     }
 #pragma omp parallel for schedule(dynamic, 16)
+    for (std::ptrdiff_t k = 0; k < static_cast<std::ptrdiff_t>(count); ++k)
+        body(static_cast<std::size_t>(k));
+}
+
+/// Calls body(k) for k in [0, count) for few, long tasks: handed out one by one. The same rules.
+template <class Body>
+void parallel_tasks(std::size_t count, const Body& body) {
+#pragma omp parallel for schedule(dynamic, 1)
     for (std::ptrdiff_t k = 0; k < static_cast<std::ptrdiff_t>(count); ++k)
         body(static_cast<std::size_t>(k));
 }

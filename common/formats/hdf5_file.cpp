@@ -222,6 +222,34 @@ void Hdf5File::write(const std::string& name, const T* data,
         throw run_failed(describe(name), "cannot be written", "check that the disk is not full");
 }
 
+template <class T>
+void Hdf5File::write_rows(const std::string& name, const T* rows,
+                          const std::vector<std::uint64_t>& shape, std::uint64_t count, T rest) {
+    if (count == shape[0]) return write(name, rows, shape);
+    constexpr hsize_t kRowsPerChunk = 1 << 15;
+    auto dims = to_hsize(shape), chunk = dims, block = dims;
+    chunk[0] = std::min(dims[0], kRowsPerChunk);
+    block[0] = count;
+    const std::vector<hsize_t> start(dims.size(), 0);
+    const auto rank = static_cast<int>(dims.size());
+    const Handle space(H5Screate_simple(rank, dims.data(), nullptr), H5Sclose);
+    const Handle memory(H5Screate_simple(rank, block.data(), nullptr), H5Sclose);
+    const Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+    H5Pset_chunk(properties, rank, chunk.data());
+    H5Pset_fill_value(properties, memory_type<T>(), &rest);
+    H5Pset_obj_track_times(properties, false);
+    const Handle dataset(H5Dcreate2(id_, name.c_str(), memory_type<T>(), space, H5P_DEFAULT,
+                                    properties, H5P_DEFAULT),
+                         H5Dclose);
+    bool good = dataset >= 0;
+    if (good && count > 0) {
+        H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, block.data(), nullptr);
+        good = H5Dwrite(dataset, memory_type<T>(), memory, space, H5P_DEFAULT, rows) >= 0;
+    }
+    if (!good)
+        throw run_failed(describe(name), "cannot be written", "check that the disk is not full");
+}
+
 void Hdf5File::write_strings(const std::string& name, const std::vector<std::string>& texts) {
     std::size_t width = 1;
     for (const std::string& text : texts) width = std::max(width, text.size());
@@ -363,12 +391,14 @@ void Hdf5File::attach_scale(const std::string& dataset, unsigned dimension,
                          "check that the disk is not full");
 }
 
-#define ICE_INSTANTIATE(T)                                                     \
-    template void Hdf5File::write<T>(const std::string&, const T*,             \
-                                     const std::vector<std::uint64_t>&);       \
-    template std::vector<T> Hdf5File::read<T>(const std::string&) const;       \
-    template void Hdf5File::create_appendable<T>(                              \
-        const std::string&, const std::vector<std::uint64_t>&, std::uint64_t); \
+#define ICE_INSTANTIATE(T)                                                                      \
+    template void Hdf5File::write<T>(const std::string&, const T*,                              \
+                                     const std::vector<std::uint64_t>&);                        \
+    template void Hdf5File::write_rows<T>(const std::string&, const T*,                         \
+                                          const std::vector<std::uint64_t>&, std::uint64_t, T); \
+    template std::vector<T> Hdf5File::read<T>(const std::string&) const;                        \
+    template void Hdf5File::create_appendable<T>(                                               \
+        const std::string&, const std::vector<std::uint64_t>&, std::uint64_t);                  \
     template void Hdf5File::append<T>(const std::string&, const T*, std::uint64_t);
 
 ICE_INSTANTIATE(double)

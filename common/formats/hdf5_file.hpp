@@ -43,6 +43,11 @@ public:
     void write(const std::string& name, const std::vector<T>& data) {
         write(name, data.data(), {data.size()});
     }
+    /// A dataset of `shape` of which the first `count` rows are written; the others read as `rest`
+    /// and take no space.
+    template <class T>
+    void write_rows(const std::string& name, const T* rows, const std::vector<std::uint64_t>& shape,
+                    std::uint64_t count, T rest);
     void write_strings(const std::string& name, const std::vector<std::string>& texts);
     template <class T>
     std::vector<T> read(const std::string& name) const;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "common/formats/spheres_file.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/base/error.hpp"
@@ -145,30 +146,55 @@ private:
         for (const char* name : {"/radius", "/area", "/volume", "/layer", "/region"})
             check(file_.shape(name) == std::vector<std::uint64_t>{n}, name,
                   "has another length than /center");
+        const auto layers = file_.read<std::uint8_t>("/layer");
+        for (std::size_t k = 0; k < n; ++k) {
+            check(layers[k] <= 1, "/layer", "holds a layer other than 0 and 1");
+            check(k == 0 || layers[k] <= layers[k - 1], "/layer",
+                  "does not have the surface spheres first");
+            set.surface_count += layers[k];
+        }
         set.radii = finite("/radius");
+        for (const double r : set.radii)
+            check(r > 0, "/radius", "holds a radius that is not positive");
+        set.volumes = finite("/volume");
+        read_surface(set);
+        read_creases(set);
+    }
+
+    // The first S rows; those of the interior say nothing.
+    void read_surface(SphereSet& set) const {
+        const std::size_t n = set.centers.size(), s = set.surface_count;
         set.normals = points("/normal");
         set.areas = finite("/area");
-        set.volumes = finite("/volume");
-        set.layers = file_.read<std::uint8_t>("/layer");
         set.regions = file_.read<std::int32_t>("/region");
         set.normal_spread =
             file_.has("/normal_spread") ? finite("/normal_spread") : std::vector<double>(n, 0.0);
-        for (const std::size_t size :
-             {set.radii.size(), set.normals.size(), set.areas.size(), set.volumes.size(),
-              set.layers.size(), set.regions.size(), set.normal_spread.size()})
+        for (const std::size_t size : {set.normals.size(), set.normal_spread.size()})
             check(size == n, "/center", "has another length than the arrays beside it");
+        set.normals.resize(s);
+        set.areas.resize(s);
+        set.regions.resize(s);
+        set.normal_spread.resize(s);
         check_regions(set.regions, set.mesh.region_names.size(), "/region");
-        for (std::size_t k = 0; k < n; ++k) {
-            check(set.radii[k] > 0, "/radius", "holds a radius that is not positive");
+        for (std::size_t k = 0; k < s; ++k) {
             check(set.areas[k] >= 0, "/area", "holds a negative area");
-            check(set.layers[k] <= 1, "/layer", "holds a layer other than 0 and 1");
-            check(k == 0 || set.layers[k] <= set.layers[k - 1], "/layer",
-                  "does not have the surface spheres first");
-            if (set.layers[k] == 0) continue;
             const double length = set.normals[k].norm();
             check(std::abs(length - 1.0) < 1e-3, "/normal",
                   "holds a normal that is no unit vector");
             set.normals[k] /= length;
+        }
+    }
+
+    void read_creases(SphereSet& set) const {
+        if (!file_.has("/crease/sphere")) return;
+        const auto spheres = file_.read<std::int32_t>("/crease/sphere");
+        const std::vector<Vec3> normals = points("/crease/normal");
+        check(spheres.size() == normals.size(), "/crease/normal",
+              "has another length than /crease/sphere");
+        for (std::size_t k = 0; k < spheres.size(); ++k) {
+            check(spheres[k] >= 0 && static_cast<std::size_t>(spheres[k]) < set.surface_count,
+                  "/crease/sphere", "points outside the surface spheres");
+            set.creases.push_back({spheres[k], normals[k].normalized()});
         }
     }
 
@@ -200,6 +226,43 @@ void write_certificate(Hdf5File& file, SpheresReport& c) {
         file.write_attribute("/", name, static_cast<std::int64_t>(count));
 }
 
+// Arrays of the surface are written for its spheres only: the interior's rows read as the fill
+// value, and a set of millions costs little more than its centres.
+void write_arrays(Hdf5File& file, const SphereSet& set) {
+    const std::uint64_t n = set.size(), s = set.surface_count;
+    static_assert(sizeof(Vec3) == 3 * sizeof(double));
+    file.write("/center", set.centers.data()->data(), {n, 3});
+    const bool equal_radii =
+        std::all_of(set.radii.begin(), set.radii.end(), [&](double r) { return r == set.radius; });
+    const std::uint64_t radii = set.radii.size();
+    file.write_rows("/radius", set.radii.data(), {radii}, equal_radii ? 0 : radii, set.radius);
+    // shares of the interior are equal more often than not
+    const double inside = set.volumes.back();
+    const bool equal_volumes =
+        std::all_of(set.volumes.begin() + static_cast<std::ptrdiff_t>(s), set.volumes.end(),
+                    [&](double v) { return v == inside; });
+    file.write_rows("/volume", set.volumes.data(), {n}, equal_volumes ? s : n, inside);
+
+    const std::vector<float> normals = flatten<float>(set.normals);
+    const std::vector<float> spread(set.normal_spread.begin(), set.normal_spread.end());
+    const std::vector<std::uint8_t> layers(s, 1);
+    file.write_rows("/normal", normals.data(), {n, 3}, s, 0.0f);
+    file.write_rows("/normal_spread", spread.data(), {n}, s, 0.0f);
+    file.write_rows("/area", set.areas.data(), {n}, s, 0.0);
+    file.write_rows("/layer", layers.data(), {n}, s, std::uint8_t{0});
+    file.write_rows("/region", set.regions.data(), {n}, s, std::int32_t{0});
+
+    std::vector<std::int32_t> crease_spheres;
+    std::vector<Vec3> crease_normals;
+    for (const CreaseNormal& crease : set.creases) {
+        crease_spheres.push_back(crease.sphere);
+        crease_normals.push_back(crease.normal);
+    }
+    file.create_group("/crease");
+    file.write("/crease/sphere", crease_spheres);
+    file.write("/crease/normal", flatten<float>(crease_normals).data(), {crease_normals.size(), 3});
+}
+
 }  // namespace
 
 void write_spheres(const std::filesystem::path& path, const SphereSet& set,
@@ -219,16 +282,7 @@ void write_spheres(const std::filesystem::path& path, const SphereSet& set,
     file.write_attribute("/", "units", std::string("SI"));
     write_certificate(file, certificate);
 
-    const std::uint64_t n = set.size();
-    const std::vector<float> spread(set.normal_spread.begin(), set.normal_spread.end());
-    file.write("/center", flatten<double>(set.centers).data(), {n, 3});
-    file.write("/radius", set.radii);
-    file.write("/normal", flatten<float>(set.normals).data(), {n, 3});
-    file.write("/normal_spread", spread);
-    file.write("/area", set.areas);
-    file.write("/volume", set.volumes);
-    file.write("/layer", set.layers);
-    file.write("/region", set.regions);
+    write_arrays(file, set);
     file.write_strings("/region_names", set.mesh.region_names);
     write_solid(file, set.solid);
     write_mesh(file, set.mesh);

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "common/base/parallel.hpp"
-#include "preprocess/fill/nearest_points.hpp"
+#include "preprocess/fill/offset_surface.hpp"
 
 namespace ice {
 
@@ -15,39 +15,31 @@ namespace {
 
 constexpr double kThinGap =
     2.5;  // radii; sharp convex edges of 60 degrees lose 1, of 40 degrees 1.9
-constexpr double kReachable = 1e-6;    // radii by which the other side may be nearer
-constexpr double kFaceSpread = 0.087;  // 5 degrees
+constexpr std::size_t kClimbs = 512;  // places whose cover is looked at closely
 
-struct Measure {
-    double gap = 0.0;
-    double cover = -1.0;         // -1 where no sphere can touch
-    double normal_error = -1.0;  // [rad]
-};
-
-Measure measure(const SurfaceTree& tree, const SphereSet& set, const NearestPoints& surface,
-                const SurfaceSample& sample) {
-    Measure out;
-    out.gap = std::max(surface.nearest(sample.point).distance - set.radius, 0.0);
-    const Vec3 seat = sample.point - set.radius * sample.normal;
-    if (!tree.is_clear(seat, set.radius * (1.0 - kReachable))) return out;
-    const auto near = surface.nearest(seat);
-    out.cover = near.distance;
-    const auto k = static_cast<std::size_t>(near.index);
-    if (set.normal_spread[k] < kFaceSpread)
-        out.normal_error = std::acos(std::clamp(set.normals[k].dot(sample.normal), -1.0, 1.0));
-    return out;
-}
-
-double percentile(std::vector<std::pair<double, double>>& value_and_weight, double share) {
-    std::sort(value_and_weight.begin(), value_and_weight.end());
-    double total = 0.0, sum = 0.0;
-    for (const auto& [value, weight] : value_and_weight) total += weight;
-    for (const auto& [value, weight] : value_and_weight) {
-        sum += weight;
-        if (sum >= share * total) return value;
+// Values up to `most` by weight, in bins of most / 65536: a percentile needs no sorting.
+class Histogram {
+public:
+    explicit Histogram(double most) : most_(most), weight_(most > 0.0 ? kBins : 1, 0.0) {}
+    void add(double value, double weight) {
+        const auto last = static_cast<double>(weight_.size() - 1);
+        const double at = most_ > 0.0 ? value / most_ * last : 0.0;
+        weight_[static_cast<std::size_t>(std::clamp(at, 0.0, last))] += weight;
+        total_ += weight;
     }
-    return value_and_weight.empty() ? 0.0 : value_and_weight.back().first;
-}
+    double percentile(double share) const {
+        double sum = 0.0;
+        std::size_t bin = 0;
+        while (bin + 1 < weight_.size() && (sum += weight_[bin]) < share * total_) ++bin;
+        return most_ > 0.0 ? most_ * static_cast<double>(bin) / static_cast<double>(kBins - 1)
+                           : 0.0;
+    }
+
+private:
+    static constexpr std::size_t kBins = 1 << 16;
+    double most_, total_ = 0.0;
+    std::vector<double> weight_;
+};
 
 // Groups unfilled samples that lie near each other.
 std::vector<ThinFeature> group(std::vector<Vec3> points, double distance) {
@@ -74,43 +66,94 @@ std::vector<ThinFeature> group(std::vector<Vec3> points, double distance) {
     return out;
 }
 
-}  // namespace
-
-void certify(const SurfaceTree& tree, const std::vector<SurfaceSample>& samples,
-             const SphereSet& set, SpheresReport& report) {
-    const auto surface_count =
-        static_cast<std::size_t>(std::count(set.layers.begin(), set.layers.end(), std::uint8_t{1}));
-    const NearestPoints surface(std::span(set.centers).first(surface_count));
-    std::vector<Measure> measures(samples.size());
-    parallel_for(samples.size(), 512,
-                 [&](std::size_t k) { measures[k] = measure(tree, set, surface, samples[k]); });
-    std::vector<double> beyond(set.size());
-    parallel_for(set.size(), 512, [&](std::size_t k) {
+double measure_protrusion(const SurfaceTree& tree, const SphereSet& set, bool half) {
+    // the interior's lattice points were each decided by their distance when they were placed
+    std::vector<double> beyond(set.surface_count, 0.0);
+    parallel_for(set.surface_count, 512, [&](std::size_t k) {
+        if (half && set.centers[k].y() < 0.0) return;
         const Foot foot = tree.closest(set.centers[k]);
         beyond[k] = set.radii[k] + (foot.inside ? -foot.distance : foot.distance);
     });
-    report.protrusion_max =
-        beyond.empty() ? 0.0 : std::max(0.0, *std::max_element(beyond.begin(), beyond.end()));
+    return beyond.empty() ? 0.0 : std::max(0.0, *std::max_element(beyond.begin(), beyond.end()));
+}
 
-    std::vector<std::pair<double, double>> gaps, errors;
-    std::vector<Vec3> thin;
+double measure_cover(const SurfaceTree& tree, const SphereSet& set, const SphereFinder& finder,
+                     const std::vector<Sight>& sights, double size) {
+    std::vector<std::int32_t> worst;
+    float found = 0.0f;
+    for (const Sight& sight : sights) found = std::max(found, sight.cover);
+    // the places between the samples: climb from the worst of them
+    const float enough = found - static_cast<float>(size);
+    for (std::size_t k = 0; k < sights.size(); ++k)
+        if (sights[k].cover > std::max(enough, 0.0f)) worst.push_back(static_cast<std::int32_t>(k));
+    const auto farther = [&](std::int32_t l, std::int32_t r) {
+        const float a = sights[static_cast<std::size_t>(l)].cover;
+        const float b = sights[static_cast<std::size_t>(r)].cover;
+        return a > b || (a == b && l < r);
+    };
+    const std::size_t count = std::min(worst.size(), kClimbs);
+    std::partial_sort(worst.begin(), worst.begin() + static_cast<std::ptrdiff_t>(count),
+                      worst.end(), farther);
+    std::vector<double> top(count, static_cast<double>(found));
+    parallel_for(count, 16, [&](std::size_t k) {
+        const Sight& sight = sights[static_cast<std::size_t>(worst[k])];
+        const Vec3 normal = tree.normal(sight.triangle);
+        Vec3 at = sight.point.cast<double>() - set.radius * normal;
+        double here = finder.agreeing(at, normal, finder.nearest(at)).distance;
+        Vec3 e1 = set.dimension == 2 ? normal.cross(Vec3::UnitY()) : normal.unitOrthogonal();
+        const Vec3 e2 = normal.cross(e1);
+        for (double step = 0.5 * size; step > 0.04 * size; step *= 0.5)
+            for (int way = 0; way < (set.dimension == 2 ? 2 : 8); ++way) {
+                const double angle =
+                    set.dimension == 2 ? way * std::numbers::pi : way * std::numbers::pi / 4.0;
+                const auto seat =
+                    settle(tree, at + step * (std::cos(angle) * e1 + std::sin(angle) * e2),
+                           set.radius, sight.triangle);
+                if (!seat) continue;
+                const auto any = finder.nearest(seat->center);
+                const double there = finder.agreeing(seat->center, seat->normal, any).distance;
+                if (there <= here) continue;
+                here = there;
+                at = seat->center;
+            }
+        top[k] = here;
+    });
+    return std::max(static_cast<double>(found),
+                    top.empty() ? 0.0 : *std::max_element(top.begin(), top.end()));
+}
+
+}  // namespace
+
+void certify(const SurfaceTree& tree, const SphereFinder& finder, const std::vector<Sight>& sights,
+             bool half, const SphereSet& set, SpheresReport& report) {
+    report.protrusion_max = measure_protrusion(tree, set, half);
+    report.covering_radius = measure_cover(tree, set, finder, sights, survey_size(set, half));
+    double gap_max = 0.0, error_max = 0.0;
+    for (const Sight& sight : sights) {
+        gap_max = std::max(gap_max, static_cast<double>(sight.gap));
+        error_max = std::max(error_max, static_cast<double>(sight.normal_error));
+    }
+    Histogram gaps(gap_max), errors(error_max);
     double error_sum = 0.0, error_area = 0.0;
-    for (std::size_t k = 0; k < samples.size(); ++k) {
-        const Measure& m = measures[k];
-        gaps.emplace_back(m.gap, samples[k].area);
-        report.covering_radius = std::max(report.covering_radius, m.cover);
-        if (m.gap > kThinGap * set.radius) thin.push_back(samples[k].point);
-        if (m.normal_error < 0.0) continue;
-        errors.emplace_back(m.normal_error, samples[k].area);
-        error_sum += m.normal_error * samples[k].area;
-        error_area += samples[k].area;
+    std::vector<Vec3> thin;
+    for (const Sight& sight : sights) {
+        gaps.add(sight.gap, sight.area);
+        if (sight.gap > kThinGap * set.radius) {
+            const Vec3 at = sight.point.cast<double>();
+            thin.push_back(at);
+            if (half && at.y() > 0.0) thin.emplace_back(at.x(), -at.y(), at.z());
+        }
+        if (sight.normal_error < 0.0f) continue;
+        errors.add(sight.normal_error, sight.area);
+        error_sum += static_cast<double>(sight.normal_error) * sight.area;
+        error_area += sight.area;
     }
     constexpr double kDegrees = 180.0 / std::numbers::pi;
-    report.gap_p50 = percentile(gaps, 0.5);
-    report.gap_p99 = percentile(gaps, 0.99);
-    report.gap_max = gaps.empty() ? 0.0 : gaps.back().first;
+    report.gap_p50 = gaps.percentile(0.5);
+    report.gap_p99 = gaps.percentile(0.99);
+    report.gap_max = gap_max;
     report.normal_error_mean_deg = error_area > 0.0 ? kDegrees * error_sum / error_area : 0.0;
-    report.normal_error_p99_deg = kDegrees * percentile(errors, 0.99);
+    report.normal_error_p99_deg = kDegrees * errors.percentile(0.99);
     report.thin_features = group(std::move(thin), 3.0 * set.radius);
 }
 

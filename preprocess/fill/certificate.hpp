@@ -5,21 +5,24 @@
 
 #include "common/formats/sphere_set.hpp"
 #include "common/formats/summary_file.hpp"
-#include "preprocess/fill/surface_samples.hpp"
+#include "preprocess/fill/survey.hpp"
 #include "preprocess/measure/surface_tree.hpp"
 
 namespace ice {
 
 /// Measures how well a sphere set stands for its solid, independently of how it was made.
 ///
-/// - protrusion: how far the worst sphere reaches beyond the surface;
-/// - covering radius: over surface samples that a sphere of the set's radius can touch, the largest
-///   distance from there to the nearest surface sphere;
-/// - gap: from surface samples to the union of the spheres, by share of the area;
+/// - protrusion: how far the worst surface sphere reaches beyond the surface;
+/// - covering radius: over places where a sphere of the set's radius can touch, the largest
+///   distance from its centre to the nearest surface sphere that stands for the same face: the
+///   samples, and a climb from the 512 worst;
+/// - gap: from surface samples to the union of the surface spheres, by share of the area;
 /// - normal error: between the surface and the stored normal of the nearest sphere, over the same
 ///   samples as the covering radius, on faces (spread below 5 degrees);
 /// - thin features: connected places whose gap exceeds 2.5 radii, where no sphere fits.
-void certify(const SurfaceTree& tree, const std::vector<SurfaceSample>& samples,
-             const SphereSet& set, SpheresReport& report);
+///
+/// @param sights  of survey_surface; @param half  as there
+void certify(const SurfaceTree& tree, const SphereFinder& finder, const std::vector<Sight>& sights,
+             bool half, const SphereSet& set, SpheresReport& report);
 
 }  // namespace ice

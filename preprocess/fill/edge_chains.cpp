@@ -5,6 +5,8 @@
 #include <cmath>
 #include <map>
 
+#include "preprocess/clean/edge_table.hpp"
+
 namespace ice {
 
 namespace {
@@ -20,28 +22,22 @@ struct SharpEdge {
 
 std::vector<SharpEdge> find_sharp_edges(const SurfaceTree& tree) {
     const TriangleMesh& mesh = tree.mesh();
-    std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> first;
     std::vector<SharpEdge> out;
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-        for (std::size_t k = 0; k < 3; ++k) {
-            const std::int32_t a = mesh.triangles[t][k], b = mesh.triangles[t][(k + 1) % 3];
-            const auto [found, fresh] =
-                first.try_emplace({std::min(a, b), std::max(a, b)}, static_cast<std::int32_t>(t));
-            if (fresh) continue;
-            const Vec3& n1 = tree.normal(found->second);
-            const Vec3& n2 = tree.normal(static_cast<std::int32_t>(t));
-            // convex: the second triangle's far corner lies behind the first's plane
-            const Vec3 far = mesh.corner(t, static_cast<int>((k + 2) % 3)) -
-                             mesh.vertices[static_cast<std::size_t>(a)];
-            if (n1.dot(n2) > kSharpCos || n1.dot(far) >= 0.0) continue;
-            const Vec3 sum = n1 + n2;
-            if (sum.norm() < 0.2) continue;  // a knife's edge: no sphere fits
-            // on both planes shifted inwards by 1: -2 (n1 + n2) / |n1 + n2|^2
-            out.push_back({std::min(a, b), std::max(a, b), -2.0 / sum.squaredNorm() * sum});
-        }
-    std::sort(out.begin(), out.end(), [](const SharpEdge& l, const SharpEdge& r) {
-        return std::pair(l.a, l.b) < std::pair(r.a, r.b);
-    });
+    for (const MeshEdge& edge : edge_table(mesh)) {
+        if (edge.count != 2) continue;
+        const Vec3& n1 = tree.normal(edge.triangles[0]);
+        const Vec3& n2 = tree.normal(edge.triangles[1]);
+        if (n1.dot(n2) > kSharpCos) continue;
+        // convex: the second triangle's far corner lies behind the first's plane
+        const Vec3 on = mesh.vertices[static_cast<std::size_t>(edge.a)];
+        double far = 0.0;
+        for (int k = 0; k < 3; ++k)
+            far += n1.dot(mesh.corner(static_cast<std::size_t>(edge.triangles[1]), k) - on);
+        const Vec3 sum = n1 + n2;
+        if (far >= 0.0 || sum.norm() < 0.2) continue;  // a knife's edge: no sphere fits
+        // on both planes shifted inwards by 1: -2 (n1 + n2) / |n1 + n2|^2
+        out.push_back({edge.a, edge.b, -2.0 / sum.squaredNorm() * sum});
+    }
     return out;
 }
 

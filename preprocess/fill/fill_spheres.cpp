@@ -6,14 +6,16 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "common/base/error.hpp"
 #include "common/base/timer.hpp"
 #include "preprocess/fill/certificate.hpp"
 #include "preprocess/fill/lattice.hpp"
-#include "preprocess/fill/mirror_shares.hpp"
 #include "preprocess/fill/shares.hpp"
 #include "preprocess/fill/shell.hpp"
+#include "preprocess/fill/twins.hpp"
+#include "preprocess/measure/mirror_symmetry.hpp"
 
 namespace ice {
 
@@ -30,8 +32,10 @@ double inscribed_radius(const SurfaceTree& tree, int dimension) {
     constexpr int kPoints = 24;
     Vec3 best = box.center();
     double depth = 0.0;
+    std::int32_t last = -1;
     const auto depth_at = [&](const Vec3& p) {
-        const Foot foot = tree.closest(p);
+        const Foot foot = tree.closest(p, last);
+        last = foot.triangle;
         return foot.inside ? foot.distance : -foot.distance;
     };
     for (int k = 0; k < kPoints * kPoints * kPoints; ++k) {
@@ -76,31 +80,46 @@ void refuse_too_many(const SphereSet& set, const FillOptions& o) {
                     "if the mesh is in millimetres give --units mm; else use a larger radius");
 }
 
-void add_spheres(SphereSet& set, const std::vector<Vec3>& centers, std::uint8_t layer) {
-    set.centers.insert(set.centers.end(), centers.begin(), centers.end());
-    set.layers.insert(set.layers.end(), centers.size(), layer);
+// Surface spheres of a lattice: those with a neighbour missing.
+void place_lattice(const SurfaceTree& tree, const FillOptions& o, bool mirror, SphereSet& set) {
+    const Lattice lattice = fill_lattice(tree, o.radius, o.radius, set.dimension, mirror);
+    for (const std::uint8_t outer : {std::uint8_t{1}, std::uint8_t{0}}) {
+        if (outer == 0) set.surface_count = set.size();
+        if (outer == 0 && o.surface_only) break;
+        for (std::size_t k = 0; k < lattice.centers.size(); ++k)
+            if (lattice.outer[k] == outer) set.centers.push_back(lattice.centers[k]);
+    }
 }
 
-void place(const SurfaceTree& tree, const std::vector<SurfaceSample>& samples, const FillOptions& o,
-           bool mirror, SphereSet& set, SpheresReport& report) {
+void place_surface(const SurfaceTree& tree, const FillOptions& o, bool mirror, SphereSet& set,
+                   SpheresReport& report) {
     const Timer timer;
     if (o.arrangement == Arrangement::lattice) {
-        const Lattice lattice = fill_lattice(tree, o.radius, o.radius, set.dimension, mirror);
-        for (const std::uint8_t outer : {std::uint8_t{1}, std::uint8_t{0}}) {
-            std::vector<Vec3> part;
-            for (std::size_t k = 0; k < lattice.centers.size(); ++k)
-                if (lattice.outer[k] == outer) part.push_back(lattice.centers[k]);
-            if (outer == 1 || !o.surface_only) add_spheres(set, part, outer);
-        }
-        report.seconds["lattice"] = timer.seconds();
-        return;
+        place_lattice(tree, o, mirror, set);
+    } else {
+        set.centers = make_shell(tree, {o.radius, set.spacing, set.dimension, mirror});
+        set.surface_count = set.size();
     }
-    add_spheres(set, make_shell(tree, samples, {o.radius, set.spacing, set.dimension, mirror}), 1);
     report.seconds["surface_layer"] = timer.seconds();
-    if (o.surface_only) return;
-    add_spheres(set, fill_lattice(tree, o.radius, 2.0 * o.radius, set.dimension, mirror).centers,
-                0);
-    report.seconds["interior"] = timer.seconds() - report.seconds["surface_layer"];
+    if (set.surface_count == 0)
+        throw bad_input("--radius",
+                        fmt::format("no sphere of radius {:g} m fits into the solid", o.radius),
+                        fmt::format("the largest that fits has {:.3g} m; use less",
+                                    inscribed_radius(tree, set.dimension)));
+}
+
+// Volume of an interior sphere's cell: hexagonal close packing, in 2D squares.
+double place_interior(const SurfaceTree& tree, const FillOptions& o, bool mirror, SphereSet& set,
+                      SpheresReport& report) {
+    const double r = o.radius;
+    const double cell = set.dimension == 2 ? 4.0 * r * r : 4.0 * std::numbers::sqrt2 * r * r * r;
+    if (o.arrangement == Arrangement::lattice) return 0.0;
+    if (o.surface_only) return cell;
+    const Timer timer;
+    const Lattice lattice = fill_lattice(tree, r, r, set.dimension, mirror);
+    set.centers.insert(set.centers.end(), lattice.centers.begin(), lattice.centers.end());
+    report.seconds["interior"] = timer.seconds();
+    return cell;
 }
 
 void fill_report(const SphereSet& set, SpheresReport& report) {
@@ -108,7 +127,7 @@ void fill_report(const SphereSet& set, SpheresReport& report) {
     report.radius = set.radius;
     report.spacing = set.spacing;
     report.spheres = static_cast<std::int64_t>(set.size());
-    report.surface_spheres = std::count(set.layers.begin(), set.layers.end(), std::uint8_t{1});
+    report.surface_spheres = static_cast<std::int64_t>(set.surface_count);
     report.volume = set.solid.volume;
     report.area = set.solid.area;
     report.centroid = {set.solid.centroid.x(), set.solid.centroid.y(), set.solid.centroid.z()};
@@ -130,30 +149,31 @@ SphereSet fill(const TriangleMesh& solid, const TriangleMesh& space, int dimensi
     set.solid = measure_mass(solid);
 
     refuse_too_many(set, o);
+    const Timer timer;
     const SurfaceTree tree(space);
     const bool mirror = dimension == 3 && is_mirror_symmetric(tree);
-    const auto samples =
-        sample_surface(space, std::min(set.spacing, 2.0 * o.radius) / 4.0, dimension);
-    place(tree, samples, o, mirror, set, report);
-    if (set.centers.empty() || set.layers.front() == 0)
-        throw bad_input("--radius",
-                        fmt::format("no sphere of radius {:g} m fits into the solid", o.radius),
-                        fmt::format("the largest that fits has {:.3g} m; use less",
-                                    inscribed_radius(tree, dimension)));
+    report.seconds["tree"] = timer.seconds();
+    place_surface(tree, o, mirror, set, report);
     set.radii.assign(set.size(), o.radius);
 
-    const Timer timer;
-    share_surface(tree, samples, set);
-    const double miss = share_volume(tree, o.arrangement == Arrangement::lattice, set);
+    const Timer measuring;
+    const std::vector<std::int32_t> twins = mirror ? find_twins(set) : std::vector<std::int32_t>();
+    set_normals(tree, twins, set);
+    const SphereFinder finder(set);
+    const std::vector<Sight> sights = survey_surface(tree, set, finder, mirror);
+    share_surface(tree, sights, twins, set);
+    report.seconds["shares"] = measuring.seconds();
+    certify(tree, finder, sights, mirror, set, report);
+    report.seconds["certificate"] = measuring.seconds() - report.seconds["shares"];
+
+    const double cell = place_interior(tree, o, mirror, set, report);
+    set.radii.resize(set.size(), o.radius);
+    const double miss = share_volume(cell, mirror, set);
     if (!(miss <= kCentroidMiss * o.radius))
         report.warnings.push_back(fmt::format(
             "the volume shares miss the centroid by {:.3g} m: too few spheres to stand for the "
             "volume; mass and inertia are exact all the same",
             miss));
-    if (mirror) mirror_shares(set);
-    report.seconds["shares"] = timer.seconds();
-    certify(tree, samples, set, report);
-    report.seconds["certificate"] = timer.seconds() - report.seconds["shares"];
     fill_report(set, report);
     return set;
 }

@@ -4,13 +4,19 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+
+#include "preprocess/fill/narrowest_cone.hpp"
 
 namespace ice {
 
 namespace {
 
 constexpr int kMostSteps = 40;
-constexpr double kExact = 1e-10;              // of the radius: when a distance counts as reached
+constexpr double kTouch = 1e-5;       // of the radius: a face this near is touched
+constexpr double kNearCrease = 0.02;  // of the radius
+constexpr int kSmoothSteps = 3;       // along the foot's direction, before creases are thought of
+constexpr double kExact = 1e-10;      // of the radius: when a distance counts as reached
 constexpr double kSameDirection = 0.9999995;  // cosine of 1e-3 rad: conditions that are one
 
 // g . move >= need
@@ -37,11 +43,33 @@ void collect(const SurfaceTree& tree, const Vec3& c, double radius, std::vector<
     }
 }
 
+// The smallest move with g . move = need for each of the conditions, which are independent or
+// nearly so: normal equations, least squares where they do not have full rank.
+Vec3 meet(const Condition* const* active, int count) {
+    Eigen::Matrix3d g = Eigen::Matrix3d::Zero();
+    Vec3 need = Vec3::Zero();
+    for (int k = 0; k < count; ++k) {
+        g.row(k) = active[k]->g.transpose();
+        need[k] = active[k]->need;
+    }
+    if (count == 1) return need[0] * active[0]->g;
+    if (count == 2) {
+        const double mixed = active[0]->g.dot(active[1]->g), det = 1.0 - mixed * mixed;
+        if (det > 1e-10)
+            return ((need[0] - mixed * need[1]) * active[0]->g +
+                    (need[1] - mixed * need[0]) * active[1]->g) /
+                   det;
+    } else if (const double det = g.determinant(); std::abs(det) > 1e-7) {
+        return g.inverse() * need;
+    }
+    return g.completeOrthogonalDecomposition().solve(need);
+}
+
 // Smallest move that meets up to three of the conditions exactly: the worst, then those it leaves.
 Vec3 smallest_move(const std::vector<Condition>& conditions) {
-    std::vector<const Condition*> active{&conditions.front()};
-    Vec3 move = conditions.front().need * conditions.front().g;
-    while (active.size() < 3) {
+    const Condition* active[3] = {&conditions.front(), nullptr, nullptr};
+    Vec3 move = meet(active, 1);
+    for (int count = 1; count < 3;) {
         const Condition* worst = nullptr;
         double lack = 1e-14;
         for (const Condition& c : conditions) {
@@ -51,30 +79,49 @@ Vec3 smallest_move(const std::vector<Condition>& conditions) {
             worst = &c;
         }
         if (worst == nullptr) break;
-        active.push_back(worst);
-        const auto n = static_cast<Eigen::Index>(active.size());
-        Eigen::MatrixXd g(n, 3);
-        Eigen::VectorXd need(n);
-        for (Eigen::Index k = 0; k < n; ++k) {
-            g.row(k) = active[static_cast<std::size_t>(k)]->g.transpose();
-            need[k] = active[static_cast<std::size_t>(k)]->need;
-        }
-        move = g.completeOrthogonalDecomposition().solve(need);
+        active[count++] = worst;
+        move = meet(active, count);
     }
     return move;
 }
 
-}  // namespace
+// Directions of the feet nearer than a range, those that are one counted once.
+std::vector<Vec3> near_directions(const SurfaceTree& tree, const Vec3& center, double range) {
+    constexpr double kSameTouch = 0.99995;  // cosine of 0.01 rad
+    std::vector<Foot> feet;
+    tree.within(center, range, feet);
+    // the nearest first: the other triangles of a face have their feet a little aside
+    std::stable_sort(feet.begin(), feet.end(),
+                     [](const Foot& l, const Foot& r) { return l.distance < r.distance; });
+    std::vector<Vec3> directions;
+    for (const Foot& foot : feet) {
+        if (!(foot.distance > 1e-12 * range)) continue;
+        const Vec3 u = (foot.point - center) / foot.distance;
+        const bool seen = std::any_of(directions.begin(), directions.end(),
+                                      [&](const Vec3& d) { return d.dot(u) > kSameTouch; });
+        if (!seen) directions.push_back(u);
+    }
+    return directions;
+}
 
-std::optional<Vec3> settle(const SurfaceTree& tree, const Vec3& start, double radius) {
+// The first steps, as many as `smooth_steps`, go along the direction to the foot.
+std::optional<Seat> settle_from(const SurfaceTree& tree, const Vec3& start, double radius,
+                                std::int32_t hint, int smooth_steps) {
     Vec3 c = start;
     std::vector<Foot> feet;
     std::vector<Condition> conditions;
     for (int step = 0; step < kMostSteps; ++step) {
-        const Foot foot = tree.closest(c);
+        const Foot foot = tree.closest(c, hint);
+        hint = foot.triangle;
         if (!foot.inside) return std::nullopt;
-        if (std::abs(foot.distance - radius) <= kExact * radius) return c;
-        if (foot.distance > radius) {
+        const bool smooth = step <= smooth_steps;
+        if (std::abs(foot.distance - radius) <= kExact * radius) {
+            Seat seat{c, (foot.point - c) / foot.distance, foot.triangle};
+            if (!smooth) find_crease(tree, radius, seat);
+            return seat;
+        }
+        const bool direct = smooth && foot.distance > 0.1 * radius;
+        if (direct || foot.distance > radius) {
             c += (foot.distance - radius) / foot.distance * (foot.point - c);
             continue;
         }
@@ -86,22 +133,38 @@ std::optional<Vec3> settle(const SurfaceTree& tree, const Vec3& start, double ra
     return std::nullopt;
 }
 
+}  // namespace
+
+std::optional<Seat> settle(const SurfaceTree& tree, const Vec3& start, double radius,
+                           std::int32_t hint) {
+    return settle_from(tree, start, radius, hint, kSmoothSteps);
+}
+
+std::optional<Seat> settle_in_crease(const SurfaceTree& tree, const Vec3& start, double radius) {
+    // pushed a little towards the edge, so that all faces that meet there are conditions
+    Vec3 pushed = start, sum = Vec3::Zero();
+    for (const Vec3& direction : near_directions(tree, start, radius * (1.0 + kNearCrease)))
+        sum += direction;
+    if (sum.norm() > 1e-6) pushed += kNearCrease * radius * sum.normalized();
+    return settle_from(tree, pushed, radius, -1, -1);
+}
+
 std::vector<Vec3> touch_directions(const SurfaceTree& tree, const Vec3& center, double radius) {
-    constexpr double kTouch = 1e-5;         // of the radius
-    constexpr double kSameTouch = 0.99995;  // cosine of 0.01 rad
-    std::vector<Foot> feet;
-    tree.within(center, radius * (1.0 + kTouch), feet);
-    // the nearest first: the other triangles of a face have their feet a little aside
-    std::stable_sort(feet.begin(), feet.end(),
-                     [](const Foot& l, const Foot& r) { return l.distance < r.distance; });
-    std::vector<Vec3> directions;
-    for (const Foot& foot : feet) {
-        const Vec3 u = (foot.point - center).normalized();
-        const bool seen = std::any_of(directions.begin(), directions.end(),
-                                      [&](const Vec3& d) { return d.dot(u) > kSameTouch; });
-        if (!seen) directions.push_back(u);
-    }
-    return directions;
+    return near_directions(tree, center, radius * (1.0 + kTouch));
+}
+
+std::vector<Vec3> normals_at(const SurfaceTree& tree, double radius, const Seat& seat) {
+    if (!seat.in_crease) return {seat.normal};
+    return touch_directions(tree, seat.center, radius);
+}
+
+void find_crease(const SurfaceTree& tree, double radius, Seat& seat) {
+    const std::vector<Vec3> directions = touch_directions(tree, seat.center, radius);
+    seat.in_crease = directions.size() > 1;
+    if (!seat.in_crease) return;
+    const Cone cone = narrowest_cone(directions);
+    seat.normal = cone.axis;
+    seat.agree = std::cos(std::min(cone.half_angle + kFaceTurn, std::numbers::pi));
 }
 
 }  // namespace ice

@@ -1,23 +1,59 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "preprocess/measure/surface_tree.hpp"
 
 namespace ice {
 
+/// Normals that differ by less than this [rad], 65 degrees, count as those of one face: spheres of
+/// opposite faces may stand in the same place without standing for each other.
+constexpr double kFaceTurn = 1.134;
+
+/// Centre of a sphere that touches the surface from inside.
+struct Seat {
+    Vec3 center;
+    Vec3 normal;             ///< outward, from the centre to the touch; unit
+    std::int32_t triangle;   ///< that it touches there
+    bool in_crease = false;  ///< it touches several faces; `normal` is the axis of the cone round
+                             ///< their normals
+    double agree = 0.4226;   ///< cosine of kFaceTurn plus the cone's half angle
+
+    /// The seat stands for a surface with this normal, as far as that goes.
+    bool agrees(const Vec3& surface_normal) const { return normal.dot(surface_normal) >= agree; }
+    bool agrees(std::span<const Vec3> surface_normals) const {
+        return std::all_of(surface_normals.begin(), surface_normals.end(),
+                           [&](const Vec3& n) { return agrees(n); });
+    }
+};
+
 /// Moves a point to the nearest place where a sphere of `radius` touches the surface from inside:
 /// a point of the offset surface {d = radius}, in its edges and corners where faces meet.
 ///
-/// Newton on the distances: every face nearer than the radius is a condition g . move >= radius - d
-/// (g away from the foot); the smallest move that satisfies the worst of them, three directions at
-/// most, is taken until all hold. Deeper points first move towards their foot.
+/// On a smooth surface two or three steps along the direction to the foot are enough. Where faces
+/// meet: Newton on the distances, every face nearer than the radius being a condition
+/// g . move >= radius - d (g away from the foot); the smallest move that satisfies the worst of
+/// them, three directions at most, is taken until all hold.
 ///
+/// @param hint  a triangle thought to be near, as in SurfaceTree::closest
 /// @return nothing when the start lies outside the solid or no sphere fits there (thin parts).
 ///         Otherwise the distance to the surface is `radius` within 1e-9 of it.
-std::optional<Vec3> settle(const SurfaceTree& tree, const Vec3& start, double radius);
+std::optional<Seat> settle(const SurfaceTree& tree, const Vec3& start, double radius,
+                           std::int32_t hint = -1);
+
+/// The same for a start at a sharp edge or corner, within 2 % of the radius of where its sphere
+/// touches all faces met there: it ends up touching them all.
+std::optional<Seat> settle_in_crease(const SurfaceTree& tree, const Vec3& start, double radius);
+
+/// The surface normals that a seat stands for: its own, or all that meet in its crease.
+std::vector<Vec3> normals_at(const SurfaceTree& tree, double radius, const Seat& seat);
+
+/// Sets normal, in_crease and agree of a seat that may touch several faces.
+void find_crease(const SurfaceTree& tree, double radius, Seat& seat);
 
 /// The directions, from a settled centre, of the places where its sphere touches the surface;
 /// directions within 0.01 rad of each other count once. Unit vectors, pointing outwards.

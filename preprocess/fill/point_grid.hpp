@@ -40,6 +40,23 @@ public:
         return best;
     }
 
+    /// True where a point within `range` of p has accept(index).
+    template <class Accept>
+    bool any_within(const Vec3& p, double range, const Accept& accept) const {
+        const Cell from = cell_of(p - Vec3::Constant(range));
+        const Cell to = cell_of(p + Vec3::Constant(range));
+        for (std::int64_t x = from[0]; x <= to[0]; ++x)
+            for (std::int64_t y = from[1]; y <= to[1]; ++y)
+                for (std::int64_t z = from[2]; z <= to[2]; ++z) {
+                    const auto found = cells_.find(key({x, y, z}));
+                    if (found == cells_.end()) continue;
+                    for (const std::int32_t k : found->second)
+                        if ((points_[static_cast<std::size_t>(k)] - p).norm() < range && accept(k))
+                            return true;
+                }
+        return false;
+    }
+
 private:
     using Cell = std::array<std::int64_t, 3>;
 

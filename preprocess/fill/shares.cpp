@@ -7,78 +7,35 @@
 #include <map>
 
 #include "common/base/parallel.hpp"
-#include "preprocess/fill/nearest_points.hpp"
+#include "preprocess/fill/narrowest_cone.hpp"
 #include "preprocess/fill/offset_surface.hpp"
 
 namespace ice {
 
 namespace {
 
-constexpr double kMostCells = 3e5;  // sampling points of the volume
-constexpr int kMostPasses = 50;     // of the moments; two where no share comes near zero
+constexpr int kMostPasses = 50;      // of the moments; two where no share comes near zero
+constexpr double kLeastRest = 0.02;  // of the volume: what interior cells leave to the surface
 
-std::size_t surface_count(const SphereSet& set) {
-    return static_cast<std::size_t>(
-        std::count(set.layers.begin(), set.layers.end(), std::uint8_t{1}));
-}
-
-void set_normals(const SurfaceTree& tree, SphereSet& set, std::size_t count) {
-    parallel_for(count, 64, [&](std::size_t k) {
-        auto directions = touch_directions(tree, set.centers[k], set.radii[k]);
-        if (set.dimension == 2)
-            std::erase_if(directions, [](const Vec3& d) { return std::abs(d.y()) > 0.5; });
-        if (directions.empty())
-            directions.push_back(
-                (tree.closest(set.centers[k]).point - set.centers[k]).normalized());
-        Vec3 sum = Vec3::Zero();
-        for (const Vec3& d : directions) sum += d;
-        // opposite faces cancel where a part is exactly as thick as the sphere
-        const Vec3 normal = sum.norm() > 1e-6 ? Vec3(sum.normalized()) : directions.front();
-        double least = 1.0;
-        for (const Vec3& d : directions) least = std::min(least, d.dot(normal));
-        set.normals[k] = normal;
-        set.normal_spread[k] = directions.size() > 1 ? std::acos(std::max(least, -1.0)) : 0.0;
-    });
-}
-
-// Lattice points inside the solid: a plain grid over its box, half a pitch off its faces.
-std::vector<Vec3> volume_points(const SurfaceTree& tree, const SphereSet& set) {
-    Eigen::AlignedBox3d box;
-    for (const Vec3& v : tree.mesh().vertices) box.extend(v);
-    const bool flat = set.dimension == 2;
-    Vec3 size = box.sizes();
-    if (flat) size.y() = 1.0;
-    const double pitch =
-        std::max(0.4 * set.radius, flat ? std::sqrt(size.x() * size.z() / kMostCells)
-                                        : std::cbrt(size.prod() / kMostCells));
-    std::size_t n[3];
-    for (int d = 0; d < 3; ++d)
-        n[d] = flat && d == 1 ? 1 : static_cast<std::size_t>(std::ceil(size[d] / pitch));
-    const auto point = [&](std::size_t i, std::size_t row) {
-        const Vec3 cell(static_cast<double>(i), static_cast<double>(row % n[1]),
-                        static_cast<double>(row / n[1]));
-        const Vec3 count(static_cast<double>(n[0]), static_cast<double>(n[1]),
-                         static_cast<double>(n[2]));
-        Vec3 p =
-            box.min() + (cell + Vec3::Constant(0.5)).cwiseQuotient(count).cwiseProduct(box.sizes());
-        if (flat) p.y() = 0.0;
-        return p;
-    };
-    std::vector<std::vector<Vec3>> rows(n[1] * n[2]);
-    parallel_for(rows.size(), 16, [&](std::size_t row) {
-        const double step = box.sizes().x() / static_cast<double>(n[0]);
-        for (std::size_t i = 0; i < n[0];) {
-            // no surface is nearer than the foot, so neighbours within that distance are like this
-            const Foot foot = tree.closest(point(i, row));
-            const auto like = 1 + static_cast<std::size_t>(0.999 * foot.distance / step);
-            const std::size_t end = std::min(n[0], i + like);
-            for (; i < end; ++i)
-                if (foot.inside) rows[row].push_back(point(i, row));
-        }
-    });
-    std::vector<Vec3> out;
-    for (const auto& row : rows) out.insert(out.end(), row.begin(), row.end());
-    return out;
+// The directions in which a sphere touches; never empty.
+std::vector<Vec3> directions_of(const SurfaceTree& tree, const SphereSet& set, std::size_t k,
+                                bool in_centre_plane) {
+    auto directions = touch_directions(tree, set.centers[k], set.radii[k]);
+    if (set.dimension == 2)
+        std::erase_if(directions, [](const Vec3& d) { return std::abs(d.y()) > 0.5; });
+    if (directions.empty())
+        directions.push_back((tree.closest(set.centers[k]).point - set.centers[k]).normalized());
+    if (!in_centre_plane) return directions;
+    // a part exactly as broad as the sphere touches on both sides, a lattice sphere has its foot
+    // on one: neither side is the other's better
+    const std::size_t count = directions.size();
+    for (std::size_t d = 0; d < count; ++d) {
+        const Vec3 image(directions[d].x(), -directions[d].y(), directions[d].z());
+        if (std::none_of(directions.begin(), directions.end(),
+                         [&](const Vec3& other) { return other.dot(image) > 0.99995; }))
+            directions.push_back(image);
+    }
+    return directions;
 }
 
 // Distance from the centroid of the shares to the solid's [m]; along y there is none in 2D.
@@ -93,33 +50,38 @@ double moment_error(const SphereSet& set) {
     return first.norm() / sum;
 }
 
-// Multiplies the shares so that sum v = V and sum v x = V centroid, changing them least. Repeated:
-// for the rounding, and where a share would become negative, which is then held just above zero.
-void match_moments(SphereSet& set) {
-    const double least = 1e-3 * set.solid.volume / static_cast<double>(set.size());
+// Multiplies the first `count` shares so that sum v = V and sum v x = V centroid over all, changing
+// them least. Repeated: for the rounding, and where a share would become negative, which is then
+// held just above zero.
+void match_moments(std::size_t count, bool mirror, SphereSet& set) {
+    // the others keep their shares: what is left of volume and moment is for these
+    double volume = set.solid.volume;
+    Vec3 moment = Vec3::Zero();  // about the centroid
+    for (std::size_t k = count; k < set.size(); ++k) {
+        volume -= set.volumes[k];
+        moment -= set.volumes[k] * (set.centers[k] - set.solid.centroid);
+    }
+    const double least = 1e-3 * volume / static_cast<double>(count);
     for (int pass = 0; pass < kMostPasses; ++pass) {
-        Vec3 mean = Vec3::Zero();
-        double sum = 0.0;
-        for (std::size_t k = 0; k < set.size(); ++k) {
-            sum += set.volumes[k];
-            mean += set.volumes[k] * set.centers[k];
-        }
-        mean /= sum;
         Eigen::Matrix4d moments = Eigen::Matrix4d::Zero();
-        for (std::size_t k = 0; k < set.size(); ++k) {
+        for (std::size_t k = 0; k < count; ++k) {
             Eigen::Vector4d u;
-            u << 1.0, set.centers[k] - mean;
+            u << 1.0, set.centers[k] - set.solid.centroid;
             moments += set.volumes[k] * u * u.transpose();
         }
         Eigen::Vector4d target;
-        target << set.solid.volume, set.solid.volume * (set.solid.centroid - mean);
+        target << volume, moment;
         // where the spheres have no spread (y in 2D) least squares leaves the factor alone
-        const Eigen::Vector4d lack = target - moments.col(0);
+        Eigen::Vector4d lack = target - moments.col(0);
+        if (mirror) lack[2] = 0.0;  // is so but for the rounding
+        if (mirror) moments.row(2).setZero(), moments.col(2).setZero();
         const Eigen::Vector4d factor = moments.completeOrthogonalDecomposition().solve(lack);
         bool raised = false;
-        for (std::size_t k = 0; k < set.size(); ++k) {
+        for (std::size_t k = 0; k < count; ++k) {
             double& v = set.volumes[k];
-            v *= 1.0 + factor[0] + factor.tail<3>().dot(set.centers[k] - mean);
+            const Vec3 from = set.centers[k] - set.solid.centroid;
+            v *= 1.0 + factor[0] + factor[1] * from.x() + (mirror ? 0.0 : factor[2] * from.y()) +
+                 factor[3] * from.z();
             if (v >= 0.5 * least) continue;
             v = least;
             raised = true;
@@ -128,61 +90,126 @@ void match_moments(SphereSet& set) {
     }
 }
 
+// Which region has most of each sphere's area. Nearly all spheres see one: the others wait in a
+// list.
+class RegionAreas {
+public:
+    explicit RegionAreas(std::size_t count) : first_(count) {}
+
+    void add(std::size_t sphere, std::int32_t region, double area) {
+        Part& first = first_[sphere];
+        if (first.region < 0) first.region = region;
+        if (first.region == region)
+            first.area += area;
+        else
+            others_[{sphere, region}] += area;
+    }
+
+    /// -1 for spheres that no area was added to.
+    std::vector<std::int32_t> largest() const {
+        std::vector<Part> best = first_;
+        for (const auto& [key, area] : others_)
+            if (area > best[key.first].area) best[key.first] = {key.second, area};
+        std::vector<std::int32_t> out;
+        for (const Part& part : best) out.push_back(part.region);
+        return out;
+    }
+
+private:
+    struct Part {
+        std::int32_t region = -1;
+        double area = 0.0;
+    };
+    std::vector<Part> first_;
+    std::map<std::pair<std::size_t, std::int32_t>, double> others_;
+};
+
 }  // namespace
 
-void share_surface(const SurfaceTree& tree, const std::vector<SurfaceSample>& samples,
-                   SphereSet& set) {
-    const std::size_t count = surface_count(set);
-    set.normals.assign(set.size(), Vec3::Zero());
-    set.normal_spread.assign(set.size(), 0.0);
-    set.areas.assign(set.size(), 0.0);
-    set.regions.assign(set.size(), 0);
-    set_normals(tree, set, count);
-
-    const NearestPoints surface(std::span(set.centers).first(count));
-    std::vector<std::int32_t> owner(samples.size());
-    parallel_for(samples.size(), 1024, [&](std::size_t k) {
-        owner[k] = surface.nearest(samples[k].point - set.radius * samples[k].normal).index;
+void set_normals(const SurfaceTree& tree, const std::vector<std::int32_t>& twins, SphereSet& set) {
+    const std::size_t count = set.surface_count;
+    set.normals.assign(count, Vec3::Zero());
+    set.normal_spread.assign(count, 0.0);
+    std::vector<std::vector<Vec3>> creases(count);
+    parallel_for(count, 64, [&](std::size_t k) {
+        const double y = set.centers[k].y();
+        if (!twins.empty() && y < 0.0 && twins[k] != static_cast<std::int32_t>(k)) return;
+        auto directions = directions_of(tree, set, k, !twins.empty() && y == 0.0);
+        const Cone cone = narrowest_cone(directions);
+        set.normals[k] = cone.axis;
+        if (!twins.empty() && y == 0.0) {
+            const Vec3 flat(cone.axis.x(), 0.0, cone.axis.z());
+            if (flat.norm() > 1e-3) set.normals[k] = flat.normalized();
+        }
+        set.normal_spread[k] = directions.size() > 1 ? cone.half_angle : 0.0;
+        if (directions.size() > 1) creases[k] = std::move(directions);
     });
-    std::vector<std::map<std::int32_t, double>> by_region(count);
-    double total = 0.0;
-    for (std::size_t k = 0; k < samples.size(); ++k) {
-        const auto sphere = static_cast<std::size_t>(owner[k]);
-        set.areas[sphere] += samples[k].area;
-        total += samples[k].area;
-        by_region[sphere][tree.mesh().region[static_cast<std::size_t>(samples[k].triangle)]] +=
-            samples[k].area;
-    }
-    // in 2D the two flat ends belong to no disc
-    const double whole = set.dimension == 2 ? total : set.solid.area;
+    const auto image = [](const Vec3& n) { return Vec3(n.x(), -n.y(), n.z()); };
+    set.creases.clear();
     for (std::size_t k = 0; k < count; ++k) {
-        set.areas[k] *= whole / total;
-        double most = 0.0;
-        for (const auto& [region, area] : by_region[k])
-            if (area > most) {
-                most = area;
-                set.regions[k] = region;
-            }
-        if (by_region[k].empty())
-            set.regions[k] =
-                tree.mesh().region[static_cast<std::size_t>(tree.closest(set.centers[k]).triangle)];
+        const auto twin = twins.empty() ? k : static_cast<std::size_t>(twins[k]);
+        const bool mirrored = twin != k && set.centers[k].y() < 0.0;
+        if (mirrored) {
+            set.normals[k] = image(set.normals[twin]);
+            set.normal_spread[k] = set.normal_spread[twin];
+        }
+        for (const Vec3& n : creases[mirrored ? twin : k])
+            set.creases.push_back({static_cast<std::int32_t>(k), mirrored ? image(n) : n});
     }
 }
 
-double share_volume(const SurfaceTree& tree, bool equal, SphereSet& set) {
-    if (equal) {
-        set.volumes.assign(set.size(), 1.0);
-    } else {
-        set.volumes.assign(set.size(), 0.0);
-        const NearestPoints spheres(set.centers);
-        const auto points = volume_points(tree, set);
-        std::vector<std::int32_t> owner(points.size());
-        parallel_for(points.size(), 1024,
-                     [&](std::size_t k) { owner[k] = spheres.nearest(points[k]).index; });
-        for (const std::int32_t sphere : owner)
-            set.volumes[static_cast<std::size_t>(sphere)] += 1.0;
+void share_surface(const SurfaceTree& tree, const std::vector<Sight>& sights,
+                   const std::vector<std::int32_t>& twins, SphereSet& set) {
+    const std::size_t count = set.surface_count;
+    set.areas.assign(count, 0.0);
+    RegionAreas regions(count);
+    double total = 0.0;
+    for (const Sight& sight : sights) {
+        auto sphere = static_cast<std::size_t>(sight.owner);
+        // what is seen in y >= 0 counts for port, whichever twin is nearer
+        if (!twins.empty() && set.centers[sphere].y() < 0.0)
+            sphere = static_cast<std::size_t>(twins[sphere]);
+        set.areas[sphere] += sight.area;
+        total += sight.area;
+        regions.add(sphere, tree.mesh().region[static_cast<std::size_t>(sight.triangle)],
+                    sight.area);
     }
-    match_moments(set);
+    set.regions = regions.largest();
+    // in 2D the two flat ends belong to no disc
+    double whole = set.dimension == 2 ? total : set.solid.area;
+    if (!twins.empty()) whole *= 0.5;
+    for (std::size_t k = 0; k < count; ++k) {
+        if (!twins.empty() && set.centers[k].y() < 0.0) continue;
+        const bool alone = !twins.empty() && twins[k] == static_cast<std::int32_t>(k);
+        set.areas[k] *= (alone ? 2.0 : 1.0) * whole / total;
+        if (set.regions[k] < 0)
+            set.regions[k] =
+                tree.mesh().region[static_cast<std::size_t>(tree.closest(set.centers[k]).triangle)];
+        if (twins.empty() || alone) continue;
+        const auto twin = static_cast<std::size_t>(twins[k]);
+        set.areas[twin] = set.areas[k];
+        set.regions[twin] = set.regions[k];
+    }
+}
+
+double share_volume(double cell, bool mirror, SphereSet& set) {
+    const std::size_t surface = set.surface_count, inside = set.size() - surface;
+    if (cell == 0.0) {
+        set.volumes.assign(set.size(), set.solid.volume / static_cast<double>(set.size()));
+        match_moments(set.size(), mirror, set);
+        return moment_error(set);
+    }
+    const double most = (1.0 - kLeastRest) * set.solid.volume;
+    if (static_cast<double>(inside) * cell > most) cell = most / static_cast<double>(inside);
+    const double rest = set.solid.volume - static_cast<double>(inside) * cell;
+    double area = 0.0;
+    for (const double a : set.areas) area += a;
+    set.volumes.assign(set.size(), cell);
+    // a sphere without area keeps a little, so that no share is zero
+    const double floor = 1e-3 * area / static_cast<double>(surface);
+    for (std::size_t k = 0; k < surface; ++k)
+        set.volumes[k] = rest * std::max(set.areas[k], floor) / area;
+    match_moments(surface, mirror, set);
     return moment_error(set);
 }
 

@@ -1,177 +1,200 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "preprocess/fill/shell.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
+#include <optional>
+#include <utility>
 
-#include "preprocess/fill/edge_chains.hpp"
-#include "preprocess/fill/offset_surface.hpp"
+#include "common/base/parallel.hpp"
+#include "preprocess/fill/mirror_seat.hpp"
+#include "preprocess/fill/point_cells.hpp"
 #include "preprocess/fill/point_grid.hpp"
+#include "preprocess/fill/shell_lines.hpp"
+#include "preprocess/fill/shell_tile.hpp"
+#include "preprocess/fill/surface_samples.hpp"
 
 namespace ice {
 
 namespace {
 
 // In units of the spacing.
-constexpr double kEdgeSeparation = 0.5;   // between spheres of different edges
-constexpr double kFaceSeparation = 0.75;  // a hexagon's seams: nearer than this is not placed
-constexpr double kMirrorGap = 0.36;       // half of kFaceSeparation: a sphere and its image
-constexpr double kPatchSeparation = 0.4;  // for spheres that close the gaps a front leaves
-constexpr double kPatchMirrorGap = 0.15;
-constexpr double kCovered = 0.6;  // every reachable sample has a sphere this near; with
-                                  // samples 1/4 apart the surface between them has 0.65
+constexpr double kTile = 32.0;     // a tile's edge
+constexpr double kSeedSize = 0.7;  // between the samples that fronts may start from
+constexpr double kLineSize = 0.1;  // the same in 2D, where samples alone close the gaps
+constexpr double kCovered = 0.62;  // a sample that has no seat this near gets one
+constexpr double kLeast = 0.4;     // between seats that close the last gaps
+constexpr double kMirrorGap = 0.15;
+
+struct Tile {
+    std::array<int, 3> at;
+    std::vector<Seed> seeds;
+    std::vector<Seat> own;
+};
 
 class ShellMaker {
 public:
     ShellMaker(const SurfaceTree& tree, const ShellOptions& options)
-        : tree_(tree), o_(options), placed_(options.spacing) {}
+        : tree_(tree), o_(options), width_(kTile * options.spacing) {}
 
-    std::vector<Vec3> make(const std::vector<SurfaceSample>& samples) {
-        const double step = 0.05 * o_.spacing;
-        const auto lines = o_.dimension == 2 ? trace_section(tree_, o_.radius, step)
-                                             : trace_sharp_edges(tree_, o_.radius, step);
-        for (const auto& line : lines) place_line(line);
-        if (o_.dimension == 3) advance_front();
-        cover(samples);
-        return placed_.points();
+    std::vector<Vec3> make() {
+        lines_ = seat_lines(tree_, o_);
+        make_seeds();
+        if (o_.dimension == 3) {
+            for (const Seat& seat : lines_) tile_at(tile_of(seat.center)).own.push_back(seat);
+            fill_tiles([](ShellTile& work, const Tile& tile) { work.advance_front(tile.seeds); });
+            fill_tiles([](ShellTile& work, const Tile&) { work.close_gaps(); });
+        }
+        return finish();
     }
 
 private:
-    // Places a settled centre, with its mirror image, unless a neighbour is too near.
-    bool place(Vec3 c, double separation, double mirror_gap = kMirrorGap) {
-        if (o_.mirror && std::abs(c.y()) < 1e-6 * o_.radius) c.y() = 0.0;
-        if (o_.mirror && c.y() < 0.0) c.y() = -c.y();
-        if (o_.mirror && c.y() > 0.0 && c.y() < mirror_gap * o_.spacing) {
-            const auto middle = on_centre_plane(c);
-            if (!middle) return false;
-            c = *middle;
-        }
-        if (placed_.nearest(c, separation * o_.spacing).index >= 0) return false;
-        placed_.add(c);
-        if (o_.mirror && c.y() > 0.0) placed_.add(Vec3(c.x(), -c.y(), c.z()));
-        return true;
-    }
-
-    // A centre just off the plane of symmetry moves into it and settles there: Newton on the
-    // distance along its gradient within the plane.
-    std::optional<Vec3> on_centre_plane(Vec3 c) const {
-        c.y() = 0.0;
-        for (int step = 0; step < 40; ++step) {
-            const Foot foot = tree_.closest(c);
-            const double lack = o_.radius - foot.distance;
-            if (!foot.inside) return std::nullopt;
-            if (std::abs(lack) <= 1e-10 * o_.radius) return c;
-            Vec3 away = (c - foot.point) / foot.distance;
-            away.y() = 0.0;
-            if (away.norm() < 0.1) return std::nullopt;  // the surface lies along the plane
-            c += lack / away.squaredNorm() * away;
-        }
-        return std::nullopt;
-    }
-
-    void place_line(const std::vector<Vec3>& starts) {
-        std::vector<Vec3> path;
-        const auto flush = [&] {
-            // the samples near a corner all settle in it: equal neighbours are one
-            std::vector<Vec3> line;
-            for (const Vec3& c : path)
-                if (line.empty() || (c - line.back()).norm() > 1e-7 * o_.radius) line.push_back(c);
-            path.clear();
-            if (line.size() == 1) place(line[0], kEdgeSeparation);
-            if (line.size() < 2) return;
-            for (const Vec3& start : resample(line, o_.spacing))
-                if (const auto c = settle(tree_, start, o_.radius)) place(*c, kEdgeSeparation);
-        };
-        for (const Vec3& start : starts) {
-            const auto c = settle(tree_, start, o_.radius);
-            // a jump means the edge is too sharp for a sphere on the way
-            if (c && !path.empty() && (*c - path.back()).norm() > o_.spacing) flush();
-            if (c)
-                path.push_back(*c);
-            else
-                flush();
-        }
-        flush();
-    }
-
-    void advance_front() {
-        for (; front_ < placed_.points().size(); ++front_) {
-            const Vec3 c = placed_.points()[front_];
-            if (o_.mirror && c.y() < 0.0) continue;  // its image did it
-            const Vec3 n = (tree_.closest(c).point - c).normalized();
-            Vec3 along = heading(c, front_);
-            along -= along.dot(n) * n;
-            if (along.norm() < 1e-3 * o_.spacing) along = n.unitOrthogonal();
-            along.normalize();
-            const Vec3 across = n.cross(along);
-            for (int k = 0; k < 6; ++k) {
-                static const double kCos[6] = {1, 0.5, -0.5, -1, -0.5, 0.5};
-                const double sine = k % 3 == 0 ? 0.0 : (k < 3 ? 1.0 : -1.0) * std::sqrt(0.75);
-                const Vec3 start = c + o_.spacing * (kCos[k] * along + sine * across);
-                if (placed_.nearest(start, 0.6 * o_.spacing).index >= 0) continue;
-                if (const auto next = settle(tree_, start, o_.radius))
-                    place(*next, kFaceSeparation);
-            }
-        }
-    }
-
-    // Towards the nearest sphere already there, so that hexagons line up.
-    Vec3 heading(const Vec3& c, std::size_t self) const {
-        double best = 1.3 * o_.spacing;
-        Vec3 out = Vec3::Zero();
-        // the nearest but itself: look a little off the centre in both directions
+    std::array<int, 3> tile_of(const Vec3& p) const {
+        std::array<int, 3> at;
         for (int d = 0; d < 3; ++d)
-            for (const double sign : {-1.0, 1.0}) {
-                const auto near =
-                    placed_.nearest(c + 0.5 * sign * o_.spacing * Vec3::Unit(d), best);
-                if (near.index < 0 || static_cast<std::size_t>(near.index) == self) continue;
-                const Vec3 to = placed_.points()[static_cast<std::size_t>(near.index)] - c;
-                if (to.norm() >= best || to.norm() == 0.0) continue;
-                best = to.norm();
-                out = to;
+            at[static_cast<std::size_t>(d)] = static_cast<int>(std::floor(p[d] / width_));
+        return at;
+    }
+
+    Tile& tile_at(const std::array<int, 3>& at) {
+        const auto [found, fresh] = index_.try_emplace(at, tiles_.size());
+        if (fresh) tiles_.push_back({at, {}, {}});
+        return tiles_[found->second];
+    }
+
+    void make_seeds() {
+        const double size = (o_.dimension == 2 ? kLineSize : kSeedSize) * o_.spacing;
+        const SurfaceSampler sampler(tree_.mesh(), size, o_.dimension, o_.mirror);
+        std::vector<SurfaceSample> samples;
+        for (std::size_t t = 0; t < sampler.triangle_count(); ++t) {
+            sampler.sample(t, samples);
+            for (const SurfaceSample& sample : samples) {
+                const Vec3 seat = sample.point - o_.radius * sample.normal;
+                tile_at(tile_of(seat)).seeds.push_back({seat, sample.triangle});
             }
+        }
+    }
+
+    // Runs fill(work, tile) for all tiles, one colour after the other: tiles of one colour are a
+    // tile's width apart, and none looks or places farther than two spacings beyond its own.
+    template <class Fill>
+    void fill_tiles(const Fill& fill) {
+        for (int colour = 0; colour < 8; ++colour) {
+            std::vector<std::size_t> now;
+            for (const auto& [at, k] : index_)
+                if ((at[0] & 1) + 2 * (at[1] & 1) + 4 * (at[2] & 1) == colour) now.push_back(k);
+            std::vector<std::vector<Seat>> placed(now.size());
+            parallel_tasks(now.size(), [&](std::size_t n) {
+                const Tile& tile = tiles_[now[n]];
+                ShellTile work(tree_, o_, box_of(tile));
+                know_neighbours(tile, work);
+                fill(work, tile);
+                placed[n] = work.placed();
+            });
+            for (std::size_t n = 0; n < now.size(); ++n) {
+                auto& own = tiles_[now[n]].own;
+                own.insert(own.end(), placed[n].begin(), placed[n].end());
+            }
+        }
+    }
+
+    Eigen::AlignedBox3d box_of(const Tile& tile) const {
+        const Vec3 low = width_ * Vec3(tile.at[0], tile.at[1], tile.at[2]);
+        return {low, low + Vec3::Constant(width_)};
+    }
+
+    void know_neighbours(const Tile& tile, ShellTile& work) const {
+        for (int z = -1; z <= 1; ++z)
+            for (int y = -1; y <= 1; ++y)
+                for (int x = -1; x <= 1; ++x) {
+                    const auto near = index_.find({tile.at[0] + x, tile.at[1] + y, tile.at[2] + z});
+                    if (near == index_.end()) continue;
+                    for (const Seat& seat : tiles_[near->second].own) work.know(seat);
+                }
+    }
+
+    // All seats with their images; samples that still have none near get theirs.
+    std::vector<Vec3> finish() {
+        std::vector<Seat> seats;
+        const auto add = [&](const Seat& seat) {
+            seats.push_back(seat);
+            if (o_.mirror && seat.center.y() > 0.0) seats.push_back(image_of(seat));
+        };
+        if (o_.dimension == 2)
+            for (const Seat& seat : lines_) add(seat);
+        for (const auto& [at, k] : index_)
+            for (const Seat& seat : tiles_[k].own) add(seat);
+
+        const auto early = cells_of(seats);
+        PointGrid late(o_.spacing);
+        const std::size_t before = seats.size();
+        const auto taken = [&](const Seat& seat, double range) {
+            return is_taken(seats, early, seat.center, range, seat.normal) ||
+                   late.any_within(seat.center, range, [&](std::int32_t k) {
+                       return seats[before + static_cast<std::size_t>(k)].agrees(seat.normal);
+                   });
+        };
+        for (const Seed& seed : bare_seeds(seats, early)) {
+            auto seat = settle(tree_, seed.seat, o_.radius, seed.triangle);
+            if (!seat || taken(*seat, kCovered * o_.spacing)) continue;
+            if (o_.mirror) seat = mirror_seat(tree_, *seat, o_.radius, kMirrorGap * o_.spacing);
+            if (!seat || taken(*seat, kLeast * o_.spacing)) continue;
+            const std::size_t first = seats.size();
+            add(*seat);
+            for (std::size_t k = first; k < seats.size(); ++k) late.add(seats[k].center);
+        }
+        std::vector<Vec3> out;
+        out.reserve(seats.size());
+        for (const Seat& seat : seats) out.push_back(seat.center);
         return out;
     }
 
-    void cover(const std::vector<SurfaceSample>& samples) {
-        for (const SurfaceSample& sample : samples) {
-            if (o_.mirror && sample.point.y() < 0.0) continue;
-            const Vec3 start = sample.point - o_.radius * sample.normal;
-            if (placed_.nearest(start, kCovered * o_.spacing).index >= 0) continue;
-            const auto c = settle(tree_, start, o_.radius);
-            if (!c || placed_.nearest(*c, kCovered * o_.spacing).index >= 0) continue;
-            // a part that no edge leads to starts a front of its own
-            if (place(*c, kPatchSeparation, kPatchMirrorGap) && o_.dimension == 3) advance_front();
-        }
+    std::optional<PointCells> cells_of(const std::vector<Seat>& seats) const {
+        if (seats.empty()) return std::nullopt;
+        std::vector<Vec3> centers;
+        centers.reserve(seats.size());
+        for (const Seat& seat : seats) centers.push_back(seat.center);
+        return std::optional<PointCells>(std::in_place, centers, 2.0 * o_.spacing);
+    }
+
+    static bool is_taken(const std::vector<Seat>& seats, const std::optional<PointCells>& cells,
+                         const Vec3& p, double range, const Vec3& normal) {
+        bool taken = false;
+        if (cells)
+            cells->visit(p, range, [&](std::int32_t k, double) {
+                taken = taken || seats[static_cast<std::size_t>(k)].agrees(normal);
+            });
+        return taken;
+    }
+
+    std::vector<Seed> bare_seeds(const std::vector<Seat>& seats,
+                                 const std::optional<PointCells>& cells) const {
+        std::vector<std::vector<Seed>> bare(tiles_.size());
+        parallel_tasks(tiles_.size(), [&](std::size_t k) {
+            for (const Seed& seed : tiles_[k].seeds)
+                if (!is_taken(seats, cells, seed.seat, kCovered * o_.spacing,
+                              tree_.normal(seed.triangle)))
+                    bare[k].push_back(seed);
+        });
+        std::vector<Seed> out;
+        for (const auto& [at, k] : index_) out.insert(out.end(), bare[k].begin(), bare[k].end());
+        return out;
     }
 
     const SurfaceTree& tree_;
     ShellOptions o_;
-    PointGrid placed_;
-    std::size_t front_ = 0;
+    double width_;
+    std::vector<Seat> lines_;
+    std::vector<Tile> tiles_;
+    std::map<std::array<int, 3>, std::size_t> index_;
 };
 
 }  // namespace
 
-std::vector<Vec3> make_shell(const SurfaceTree& tree, const std::vector<SurfaceSample>& samples,
-                             const ShellOptions& options) {
-    return ShellMaker(tree, options).make(samples);
-}
-
-bool is_mirror_symmetric(const SurfaceTree& tree) {
-    const TriangleMesh& mesh = tree.mesh();
-    Eigen::AlignedBox3d box;
-    for (const Vec3& v : mesh.vertices) box.extend(v);
-    const double tolerance = 1e-7 * box.diagonal().norm();
-    const auto image = [](const Vec3& p) { return Vec3(p.x(), -p.y(), p.z()); };
-    for (const Vec3& v : mesh.vertices)
-        if (tree.closest(image(v)).distance > tolerance) return false;
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-        const Vec3 middle = (mesh.corner(t, 0) + mesh.corner(t, 1) + mesh.corner(t, 2)) / 3.0;
-        if (tree.closest(image(middle)).distance > tolerance) return false;
-    }
-    return true;
+std::vector<Vec3> make_shell(const SurfaceTree& tree, const ShellOptions& options) {
+    return ShellMaker(tree, options).make();
 }
 
 }  // namespace ice

@@ -3,8 +3,7 @@
 
 #include <vector>
 
-#include "preprocess/fill/surface_samples.hpp"
-#include "preprocess/measure/surface_tree.hpp"
+#include "preprocess/fill/offset_surface.hpp"
 
 namespace ice {
 
@@ -17,19 +16,17 @@ struct ShellOptions {
 
 /// Centres of spheres that touch the surface from inside, spaced evenly: the conforming layer.
 ///
-/// Sharp edges first: their spheres touch both faces and stand evenly between the corners, at most
-/// `spacing` apart. Then faces, by an advancing front: from a placed sphere the six places of a
-/// hexagon around it are tried, settled on the offset surface and kept if no neighbour is nearer
-/// than 0.75 spacing. At last every surface sample that a sphere could touch but that has none
-/// within 0.6 spacing gets its own.
+/// 1. Lines: sharp edges first (in 2D the outline); their spheres touch both faces and stand evenly
+///    between the corners, at most `spacing` apart.
+/// 2. Fronts: round every sphere the free places of a hexagon are filled, settled on the offset
+///    surface and kept if no neighbour is nearer than 0.74 spacing; parts that no edge leads to
+///    start their own.
+/// 3. Gaps: a sphere goes into every corner of the spheres' Voronoi cells that is farther than
+///    0.635 spacing from all of them, and wherever a surface sample that a sphere can touch still has none.
 ///
-/// @param samples  of the surface, spaced at most a quarter of `spacing`
-/// The result depends on the mesh and options alone; parts too thin for a sphere stay empty.
-std::vector<Vec3> make_shell(const SurfaceTree& tree, const std::vector<SurfaceSample>& samples,
-                             const ShellOptions& options);
-
-/// True when every vertex has its mirror image across y = 0 and every triangle's image lies on the
-/// surface: the solid is symmetric, whatever its triangles.
-bool is_mirror_symmetric(const SurfaceTree& tree);
+/// Space is cut into tiles of eight colours; tiles of one colour are filled at the same time. The
+/// result depends on the mesh and options alone, not on the number of threads. Parts too thin for a
+/// sphere stay empty. With `mirror`, a sphere is followed by its image.
+std::vector<Vec3> make_shell(const SurfaceTree& tree, const ShellOptions& options);
 
 }  // namespace ice

@@ -8,64 +8,90 @@ namespace ice {
 
 namespace {
 
-constexpr double kMostSamples = 2e6;
+int pieces(double length, double size) {
+    return std::max(1, static_cast<int>(std::ceil(length / size)));
+}
 
-// The k^2 equal triangles of a triangle, centres only.
-void add_triangle(const TriangleMesh& mesh, std::size_t t, int k, std::vector<SurfaceSample>& out) {
-    const Vec3 a = mesh.corner(t, 0), u = (mesh.corner(t, 1) - a) / k,
-               v = (mesh.corner(t, 2) - a) / k;
-    const Vec3 area = mesh.area_vector(t);
-    const double share = area.norm() / (static_cast<double>(k) * k);
-    const Vec3 normal = area.normalized();
-    for (int i = 0; i < k; ++i)
-        for (int j = 0; i + j < k; ++j) {
-            const auto add = [&](double s, double r) {
-                out.push_back({a + s * u + r * v, normal, share, static_cast<std::int32_t>(t)});
-            };
-            add(i + 1.0 / 3.0, j + 1.0 / 3.0);
-            if (i + j + 2 <= k) add(i + 2.0 / 3.0, j + 2.0 / 3.0);
+}  // namespace
+
+// Strips parallel to the longest edge ab; c is the corner opposite to it.
+void SurfaceSampler::add_strips(std::size_t t, std::vector<SurfaceSample>& out) const {
+    const Vec3 vector = mesh_.area_vector(t);
+    const double area = vector.norm();
+    if (!(area > 0.0)) return;
+    int longest = 0;
+    double length = 0.0;
+    for (int k = 0; k < 3; ++k) {
+        const double now = (mesh_.corner(t, (k + 1) % 3) - mesh_.corner(t, k)).norm();
+        if (now > length) {
+            length = now;
+            longest = k;
         }
+    }
+    const Vec3 a = mesh_.corner(t, longest), b = mesh_.corner(t, (longest + 1) % 3),
+               c = mesh_.corner(t, (longest + 2) % 3);
+    const Vec3 normal = vector / area;
+    const int rows = pieces(2.0 * area / length, size_);
+    for (int row = 0; row < rows; ++row) {
+        // a strip is a trapezoid between two heights; its pieces are equal trapezoids
+        const double low = static_cast<double>(row) / rows, high = (row + 1.0) / rows;
+        const double wide = 1.0 - low, narrow = 1.0 - high;
+        const int count = pieces(0.5 * (wide + narrow) * length, size_);
+        const double share = area * (high - low) * (wide + narrow) / count;
+        // height of a trapezoid's centroid above its wide side
+        const double up = low + (high - low) * (wide + 2.0 * narrow) / (3.0 * (wide + narrow));
+        const Vec3 from = a + up * (c - a), to = b + up * (c - b);
+        for (int k = 0; k < count; ++k)
+            out.push_back({from + (k + 0.5) / count * (to - from), normal, share,
+                           static_cast<std::int32_t>(t)});
+    }
 }
 
 // A prism's side is two triangles; the one with two corners at the lower y stands for both.
-void add_strips(const TriangleMesh& mesh, std::size_t t, double size,
-                std::vector<SurfaceSample>& out) {
+void SurfaceSampler::add_section(std::size_t t, std::vector<SurfaceSample>& out) const {
     Vec3 low[3];
     int count = 0;
     double y_low = 1e300, y_high = -1e300;
     for (int k = 0; k < 3; ++k) {
-        y_low = std::min(y_low, mesh.corner(t, k).y());
-        y_high = std::max(y_high, mesh.corner(t, k).y());
+        y_low = std::min(y_low, mesh_.corner(t, k).y());
+        y_high = std::max(y_high, mesh_.corner(t, k).y());
     }
     for (int k = 0; k < 3; ++k)
-        if (mesh.corner(t, k).y() < 0.5 * (y_low + y_high)) low[count++] = mesh.corner(t, k);
+        if (mesh_.corner(t, k).y() < 0.5 * (y_low + y_high)) low[count++] = mesh_.corner(t, k);
     if (count != 2) return;
     const Vec3 a(low[0].x(), 0.0, low[0].z()), b(low[1].x(), 0.0, low[1].z());
     const double length = (b - a).norm();
-    const int k = std::max(1, static_cast<int>(std::ceil(length / size)));
-    const Vec3 normal = mesh.area_vector(t).normalized();
+    const int k = pieces(length, size_);
+    const Vec3 normal = mesh_.area_vector(t).normalized();
     for (int i = 0; i < k; ++i)
         out.push_back(
             {a + (i + 0.5) / k * (b - a), normal, length / k, static_cast<std::int32_t>(t)});
 }
 
-}  // namespace
+void SurfaceSampler::sample(std::size_t t, std::vector<SurfaceSample>& out) const {
+    out.clear();
+    if (dimension_ == 2) {
+        const Vec3 vector = mesh_.area_vector(t);
+        if (std::abs(vector.y()) < 0.5 * vector.norm()) add_section(t, out);
+        return;
+    }
+    if (half_ &&
+        std::max({mesh_.corner(t, 0).y(), mesh_.corner(t, 1).y(), mesh_.corner(t, 2).y()}) < 0.0)
+        return;
+    add_strips(t, out);
+    if (!half_) return;
+    std::erase_if(out, [](const SurfaceSample& s) { return s.point.y() < 0.0; });
+    for (SurfaceSample& s : out)
+        if (s.point.y() == 0.0) s.area *= 0.5;
+}
 
-std::vector<SurfaceSample> sample_surface(const TriangleMesh& mesh, double size, int dimension) {
-    std::vector<SurfaceSample> out;
-    double area = 0.0;
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) area += mesh.area_vector(t).norm();
-    size = std::max(size, std::sqrt(2.0 * area / kMostSamples));
+std::vector<SurfaceSample> sample_surface(const TriangleMesh& mesh, double size, int dimension,
+                                          bool half) {
+    const SurfaceSampler sampler(mesh, size, dimension, half);
+    std::vector<SurfaceSample> out, part;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-        const Vec3 vector = mesh.area_vector(t);
-        if (dimension == 2) {
-            if (std::abs(vector.y()) < 0.5 * vector.norm()) add_strips(mesh, t, size, out);
-            continue;
-        }
-        double longest = 0.0;
-        for (int k = 0; k < 3; ++k)
-            longest = std::max(longest, (mesh.corner(t, k) - mesh.corner(t, (k + 1) % 3)).norm());
-        add_triangle(mesh, t, std::max(1, static_cast<int>(std::ceil(longest / size))), out);
+        sampler.sample(t, part);
+        out.insert(out.end(), part.begin(), part.end());
     }
     return out;
 }

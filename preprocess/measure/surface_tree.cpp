@@ -43,16 +43,6 @@ TrianglePoint closest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, c
     return {p - n * (n.dot(ap) / n.squaredNorm()), 6};
 }
 
-// Squared distance of a point from a box, 0 inside; plain arithmetic, the hottest line of all.
-double box_distance_sq(const Vec3& low, const Vec3& high, const Vec3& p) {
-    double sum = 0.0;
-    for (int d = 0; d < 3; ++d) {
-        const double gap = std::max(std::max(low[d] - p[d], p[d] - high[d]), 0.0);
-        sum += gap * gap;
-    }
-    return sum;
-}
-
 double corner_angle(const Vec3& at, const Vec3& b, const Vec3& c) {
     const Vec3 u = (b - at).normalized(), v = (c - at).normalized();
     return std::acos(std::clamp(u.dot(v), -1.0, 1.0));
@@ -66,33 +56,29 @@ SurfaceTree::SurfaceTree(const TriangleMesh& mesh) : mesh_(mesh) {
         centers_.push_back((mesh.corner(t, 0) + mesh.corner(t, 1) + mesh.corner(t, 2)) / 3.0);
     order_.resize(static_cast<std::size_t>(count));
     std::iota(order_.begin(), order_.end(), 0);
-    nodes_.reserve(mesh.triangles.size());
+    Eigen::AlignedBox3d box;
+    for (const Vec3& v : mesh.vertices) box.extend(v);
+    middle_ = box.center();
+    // a float keeps 24 bits; asking points at most a box's size away may add as much again
+    grain_ = std::ldexp(box.sizes().maxCoeff(), -21);
+    nodes_.reserve(mesh.triangles.size() / 4 + 2);
     build(0, count);
     corners_.reserve(order_.size());
+    rank_.resize(order_.size());
     for (const std::int32_t t : order_) {
         const auto tt = static_cast<std::size_t>(t);
+        rank_[tt] = static_cast<std::int32_t>(corners_.size());
         corners_.push_back({mesh.corner(tt, 0), mesh.corner(tt, 1), mesh.corner(tt, 2)});
     }
     centers_ = {};
     build_normals();
 }
 
-std::int32_t SurfaceTree::build(std::int32_t first, std::int32_t count) {
-    const auto index = static_cast<std::int32_t>(nodes_.size());
-    nodes_.emplace_back();
-    Eigen::AlignedBox3d box, centers;
-    for (std::int32_t k = first; k < first + count; ++k) {
-        const auto t = static_cast<std::size_t>(order_[static_cast<std::size_t>(k)]);
-        for (int c = 0; c < 3; ++c) box.extend(mesh_.corner(t, c));
-        centers.extend(centers_[t]);
-    }
-    nodes_[static_cast<std::size_t>(index)].low = box.min();
-    nodes_[static_cast<std::size_t>(index)].high = box.max();
-    if (count <= kLeafSize) {
-        nodes_[static_cast<std::size_t>(index)].first = first;
-        nodes_[static_cast<std::size_t>(index)].count = count;
-        return index;
-    }
+// Halves a range by the triangles' centres along the longest extent; returns the first half's size.
+std::int32_t SurfaceTree::split(std::int32_t first, std::int32_t count) {
+    Eigen::AlignedBox3d centers;
+    for (std::int32_t k = first; k < first + count; ++k)
+        centers.extend(centers_[static_cast<std::size_t>(order_[static_cast<std::size_t>(k)])]);
     int axis = 0;
     centers.sizes().maxCoeff(&axis);
     const std::int32_t half = count / 2;
@@ -103,9 +89,53 @@ std::int32_t SurfaceTree::build(std::int32_t first, std::int32_t count) {
                          const double cr = centers_[static_cast<std::size_t>(r)][axis];
                          return cl < cr || (cl == cr && l < r);
                      });
-    build(first, half);
-    const std::int32_t right = build(first + half, count - half);
-    nodes_[static_cast<std::size_t>(index)].right = right;
+    return half;
+}
+
+void SurfaceTree::set_box(Node& node, int k, std::int32_t first, std::int32_t count) const {
+    Eigen::AlignedBox3d box;
+    for (std::int32_t t = first; t < first + count; ++t)
+        for (int c = 0; c < 3; ++c)
+            box.extend(
+                mesh_.corner(static_cast<std::size_t>(order_[static_cast<std::size_t>(t)]), c));
+    for (int d = 0; d < 3; ++d) {
+        node.low[d][k] = static_cast<float>(box.min()[d] - middle_[d] - grain_);
+        node.high[d][k] = static_cast<float>(box.max()[d] - middle_[d] + grain_);
+    }
+}
+
+std::int32_t SurfaceTree::build(std::int32_t first, std::int32_t count) {
+    const auto index = static_cast<std::int32_t>(nodes_.size());
+    nodes_.emplace_back();
+    std::array<std::pair<std::int32_t, std::int32_t>, 4> part{};
+    int parts = 0;
+    const auto divide = [&](std::int32_t from, std::int32_t size, int more, auto&& self) -> void {
+        if (more == 0 || size <= kLeafSize) {
+            if (size > 0) part[static_cast<std::size_t>(parts++)] = {from, size};
+            return;
+        }
+        const std::int32_t half = split(from, size);
+        self(from, half, more - 1, self);
+        self(from + half, size - half, more - 1, self);
+    };
+    divide(first, count, 2, divide);
+    Node node;
+    for (int k = 0; k < 4; ++k) {
+        const auto [from, size] = part[static_cast<std::size_t>(k)];
+        if (k < parts) set_box(node, k, from, size);
+        node.child[k] = from;
+        node.count[k] = k < parts ? size : -1;
+        if (k < parts) continue;
+        // an empty place is infinitely far
+        for (int d = 0; d < 3; ++d)
+            node.low[d][k] = node.high[d][k] = std::numeric_limits<float>::infinity();
+    }
+    for (int k = 0; k < parts; ++k)
+        if (node.count[k] > kLeafSize) {
+            node.child[k] = build(node.child[k], node.count[k]);
+            node.count[k] = 0;
+        }
+    nodes_[static_cast<std::size_t>(index)] = node;
     return index;
 }
 
@@ -147,48 +177,62 @@ bool SurfaceTree::is_inside(const Vec3& p, const Foot& foot, int feature) const 
     return (p - foot.point).dot(normal) < 0.0;
 }
 
-// Visits the leaves whose boxes are not ruled out by skip(distance squared), the nearer child of a
-// node first: in a closest-point search it usually rules out the other.
+// Visits the leaves whose boxes are not ruled out by skip(distance squared), the nearest of a
+// node's children first: in a closest-point search it usually rules out the others.
 template <class Skip, class Visit>
 void SurfaceTree::visit_leaves(const Vec3& p, const Skip& skip, const Visit& visit) const {
-    std::int32_t stack[64];
+    struct Entry {
+        double distance_sq;
+        std::int32_t child, count;
+    };
+    const Vec3 from = p - middle_;
+    const float x = static_cast<float>(from.x()), y = static_cast<float>(from.y()),
+                z = static_cast<float>(from.z());
+    Entry stack[96];
     int depth = 0;
-    stack[depth++] = 0;
+    stack[depth++] = {0.0, 0, 0};
     while (depth > 0) {
-        const std::int32_t at = stack[--depth];
-        const Node& node = nodes_[static_cast<std::size_t>(at)];
-        if (skip(box_distance_sq(node.low, node.high, p))) continue;
-        if (node.count == 0) {
-            const std::int32_t left = at + 1, right = node.right;
-            const auto distance = [&](std::int32_t child) {
-                const Node& box = nodes_[static_cast<std::size_t>(child)];
-                return box_distance_sq(box.low, box.high, p);
-            };
-            const bool left_first = distance(left) <= distance(right);
-            stack[depth++] = left_first ? right : left;
-            stack[depth++] = left_first ? left : right;
-            continue;
-        }
-        for (std::int32_t k = node.first; k < node.first + node.count; ++k)
+        const Entry entry = stack[--depth];
+        if (skip(entry.distance_sq)) continue;
+        for (std::int32_t k = entry.child; k < entry.child + entry.count; ++k)
             visit(order_[static_cast<std::size_t>(k)], corners_[static_cast<std::size_t>(k)]);
+        if (entry.count > 0) continue;
+        const Node& node = nodes_[static_cast<std::size_t>(entry.child)];
+        const Eigen::Array4f dx = (node.low[0] - x).max(x - node.high[0]).max(0.0f);
+        const Eigen::Array4f dy = (node.low[1] - y).max(y - node.high[1]).max(0.0f);
+        const Eigen::Array4f dz = (node.low[2] - z).max(z - node.high[2]).max(0.0f);
+        const Eigen::Array4f sq = dx * dx + dy * dy + dz * dz;
+        const int bottom = depth;
+        for (int k = 0; k < 4; ++k) {
+            // less by what the sum of squares may have been rounded up
+            const double distance_sq = static_cast<double>(sq[k]) * (1.0 - 1e-6);
+            if (node.count[k] < 0 || skip(distance_sq)) continue;
+            int at = depth++;
+            for (; at > bottom && stack[at - 1].distance_sq < distance_sq; --at)
+                stack[at] = stack[at - 1];
+            stack[at] = {distance_sq, node.child[k], node.count[k]};
+        }
     }
 }
 
-Foot SurfaceTree::closest(const Vec3& p) const {
+Foot SurfaceTree::closest(const Vec3& p, std::int32_t hint) const {
     Foot best;
     double best_sq = std::numeric_limits<double>::infinity();
     int feature = 6;
+    const auto look = [&](std::int32_t t, const Corners& corner) {
+        const TrianglePoint q = closest_on_triangle(p, corner[0], corner[1], corner[2]);
+        const double sq = (p - q.point).squaredNorm();
+        if (sq > best_sq || (sq == best_sq && t > best.triangle)) return;
+        best_sq = sq;
+        best.point = q.point;
+        best.triangle = t;
+        feature = q.feature;
+    };
+    if (hint >= 0)
+        look(hint, corners_[static_cast<std::size_t>(rank_[static_cast<std::size_t>(hint)])]);
+    // boxes as near as the best are looked at: of equal feet the first triangle's counts
     visit_leaves(
-        p, [&](double sq) { return sq >= best_sq; },
-        [&](std::int32_t t, const Corners& corner) {
-            const TrianglePoint q = closest_on_triangle(p, corner[0], corner[1], corner[2]);
-            const double sq = (p - q.point).squaredNorm();
-            if (sq > best_sq || (sq == best_sq && t > best.triangle)) return;
-            best_sq = sq;
-            best.point = q.point;
-            best.triangle = t;
-            feature = q.feature;
-        });
+        p, [&](double sq) { return sq > best_sq; }, look);
     best.distance = std::sqrt(best_sq);
     best.inside = is_inside(p, best, feature);
     return best;

@@ -27,7 +27,9 @@ public:
     /// @pre mesh is closed and outward oriented; it must outlive the tree
     explicit SurfaceTree(const TriangleMesh& mesh);
 
-    Foot closest(const Vec3& p) const;
+    /// @param hint  a triangle thought to be near p (that of the last query, say); -1 for none. The
+    ///              answer is the same without it, only later: of equal feet the first triangle's.
+    Foot closest(const Vec3& p, std::int32_t hint = -1) const;
 
     /// Feet on all triangles nearer than `range` to p, in triangle order. `inside` is not set.
     void within(const Vec3& p, double range, std::vector<Foot>& out) const;
@@ -42,10 +44,12 @@ public:
     }
 
 private:
+    // Four boxes at once, as floats: they are rounded outwards, so a distance to them is never too
+    // large, and one visit is a dozen vector instructions.
     struct Node {
-        Vec3 low, high;                     ///< box of all its triangles
-        std::int32_t first = 0, count = 0;  ///< leaf: range of order_; inner node: count 0
-        std::int32_t right = 0;  ///< inner node: second child; the first is the next node
+        Eigen::Array4f low[3], high[3];
+        std::int32_t child[4];  ///< leaf: first of its range of order_; else a node
+        std::int32_t count[4];  ///< triangles of a leaf; 0: a node; -1: nothing
     };
 
     using Corners = std::array<Vec3, 3>;
@@ -53,12 +57,17 @@ private:
     template <class Skip, class Visit>
     void visit_leaves(const Vec3& p, const Skip& skip, const Visit& visit) const;
     std::int32_t build(std::int32_t first, std::int32_t count);
+    std::int32_t split(std::int32_t first, std::int32_t count);
+    void set_box(Node& node, int k, std::int32_t first, std::int32_t count) const;
     void build_normals();
     bool is_inside(const Vec3& p, const Foot& foot, int feature) const;
 
     const TriangleMesh& mesh_;
     std::vector<Node> nodes_;
+    Vec3 middle_ = Vec3::Zero();  ///< the boxes' origin: floats are finest near it
+    double grain_ = 0.0;          ///< by how much boxes are widened [m]
     std::vector<std::int32_t> order_;
+    std::vector<std::int32_t> rank_;    ///< of each triangle in order_
     std::vector<Corners> corners_;      ///< of the triangles in the order of order_: read in a row
     std::vector<Vec3> centers_;         ///< while building only
     std::vector<Vec3> normals_;         ///< per triangle

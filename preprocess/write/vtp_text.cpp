@@ -42,6 +42,13 @@ private:
 }  // namespace
 
 std::string vtp_text(const SphereSet& set) {
+    // arrays of the surface, with the interior's rows 0
+    SphereSet whole = set;
+    whole.normals.resize(set.size(), Vec3::Zero());
+    whole.areas.resize(set.size(), 0.0);
+    whole.regions.resize(set.size(), 0);
+    std::vector<std::uint8_t> layers(set.surface_count, 1);
+    layers.resize(set.size(), 0);
     AppendedArrays arrays;
     std::vector<std::int64_t> ends(set.size()), vertices(set.size());
     std::iota(vertices.begin(), vertices.end(), 0);
@@ -56,11 +63,11 @@ std::string vtp_text(const SphereSet& set) {
         set.size());
     out += "      <PointData Scalars=\"radius\" Normals=\"normal\">\n";
     out += arrays.add<double>("radius", "Float64", set.radii);
-    out += arrays.points("normal", set.normals);
-    out += arrays.add<double>("area", "Float64", set.areas);
+    out += arrays.points("normal", whole.normals);
+    out += arrays.add<double>("area", "Float64", whole.areas);
     out += arrays.add<double>("volume", "Float64", set.volumes);
-    out += arrays.add<std::uint8_t>("layer", "UInt8", set.layers);
-    out += arrays.add<std::int32_t>("region", "Int32", set.regions);
+    out += arrays.add<std::uint8_t>("layer", "UInt8", layers);
+    out += arrays.add<std::int32_t>("region", "Int32", whole.regions);
     out += "      </PointData>\n      <Points>\n";
     out += arrays.points("Points", set.centers);
     out += "      </Points>\n      <Verts>\n";

@@ -54,8 +54,7 @@ void build_panels(Shape& shape) {
 }
 
 void copy_surface_spheres(const SphereSet& set, const Vec3& origin, Shape& shape) {
-    for (std::size_t k = 0; k < set.size(); ++k) {
-        if (set.layers[k] == 0) continue;
+    for (std::size_t k = 0; k < set.surface_count; ++k) {
         shape.center.push_back(set.centers[k] - origin);
         shape.radius.push_back(set.radii[k]);
         shape.normal.push_back(set.normals[k]);

@@ -137,7 +137,7 @@ TEST_CASE("hull regions survive from the OBJ groups to the spheres", "[cli]") {
     const SphereSet set = read_spheres(w / "set.h5");
     std::map<std::string, double> area;
     for (std::size_t k = 0; k < set.size(); ++k)
-        area[set.mesh.region_names[static_cast<std::size_t>(set.regions[k])]] += set.areas[k];
+        area[set.mesh.region_names[static_cast<std::size_t>(set.region(k))]] += set.area(k);
     for (const char* name : {"bow", "bottom", "side", "stern", "propeller", "deck"})
         CHECK(area[name] > 0.5);
 }

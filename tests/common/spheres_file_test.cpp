@@ -33,16 +33,14 @@ SphereSet make_set() {
         set.normals.push_back(normal);
     }
     set.centers.push_back(Vec3::Zero());
-    set.normals.push_back(Vec3::Zero());
     const std::size_t n = set.centers.size();
+    set.surface_count = n - 1;
     set.radii.assign(n, 0.1);
-    set.normal_spread.assign(n, 0.25);
-    set.areas.assign(n, set.solid.area / 6.0);
-    set.areas.back() = 0.0;
+    set.normal_spread.assign(n - 1, 0.25);
+    set.areas.assign(n - 1, set.solid.area / 6.0);
     set.volumes.assign(n, set.solid.volume / static_cast<double>(n));
-    set.layers.assign(n, 1);
-    set.layers.back() = 0;
-    set.regions.assign(n, 1);
+    set.regions.assign(n - 1, 1);
+    set.creases = {{2, Vec3::UnitX()}, {2, Vec3::UnitY()}};
     return set;
 }
 
@@ -73,10 +71,14 @@ TEST_CASE("a sphere set comes back as written, normals to float precision", "[fo
     CHECK(back.radii == set.radii);
     CHECK(back.areas == set.areas);
     CHECK(back.volumes == set.volumes);
-    CHECK(back.layers == set.layers);
+    CHECK(back.surface_count == set.surface_count);
     CHECK(back.regions == set.regions);
     CHECK(back.normal_spread == set.normal_spread);
-    for (std::size_t k = 0; k < set.size(); ++k)
+    REQUIRE(back.creases.size() == 2);
+    CHECK(back.creases[1].sphere == 2);
+    CHECK(back.creases[1].normal == Vec3::UnitY());
+    REQUIRE(back.normals.size() == set.surface_count);
+    for (std::size_t k = 0; k < set.surface_count; ++k)
         CHECK((back.normals[k] - set.normals[k]).norm() < 1e-7);
     CHECK(back.solid.volume == set.solid.volume);
     CHECK(back.solid.inertia == set.solid.inertia);
@@ -192,7 +194,7 @@ TEST_CASE("a file of version 1 without normal_spread reads as spread 0", "[forma
     const std::string name = "normal_spread";
     bytes[bytes.find('\0' + name + '\0') + name.size()] = 'X';
     write_bytes(folder / "x.h5", bytes);
-    CHECK(read_spheres(folder / "x.h5").normal_spread == std::vector<double>(7, 0.0));
+    CHECK(read_spheres(folder / "x.h5").normal_spread == std::vector<double>(6, 0.0));
 }
 
 TEST_CASE("a set that cannot be written leaves no file", "[formats]") {

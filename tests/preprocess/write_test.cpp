@@ -27,11 +27,11 @@ TEST_CASE("a vtp file holds every sphere's centre, radius and normal", "[write]"
     SphereSet set;
     set.centers = {Vec3(1, 2, 3), Vec3(4, 5, 6)};
     set.radii = {0.25, 0.5};
-    set.normals = {Vec3::UnitZ(), Vec3::Zero()};
-    set.areas = {7, 0};
+    set.surface_count = 1;
+    set.normals = {Vec3::UnitZ()};
+    set.areas = {7};
     set.volumes = {8, 9};
-    set.layers = {1, 0};
-    set.regions = {3, 0};
+    set.regions = {3};
     const std::string text = vtp_text(set);
     CHECK_THAT(text, Catch::Contains("NumberOfPoints=\"2\""));
     CHECK(first_value<double>(text, "Points") == 1.0);

@@ -207,7 +207,7 @@ TEST_CASE("a crushed patch carries pressure x area, whatever the spheres", "[ste
     step(w);
     // the test set gives every sphere on the upper face a cell of spacing^2 there
     double area = 0.0;
-    for (std::size_t k = 0; k < set.size(); ++k)
+    for (std::size_t k = 0; k < set.surface_count; ++k)
         if (set.normals[k].z() > 0.3) area += spacing * spacing;
     CHECK(-test::ship_on_ice(w).first.z() == Approx(1e3 * area).epsilon(1e-6));
 }

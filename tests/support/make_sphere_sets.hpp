@@ -46,37 +46,42 @@ inline SphereSet make_box_set(const Vec3& size, double radius, double spacing, i
         low.y() = 0.0;
     }
     const double total = static_cast<double>(count[0]) * count[1] * count[2];
-    for (int z = 0; z < count[2]; ++z)
-        for (int y = 0; y < count[1]; ++y)
-            for (int x = 0; x < count[0]; ++x) {
-                const int at[3] = {x, y, z};
-                Vec3 normal = Vec3::Zero(), center;
-                for (int d = 0; d < 3; ++d) {
-                    center[d] = low[d] + at[d] * pitch[d];
-                    if (dimension == 2 && d == 1) continue;
-                    normal[d] = at[d] == 0 ? -1.0 : at[d] == count[d] - 1 ? 1.0 : 0.0;
-                }
-                const double faces = normal.squaredNorm();
-                set.centers.push_back(center);
-                set.radii.push_back(radius);
-                set.normals.push_back(faces > 0 ? Vec3(normal.normalized()) : Vec3::Zero());
-                set.normal_spread.push_back(faces > 1 ? std::acos(1.0 / std::sqrt(faces)) : 0.0);
-                // enough for tests: a face sphere stands for its cell of the face
-                set.areas.push_back(faces * pitch.x() * (dimension == 2 ? 1.0 : pitch.y()));
-                set.volumes.push_back(set.solid.volume / total);
-                set.layers.push_back(faces > 0 ? 1 : 0);
-                set.regions.push_back(0);
-            }
+    // surface spheres first, then those inside
+    for (int n = 0; n < 2 * count[0] * count[1] * count[2]; ++n) {
+        const int pass = n / (count[0] * count[1] * count[2]);
+        const int x = n % count[0], y = n / count[0] % count[1],
+                  z = n / (count[0] * count[1]) % count[2];
+        const int at[3] = {x, y, z};
+        Vec3 normal = Vec3::Zero(), center;
+        for (int d = 0; d < 3; ++d) {
+            center[d] = low[d] + at[d] * pitch[d];
+            if (dimension == 2 && d == 1) continue;
+            normal[d] = at[d] == 0 ? -1.0 : at[d] == count[d] - 1 ? 1.0 : 0.0;
+        }
+        const double faces = normal.squaredNorm();
+        if ((faces > 0) != (pass == 0)) continue;
+        set.centers.push_back(center);
+        set.radii.push_back(radius);
+        set.volumes.push_back(set.solid.volume / total);
+        if (pass == 1) continue;
+        ++set.surface_count;
+        set.normals.push_back(normal.normalized());
+        set.normal_spread.push_back(faces > 1 ? std::acos(1.0 / std::sqrt(faces)) : 0.0);
+        // enough for tests: a face sphere stands for its cell of the face
+        set.areas.push_back(faces * pitch.x() * (dimension == 2 ? 1.0 : pitch.y()));
+        set.regions.push_back(0);
+    }
     return set;
 }
 
 /// One sphere of density-1 mass properties, with the mass and inertia of the cube around it.
 inline SphereSet make_ball_set(double radius) {
     SphereSet set = make_box_set(Vec3::Constant(2.0 * radius), radius, 2.0 * radius);
-    set.normals[0] = Vec3::UnitZ();
-    set.normal_spread[0] = 3.14159265358979;  // all directions
-    set.layers[0] = 1;
-    set.areas[0] = set.solid.area;
+    set.surface_count = 1;
+    set.normals = {Vec3::UnitZ()};
+    set.normal_spread = {3.14159265358979};  // all directions
+    set.areas = {set.solid.area};
+    set.regions = {0};
     return set;
 }
 

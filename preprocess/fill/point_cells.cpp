@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "preprocess/fill/point_cells.hpp"
+
+#include <bit>
+
+namespace ice {
+
+PointCells::PointCells(std::span<const Vec3> points, double cell) : cell_(cell) {
+    low_ = points.front();
+    for (const Vec3& p : points) low_ = low_.cwiseMin(p);
+    // count, place, fill: points of a cube end up side by side, in their own order
+    std::vector<std::size_t> slot(points.size());
+    const auto insert = [&](std::size_t k) {
+        const Cell at = cell_of(points[k]);
+        Slot& s = slots_[slot[k] = slot_of(at)];
+        s.cell = at;
+        return s.count++ == 0;
+    };
+    slots_.resize(std::bit_ceil(2 * points.size() + 1));
+    std::size_t cubes = 0;
+    for (std::size_t k = 0; k < points.size(); ++k) cubes += insert(k) ? 1 : 0;
+    // once more into a table that fits the cubes, not the points: it stays in the cache
+    slots_.assign(std::bit_ceil(2 * cubes + 1), Slot{});
+    std::vector<std::size_t> used;
+    for (std::size_t k = 0; k < points.size(); ++k)
+        if (insert(k)) used.push_back(slot[k]);
+    std::int32_t first = 0;
+    for (const std::size_t s : used) {
+        slots_[s].first = first;
+        first += slots_[s].count;
+    }
+    std::vector<std::int32_t> filled(slots_.size(), 0);
+    points_.resize(points.size());
+    for (std::size_t k = 0; k < points.size(); ++k) {
+        const auto at = static_cast<std::size_t>(slots_[slot[k]].first + filled[slot[k]]++);
+        points_[at] = {points[k], static_cast<std::int32_t>(k)};
+    }
+}
+
+PointCells::Cell PointCells::cell_of(const Vec3& p) const {
+    Cell out;
+    for (int d = 0; d < 3; ++d)
+        out[static_cast<std::size_t>(d)] =
+            static_cast<std::int32_t>(std::floor((p[d] - low_[d]) / cell_));
+    return out;
+}
+
+PointCells::Nearest PointCells::nearest(const Vec3& p, Nearest known) const {
+    // a hair above: the known point is found again with its own squared distance
+    double best_sq = known.distance * known.distance * (1.0 + 1e-15);
+    std::int32_t best = -1;
+    const auto look_at = [&](const Point& point) {
+        const double sq = (point.at - p).squaredNorm();
+        if (sq > best_sq || (sq == best_sq && point.index > best)) return;
+        best_sq = sq;
+        best = point.index;
+    };
+    const Cell at = cell_of(p);
+    const Vec3 within = (p - low_) - cell_ * Vec3(at[0], at[1], at[2]);
+    // squared distance along an axis to the cube that is `step` cubes away
+    const auto gap_sq = [&](int axis, int step) {
+        const double gap = step > 0   ? step * cell_ - within[axis]
+                           : step < 0 ? within[axis] - (step + 1) * cell_
+                                      : 0.0;
+        return gap * gap;
+    };
+    for (int ring = 0; ring <= kMostRings; ++ring) {
+        const double reach = (ring - 1) * cell_;
+        if (reach > 0.0 && reach * reach > best_sq) break;
+        if (ring == kMostRings) {
+            for (const Point& point : points_) look_at(point);
+            break;
+        }
+        for (int x = -ring; x <= ring; ++x)
+            for (int y = -ring; y <= ring; ++y) {
+                const double side_sq = gap_sq(0, x) + gap_sq(1, y);
+                if (side_sq > best_sq) continue;
+                // inside the ring's walls only the two end cubes along z are new
+                const bool wall = std::abs(x) == ring || std::abs(y) == ring;
+                const int stride = wall || ring == 0 ? 1 : 2 * ring;
+                for (int z = -ring; z <= ring; z += stride) {
+                    if (side_sq + gap_sq(2, z) > best_sq) continue;
+                    const Slot& slot = slots_[slot_of({at[0] + x, at[1] + y, at[2] + z})];
+                    for (std::int32_t k = slot.first; k < slot.first + slot.count; ++k)
+                        look_at(points_[static_cast<std::size_t>(k)]);
+                }
+            }
+    }
+    return best < 0 ? known : Nearest{best, std::sqrt(best_sq)};
+}
+
+}  // namespace ice

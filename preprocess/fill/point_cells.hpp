@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "common/geometry/triangle_mesh.hpp"
+
+namespace ice {
+
+/// "Which point is nearest?" for points that no longer change (PointGrid is for growing ones):
+/// points sorted into cubes, cubes found by hashing. Thread-safe once built.
+class PointCells {
+public:
+    /// @param points  copied; not empty
+    /// @param cell    edge of a cube [m]: about the distance between neighbouring points
+    PointCells(std::span<const Vec3> points, double cell);
+
+    struct Nearest {
+        std::int32_t index;
+        double distance;  ///< [m]
+    };
+
+    /// The nearest point, however far; of equally near ones that with the lowest index. Cost O(1)
+    /// where one is near.
+    Nearest nearest(const Vec3& p) const { return nearest(p, {-1, kFar}); }
+
+    /// The same when one point and its distance are known already: only nearer ones are looked for.
+    Nearest nearest(const Vec3& p, Nearest known) const;
+
+    /// Calls visit(index, distance) for all points within `range` of p, in no particular order.
+    template <class Visit>
+    void visit(const Vec3& p, double range, const Visit& visit) const;
+
+private:
+    using Cell = std::array<std::int32_t, 3>;
+    struct Slot {
+        Cell cell{};
+        std::int32_t first = 0, count = 0;     ///< range of points_; count 0: an empty slot
+        bool holds(const Cell& other) const {  // member by member: no call of memcmp
+            return cell[0] == other[0] && cell[1] == other[1] && cell[2] == other[2];
+        }
+    };
+    struct Point {
+        Vec3 at;
+        std::int32_t index;
+    };
+
+    static constexpr double kFar = std::numeric_limits<double>::infinity();
+    static constexpr int kMostRings = 12;  ///< farther away, all points are searched
+
+    Cell cell_of(const Vec3& p) const;
+    // The slot of a cube, or the empty one where it would be.
+    std::size_t slot_of(const Cell& cell) const {
+        std::uint64_t hash = 0;
+        for (const std::int32_t c : cell)
+            hash = (hash ^ static_cast<std::uint32_t>(c)) * 0x9e3779b97f4a7c15ull;
+        const std::size_t mask = slots_.size() - 1;
+        for (std::size_t at = (hash ^ hash >> 29) >> 7 & mask;; at = (at + 1) & mask)
+            if (slots_[at].count == 0 || slots_[at].holds(cell)) return at;
+    }
+
+    double cell_;
+    Vec3 low_ = Vec3::Zero();
+    std::vector<Slot> slots_;  ///< open addressing, a power of two
+    std::vector<Point> points_;
+};
+
+template <class Visit>
+void PointCells::visit(const Vec3& p, double range, const Visit& visit) const {
+    const Cell from = cell_of(p - Vec3::Constant(range)), to = cell_of(p + Vec3::Constant(range));
+    for (std::int32_t x = from[0]; x <= to[0]; ++x)
+        for (std::int32_t y = from[1]; y <= to[1]; ++y)
+            for (std::int32_t z = from[2]; z <= to[2]; ++z) {
+                const Slot& slot = slots_[slot_of({x, y, z})];
+                for (std::int32_t k = slot.first; k < slot.first + slot.count; ++k) {
+                    const Point& point = points_[static_cast<std::size_t>(k)];
+                    const double distance = (point.at - p).norm();
+                    if (distance <= range) visit(point.index, distance);
+                }
+            }
+}
+
+}  // namespace ice

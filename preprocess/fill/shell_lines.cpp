@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "preprocess/fill/shell_lines.hpp"
+
+#include "common/base/parallel.hpp"
+#include "preprocess/fill/edge_chains.hpp"
+#include "preprocess/fill/mirror_seat.hpp"
+#include "preprocess/fill/point_grid.hpp"
+
+namespace ice {
+
+namespace {
+
+// In units of the spacing.
+constexpr double kStep = 0.2;        // between the points that an edge is followed by
+constexpr double kSeparation = 0.5;  // between spheres of different edges
+constexpr double kMirrorGap = 0.25;  // half of it: a sphere and its image
+
+using Line = std::vector<Vec3>;
+
+// In 2D the outline is all of the surface: most of it is no crease.
+std::optional<Seat> settle_on_line(const SurfaceTree& tree, const ShellOptions& o,
+                                   const Vec3& start) {
+    if (o.dimension == 3) return settle_in_crease(tree, start, o.radius);
+    auto seat = settle(tree, start, o.radius);
+    if (seat) find_crease(tree, o.radius, *seat);
+    return seat;
+}
+
+// Settled centres along a line of starts, cut where the edge is too sharp for a sphere.
+std::vector<Line> settle_line(const SurfaceTree& tree, const ShellOptions& o, const Line& starts) {
+    std::vector<std::optional<Seat>> seats(starts.size());
+    parallel_for(starts.size(), 64,
+                 [&](std::size_t k) { seats[k] = settle_on_line(tree, o, starts[k]); });
+    std::vector<Line> out(1);
+    for (const auto& seat : seats) {
+        Line& line = out.back();
+        const bool jump = seat && !line.empty() && (seat->center - line.back()).norm() > o.spacing;
+        if ((!seat || jump) && !line.empty()) out.emplace_back();
+        if (!seat) continue;
+        // the points near a corner all settle in it: equal neighbours are one
+        const bool again =
+            !out.back().empty() && (seat->center - out.back().back()).norm() <= 1e-7 * o.radius;
+        if (!again) out.back().push_back(seat->center);
+    }
+    return out;
+}
+
+class LineSeats {
+public:
+    LineSeats(const SurfaceTree& tree, const ShellOptions& options)
+        : tree_(tree), o_(options), placed_(options.spacing) {}
+
+    void place(const Line& line) {
+        for (const Vec3& start : line.size() < 2 ? line : resample(line, o_.spacing)) {
+            if (o_.mirror && start.y() < -1e-6 * o_.radius) continue;
+            auto seat = settle_on_line(tree_, o_, start);
+            if (seat && o_.mirror)
+                seat = mirror_seat(tree_, *seat, o_.radius, kMirrorGap * o_.spacing);
+            if (!seat) continue;
+            const std::vector<Vec3> normals = normals_at(tree_, o_.radius, *seat);
+            if (placed_.any_within(seat->center, kSeparation * o_.spacing, [&](std::int32_t k) {
+                    return seats_[static_cast<std::size_t>(k)].agrees(normals);
+                }))
+                continue;
+            placed_.add(seat->center);
+            seats_.push_back(*seat);
+        }
+    }
+    std::vector<Seat> take() { return std::move(seats_); }
+
+private:
+    const SurfaceTree& tree_;
+    ShellOptions o_;
+    PointGrid placed_;
+    std::vector<Seat> seats_;
+};
+
+}  // namespace
+
+std::vector<Seat> seat_lines(const SurfaceTree& tree, const ShellOptions& options) {
+    const double step = kStep * options.spacing;
+    const auto lines = options.dimension == 2 ? trace_section(tree, options.radius, step)
+                                              : trace_sharp_edges(tree, options.radius, step);
+    LineSeats seats(tree, options);
+    for (const Line& starts : lines)
+        for (const Line& line : settle_line(tree, options, starts)) seats.place(line);
+    return seats.take();
+}
+
+}  // namespace ice

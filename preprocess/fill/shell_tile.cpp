@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "preprocess/fill/shell_tile.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "preprocess/fill/mirror_seat.hpp"
+
+namespace ice {
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+// In units of the spacing.
+constexpr double kHalo = 2.0;         // how far beyond the tile seats matter
+constexpr double kBeyond = 1.2;       // how far beyond it gaps are closed
+constexpr double kStretch = 1.02;     // of a front's hexagons
+constexpr double kReach = 1.4;        // neighbours that take part in a hexagon
+constexpr double kSeparation = 0.74;  // a hexagon's seams: nearer than this is not placed
+constexpr double kMirrorGap = 0.37;   // half of it: a sphere and its image
+constexpr double kUnreached = 0.9;    // a seed this far from all seats starts a front
+constexpr double kGap = 0.635;        // corners of Voronoi cells farther away are gaps
+constexpr double kGapSeparation = 0.61;
+constexpr double kGapMirror = 0.15;
+constexpr double kCellReach = 1.75;  // neighbours that bound a Voronoi cell
+constexpr double kCellSize = 0.9;    // half the edge of the square a cell starts as
+
+}  // namespace
+
+ShellTile::ShellTile(const SurfaceTree& tree, const ShellOptions& options,
+                     const Eigen::AlignedBox3d& box)
+    : tree_(tree),
+      o_(options),
+      box_(box),
+      grid_(box.min() - Vec3::Constant(kHalo * options.spacing),
+            box.sizes().maxCoeff() + 2.0 * kHalo * options.spacing, kCellReach * options.spacing) {}
+
+void ShellTile::know(const Seat& seat) {
+    const double halo = kHalo * o_.spacing;
+    if (o_.mirror && seat.center.y() > 0.0 && seat.center.y() < halo) {
+        const Seat image = image_of(seat);
+        if (box_.exteriorDistance(image.center) < halo) grid_.add(image);
+    }
+    if (box_.exteriorDistance(seat.center) < halo) grid_.add(seat);
+}
+
+void ShellTile::add(const Seat& seat) {
+    placed_.push_back(seat);
+    know(seat);
+}
+
+bool ShellTile::place(const Vec3& start, std::int32_t hint, double separation, double mirror_gap,
+                      bool outside_too) {
+    const double s = o_.spacing;
+    Vec3 from = start;
+    if (o_.mirror && from.y() < 0.0) from.y() = -from.y();
+    auto seat = settle(tree_, from, o_.radius, hint);
+    if (seat && o_.mirror) seat = mirror_seat(tree_, *seat, o_.radius, mirror_gap * s);
+    if (!seat) return false;
+    if (outside_too ? box_.exteriorDistance(seat->center) >= kBeyond * s
+                    : !box_.contains(seat->center))
+        return false;
+    const bool taken =
+        seat->in_crease
+            ? grid_.any_within(seat->center, separation * s, normals_at(tree_, o_.radius, *seat))
+            : grid_.any_within(seat->center, separation * s, seat->normal);
+    if (taken) return false;
+    add(*seat);
+    return true;
+}
+
+// The planes in which a seat has neighbours: one, or one for each face met in a crease.
+std::vector<ShellTile::Plane> ShellTile::planes_at(const Seat& seat) const {
+    const auto plane = [&](const Vec3& normal) {
+        // fronts that start apart on one flat face get rows along the same direction
+        const Vec3 axis = std::abs(normal.x()) < 0.9 ? Vec3::UnitX() : Vec3::UnitZ();
+        const Vec3 e1 = (axis - axis.dot(normal) * normal).normalized();
+        return Plane{seat.center, normal, e1, normal.cross(e1)};
+    };
+    std::vector<Plane> out;
+    for (const Vec3& normal : normals_at(tree_, o_.radius, seat)) out.push_back(plane(normal));
+    return out;
+}
+
+// The seats that stand for the same face, so that those of the other side of a thin part neither
+// count nor are in the way.
+void ShellTile::neighbours_in(const Plane& plane, double range) {
+    neighbours_.clear();
+    grid_.visit(plane.centre, range, [&](std::int32_t k, double sq) {
+        if (sq < 1e-12 * range * range) return;  // itself
+        const Seat& other = grid_.seats()[static_cast<std::size_t>(k)];
+        if (!other.agrees(plane.normal)) return;
+        const Vec3 d = other.center - plane.centre;
+        const double u = d.dot(plane.e1), v = d.dot(plane.e2);
+        neighbours_.push_back({u, v, std::sqrt(sq), std::atan2(v, u)});
+    });
+}
+
+void ShellTile::surround_in(const Plane& plane, std::int32_t hint) {
+    const double s = kStretch * o_.spacing;
+    neighbours_in(plane, kReach * s);
+    std::sort(neighbours_.begin(), neighbours_.end(), [](const Neighbour& l, const Neighbour& r) {
+        return l.angle < r.angle || (l.angle == r.angle && l.distance < r.distance);
+    });
+    const auto try_at = [&](double angle) {
+        const Vec3 start = plane.at(s * std::cos(angle), s * std::sin(angle));
+        // where it will end is not far: most places that are taken are seen before settling
+        if (grid_.any_within(start, 0.6 * o_.spacing, plane.normal)) return;
+        place(start, hint, kSeparation, kMirrorGap, false);
+    };
+    if (neighbours_.empty()) {
+        try_at(0.0);
+        neighbours_.push_back({s, 0.0, s, 0.0});
+    }
+    const std::size_t count = neighbours_.size();
+    for (std::size_t k = 0; k < count; ++k) {
+        const double end =
+            k + 1 < count ? neighbours_[k + 1].angle : neighbours_.front().angle + 2.0 * kPi;
+        double angle = neighbours_[k].angle, distance = neighbours_[k].distance;
+        while (end - angle > kPi / 2.0) {
+            // one place between two neighbours stands midway; of more, the first stands at the
+            // spacing from both the centre and the neighbour
+            const bool last = end - angle < 5.0 / 6.0 * kPi;
+            angle += last ? 0.5 * (end - angle)
+                          : std::clamp(std::acos(std::min(0.5 * distance / s, 1.0)), kPi / 4.0,
+                                       5.0 / 12.0 * kPi);
+            distance = s;
+            try_at(angle);
+        }
+    }
+}
+
+void ShellTile::surround(const Seat& seat) {
+    for (const Plane& plane : planes_at(seat)) surround_in(plane, seat.triangle);
+}
+
+void ShellTile::advance_front(const std::vector<Seed>& seeds) {
+    auto run = [&, next = std::size_t{0}]() mutable {
+        for (; next < grid_.seats().size(); ++next) {
+            const Seat seat = grid_.seats()[next];
+            if (o_.mirror && seat.center.y() < 0.0) continue;  // its image does it
+            if (box_.exteriorDistance(seat.center) < kBeyond * o_.spacing) surround(seat);
+        }
+    };
+    run();
+    for (const Seed& seed : seeds) {
+        if (grid_.any_within(seed.seat, kUnreached * o_.spacing, tree_.normal(seed.triangle)))
+            continue;
+        if (place(seed.seat, seed.triangle, kSeparation, kMirrorGap, false)) run();
+    }
+}
+
+void ShellTile::close_gaps_in(const Plane& plane, std::int32_t hint) {
+    const double s = o_.spacing;
+    neighbours_in(plane, kCellReach * s);
+    std::sort(neighbours_.begin(), neighbours_.end(), [](const Neighbour& l, const Neighbour& r) {
+        return std::array{l.distance, l.u, l.v} < std::array{r.distance, r.u, r.v};
+    });
+    const double half = kCellSize * s;
+    cell_ = {{half, half}, {-half, half}, {-half, -half}, {half, -half}};
+    for (const Neighbour& n : neighbours_) {
+        // keep what is nearer to the centre than to n, wherever that lies: x . n <= |n|^2 / 2
+        const double length = std::hypot(n.u, n.v);
+        if (length < 1e-3 * n.distance) continue;  // straight above or below
+        const double a = n.u / length, b = n.v / length,
+                     bound = 0.5 * n.distance * n.distance / length;
+        clipped_.clear();
+        for (std::size_t k = 0; k < cell_.size(); ++k) {
+            const auto& p = cell_[k];
+            const auto& q = cell_[(k + 1) % cell_.size()];
+            const double over_p = a * p[0] + b * p[1] - bound;
+            const double over_q = a * q[0] + b * q[1] - bound;
+            if (over_p <= 0.0) clipped_.push_back(p);
+            if ((over_p <= 0.0) == (over_q <= 0.0)) continue;
+            const double t = over_p / (over_p - over_q);
+            clipped_.push_back({p[0] + t * (q[0] - p[0]), p[1] + t * (q[1] - p[1])});
+        }
+        std::swap(cell_, clipped_);
+    }
+    for (const auto& corner : cell_) {
+        if (std::hypot(corner[0], corner[1]) <= kGap * s) continue;
+        const Vec3 start = plane.at(corner[0], corner[1]);
+        if (grid_.any_within(start, 0.5 * s, plane.normal)) continue;
+        place(start, hint, kGapSeparation, kGapMirror, true);
+    }
+}
+
+void ShellTile::close_gaps() {
+    for (std::size_t k = 0; k < grid_.seats().size(); ++k) {
+        const Seat seat = grid_.seats()[k];
+        if (o_.mirror && seat.center.y() < 0.0) continue;
+        if (box_.exteriorDistance(seat.center) >= kBeyond * o_.spacing) continue;
+        for (const Plane& plane : planes_at(seat)) close_gaps_in(plane, seat.triangle);
+    }
+}
+
+}  // namespace ice

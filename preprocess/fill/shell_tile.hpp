@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// The surface layer within one cube of space ("tile"): tiles of one colour touch nothing of each
+/// other, so they can be filled at the same time with the same result.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <vector>
+
+#include "preprocess/fill/seat_grid.hpp"
+#include "preprocess/fill/shell.hpp"
+
+namespace ice {
+
+/// Where a sphere might sit under a surface sample.
+struct Seed {
+    Vec3 seat;  ///< the sample moved inwards by R [m]
+    std::int32_t triangle;
+};
+
+/// Seats are placed in `box` (by the front) or up to 1.2 spacings around it (to close gaps).
+class ShellTile {
+public:
+    ShellTile(const SurfaceTree& tree, const ShellOptions& options, const Eigen::AlignedBox3d& box);
+
+    /// Takes a seat that already is there, if it is near enough to matter.
+    void know(const Seat& seat);
+
+    /// Advancing front over faces: round every seat the free places of a hexagon are tried, then
+    /// round those, and so on; seeds that no front reached start their own.
+    void advance_front(const std::vector<Seed>& seeds);
+
+    /// Places a sphere in every gap: at the corners of the seats' Voronoi cells, in the plane of
+    /// the surface, that are farther away than 0.635 spacings.
+    void close_gaps();
+
+    /// What was placed since the tile was made.
+    const std::vector<Seat>& placed() const { return placed_; }
+
+private:
+    struct Neighbour {
+        double u, v;  // in the tangent plane [m]
+        double distance, angle;
+    };
+    struct Plane {
+        Vec3 centre, normal, e1, e2;
+        Vec3 at(double u, double v) const { return centre + u * e1 + v * e2; }
+    };
+
+    void add(const Seat& seat);
+    bool place(const Vec3& start, std::int32_t hint, double separation, double mirror_gap,
+               bool outside_too);
+    std::vector<Plane> planes_at(const Seat& seat) const;
+    void neighbours_in(const Plane& plane, double range);
+    void surround(const Seat& seat);
+    void surround_in(const Plane& plane, std::int32_t hint);
+    void close_gaps_in(const Plane& plane, std::int32_t hint);
+
+    const SurfaceTree& tree_;
+    ShellOptions o_;
+    Eigen::AlignedBox3d box_;
+    SeatGrid grid_;
+    std::vector<Seat> placed_;
+    std::vector<Neighbour> neighbours_;                  // scratch
+    std::vector<std::array<double, 2>> cell_, clipped_;  // scratch: a Voronoi cell's corners
+};
+
+}  // namespace ice

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "preprocess/fill/survey.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "common/base/parallel.hpp"
+#include "preprocess/fill/offset_surface.hpp"
+
+namespace ice {
+
+namespace {
+
+constexpr double kMostSamples = 1.5e6;
+constexpr double kReachable = 1e-6;    // radii by which the other side may be nearer
+constexpr double kFaceSpread = 0.087;  // 5 degrees: beyond, a sphere is in an edge
+
+// `last` is the sphere that the sample before was near to: likely a neighbour.
+Sight look(const SurfaceTree& tree, const SphereSet& set, const SphereFinder& finder,
+           const SurfaceSample& sample, std::int32_t& last) {
+    const double radius = set.radius;
+    Sight out;
+    out.area = sample.area;
+    out.triangle = sample.triangle;
+    out.point = sample.point.cast<float>();
+    const Vec3 seat = sample.point - radius * sample.normal;
+    const auto any = finder.nearest(seat, last);
+    last = any.index;
+    out.gap = static_cast<float>(
+        std::max(finder.nearest(sample.point, any.index).distance - radius, 0.0));
+    const auto near = finder.agreeing(seat, sample.normal, any);
+    out.owner = near.index;
+    if (!tree.is_clear(seat, radius * (1.0 - kReachable))) return out;
+    out.cover = static_cast<float>(near.distance);
+    const auto k = static_cast<std::size_t>(near.index);
+    if (set.normal_spread[k] >= kFaceSpread) return out;
+    const Vec3& n = set.normals[k];
+    // the angle by its sine too: acos alone has no digits near zero
+    out.normal_error =
+        static_cast<float>(std::atan2(n.cross(sample.normal).norm(), n.dot(sample.normal)));
+    return out;
+}
+
+}  // namespace
+
+SphereFinder::SphereFinder(const SphereSet& set)
+    : set_(set),
+      cells_(std::span(set.centers).first(set.surface_count), 2.0 * set.spacing),
+      least_(set.surface_count) {
+    for (std::size_t k = 0; k < least_.size(); ++k)
+        least_[k] = std::cos(std::min(set.normal_spread[k] + kFaceTurn, std::numbers::pi));
+}
+
+PointCells::Nearest SphereFinder::nearest(const Vec3& p, std::int32_t known) const {
+    if (known < 0) return cells_.nearest(p);
+    const double distance = (set_.centers[static_cast<std::size_t>(known)] - p).norm();
+    return cells_.nearest(p, {known, distance});
+}
+
+PointCells::Nearest SphereFinder::agreeing(const Vec3& p, const Vec3& normal,
+                                           const PointCells::Nearest& any) const {
+    if (agrees(any.index, normal)) return any;
+    PointCells::Nearest best{-1, any.distance + 2.0 * set_.spacing};
+    cells_.visit(p, best.distance, [&](std::int32_t k, double distance) {
+        if (distance > best.distance || (distance == best.distance && k > best.index)) return;
+        if (agrees(k, normal)) best = {k, distance};
+    });
+    return best.index >= 0 ? best : any;
+}
+
+double survey_size(const SphereSet& set, bool half) {
+    const double area = set.solid.area * (half ? 0.5 : 1.0);
+    return std::max(std::min(set.spacing, 2.0 * set.radius) / 4.0,
+                    set.dimension == 2 ? 0.0 : std::sqrt(area / kMostSamples));
+}
+
+std::vector<Sight> survey_surface(const SurfaceTree& tree, const SphereSet& set,
+                                  const SphereFinder& finder, bool half) {
+    const SurfaceSampler sampler(tree.mesh(), survey_size(set, half), set.dimension, half);
+    // triangles by the block, so that the blocks' sights join in order
+    constexpr std::size_t kBlock = 64;
+    const std::size_t blocks = (sampler.triangle_count() + kBlock - 1) / kBlock;
+    std::vector<std::vector<Sight>> found(blocks);
+    parallel_tasks(blocks, [&](std::size_t b) {
+        std::vector<SurfaceSample> samples;
+        std::int32_t last = -1;
+        const std::size_t end = std::min(sampler.triangle_count(), (b + 1) * kBlock);
+        for (std::size_t t = b * kBlock; t < end; ++t) {
+            sampler.sample(t, samples);
+            for (const SurfaceSample& sample : samples)
+                found[b].push_back(look(tree, set, finder, sample, last));
+        }
+    });
+    std::vector<Sight> out;
+    std::size_t count = 0;
+    for (const auto& part : found) count += part.size();
+    out.reserve(count);
+    for (auto& part : found) {
+        out.insert(out.end(), part.begin(), part.end());
+        part = {};
+    }
+    return out;
+}
+
+}  // namespace ice
