@@ -56,7 +56,7 @@ private:
             frame_.metres = *options_.scale;
         } else if (file_.metres) {
             frame_.metres = *file_.metres;
-            note("units", fmt::format("{}, as {}", unit_name(frame_.metres), file_said("units")));
+            note("units", fmt::format("{}, as {}", unit_name(frame_.metres), file_said()));
         } else if (length >= 1000.0 && length <= 1000.0 * kLongest) {
             frame_.metres = 1e-3;
             note("units",
@@ -70,9 +70,9 @@ private:
                 "the solid is {:.3g} m long: if that is wrong, give --units or --scale", metres));
     }
 
-    std::string file_said(const std::string& what) const {
+    std::string file_said() const {
         return file_.format == "glTF" ? "glTF defines"
-                                      : fmt::format("the {} file says its {}", file_.format, what);
+                                      : fmt::format("the {} file says", file_.format);
     }
 
     void choose_up() {
@@ -80,7 +80,7 @@ private:
             frame_.up = Direction::from(*options_.up);
         } else if (file_.up) {
             frame_.up = *file_.up;
-            note("up", fmt::format("{}, as {}", up_name(frame_.up), file_said("up axis")));
+            note("up", fmt::format("{}, as {}", up_name(frame_.up), file_said()));
         } else if (hull_ && hull_->vertical == 1 && may_turn_up()) {
             frame_.up = {1, true};
             note("up",
@@ -128,7 +128,7 @@ private:
     void keep_forward() {
         if (front_along_length()) {
             frame_.forward = *file_.front;
-            note("forward", fmt::format("{}, as {}", frame_.forward.text(), file_said("front")));
+            note("forward", fmt::format("{}, as {}", frame_.forward.text(), file_said()));
             return;
         }
         note("forward", frame_.forward.text());
@@ -141,7 +141,7 @@ private:
         const std::string along = axis_name(hull_->length);
         if (front_along_length()) {
             frame_.forward = *file_.front;
-            note("forward", fmt::format("{}, as {}", frame_.forward.text(), file_said("front")));
+            note("forward", fmt::format("{}, as {}", frame_.forward.text(), file_said()));
             return;
         }
         const double ratio = fineness_ratio(mesh_, *hull_);

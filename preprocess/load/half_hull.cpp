@@ -101,7 +101,8 @@ HalfHull looks_like_half_hull(const TriangleMesh& mesh) {
     const bool far_open = reaches_far(open, box), far_closed = reaches_far(closed, box);
     if (far_open && !far_closed)
         half.kind = HalfHull::Kind::open;
-    else if (far_closed && !far_open && asymmetry(mesh, 1) > kSymmetric)
+    else if (far_closed && !far_open && box.sizes().x() >= 2.5 * box.sizes().y() &&
+             asymmetry(mesh, 1) > kSymmetric)
         half.kind = HalfHull::Kind::closed;
     return half;
 }

@@ -32,8 +32,9 @@ struct HalfHull {
 /// then within the 1e-6 that weld() merges) and is cut there: open edges, or flat triangles, in
 /// that plane reach over at least half the mesh's length and height. Open edges are enough; small
 /// flat parts, such as a rudder, do not matter. Where triangles close the plane, the mesh must also
-/// be unlike its own mirror image about the middle of its breadth: a barge or a floe drawn from
-/// y = 0 to its full breadth is a whole solid with one side in that plane. The closed half of a
+/// be at least 2.5 times as long as broad (hulls are 1.5 times and more, their halves 3), and unlike
+/// its own mirror image about the middle of its breadth: a barge or a floe drawn from y = 0 to its
+/// full breadth is a whole solid with one side in that plane. The closed half of a
 /// straight-sided barge therefore counts as whole: nothing in the mesh tells it from a barge of half
 /// the breadth. Where both are found, the plane is closed but torn: none, until it is mended.
 ///

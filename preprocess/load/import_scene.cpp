@@ -9,7 +9,9 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <assimp/Importer.hpp>
+#include <charconv>
 #include <cmath>
 
 #include "common/base/error.hpp"
@@ -25,7 +27,11 @@ using Mat4 = Eigen::Matrix4d;
 // numbers, so the shortest decimal that gives the same float is what the file said.
 double undo_float(float x) {
     if (x == 0.0f || !std::isfinite(x)) return static_cast<double>(x);
-    return std::stod(fmt::format("{}", x));
+    std::array<char, 32> text;
+    const auto end = std::to_chars(text.data(), text.data() + text.size(), x).ptr;
+    double value = 0.0;
+    std::from_chars(text.data(), end, value);
+    return value;
 }
 
 Mat4 to_matrix(const aiMatrix4x4& m) {
