@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "common/base/error.hpp"
+#include "preprocess/load/half_hull.hpp"
 #include "preprocess/load/hull_axes.hpp"
 #include "preprocess/load/symmetry.hpp"
 
@@ -119,6 +120,7 @@ private:
         } else {
             note("forward", frame_.forward.text());
             doubt_length();
+            doubt_half();
         }
     }
 
@@ -168,6 +170,22 @@ private:
                 fmt::format("the solid is longest along {0} but {1} is taken as forward: if it is "
                             "a hull, give --up and --forward",
                             axis_name(longest), frame_.forward.text()));
+    }
+
+    // An open half hull in other axes: named, not turned, since an open deck looks the same.
+    void doubt_half() {
+        const int port = 3 - frame_.up.axis - frame_.forward.axis;
+        int open = -1, count = 0;
+        for (int axis = 0; axis < 3 && !options_.up; ++axis)
+            if (looks_like_half_hull(mesh_, axis).kind == HalfHull::Kind::open) {
+                open = axis;
+                ++count;
+            }
+        if (count == 1 && open != port)
+            warn(
+                fmt::format("the mesh is open along {} = 0, like half a hull with its centre plane "
+                            "there: if it is one, give --up, --forward and --mirror y",
+                            axis_name(open)));
     }
 
     const TriangleMesh& mesh_;

@@ -19,9 +19,9 @@ double flatness(const TriangleMesh& mesh) {
     return box.isEmpty() ? 0.0 : 5e-7 * box.diagonal().norm();
 }
 
-bool in_centre_plane(const TriangleMesh& mesh, std::size_t t, double flat) {
+bool in_plane(const TriangleMesh& mesh, std::size_t t, int axis, double flat) {
     for (int k = 0; k < 3; ++k)
-        if (std::abs(mesh.corner(t, k).y()) > flat) return false;
+        if (std::abs(mesh.corner(t, k)[axis]) > flat) return false;
     return true;
 }
 
@@ -46,11 +46,11 @@ std::vector<std::int32_t> first_at_place(const std::vector<Vec3>& vertices) {
 
 using Edge = std::pair<std::int32_t, std::int32_t>;
 
-// Edges in y = 0 that one triangle alone has.
-std::vector<Edge> open_centre_edges(const TriangleMesh& mesh, double flat) {
+// Edges in the plane that one triangle alone has.
+std::vector<Edge> open_edges_in_plane(const TriangleMesh& mesh, int axis, double flat) {
     const std::vector<std::int32_t> first = first_at_place(mesh.vertices);
     const auto flat_vertex = [&](std::int32_t k) {
-        return std::abs(mesh.vertices[static_cast<std::size_t>(k)].y()) <= flat;
+        return std::abs(mesh.vertices[static_cast<std::size_t>(k)][axis]) <= flat;
     };
     std::vector<Edge> edges;
     for (const auto& t : mesh.triangles)
@@ -70,39 +70,40 @@ std::vector<Edge> open_centre_edges(const TriangleMesh& mesh, double flat) {
     return open;
 }
 
-// Whether something in the centre plane reaches over half of the mesh, along or upwards.
-bool reaches_far(const Eigen::AlignedBox3d& part, const Eigen::AlignedBox3d& whole) {
+// Whether something in the plane reaches over half of the mesh both ways.
+bool reaches_far(const Eigen::AlignedBox3d& part, const Eigen::AlignedBox3d& whole, int axis) {
     if (part.isEmpty()) return false;
     const Vec3 p = part.sizes(), w = whole.sizes();
-    return p.x() >= 0.5 * w.x() && p.z() >= 0.5 * w.z();
+    const int a = (axis + 1) % 3, b = (axis + 2) % 3;
+    return p[a] >= 0.5 * w[a] && p[b] >= 0.5 * w[b];
 }
 
 }  // namespace
 
-HalfHull looks_like_half_hull(const TriangleMesh& mesh) {
+HalfHull looks_like_half_hull(const TriangleMesh& mesh, int axis) {
     HalfHull half;
     const Eigen::AlignedBox3d box = bounding_box(mesh);
     const double flat = flatness(mesh);
-    if (box.isEmpty() || box.sizes().y() <= 2.0 * flat) return half;
-    half.port = box.min().y() >= -flat;
-    if (!half.port && box.max().y() > flat) return half;
+    if (box.isEmpty() || box.sizes()[axis] <= 2.0 * flat) return half;
+    half.port = box.min()[axis] >= -flat;
+    if (!half.port && box.max()[axis] > flat) return half;
 
     Eigen::AlignedBox3d closed, open;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-        if (in_centre_plane(mesh, t, flat)) {
+        if (in_plane(mesh, t, axis, flat)) {
             ++half.centre_plane_triangles;
             for (int k = 0; k < 3; ++k) closed.extend(mesh.corner(t, k));
         }
-    for (const auto& [a, b] : open_centre_edges(mesh, flat)) {
+    for (const auto& [a, b] : open_edges_in_plane(mesh, axis, flat)) {
         ++half.open_edges;
         open.extend(mesh.vertices[static_cast<std::size_t>(a)]);
         open.extend(mesh.vertices[static_cast<std::size_t>(b)]);
     }
-    const bool far_open = reaches_far(open, box), far_closed = reaches_far(closed, box);
+    const bool far_open = reaches_far(open, box, axis), far_closed = reaches_far(closed, box, axis);
+    const bool slender = box.sizes().maxCoeff() >= 2.5 * box.sizes()[axis];
     if (far_open && !far_closed)
         half.kind = HalfHull::Kind::open;
-    else if (far_closed && !far_open && box.sizes().x() >= 2.5 * box.sizes().y() &&
-             asymmetry(mesh, 1) > kSymmetric)
+    else if (far_closed && !far_open && slender && asymmetry(mesh, axis) > kSymmetric)
         half.kind = HalfHull::Kind::closed;
     return half;
 }
@@ -124,7 +125,7 @@ std::int64_t drop_centre_plane(TriangleMesh& mesh) {
     const double flat = flatness(mesh);
     std::size_t kept = 0;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-        if (in_centre_plane(mesh, t, flat)) continue;
+        if (in_plane(mesh, t, 1, flat)) continue;
         mesh.triangles[kept] = mesh.triangles[t];
         mesh.region[kept++] = mesh.region[t];
     }

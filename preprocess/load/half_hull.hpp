@@ -28,19 +28,22 @@ struct HalfHull {
 
 /// Tells half a hull from a whole one.
 ///
-/// Half a hull lies on one side of y = 0 (to 5e-7 of the box's diagonal: a vertex and its image are
-/// then within the 1e-6 that weld() merges) and is cut there: open edges, or flat triangles, in
+/// Half a hull lies on one side of y = 0 (to 5e-7 of the box's diagonal: a vertex and its image
+/// are then within the 1e-6 that weld() merges) and is cut there: open edges, or flat triangles, in
 /// that plane reach over at least half the mesh's length and height. Open edges are enough; small
 /// flat parts, such as a rudder, do not matter. Where triangles close the plane, the mesh must also
-/// be at least 2.5 times as long as broad (hulls are 1.5 times and more, their halves 3), and unlike
-/// its own mirror image about the middle of its breadth: a barge or a floe drawn from y = 0 to its
-/// full breadth is a whole solid with one side in that plane. The closed half of a
-/// straight-sided barge therefore counts as whole: nothing in the mesh tells it from a barge of half
-/// the breadth. Where both are found, the plane is closed but torn: none, until it is mended.
+/// be at least 2.5 times as long as broad (hulls are 1.5 times and more, their halves 3), and
+/// unlike its own mirror image about the middle of its breadth: a barge or a floe drawn from y = 0
+/// to its full breadth is a whole solid with one side in that plane. The closed half of a
+/// straight-sided barge therefore counts as whole: nothing in the mesh tells it from a barge of
+/// half the breadth. Where both are found, the plane is closed but torn: none, until it is mended.
 ///
 /// Equal vertices need not be welded. Open edges elsewhere (an open deck) do not matter. Empty and
-/// flat meshes are none. Cost O(T log T).
-HalfHull looks_like_half_hull(const TriangleMesh& mesh);
+/// flat meshes are none. Cost O(T log T); O(T) for a mesh on both sides of the plane.
+///
+/// @param axis  normal of the plane: 1 for y = 0 of the ship frame; others for meshes whose axes
+///              are still the file's
+HalfHull looks_like_half_hull(const TriangleMesh& mesh, int axis = 1);
 
 /// Half a hull that its mirror image would close along y = 0: drop_centre_plane(), then
 /// add_mirror_image(), then weld().

@@ -15,8 +15,8 @@ struct HullAxes {
     bool prism = false;  ///< every face lies along the breadth or square to it
 };
 
-/// Nothing when the longest extent is less than 1.5 times the next, when no plane along it is one of
-/// symmetry, or both are (see choose_frame()). Cost O(T).
+/// Nothing when the longest extent is less than 1.5 times the next, when no plane along it is one
+/// of symmetry, or both are (see choose_frame()). Cost O(T).
 std::optional<HullAxes> find_hull_axes(const TriangleMesh& mesh);
 
 /// Breadth of the sections near the lower end of the length over that near the upper end: the mean

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "preprocess/load/choose_frame.hpp"
+#include "preprocess/load/half_hull.hpp"
 #include "preprocess/load/hull_axes.hpp"
 #include "preprocess/load/read_mesh.hpp"
 #include "preprocess/load/symmetry.hpp"
@@ -143,6 +144,27 @@ TEST_CASE("doubt about a hull's axes is a warning, not a turn", "[load][frame]")
     const Chosen standing = choose(mapped(make_ship(), rows(-Z, Y, X)));
     CHECK(standing.frame.matrix() == Mat3::Identity());
     CHECK(only_warning(standing).find("longest along z") != std::string::npos);
+}
+
+TEST_CASE("an open half hull in other axes is named", "[load][frame]") {
+    // the port half of an open hull: the keel, stem and stern lie in the centre plane
+    TriangleMesh whole = make_ship();
+    for (Vec3& v : whole.vertices) v.z() += 0.3;  // the open deck in no plane of the axes
+    TriangleMesh half;
+    half.vertices = whole.vertices;
+    for (std::size_t t = 0; t < whole.triangles.size(); ++t) {
+        const bool port =
+            (whole.corner(t, 0).y() + whole.corner(t, 1).y() + whole.corner(t, 2).y()) > 1e-9;
+        if (port && whole.area_vector(t).normalized().z() < 0.999)
+            half.triangles.push_back(whole.triangles[t]);
+    }
+    half.region.assign(half.triangles.size(), 0);
+    CHECK(choose(half).notes.warnings.empty());
+    CHECK(is_open_half(half));
+    const Chosen turned = choose(mapped(half, rows(X, Z, -Y)));
+    CHECK(turned.frame.matrix() == Mat3::Identity());
+    REQUIRE(turned.notes.warnings.size() == 1);
+    CHECK(turned.notes.warnings[0].find("open along z = 0") != std::string::npos);
 }
 
 TEST_CASE("options and files overrule what the mesh looks like", "[load][frame]") {

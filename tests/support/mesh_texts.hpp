@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// The tetrahedron (0,0,0), (1,0,0), (0,2,0), (0,0,3), times a scale, in every format spherize reads.
-/// Volume 1 and centroid (1/4, 1/2, 3/4) at scale 1: no two axes alike, so a wrong turn shows.
+/// The tetrahedron (0,0,0), (1,0,0), (0,2,0), (0,0,3), times a scale, in every format that
+/// spherize reads. Volume 1 and centroid (1/4, 1/2, 3/4) at scale 1: no two axes are alike, so a
+/// wrong turn shows.
 #pragma once
 
 #include <fmt/format.h>
@@ -151,7 +152,8 @@ inline std::string gltf_buffer(float scale) {
 inline std::string gltf_json(float scale, const std::string& buffer_uri, const std::string& nodes) {
     return fmt::format(
         R"({{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[0]}}],"nodes":{},)"
-        R"("meshes":[{{"name":"skin","primitives":[{{"attributes":{{"POSITION":0}},"indices":1}}]}}],)"
+        R"("meshes":[{{"name":"skin",)"
+        R"("primitives":[{{"attributes":{{"POSITION":0}},"indices":1}}]}}],)"
         R"("buffers":[{{{}"byteLength":72}}],"bufferViews":[{{"buffer":0,"byteLength":48}},)"
         R"({{"buffer":0,"byteOffset":48,"byteLength":24}}],"accessors":[{{"bufferView":0,)"
         R"("componentType":5126,"count":4,"type":"VEC3","min":[0,0,0],"max":[{},{},{}]}},)"
