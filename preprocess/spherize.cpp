@@ -84,6 +84,10 @@ void declare(CLI::App& app, Options& o) {
     app.footer("Exit codes: 0 ok; 1 failed; 2 bad command line or mesh.");
 }
 
+void warn_half_hull(const ice::HalfHull& half, ice::SpheresReport& report) {
+    if (half) report.warnings.push_back(half.text() + ": give --mirror y if it is");
+}
+
 ice::TriangleMesh read_solid(const Options& o, ice::SpheresReport& report) {
     ice::ReadNotes notes;
     ice::TriangleMesh mesh = ice::read_mesh(o.mesh, o.read, &notes);
@@ -95,9 +99,15 @@ ice::TriangleMesh read_solid(const Options& o, ice::SpheresReport& report) {
     const ice::SolidOptions options{
         o.solid == "material" ? ice::SolidKind::material : ice::SolidKind::envelope,
         o.repair == "strict"};
-    mesh = ice::make_solid(std::move(mesh), o.mesh, options, report.repairs);
-    if (const ice::HalfHull half = ice::looks_like_half_hull(mesh))
-        report.warnings.push_back(half.text() + ": give --mirror y if it is");
+    const ice::HalfHull half = ice::looks_like_half_hull(mesh);
+    try {
+        mesh = ice::make_solid(std::move(mesh), o.mesh, options, report.repairs);
+    } catch (const ice::Error&) {  // what reading noticed may be the reason
+        warn_half_hull(half, report);
+        for (const std::string& warning : report.warnings) ice::say_warning(warning);
+        throw;
+    }
+    warn_half_hull(ice::looks_like_half_hull(mesh), report);
     return mesh;
 }
 

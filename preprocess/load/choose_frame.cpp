@@ -61,7 +61,7 @@ private:
         } else if (length >= 1000.0 && length <= 1000.0 * kLongest) {
             frame_.metres = 1e-3;
             note("units",
-                 fmt::format("mm, because the solid would be {:.4g} m long in metres", length));
+                 fmt::format("mm, because the solid would be {:.0f} m long in metres", length));
         } else {
             note("units", "m, as the file has them");
         }

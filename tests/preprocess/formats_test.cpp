@@ -9,6 +9,7 @@
 #include "preprocess/clean/weld.hpp"
 #include "preprocess/load/gunzip.hpp"
 #include "preprocess/load/read_mesh.hpp"
+#include "tests/support/fbx_texts.hpp"
 #include "tests/support/mesh_texts.hpp"
 #include "tests/support/temporary_file.hpp"
 
@@ -147,6 +148,12 @@ TEST_CASE("FBX says its unit in centimetres, and its axes", "[load][formats][ana
     CHECK(maya.notes.guessed.at("units") == "cm, as the FBX file says");
     CHECK(maya.notes.guessed.at("up") == "y, as the FBX file says");
     CHECK(maya.regions == std::vector<std::string>{"hull", "bow"});
+
+    const Read binary = read(".fbx", test::fbx_bytes(100, 1.0));
+    check(binary, kFromYUp);
+    CHECK(binary.notes.guessed == maya.notes.guessed);
+    CHECK(binary.regions == maya.regions);
+    check(read(".fbx.gz", gzip(test::fbx_bytes(1, 100.0))), kFromYUp);
 
     check(read(".fbx", test::fbx_text(1000, test::fbx_settings(2, 1, 1, -1, 0, 0.1))), kAsDrawn);
     check(read(".fbx", test::fbx_text(1, test::fbx_settings(2, 1, 1, -1, 0, 100))), kAsDrawn);

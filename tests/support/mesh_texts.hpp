@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// The tetrahedron (0,0,0), (1,0,0), (0,2,0), (0,0,3), times a scale, in every format that
-/// spherize reads. Volume 1 and centroid (1/4, 1/2, 3/4) at scale 1: no two axes are alike, so a
+/// spherize reads; FBX is in fbx_texts.hpp. Volume 1 and centroid (1/4, 1/2, 3/4) at scale 1: no two axes are alike, so a
 /// wrong turn shows.
 #pragma once
 
@@ -182,38 +182,6 @@ inline std::string glb_bytes(float scale) {
     append_bytes(out, size(buffer));
     out += std::string("BIN\0", 4) + buffer;
     return out;
-}
-
-/// @param settings  lines of GlobalSettings, such as fbx_settings()
-inline std::string fbx_text(float scale, const std::string& settings,
-                            const std::string& scaling = "1,1,1") {
-    std::string numbers, indices;
-    for (const auto& [x, y, z] : tetrahedron_corners(scale))
-        numbers += fmt::format("{}{},{},{}", numbers.empty() ? "" : ",", x, y, z);
-    for (const auto& [a, b, c] : kTetrahedronFaces)  // the last of a face is given as -index - 1
-        indices += fmt::format("{}{},{},{}", indices.empty() ? "" : ",", a, b, -c - 1);
-    return "; FBX 7.4.0 project file\nFBXHeaderExtension: {\n FBXHeaderVersion: 1003\n"
-           " FBXVersion: 7400\n Creator: \"test\"\n}\nGlobalSettings: {\n Version: 1000\n"
-           " Properties70: {\n" +
-           settings +
-           " }\n}\nObjects: {\n Geometry: 1, \"Geometry::bow\", \"Mesh\" {\n  Vertices: *12 {\n"
-           "   a: " +
-           numbers + "\n  }\n  PolygonVertexIndex: *12 {\n   a: " + indices +
-           "\n  }\n  GeometryVersion: 124\n }\n Model: 2, \"Model::bow\", \"Mesh\" {\n"
-           "  Version: 232\n  Properties70: {\n   P: \"Lcl Scaling\", \"Lcl Scaling\", \"\", "
-           "\"A\"," +
-           scaling + "\n  }\n }\n}\nConnections: {\n C: \"OO\",2,0\n C: \"OO\",1,2\n}\n";
-}
-
-/// Axes are 0, 1, 2 for x, y, z. @param centimetres  per file unit
-inline std::string fbx_settings(int up, int up_sign, int front, int front_sign, int right,
-                                double centimetres) {
-    const auto line = [](const char* name, int value) {
-        return fmt::format("  P: \"{}\", \"int\", \"Integer\", \"\",{}\n", name, value);
-    };
-    return line("UpAxis", up) + line("UpAxisSign", up_sign) + line("FrontAxis", front) +
-           line("FrontAxisSign", front_sign) + line("CoordAxis", right) + line("CoordAxisSign", 1) +
-           fmt::format("  P: \"UnitScaleFactor\", \"double\", \"Number\", \"\",{}\n", centimetres);
 }
 
 }  // namespace ice::test
