@@ -47,8 +47,10 @@ std::optional<HullAxes> find_hull_axes(const TriangleMesh& mesh) {
     size.maxCoeff(&axes.length);
     const int b = (axes.length + 1) % 3, c = (axes.length + 2) % 3;
     if (size[axes.length] < 1.5 * std::max(size[b], size[c])) return std::nullopt;
-    const bool about_b = asymmetry(mesh, b) < kSymmetric, about_c = asymmetry(mesh, c) < kSymmetric;
-    if (about_b == about_c) return std::nullopt;
+    const double off_b = asymmetry(mesh, b), off_c = asymmetry(mesh, c);
+    if (std::min(off_b, off_c) > kSymmetric || std::max(off_b, off_c) < kLopsided)
+        return std::nullopt;
+    const bool about_b = off_b < off_c;
     axes.breadth = about_b ? b : c;
     axes.vertical = about_b ? c : b;
     axes.prism = is_prism(mesh, axes.breadth);

@@ -16,7 +16,7 @@ struct HullAxes {
 };
 
 /// Nothing when the longest extent is less than 1.5 times the next, when no plane along it is one
-/// of symmetry, or both are (see choose_frame()). Cost O(T).
+/// of symmetry, both are, or one may be (kSymmetric, kLopsided). Cost O(T).
 std::optional<HullAxes> find_hull_axes(const TriangleMesh& mesh);
 
 /// Breadth of the sections near the lower end of the length over that near the upper end: the mean

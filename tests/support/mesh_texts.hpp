@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// The tetrahedron (0,0,0), (1,0,0), (0,2,0), (0,0,3), times a scale, in every format that
-/// spherize reads; FBX is in fbx_texts.hpp. Volume 1 and centroid (1/4, 1/2, 3/4) at scale 1: no two axes are alike, so a
-/// wrong turn shows.
+/// spherize reads; FBX is in fbx_texts.hpp. Volume 1 and centroid (1/4, 1/2, 3/4) at scale 1: no
+/// two axes are alike, so a wrong turn shows.
 #pragma once
 
 #include <fmt/format.h>
