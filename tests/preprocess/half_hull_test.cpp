@@ -91,6 +91,21 @@ TEST_CASE("odd surface moments vanish for mirrored shapes and not for others",
     flat.region = {0};
     CHECK(asymmetry(flat, 0) == Approx(1.0 / 3.0).epsilon(1e-14));
     CHECK(asymmetry(TriangleMesh{}, 0) == 0.0);
+
+    // unit squares across x: one at 1, two at -1/2, and one too small to weigh at -1. Their first
+    // moment is zero, the mean of n^3 is (1 - 2/8) / 3 = 1/4
+    TriangleMesh plates;
+    for (const auto& [x, side] :
+         {std::pair{1.0, 1.0}, std::pair{-0.5, 1.0}, std::pair{-0.5, 1.0}, std::pair{-1.0, 1e-6}}) {
+        const auto n = static_cast<std::int32_t>(plates.vertices.size());
+        const double h = 0.5 * side;
+        for (const auto& [y, z] :
+             {std::pair{-h, -h}, std::pair{h, -h}, std::pair{h, h}, std::pair{-h, h}})
+            plates.vertices.emplace_back(x, y, z);
+        plates.triangles.push_back({n, n + 1, n + 2});
+        plates.triangles.push_back({n, n + 2, n + 3});
+    }
+    CHECK(asymmetry(plates, 0) == Approx(0.25).epsilon(1e-10));
 }
 
 TEST_CASE("an open half hull is recognised on both sides, welded or not", "[load][half]") {
@@ -150,6 +165,12 @@ TEST_CASE("whole solids beside the plane y = 0 are not half hulls", "[load][half
     CHECK_FALSE(looks_like_half_hull(moved(test::make_wigley(10, 2, 1, 12, 4), Vec3(0, 3, 0))));
     CHECK_FALSE(looks_like_half_hull(moved(test::make_wigley(10, 2, 1, 12, 4), Vec3(0, 1, 0))));
     CHECK_FALSE(looks_like_half_hull(TriangleMesh{}));
+    // a floe with one side in y = 0 that is longer than the opposite one
+    TriangleMesh floe = moved(test::make_box_mesh(Vec3(2, 1, 0.3)), Vec3(0, 0.5, 0));
+    for (Vec3& v : floe.vertices)
+        if (v.y() > 0.5) v.x() *= 0.6;
+    CHECK(asymmetry(floe, 1) > kLopsided);
+    CHECK_FALSE(looks_like_half_hull(floe));
     // a box with one triangle lost in y = 0 is a damaged box
     TriangleMesh damaged = moved(test::make_box_mesh(Vec3(2, 1, 2)), Vec3(0, 0.5, 0));
     for (std::size_t t = 0; t < damaged.triangles.size(); ++t)
