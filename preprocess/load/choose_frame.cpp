@@ -85,22 +85,21 @@ private:
         } else if (hull_ && hull_->vertical == 1 && may_turn_up()) {
             frame_.up = {1, true};
             note("up",
-                 fmt::format("y, because the hull is symmetric about {} = 0 and longest along "
-                             "{}",
+                 fmt::format("y, because the hull is symmetric across {} and longest along {}",
                              axis_name(hull_->breadth), axis_name(hull_->length)));
         } else {
             note("up", "z");
         }
     }
 
-    // Forward given along y leaves z for up; see choose_frame() for the rest.
+    // Forward given along y leaves z for up. A prism across its breadth is a floe lying flat.
     bool may_turn_up() {
         if (options_.forward && Direction::from(*options_.forward).axis == 1) return false;
         const Vec3 size = bounding_box(mesh_).sizes();
         if (hull_->prism) return false;
         if (size[hull_->breadth] >= size[hull_->vertical]) return true;
         warn(
-            fmt::format("the mesh is symmetric from {0} to -{0} only: if it is a hull with y up, "
+            fmt::format("the mesh is symmetric across {0} only: if it is a hull with y up, "
                         "give --up y",
                         axis_name(hull_->breadth)));
         return false;

@@ -71,10 +71,10 @@ struct Frame {
 ///
 /// **Axes.** A mesh is taken for a hull when its longest extent is 1.5 times the next or more and
 /// exactly one of the two axis planes along it is a plane of symmetry (asymmetry()): the centre
-/// plane. The third axis is the vertical. Boxes are symmetric about both planes, irregular floes
-/// about none. Up is z unless this vertical is y, the breadth is at least the depth and the mesh is
-/// no prism across its centre plane: an irregular floe lying flat is a prism, or at least thinner
-/// than wide, along its only normal of symmetry. Doubtful cases keep z, with a warning.
+/// plane. The third axis is the vertical. Boxes are symmetric about both planes, most floes about
+/// none but the plane halfway up their thickness. Up is therefore z unless the vertical found is y,
+/// the breadth is at least the depth (a flat floe is thinner than wide) and the mesh is no prism
+/// across its centre plane (a floe of irregular outline is). Doubtful cases keep z, with a warning.
 ///
 /// Forward is +x unless the hull is longest along another horizontal axis. The bow is then at the
 /// end the file calls its front; else where sections are narrower by a fifth or more between 2 %

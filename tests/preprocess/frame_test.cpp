@@ -120,7 +120,7 @@ TEST_CASE("a hull drawn in any upright way comes out with its bow ahead and its 
     CHECK(choose(mapped(ship, rows(Y, Z, X))).notes.guessed.at("forward") ==
           "+z, because the hull is longest along z and finer at that end");
     CHECK(choose(mapped(ship, rows(Y, Z, X))).notes.guessed.at("up") ==
-          "y, because the hull is symmetric about x = 0 and longest along z");
+          "y, because the hull is symmetric across x and longest along z");
 }
 
 TEST_CASE("doubt about a hull's axes is a warning, not a turn", "[load][frame]") {
