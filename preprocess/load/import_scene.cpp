@@ -13,6 +13,8 @@
 #include <assimp/Importer.hpp>
 #include <charconv>
 #include <cmath>
+#include <fstream>
+#include <string_view>
 
 #include "common/base/error.hpp"
 #include "preprocess/load/gunzip.hpp"
@@ -179,6 +181,51 @@ std::string inner_format(const std::filesystem::path& file) {
     return inner.substr(1);
 }
 
+// assimp 5.2.5 reads on for ever in a PLY file that ends within its header.
+void check_ply_header(const std::filesystem::path& file, std::string_view head) {
+    if (head.starts_with("ply") && head.find("end_header") == std::string_view::npos)
+        throw bad_input(file.string(), "cannot be read as a mesh (its PLY header has no end)",
+                        "copy or export it again");
+}
+
+std::string first_bytes(const std::filesystem::path& file) {
+    std::string head(1 << 20, '\0');
+    std::ifstream in(file, std::ios::binary);
+    in.read(head.data(), static_cast<std::streamsize>(head.size()));
+    head.resize(static_cast<std::size_t>(in.gcount()));
+    return head;
+}
+
+// What a damaged file leaves behind; assimp's own steps would abort the program over it.
+void check_faces(const std::filesystem::path& file, const aiScene& scene) {
+    for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
+        const aiMesh& mesh = *scene.mMeshes[m];
+        for (unsigned k = 0; k < mesh.mNumFaces; ++k) {
+            const aiFace& face = mesh.mFaces[k];
+            bool good = face.mNumIndices > 0;
+            for (unsigned c = 0; c < face.mNumIndices; ++c)
+                good = good && face.mIndices[c] < mesh.mNumVertices;
+            if (!good)
+                throw bad_input(file.string(),
+                                fmt::format("face {} refers to no vertex or to one that is not "
+                                            "there",
+                                            k + 1),
+                                "the file is cut short or damaged: copy or export it again");
+        }
+    }
+}
+
+const aiScene* read_scene(Assimp::Importer& importer, const std::filesystem::path& file) {
+    if (is_gzip_name(file)) {
+        const std::string format = inner_format(file);
+        const std::vector<char> bytes = gunzip(file);
+        check_ply_header(file, {bytes.data(), bytes.size()});
+        return importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, format.c_str());
+    }
+    check_ply_header(file, first_bytes(file));
+    return importer.ReadFile(file.string(), 0);
+}
+
 }  // namespace
 
 ImportedMesh import_scene(const std::filesystem::path& file) {
@@ -187,14 +234,10 @@ ImportedMesh import_scene(const std::filesystem::path& file) {
     importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
     importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,
                                 aiPrimitiveType_POINT | aiPrimitiveType_LINE);
-    constexpr unsigned steps = aiProcess_Triangulate | aiProcess_SortByPType;
-    const aiScene* scene = nullptr;
-    if (is_gzip_name(file)) {
-        const std::string format = inner_format(file);
-        const std::vector<char> bytes = gunzip(file);
-        scene = importer.ReadFileFromMemory(bytes.data(), bytes.size(), steps, format.c_str());
-    } else {
-        scene = importer.ReadFile(file.string(), steps);
+    const aiScene* scene = read_scene(importer, file);
+    if (scene != nullptr) {
+        check_faces(file, *scene);
+        scene = importer.ApplyPostProcessing(aiProcess_Triangulate | aiProcess_SortByPType);
     }
     if (scene == nullptr || scene->mRootNode == nullptr)
         throw bad_input(file.string(),

@@ -193,6 +193,20 @@ TEST_CASE("damaged, nameless and bursting gzip files are refused", "[load][forma
                       Catch::Contains("unpacks to more than 2999999 bytes"));
 }
 
+TEST_CASE("files that end too early are refused, whatever assimp makes of them",
+          "[load][formats][errors]") {
+    const auto refused = [](const std::string& suffix, const std::string& bytes,
+                            const std::string& words) {
+        CHECK_THROWS_WITH(read(suffix, bytes), Catch::Contains(words));
+    };
+    const std::string ply = test::ply_text(1), header = ply.substr(0, 37);
+    refused(".ply", header, "PLY header has no end");
+    refused(".ply.gz", gzip(header), "PLY header has no end");
+    // 40 bytes less: the faces, and the end of the last vertex
+    refused(".ply", ply.substr(0, ply.size() - 40), "face 1 refers to no vertex");
+    refused(".ply", ply.substr(0, ply.size() - 2) + "9\n", "face 4 refers to no vertex");
+}
+
 TEST_CASE("the stem of a mesh is its name without format and compression", "[load][formats]") {
     CHECK(mesh_stem("a/hull.stl") == "hull");
     CHECK(mesh_stem("a/hull.v2.stl.GZ") == "hull.v2");
