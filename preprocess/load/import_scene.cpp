@@ -183,7 +183,9 @@ std::string inner_format(const std::filesystem::path& file) {
 
 // assimp 5.2.5 reads on for ever in a PLY file that ends within its header.
 void check_ply_header(const std::filesystem::path& file, std::string_view head) {
-    if (head.starts_with("ply") && head.find("end_header") == std::string_view::npos)
+    if (!head.starts_with("ply")) return;
+    if (head.find("\nend_header") == std::string_view::npos &&
+        head.find("\rend_header") == std::string_view::npos)
         throw bad_input(file.string(), "cannot be read as a mesh (its PLY header has no end)",
                         "copy or export it again");
 }
