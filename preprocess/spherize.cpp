@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <Eigen/Geometry>
 #include <cmath>
 #include <map>
 
@@ -17,6 +16,8 @@
 #include "common/formats/spheres_file.hpp"
 #include "preprocess/clean/make_solid.hpp"
 #include "preprocess/fill/fill_spheres.hpp"
+#include "preprocess/load/gunzip.hpp"
+#include "preprocess/load/half_hull.hpp"
 #include "preprocess/load/read_mesh.hpp"
 #include "preprocess/write/report_text.hpp"
 #include "preprocess/write/vtp_text.hpp"
@@ -27,20 +28,11 @@ struct Options {
     std::string mesh, out, arrangement = "conforming", mode = "fill", slice, units, mirror, json;
     std::string repair = "auto", solid = "envelope";
     std::vector<std::string> exports;
-    std::map<std::string, std::string> guessed;
     ice::ReadOptions read;
     ice::FillOptions fill;
     int threads = 0;
     bool check = false, quiet = false;
 };
-
-// What the command line left to the program is said, and stored.
-void note_guesses(const CLI::App& app, Options& o) {
-    const auto given = [&](const char* name) { return app.count(name) > 0; };
-    if (!given("--units") && !given("--scale")) o.guessed["units"] = "m, as the file has them";
-    if (!given("--up")) o.guessed["up"] = "z";
-    if (!given("--forward")) o.guessed["forward"] = "+x";
-}
 
 // CLI11's own check for positive numbers answers with the largest double, in digits.
 std::string positive_metres(const std::string& text) {
@@ -53,7 +45,8 @@ std::string positive_metres(const std::string& text) {
 void declare(CLI::App& app, Options& o) {
     app.set_version_flag("--version", fmt::format("spherize {} ({}, {})", ice::version(),
                                                   ice::git_commit(), ice::compiler()));
-    app.add_option("mesh", o.mesh, "Closed surface mesh (OBJ, STL, PLY, ...)")->required();
+    app.add_option("mesh", o.mesh, "Surface mesh: OBJ, STL, PLY, OFF, DAE, glTF, FBX, also .gz")
+        ->required();
     app.add_option("-o,--output", o.out, "Sphere file (default <mesh stem>.spheres.h5)");
     app.add_option("-r,--radius", o.fill.radius, "Sphere radius [m]")->check(positive_metres);
     app.add_option("-s,--spacing", o.fill.spacing, "Centre distance on the surface [m] (radius)")
@@ -67,13 +60,15 @@ void declare(CLI::App& app, Options& o) {
         ->check(CLI::IsMember({"envelope", "material"}));
     const std::map<std::string, double> units{
         {"mm", 1e-3}, {"cm", 1e-2}, {"m", 1.0}, {"ft", 0.3048}, {"in", 0.0254}};
-    auto* unit = app.add_option("--units", o.read.scale, "Unit of the file: mm, cm, m, ft, in")
+    auto* unit = app.add_option("--units", o.read.scale,
+                                "Unit of the file: mm, cm, m, ft, in (from the file, or guessed)")
                      ->transform(CLI::CheckedTransformer(units));
     app.add_option("--scale", o.read.scale, "Metres per file unit")
         ->check(positive_metres)
         ->excludes(unit);
-    app.add_option("--up", o.read.up, "File axis that points up")->check(CLI::IsMember({"y", "z"}));
-    app.add_option("--forward", o.read.forward, "File direction of the bow")
+    app.add_option("--up", o.read.up, "File axis that points up (from the file, or guessed)")
+        ->check(CLI::IsMember({"y", "z"}));
+    app.add_option("--forward", o.read.forward, "File direction of the bow (guessed)")
         ->check(CLI::IsMember({"+x", "-x", "+y", "-y", "+z", "-z"}));
     app.add_option("--mirror", o.mirror, "y: the file holds one half of the hull")
         ->check(CLI::IsMember({"y"}));
@@ -89,26 +84,30 @@ void declare(CLI::App& app, Options& o) {
     app.footer("Exit codes: 0 ok; 1 failed; 2 bad command line or mesh.");
 }
 
-// Ships are metres to half a kilometre long, floes not much less than a hand.
-void doubt_size(const ice::TriangleMesh& mesh, ice::SpheresReport& report) {
-    Eigen::AlignedBox3d box;
-    for (const ice::Vec3& v : mesh.vertices) box.extend(v);
-    const double length = box.sizes().maxCoeff();
-    if (length >= 0.05 && length <= 600.0) return;
-    report.warnings.push_back(fmt::format(
-        "the solid is {:.3g} m long: if that is wrong, give --units or --scale", length));
+void warn_half_hull(const ice::HalfHull& half, ice::SpheresReport& report) {
+    if (half) report.warnings.push_back(half.text() + ": give --mirror y if it is");
 }
 
 ice::TriangleMesh read_solid(const Options& o, ice::SpheresReport& report) {
-    std::int64_t centre_plane = 0;
-    ice::TriangleMesh mesh = ice::read_mesh(o.mesh, o.read, &centre_plane);
-    if (centre_plane > 0)
-        report.repairs.emplace_back("triangles in the centre plane dropped", centre_plane);
+    ice::ReadNotes notes;
+    ice::TriangleMesh mesh = ice::read_mesh(o.mesh, o.read, &notes);
+    report.guessed = notes.guessed;
+    report.warnings = notes.warnings;
+    if (notes.centre_plane_dropped > 0)
+        report.repairs.emplace_back("triangles in the centre plane dropped",
+                                    notes.centre_plane_dropped);
     const ice::SolidOptions options{
         o.solid == "material" ? ice::SolidKind::material : ice::SolidKind::envelope,
         o.repair == "strict"};
-    mesh = ice::make_solid(std::move(mesh), o.mesh, options, report.repairs);
-    doubt_size(mesh, report);
+    const ice::HalfHull half = ice::looks_like_half_hull(mesh);
+    try {
+        mesh = ice::make_solid(std::move(mesh), o.mesh, options, report.repairs);
+    } catch (const ice::Error&) {  // what reading noticed may be the reason
+        warn_half_hull(half, report);
+        for (const std::string& warning : report.warnings) ice::say_warning(warning);
+        throw;
+    }
+    warn_half_hull(ice::looks_like_half_hull(mesh), report);
     return mesh;
 }
 
@@ -119,6 +118,7 @@ int report_check(const Options& o, const ice::TriangleMesh& mesh, ice::SpheresRe
                mass.volume);
     for (const auto& [step, count] : report.repairs)
         fmt::print("  repaired: {}: {}\n", step, count);
+    for (const auto& [what, value] : report.guessed) fmt::print("  assumed: {}: {}\n", what, value);
     report.volume = mass.volume;
     report.area = mass.area;
     if (!o.json.empty()) ice::write_text_file(o.json, ice::spheres_report_text(report));
@@ -149,7 +149,6 @@ int run_spherize(Options& o, const std::string& command_line) {
                              "leave it out, or use --arrangement conforming");
 
     ice::SpheresReport report;
-    report.guessed = o.guessed;
     const ice::TriangleMesh mesh = read_solid(o, report);
     report.seconds["read"] = timer.seconds();
     if (o.check) return report_check(o, mesh, report);
@@ -158,7 +157,7 @@ int run_spherize(Options& o, const std::string& command_line) {
                              : ice::fill_discs(ice::slice_solid(mesh, slice_offset(o.slice)),
                                                mesh.region_names, o.fill, report);
     const std::filesystem::path source(o.mesh);
-    const std::string stem = o.out.empty() ? source.stem().string() + ".spheres.h5" : o.out;
+    const std::string stem = o.out.empty() ? ice::mesh_stem(source) + ".spheres.h5" : o.out;
     set.source_mesh = report.source_mesh = source.filename().string();
     set.source_sha256 = ice::file_sha256(source);
     set.created_by = fmt::format("spherize {} ({})", ice::version(), ice::git_commit());
@@ -188,7 +187,6 @@ int main(int argc, char** argv) {
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? 0 : static_cast<int>(ice::ExitCode::bad_input);
     }
-    note_guesses(app, o);
     ice::start_messages(ice::Colour::automatic, o.quiet);
     return ice::run_program("spherize",
                             [&] { return run_spherize(o, ice::command_line(argc, argv)); });

@@ -23,7 +23,7 @@ set(quarantine
   "<omp\\.h>"        "^common/base/parallel\\.hpp$"
   "<spdlog/"         "^common/cli/"
   "<CLI/"            "^(common/cli/|(preprocess/spherize|solver/icesolve|postprocess/icepost)\\.cpp$)"
-  "<(zlib|zconf)\\." "^postprocess/(paraview|report)/"
+  "<(zlib|zconf)\\." "^(preprocess/load|postprocess/(paraview|report))/"
   "<catch2/"         "^tests/")
 
 set(max_columns 100)

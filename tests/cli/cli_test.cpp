@@ -131,6 +131,32 @@ TEST_CASE("equal calls of spherize write equal bytes", "[cli]") {
     CHECK(slurp(w / "set.h5") == first);
 }
 
+TEST_CASE("spherize names half a hull and says what it took for units and axes", "[cli]") {
+    // triangular sections, 2 x 2 m aft and 0.5 x 0.5 m ahead, 10 m apart: a frustum of
+    // 10 / 3 (2 + sqrt(2 x 0.125) + 0.125) = 8.75 m3, in millimetres
+    const std::string open_half =
+        "v 0 0 0\nv 10000 0 1500\nv 0 0 2000\nv 10000 0 2000\nv 0 2000 2000\nv 10000 500 2000\n"
+        "f 3 4 6 5\nf 1 5 6 2\nf 1 3 5\nf 2 6 4\n";
+    const Workshop w;
+    w.write("open.obj", open_half);
+    w.write("closed.obj", open_half + "f 1 2 4 3\n");
+    const Result closed = w.run("spherize closed.obj --check --json report.json");
+    CHECK(closed.code == 0);
+    CHECK_THAT(closed.out, Catch::Contains("8.75 m3") && Catch::Contains("assumed: up: z"));
+    CHECK_THAT(closed.err, Catch::Contains("everything is on the port side of y = 0, 2 triangles "
+                                           "close it there): give --mirror y"));
+    CHECK_THAT(slurp(w / "report.json"),
+               Catch::Contains("mm, because the solid would be 10000 m long in metres"));
+    const Result open = w.run("spherize open.obj --check --repair strict");
+    CHECK(open.code == 2);
+    CHECK_THAT(open.err, Catch::Contains("4 open edges lie in that plane): give --mirror y"));
+    for (const char* name : {"open.obj", "closed.obj"}) {
+        const Result whole = w.run("spherize --check --mirror y --units mm " + std::string(name));
+        CHECK_THAT(whole.out, Catch::Contains("17.5 m3") && !Catch::Contains("assumed: units"));
+        CHECK(whole.err.empty());
+    }
+}
+
 TEST_CASE("hull regions survive from the OBJ groups to the spheres", "[cli]") {
     const Workshop w;
     REQUIRE(w.run("spherize " ICE_MESHES "/paper-hull-3d.obj -s 0.2 -q -o set.h5").code == 0);

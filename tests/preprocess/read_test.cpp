@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Reading mesh files.
-#include <unistd.h>
-
 #include <catch2/catch.hpp>
 
 #include "common/base/error.hpp"
@@ -9,25 +7,12 @@
 #include "preprocess/clean/weld.hpp"
 #include "preprocess/load/read_mesh.hpp"
 #include "tests/support/make_meshes.hpp"
+#include "tests/support/temporary_file.hpp"
 
 using namespace ice;
+using test::TemporaryFile;
 
 namespace {
-
-class TemporaryFile {
-public:
-    TemporaryFile(const std::string& suffix, const std::string& text) {
-        static int number = 0;
-        path_ = std::filesystem::temp_directory_path() / ("ice-read-" + std::to_string(::getpid()) +
-                                                          "-" + std::to_string(++number) + suffix);
-        std::ofstream(path_, std::ios::binary) << text;
-    }
-    ~TemporaryFile() { std::filesystem::remove(path_); }
-    const std::filesystem::path& path() const { return path_; }
-
-private:
-    std::filesystem::path path_;
-};
 
 const std::string kTetrahedron =
     "v 0 0 0\nv 1 0 0\nv 0 2 0\nv 0 0 3\n"

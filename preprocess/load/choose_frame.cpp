@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "preprocess/load/choose_frame.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "common/base/error.hpp"
+#include "preprocess/load/half_hull.hpp"
+#include "preprocess/load/hull_axes.hpp"
+#include "preprocess/load/symmetry.hpp"
+
+namespace ice {
+
+namespace {
+
+constexpr double kShortest = 0.05, kLongest = 600.0;  // of ships and floes [m]
+constexpr double kFiner = 0.8;                        // a bow's sections to a stern's, at most
+
+std::string axis_name(int axis) { return std::string(1, static_cast<char>('x' + axis)); }
+
+// "z" for upwards along z, as the option --up takes it; "-y" where a file is upside down.
+std::string up_name(const Direction& up) { return up.positive ? axis_name(up.axis) : up.text(); }
+
+std::string unit_name(double metres) {
+    for (const auto& [name, value] :
+         {std::pair{"m", 1.0}, std::pair{"mm", 1e-3}, std::pair{"cm", 1e-2},
+          std::pair{"ft", 0.3048}, std::pair{"in", 0.0254}})
+        if (std::abs(metres - value) < 1e-9 * value) return name;
+    return fmt::format("{:g} m", metres);
+}
+
+class Chooser {
+public:
+    Chooser(const TriangleMesh& mesh, const FileFrame& file, const ReadOptions& options,
+            ReadNotes& notes)
+        : mesh_(mesh), file_(file), options_(options), notes_(notes) {}
+
+    Frame choose() {
+        choose_units();
+        if (!options_.mirror_y && !(options_.up && options_.forward)) hull_ = find_hull_axes(mesh_);
+        choose_up();
+        choose_forward();
+        if (file_.left_handed)
+            warn(
+                "the file's axes are left-handed: check that port and starboard are not exchanged");
+        return frame_;
+    }
+
+private:
+    void note(const std::string& what, const std::string& value) { notes_.guessed[what] = value; }
+    void warn(const std::string& text) { notes_.warnings.push_back(text); }
+
+    void choose_units() {
+        const double length = bounding_box(mesh_).sizes().maxCoeff();
+        if (options_.scale) {
+            frame_.metres = *options_.scale;
+        } else if (file_.metres) {
+            frame_.metres = *file_.metres;
+            note("units", fmt::format("{}, as {}", unit_name(frame_.metres), file_said()));
+        } else if (length >= 1000.0 && length <= 1000.0 * kLongest) {
+            frame_.metres = 1e-3;
+            note("units",
+                 fmt::format("mm, because the solid would be {:.0f} m long in metres", length));
+        } else {
+            note("units", "m, as the file has them");
+        }
+        const double metres = frame_.metres * length;
+        if (metres < kShortest || metres > kLongest)
+            warn(fmt::format(
+                "the solid is {:.3g} m long: if that is wrong, give --units or --scale", metres));
+    }
+
+    std::string file_said() const {
+        return file_.format == "glTF" ? "glTF defines"
+                                      : fmt::format("the {} file says", file_.format);
+    }
+
+    void choose_up() {
+        if (options_.up) {
+            frame_.up = Direction::from(*options_.up);
+        } else if (file_.up) {
+            frame_.up = *file_.up;
+            note("up", fmt::format("{}, as {}", up_name(frame_.up), file_said()));
+        } else if (hull_ && hull_->vertical == 1 && may_turn_up()) {
+            frame_.up = {1, true};
+            note("up",
+                 fmt::format("y, because the hull is symmetric across {} and longest along {}",
+                             axis_name(hull_->breadth), axis_name(hull_->length)));
+        } else {
+            note("up", "z");
+        }
+    }
+
+    // Forward given along y leaves z for up. A prism across its breadth is a floe lying flat.
+    bool may_turn_up() {
+        if (options_.forward && Direction::from(*options_.forward).axis == 1) return false;
+        const Vec3 size = bounding_box(mesh_).sizes();
+        if (hull_->prism) return false;
+        if (size[hull_->breadth] >= size[hull_->vertical]) return true;
+        warn(
+            fmt::format("the mesh is symmetric across {0} only: if it is a hull with y up, "
+                        "give --up y",
+                        axis_name(hull_->breadth)));
+        return false;
+    }
+
+    void choose_forward() {
+        if (options_.forward) {
+            frame_.forward = Direction::from(*options_.forward);
+            return;
+        }
+        const bool lies_flat = hull_ && hull_->vertical == frame_.up.axis;
+        frame_.forward = {frame_.up.axis == 0 ? 1 : 0, true};
+        if (lies_flat && hull_->length == frame_.forward.axis) {
+            keep_forward();
+        } else if (lies_flat) {
+            turn_forward();
+        } else {
+            note("forward", frame_.forward.text());
+            doubt_length();
+            doubt_half();
+        }
+    }
+
+    bool front_along_length() const { return file_.front && file_.front->axis == hull_->length; }
+
+    // The hull lies along the axis that forward has anyway.
+    void keep_forward() {
+        if (front_along_length()) {
+            frame_.forward = *file_.front;
+            note("forward", fmt::format("{}, as {}", frame_.forward.text(), file_said()));
+            return;
+        }
+        note("forward", frame_.forward.text());
+        if (fineness_ratio(mesh_, *hull_) <= kFiner)
+            warn(fmt::format("the bow seems to point to -{0}: give --forward -{0} if so",
+                             axis_name(hull_->length)));
+    }
+
+    void turn_forward() {
+        const std::string along = axis_name(hull_->length);
+        if (front_along_length()) {
+            frame_.forward = *file_.front;
+            note("forward", fmt::format("{}, as {}", frame_.forward.text(), file_said()));
+            return;
+        }
+        const double ratio = fineness_ratio(mesh_, *hull_);
+        const bool known = ratio <= kFiner || ratio >= 1.0 / kFiner;
+        frame_.forward = {hull_->length, ratio > kFiner};
+        note("forward",
+             fmt::format("{}, because the hull is longest along {}{}", frame_.forward.text(), along,
+                         known ? " and finer at that end" : ""));
+        if (!known)
+            warn(
+                fmt::format("which end is the bow cannot be seen: give --forward -{0} if it is at "
+                            "-{0}",
+                            along));
+    }
+
+    // Three times as long as wide along another axis: too long for most floes.
+    void doubt_length() {
+        const Vec3 size = bounding_box(mesh_).sizes();
+        int longest = 0;
+        const double length = size.maxCoeff(&longest);
+        const double across = size[frame_.forward.axis];
+        if (longest != frame_.forward.axis && length >= 3.0 * across)
+            warn(
+                fmt::format("the solid is longest along {0} but {1} is taken as forward: if it is "
+                            "a hull, give --up and --forward",
+                            axis_name(longest), frame_.forward.text()));
+    }
+
+    // An open half hull in other axes: named, not turned, since an open deck looks the same.
+    void doubt_half() {
+        const int port = 3 - frame_.up.axis - frame_.forward.axis;
+        int open = -1, count = 0;
+        for (int axis = 0; axis < 3 && !options_.up; ++axis)
+            if (looks_like_half_hull(mesh_, axis).kind == HalfHull::Kind::open) {
+                open = axis;
+                ++count;
+            }
+        if (count == 1 && open != port)
+            warn(
+                fmt::format("the mesh is open along {} = 0, like half a hull with its centre plane "
+                            "there: if it is one, give --up, --forward and --mirror y",
+                            axis_name(open)));
+    }
+
+    const TriangleMesh& mesh_;
+    const FileFrame& file_;
+    const ReadOptions& options_;
+    ReadNotes& notes_;
+    std::optional<HullAxes> hull_;
+    Frame frame_;
+};
+
+}  // namespace
+
+std::string Direction::text() const { return (positive ? "+" : "-") + axis_name(axis); }
+
+Direction Direction::from(const std::string& text) {
+    return {text.back() - 'x', text.front() != '-'};
+}
+
+Mat3 Frame::matrix() const {
+    if (up.axis == forward.axis)
+        throw bad_input("--forward " + forward.text(), "points along the up axis " + up_name(up),
+                        "choose --up and --forward at right angles");
+    Mat3 m;
+    m.row(0) = forward.vector().transpose();
+    m.row(1) = up.vector().cross(forward.vector()).transpose();
+    m.row(2) = up.vector().transpose();
+    return metres * m;
+}
+
+Frame choose_frame(const TriangleMesh& mesh, const FileFrame& file, const ReadOptions& options,
+                   ReadNotes& notes) {
+    return Chooser(mesh, file, options, notes).choose();
+}
+
+}  // namespace ice

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+
+#include "common/geometry/triangle_mesh.hpp"
+
+namespace ice {
+
+/// The axes of a mesh that looks like a hull, by its extents and its one plane of symmetry.
+struct HullAxes {
+    int length = 0;      ///< longest extent
+    int breadth = 1;     ///< normal of the centre plane
+    int vertical = 2;    ///< the one that is left
+    bool prism = false;  ///< every face lies along the breadth or square to it
+};
+
+/// Nothing when the longest extent is less than 1.5 times the next, when no plane along it is one
+/// of symmetry, both are, or one may be (kSymmetric, kLopsided). Cost O(T).
+std::optional<HullAxes> find_hull_axes(const TriangleMesh& mesh);
+
+/// Breadth of the sections near the lower end of the length over that near the upper end: the mean
+/// over stations at 2, 5, 8, 11 and 14 % of the length from each. Below 1 the lower end is finer.
+/// 1 where nothing is cut.
+double fineness_ratio(const TriangleMesh& mesh, const HullAxes& axes);
+
+}  // namespace ice

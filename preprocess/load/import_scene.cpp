@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "preprocess/load/import_scene.hpp"
+
+#include <assimp/commonMetaData.h>
+#include <assimp/config.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <assimp/Importer.hpp>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <string_view>
+
+#include "common/base/error.hpp"
+#include "preprocess/load/gunzip.hpp"
+
+namespace ice {
+
+namespace {
+
+using Mat4 = Eigen::Matrix4d;
+
+// assimp keeps numbers as floats: "0.3" comes back as 0.300000012. Models are drawn in round
+// numbers, so the shortest decimal that gives the same float is what the file said.
+double undo_float(float x) {
+    if (x == 0.0f || !std::isfinite(x)) return static_cast<double>(x);
+    std::array<char, 32> text;
+    const auto end = std::to_chars(text.data(), text.data() + text.size(), x).ptr;
+    double value = 0.0;
+    std::from_chars(text.data(), end, value);
+    return value;
+}
+
+Mat4 to_matrix(const aiMatrix4x4& m) {
+    Mat4 out;
+    for (unsigned r = 0; r < 4; ++r)
+        for (unsigned c = 0; c < 4; ++c) out(r, c) = undo_float(m[r][c]);
+    return out;
+}
+
+std::string format_of(const aiScene& scene) {
+    aiString name;
+    if (scene.mMetaData == nullptr || !scene.mMetaData->Get(AI_METADATA_SOURCE_FORMAT, name))
+        return {};
+    const std::string text = name.C_Str();
+    for (const char* known : {"glTF", "Collada", "FBX"})
+        if (text.find(known) != std::string::npos) return known;
+    return {};
+}
+
+class Collector {
+public:
+    explicit Collector(const aiScene& scene) : scene_(scene), format_(format_of(scene)) {}
+
+    TriangleMesh collect() {
+        // the root of these two is assimp's own and holds what frame_of() reads
+        const bool skip_root = format_ == "Collada" || format_ == "FBX";
+        const Mat4 root =
+            skip_root ? Mat4::Identity() : to_matrix(scene_.mRootNode->mTransformation);
+        walk(*scene_.mRootNode, root);
+        return std::move(out_);
+    }
+
+private:
+    void walk(const aiNode& node, const Mat4& here) {
+        for (unsigned k = 0; k < node.mNumMeshes; ++k)
+            add(*scene_.mMeshes[node.mMeshes[k]], node, here);
+        for (unsigned k = 0; k < node.mNumChildren; ++k)
+            walk(*node.mChildren[k], here * to_matrix(node.mChildren[k]->mTransformation));
+    }
+
+    // Formats with a tree of nodes name the parts there; in the others the root node carries the
+    // file's name and the mesh the group's.
+    std::string part_name(const aiMesh& mesh, const aiNode& node) const {
+        const std::string of_mesh = mesh.mName.C_Str(), of_node = node.mName.C_Str();
+        if (!format_.empty()) return of_node.empty() ? of_mesh : of_node;
+        return of_mesh.empty() && &node != scene_.mRootNode ? of_node : of_mesh;
+    }
+
+    std::int32_t region_of(const aiMesh& mesh, const aiNode& node) {
+        const std::string name = part_name(mesh, node);
+        if (name.empty() || name == "default" || name == "defaultobject") return 0;
+        const auto known = std::find(out_.region_names.begin(), out_.region_names.end(), name);
+        if (known == out_.region_names.end()) {
+            out_.region_names.push_back(name);
+            return static_cast<std::int32_t>(out_.region_names.size()) - 1;
+        }
+        return static_cast<std::int32_t>(known - out_.region_names.begin());
+    }
+
+    void add(const aiMesh& mesh, const aiNode& node, const Mat4& here) {
+        const auto first = static_cast<std::int32_t>(out_.vertices.size());
+        const bool reflects = here.topLeftCorner<3, 3>().determinant() < 0.0;
+        for (unsigned k = 0; k < mesh.mNumVertices; ++k) {
+            const aiVector3D& v = mesh.mVertices[k];
+            const Eigen::Vector4d p =
+                here * Eigen::Vector4d(undo_float(v.x), undo_float(v.y), undo_float(v.z), 1.0);
+            out_.vertices.push_back(p.head<3>());
+        }
+        const std::int32_t region = region_of(mesh, node);
+        for (unsigned k = 0; k < mesh.mNumFaces; ++k) {
+            const aiFace& face = mesh.mFaces[k];
+            if (face.mNumIndices != 3) continue;
+            std::array<std::int32_t, 3> t;
+            for (std::size_t c = 0; c < 3; ++c)
+                t[c] = first + static_cast<std::int32_t>(face.mIndices[c]);
+            if (reflects) std::swap(t[1], t[2]);
+            out_.triangles.push_back(t);
+            out_.region.push_back(region);
+        }
+    }
+
+    const aiScene& scene_;
+    const std::string format_;
+    TriangleMesh out_;
+};
+
+// The root is the file's unit times the rotation that takes its up axis to y: the second row is
+// that axis, as long as the unit.
+FileFrame collada_frame(const aiScene& scene) {
+    FileFrame frame;
+    const Vec3 up = to_matrix(scene.mRootNode->mTransformation).row(1).head<3>().transpose();
+    int axis = 0;
+    const double unit = up.cwiseAbs().maxCoeff(&axis);
+    if (unit > 0.0) frame.metres = unit;
+    frame.up = Direction{axis, up[axis] >= 0.0};
+    return frame;
+}
+
+std::optional<Direction> fbx_axis(const aiMetadata& data, const std::string& name) {
+    int axis = 0, sign = 1;
+    if (!data.Get(name, axis) || axis < 0 || axis > 2) return std::nullopt;
+    data.Get(name + "Sign", sign);
+    return Direction{axis, sign >= 0};
+}
+
+FileFrame fbx_frame(const aiMetadata& data) {
+    FileFrame frame;
+    float single = 0.0f;
+    double centimetres = 0.0;
+    // a float in assimp 5.2; the type is asked for by exact match
+    if (data.Get("UnitScaleFactor", single))
+        centimetres = undo_float(single);
+    else
+        data.Get("UnitScaleFactor", centimetres);
+    if (centimetres > 0.0 && std::isfinite(centimetres)) frame.metres = centimetres / 100.0;
+    frame.up = fbx_axis(data, "UpAxis");
+    frame.front = fbx_axis(data, "FrontAxis");
+    const auto right = fbx_axis(data, "CoordAxis");
+    if (frame.up && frame.front && right)
+        frame.left_handed =
+            right->vector().cross(frame.up->vector()).dot(frame.front->vector()) < -0.5;
+    return frame;
+}
+
+FileFrame frame_of(const aiScene& scene) {
+    const std::string format = format_of(scene);
+    FileFrame frame;
+    if (format == "Collada") frame = collada_frame(scene);
+    if (format == "FBX") frame = fbx_frame(*scene.mMetaData);
+    if (format == "glTF") {
+        frame.metres = 1.0;
+        frame.up = Direction{1, true};
+        frame.front = Direction{2, true};
+    }
+    frame.format = format;
+    return frame;
+}
+
+// "stl" of "hull.stl.gz": assimp is told the format, since it has no file name to look at.
+std::string inner_format(const std::filesystem::path& file) {
+    const std::string inner = file.stem().extension().string();
+    if (inner.size() < 2)
+        throw bad_input(file.string(), "does not say the format inside",
+                        "name it like hull.stl.gz");
+    return inner.substr(1);
+}
+
+// assimp 5.2.5 reads on for ever in a PLY file that ends within its header.
+void check_ply_header(const std::filesystem::path& file, std::string_view head) {
+    if (!head.starts_with("ply")) return;
+    if (head.find("\nend_header") == std::string_view::npos &&
+        head.find("\rend_header") == std::string_view::npos)
+        throw bad_input(file.string(), "cannot be read as a mesh (its PLY header has no end)",
+                        "copy or export it again");
+}
+
+std::string first_bytes(const std::filesystem::path& file) {
+    std::string head(1 << 20, '\0');
+    std::ifstream in(file, std::ios::binary);
+    in.read(head.data(), static_cast<std::streamsize>(head.size()));
+    head.resize(static_cast<std::size_t>(in.gcount()));
+    return head;
+}
+
+// What a damaged file leaves behind; assimp's own steps would abort the program over it.
+void check_faces(const std::filesystem::path& file, const aiScene& scene) {
+    for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
+        const aiMesh& mesh = *scene.mMeshes[m];
+        for (unsigned k = 0; k < mesh.mNumFaces; ++k) {
+            const aiFace& face = mesh.mFaces[k];
+            bool good = face.mNumIndices > 0;
+            for (unsigned c = 0; c < face.mNumIndices; ++c)
+                good = good && face.mIndices[c] < mesh.mNumVertices;
+            if (!good)
+                throw bad_input(file.string(),
+                                fmt::format("face {} refers to no vertex or to one that is not "
+                                            "there",
+                                            k + 1),
+                                "the file is cut short or damaged: copy or export it again");
+        }
+    }
+}
+
+const aiScene* read_scene(Assimp::Importer& importer, const std::filesystem::path& file) {
+    if (is_gzip_name(file)) {
+        const std::string format = inner_format(file);
+        const std::vector<char> bytes = gunzip(file);
+        check_ply_header(file, {bytes.data(), bytes.size()});
+        return importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, format.c_str());
+    }
+    check_ply_header(file, first_bytes(file));
+    return importer.ReadFile(file.string(), 0);
+}
+
+}  // namespace
+
+ImportedMesh import_scene(const std::filesystem::path& file) {
+    Assimp::Importer importer;
+    // a file of joints without surfaces would get surfaces for display
+    importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
+    importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,
+                                aiPrimitiveType_POINT | aiPrimitiveType_LINE);
+    const aiScene* scene = read_scene(importer, file);
+    if (scene != nullptr) {
+        check_faces(file, *scene);
+        scene = importer.ApplyPostProcessing(aiProcess_Triangulate | aiProcess_SortByPType);
+    }
+    if (scene == nullptr || scene->mRootNode == nullptr)
+        throw bad_input(file.string(),
+                        fmt::format("cannot be read as a mesh ({})", importer.GetErrorString()),
+                        "formats are OBJ, STL, PLY, OFF, DAE, glTF, FBX, each also with .gz");
+    return {Collector(*scene).collect(), frame_of(*scene)};
+}
+
+}  // namespace ice

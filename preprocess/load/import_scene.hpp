@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+
+#include "common/geometry/triangle_mesh.hpp"
+#include "preprocess/load/choose_frame.hpp"
+
+namespace ice {
+
+/// A file's triangles in its own axes and units, and what it says about them.
+struct ImportedMesh {
+    TriangleMesh mesh;
+    FileFrame frame;
+};
+
+/// Reads a file with assimp; one that ends in ".gz" is unpacked in memory first (gunzip()).
+///
+/// Measured with assimp 5.2.5, which is why the scene is walked here and not flattened by assimp:
+///   - Collada: the unit (a float) and a rotation to y up are put into the root node, which Collada
+///     itself does not have. Both are read from there as metadata and not applied, so that a scale
+///     or axis from the command line replaces them instead of coming on top.
+///   - FBX: neither unit nor axes are applied; they stand in the scene's metadata. UnitScaleFactor
+///     is in centimetres.
+///   - glTF: nothing is applied; metres, y up and front +z by its specification (2.0, section 3.4).
+///   - OBJ, STL, PLY, OFF: no units, no axes.
+///
+/// @throws Error (exit code 2) naming the file, when assimp or gunzip() cannot read it
+ImportedMesh import_scene(const std::filesystem::path& file);
+
+}  // namespace ice
