@@ -41,14 +41,4 @@ std::string report_text(const SpheresReport& r, const std::string& output) {
     return out;
 }
 
-std::string csv_text(const SphereSet& set) {
-    std::string out = "x_m,y_m,z_m,radius_m,nx,ny,nz,layer,region\n";
-    for (std::size_t k = 0; k < set.size(); ++k)
-        out += fmt::format("{},{},{},{},{},{},{},{},{}\n", set.centers[k].x(), set.centers[k].y(),
-                           set.centers[k].z(), set.radii[k], set.normals[k].x(), set.normals[k].y(),
-                           set.normals[k].z(), set.layers[k],
-                           set.mesh.region_names[static_cast<std::size_t>(set.regions[k])]);
-    return out;
-}
-
 }  // namespace ice

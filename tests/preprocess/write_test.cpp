@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cstring>
 
-#include "preprocess/write/vtp_text.hpp"
+#include "preprocess/write/write_vtp.hpp"
 #include "tests/support/make_sphere_sets.hpp"
 
 using namespace ice;
