@@ -91,7 +91,7 @@ void declare(CLI::App& app, Options& o) {
     app.add_flag("--check", o.check, "Diagnose the mesh only");
     app.add_option("--export", o.exports,
                    "Also write the set as csv, vtp, yade, liggghts or chrono; repeatable")
-        ->check(CLI::IsMember(ice::export_formats));
+        ->check(CLI::IsMember(ice::export_formats()));
     app.add_option("--density", o.density, "Density [kg/m3] of the mass in the exports (900, ice)")
         ->check(positive_density);
     app.add_option("--json", o.json, "Write the certificate as JSON");
@@ -178,12 +178,12 @@ int run_spherize(Options& o, const std::string& command_line) {
     if (!report.thin_features.empty())
         report.warnings.push_back(fmt::format("{} parts are too thin for a sphere of radius {:g} m",
                                               report.thin_features.size(), o.fill.radius));
-    ice::check_exports(set, o.exports);
+    const auto export_base = std::filesystem::path(stem).replace_extension();
+    ice::check_exports(set, o.exports, export_base);
     ice::write_spheres(stem, set, report);
     report.seconds["total"] = timer.seconds();
     if (!o.json.empty()) ice::write_text_file(o.json, ice::spheres_report_text(report));
-    const auto exported = ice::write_exports(set, o.exports, o.density,
-                                             std::filesystem::path(stem).replace_extension());
+    const auto exported = ice::write_exports(set, o.exports, o.density, export_base);
     if (!o.quiet) fmt::print("{}", ice::report_text(report, stem));
     if (!o.quiet)
         for (const auto& path : exported) fmt::print("  {:<18}{}\n", "exported", path.string());

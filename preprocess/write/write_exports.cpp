@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "preprocess/write/write_exports.hpp"
 
+#include <algorithm>
 #include <list>
 #include <set>
 
@@ -79,17 +80,28 @@ void add_format(OutputFiles& files, const std::string& format, const SphereSet& 
 
 }  // namespace
 
-const std::vector<std::string> export_formats{"csv", "vtp", "yade", "liggghts", "chrono"};
+std::vector<std::string> export_formats() { return {"csv", "vtp", "yade", "liggghts", "chrono"}; }
 
 bool has_mass(const std::string& format) { return format != "csv" && format != "vtp"; }
 
-void check_exports(const SphereSet& set, const std::vector<std::string>& formats) {
+void check_exports(const SphereSet& set, const std::vector<std::string>& formats,
+                   const std::filesystem::path& base) {
+    const std::string name = base.filename().string();
+    const bool plain = std::none_of(name.begin(), name.end(), [](char c) {
+        return c == '"' || c == '\\' || static_cast<unsigned char>(c) < ' ';
+    });
     for (const std::string& format : formats) {
         if (set.dimension == 2 && has_mass(format))
             throw bad_input("--export " + format,
                             "describes a rigid body in 3D, and a 2D set has its mass and inertia "
                             "per metre of breadth",
                             "leave out --slice, or export csv or vtp");
+        if (has_mass(format) && !plain)
+            throw bad_input("--export " + format,
+                            "would name the file " + name +
+                                " in a script, where quotes, backslashes and control characters "
+                                "cannot stand",
+                            "give a plain file name by --output");
         if (format == "liggghts" && set.size() < 2)
             throw bad_input("--export liggghts", "needs two spheres or more, and the set has one",
                             "choose a smaller --radius");

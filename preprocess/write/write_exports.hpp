@@ -20,15 +20,16 @@ namespace ice {
 /// | chrono   | .chrono.csv, .json | centre of mass and principal axes; pose in .json   |
 ///
 /// All spheres of the set are written; `--mode surface` is what leaves out the interior.
-extern const std::vector<std::string> export_formats;
+std::vector<std::string> export_formats();
 
 /// Whether a format carries a mass, and so needs a density.
 bool has_mass(const std::string& format);
 
-/// Refuses what a format cannot hold: a 2D set (per metre of breadth) as a rigid body in 3D, and
-/// fewer than two spheres for LIGGGHTS.
+/// Refuses what a format cannot hold: a 2D set (per metre of breadth) as a rigid body in 3D, fewer
+/// than two spheres for LIGGGHTS, a file name that cannot stand between the quotes of a script.
 /// @throws Error (exit code 2) naming the option
-void check_exports(const SphereSet& set, const std::vector<std::string>& formats);
+void check_exports(const SphereSet& set, const std::vector<std::string>& formats,
+                   const std::filesystem::path& base);
 
 /// Writes the set in each format to `base` with the endings above; a repeated format once.
 ///

@@ -7,16 +7,6 @@ namespace ice {
 
 namespace {
 
-// A file name between double quotes of Python.
-std::string python_text(const std::string& text) {
-    std::string out = "\"";
-    for (const char c : text) {
-        if (c == '"' || c == '\\') out += '\\';
-        out += c;
-    }
-    return out + "\"";
-}
-
 constexpr const char* kLoad = R"py(
 
 def load(position=CENTROID, orientation=AXES, material=None):
@@ -90,7 +80,7 @@ std::string yade_text(const RigidBody& body, double radius, const std::string& s
                "from yade import FrictMat, Omega, utils, ymport\n\n"
                "# YADE runs a script with its own name in __file__\n"
                "_script = sys.argv[0] if __name__ == \"__main__\" else __file__\n"
-               "SPHERES = os.path.join(os.path.dirname(os.path.abspath(_script)), {})\n"
+               "SPHERES = os.path.join(os.path.dirname(os.path.abspath(_script)), \"{}\")\n"
                "RADIUS = {}  # of a sphere [m]\n"
                "DENSITY = {}  # [kg/m3]\n"
                "MASS = {}  # [kg]\n"
@@ -98,8 +88,8 @@ std::string yade_text(const RigidBody& body, double radius, const std::string& s
                "CENTROID = ({}, {}, {})  # in the mesh's frame [m]\n"
                "AXES = ({}, {}, {}, {})  # w, x, y, z: from principal to mesh axes\n"
                "_material = []\n",
-               python_text(spheres_file), radius, body.density, body.mass, m.x(), m.y(), m.z(),
-               c.x(), c.y(), c.z(), q.w(), q.x(), q.y(), q.z()) +
+               spheres_file, radius, body.density, body.mass, m.x(), m.y(), m.z(), c.x(), c.y(),
+               c.z(), q.w(), q.x(), q.y(), q.z()) +
            kLoad;
 }
 

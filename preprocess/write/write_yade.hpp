@@ -22,6 +22,7 @@ void write_yade_spheres(const SphereSet& set, const RigidBody& body, const Sink&
 /// sphere, without bound, at the centre of mass; it carries mass and inertia, and the spheres weigh
 /// nothing while YADE adds them up.
 ///
+/// @param spheres_file  its name, without quotes or backslashes (check_exports)
 /// @param radius  of the spheres [m]: the extent of that member, for pictures
 std::string yade_text(const RigidBody& body, double radius, const std::string& spheres_file);
 

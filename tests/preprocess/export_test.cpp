@@ -220,10 +220,19 @@ TEST_CASE("a 2D set and a single sphere are refused by name where they mean noth
           "[export][errors]") {
     const SphereSet flat = test::make_box_set(Vec3(1.0, 1.0, 0.4), 0.05, 0.1, 2);
     for (const char* format : {"yade", "liggghts", "chrono"})
-        CHECK_THROWS_WITH(check_exports(flat, {format}),
+        CHECK_THROWS_WITH(check_exports(flat, {format}, "f"),
                           Catch::Contains(format) && Catch::Contains("--slice"));
-    CHECK_NOTHROW(check_exports(flat, {"csv", "vtp"}));
+    CHECK_NOTHROW(check_exports(flat, {"csv", "vtp"}, "f"));
     const SphereSet ball = test::make_ball_set(0.1);
-    CHECK_THROWS_WITH(check_exports(ball, {"liggghts"}), Catch::Contains("two spheres"));
-    CHECK_NOTHROW(check_exports(ball, {"yade", "chrono"}));
+    CHECK_THROWS_WITH(check_exports(ball, {"liggghts"}, "f"), Catch::Contains("two spheres"));
+    CHECK_NOTHROW(check_exports(ball, {"yade", "chrono"}, "f"));
+}
+
+TEST_CASE("a name that a script cannot quote is refused, one with spaces is not",
+          "[export][errors]") {
+    const SphereSet set = turned_box();
+    CHECK_THROWS_WITH(check_exports(set, {"yade"}, "my \"hull\""), Catch::Contains("--output"));
+    CHECK_THROWS_WITH(check_exports(set, {"liggghts"}, "a\nb"), Catch::Contains("--output"));
+    CHECK_NOTHROW(check_exports(set, {"csv", "vtp"}, "my \"hull\""));
+    CHECK_NOTHROW(check_exports(set, {"yade", "liggghts", "chrono"}, "folder \"x\"/my hull"));
 }
