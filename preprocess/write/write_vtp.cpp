@@ -30,7 +30,7 @@ public:
     template <class Row>
     std::string add(const char* name, const char* type, std::size_t size, int components,
                     const Row& row) {
-        const std::string line = fmt::format(
+        std::string line = fmt::format(
             "        <DataArray Name=\"{}\" type=\"{}\" NumberOfComponents=\"{}\" "
             "format=\"appended\" offset=\"{}\"/>\n",
             name, type, components, offset_);
