@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "common/base/error.hpp"
 #include "common/base/parallel.hpp"
@@ -20,14 +22,17 @@
 #include "preprocess/load/half_hull.hpp"
 #include "preprocess/load/read_mesh.hpp"
 #include "preprocess/write/report_text.hpp"
-#include "preprocess/write/vtp_text.hpp"
+#include "preprocess/write/write_exports.hpp"
 
 namespace {
+
+constexpr double kIceDensity = 900.0;  // [kg/m3]
 
 struct Options {
     std::string mesh, out, arrangement = "conforming", mode = "fill", slice, units, mirror, json;
     std::string repair = "auto", solid = "envelope";
     std::vector<std::string> exports;
+    std::optional<double> density;  // [kg/m3]; the sphere set itself keeps unit density
     ice::ReadOptions read;
     ice::FillOptions fill;
     int threads = 0;
@@ -40,6 +45,11 @@ std::string positive_metres(const std::string& text) {
     return number && number->value > 0.0 && std::isfinite(number->value)
                ? std::string()
                : text + " is not a positive number of metres (0.15, without a unit)";
+}
+
+std::string positive_density(const std::string& text) {
+    return positive_metres(text).empty() ? std::string()
+                                         : text + " is not a positive number of kg/m3";
 }
 
 void declare(CLI::App& app, Options& o) {
@@ -75,8 +85,11 @@ void declare(CLI::App& app, Options& o) {
     app.add_option("--repair", o.repair, "auto or strict")
         ->check(CLI::IsMember({"auto", "strict"}));
     app.add_flag("--check", o.check, "Diagnose the mesh only");
-    app.add_option("--export", o.exports, "Also write the set as csv or vtp; repeatable")
-        ->check(CLI::IsMember({"csv", "vtp"}));
+    app.add_option("--export", o.exports,
+                   "Also write the set as csv, vtp, yade, liggghts or chrono; repeatable")
+        ->check(CLI::IsMember(ice::export_formats()));
+    app.add_option("--density", o.density, "Density [kg/m3] of the mass in the exports (900, ice)")
+        ->check(positive_density);
     app.add_option("--json", o.json, "Write the certificate as JSON");
     app.add_option("--threads", o.threads, "Threads (default: all cores)")
         ->check(CLI::Range(1, 4096));
@@ -165,13 +178,18 @@ int run_spherize(Options& o, const std::string& command_line) {
     if (!report.thin_features.empty())
         report.warnings.push_back(fmt::format("{} parts are too thin for a sphere of radius {:g} m",
                                               report.thin_features.size(), o.fill.radius));
+    const auto export_base = std::filesystem::path(stem).replace_extension();
+    ice::check_exports(set, o.exports, export_base);
+    const double density = o.density.value_or(kIceDensity);
+    if (!o.density && std::any_of(o.exports.begin(), o.exports.end(), ice::has_mass))
+        report.guessed["density"] = fmt::format("{} kg/m3, as of ice, in the exports", density);
     ice::write_spheres(stem, set, report);
     report.seconds["total"] = timer.seconds();
     if (!o.json.empty()) ice::write_text_file(o.json, ice::spheres_report_text(report));
-    for (const std::string& format : o.exports)
-        ice::write_text_file(std::filesystem::path(stem).replace_extension("." + format),
-                             format == "csv" ? ice::csv_text(set) : ice::vtp_text(set));
+    const auto exported = ice::write_exports(set, o.exports, density, export_base);
     if (!o.quiet) fmt::print("{}", ice::report_text(report, stem));
+    if (!o.quiet)
+        for (const auto& path : exported) fmt::print("  {:<18}{}\n", "exported", path.string());
     for (const std::string& warning : report.warnings) ice::say_warning(warning);
     return 0;
 }

@@ -41,16 +41,4 @@ std::string report_text(const SpheresReport& r, const std::string& output) {
     return out;
 }
 
-std::string csv_text(const SphereSet& set) {
-    std::string out = "x_m,y_m,z_m,radius_m,nx,ny,nz,layer,region\n";
-    for (std::size_t k = 0; k < set.size(); ++k) {
-        const Vec3& c = set.centers[k];
-        const Vec3 n = set.normal(k);
-        out += fmt::format("{},{},{},{},{},{},{},{},{}\n", c.x(), c.y(), c.z(), set.radii[k], n.x(),
-                           n.y(), n.z(), set.on_surface(k) ? 1 : 0,
-                           set.mesh.region_names[static_cast<std::size_t>(set.region(k))]);
-    }
-    return out;
-}
-
 }  // namespace ice

@@ -168,6 +168,25 @@ TEST_CASE("hull regions survive from the OBJ groups to the spheres", "[cli]") {
         CHECK(area[name] > 0.5);
 }
 
+TEST_CASE("spherize exports with the mass at a density that it says and stores", "[cli]") {
+    const Workshop w;
+    const std::string call = "spherize " ICE_MESHES
+                             "/paper-floe-3d.obj -r 0.05 --arrangement lattice -o floe.h5 "
+                             "--export chrono --export vtp";
+    const Result assumed = w.run(call);
+    CHECK(assumed.code == 0);
+    for (const char* words : {"density: 900 kg/m3", "floe.chrono.json", "floe.vtp"})
+        CHECK_THAT(assumed.out, Catch::Contains(words));
+    // the paper's floe of 1 x 0.8 x 0.3 m
+    CHECK(read_json_numbers(w / "floe.chrono.json").at("mass_kg") == Approx(216).epsilon(1e-12));
+    const Result given = w.run(call + " --density 917");
+    CHECK_THAT(given.out, !Catch::Contains("density: 900"));
+    CHECK(read_json_numbers(w / "floe.chrono.json").at("mass_kg") ==
+          Approx(0.24 * 917).epsilon(1e-12));
+    CHECK(w.files() ==
+          std::vector<std::string>{"floe.chrono.csv", "floe.chrono.json", "floe.h5", "floe.vtp"});
+}
+
 TEST_CASE("spherize refuses bad meshes by name with exit code 2 and leaves nothing",
           "[cli][errors]") {
     const Workshop w;
@@ -191,6 +210,9 @@ TEST_CASE("spherize refuses bad meshes by name with exit code 2 and leaves nothi
     refuses(ICE_MESHES "/paper-floe-3d.obj -r 0.2", "the largest that fits has 0.15 m");
     refuses(ICE_MESHES "/paper-floe-3d.obj --slice z=0", "--slice y=0");
     refuses(ICE_MESHES "/paper-floe-3d.obj --slice y=5", "does not cut");
+    refuses(ICE_MESHES "/paper-floe-2d.obj --slice y=0 --export yade", "2D set");
+    refuses(ICE_MESHES "/paper-floe-3d.obj --export xyz", "--export");
+    refuses(ICE_MESHES "/paper-floe-3d.obj --density 0", "--density");
     CHECK(w.files() == std::vector<std::string>{"nan.obj", "open.obj", "text.obj"});
 }
 

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "common/geometry/rigid_body.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+namespace ice {
+
+namespace {
+
+// An eigenvector's sign is free; fixed here by its largest component.
+Vec3 positive(const Vec3& axis) {
+    Eigen::Index largest = 0;
+    axis.cwiseAbs().maxCoeff(&largest);
+    return axis[largest] < 0.0 ? Vec3(-axis) : axis;
+}
+
+}  // namespace
+
+RigidBody rigid_body(const MassProperties& solid, double density) {
+    RigidBody body;
+    body.density = density;
+    body.volume = solid.volume;
+    body.mass = density * solid.volume;
+    body.centroid = solid.centroid;
+    body.inertia = 0.5 * density * (solid.inertia + solid.inertia.transpose());
+
+    Mat3 clean = body.inertia;
+    for (int r = 0; r < 3; ++r)
+        for (int c = 0; c < 3; ++c)
+            if (r != c && std::abs(clean(r, c)) < 1e-14 * clean.trace()) clean(r, c) = 0.0;
+    const Eigen::SelfAdjointEigenSolver<Mat3> solver(clean);  // ascending eigenvalues
+    body.moments = solver.eigenvalues();
+    Mat3 axes;
+    axes.col(0) = positive(solver.eigenvectors().col(0));
+    axes.col(1) = positive(solver.eigenvectors().col(1));
+    axes.col(2) = axes.col(0).cross(axes.col(1));
+    body.axes = Eigen::Quaterniond(axes).normalized();
+    if (body.axes.w() < 0.0) body.axes.coeffs() *= -1.0;
+    return body;
+}
+
+}  // namespace ice

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "preprocess/write/write_exports.hpp"
+
+#include <algorithm>
+#include <list>
+#include <set>
+
+#include "common/base/error.hpp"
+#include "common/formats/rigid_body_file.hpp"
+#include "preprocess/write/output_file.hpp"
+#include "preprocess/write/write_chrono.hpp"
+#include "preprocess/write/write_csv.hpp"
+#include "preprocess/write/write_liggghts.hpp"
+#include "preprocess/write/write_vtp.hpp"
+#include "preprocess/write/write_yade.hpp"
+
+namespace ice {
+
+namespace {
+
+// Files that get their final names together.
+class OutputFiles {
+public:
+    explicit OutputFiles(std::filesystem::path base) : base_(std::move(base)) {}
+
+    std::string name(const std::string& ending) const { return base_.filename().string() + ending; }
+    void add(const std::string& ending, const std::function<void(const Sink&)>& write) {
+        OutputFile& file = files_.emplace_back(base_.string() + ending);
+        write([&](std::string_view bytes) { file.write(bytes); });
+        file.close();
+    }
+    void add_text(const std::string& ending, const std::string& text) {
+        add(ending, [&](const Sink& sink) { sink(text); });
+    }
+    std::vector<std::filesystem::path> keep() {
+        std::vector<std::filesystem::path> paths;
+        for (OutputFile& file : files_) {
+            file.keep();
+            paths.push_back(file.path());
+        }
+        return paths;
+    }
+
+private:
+    std::filesystem::path base_;
+    std::list<OutputFile> files_;  // a list, because a file cannot move
+};
+
+// LIGGGHTS allows letters, digits and underscores in an ID.
+std::string fix_id(const std::string& name) {
+    std::string id = name.substr(0, name.find('.'));
+    for (char& c : id)
+        if (!(('a' <= c && c <= 'z') || ('A' <= c && c <= 'Z') || ('0' <= c && c <= '9'))) c = '_';
+    return id.empty() ? "body" : id;
+}
+
+void add_format(OutputFiles& files, const std::string& format, const SphereSet& set,
+                const RigidBody& body) {
+    if (format == "csv") files.add(".csv", [&](const Sink& sink) { write_csv(set, sink); });
+    if (format == "vtp") files.add(".vtp", [&](const Sink& sink) { write_vtp(set, sink); });
+    if (format == "yade") {
+        files.add(".yade.txt", [&](const Sink& sink) { write_yade_spheres(set, body, sink); });
+        files.add_text(".yade.py", yade_text(body, set.radius, files.name(".yade.txt")));
+    }
+    if (format == "liggghts") {
+        files.add(".liggghts.txt",
+                  [&](const Sink& sink) { write_liggghts_spheres(set, body, sink); });
+        files.add_text(".liggghts.in", liggghts_text(body, set.size(), fix_id(files.name("")),
+                                                     files.name(".liggghts.txt")));
+    }
+    if (format == "chrono") {
+        files.add(".chrono.csv", [&](const Sink& sink) { write_chrono_spheres(set, body, sink); });
+        files.add_text(".chrono.json",
+                       rigid_body_text(body, files.name(".chrono.csv"),
+                                       "origin at centroid_m, axes turned by the quaternion into "
+                                       "those of the mesh",
+                                       set.size()));
+    }
+}
+
+}  // namespace
+
+std::vector<std::string> export_formats() { return {"csv", "vtp", "yade", "liggghts", "chrono"}; }
+
+bool has_mass(const std::string& format) { return format != "csv" && format != "vtp"; }
+
+void check_exports(const SphereSet& set, const std::vector<std::string>& formats,
+                   const std::filesystem::path& base) {
+    const std::string name = base.filename().string();
+    const bool plain = std::none_of(name.begin(), name.end(), [](char c) {
+        return c == '"' || c == '\\' || static_cast<unsigned char>(c) < ' ';
+    });
+    for (const std::string& format : formats) {
+        if (set.dimension == 2 && has_mass(format))
+            throw bad_input("--export " + format,
+                            "describes a rigid body in 3D, and a 2D set has its mass and inertia "
+                            "per metre of breadth",
+                            "leave out --slice, or export csv or vtp");
+        if (has_mass(format) && !plain)
+            throw bad_input("--export " + format,
+                            "would name the file " + name +
+                                " in a script, where quotes, backslashes and control characters "
+                                "cannot stand",
+                            "give a plain file name by --output");
+        if (format == "liggghts" && set.size() < 2)
+            throw bad_input("--export liggghts", "needs two spheres or more, and the set has one",
+                            "choose a smaller --radius");
+    }
+}
+
+std::vector<std::filesystem::path> write_exports(const SphereSet& set,
+                                                 const std::vector<std::string>& formats,
+                                                 double density,
+                                                 const std::filesystem::path& base) {
+    const RigidBody body = rigid_body(set.solid, density);
+    OutputFiles files(base);
+    std::set<std::string> done;
+    for (const std::string& format : formats)
+        if (done.insert(format).second) add_format(files, format, set, body);
+    return files.keep();
+}
+
+}  // namespace ice
