@@ -13,7 +13,7 @@ jump of slope or curvature. The stem and the run are straight lines that a parab
 flat bottom, so near it every section is horizontal too: the bottom has no knuckle. A section at the
 stem flares at tan(flare) = tan(half entrance) / tan(stem angle) from the vertical.
 
-Only + - * / and sqrt are used beyond three tangents, so that all machines get the same numbers.
+Half breadths need only + - * / and sqrt beyond five tangents: all machines get the same numbers.
 """
 import math
 
