@@ -6,8 +6,13 @@ damage, or several together. Only random() of the generator is used: its sequenc
 Python versions.
 """
 import math
+import os
 import random
 import struct
+import sys
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../meshes"))
+import check_meshes  # noqa: E402
 
 SHARE_DELETED = 0.02      # of the faces; at least one
 SHARE_DUPLICATED = 0.05
@@ -32,27 +37,13 @@ class Mesh:
         return [self.vertices[k] for k in triangle]
 
     def volume(self):
-        total = 0.0
-        for t in self.triangles:
-            (ax, ay, az), (bx, by, bz), (cx, cy, cz) = self.corners(t)
-            total += (ax * (by * cz - bz * cy) + ay * (bz * cx - bx * cz)
-                      + az * (bx * cy - by * cx)) / 6
-        return total
+        return check_meshes.volume(self.vertices, self.triangles)
 
 
 def read_obj(path):
-    mesh, group = Mesh([], [], []), ""
+    """A file written as those in meshes/ are: triangles in groups, nothing but vertices."""
     with open(path, encoding="ascii") as file:
-        for line in file:
-            word, *rest = line.split() or [""]
-            if word == "v":
-                mesh.vertices.append(tuple(float(value) for value in rest))
-            elif word == "g":
-                group = rest[0]
-            elif word == "f":
-                mesh.triangles.append(tuple(int(value) - 1 for value in rest))
-                mesh.groups.append(group)
-    return mesh
+        return Mesh(*check_meshes.read_obj(file.read()))
 
 
 class Dice:
