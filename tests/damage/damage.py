@@ -135,6 +135,8 @@ def parse_options():
     parser.add_argument("--count", type=int, default=1000, help="copies of each mesh (%(default)s)")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--index", type=int, help="only this copy")
+    parser.add_argument("--kinds", nargs="+", choices=damage_mesh.KINDS, metavar="KIND",
+                        default=damage_mesh.KINDS, help="only these of the copies")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="runs at a time")
     parser.add_argument("--timeout", type=float, default=60.0, help="seconds per copy (%(default)s)")
     parser.add_argument("--at-least", type=float, default=99.0, metavar="PERCENT",
@@ -154,6 +156,8 @@ def parse_options():
 def main():
     options = parse_options()
     indices = range(options.count) if options.index is None else [options.index]
+    kinds = damage_mesh.KINDS
+    indices = [index for index in indices if kinds[index % len(kinds)] in options.kinds]
     everything, sound = [], True
     with ThreadPoolExecutor(options.jobs) as pool:
         for path in options.meshes:

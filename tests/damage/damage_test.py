@@ -76,6 +76,12 @@ class Answers(unittest.TestCase):
         self.assertIn("flip silent", text)
         self.assertNotIn("jitter silent", text)
 
+    def test_only_the_kinds_asked_for_are_tried(self):
+        code, text = run_damage(f"answer({FLOE_VOLUME}, [])", "--kinds", "jitter", "truncate")
+        self.assertEqual(code, 0, text)
+        self.assertIn("1 of 1 repairable", text)
+        self.assertIn("0 of 2 copies wrong", text)
+
     def test_crashes_and_other_exit_codes_are_found(self):
         for behaviour in ("os.kill(os.getpid(), signal.SIGSEGV)", "sys.exit(1)", "sys.exit(3)"):
             code, text = run_damage(behaviour, "--at-least", "0")
