@@ -4,9 +4,11 @@
 
     python3 meshes/check_meshes.py
 
-Each OBJ file must equal what make_meshes.py writes, be closed and outward (each edge is used twice,
+Each OBJ file must equal what its script writes, be closed and outward (each edge is used twice,
 in opposite directions, around a positive volume), have no flat triangle and no vertex twice, and
-have the volume of its closed form. The volume is per metre in 2D: those meshes are 1 m broad.
+have the volume of its closed form. The volume is per metre in 2D: those meshes are 1 m broad. The
+icebreaker's faces are chords of a curved form: its volumes are a little less than the form's, and
+its angles are measured from its edges.
 """
 import argparse
 import math
@@ -14,10 +16,16 @@ import os
 import sys
 from collections import Counter
 
+import icebreaker_form as form
+import make_icebreaker
 import make_meshes
 
 VOLUME_TOLERANCE = 1e-9   # relative; the files carry 1e-12 m
-SYMMETRIC = {"paper-hull-3d"}
+CHORD_TOLERANCE = 3e-3    # relative; what 8000 chord triangles may lack of a curved form
+ANGLE_TOLERANCE_DEG = 0.1
+LONGEST_ASPECT = 12.0     # longest edge / height over it
+ICEBREAKER = "icebreaker-100m"
+SYMMETRIC = {"paper-hull-3d", ICEBREAKER}
 
 
 def hull_profile_area(length, depth, stem_deg, bottom_end, heights):
@@ -35,6 +43,7 @@ def closed_forms():
     # the wedge takes from the full breadth two triangles of 1 by 1 / tan 70 deg at every height
     wedge = 1.8 * 1.0 / math.tan(math.radians(70.0))
     return {
+        ICEBREAKER: form.volume_below(form.DECK),
         "paper-hull-2d": profile_2d,
         "paper-hull-3d": 2.0 * profile_3d - wedge,
         "paper-floe-2d": 1.0 * 1.0 * 0.4,
@@ -75,6 +84,8 @@ def faults(name, text, expected_volume):
     found = []
     if name in make_meshes.MESHES and text != make_meshes.obj_text(name, make_meshes.MESHES[name]()):
         found.append("differs from what make_meshes.py writes; run it and commit the result")
+    if name == ICEBREAKER and text != make_icebreaker.obj_text(name, make_icebreaker.make()):
+        found.append("differs from what make_icebreaker.py writes; run it and commit the result")
     vertices, triangles, groups = read_obj(text)
 
     # closed and consistently oriented: each directed edge once, and its reverse once
@@ -91,11 +102,70 @@ def faults(name, text, expected_volume):
         found.append("has a triangle outside the named groups")
 
     got = volume(vertices, triangles)
-    if not abs(got - expected_volume) <= VOLUME_TOLERANCE * expected_volume:
+    tolerance = CHORD_TOLERANCE if name == ICEBREAKER else VOLUME_TOLERANCE
+    if not abs(got - expected_volume) <= tolerance * expected_volume:
         found.append(f"has volume {got!r} m3, closed form {expected_volume!r} m3")
     if name in SYMMETRIC and not symmetric(vertices, triangles, groups):
         found.append("is not mirror symmetric about y = 0")
+    if name == ICEBREAKER:
+        found += icebreaker_faults(vertices, triangles, groups)
     return found
+
+
+def icebreaker_faults(vertices, triangles, groups):
+    """What does not agree with the form's dimensions, angles and hydrostatics."""
+    found = []
+    if sorted(set(groups)) != sorted(make_icebreaker.GROUPS):
+        found.append("lacks a region or has one too many: " + " ".join(sorted(set(groups))))
+    worst = max(aspect(vertices, t) for t in triangles)
+    if worst > LONGEST_ASPECT:
+        found.append(f"has a triangle of aspect {worst:.1f}")
+
+    expected = {"length": form.LENGTH, "breadth": 2 * form.midship(form.DECK), "depth": form.DEPTH,
+                "stem_deg": form.STEM_DEG, "entrance_deg": form.ENTRANCE_DEG,
+                "displaced_volume": form.volume_below(0.0),
+                "water_plane": form.waterline_area(0.0)}
+    measured = icebreaker_figures(vertices, triangles)
+    for key, value in expected.items():
+        chord = key in ("displaced_volume", "water_plane")
+        tolerance = ANGLE_TOLERANCE_DEG if key.endswith("_deg") else value * CHORD_TOLERANCE \
+            if chord else 2e-5  # two units of the file
+        if not abs(measured[key] - value) <= tolerance:
+            found.append(f"has {key} {measured[key]:.5f}, the form {value:.5f}")
+    return found
+
+
+def icebreaker_figures(vertices, triangles):
+    """Dimensions, angles and hydrostatics, from the mesh alone."""
+    spans = [max(axis) - min(axis) for axis in zip(*vertices)]
+    wet = [[vertices[k] for k in t] for t in triangles
+           if max(vertices[k][2] for k in t) <= 0.0]  # the water line runs along edges
+    down = [make_meshes.area_vector(corners)[2] / 2 for corners in wet]
+    volume_wet = sum(a * sum(p[2] for p in corners) / 3 for a, corners in zip(down, wet))
+
+    # the straight part of the stem, from the forefoot to the bend above the water
+    stem = sorted(p for p in vertices if p[1] == 0.0 and p[0] > form.FOREFOOT_X
+                  and form.BILGE_TOP_Z <= p[2] <= form.STEM_BEND_Z)
+    low, high = stem[0], stem[-1]
+    stem_deg = math.degrees(math.atan2(high[2] - low[2], high[0] - low[0]))
+
+    # slopes of the water line's first two chords, extrapolated from their middles to the stem
+    tip, second, third = sorted((p for p in vertices if p[2] == 0.0 and p[1] >= 0.0),
+                                reverse=True)[:3]
+    first_slope = (second[1] - tip[1]) / (tip[0] - second[0])
+    next_slope = (third[1] - second[1]) / (second[0] - third[0])
+    change = (next_slope - first_slope) / ((tip[0] - third[0]) / 2)
+    entrance = math.atan(first_slope - change * (tip[0] - second[0]) / 2)
+    return {"length": spans[0], "breadth": spans[1], "depth": spans[2], "stem_deg": stem_deg,
+            "entrance_deg": math.degrees(entrance), "displaced_volume": volume_wet,
+            "water_plane": -sum(down)}
+
+
+def aspect(vertices, triangle):
+    """Longest edge / height over it; 1.15 for an equilateral triangle."""
+    corners = [vertices[k] for k in triangle]
+    longest = max(math.dist(corners[k - 1], corners[k]) for k in range(3))
+    return longest * longest / (2 * max(area(vertices, triangle), 1e-30))
 
 
 def symmetric(vertices, triangles, groups):
