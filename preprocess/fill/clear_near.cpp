@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "common/base/parallel.hpp"
+#include "preprocess/fill/triangle_distances.hpp"
 #include "preprocess/measure/closest_on_triangle.hpp"
 
 namespace ice {
@@ -22,61 +23,84 @@ constexpr double kSlack = 1e-6;      // of the distance, pitch: by how much rang
 constexpr double kSteep = 1e-3;      // |n_x| from which a plane cuts a row within reach
 constexpr double kRounding = 1e-15;  // of a cross product's factors: a few units in the last place
 
-// A triangle that knows what is quick to say about its distance from a point.
+// A triangle that knows the part of a row it is near to, and what is near it there.
 class Near {
 public:
     Near(const Vec3& a, const Vec3& b, const Vec3& c, double distance)
-        : a_(a), b_(b), c_(c), distance_(distance) {
-        const double square = distance * distance;
-        near_ = square * (1.0 - kDoubt);
-        far_ = square * (1.0 + kDoubt);
-        edge_[0] = b - a;
-        edge_[1] = c - b;
-        edge_[2] = a - c;
-        normal_ = edge_[0].cross(edge_[1]);
-        const double area = normal_.norm();
-        double longest = 0.0;
+        : sides_{{a, b, c}, {b - a, c - b, a - c}, {}, {}, {}, 0.0}, distance_(distance) {
+        sides_.normal = sides_.edge[0].cross(sides_.edge[1]);
+        const double area_sq = sides_.normal.squaredNorm();
+        double longest_sq = 0.0;
         for (std::size_t k = 0; k < 3; ++k) {
-            length_sq_[k] = edge_[k].squaredNorm();
-            longest = std::max(longest, length_sq_[k]);
+            const double length_sq = sides_.edge[k].squaredNorm();
+            sides_.per_edge_sq[k] = 1.0 / length_sq;
+            longest_sq = std::max(longest_sq, length_sq);
         }
         // the normal of a sliver is rounding: then only the exact answer counts
-        const double turn = kRounding * longest;
-        has_plane_ = turn * (std::sqrt(longest) + 2.0 * distance) < 0.1 * kSlack * distance * area;
+        const double turn = kRounding * longest_sq, most = 0.1 * kSlack * distance;
+        has_plane_ = turn * turn * (longest_sq + 4.0 * distance * distance) < most * most * area_sq;
         if (!has_plane_) return;
-        normal_ /= area;
-        for (std::size_t k = 0; k < 3; ++k) inward_[k] = normal_.cross(edge_[k]);
+        for (std::size_t k = 0; k < 3; ++k) sides_.inward[k] = sides_.normal.cross(sides_.edge[k]);
+        sides_.per_area_sq = 1.0 / area_sq;
+        reach_ = distance * (1.0 + kSlack) * std::sqrt(area_sq);
+        above_ = kSlack * reach_;
+        steep_ = std::abs(sides_.normal.x()) * distance > kSteep * reach_;
+        per_x_ = steep_ ? 1.0 / sides_.normal.x() : 0.0;
     }
 
-    bool is_near(const Vec3& p) const {
-        if (has_plane_) {
-            const Vec3 ap = p - a_;
-            const double h = normal_.dot(ap), height_sq = h * h;
-            if (height_sq > far_) return false;
-            const double e0 = inward_[0].dot(ap), e1 = inward_[1].dot(p - b_),
-                         e2 = inward_[2].dot(ap);
-            if (e0 >= 0.0 && e1 >= 0.0 && e2 >= 0.0) {
-                if (height_sq < near_) return true;
-            } else if ((e0 < 0.0 && e0 * e0 > (far_ - height_sq) * length_sq_[0]) ||
-                       (e1 < 0.0 && e1 * e1 > (far_ - height_sq) * length_sq_[1]) ||
-                       (e2 < 0.0 && e2 * e2 > (far_ - height_sq) * length_sq_[2])) {
-                return false;
-            }
+    /// Narrows the part [from, to] of the row at y, z to the inner half of the plane's slab: the
+    /// nearest triangle of a point inside the solid has the point on its inner side, or shares the
+    /// nearest corner or edge with one that has.
+    void narrow(double y, double z, double& from, double& to) const {
+        if (!has_plane_) return;
+        const Vec3 &a = sides_.corner[0], &n = sides_.normal;
+        const double height = n.y() * (y - a.y()) + n.z() * (z - a.z());
+        if (steep_) {
+            const double top = a.x() + (above_ - height) * per_x_;
+            const double bottom = a.x() - (reach_ + height) * per_x_;
+            from = std::max(from, std::min(top, bottom));
+            to = std::min(to, std::max(top, bottom));
+            return;
         }
-        return (p - closest_on_triangle(p, a_, b_, c_).point).norm() < distance_;
+        const double turn =
+            std::abs(n.x()) * std::max(std::abs(from - a.x()), std::abs(to - a.x()));
+        if (height - turn > above_ || height + turn < -reach_) to = from - 1.0;
     }
 
-    bool has_plane() const { return has_plane_; }
-    const Vec3& normal() const { return normal_; }
-    const Vec3& corner() const { return a_; }
+    /// found(k) for each point of a batch that is closer than the distance.
+    template <class Found>
+    void find(PointBatch& points, const Found& found) const {
+        const double square = distance_ * distance_;
+        double near = 0.0, far = std::numeric_limits<double>::infinity();
+        std::array<double, PointBatch::kMost> distance_sq;
+        if (has_plane_) {
+            for (std::size_t k = points.count; k % PointBatch::kPadding != 0; ++k)
+                points.x[k] = points.y[k] = points.z[k] = 0.0;
+            measure_distances(sides_, points, distance_sq.data());
+            near = square * (1.0 - kDoubt);
+            far = square * (1.0 + kDoubt);
+        } else {
+            distance_sq.fill(square);
+        }
+        for (std::size_t k = 0; k < points.count; ++k) {
+            if (distance_sq[k] > far) continue;
+            if (distance_sq[k] < near || is_near({points.x[k], points.y[k], points.z[k]})) found(k);
+        }
+    }
+
     double distance() const { return distance_; }
 
 private:
-    Vec3 a_, b_, c_, normal_;
-    std::array<Vec3, 3> edge_, inward_;  // inward: in the plane, as long as the edge
-    std::array<double, 3> length_sq_;
-    double distance_, near_, far_;
-    bool has_plane_;
+    bool is_near(const Vec3& p) const {
+        const auto& c = sides_.corner;
+        return (p - closest_on_triangle(p, c[0], c[1], c[2]).point).norm() < distance_;
+    }
+
+    TriangleSides sides_;
+    double distance_;
+    // heights over the plane are measured in units of the normal's length
+    double reach_ = 0.0, above_ = 0.0, per_x_ = 0.0;
+    bool has_plane_ = false, steep_ = false;
 };
 
 // Indices of lattice points between two reals, ends included.
@@ -91,6 +115,39 @@ struct Range {
     }
 };
 
+// Lattice points waiting for their distance from a triangle.
+class Queue {
+public:
+    Queue(const Near& triangle, LatticeBits& bits) : triangle_(triangle), bits_(bits) {}
+
+    void add(double x, double y, double z, std::size_t word, int bit) {
+        if (points_.count == PointBatch::kMost) flush();
+        const std::size_t k = points_.count++;
+        points_.x[k] = x;
+        points_.y[k] = y;
+        points_.z[k] = z;
+        word_[k] = word;
+        bit_[k] = static_cast<std::uint8_t>(bit);
+    }
+
+    void flush() {
+        if (points_.count == 0) return;
+        triangle_.find(points_, [&](std::size_t k) {
+            // threads share words, and only ever clear bits of them
+            const std::atomic_ref<std::uint64_t> word(bits_[word_[k]]);
+            word.fetch_and(~(std::uint64_t{1} << bit_[k]), std::memory_order_relaxed);
+        });
+        points_.count = 0;
+    }
+
+private:
+    const Near& triangle_;
+    LatticeBits& bits_;
+    PointBatch points_;
+    std::array<std::size_t, PointBatch::kMost> word_;
+    std::array<std::uint8_t, PointBatch::kMost> bit_;
+};
+
 class Clearer {
 public:
     Clearer(const LatticeFrame& frame, LatticeBits& bits)
@@ -99,56 +156,45 @@ public:
     // Visits the points within reach of the box of a triangle or of a piece of it.
     void clear(const Near& triangle, const Vec3& low, const Vec3& high) const {
         const double reach = triangle.distance() * (1.0 + kSlack);
-        for (int family = 0; family < frame_.families(); ++family) {
+        const double y = frame_.first.y();
+        const Range js((low.y() - reach - y) * per_.y() + frame_.middle,
+                       (high.y() + reach - y) * per_.y() + frame_.middle, frame_.count[1]);
+        const std::int64_t apart = frame_.families();
+        Queue queue(triangle, bits_);
+        for (int family = 0; family < apart; ++family) {
             const double base = frame_.height(family);
             const Range ks((low.z() - reach - base) * per_.z(),
                            (high.z() + reach - base) * per_.z(), frame_.count[2]);
-            const double y = frame_.first.y();
-            const Range js((low.y() - reach - y) * per_.y() + frame_.middle,
-                           (high.y() + reach - y) * per_.y() + frame_.middle, frame_.count[1]);
-            const std::int64_t apart = frame_.families();
             const std::int64_t first = apart == 2 ? js.from + ((js.from ^ family) & 1) : js.from;
             for (std::int64_t k = ks.from; k <= ks.to; ++k)
-                for (std::int64_t j = first; j <= js.to; j += apart)
-                    clear_row(triangle, low.x() - reach, high.x() + reach, j, k);
+                for (std::int64_t j = first; j <= js.to; j += apart) {
+                    double from = low.x() - reach, to = high.x() + reach;
+                    triangle.narrow(frame_.y(j), frame_.z(j, k), from, to);
+                    if (from <= to) ask_row(queue, from, to, j, k);
+                }
         }
+        queue.flush();
     }
 
 private:
-    // The part of a row between two x that lies in the slab of the triangle's plane.
-    void clear_row(const Near& triangle, double from, double to, std::int64_t j,
-                   std::int64_t k) const {
-        const double start = frame_.start(j, k), y = frame_.y(j), z = frame_.z(j, k);
-        if (triangle.has_plane()) {
-            const Vec3 &n = triangle.normal(), &a = triangle.corner();
-            const double reach = triangle.distance() * (1.0 + kSlack);
-            const double height = n.y() * (y - a.y()) + n.z() * (z - a.z());
-            if (std::abs(n.x()) > kSteep) {
-                const double per = 1.0 / n.x();
-                const double middle = a.x() - height * per, half = reach * std::abs(per);
-                from = std::max(from, middle - half);
-                to = std::min(to, middle + half);
-            } else {
-                const double most = std::max(std::abs(from - a.x()), std::abs(to - a.x()));
-                if (std::abs(height) > reach + std::abs(n.x()) * most) return;
-            }
-        }
+    // Queues the set points of a row between two x.
+    void ask_row(Queue& queue, double from, double to, std::int64_t j, std::int64_t k) const {
+        const double start = frame_.start(j, k);
         const Range is((from - start) * per_.x(), (to - start) * per_.x(), frame_.count[0]);
         if (is.from > is.to) return;
-        std::uint64_t* const row = bits_.data() + frame_.row(j, k) * frame_.words();
+        const std::size_t row = frame_.row(j, k) * frame_.words();
         for (std::int64_t w = is.from >> 6; w <= is.to >> 6; ++w) {
             std::uint64_t mask = ~std::uint64_t{0};
             if (w == is.from >> 6) mask <<= is.from & 63;
             if (w == is.to >> 6) mask &= ~std::uint64_t{0} >> (63 - (is.to & 63));
-            // threads share words, and only ever clear bits of them
-            const std::atomic_ref<std::uint64_t> word(row[w]);
-            std::uint64_t asked = word.load(std::memory_order_relaxed) & mask, gone = 0;
+            const std::size_t at = row + static_cast<std::size_t>(w);
+            const std::atomic_ref<std::uint64_t> word(bits_[at]);
+            std::uint64_t asked = word.load(std::memory_order_relaxed) & mask;
             for (; asked != 0; asked &= asked - 1) {
-                const std::int64_t i = 64 * w + std::countr_zero(asked);
-                const double x = start + frame_.step.x() * static_cast<double>(i);
-                if (triangle.is_near({x, y, z})) gone |= asked & (~asked + 1);
+                const int bit = std::countr_zero(asked);
+                const double x = start + frame_.step.x() * static_cast<double>(64 * w + bit);
+                queue.add(x, frame_.y(j), frame_.z(j, k), at, bit);
             }
-            if (gone != 0) word.fetch_and(~gone, std::memory_order_relaxed);
         }
     }
 

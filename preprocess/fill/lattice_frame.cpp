@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "common/base/error.hpp"
+#include "common/base/parallel.hpp"
 
 namespace ice {
 
@@ -28,17 +29,16 @@ struct FlatFace {
 };
 using FlatFaces = std::map<std::int64_t, FlatFace>;  // by height, in grains above the box's low end
 
-// Faces square to x, y, z, heights nearer than the grain taken for one.
-std::array<FlatFaces, 3> flat_faces(const TriangleMesh& mesh, const Vec3& low, double grain) {
-    std::array<FlatFaces, 3> out;
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+// Adds the faces of triangles [from, to) that are square to x, y or z.
+void add_flat_faces(const TriangleMesh& mesh, std::size_t from, std::size_t to, const Vec3& low,
+                    double grain, std::array<FlatFaces, 3>& out) {
+    for (std::size_t t = from; t < to; ++t) {
         const Vec3 a = mesh.corner(t, 0), b = mesh.corner(t, 1), c = mesh.corner(t, 2);
         const Vec3 spread = a.cwiseMax(b).cwiseMax(c) - a.cwiseMin(b).cwiseMin(c);
-        int axis = 0;
-        const double least = spread.minCoeff(&axis);
         // most triangles end here; a square face cannot be higher than its tilt allows
-        if (least > kSquare * spread.sum()) continue;
+        if (spread.minCoeff() > kSquare * spread.sum()) continue;
         const Vec3 n = mesh.area_vector(t);
+        int axis = 0;
         n.cwiseAbs().maxCoeff(&axis);
         const double across = n.squaredNorm() - n[axis] * n[axis];
         if (!(across <= kSquare * kSquare * n.squaredNorm()) || n[axis] == 0.0) continue;
@@ -48,6 +48,26 @@ std::array<FlatFaces, 3> flat_faces(const TriangleMesh& mesh, const Vec3& low, d
         face.area += n.norm();
         face.up += n[axis];
     }
+}
+
+// Faces square to x, y, z, heights nearer than the grain taken for one.
+std::array<FlatFaces, 3> flat_faces(const TriangleMesh& mesh, const Vec3& low, double grain) {
+    constexpr std::size_t kChunk = 1024;
+    std::vector<std::array<FlatFaces, 3>> chunks((mesh.triangles.size() + kChunk - 1) / kChunk);
+    parallel_for(chunks.size(), 16, [&](std::size_t k) {
+        add_flat_faces(mesh, k * kChunk, std::min((k + 1) * kChunk, mesh.triangles.size()), low,
+                       grain, chunks[k]);
+    });
+    // in order, so that the sums do not depend on the threads
+    std::array<FlatFaces, 3> out;
+    for (const auto& chunk : chunks)
+        for (std::size_t d = 0; d < 3; ++d)
+            for (const auto& [height, part] : chunk[d]) {
+                FlatFace& face = out[d][height];
+                face.at = part.at;
+                face.area += part.area;
+                face.up += part.up;
+            }
     return out;
 }
 

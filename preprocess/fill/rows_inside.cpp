@@ -35,47 +35,72 @@ Cut cut_edge(const Vec3& a, const Vec3& b, double z) {
     return {a.x() + part * (b.x() - a.x()), a.y() + part * (b.y() - a.y())};
 }
 
-// First index not below a real one, give or take one, in [0, count].
-std::int64_t index_from(double at, std::int64_t count) {
-    if (!(at > 0.0)) return 0;
-    return at < static_cast<double>(count) ? static_cast<std::int64_t>(at) : count;
-}
+constexpr double kSlack = 1e-6;  // of a step: by how much ranges of rows are widened
+
+// Row numbers that may lie between two reals; the exact comparison follows.
+struct Range {
+    std::int64_t from, to;
+
+    Range(double low, double high, std::int64_t count) {
+        const double last = static_cast<double>(count - 1);
+        from =
+            low > 0.0 ? static_cast<std::int64_t>(std::min(low + (1.0 - kSlack), last + 1.0)) : 0;
+        to = high >= -kSlack ? static_cast<std::int64_t>(std::min(high + kSlack, last)) : -1;
+    }
+};
 
 class Scanner {
 public:
     explicit Scanner(const LatticeFrame& frame)
         : frame_(frame), per_y_(1.0 / frame.step.y()), per_z_(1.0 / frame.step.z()) {}
 
-    void add_triangle(Vec3 a, Vec3 b, Vec3 c, std::vector<Crossing>& out) const {
+    void add_triangle(const Vec3& a, const Vec3& b, const Vec3& c,
+                      std::vector<Crossing>& out) const {
+        // most triangles of a fine mesh end here, between the rows
+        const Range js =
+            rows_between(std::min({a.y(), b.y(), c.y()}), std::max({a.y(), b.y(), c.y()}));
+        if (js.from > js.to) return;
+        const double low = std::min({a.z(), b.z(), c.z()}), high = std::max({a.z(), b.z(), c.z()});
+        for (int family = 0; family < frame_.families(); ++family) {
+            const double base = frame_.height(family);
+            const Range ks((low - base) * per_z_, (high - base) * per_z_, frame_.count[2]);
+            if (ks.from <= ks.to) cut_triangle({a, b, c}, family, ks, out);
+        }
+    }
+
+private:
+    Range rows_between(double low, double high) const {
+        return {(low - frame_.first.y()) * per_y_ + frame_.middle,
+                (high - frame_.first.y()) * per_y_ + frame_.middle, frame_.count[1]};
+    }
+
+    void cut_triangle(const std::array<Vec3, 3>& corners, int family, const Range& ks,
+                      std::vector<Crossing>& out) const {
         // by (z, y, x); each exchange turns the triangle over
+        const Vec3 *a = &corners[0], *b = &corners[1], *c = &corners[2];
         int sign = 1;
-        const auto order = [&](Vec3& l, Vec3& r) {
-            if (!before(r, l)) return;
+        const auto order = [&](const Vec3*& l, const Vec3*& r) {
+            if (!before(*r, *l)) return;
             std::swap(l, r);
             sign = -sign;
         };
         order(a, b);
         order(b, c);
         order(a, b);
-        for (int family = 0; family < frame_.families(); ++family) {
-            const double base = frame_.height(family);
-            for (std::int64_t k = index_from((a.z() - base) * per_z_, frame_.count[2]);
-                 k < frame_.count[2]; ++k) {
-                const double z = frame_.z(family, k);
-                if (z < a.z()) continue;
-                if (!(z < c.z())) break;
-                const Cut longer = cut_edge(a, c, z);
-                const Cut shorter = z < b.z() ? cut_edge(a, b, z) : cut_edge(b, c, z);
-                // a, b, c run up the shorter edges and down the longer one
-                if (longer.y < shorter.y)
-                    add_cut(longer, shorter, family, k, sign, out);
-                else if (shorter.y < longer.y)
-                    add_cut(shorter, longer, family, k, -sign, out);
-            }
+        for (std::int64_t k = ks.from; k <= ks.to; ++k) {
+            const double z = frame_.z(family, k);
+            if (z < a->z()) continue;
+            if (!(z < c->z())) break;
+            const Cut longer = cut_edge(*a, *c, z);
+            const Cut shorter = z < b->z() ? cut_edge(*a, *b, z) : cut_edge(*b, *c, z);
+            // a, b, c run up the shorter edges and down the longer one
+            if (longer.y < shorter.y)
+                add_cut(longer, shorter, family, k, sign, out);
+            else if (shorter.y < longer.y)
+                add_cut(shorter, longer, family, k, -sign, out);
         }
     }
 
-private:
     static bool before(const Vec3& l, const Vec3& r) {
         if (l.z() != r.z()) return l.z() < r.z();
         if (l.y() != r.y()) return l.y() < r.y();
@@ -85,10 +110,9 @@ private:
     void add_cut(const Cut& low, const Cut& high, int family, std::int64_t k, int sign,
                  std::vector<Crossing>& out) const {
         const std::int64_t apart = frame_.families();
-        std::int64_t j =
-            index_from((low.y - frame_.first.y()) * per_y_ + frame_.middle, frame_.count[1]);
-        if (apart == 2) j += (j ^ family) & 1;
-        for (; j < frame_.count[1]; j += apart) {
+        const Range js = rows_between(low.y, high.y);
+        const std::int64_t first = apart == 2 ? js.from + ((js.from ^ family) & 1) : js.from;
+        for (std::int64_t j = first; j <= js.to; j += apart) {
             const double y = frame_.y(j);
             if (y < low.y) continue;
             if (!(y < high.y)) return;
