@@ -112,12 +112,16 @@ void place_surface(const SurfaceTree& tree, const FillOptions& o, bool mirror, S
 double place_interior(const SurfaceTree& tree, const FillOptions& o, bool mirror, SphereSet& set,
                       SpheresReport& report) {
     const double r = o.radius;
-    const double cell = set.dimension == 2 ? 4.0 * r * r : 4.0 * std::numbers::sqrt2 * r * r * r;
+    const bool flat = set.dimension == 2;
+    const double cell = flat ? 4.0 * r * r : 4.0 * std::numbers::sqrt2 * r * r * r;
     if (o.arrangement == Arrangement::lattice) return 0.0;
     if (o.surface_only) return cell;
     const Timer timer;
-    const Lattice lattice = fill_lattice(tree, r, r, set.dimension, mirror);
-    set.centers.insert(set.centers.end(), lattice.centers.begin(), lattice.centers.end());
+    const LatticeFill fill = fill_lattice_rows(
+        tree.mesh(),
+        {flat ? LatticeKind::cubic : LatticeKind::hexagonal, r, r, set.dimension, mirror});
+    set.centers.resize(set.surface_count + fill.count);
+    expand(fill, std::span(set.centers).subspan(set.surface_count));
     report.seconds["interior"] = timer.seconds();
     return cell;
 }

@@ -18,9 +18,10 @@ struct FillOptions {
 
 /// Fills a closed solid with contact spheres of one radius: surface spheres first, then interior.
 ///
-/// Conforming: a layer tangent to the surface from inside (fill/shell.hpp), then a cubic lattice of
-/// pitch 2 R at least 2 R below the surface. Lattice: fill/lattice.hpp. Shares, normals and the
-/// certificate are filled in; names and provenance are the caller's.
+/// Conforming: a layer tangent to the surface from inside (fill/shell.hpp), then every point of a
+/// hexagonal close packing (in 2D a square lattice) whose sphere lies inside; the two overlap.
+/// Lattice: a cubic one alone (fill/lattice.hpp). Shares, normals and the certificate are filled
+/// in; names and provenance are the caller's.
 ///
 /// @throws Error (exit code 2) when no sphere fits, naming the largest radius that does
 SphereSet fill_spheres(const TriangleMesh& solid, const FillOptions& options,

@@ -1,32 +1,65 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <span>
 #include <vector>
 
+#include "preprocess/fill/rows_inside.hpp"
 #include "preprocess/measure/surface_tree.hpp"
 
 namespace ice {
 
-/// A cubic lattice of spheres wholly inside a solid.
+/// What a solid is filled with.
+struct LatticeOptions {
+    LatticeKind kind = LatticeKind::cubic;
+    double radius = 0.1;     ///< of the spheres [m]
+    double clearance = 0.1;  ///< smallest distance of a centre from the surface [m], > 0
+    int dimension = 3;       ///< 2: one layer of rows at y = 0
+    bool mirror = false;     ///< the solid is symmetric about y = 0
+};
+
+/// Neighbours along a row, all inside: points first, ..., first + count - 1 of row j, k.
+struct LatticeRun {
+    std::int32_t j, k;
+    std::int32_t first, count;
+};
+
+/// The lattice points inside a solid, row by row: 16 bytes per run and one bit per point of the
+/// box where a list of centres takes 24 bytes per sphere.
+struct LatticeFill {
+    LatticeFrame frame;
+    LatticeBits bits;
+    std::vector<LatticeRun> runs;  ///< ordered k slowest (along z), then j, then first
+    std::size_t count = 0;         ///< spheres, the sum over the runs
+};
+
+/// Every point of a lattice (lattice_frame.hpp says where it lies) whose distance from the surface,
+/// inside the solid, is at least the clearance. Points nearer by less than 1e-9 of the clearance
+/// count as inside, so that spheres may touch flat faces.
+///
+/// A symmetric solid gets a symmetric fill, bit for bit: a point stays only with its image.
+/// Same bits for any thread count. Cost O(triangles + rows + points near the surface); tests hold
+/// it to CGAL's answers and to SurfaceTree's, point by point.
+/// @pre the mesh is closed; it may be unwelded, and its shells may overlap
+/// @throws Error (exit code 2) when the box holds more than 1e9 lattice points
+LatticeFill fill_lattice_rows(const TriangleMesh& mesh, const LatticeOptions& options);
+
+/// Writes the centres in the order of the runs.
+/// @param out  LatticeFill::count points [m]. A fresh vector costs more than the fill: 10 ns per
+///             sphere to make its pages, 1 ns to write them.
+void expand(const LatticeFill& fill, std::span<Vec3> out);
+
+/// One byte per sphere in the order of expand(): 1 where one of the six neighbours of a cubic
+/// lattice (four in 2D) is missing. @pre cubic
+std::vector<std::uint8_t> outer_spheres(const LatticeFill& fill, int dimension);
+
+/// A lattice of spheres wholly inside a solid, as lists.
 struct Lattice {
     std::vector<Vec3> centers;        ///< ordered z slowest, x fastest
     std::vector<std::uint8_t> outer;  ///< 1 where one of the six neighbours (four in 2D) is missing
 };
 
-/// Fills a solid with a cubic lattice of pitch 2 R whose spheres lie inside it.
-///
-/// Along each axis: where flat faces square to it bound the box at both ends and the extent is a
-/// multiple of 2 R, the lattice is tangent to both, so that the paper's floe of 1 x 0.8 x 0.3 m
-/// takes 10 x 8 x 3 spheres of 0.05 m. Otherwise it is tangent to the largest flat face; centred in
-/// the box where there is none, where the two end faces are equally large, and along y for a solid
-/// that is symmetric about y = 0 (its lattice is then symmetric, bit for bit).
-///
-/// @param clearance  smallest distance of a centre from the surface [m]; R for touching spheres.
-///                   Points nearer than it by less than 1e-9 of it count as inside.
-/// @param mirror     the solid is symmetric about y = 0
-/// In 2D one layer at y = 0. Blocks far from the surface are decided as a whole, so the cost is
-/// O(surface / R^2) distances, and one byte per lattice point of the box.
-/// @throws Error (exit code 2) when the box holds more than 1e9 lattice points
+/// fill_lattice_rows() of a cubic lattice, expanded.
 Lattice fill_lattice(const SurfaceTree& tree, double radius, double clearance, int dimension,
                      bool mirror);
 
