@@ -31,9 +31,14 @@ void parallel_for(std::size_t count, std::size_t serial_below, const Body& body)
         body(static_cast<std::size_t>(k));
 }
 
-/// Calls body(k) for k in [0, count) for few, long tasks: handed out one by one. The same rules.
+/// Calls body(k) for k in [0, count) for few, long tasks, handed out one by one; on the calling
+/// thread where all of them together are not `worth` waking the others. The same rules.
 template <class Body>
-void parallel_tasks(std::size_t count, const Body& body) {
+void parallel_tasks(std::size_t count, bool worth, const Body& body) {
+    if (!worth || count < 2 || omp_get_max_threads() == 1) {
+        for (std::size_t k = 0; k < count; ++k) body(k);
+        return;
+    }
 #pragma omp parallel for schedule(dynamic, 1)
     for (std::ptrdiff_t k = 0; k < static_cast<std::ptrdiff_t>(count); ++k)
         body(static_cast<std::size_t>(k));

@@ -16,7 +16,7 @@ namespace ice {
 /// - covering radius: over places where a sphere of the set's radius can touch, the largest
 ///   distance from its centre to the nearest surface sphere that stands for the same face: the
 ///   samples, and a climb from the 512 worst;
-/// - gap: from surface samples to the union of the surface spheres, by share of the area;
+/// - gap: from surface samples to the sphere they belong to, by share of the area;
 /// - normal error: between the surface and the stored normal of the nearest sphere, over the same
 ///   samples as the covering radius, on faces (spread below 5 degrees);
 /// - thin features: connected places whose gap exceeds 2.5 radii, where no sphere fits.

@@ -131,7 +131,7 @@ void set_normals(const SurfaceTree& tree, const std::vector<std::int32_t>& twins
     set.normals.assign(count, Vec3::Zero());
     set.normal_spread.assign(count, 0.0);
     std::vector<std::vector<Vec3>> creases(count);
-    parallel_for(count, 64, [&](std::size_t k) {
+    parallel_for(count, 4096, [&](std::size_t k) {
         const double y = set.centers[k].y();
         if (!twins.empty() && y < 0.0 && twins[k] != static_cast<std::int32_t>(k)) return;
         auto directions = directions_of(tree, set, k, !twins.empty() && y == 0.0);

@@ -28,6 +28,8 @@ constexpr double kCovered = 0.62;  // a sample that has no seat this near gets o
 constexpr double kLeast = 0.4;     // between seats that close the last gaps
 constexpr double kMirrorGap = 0.15;
 
+constexpr std::size_t kManySeeds = 20000;
+
 struct Tile {
     std::array<int, 3> at;
     std::vector<Seed> seeds;
@@ -64,6 +66,9 @@ private:
         return tiles_[found->second];
     }
 
+    // A layer of a few thousand seats is done before other threads are awake.
+    bool is_large() const { return seed_count_ > kManySeeds; }
+
     void make_seeds() {
         const double size = (o_.dimension == 2 ? kLineSize : kSeedSize) * o_.spacing;
         const SurfaceSampler sampler(tree_.mesh(), size, o_.dimension, o_.mirror);
@@ -73,6 +78,7 @@ private:
             for (const SurfaceSample& sample : samples) {
                 const Vec3 seat = sample.point - o_.radius * sample.normal;
                 tile_at(tile_of(seat)).seeds.push_back({seat, sample.triangle});
+                ++seed_count_;
             }
         }
     }
@@ -86,7 +92,7 @@ private:
             for (const auto& [at, k] : index_)
                 if ((at[0] & 1) + 2 * (at[1] & 1) + 4 * (at[2] & 1) == colour) now.push_back(k);
             std::vector<std::vector<Seat>> placed(now.size());
-            parallel_tasks(now.size(), [&](std::size_t n) {
+            parallel_tasks(now.size(), is_large(), [&](std::size_t n) {
                 const Tile& tile = tiles_[now[n]];
                 ShellTile work(tree_, o_, box_of(tile));
                 know_neighbours(tile, work);
@@ -172,7 +178,7 @@ private:
     std::vector<Seed> bare_seeds(const std::vector<Seat>& seats,
                                  const std::optional<PointCells>& cells) const {
         std::vector<std::vector<Seed>> bare(tiles_.size());
-        parallel_tasks(tiles_.size(), [&](std::size_t k) {
+        parallel_tasks(tiles_.size(), is_large(), [&](std::size_t k) {
             for (const Seed& seed : tiles_[k].seeds)
                 if (!is_taken(seats, cells, seed.seat, kCovered * o_.spacing,
                               tree_.normal(seed.triangle)))
@@ -186,6 +192,7 @@ private:
     const SurfaceTree& tree_;
     ShellOptions o_;
     double width_;
+    std::size_t seed_count_ = 0;
     std::vector<Seat> lines_;
     std::vector<Tile> tiles_;
     std::map<std::array<int, 3>, std::size_t> index_;

@@ -29,7 +29,7 @@ std::optional<Seat> settle_on_line(const SurfaceTree& tree, const ShellOptions& 
 // Settled centres along a line of starts, cut where the edge is too sharp for a sphere.
 std::vector<Line> settle_line(const SurfaceTree& tree, const ShellOptions& o, const Line& starts) {
     std::vector<std::optional<Seat>> seats(starts.size());
-    parallel_for(starts.size(), 64,
+    parallel_for(starts.size(), 4096,
                  [&](std::size_t k) { seats[k] = settle_on_line(tree, o, starts[k]); });
     std::vector<Line> out(1);
     for (const auto& seat : seats) {

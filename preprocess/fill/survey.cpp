@@ -27,10 +27,10 @@ Sight look(const SurfaceTree& tree, const SphereSet& set, const SphereFinder& fi
     const Vec3 seat = sample.point - radius * sample.normal;
     const auto any = finder.nearest(seat, last);
     last = any.index;
-    out.gap = static_cast<float>(
-        std::max(finder.nearest(sample.point, any.index).distance - radius, 0.0));
     const auto near = finder.agreeing(seat, sample.normal, any);
     out.owner = near.index;
+    const Vec3& center = set.centers[static_cast<std::size_t>(near.index)];
+    out.gap = static_cast<float>(std::max((sample.point - center).norm() - radius, 0.0));
     if (!tree.is_clear(seat, radius * (1.0 - kReachable))) return out;
     out.cover = static_cast<float>(near.distance);
     const auto k = static_cast<std::size_t>(near.index);
@@ -82,7 +82,7 @@ std::vector<Sight> survey_surface(const SurfaceTree& tree, const SphereSet& set,
     constexpr std::size_t kBlock = 64;
     const std::size_t blocks = (sampler.triangle_count() + kBlock - 1) / kBlock;
     std::vector<std::vector<Sight>> found(blocks);
-    parallel_tasks(blocks, [&](std::size_t b) {
+    parallel_tasks(blocks, true, [&](std::size_t b) {
         std::vector<SurfaceSample> samples;
         std::int32_t last = -1;
         const std::size_t end = std::min(sampler.triangle_count(), (b + 1) * kBlock);

@@ -13,7 +13,7 @@ namespace ice {
 /// What one surface sample sees of the surface spheres.
 struct Sight {
     double area = 0.0;           ///< that the sample stands for [m2]
-    float gap = 0.0f;            ///< distance to the union of the spheres [m], >= 0
+    float gap = 0.0f;            ///< distance to the sphere it belongs to [m], >= 0
     float cover = -1.0f;         ///< from where a sphere would touch at the sample to the nearest
                                  ///< centre that stands for it [m]; -1 where none can touch
     float normal_error = -1.0f;  ///< between the surface's normal and the nearest sphere's [rad];
