@@ -12,6 +12,7 @@
 #include <cmath>
 
 #include "common/base/error.hpp"
+#include "preprocess/load/half_hull.hpp"
 
 namespace ice {
 
@@ -113,39 +114,6 @@ void check_finite(const TriangleMesh& mesh, const std::filesystem::path& file) {
         if (!mesh.vertices[k].allFinite())
             throw bad_input(file.string(), fmt::format("vertex {} is not a finite number", k + 1),
                             "repair or export the mesh again");
-}
-
-// Faces that lie in the plane y = 0 close a half hull there; in the whole hull they are inside it.
-std::int64_t drop_centre_plane(TriangleMesh& mesh) {
-    Eigen::AlignedBox3d box;
-    for (const Vec3& v : mesh.vertices) box.extend(v);
-    const double flat = 1e-9 * box.diagonal().norm();
-    std::size_t kept = 0;
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-        bool in_plane = true;
-        for (int k = 0; k < 3; ++k) in_plane = in_plane && std::abs(mesh.corner(t, k).y()) <= flat;
-        if (in_plane) continue;
-        mesh.triangles[kept] = mesh.triangles[t];
-        mesh.region[kept++] = mesh.region[t];
-    }
-    const auto dropped = static_cast<std::int64_t>(mesh.triangles.size() - kept);
-    mesh.triangles.resize(kept);
-    mesh.region.resize(kept);
-    return dropped;
-}
-
-void add_mirror_image(TriangleMesh& mesh) {
-    const auto vertices = static_cast<std::int32_t>(mesh.vertices.size());
-    const std::size_t triangles = mesh.triangles.size();
-    for (std::int32_t k = 0; k < vertices; ++k) {
-        const Vec3 v = mesh.vertices[static_cast<std::size_t>(k)];
-        mesh.vertices.emplace_back(v.x(), -v.y(), v.z());
-    }
-    for (std::size_t t = 0; t < triangles; ++t) {
-        const auto [a, b, c] = mesh.triangles[t];
-        mesh.triangles.push_back({a + vertices, c + vertices, b + vertices});
-        mesh.region.push_back(mesh.region[t]);
-    }
 }
 
 TriangleMesh read_with_assimp(const std::filesystem::path& file) {

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "preprocess/load/half_hull.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "preprocess/load/symmetry.hpp"
+
+namespace ice {
+
+namespace {
+
+// Twice this is the distance within which weld() joins vertices.
+double flatness(const TriangleMesh& mesh) {
+    const Eigen::AlignedBox3d box = bounding_box(mesh);
+    return box.isEmpty() ? 0.0 : 5e-7 * box.diagonal().norm();
+}
+
+bool in_centre_plane(const TriangleMesh& mesh, std::size_t t, double flat) {
+    for (int k = 0; k < 3; ++k)
+        if (std::abs(mesh.corner(t, k).y()) > flat) return false;
+    return true;
+}
+
+// For each vertex the first one at the same place, so that unwelded files have edges in common.
+std::vector<std::int32_t> first_at_place(const std::vector<Vec3>& vertices) {
+    std::vector<std::int32_t> order(vertices.size()), first(vertices.size());
+    std::iota(order.begin(), order.end(), 0);
+    const auto place = [&](std::int32_t k) {
+        const Vec3& v = vertices[static_cast<std::size_t>(k)];
+        return std::array{v.x(), v.y(), v.z()};
+    };
+    std::sort(order.begin(), order.end(), [&](std::int32_t l, std::int32_t r) {
+        return std::pair(place(l), l) < std::pair(place(r), r);
+    });
+    for (std::size_t k = 0; k < order.size(); ++k) {
+        const bool same = k > 0 && place(order[k]) == place(order[k - 1]);
+        first[static_cast<std::size_t>(order[k])] =
+            same ? first[static_cast<std::size_t>(order[k - 1])] : order[k];
+    }
+    return first;
+}
+
+using Edge = std::pair<std::int32_t, std::int32_t>;
+
+// Edges in y = 0 that one triangle alone has.
+std::vector<Edge> open_centre_edges(const TriangleMesh& mesh, double flat) {
+    const std::vector<std::int32_t> first = first_at_place(mesh.vertices);
+    const auto flat_vertex = [&](std::int32_t k) {
+        return std::abs(mesh.vertices[static_cast<std::size_t>(k)].y()) <= flat;
+    };
+    std::vector<Edge> edges;
+    for (const auto& t : mesh.triangles)
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::int32_t a = first[static_cast<std::size_t>(t[k])];
+            const std::int32_t b = first[static_cast<std::size_t>(t[(k + 1) % 3])];
+            if (a != b && flat_vertex(a) && flat_vertex(b)) edges.push_back(std::minmax(a, b));
+        }
+    std::sort(edges.begin(), edges.end());
+    std::vector<Edge> open;
+    for (std::size_t k = 0; k < edges.size();) {
+        std::size_t end = k;
+        while (end < edges.size() && edges[end] == edges[k]) ++end;
+        if (end - k == 1) open.push_back(edges[k]);
+        k = end;
+    }
+    return open;
+}
+
+// Whether something in the centre plane reaches over half of the mesh, along or upwards.
+bool reaches_far(const Eigen::AlignedBox3d& part, const Eigen::AlignedBox3d& whole) {
+    if (part.isEmpty()) return false;
+    const Vec3 p = part.sizes(), w = whole.sizes();
+    return p.x() >= 0.5 * w.x() && p.z() >= 0.5 * w.z();
+}
+
+}  // namespace
+
+HalfHull looks_like_half_hull(const TriangleMesh& mesh) {
+    HalfHull half;
+    const Eigen::AlignedBox3d box = bounding_box(mesh);
+    const double flat = flatness(mesh);
+    if (box.isEmpty() || box.sizes().y() <= 2.0 * flat) return half;
+    half.port = box.min().y() >= -flat;
+    if (!half.port && box.max().y() > flat) return half;
+
+    Eigen::AlignedBox3d closed, open;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+        if (in_centre_plane(mesh, t, flat)) {
+            ++half.centre_plane_triangles;
+            for (int k = 0; k < 3; ++k) closed.extend(mesh.corner(t, k));
+        }
+    for (const auto& [a, b] : open_centre_edges(mesh, flat)) {
+        ++half.open_edges;
+        open.extend(mesh.vertices[static_cast<std::size_t>(a)]);
+        open.extend(mesh.vertices[static_cast<std::size_t>(b)]);
+    }
+    const bool far_open = reaches_far(open, box), far_closed = reaches_far(closed, box);
+    if (far_open && !far_closed)
+        half.kind = HalfHull::Kind::open;
+    else if (far_closed && !far_open && asymmetry(mesh, 1) > kSymmetric)
+        half.kind = HalfHull::Kind::closed;
+    return half;
+}
+
+bool is_open_half(const TriangleMesh& mesh) {
+    return looks_like_half_hull(mesh).kind == HalfHull::Kind::open;
+}
+
+std::string HalfHull::text() const {
+    if (kind == Kind::none) return {};
+    return fmt::format("this looks like half a hull (everything is on the {} side of y = 0, {})",
+                       port ? "port" : "starboard",
+                       kind == Kind::open
+                           ? fmt::format("{} open edges lie in that plane", open_edges)
+                           : fmt::format("{} triangles close it there", centre_plane_triangles));
+}
+
+std::int64_t drop_centre_plane(TriangleMesh& mesh) {
+    const double flat = flatness(mesh);
+    std::size_t kept = 0;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        if (in_centre_plane(mesh, t, flat)) continue;
+        mesh.triangles[kept] = mesh.triangles[t];
+        mesh.region[kept++] = mesh.region[t];
+    }
+    const auto dropped = static_cast<std::int64_t>(mesh.triangles.size() - kept);
+    mesh.triangles.resize(kept);
+    mesh.region.resize(kept);
+    return dropped;
+}
+
+void add_mirror_image(TriangleMesh& mesh) {
+    std::vector<std::int32_t> image(mesh.vertices.size());
+    for (std::size_t k = 0; k < image.size(); ++k) {
+        const Vec3 v = mesh.vertices[k];
+        if (v.y() == 0.0) {
+            image[k] = static_cast<std::int32_t>(k);
+            continue;
+        }
+        image[k] = static_cast<std::int32_t>(mesh.vertices.size());
+        mesh.vertices.emplace_back(v.x(), -v.y(), v.z());
+    }
+    const auto at = [&](std::int32_t k) { return image[static_cast<std::size_t>(k)]; };
+    const std::size_t triangles = mesh.triangles.size();
+    for (std::size_t t = 0; t < triangles; ++t) {
+        const auto [a, b, c] = mesh.triangles[t];
+        mesh.triangles.push_back({at(a), at(c), at(b)});
+        mesh.region.push_back(mesh.region[t]);
+    }
+}
+
+}  // namespace ice
