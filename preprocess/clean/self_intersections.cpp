@@ -91,8 +91,7 @@ std::vector<std::pair<std::size_t, std::size_t>> find_self_intersections(const T
     }
     std::vector<std::pair<std::size_t, std::size_t>> candidates;
     CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box& a, const Box& b) {
-        const auto [low, high] = std::minmax(a.info(), b.info());
-        candidates.emplace_back(low, high);
+        candidates.emplace_back(std::min(a.info(), b.info()), std::max(a.info(), b.info()));
     });
     std::vector<std::uint8_t> found(candidates.size(), 0);
     parallel_for(candidates.size(), 1000, [&](std::size_t k) {
