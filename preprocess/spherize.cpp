@@ -16,6 +16,7 @@
 #include "common/cli/console.hpp"
 #include "common/formats/spheres_file.hpp"
 #include "preprocess/fill/fill_spheres.hpp"
+#include "preprocess/load/cut_off.hpp"
 #include "preprocess/load/read_mesh.hpp"
 #include "preprocess/repair/check_solid.hpp"
 #include "preprocess/repair/make_solid.hpp"
@@ -112,13 +113,14 @@ ice::TriangleMesh read_surface(const Options& o, ice::SpheresReport& report) {
 ice::TriangleMesh read_solid(const Options& o, ice::TriangleMesh surface,
                              ice::SpheresReport& report) {
     ice::SolidOptions options;
-    options.kind =
-        o.solid == "material" ? ice::SolidKind::material : ice::SolidKind::envelope;
+    options.kind = o.solid == "material" ? ice::SolidKind::material : ice::SolidKind::envelope;
     options.mode = o.repair == "strict" ? ice::RepairMode::strict
                    : o.repair == "wrap" ? ice::RepairMode::wrap
                                         : ice::RepairMode::automatic;
-    ice::TriangleMesh mesh = ice::make_solid(std::move(surface), o.mesh, options, report.repairs,
-                                             &report.warnings);
+    options.suspect = ice::looks_cut_off(o.mesh);
+    if (!options.suspect.empty()) report.warnings.push_back(options.suspect);
+    ice::TriangleMesh mesh =
+        ice::make_solid(std::move(surface), o.mesh, options, report.repairs, &report.warnings);
     doubt_size(mesh, report);
     return mesh;
 }

@@ -26,10 +26,9 @@ std::map<Triple, std::vector<std::size_t>> group_by_corners(const TriangleMesh& 
         if (edge.count > 2 || (edge.count == 2 && !edge.regular()))
             crowded[static_cast<std::size_t>(edge.a)] = crowded[static_cast<std::size_t>(edge.b)] =
                 1;
-        else if (edge.count == 2 && sorted(mesh.triangles[static_cast<std::size_t>(
-                                        edge.triangles[0])]) ==
-                                        sorted(mesh.triangles[static_cast<std::size_t>(
-                                            edge.triangles[1])]))
+        else if (edge.count == 2 &&
+                 sorted(mesh.triangles[static_cast<std::size_t>(edge.triangles[0])]) ==
+                     sorted(mesh.triangles[static_cast<std::size_t>(edge.triangles[1])]))
             crowded[static_cast<std::size_t>(edge.a)] = crowded[static_cast<std::size_t>(edge.b)] =
                 1;
     std::map<Triple, std::vector<std::size_t>> groups;
@@ -72,8 +71,8 @@ RepeatCounts drop_repeats(TriangleMesh& mesh) {
         int needed = 0;
         for (const auto& [a, b] : {std::pair(corner[0], corner[1]), std::pair(corner[1], corner[2]),
                                    std::pair(corner[0], corner[2])})
-            needed += alone.at({a, b}) % 2 == 0 ? 1 : -1;
-        const bool one_stays = needed > 0;
+            if (alone.at({a, b}) > 1) needed += alone.at({a, b}) % 2 == 0 ? 1 : -1;
+        const bool one_stays = needed >= 0;
         for (std::size_t k = one_stays ? 1 : 0; k < members.size(); ++k) keep[members[k]] = 0;
         const auto dropped = static_cast<std::int64_t>(members.size()) - (one_stays ? 1 : 0);
         (one_stays ? counts.copies : counts.walls) += dropped;

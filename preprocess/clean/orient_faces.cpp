@@ -40,9 +40,8 @@ void flip(TriangleMesh& mesh) {
 
 std::int64_t orient_faces(TriangleMesh& mesh) {
     const auto edges = edge_table(mesh);
-    if (std::none_of(edges.begin(), edges.end(), [](const MeshEdge& edge) {
-            return edge.count == 2 && !edge.regular();
-        }))
+    if (std::none_of(edges.begin(), edges.end(),
+                     [](const MeshEdge& edge) { return edge.count == 2 && !edge.regular(); }))
         return 0;
     const auto neighbours = find_neighbours(mesh, edges);
     enum : std::uint8_t { unseen, as_is, turned };

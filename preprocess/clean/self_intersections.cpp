@@ -85,9 +85,9 @@ std::vector<std::pair<std::size_t, std::size_t>> find_self_intersections(const T
         Triple corner = mesh.triangles[t];
         for (std::int32_t& v : corner) v = equal[static_cast<std::size_t>(v)];
         soup.triangles.push_back(corner);
-        boxes.emplace_back(soup.at(corner[0]).bbox() + soup.at(corner[1]).bbox() +
-                               soup.at(corner[2]).bbox(),
-                           static_cast<std::int32_t>(t));
+        boxes.emplace_back(
+            soup.at(corner[0]).bbox() + soup.at(corner[1]).bbox() + soup.at(corner[2]).bbox(),
+            static_cast<std::int32_t>(t));
     }
     std::vector<std::pair<std::size_t, std::size_t>> candidates;
     CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box& a, const Box& b) {
@@ -95,8 +95,8 @@ std::vector<std::pair<std::size_t, std::size_t>> find_self_intersections(const T
     });
     std::vector<std::uint8_t> found(candidates.size(), 0);
     parallel_for(candidates.size(), 1000, [&](std::size_t k) {
-        found[k] = cross(soup, soup.triangles[candidates[k].first],
-                         soup.triangles[candidates[k].second]);
+        found[k] =
+            cross(soup, soup.triangles[candidates[k].first], soup.triangles[candidates[k].second]);
     });
     std::vector<std::pair<std::size_t, std::size_t>> pairs;
     for (std::size_t k = 0; k < found.size(); ++k)

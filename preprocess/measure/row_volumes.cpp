@@ -88,7 +88,8 @@ private:
                 const double wb = side_of(c, a, pu, pv, u_, v_);
                 const double wc = side_of(a, b, pu, pv, u_, v_);
                 if ((wa > 0) != (wb > 0) || (wb > 0) != (wc > 0)) continue;
-                const double depth = (wa * a[axis_] + wb * b[axis_] + wc * c[axis_]) / (wa + wb + wc);
+                const double depth =
+                    (wa * a[axis_] + wb * b[axis_] + wc * c[axis_]) / (wa + wb + wc);
                 // anticlockwise across the row: the normal points along it, the row leaves
                 crossings_.push_back({depth, row, wa > 0 ? -1 : 1});
             }

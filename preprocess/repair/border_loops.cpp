@@ -79,7 +79,8 @@ private:
     void follow(std::int32_t start, Step& first) {
         std::vector<std::int32_t> path{start}, along;
         std::map<std::int32_t, std::size_t> place{{start, 0}};
-        for (Step* step = &first; step != nullptr; step = choose(path[path.size() - 2], path.back())) {
+        for (Step* step = &first; step != nullptr;
+             step = choose(path[path.size() - 2], path.back())) {
             step->used = true;
             along.push_back(step->neighbour);
             const auto seen = place.find(step->to);

@@ -9,8 +9,9 @@ namespace ice {
 
 /// A hole's edge: a simple closed walk along what the surface leaves open.
 struct BorderLoop {
-    std::vector<std::int32_t> vertices;    ///< n, so that a cap in this order faces as the surface
-    std::vector<std::int32_t> neighbours;  ///< n triangles: the one along the edge k -> k + 1, or -1
+    std::vector<std::int32_t> vertices;  ///< n, so that a cap in this order faces as the surface
+    std::vector<std::int32_t>
+        neighbours;  ///< n triangles: the one along the edge k -> k + 1, or -1
 };
 
 /// Where the boundary of the surface, taken as a chain, is not zero: along each edge the triangles

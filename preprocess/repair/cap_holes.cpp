@@ -95,12 +95,11 @@ Cap append(TriangleMesh& mesh, const BorderLoop& loop, const std::vector<Triple>
         cap.rim.push_back({at->second, loop.neighbours[k], length});
         region_length[mesh.region[static_cast<std::size_t>(loop.neighbours[k])]] += length;
     }
-    const auto longest = std::max_element(
-        region_length.begin(), region_length.end(),
-        [](const auto& l, const auto& r) { return l.second < r.second; });
+    const auto longest =
+        std::max_element(region_length.begin(), region_length.end(),
+                         [](const auto& l, const auto& r) { return l.second < r.second; });
     mesh.triangles.insert(mesh.triangles.end(), patch.begin(), patch.end());
-    mesh.region.resize(mesh.triangles.size(),
-                       longest == region_length.end() ? 0 : longest->first);
+    mesh.region.resize(mesh.triangles.size(), longest == region_length.end() ? 0 : longest->first);
     return cap;
 }
 

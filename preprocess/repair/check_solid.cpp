@@ -77,9 +77,8 @@ std::vector<Opening> find_openings(const TriangleMesh& mesh) {
         }
         openings.push_back(opening);
     }
-    std::stable_sort(
-        openings.begin(), openings.end(),
-        [](const Opening& l, const Opening& r) { return l.perimeter > r.perimeter; });
+    std::stable_sort(openings.begin(), openings.end(),
+                     [](const Opening& l, const Opening& r) { return l.perimeter > r.perimeter; });
     return openings;
 }
 
@@ -96,9 +95,9 @@ std::string describe_mesh(TriangleMesh mesh) {
     };
     line("triangles", fmt::format("{} in {} parts; {} repeated or without area", triangles, d.parts,
                                   welded.duplicate_triangles + welded.degenerate_triangles));
-    line("box", fmt::format("x {:.6g} to {:.6g}, y {:.6g} to {:.6g}, z {:.6g} to {:.6g} m",
-                            box.min().x(), box.max().x(), box.min().y(), box.max().y(),
-                            box.min().z(), box.max().z()));
+    line("box",
+         fmt::format("x {:.6g} to {:.6g}, y {:.6g} to {:.6g}, z {:.6g} to {:.6g} m", box.min().x(),
+                     box.max().x(), box.min().y(), box.max().y(), box.min().z(), box.max().z()));
     line("signed volume", fmt::format("{:.6g} m3{}", d.volume,
                                       d.inside_out ? ", inside out"
                                       : d.closed() ? ""

@@ -37,8 +37,8 @@ std::vector<std::uint8_t> find_scraps(const TriangleMesh& mesh, const Parts& par
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
         area[static_cast<std::size_t>(parts.of_triangle[t])] += mesh.area_vector(t).norm();
     for (const Cap& cap : caps) {
-        const auto part = static_cast<std::size_t>(
-            parts.of_triangle[static_cast<std::size_t>(cap.first)]);
+        const auto part =
+            static_cast<std::size_t>(parts.of_triangle[static_cast<std::size_t>(cap.first)]);
         scrap[part] = std::abs(volumes[part]) <= kScrap * std::pow(area[part], 1.5);
     }
     return scrap;
@@ -102,6 +102,9 @@ ClosedSurface close_surface(TriangleMesh mesh, const SolidOptions& options, Repa
     const RepeatCounts repeats = drop_repeats(mesh);
     note("repeated triangles dropped", repeats.copies);
     note("triangles of walls without thickness dropped", repeats.walls);
+    // copies that face the other way hid the cracks beside them from the first welding
+    if (repeats.copies > 0)
+        note("near vertices beside repeated triangles merged", weld(mesh).near_vertices);
     if (is_open_half(mesh)) mirror(mesh, repairs);
     note("triangles turned to agree with their neighbours", orient_faces(mesh));
 

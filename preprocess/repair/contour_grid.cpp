@@ -84,9 +84,9 @@ private:
     std::int32_t vertex(std::size_t base, Cut e) {
         const std::size_t in = base + offset_[e.first], out = base + offset_[e.second];
         // the lower end and which of the seven directions
-        const std::size_t key = std::min(in, out) * 8 + static_cast<std::size_t>(e.first ^ e.second);
-        const auto [at, fresh] =
-            known_.try_emplace(key, static_cast<std::int32_t>(edges_.size()));
+        const std::size_t key =
+            std::min(in, out) * 8 + static_cast<std::size_t>(e.first ^ e.second);
+        const auto [at, fresh] = known_.try_emplace(key, static_cast<std::int32_t>(edges_.size()));
         if (fresh) edges_.emplace_back(in, out);
         return at->second;
     }

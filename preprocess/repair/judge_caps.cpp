@@ -11,11 +11,11 @@ namespace ice {
 
 namespace {
 
-constexpr double kDoubt = 0.005;      // of the volume: all caps together
-constexpr double kTrifle = 0.0005;    // of the volume: one cap whose kind need not be known
-constexpr double kSuspect = 0.005;    // of the surface: largest cap in a file that seems cut off
-constexpr double kContinued = 0.2;    // of the surface: all continued faces together
-constexpr double kLoose = 0.05;       // of the surface: all small caps together
+constexpr double kDoubt = 0.005;    // of the volume: all caps together
+constexpr double kTrifle = 0.0005;  // of the volume: one cap whose kind need not be known
+constexpr double kSuspect = 0.005;  // of the surface: largest cap in a file that seems cut off
+constexpr double kContinued = 0.2;  // of the surface: all continued faces together
+constexpr double kLoose = 0.05;     // of the surface: all small caps together
 const double kFlat = std::cos(std::numbers::pi / 180.0);  // one degree
 
 struct Plane {
@@ -49,8 +49,8 @@ public:
             const auto tt = static_cast<std::size_t>(t);
             const double area = mesh_.area_vector(tt).norm();
             out.area += area;
-            out.at += area *
-                      (mesh_.corner(tt, 0) + mesh_.corner(tt, 1) + mesh_.corner(tt, 2)) / 3.0;
+            out.at +=
+                area * (mesh_.corner(tt, 0) + mesh_.corner(tt, 1) + mesh_.corner(tt, 2)) / 3.0;
             if (!continues(tt, planes)) guessed += area;
         }
         if (out.area > 0.0) out.at /= out.area;
@@ -77,7 +77,8 @@ public:
             walls += edge.length * normal(edge.neighbour).z();
             length += edge.length;
         }
-        return sum.z() >= 0.9 * area && walls <= 0.3 * length && spans_and_tops(cap);
+        return sum.z() >= 0.9 * area && walls <= 0.3 * length && walls >= -0.6 * length &&
+               spans_and_tops(cap);
     }
 
 private:

@@ -27,8 +27,8 @@ struct CapVerdict {
 /// A (2 A / P) tan(a / 2) / 2 in the volume: exactly the lens between a flat cap and the sphere that
 /// goes on from its rim, and about half of a body that goes on straight. Triangles that go on in the
 /// plane of a neighbour leave none. Caps stand while their doubts add up to at most 0.5 % of the
-/// volume. Beyond that a cap stands only as a deck: it faces up, the walls at its rim do not lean
-/// inwards, it reaches over 60 % of the length and the breadth of its part, and nothing of the part
+/// volume. Beyond that a cap stands only as a deck: it faces up, the walls at its rim stand
+/// (they lean inwards by less than 17 degrees, outwards by less than 37), it reaches over 60 % of the length and the breadth of its part, and nothing of the part
 /// stands above it.
 ///
 /// @param mesh    closed by `caps`, each part facing outwards

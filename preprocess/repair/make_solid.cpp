@@ -87,9 +87,9 @@ private:
             if (cap.kind == CapKind::guess) throw too_large(cap, closed.surface);
             caps += cap.area;
             if (cap.kind == CapKind::deck)
-                warnings_.push_back(fmt::format(
-                    "the open deck at {} was closed by a cap of {:.3g} m2", place(cap.at),
-                    cap.area));
+                warnings_.push_back(
+                    fmt::format("the open deck at {} was closed by a cap of {:.3g} m2",
+                                place(cap.at), cap.area));
             else if (cap.area > kWorthWarning * closed.surface)
                 warnings_.push_back(fmt::format(
                     "an opening of {:.3g} m2 at {} was closed {}", cap.area, place(cap.at),
@@ -108,10 +108,10 @@ private:
     }
 
     Error too_large(const CapVerdict& cap, double surface) const {
-        const std::string size =
-            fmt::format("an opening of {:.3g} m2 ({:.2g} % of the surface) at {} is too large to "
-                        "guess",
-                        cap.area, 100.0 * cap.area / surface, place(cap.at));
+        const std::string size = fmt::format(
+            "an opening of {:.3g} m2 ({:.2g} % of the surface) at {} is too large to "
+            "guess",
+            cap.area, 100.0 * cap.area / surface, place(cap.at));
         return refusal(
             options_.suspect.empty() ? size : size + ", and " + options_.suspect,
             options_.suspect.empty()
@@ -176,8 +176,7 @@ private:
         const SolidProof proof = verify_solid(solid.mesh);
         const double expected = measure_rows(mesh, 300)[0].by_winding;
         if (!proof.good || proof.volume < (1.0 - kContourError) * expected) return std::nullopt;
-        if (options_.kind == SolidKind::material &&
-            proof.volume > (1.0 + kContourError) * expected)
+        if (options_.kind == SolidKind::material && proof.volume > (1.0 + kContourError) * expected)
             return std::nullopt;
         note("surface contoured anew from the winding number, triangles",
              static_cast<std::int64_t>(solid.mesh.triangles.size()));
@@ -239,7 +238,8 @@ private:
         const ShellCounts shells = choose_shells(mesh, options_.kind);
         if (mesh.triangles.empty()) throw refusal("the volume is zero");
         if (shells.flipped > 0 && options_.mode == RepairMode::strict)
-            throw refusal("the surface is inside out", "turn it over, or leave out --repair strict");
+            throw refusal("the surface is inside out",
+                          "turn it over, or leave out --repair strict");
         note_shells(shells);
         return mesh;
     }

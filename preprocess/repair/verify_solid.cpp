@@ -57,8 +57,8 @@ SolidProof verify_solid(const TriangleMesh& mesh, double overlap_allowed) {
         if (proof.row_error <= kRowError) break;
     }
     if (proof.row_error > kRowError)
-        proof.fault = fmt::format("its volume along three axes differs by {:.2g} %",
-                                  100.0 * proof.row_error);
+        proof.fault =
+            fmt::format("its volume along three axes differs by {:.2g} %", 100.0 * proof.row_error);
     else if (proof.overlap > overlap_allowed)
         proof.fault = fmt::format("{:.2g} % of its volume is counted twice or not at all",
                                   100.0 * proof.overlap);

@@ -10,10 +10,10 @@ namespace ice {
 /// Tests that are independent of how a solid was made.
 struct SolidProof {
     bool good = false;
-    std::string fault;         ///< what failed; empty where good
-    double volume = 0.0;       ///< exact integral over the surface [m3]
-    double row_error = 0.0;    ///< worst of three axes: row volume against the exact one, relative
-    double overlap = 0.0;      ///< worst of three axes: winding and parity against signs, relative
+    std::string fault;       ///< what failed; empty where good
+    double volume = 0.0;     ///< exact integral over the surface [m3]
+    double row_error = 0.0;  ///< worst of three axes: row volume against the exact one, relative
+    double overlap = 0.0;    ///< worst of three axes: winding and parity against signs, relative
 };
 
 /// Every edge has two triangles that face the same side; the volume is positive; rows along x, y and

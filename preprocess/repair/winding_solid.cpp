@@ -13,9 +13,9 @@ namespace ice {
 
 namespace {
 
-constexpr double kCells = 200.0;   // along the longest side
-constexpr double kNodes = 1.0e6;   // at most, or cells grow
-constexpr int kBisections = 7;     // of a cell: 1/128
+constexpr double kCells = 200.0;  // along the longest side
+constexpr double kNodes = 1.0e6;  // at most, or cells grow
+constexpr int kBisections = 7;    // of a cell: 1/128
 
 Grid make_grid(const TriangleMesh& mesh) {
     Eigen::AlignedBox3d box;
@@ -23,9 +23,7 @@ Grid make_grid(const TriangleMesh& mesh) {
     const Vec3 size = box.sizes();
     Grid grid;
     grid.step = size.maxCoeff() / kCells;
-    const auto nodes_at = [&](double step) {
-        return ((size / step).array() + 4.0).prod();
-    };
+    const auto nodes_at = [&](double step) { return ((size / step).array() + 4.0).prod(); };
     while (nodes_at(grid.step) > kNodes) grid.step *= 1.05;
     // off the faces of the model, which lie at round numbers
     const Vec3 shift(0.3819660113, 0.4142135624, 0.4472135955);
@@ -62,9 +60,9 @@ WindingSolid winding_solid(const TriangleMesh& mesh, SolidKind kind) {
     WindingSolid out;
     out.cell = grid.step;
     if (kind == SolidKind::envelope) fill_voids(grid, inside);
-    out.unclear = static_cast<double>(std::count(vague.begin(), vague.end(), 1)) /
-                  std::max<double>(1.0, static_cast<double>(
-                                            std::count(inside.begin(), inside.end(), 1)));
+    out.unclear =
+        static_cast<double>(std::count(vague.begin(), vague.end(), 1)) /
+        std::max<double>(1.0, static_cast<double>(std::count(inside.begin(), inside.end(), 1)));
     out.mesh = contour_grid(grid, inside, [&](const Vec3& in, const Vec3& outer) {
         double low = 0.0, high = 1.0;
         for (int k = 0; k < kBisections; ++k) {

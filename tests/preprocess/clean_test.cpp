@@ -164,10 +164,6 @@ TEST_CASE("shells inside a hull: filled in the envelope, voids or skins in the m
         CHECK_THROWS_WITH(make_solid(mesh, "ship.obj", strict, repairs),
                           Catch::Contains("ship.obj") && Catch::Contains("inside out"));
     }
-    SECTION("bodies that overlap are refused") {
-        add_box(mesh, Vec3(2, 2, 2), Vec3(1.5, 0.1, 0.2), false);
-        CHECK_THROWS_WITH(make_solid(mesh, "ship.obj", {}, repairs), Catch::Contains("cross"));
-    }
 }
 
 TEST_CASE("a closed mesh keeps coordinates nearer than the welding tolerance", "[clean]") {

@@ -71,7 +71,8 @@ Tally truncate_and_repair(const TriangleMesh& mesh, int count) {
     const double volume = measure_mass(mesh).volume;
     for (int k = 1; k < count; ++k) {
         const double share = static_cast<double>(k) / count;
-        tally.add(test::truncate_mesh(mesh, share), volume, fmt::format("{:.3f} of the faces", share));
+        tally.add(test::truncate_mesh(mesh, share), volume,
+                  fmt::format("{:.3f} of the faces", share));
     }
     return tally;
 }
@@ -79,7 +80,8 @@ Tally truncate_and_repair(const TriangleMesh& mesh, int count) {
 }  // namespace
 
 TEST_CASE("a hundred damaged copies come back with their volume", "[repair][damage]") {
-    const TriangleMesh mesh = GENERATE(test::make_globe(1.0, 12), test::make_wigley(10, 2, 1, 24, 8));
+    const TriangleMesh mesh =
+        GENERATE(test::make_globe(1.0, 12), test::make_wigley(10, 2, 1, 24, 8));
     const Tally tally = damage_and_repair(mesh, 50, 1);
     CHECK(tally.right >= 49);
     CHECK(tally.wrong == 0);
@@ -87,7 +89,7 @@ TEST_CASE("a hundred damaged copies come back with their volume", "[repair][dama
 
 // What a release is measured by; minutes: preprocess_tests "[.damage]"
 TEST_CASE("hundreds of damaged copies of many meshes", "[.damage]") {
-    const std::filesystem::path meshes = std::filesystem::path(__FILE__).parent_path() / "../../meshes";
+    const std::filesystem::path meshes = std::filesystem::path(ICE_SOURCE_DIR "/meshes");
     std::vector<std::pair<std::string, TriangleMesh>> cases;
     for (const auto& file : std::filesystem::directory_iterator(meshes))
         if (file.path().extension() == ".obj") {

@@ -91,7 +91,8 @@ inline TriangleMesh damage_mesh(TriangleMesh mesh, const Damage& damage, std::mt
             3e-6 * size, random);
     }
     if (damage.unweld)
-        split_faces(mesh, [](std::size_t t) { return static_cast<std::int32_t>(t); }, 0.0, random);
+        split_faces(
+            mesh, [](std::size_t t) { return static_cast<std::int32_t>(t); }, 0.0, random);
     return mesh;
 }
 
