@@ -55,7 +55,7 @@ public:
                 const Crossing& c = crossings_[k];
                 const double behind = count == 0 ? 0.0 : c.depth - crossings_[k - 1].depth;
                 out.by_sign += area * winding * behind;
-                if (winding != 0) out.by_winding += area * behind;
+                if (winding > 0) out.by_winding += area * behind;
                 if (count % 2 == 1) out.by_parity += area * behind;
                 winding += c.sign;
                 ++count;

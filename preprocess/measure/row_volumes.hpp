@@ -11,7 +11,7 @@ namespace ice {
 /// outward surface that does not cross itself they are equal but for rounding.
 struct RowVolume {
     double by_sign = 0.0;        ///< crossings with their sign: tends to the signed volume
-    double by_winding = 0.0;     ///< where the winding number along the row is not zero
+    double by_winding = 0.0;     ///< where the winding number along the row is positive
     double by_parity = 0.0;      ///< where an odd number of crossings lies before
     std::int64_t open_rows = 0;  ///< rows that leave through a hole: their signs do not cancel
 };

@@ -12,7 +12,7 @@ namespace ice {
 ///
 /// Jacobson et al., "Robust inside-outside segmentation using generalized winding numbers", SIGGRAPH
 /// 2013; far triangles together as one dipole, Barill et al., "Fast winding numbers for soups and
-/// clouds", SIGGRAPH 2018 (first order, beta = 2: errors of a percent or two, far from the 0.5 that
+/// clouds", SIGGRAPH 2018 (first order, beta = 2: errors of up to 0.04, far from the 0.5 that
 /// decides). A triangle without area counts nothing. Thread-safe once built. Build O(T log T).
 class WindingNumber {
 public:

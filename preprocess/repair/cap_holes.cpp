@@ -16,6 +16,8 @@ namespace {
 using Key = std::pair<std::int32_t, std::int32_t>;
 using Triple = std::array<std::int32_t, 3>;
 
+constexpr std::size_t kDeckCorners = 8;  // holes of fewer are not worth a second triangulation
+
 Key edge_key(std::int32_t a, std::int32_t b) { return std::minmax(a, b); }
 
 // The far corners of the triangles around the loop.
@@ -59,12 +61,27 @@ std::vector<Triple> fan(TriangleMesh& mesh, const BorderLoop& loop) {
     return out;
 }
 
+double area_of(const std::vector<Vec3>& points, const std::vector<Triple>& patch) {
+    double area = 0.0;
+    for (const Triple& t : patch) {
+        const auto at = [&](std::size_t k) { return points[static_cast<std::size_t>(t[k])]; };
+        area += 0.5 * (at(1) - at(0)).cross(at(2) - at(0)).norm();
+    }
+    return area;
+}
+
 std::vector<Triple> patch_of(TriangleMesh& mesh, const BorderLoop& loop,
                              const std::set<Key>& known) {
     std::vector<Vec3> points;
     for (const std::int32_t v : loop.vertices)
         points.push_back(mesh.vertices[static_cast<std::size_t>(v)]);
-    const auto local = fill_loop(points, points_across(mesh, loop));
+    auto local = fill_loop(points, points_across(mesh, loop));
+    if (points.size() >= kDeckCorners) {
+        // the smoothest surface over a sheer line is a dome from stem to stern
+        auto plan = fill_loop_in_plan(points);
+        if (!plan.empty() && (local.empty() || area_of(points, plan) < area_of(points, local)))
+            local = std::move(plan);
+    }
     if (!is_new(local, loop, known)) return fan(mesh, loop);
     std::vector<Triple> out;
     for (const Triple& t : local)

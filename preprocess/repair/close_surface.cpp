@@ -124,6 +124,7 @@ ClosedSurface close_surface(TriangleMesh mesh, const SolidOptions& options, Repa
                              [&](const CapVerdict& cap) { return cap.kind == kind; });
     };
     note("deck closed by a cap", count(CapKind::deck));
+    note("openings inside other parts closed", count(CapKind::hidden));
     note("holes in flat faces closed", count(CapKind::continued));
     note("small holes closed", count(CapKind::small));
     out.open = without_caps(mesh, caps);

@@ -17,4 +17,8 @@ namespace ice {
 std::vector<std::array<std::int32_t, 3>> fill_loop(const std::vector<Vec3>& points,
                                                    const std::vector<Vec3>& across);
 
+/// Triangles over a closed walk that are Delaunay in plan (x, y), as a deck is plated: across, from
+/// side to side, so that it follows a sheer line. Empty where the walk crosses itself in plan.
+std::vector<std::array<std::int32_t, 3>> fill_loop_in_plan(const std::vector<Vec3>& points);
+
 }  // namespace ice

@@ -3,19 +3,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <optional>
 
 #include "preprocess/clean/find_parts.hpp"
+#include "preprocess/measure/winding_number.hpp"
 
 namespace ice {
 
 namespace {
 
-constexpr double kDoubt = 0.005;    // of the volume: all caps together
-constexpr double kTrifle = 0.0005;  // of the volume: one cap whose kind need not be known
-constexpr double kSuspect = 0.005;  // of the surface: largest cap in a file that seems cut off
-constexpr double kContinued = 0.2;  // of the surface: all continued faces together
-constexpr double kLoose = 0.05;     // of the surface: all small caps together
+constexpr double kDoubt = 0.005;       // of the volume: all caps together
+constexpr double kTrifle = 0.0005;     // of the volume: one cap whose kind need not be known
+constexpr double kSuspect = 0.005;     // of the surface: largest cap in a file that seems cut off
+constexpr double kContinued = 0.2;     // of the surface: all continued faces together
+constexpr double kLoose = 0.05;        // of the surface: all small caps together
+constexpr double kJustOutside = 1e-4;  // of the diagonal
 const double kFlat = std::cos(std::numbers::pi / 180.0);  // one degree
 
 struct Plane {
@@ -64,6 +68,21 @@ public:
         if (cap.perimeter > 0.0) out.doubt = guessed * out.area / cap.perimeter * mean;
         if (guessed <= 1e-6 * out.area) out.kind = CapKind::continued;
         return out;
+    }
+
+    // Whether all of the cap lies inside other parts: just outside it the winding number is theirs.
+    bool is_hidden(const Cap& cap) {
+        if (!winding_) winding_.emplace(mesh_);
+        for (std::int32_t t = cap.first; t < cap.first + cap.count; ++t) {
+            const auto tt = static_cast<std::size_t>(t);
+            const Vec3 middle =
+                (mesh_.corner(tt, 0) + mesh_.corner(tt, 1) + mesh_.corner(tt, 2)) / 3.0;
+            for (const Vec3& p : {middle, Vec3(0.2 * middle + 0.8 * mesh_.corner(tt, 0)),
+                                  Vec3(0.2 * middle + 0.8 * mesh_.corner(tt, 1)),
+                                  Vec3(0.2 * middle + 0.8 * mesh_.corner(tt, 2))})
+                if (winding_->at(p + kJustOutside * size_ * normal(t)) < 0.5) return false;
+        }
+        return true;
     }
 
     bool is_deck(const Cap& cap) const {
@@ -152,6 +171,7 @@ private:
     }
 
     const TriangleMesh& mesh_;
+    std::optional<WindingNumber> winding_;  // of all parts, when asked for
     Parts parts_;
     double surface_ = 0.0, volume_ = 0.0, size_ = 0.0;
 };
@@ -160,19 +180,21 @@ private:
 
 std::vector<CapVerdict> judge_caps(const TriangleMesh& mesh, const std::vector<Cap>& caps,
                                    bool suspect) {
-    const Judge judge(mesh, caps);
+    Judge judge(mesh, caps);
     std::vector<CapVerdict> out;
     double doubt = 0.0, loose = 0.0, continued = 0.0;
     for (const Cap& cap : caps) {
         out.push_back(judge.measure(cap));
         CapVerdict& cap_is = out.back();
+        const bool matters =
+            cap_is.doubt > kTrifle * judge.volume() || cap_is.area > kLoose * judge.surface();
         if (suspect && cap_is.area > kSuspect * judge.surface())
             cap_is.kind = CapKind::guess;
-        else if ((cap_is.doubt > kTrifle * judge.volume() ||
-                  cap_is.area > kLoose * judge.surface()) &&
-                 judge.is_deck(cap))
+        else if (matters && judge.is_hidden(cap))
+            cap_is.kind = CapKind::hidden;
+        else if (matters && judge.is_deck(cap))
             cap_is.kind = CapKind::deck;
-        if (cap_is.kind == CapKind::deck) continue;
+        if (cap_is.kind == CapKind::deck || cap_is.kind == CapKind::hidden) continue;
         doubt += cap_is.doubt;
         (cap_is.kind == CapKind::continued ? continued : loose) += cap_is.area;
     }
@@ -187,7 +209,8 @@ std::vector<CapVerdict> judge_caps(const TriangleMesh& mesh, const std::vector<C
     };
     CapVerdict* heaviest = nullptr;
     for (CapVerdict& cap : out)
-        if (cap.kind != CapKind::deck && (heaviest == nullptr || weight(cap) > weight(*heaviest)))
+        if (cap.kind != CapKind::deck && cap.kind != CapKind::hidden &&
+            (heaviest == nullptr || weight(cap) > weight(*heaviest)))
             heaviest = &cap;
     if (heaviest != nullptr) heaviest->kind = CapKind::guess;
     return out;

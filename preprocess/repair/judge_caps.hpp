@@ -9,6 +9,7 @@ namespace ice {
 enum class CapKind {
     small,      ///< whatever its form, the volume does not depend on it
     continued,  ///< flat, and goes on from a face next to it in the same plane
+    hidden,     ///< inside another part
     deck,       ///< faces up and closes the top of its part from side to side
     guess,      ///< none of these: refused
 };
@@ -27,7 +28,8 @@ struct CapVerdict {
 /// A (2 A / P) tan(a / 2) / 2 in the volume: exactly the lens between a flat cap and the sphere that
 /// goes on from its rim, and about half of a body that goes on straight. Triangles that go on in the
 /// plane of a neighbour leave none. Caps stand while their doubts add up to at most 0.5 % of the
-/// volume. Beyond that a cap stands only as a deck: it faces up, the walls at its rim stand
+/// volume. Beyond that a cap stands where other parts
+/// cover it (a superstructure without a bottom, standing in the deck), or as a deck: it faces up, the walls at its rim stand
 /// (they lean inwards by less than 17 degrees, outwards by less than 37), it reaches over 60 % of the length and the breadth of its part, and nothing of the part
 /// stands above it.
 ///

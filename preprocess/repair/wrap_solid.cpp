@@ -8,6 +8,13 @@
 
 namespace ice {
 
+namespace {
+
+// Not all the way: on a sharp edge vertices of both sides would meet in one point.
+constexpr double kBack = 0.9;
+
+}  // namespace
+
 TriangleMesh wrap_solid(const TriangleMesh& mesh, double alpha, double offset) {
     TriangleMesh wrap = alpha_wrap(mesh, alpha, offset);
     if (wrap.triangles.empty()) return wrap;
@@ -15,7 +22,8 @@ TriangleMesh wrap_solid(const TriangleMesh& mesh, double alpha, double offset) {
     TriangleMesh laid = wrap;
     parallel_for(laid.vertices.size(), 100, [&](std::size_t k) {
         const Foot foot = tree.closest(laid.vertices[k]);
-        if (foot.distance < 2.0 * offset) laid.vertices[k] = foot.point;
+        if (foot.distance < 2.0 * offset)
+            laid.vertices[k] += kBack * (foot.point - laid.vertices[k]);
     });
     if (find_self_intersections(laid).empty()) wrap = std::move(laid);
     copy_regions(mesh, wrap);

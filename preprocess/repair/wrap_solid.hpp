@@ -11,8 +11,9 @@ namespace ice {
 /// @return the wrap; empty when CGAL fails. Regions are not set.
 TriangleMesh alpha_wrap(const TriangleMesh& mesh, double alpha, double offset);
 
-/// The wrap laid back onto the surface: each vertex within 2 offsets of it goes to its nearest
-/// point, so that the offset adds no volume, unless triangles would cross. Regions follow.
+/// The wrap laid back towards the surface: each vertex within 2 offsets of it goes nine tenths of
+/// the way to its nearest point, so that the offset adds little volume, unless triangles would
+/// cross. Regions follow.
 TriangleMesh wrap_solid(const TriangleMesh& mesh, double alpha, double offset);
 
 }  // namespace ice

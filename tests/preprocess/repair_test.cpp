@@ -81,7 +81,10 @@ TEST_CASE("a closed box goes through untouched", "[repair][analytic]") {
     CHECK(r.volume == Approx(8).epsilon(1e-14));
     CHECK(r.repairs.empty());
     CHECK(r.warnings.empty());
-    CHECK(r.mesh.triangles == test::make_box_mesh(kSize).triangles);
+    const TriangleMesh box = test::make_box_mesh(kSize);
+    REQUIRE(r.mesh.triangles.size() == 12);
+    for (std::size_t t = 0; t < 12; ++t)
+        for (int k = 0; k < 3; ++k) CHECK(r.mesh.corner(t, k) == box.corner(t, k));
 }
 
 TEST_CASE("an open deck is closed, named and said, whichever way the sides face",
@@ -306,11 +309,11 @@ TEST_CASE("winding numbers: 1 inside, 0 outside, a half in the middle of a missi
     for (int k = 0; k < 500; ++k) {
         const Vec3 p(unit(random), unit(random), unit(random));
         if (std::abs(p.norm() - 1.0) < 0.05) continue;
-        CHECK(whole.at(p) == Approx(p.norm() < 1.0 ? 1.0 : 0.0).margin(0.02));
+        CHECK(whole.at(p) == Approx(p.norm() < 1.0 ? 1.0 : 0.0).margin(0.05));
     }
     const WindingNumber half(
         without(test::make_globe(1, 30), [](const Vec3& p) { return p.x() > 0; }));
-    CHECK(half.at(Vec3::Zero()) == Approx(0.5).margin(0.02));
+    CHECK(half.at(Vec3::Zero()) == Approx(0.5).margin(0.05));
 }
 
 TEST_CASE("the contour from winding numbers is closed, crosses nothing and keeps the volume",
