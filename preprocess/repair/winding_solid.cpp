@@ -5,17 +5,18 @@
 #include <cmath>
 
 #include "common/base/parallel.hpp"
+#include "preprocess/measure/row_crossings.hpp"
 #include "preprocess/measure/surface_tree.hpp"
-#include "preprocess/measure/winding_number.hpp"
 #include "preprocess/repair/contour_grid.hpp"
 
 namespace ice {
 
 namespace {
 
-constexpr double kCells = 200.0;  // along the longest side
-constexpr double kNodes = 1.0e6;  // at most, or cells grow
-constexpr int kBisections = 7;    // of a cell: 1/128
+constexpr double kCells = 200.0;        // along the longest side
+constexpr double kNodes = 2.0e6;        // at most, or cells grow
+constexpr int kSteps = 16;              // towards the surface, at most
+constexpr double kReached = 1.0 / 256;  // of a cell
 
 Grid make_grid(const TriangleMesh& mesh) {
     Eigen::AlignedBox3d box;
@@ -34,6 +35,38 @@ Grid make_grid(const TriangleMesh& mesh) {
     return grid;
 }
 
+// Nodes with a positive winding number, from rows along x.
+std::vector<std::uint8_t> mark_inside(const TriangleMesh& mesh, const Grid& grid,
+                                      double* open_share) {
+    const RowGrid rows{0,    grid.origin, Vec3::Constant(grid.step), grid.nodes[1], grid.nodes[2],
+                       false};
+    const auto crossings = cross_rows(mesh, rows);
+    std::vector<std::uint8_t> inside(grid.size(), 0);
+    double crossed = 0.0, open = 0.0;
+    for (std::size_t k = 0; k < crossings.size();) {
+        const std::int32_t row = crossings[k].row;
+        const auto y = static_cast<std::size_t>(row / grid.nodes[2]);
+        const auto z = static_cast<std::size_t>(row % grid.nodes[2]);
+        const std::size_t first = static_cast<std::size_t>(grid.nodes[0]) *
+                                  (y + static_cast<std::size_t>(grid.nodes[1]) * z);
+        int winding = 0;
+        for (; k < crossings.size() && crossings[k].row == row; ++k) {
+            const auto node = [&](double x) {
+                return static_cast<std::size_t>(std::ceil((x - grid.origin.x()) / grid.step));
+            };
+            if (winding > 0)
+                for (std::size_t x = node(crossings[k - 1].depth); x < node(crossings[k].depth);
+                     ++x)
+                    inside[first + x] = 1;
+            winding += crossings[k].sign;
+        }
+        crossed += 1.0;
+        open += winding != 0 ? 1.0 : 0.0;
+    }
+    *open_share = open / std::max(crossed, 1.0);
+    return inside;
+}
+
 }  // namespace
 
 void copy_regions(const TriangleMesh& source, TriangleMesh& mesh) {
@@ -49,27 +82,21 @@ void copy_regions(const TriangleMesh& source, TriangleMesh& mesh) {
 
 WindingSolid winding_solid(const TriangleMesh& mesh, SolidKind kind) {
     const Grid grid = make_grid(mesh);
-    const WindingNumber winding(mesh);
-    std::vector<std::uint8_t> inside(grid.size(), 0), vague(grid.size(), 0);
-    const auto is_inside = [&](const Vec3& p) { return winding.at(p) > 0.5; };
-    parallel_for(grid.size(), 100, [&](std::size_t k) {
-        const double w = winding.at(grid.at(k));
-        inside[k] = w > 0.5;
-        vague[k] = w > 0.2 && w < 0.8;
-    });
     WindingSolid out;
     out.cell = grid.step;
+    std::vector<std::uint8_t> inside = mark_inside(mesh, grid, &out.unclear);
     if (kind == SolidKind::envelope) fill_voids(grid, inside);
-    out.unclear =
-        static_cast<double>(std::count(vague.begin(), vague.end(), 1)) /
-        std::max<double>(1.0, static_cast<double>(std::count(inside.begin(), inside.end(), 1)));
+    const SurfaceTree tree(mesh);
     out.mesh = contour_grid(grid, inside, [&](const Vec3& in, const Vec3& outer) {
-        double low = 0.0, high = 1.0;
-        for (int k = 0; k < kBisections; ++k) {
-            const double half = 0.5 * (low + high);
-            (is_inside(in + half * (outer - in)) ? low : high) = half;
+        // from outside, a step as long as the distance to the surface cannot pass it
+        const double length = (outer - in).norm();
+        double left = length;
+        for (int k = 0; k < kSteps && left > 0.0; ++k) {
+            const double distance = tree.closest(in + left / length * (outer - in)).distance;
+            left -= distance;
+            if (distance < kReached * grid.step) break;
         }
-        return 0.5 * (low + high);
+        return left / length;
     });
     if (!out.mesh.triangles.empty()) copy_regions(mesh, out.mesh);
     return out;
