@@ -58,6 +58,7 @@ public:
         if (options_.mode == RepairMode::wrap) return wrap(std::move(mesh));
         const SolidDiagnosis diagnosis = diagnose_edges(mesh);
         if (options_.mode == RepairMode::strict) return demand(std::move(mesh), welded);
+        open_edges_ = diagnosis.open_edges;
         if (!diagnosis.closed()) mesh = close(std::move(mesh));
         return untangle(std::move(mesh));
     }
@@ -269,6 +270,7 @@ private:
     const SolidOptions& options_;
     Repairs& repairs_;
     std::vector<std::string>& warnings_;
+    std::int64_t open_edges_ = 0;  // of the mesh as it was read
 };
 
 }  // namespace

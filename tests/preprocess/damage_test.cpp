@@ -66,6 +66,21 @@ Tally damage_and_repair(const TriangleMesh& mesh, int count, unsigned seed) {
     return tally;
 }
 
+// Worse than any file should be: holes of any size, half of the faces lost.
+Tally tear_and_repair(const TriangleMesh& mesh, int count) {
+    Tally tally;
+    const double volume = measure_mass(mesh).volume;
+    for (int k = 0; k < count; ++k) {
+        std::mt19937 random(7000u + static_cast<unsigned>(k));
+        const double share = 0.5 * (k + 1) / count;
+        tally.add(test::tear_mesh(mesh, share, random), volume,
+                  fmt::format("{}: torn {}", k, share));
+        tally.add(test::thin_mesh(mesh, share, random), volume,
+                  fmt::format("{}: thin {}", k, share));
+    }
+    return tally;
+}
+
 Tally truncate_and_repair(const TriangleMesh& mesh, int count) {
     Tally tally;
     const double volume = measure_mass(mesh).volume;
@@ -104,5 +119,6 @@ TEST_CASE("hundreds of damaged copies of many meshes", "[.damage]") {
     for (const auto& [name, mesh] : cases) {
         damage_and_repair(mesh, 300, 100).print(name + " damaged");
         truncate_and_repair(mesh, 100).print(name + " truncated");
+        tear_and_repair(mesh, 100).print(name + " torn");
     }
 }

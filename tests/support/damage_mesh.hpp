@@ -104,4 +104,35 @@ inline TriangleMesh truncate_mesh(TriangleMesh mesh, double share) {
     return mesh;
 }
 
+/// A hole: all faces whose middle lies within a distance of a random vertex.
+inline TriangleMesh tear_mesh(TriangleMesh mesh, double of_diagonal, std::mt19937& random) {
+    Eigen::AlignedBox3d box;
+    for (const Vec3& v : mesh.vertices) box.extend(v);
+    const Vec3 at = mesh.vertices[random() % mesh.vertices.size()];
+    std::size_t kept = 0;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const Vec3 middle = (mesh.corner(t, 0) + mesh.corner(t, 1) + mesh.corner(t, 2)) / 3.0;
+        if ((middle - at).norm() < of_diagonal * box.diagonal().norm()) continue;
+        mesh.triangles[kept] = mesh.triangles[t];
+        mesh.region[kept++] = mesh.region[t];
+    }
+    mesh.triangles.resize(kept);
+    mesh.region.resize(kept);
+    return mesh;
+}
+
+/// Leaves out each face with the given chance.
+inline TriangleMesh thin_mesh(TriangleMesh mesh, double chance, std::mt19937& random) {
+    std::bernoulli_distribution drop(chance);
+    std::size_t kept = 0;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        if (drop(random)) continue;
+        mesh.triangles[kept] = mesh.triangles[t];
+        mesh.region[kept++] = mesh.region[t];
+    }
+    mesh.triangles.resize(kept);
+    mesh.region.resize(kept);
+    return mesh;
+}
+
 }  // namespace ice::test
