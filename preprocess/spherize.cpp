@@ -104,6 +104,7 @@ void doubt_size(const ice::TriangleMesh& mesh, ice::SpheresReport& report) {
 
 ice::TriangleMesh read_surface(const Options& o, ice::SpheresReport& report) {
     std::int64_t centre_plane = 0;
+    ice::refuse_short_file(o.mesh);
     ice::TriangleMesh mesh = ice::read_mesh(o.mesh, o.read, &centre_plane);
     if (centre_plane > 0)
         report.repairs.emplace_back("triangles in the centre plane dropped", centre_plane);

@@ -48,6 +48,16 @@ std::string check_obj(std::ifstream& in) {
     return {};
 }
 
+// Of text only: a binary PLY may end in any byte.
+std::string check_last_line(std::ifstream& in) {
+    std::string line;
+    for (int k = 0; k < 2 && std::getline(in, line); ++k)
+        if (line.find("binary") != std::string::npos) return {};
+    in.clear();
+    in.seekg(-1, std::ios::end);
+    return in.get() == '\n' ? std::string() : cut_off("its last line does not end");
+}
+
 std::string check_stl(std::ifstream& in) {
     std::string line, last;
     if (!std::getline(in, line) || !line.starts_with("solid")) return {};
@@ -71,6 +81,7 @@ std::string looks_cut_off(const std::filesystem::path& file) {
     std::transform(kind.begin(), kind.end(), kind.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     if (!in) return {};
+    if (kind == ".ply" || kind == ".off") return check_last_line(in);
     if (kind == ".obj") return check_obj(in);
     return kind == ".stl" ? check_stl(in) : std::string();
 }

@@ -103,13 +103,13 @@ Cap append(TriangleMesh& mesh, const BorderLoop& loop, const std::vector<Triple>
     const std::size_t n = loop.vertices.size();
     for (std::size_t k = 0; k < n; ++k) {
         const std::int32_t a = loop.vertices[k], b = loop.vertices[(k + 1) % n];
-        const double length = (mesh.vertices[static_cast<std::size_t>(b)] -
-                               mesh.vertices[static_cast<std::size_t>(a)])
-                                  .norm();
+        const Vec3 along =
+            mesh.vertices[static_cast<std::size_t>(b)] - mesh.vertices[static_cast<std::size_t>(a)];
+        const double length = along.norm();
         cap.perimeter += length;
         const auto at = owner.find({a, b});
         if (loop.neighbours[k] < 0 || at == owner.end()) continue;
-        cap.rim.push_back({at->second, loop.neighbours[k], length});
+        cap.rim.push_back({at->second, loop.neighbours[k], along, length});
         region_length[mesh.region[static_cast<std::size_t>(loop.neighbours[k])]] += length;
     }
     const auto longest =

@@ -13,6 +13,7 @@ namespace ice {
 struct RimEdge {
     std::int32_t patch;      ///< triangle of the cap
     std::int32_t neighbour;  ///< triangle of the surface across the edge
+    Vec3 along;              ///< [m]
     double length;           ///< [m]
 };
 

@@ -19,6 +19,8 @@ constexpr double kTrifle = 0.0005;     // of the volume: one cap whose kind need
 constexpr double kSuspect = 0.005;     // of the surface: largest cap in a file that seems cut off
 constexpr double kContinued = 0.2;     // of the surface: all continued faces together
 constexpr double kLoose = 0.05;        // of the surface: all small caps together
+constexpr double kSteepest = 0.0872;   // cosine of 85 degrees
+constexpr double kStep = 1e-3;         // of the diagonal: a step in the rim of a deck
 constexpr double kJustOutside = 1e-4;  // of the diagonal
 const double kFlat = std::cos(std::numbers::pi / 180.0);  // one degree
 
@@ -61,10 +63,10 @@ public:
         double turn = 0.0, length = 0.0;
         for (const RimEdge& edge : cap.rim) {
             if (continues(static_cast<std::size_t>(edge.patch), planes)) continue;
-            turn += edge.length * half_turn(edge);
+            turn += edge.length * slope(edge);
             length += edge.length;
         }
-        const double mean = length > 0.0 ? turn / length : 1.0;
+        const double mean = length > 0.0 ? turn / length : 1.0 / kSteepest;
         if (cap.perimeter > 0.0) out.doubt = guessed * out.area / cap.perimeter * mean;
         if (guessed <= 1e-6 * out.area) out.kind = CapKind::continued;
         return out;
@@ -97,7 +99,7 @@ public:
             length += edge.length;
         }
         return sum.z() >= 0.9 * area && walls <= 0.3 * length && walls >= -0.6 * length &&
-               spans_and_tops(cap);
+               !has_steps(cap) && spans_and_tops(cap);
     }
 
 private:
@@ -105,10 +107,10 @@ private:
         return mesh_.area_vector(static_cast<std::size_t>(t)).normalized();
     }
 
-    // tan(a / 2) of the angle the surface turns by across the rim, bounded where it folds back.
-    double half_turn(const RimEdge& edge) const {
+    // tan(a) of the angle the surface turns by across the rim; at most that of 85 degrees.
+    double slope(const RimEdge& edge) const {
         const double c = normal(edge.patch).dot(normal(edge.neighbour));
-        return std::sqrt((1.0 - c) / std::max(1.0 + c, 0.02));
+        return std::sqrt(std::max(1.0 - c * c, 0.0)) / std::max(c, kSteepest);
     }
 
     std::vector<Plane> continued_planes(const Cap& cap) const {
@@ -131,6 +133,14 @@ private:
         return std::any_of(planes.begin(), planes.end(), [&](const Plane& p) {
             return area.dot(p.normal) >= kFlat * area.norm() &&
                    std::abs(p.normal.dot(mesh_.corner(t, 0)) - p.offset) < 1e-4 * size_;
+        });
+    }
+
+    // A sheer line is smooth; the edge of a surface that ends within a row of faces is not.
+    bool has_steps(const Cap& cap) const {
+        return std::any_of(cap.rim.begin(), cap.rim.end(), [&](const RimEdge& edge) {
+            return std::abs(edge.along.z()) > kStep * size_ &&
+                   std::abs(edge.along.z()) > edge.along.head<2>().norm();
         });
     }
 

@@ -117,9 +117,10 @@ private:
 
     Error too_large(const CapVerdict& cap, double surface) const {
         const std::string size = fmt::format(
-            "an opening of {:.3g} m2 ({:.2g} % of the surface) at {} is too large to "
+            "{} open edges; an opening of {:.3g} m2 ({:.3g} % of the surface) at {} is too large "
+            "to "
             "guess",
-            cap.area, 100.0 * cap.area / surface, place(cap.at));
+            open_edges_, cap.area, 100.0 * cap.area / surface, place(cap.at));
         return refusal(
             options_.suspect.empty() ? size : size + ", and " + options_.suspect,
             options_.suspect.empty()
