@@ -3,11 +3,11 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <unordered_map>
 
 #include "preprocess/clean/edge_table.hpp"
+#include "preprocess/clean/find_equal.hpp"
 #include "preprocess/clean/keep_triangles.hpp"
 
 namespace ice {
@@ -17,36 +17,6 @@ namespace {
 // Of the diagonal: rounding of single-precision files; cracks between parts that were exported one
 // by one. Half a millimetre on a 50 m ship, far below what a contact sphere resolves.
 constexpr double kTolerances[] = {1e-6, 1e-5};
-
-using Key = std::array<std::uint64_t, 3>;
-
-struct HashKey {
-    std::size_t operator()(const Key& key) const {
-        std::uint64_t value = 0xcbf29ce484222325ull;
-        for (const std::uint64_t word : key) {
-            value = (value ^ word) * 0x9e3779b97f4a7c15ull;
-            value ^= value >> 32;
-        }
-        return static_cast<std::size_t>(value);
-    }
-};
-
-// For each key the place of the first equal one. A flat table with linear probing: a third of the
-// time of std::unordered_map at 1e5 keys.
-template <class KeyOf>
-std::vector<std::int32_t> find_first(std::size_t count, const KeyOf& key_of) {
-    const std::size_t mask = std::bit_ceil(2 * count + 1) - 1;
-    std::vector<std::int32_t> table(mask + 1, -1), first(count);
-    for (std::size_t k = 0; k < count; ++k) {
-        const Key key = key_of(k);
-        std::size_t slot = HashKey()(key) & mask;
-        while (table[slot] >= 0 && key_of(static_cast<std::size_t>(table[slot])) != key)
-            slot = (slot + 1) & mask;
-        if (table[slot] < 0) table[slot] = static_cast<std::int32_t>(k);
-        first[k] = table[slot];
-    }
-    return first;
-}
 
 // For each vertex of an open edge the first such within the tolerance; all others themselves.
 std::vector<std::int32_t> find_near(const TriangleMesh& mesh, const std::vector<MeshEdge>& edges,
@@ -123,15 +93,6 @@ std::int64_t merge(TriangleMesh& mesh, const std::vector<std::int32_t>& represen
 }
 
 }  // namespace
-
-std::vector<std::int32_t> find_equal_vertices(const std::vector<Vec3>& vertices) {
-    return find_first(vertices.size(), [&](std::size_t k) -> Key {
-        Key key;
-        for (int d = 0; d < 3; ++d)
-            key[static_cast<std::size_t>(d)] = std::bit_cast<std::uint64_t>(vertices[k][d] + 0.0);
-        return key;
-    });
-}
 
 WeldCounts weld(TriangleMesh& mesh) {
     WeldCounts counts;

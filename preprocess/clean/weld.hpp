@@ -21,7 +21,4 @@ struct WeldCounts {
 /// keeps its position, so the result depends on nothing but the order in the file. Cost O(V + T).
 WeldCounts weld(TriangleMesh& mesh);
 
-/// For each vertex the first one with the same coordinates (0 and -0 are the same), itself if none.
-std::vector<std::int32_t> find_equal_vertices(const std::vector<Vec3>& vertices);
-
 }  // namespace ice

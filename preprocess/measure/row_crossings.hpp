@@ -14,8 +14,8 @@ struct RowCrossing {
     std::int32_t sign;  ///< +1: the row enters the solid, -1: it leaves
 };
 
-/// Rows along one axis, one in each cell of a grid across it. With axis 0, u is y and v is z; and so
-/// on in cyclic order.
+/// Rows along one axis, one in each cell of a grid across it. With axis 0, u is y and v is z;
+/// and so on in cyclic order.
 struct RowGrid {
     int axis = 0;
     Vec3 low = Vec3::Zero();   ///< corner of the grid [m]; its component along axis unused

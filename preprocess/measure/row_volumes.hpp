@@ -17,8 +17,9 @@ struct RowVolume {
 };
 
 /// Sends rows x rows lines through the mesh along x, y and z, one at a random place of each cell of
-/// a grid over the box (cross_rows; fixed seed, so the same in every run). Sampling error of `by_sign` about 0.1 % at 100 rows on
-/// a ship; the other two share its rows and so its error. Cost O(T + crossings log crossings).
+/// a grid over the box (cross_rows; fixed seed, so the same in every run). Sampling error of
+/// `by_sign` about 0.1 % at 100 rows on a ship; the other two share its rows and so its error.
+/// Cost O(T + crossings log crossings).
 std::array<RowVolume, 3> measure_rows(const TriangleMesh& mesh, int rows);
 
 }  // namespace ice

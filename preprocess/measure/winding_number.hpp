@@ -10,10 +10,11 @@ namespace ice {
 /// Generalised winding number of any set of triangles: the solid angle they cover seen from a
 /// point, over 4 pi. 1 inside and 0 outside a closed outward surface, in between near openings.
 ///
-/// Jacobson et al., "Robust inside-outside segmentation using generalized winding numbers", SIGGRAPH
-/// 2013; far triangles together as one dipole, Barill et al., "Fast winding numbers for soups and
-/// clouds", SIGGRAPH 2018 (first order, beta = 2: errors of up to 0.04, far from the 0.5 that
-/// decides). A triangle without area counts nothing. Thread-safe once built. Build O(T log T).
+/// Jacobson et al., "Robust inside-outside segmentation using generalized winding numbers",
+/// SIGGRAPH 2013; far triangles together as one dipole, Barill et al., "Fast winding numbers
+/// for soups and clouds", SIGGRAPH 2018 (first order, beta = 2: errors of up to 0.04, far from
+/// the 0.5 that decides). A triangle without area counts nothing. Thread-safe once built. Build
+/// O(T log T).
 class WindingNumber {
 public:
     /// Keeps what it needs of the mesh.

@@ -16,10 +16,10 @@ struct SolidProof {
     double overlap = 0.0;    ///< worst of three axes: winding and parity against signs, relative
 };
 
-/// Every edge has two triangles that face the same side; the volume is positive; rows along x, y and
-/// z give it within 0.5 % (100 x 100 rows, more where a slender solid needs them); and along each
-/// axis the volumes by sign, by winding number and by parity of the same rows agree within
-/// `overlap_allowed` (1e-4 where surfaces cross without effect, else rounding).
+/// Every edge has two triangles that face the same side; the volume is positive; rows along x,
+/// y and z give it within 0.5 % (100 x 100 rows, more where a slender solid needs them); and
+/// along each axis the volumes by sign, by winding number and by parity of the same rows agree
+/// within `overlap_allowed` (1e-4 where surfaces cross without effect, else rounding).
 SolidProof verify_solid(const TriangleMesh& mesh, double overlap_allowed = 1e-4);
 
 /// What the winding numbers of two surfaces say of the same 20 000 places of the box.

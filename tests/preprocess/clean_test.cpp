@@ -2,10 +2,10 @@
 // Welding and the diagnosis of what is no solid.
 #include <catch2/catch.hpp>
 
-#include "preprocess/repair/check_solid.hpp"
-#include "preprocess/repair/make_solid.hpp"
 #include "preprocess/clean/orient_faces.hpp"
 #include "preprocess/clean/weld.hpp"
+#include "preprocess/repair/check_solid.hpp"
+#include "preprocess/repair/make_solid.hpp"
 #include "tests/support/make_meshes.hpp"
 
 using namespace ice;

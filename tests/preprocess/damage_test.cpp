@@ -102,8 +102,8 @@ TEST_CASE("a hundred damaged copies come back with their volume", "[repair][dama
     CHECK(tally.wrong == 0);
 }
 
-// What a release is measured by; minutes: preprocess_tests "[.damage]"
-TEST_CASE("hundreds of damaged copies of many meshes", "[.damage]") {
+// What a release is measured by; minutes: preprocess_tests "[.release]"
+TEST_CASE("hundreds of damaged copies of many meshes", "[.release]") {
     const std::filesystem::path meshes = std::filesystem::path(ICE_SOURCE_DIR "/meshes");
     std::vector<std::pair<std::string, TriangleMesh>> cases;
     for (const auto& file : std::filesystem::directory_iterator(meshes))

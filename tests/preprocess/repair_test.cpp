@@ -7,11 +7,8 @@
 #include "common/geometry/mass_properties.hpp"
 #include "preprocess/clean/orient_faces.hpp"
 #include "preprocess/clean/self_intersections.hpp"
-#include "preprocess/measure/row_volumes.hpp"
-#include "preprocess/measure/winding_number.hpp"
 #include "preprocess/repair/check_solid.hpp"
 #include "preprocess/repair/make_solid.hpp"
-#include "preprocess/repair/verify_solid.hpp"
 #include "preprocess/repair/winding_solid.hpp"
 #include "tests/support/damage_mesh.hpp"
 #include "tests/support/make_meshes.hpp"
@@ -277,43 +274,6 @@ TEST_CASE("shrink-wrapping is a choice of the user's, and says by how much it is
     CHECK(r.volume == Approx(8).epsilon(0.1));
     REQUIRE(r.warnings.size() == 2);
     CHECK_THAT(r.warnings[1], Catch::Contains("winding number"));
-}
-
-TEST_CASE("rows along three axes give the volume of a box and see a hole", "[measure][analytic]") {
-    TriangleMesh box = test::make_box_mesh(kSize);
-    for (const RowVolume& axis : measure_rows(box, 50)) {
-        CHECK(axis.by_sign ==
-              Approx(8).epsilon(1e-12));  // prism along each axis: no sampling error
-        CHECK(axis.by_winding == Approx(axis.by_sign).epsilon(1e-12));
-        CHECK(axis.by_parity == Approx(axis.by_sign).epsilon(1e-12));
-        CHECK(axis.open_rows == 0);
-    }
-    box.triangles.pop_back();
-    std::int64_t open_rows = 0;
-    for (const RowVolume& axis : measure_rows(box, 50)) open_rows += axis.open_rows;
-    CHECK(open_rows > 0);
-}
-
-TEST_CASE("rows of a globe agree with its exact volume", "[measure]") {
-    const TriangleMesh globe = test::make_globe(1, 40);
-    const double volume = measure_mass(globe).volume;
-    for (const RowVolume& axis : measure_rows(globe, 100))
-        CHECK(axis.by_sign == Approx(volume).epsilon(0.002));
-}
-
-TEST_CASE("winding numbers: 1 inside, 0 outside, a half in the middle of a missing half",
-          "[measure][analytic]") {
-    const WindingNumber whole(test::make_globe(1, 30));
-    std::mt19937 random(2);
-    std::uniform_real_distribution<double> unit(-1.5, 1.5);
-    for (int k = 0; k < 500; ++k) {
-        const Vec3 p(unit(random), unit(random), unit(random));
-        if (std::abs(p.norm() - 1.0) < 0.05) continue;
-        CHECK(whole.at(p) == Approx(p.norm() < 1.0 ? 1.0 : 0.0).margin(0.05));
-    }
-    const WindingNumber half(
-        without(test::make_globe(1, 30), [](const Vec3& p) { return p.x() > 0; }));
-    CHECK(half.at(Vec3::Zero()) == Approx(0.5).margin(0.05));
 }
 
 TEST_CASE("the contour from winding numbers is closed, crosses nothing and keeps the volume",
