@@ -16,6 +16,8 @@ namespace {
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Triple = std::array<std::int32_t, 3>;
 
+constexpr std::size_t kCubic = 400;  // corners: up to here CGAL's cubic search takes below a second
+
 // Triangles that run along the loop, not against it.
 void align_with_loop(std::vector<Triple>& patch) {
     bool backwards = false;
@@ -40,7 +42,8 @@ std::vector<std::array<std::int32_t, 3>> fill_loop(const std::vector<Vec3>& poin
         // the flat short cut looks at the loop only, not at its neighbours
         CGAL::Polygon_mesh_processing::triangulate_hole_polyline(
             loop, third, std::back_inserter(patch),
-            CGAL::parameters::use_2d_constrained_delaunay_triangulation(points.size() > 200));
+            CGAL::parameters::use_2d_constrained_delaunay_triangulation(points.size() > 200)
+                .do_not_use_cubic_algorithm(points.size() > kCubic));
     } catch (const std::exception&) {
         return {};
     }
