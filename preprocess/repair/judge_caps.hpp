@@ -27,8 +27,8 @@ struct CapVerdict {
 /// A cap of area A and perimeter P, at whose rim the surface turns by the angle a, leaves a
 /// doubt of A (2 A / P) tan(a) / 2 in the volume: the wedge or cone that goes on straight from
 /// its rim has half to two thirds of that, the lens of a sphere less. Triangles that go on in
-/// the plane of a neighbour leave none. Caps stand while their doubts add up to at most 0.5 % of the
-/// volume. Beyond that a cap stands where other parts cover it (a superstructure without a
+/// the plane of a neighbour leave none. Caps stand while their doubts add up to at most 0.5 % of
+/// the volume. Beyond that a cap stands where other parts cover it (a superstructure without a
 /// bottom, standing in the deck), or as a deck: it faces up, the walls at its rim stand (they
 /// lean inwards by less than 17 degrees, outwards by less than 37), its edge has no steps, it
 /// reaches over 60 % of the length and the breadth of its part, and nothing of the part stands
