@@ -16,11 +16,13 @@
 #include "common/base/version.hpp"
 #include "common/cli/console.hpp"
 #include "common/formats/spheres_file.hpp"
-#include "preprocess/clean/make_solid.hpp"
 #include "preprocess/fill/fill_spheres.hpp"
+#include "preprocess/load/cut_off.hpp"
 #include "preprocess/load/gunzip.hpp"
 #include "preprocess/load/half_hull.hpp"
 #include "preprocess/load/read_mesh.hpp"
+#include "preprocess/repair/check_solid.hpp"
+#include "preprocess/repair/make_solid.hpp"
 #include "preprocess/write/report_text.hpp"
 #include "preprocess/write/write_exports.hpp"
 
@@ -82,9 +84,10 @@ void declare(CLI::App& app, Options& o) {
         ->check(CLI::IsMember({"+x", "-x", "+y", "-y", "+z", "-z"}));
     app.add_option("--mirror", o.mirror, "y: the file holds one half of the hull")
         ->check(CLI::IsMember({"y"}));
-    app.add_option("--repair", o.repair, "auto or strict")
-        ->check(CLI::IsMember({"auto", "strict"}));
-    app.add_flag("--check", o.check, "Diagnose the mesh only");
+    app.add_option("--repair", o.repair,
+                   "auto, strict (refuse what is not closed) or wrap (shrink-wrap)")
+        ->check(CLI::IsMember({"auto", "strict", "wrap"}));
+    app.add_flag("--check", o.check, "Diagnose the mesh only: what it is, what --repair would do");
     app.add_option("--export", o.exports,
                    "Also write the set as csv, vtp, yade, liggghts or chrono; repeatable")
         ->check(CLI::IsMember(ice::export_formats()));
@@ -101,7 +104,8 @@ void warn_half_hull(const ice::HalfHull& half, ice::SpheresReport& report) {
     if (half) report.warnings.push_back(half.text() + ": give --mirror y if it is");
 }
 
-ice::TriangleMesh read_solid(const Options& o, ice::SpheresReport& report) {
+ice::TriangleMesh read_surface(const Options& o, ice::SpheresReport& report) {
+    ice::refuse_short_file(o.mesh);
     ice::ReadNotes notes;
     ice::TriangleMesh mesh = ice::read_mesh(o.mesh, o.read, &notes);
     report.guessed = notes.guessed;
@@ -109,12 +113,23 @@ ice::TriangleMesh read_solid(const Options& o, ice::SpheresReport& report) {
     if (notes.centre_plane_dropped > 0)
         report.repairs.emplace_back("triangles in the centre plane dropped",
                                     notes.centre_plane_dropped);
-    const ice::SolidOptions options{
-        o.solid == "material" ? ice::SolidKind::material : ice::SolidKind::envelope,
-        o.repair == "strict"};
-    const ice::HalfHull half = ice::looks_like_half_hull(mesh);
+    return mesh;
+}
+
+ice::TriangleMesh read_solid(const Options& o, ice::TriangleMesh surface,
+                             ice::SpheresReport& report) {
+    ice::SolidOptions options;
+    options.kind = o.solid == "material" ? ice::SolidKind::material : ice::SolidKind::envelope;
+    options.mode = o.repair == "strict" ? ice::RepairMode::strict
+                   : o.repair == "wrap" ? ice::RepairMode::wrap
+                                        : ice::RepairMode::automatic;
+    options.suspect = ice::looks_cut_off(o.mesh);
+    if (!options.suspect.empty()) report.warnings.push_back(options.suspect);
+    const ice::HalfHull half = ice::looks_like_half_hull(surface);
+    ice::TriangleMesh mesh;
     try {
-        mesh = ice::make_solid(std::move(mesh), o.mesh, options, report.repairs);
+        mesh =
+            ice::make_solid(std::move(surface), o.mesh, options, report.repairs, &report.warnings);
     } catch (const ice::Error&) {  // what reading noticed may be the reason
         warn_half_hull(half, report);
         for (const std::string& warning : report.warnings) ice::say_warning(warning);
@@ -124,17 +139,31 @@ ice::TriangleMesh read_solid(const Options& o, ice::SpheresReport& report) {
     return mesh;
 }
 
-// --check: what the mesh is and what was done to it, no spheres.
-int report_check(const Options& o, const ice::TriangleMesh& mesh, ice::SpheresReport& report) {
-    const ice::MassProperties mass = ice::measure_mass(mesh);
-    fmt::print("{}: closed solid, {} triangles, {:.9g} m3\n", o.mesh, mesh.triangles.size(),
-               mass.volume);
-    for (const auto& [step, count] : report.repairs)
-        fmt::print("  repaired: {}: {}\n", step, count);
-    for (const auto& [what, value] : report.guessed) fmt::print("  assumed: {}: {}\n", what, value);
-    report.volume = mass.volume;
-    report.area = mass.area;
-    if (!o.json.empty()) ice::write_text_file(o.json, ice::spheres_report_text(report));
+// --check: what the mesh is and what would be done to it, no spheres. What would be refused is
+// still described, on stdout and in the JSON, before the refusal.
+int report_check(const Options& o, ice::SpheresReport& report) {
+    const ice::TriangleMesh surface = read_surface(o, report);
+    fmt::print("{}:\n{}", o.mesh, ice::describe_mesh(surface));
+    const auto write_json = [&] {
+        if (!o.json.empty()) ice::write_text_file(o.json, ice::spheres_report_text(report));
+    };
+    try {
+        const ice::TriangleMesh mesh = read_solid(o, surface, report);
+        const ice::MassProperties mass = ice::measure_mass(mesh);
+        report.volume = mass.volume;
+        report.area = mass.area;
+        for (const auto& [what, value] : report.guessed)
+            fmt::print("  {:<18}{}: {}\n", "assumed", what, value);
+        for (const auto& [step, count] : report.repairs)
+            fmt::print("  {:<18}{}: {}\n", "repair", step, count);
+        fmt::print("{}: closed solid, {} triangles, {:.9g} m3\n", o.mesh, mesh.triangles.size(),
+                   mass.volume);
+    } catch (const ice::Error& refusal) {
+        report.warnings.emplace_back(refusal.what());
+        write_json();
+        throw;
+    }
+    write_json();
     for (const std::string& warning : report.warnings) ice::say_warning(warning);
     return 0;
 }
@@ -162,9 +191,11 @@ int run_spherize(Options& o, const std::string& command_line) {
                              "leave it out, or use --arrangement conforming");
 
     ice::SpheresReport report;
-    const ice::TriangleMesh mesh = read_solid(o, report);
+    if (o.check) return report_check(o, report);
+    ice::TriangleMesh surface = read_surface(o, report);
     report.seconds["read"] = timer.seconds();
-    if (o.check) return report_check(o, mesh, report);
+    const ice::TriangleMesh mesh = read_solid(o, std::move(surface), report);
+    report.seconds["repair"] = timer.seconds() - report.seconds["read"];
     ice::SphereSet set = o.slice.empty()
                              ? ice::fill_spheres(mesh, o.fill, report)
                              : ice::fill_discs(ice::slice_solid(mesh, slice_offset(o.slice)),

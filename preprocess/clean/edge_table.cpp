@@ -7,38 +7,54 @@ namespace ice {
 
 namespace {
 
+// A side of a triangle, filed under its smaller vertex.
 struct Side {
-    std::uint64_t key;  // a in the high, b in the low half
+    std::int32_t b;  // the larger vertex
     std::int32_t triangle;
     bool forwards;
 };
 
-}  // namespace
-
-std::vector<MeshEdge> edge_table(const TriangleMesh& mesh) {
-    std::vector<Side> sides;
-    sides.reserve(3 * mesh.triangles.size());
+// Sides filed by their smaller vertex: those of vertex v are [first[v], first[v + 1]). Counting
+// into place is several times faster than sorting all sides at once.
+std::vector<Side> file_sides(const TriangleMesh& mesh, std::vector<std::size_t>& first) {
+    first.assign(mesh.vertices.size() + 1, 0);
+    for (const auto& t : mesh.triangles)
+        for (std::size_t k = 0; k < 3; ++k)
+            ++first[static_cast<std::size_t>(std::min(t[k], t[(k + 1) % 3])) + 1];
+    for (std::size_t v = 1; v < first.size(); ++v) first[v] += first[v - 1];
+    std::vector<std::size_t> next(first.begin(), first.end() - 1);
+    std::vector<Side> sides(3 * mesh.triangles.size());
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
         for (std::size_t k = 0; k < 3; ++k) {
             const std::int32_t from = mesh.triangles[t][k], to = mesh.triangles[t][(k + 1) % 3];
-            const auto a = static_cast<std::uint64_t>(std::min(from, to));
-            const auto b = static_cast<std::uint64_t>(std::max(from, to));
-            sides.push_back({a << 32 | b, static_cast<std::int32_t>(t), from < to});
+            sides[next[static_cast<std::size_t>(std::min(from, to))]++] = {
+                std::max(from, to), static_cast<std::int32_t>(t), from < to};
         }
-    std::sort(sides.begin(), sides.end(), [](const Side& l, const Side& r) {
-        return l.key < r.key || (l.key == r.key && l.triangle < r.triangle);
-    });
+    return sides;
+}
+
+}  // namespace
+
+std::vector<MeshEdge> edge_table(const TriangleMesh& mesh) {
+    std::vector<std::size_t> first;
+    std::vector<Side> sides = file_sides(mesh, first);
     std::vector<MeshEdge> edges;
     edges.reserve(sides.size() / 2);
-    for (std::size_t k = 0; k < sides.size(); ++k) {
-        if (k == 0 || sides[k].key != sides[k - 1].key)
-            edges.push_back({static_cast<std::int32_t>(sides[k].key >> 32),
-                             static_cast<std::int32_t>(sides[k].key & 0xffffffffu)});
-        MeshEdge& edge = edges.back();
-        if (edge.count < 2)
-            edge.triangles[static_cast<std::size_t>(edge.count)] = sides[k].triangle;
-        ++edge.count;
-        edge.forwards += sides[k].forwards ? 1 : 0;
+    for (std::size_t v = 0; v + 1 < first.size(); ++v) {
+        const auto begin = sides.begin() + static_cast<std::ptrdiff_t>(first[v]);
+        const auto end = sides.begin() + static_cast<std::ptrdiff_t>(first[v + 1]);
+        std::sort(begin, end, [](const Side& l, const Side& r) {
+            return l.b < r.b || (l.b == r.b && l.triangle < r.triangle);
+        });
+        for (auto side = begin; side != end; ++side) {
+            if (side == begin || side->b != (side - 1)->b)
+                edges.push_back({static_cast<std::int32_t>(v), side->b});
+            MeshEdge& edge = edges.back();
+            if (edge.count < 2)
+                edge.triangles[static_cast<std::size_t>(edge.count)] = side->triangle;
+            ++edge.count;
+            edge.forwards += side->forwards ? 1 : 0;
+        }
     }
     return edges;
 }

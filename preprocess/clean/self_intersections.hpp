@@ -9,7 +9,9 @@
 namespace ice {
 
 /// Pairs of triangles that cross or touch other than along a shared edge or corner, decided with
-/// exact predicates (CGAL).
+/// exact predicates (CGAL) among those whose boxes meet. Corners at the same point count as shared,
+/// whatever their numbers. Each pair once, the smaller number first, in order.
+/// Triangles without area take part as the segments or points they are not: they cross nothing.
 std::vector<std::pair<std::size_t, std::size_t>> find_self_intersections(const TriangleMesh& mesh);
 
 }  // namespace ice

@@ -3,52 +3,33 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <unordered_map>
-#include <unordered_set>
 
 #include "preprocess/clean/edge_table.hpp"
+#include "preprocess/clean/find_equal.hpp"
 #include "preprocess/clean/keep_triangles.hpp"
 
 namespace ice {
 
 namespace {
 
-constexpr double kTolerance = 1e-6;  // of the diagonal: rounding of single-precision files
+// Of the diagonal: rounding of single-precision files; cracks between parts that were exported one
+// by one. Half a millimetre on a 50 m ship, far below what a contact sphere resolves.
+constexpr double kTolerances[] = {1e-6, 1e-5};
 
-using Key = std::array<std::uint64_t, 3>;
-
-struct HashKey {
-    std::size_t operator()(const Key& key) const {
-        std::uint64_t value = 0xcbf29ce484222325ull;
-        for (const std::uint64_t word : key) {
-            value = (value ^ word) * 0x9e3779b97f4a7c15ull;
-            value ^= value >> 32;
-        }
-        return static_cast<std::size_t>(value);
-    }
-};
-
-// For each vertex the first with the same coordinates; 0 and -0 are the same.
-std::vector<std::int32_t> find_equal(const std::vector<Vec3>& vertices) {
-    std::unordered_map<Key, std::int32_t, HashKey> first;
-    first.reserve(vertices.size());
-    std::vector<std::int32_t> representative(vertices.size());
-    for (std::size_t k = 0; k < vertices.size(); ++k) {
-        Key key;
-        for (int d = 0; d < 3; ++d)
-            key[static_cast<std::size_t>(d)] = std::bit_cast<std::uint64_t>(vertices[k][d] + 0.0);
-        representative[k] = first.try_emplace(key, static_cast<std::int32_t>(k)).first->second;
-    }
-    return representative;
-}
-
-// For each vertex the first within the tolerance, itself if none.
-std::vector<std::int32_t> find_near(const std::vector<Vec3>& vertices) {
+// For each vertex of an open edge the first such within the tolerance; all others themselves.
+std::vector<std::int32_t> find_near(const TriangleMesh& mesh, const std::vector<MeshEdge>& edges,
+                                    double of_diagonal) {
+    const std::vector<Vec3>& vertices = mesh.vertices;
+    std::vector<std::uint8_t> on_border(vertices.size(), 0);
+    for (const MeshEdge& edge : edges)
+        if (edge.count == 1)
+            on_border[static_cast<std::size_t>(edge.a)] =
+                on_border[static_cast<std::size_t>(edge.b)] = 1;
     Eigen::AlignedBox3d box;
     for (const Vec3& v : vertices) box.extend(v);
-    const double tolerance = std::max(kTolerance * box.diagonal().norm(), 1e-300);
+    const double tolerance = std::max(of_diagonal * box.diagonal().norm(), 1e-300);
     // cells of twice the tolerance: near vertices lie in the same or a neighbouring cell
     const auto cell_of = [&](const Vec3& v) -> Key {
         Key cell;
@@ -60,8 +41,10 @@ std::vector<std::int32_t> find_near(const std::vector<Vec3>& vertices) {
     std::unordered_map<Key, std::vector<std::int32_t>, HashKey> cells;
     std::vector<std::int32_t> representative(vertices.size());
     for (std::size_t k = 0; k < vertices.size(); ++k) {
-        const Key at = cell_of(vertices[k]);
         auto found = static_cast<std::int32_t>(k);
+        representative[k] = found;
+        if (!on_border[k]) continue;
+        const Key at = cell_of(vertices[k]);
         for (std::uint64_t n = 0; n < 27; ++n) {
             const auto near =
                 cells.find({at[0] + n % 3 - 1, at[1] + n / 3 % 3 - 1, at[2] + n / 9 - 1});
@@ -81,23 +64,24 @@ std::vector<std::int32_t> find_near(const std::vector<Vec3>& vertices) {
 std::int64_t merge(TriangleMesh& mesh, const std::vector<std::int32_t>& representative,
                    WeldCounts& counts) {
     std::vector<std::uint8_t> keep(mesh.triangles.size(), 1);
-    std::unordered_set<Key, HashKey> seen;
-    seen.reserve(mesh.triangles.size());
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         auto& corner = mesh.triangles[t];
         for (std::int32_t& v : corner) v = representative[static_cast<std::size_t>(v)];
-        if (corner[0] == corner[1] || corner[1] == corner[2] || corner[2] == corner[0]) {
-            ++counts.degenerate_triangles;
-            keep[t] = 0;
-            continue;
-        }
-        // the same triangle whichever corner comes first; its other side is another triangle
-        std::array<std::int32_t, 3> turned = corner;
+        if (corner[0] != corner[1] && corner[1] != corner[2] && corner[2] != corner[0]) continue;
+        ++counts.degenerate_triangles;
+        keep[t] = 0;
+    }
+    // the same triangle whichever corner comes first; its other side is another triangle
+    const auto first = find_first(mesh.triangles.size(), [&](std::size_t t) -> Key {
+        std::array<std::int32_t, 3> turned = mesh.triangles[t];
         std::rotate(turned.begin(), std::min_element(turned.begin(), turned.end()), turned.end());
         Key key;
         std::transform(turned.begin(), turned.end(), key.begin(),
                        [](std::int32_t v) { return static_cast<std::uint64_t>(v); });
-        if (seen.insert(key).second) continue;
+        return key;
+    });
+    for (std::size_t t = 0; t < first.size(); ++t) {
+        if (!keep[t] || first[t] == static_cast<std::int32_t>(t)) continue;
         ++counts.duplicate_triangles;
         keep[t] = 0;
     }
@@ -112,11 +96,14 @@ std::int64_t merge(TriangleMesh& mesh, const std::vector<std::int32_t>& represen
 
 WeldCounts weld(TriangleMesh& mesh) {
     WeldCounts counts;
-    counts.equal_vertices = merge(mesh, find_equal(mesh.vertices), counts);
-    const auto edges = edge_table(mesh);
-    const bool open = std::any_of(edges.begin(), edges.end(),
-                                  [](const MeshEdge& edge) { return edge.count == 1; });
-    if (open) counts.near_vertices = merge(mesh, find_near(mesh.vertices), counts);
+    counts.equal_vertices = merge(mesh, find_equal_vertices(mesh.vertices), counts);
+    for (const double tolerance : kTolerances) {
+        const auto edges = edge_table(mesh);
+        const bool open = std::any_of(edges.begin(), edges.end(),
+                                      [](const MeshEdge& edge) { return edge.count == 1; });
+        if (!open) break;
+        counts.near_vertices += merge(mesh, find_near(mesh, edges, tolerance), counts);
+    }
     return counts;
 }
 

@@ -216,6 +216,39 @@ TEST_CASE("spherize refuses bad meshes by name with exit code 2 and leaves nothi
     CHECK(w.files() == std::vector<std::string>{"nan.obj", "open.obj", "text.obj"});
 }
 
+TEST_CASE("spherize --check says what a mesh is and what would be done, and does nothing",
+          "[cli]") {
+    const Workshop w;
+    const std::string sides =
+        "f 1 3 2\nf 2 3 4\nf 1 2 5\nf 2 6 5\nf 3 7 4\nf 4 7 8\nf 1 5 3\nf 3 5 7\nf 2 4 6\n"
+        "f 4 8 6\n";
+    const std::string corners =
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 0 0 1\nv 1 0 1\nv 0 1 1\nv 1 1 1\n";
+    w.write("deck.obj", corners + sides);
+    const Result deck = w.run("spherize deck.obj --check --json check.json");
+    CHECK(deck.code == 0);
+    CHECK_THAT(deck.out, Catch::Contains("4 open edges") && Catch::Contains("4 m around") &&
+                             Catch::Contains("deck closed by a cap: 1") &&
+                             Catch::Contains("closed solid, 12 triangles, 1 m3"));
+    CHECK_THAT(slurp(w / "check.json"), Catch::Contains("deck closed by a cap"));
+
+    w.write("side.obj", corners + "f 5 6 7\nf 6 8 7\n" + sides.substr(0, sides.size() - 16));
+    const Result side = w.run("spherize side.obj --check --json side.json");
+    CHECK(side.code == 2);
+    CHECK_THAT(side.out, Catch::Contains("4 open edges"));
+    CHECK_THAT(side.err, Catch::Contains("too large to guess") && Catch::Contains("--repair wrap"));
+    CHECK_THAT(slurp(w / "side.json"), Catch::Contains("too large to guess"));
+    CHECK(w.run("spherize deck.obj --repair strict").code == 2);
+
+    // the vertices of a deck without its faces: half a file, not an open deck
+    w.write("cut.obj", corners + "v 0.5 0.5 1.5\n" + sides);
+    const Result cut = w.run("spherize cut.obj");
+    CHECK(cut.code == 2);
+    CHECK_THAT(cut.err, Catch::Contains("no face uses its last 1 vertices"));
+    CHECK(w.files() ==
+          std::vector<std::string>{"check.json", "cut.obj", "deck.obj", "side.json", "side.obj"});
+}
+
 TEST_CASE("spherize into a folder that does not exist fails with exit code 1", "[cli][errors]") {
     const Workshop w;
     const Result r = w.run("spherize " ICE_MESHES "/paper-floe-3d.obj -r 0.05 -o none/set.h5");

@@ -6,7 +6,7 @@
 #include <map>
 
 #include "common/geometry/mass_properties.hpp"
-#include "preprocess/clean/check_solid.hpp"
+#include "preprocess/repair/check_solid.hpp"
 #include "preprocess/clean/weld.hpp"
 #include "preprocess/load/symmetry.hpp"
 #include "tests/support/make_meshes.hpp"

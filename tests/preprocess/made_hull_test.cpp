@@ -4,7 +4,7 @@
 #include <map>
 
 #include "common/geometry/mass_properties.hpp"
-#include "preprocess/clean/check_solid.hpp"
+#include "preprocess/repair/check_solid.hpp"
 #include "tests/support/make_hull.hpp"
 
 using namespace ice;

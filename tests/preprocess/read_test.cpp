@@ -3,9 +3,9 @@
 #include <catch2/catch.hpp>
 
 #include "common/base/error.hpp"
-#include "preprocess/clean/check_solid.hpp"
 #include "preprocess/clean/weld.hpp"
 #include "preprocess/load/read_mesh.hpp"
+#include "preprocess/repair/check_solid.hpp"
 #include "tests/support/make_meshes.hpp"
 #include "tests/support/temporary_file.hpp"
 

@@ -2,8 +2,8 @@
 // Sections.
 #include <catch2/catch.hpp>
 
-#include "preprocess/clean/check_solid.hpp"
 #include "preprocess/clean/weld.hpp"
+#include "preprocess/repair/check_solid.hpp"
 #include "preprocess/slice/slice_solid.hpp"
 #include "tests/support/make_meshes.hpp"
 

@@ -2,10 +2,18 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "common/geometry/triangle_mesh.hpp"
 
 namespace ice {
+
+/// A hole of the surface.
+struct Opening {
+    Vec3 at = Vec3::Zero();  ///< mean of its corners [m]
+    double perimeter = 0.0;  ///< [m]
+    std::int64_t edges = 0;
+};
 
 /// What keeps a triangle mesh from being the surface of a solid.
 struct SolidDiagnosis {
@@ -13,6 +21,7 @@ struct SolidDiagnosis {
     std::int64_t crowded_edges = 0;       ///< edges with three or more triangles
     std::int64_t inconsistent_edges = 0;  ///< both triangles run the same way along the edge
     std::int64_t intersecting_pairs = 0;  ///< triangles that cross; counted when the rest is good
+    std::int64_t parts = 0;               ///< connected pieces of surface
     Vec3 example = Vec3::Zero();          ///< a point on the first fault found [m]
     double volume = 0.0;                  ///< signed [m3]; negative: inside out
     bool inside_out = false;              ///< good but for its orientation
@@ -27,7 +36,14 @@ struct SolidDiagnosis {
 /// @pre the mesh is welded
 SolidDiagnosis diagnose_solid(const TriangleMesh& mesh);
 
-/// Turns all triangles over.
-void flip(TriangleMesh& mesh);
+/// The part of diagnose_solid() that looks at edges only: cheap.
+SolidDiagnosis diagnose_edges(const TriangleMesh& mesh);
+
+/// The holes, the longest first. @pre the mesh is welded and its faces are oriented
+std::vector<Opening> find_openings(const TriangleMesh& mesh);
+
+/// Several lines on a mesh as it was read (welded here, otherwise untouched): size, parts, edges,
+/// openings with place and length, crossing triangles, volume, half hull. For --check.
+std::string describe_mesh(TriangleMesh mesh);
 
 }  // namespace ice

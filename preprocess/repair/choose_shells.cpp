@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "preprocess/clean/choose_shells.hpp"
+#include "preprocess/repair/choose_shells.hpp"
 
 #include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 
-#include "preprocess/clean/edge_table.hpp"
+#include "preprocess/clean/find_parts.hpp"
 #include "preprocess/clean/keep_triangles.hpp"
 
 namespace ice {
@@ -24,39 +23,13 @@ struct Shell {
     Vec3 sample = Vec3::Zero();  // in a face: shells may share a corner, but no face
 };
 
-// Joins triangles across edges; returns one root per triangle.
-std::vector<std::int32_t> connect(const TriangleMesh& mesh) {
-    std::vector<std::int32_t> parent(mesh.triangles.size());
-    std::iota(parent.begin(), parent.end(), 0);
-    const auto root = [&](std::int32_t t) {
-        while (parent[static_cast<std::size_t>(t)] != t) {
-            auto& up = parent[static_cast<std::size_t>(t)];
-            up = parent[static_cast<std::size_t>(up)];
-            t = up;
-        }
-        return t;
-    };
-    for (const MeshEdge& edge : edge_table(mesh)) {
-        const std::int32_t a = root(edge.triangles[0]), b = root(edge.triangles[1]);
-        parent[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
-    }
-    for (std::size_t t = 0; t < parent.size(); ++t) parent[t] = root(static_cast<std::int32_t>(t));
-    return parent;
-}
-
 std::vector<Shell> find_shells(const TriangleMesh& mesh) {
-    const std::vector<std::int32_t> root = connect(mesh);
-    std::vector<std::int32_t> index(root.size(), -1);
-    std::vector<Shell> shells;
-    for (std::size_t t = 0; t < root.size(); ++t) {
-        std::int32_t& at = index[static_cast<std::size_t>(root[t])];
-        if (at < 0) {
-            at = static_cast<std::int32_t>(shells.size());
-            shells.emplace_back();
-            shells.back().sample =
-                (mesh.corner(t, 0) + mesh.corner(t, 1) + mesh.corner(t, 2)) / 3.0;
-        }
-        Shell& shell = shells[static_cast<std::size_t>(at)];
+    const Parts parts = find_parts(mesh);
+    std::vector<Shell> shells(static_cast<std::size_t>(parts.count));
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        Shell& shell = shells[static_cast<std::size_t>(parts.of_triangle[t])];
+        if (shell.triangles.empty())
+            shell.sample = (mesh.corner(t, 0) + mesh.corner(t, 1) + mesh.corner(t, 2)) / 3.0;
         shell.triangles.push_back(static_cast<std::int32_t>(t));
         for (int k = 0; k < 3; ++k) shell.box.extend(mesh.corner(t, k));
     }

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "preprocess/measure/winding_number.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+namespace ice {
+
+namespace {
+
+constexpr std::int32_t kLeafSize = 6;
+constexpr double kBeta = 2.0;  // of a node's reach: farther away it is a dipole
+
+// Signed solid angle of a triangle from the origin, halved (van Oosterom and Strackee, IEEE Trans.
+// Biomed. Eng. 30(2), 1983).
+double half_solid_angle(const Vec3& a, const Vec3& b, const Vec3& c) {
+    const double la = a.norm(), lb = b.norm(), lc = c.norm();
+    const double below = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
+    return std::atan2(a.dot(b.cross(c)), below);
+}
+
+}  // namespace
+
+WindingNumber::WindingNumber(const TriangleMesh& mesh) {
+    if (mesh.triangles.empty()) return;
+    std::vector<std::int32_t> order(mesh.triangles.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::vector<Vec3> centers;
+    centers.reserve(order.size());
+    for (std::size_t t = 0; t < order.size(); ++t)
+        centers.push_back((mesh.corner(t, 0) + mesh.corner(t, 1) + mesh.corner(t, 2)) / 3.0);
+    nodes_.reserve(order.size());
+    build(mesh, order, centers, 0, static_cast<std::int32_t>(order.size()));
+    corners_.reserve(order.size());
+    for (const std::int32_t t : order) {
+        const auto tt = static_cast<std::size_t>(t);
+        corners_.push_back({mesh.corner(tt, 0), mesh.corner(tt, 1), mesh.corner(tt, 2)});
+    }
+}
+
+std::int32_t WindingNumber::build(const TriangleMesh& mesh, std::vector<std::int32_t>& order,
+                                  const std::vector<Vec3>& centers, std::int32_t first,
+                                  std::int32_t count) {
+    const auto index = nodes_.size();
+    nodes_.emplace_back();
+    const auto begin = order.begin() + first, end = begin + count;
+    Eigen::AlignedBox3d box;
+    Vec3 area = Vec3::Zero(), weighted = Vec3::Zero();
+    double total = 0.0;
+    for (auto t = begin; t != end; ++t) {
+        const auto tt = static_cast<std::size_t>(*t);
+        const Vec3 vector = mesh.area_vector(tt);
+        area += vector;
+        weighted += vector.norm() * centers[tt];
+        total += vector.norm();
+        box.extend(centers[tt]);
+    }
+    Node& node = nodes_[index];
+    node.area = area;
+    node.center = total > 0.0 ? Vec3(weighted / total) : box.center();
+    for (auto t = begin; t != end; ++t)
+        for (int k = 0; k < 3; ++k)
+            node.reach = std::max(
+                node.reach, (mesh.corner(static_cast<std::size_t>(*t), k) - node.center).norm());
+    if (count <= kLeafSize) {
+        node.first = first;
+        node.count = count;
+        return static_cast<std::int32_t>(index);
+    }
+    int axis = 0;
+    box.sizes().maxCoeff(&axis);
+    const std::int32_t half = count / 2;
+    // ties by triangle number, so that equal meshes give equal trees
+    std::nth_element(begin, begin + half, end, [&](std::int32_t l, std::int32_t r) {
+        const double cl = centers[static_cast<std::size_t>(l)][axis];
+        const double cr = centers[static_cast<std::size_t>(r)][axis];
+        return cl < cr || (cl == cr && l < r);
+    });
+    build(mesh, order, centers, first, half);
+    const std::int32_t right = build(mesh, order, centers, first + half, count - half);
+    nodes_[index].right = right;
+    return static_cast<std::int32_t>(index);
+}
+
+double WindingNumber::at(const Vec3& p) const {
+    if (nodes_.empty()) return 0.0;
+    double sum = 0.0;  // of half solid angles
+    std::int32_t stack[64];
+    int depth = 0;
+    stack[depth++] = 0;
+    while (depth > 0) {
+        const std::int32_t index = stack[--depth];
+        const Node& node = nodes_[static_cast<std::size_t>(index)];
+        const Vec3 to = node.center - p;
+        const double distance_sq = to.squaredNorm();
+        if (distance_sq > kBeta * kBeta * node.reach * node.reach) {
+            sum += 0.5 * node.area.dot(to) / (distance_sq * std::sqrt(distance_sq));
+            continue;
+        }
+        if (node.count == 0) {
+            stack[depth++] = node.right;
+            stack[depth++] = index + 1;
+            continue;
+        }
+        for (std::int32_t k = node.first; k < node.first + node.count; ++k) {
+            const auto& corner = corners_[static_cast<std::size_t>(k)];
+            sum += half_solid_angle(corner[0] - p, corner[1] - p, corner[2] - p);
+        }
+    }
+    return sum / (2.0 * std::numbers::pi);
+}
+
+}  // namespace ice

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "common/geometry/triangle_mesh.hpp"
+
+namespace ice {
+
+/// Generalised winding number of any set of triangles: the solid angle they cover seen from a
+/// point, over 4 pi. 1 inside and 0 outside a closed outward surface, in between near openings.
+///
+/// Jacobson et al., "Robust inside-outside segmentation using generalized winding numbers",
+/// SIGGRAPH 2013; far triangles together as one dipole, Barill et al., "Fast winding numbers
+/// for soups and clouds", SIGGRAPH 2018 (first order, beta = 2: errors of up to 0.04, far from
+/// the 0.5 that decides). A triangle without area counts nothing. Thread-safe once built. Build
+/// O(T log T).
+class WindingNumber {
+public:
+    /// Keeps what it needs of the mesh.
+    explicit WindingNumber(const TriangleMesh& mesh);
+
+    double at(const Vec3& p) const;
+
+private:
+    struct Node {
+        Vec3 center;                        ///< area-weighted
+        Vec3 area;                          ///< sum of area vectors [m2]
+        double reach = 0.0;                 ///< of the triangles from the center [m]
+        std::int32_t first = 0, count = 0;  ///< leaf: range of corners_; inner node: count 0
+        std::int32_t right = 0;  ///< inner node: second child; the first is the next node
+    };
+
+    std::int32_t build(const TriangleMesh& mesh, std::vector<std::int32_t>& order,
+                       const std::vector<Vec3>& centers, std::int32_t first, std::int32_t count);
+
+    std::vector<Node> nodes_;
+    std::vector<std::array<Vec3, 3>> corners_;
+};
+
+}  // namespace ice

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Surface_mesh.h>
+#include <CGAL/alpha_wrap_3.h>
+
+#include <exception>
+
+#include "preprocess/repair/wrap_solid.hpp"
+
+namespace ice {
+
+TriangleMesh alpha_wrap(const TriangleMesh& mesh, double alpha, double offset) {
+    using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+    using Surface = CGAL::Surface_mesh<Kernel::Point_3>;
+    std::vector<Kernel::Point_3> points;
+    std::vector<std::vector<std::size_t>> faces;
+    for (const Vec3& v : mesh.vertices) points.emplace_back(v.x(), v.y(), v.z());
+    for (const auto& t : mesh.triangles) faces.emplace_back(t.begin(), t.end());
+    TriangleMesh out;
+    try {
+        Surface wrap;
+        CGAL::alpha_wrap_3(points, faces, alpha, offset, wrap);
+        for (const auto v : wrap.vertices()) {
+            const auto& p = wrap.point(v);
+            out.vertices.emplace_back(p.x(), p.y(), p.z());
+        }
+        for (const auto f : wrap.faces()) {
+            std::array<std::int32_t, 3> t{};
+            std::size_t k = 0;
+            for (const auto v : CGAL::vertices_around_face(wrap.halfedge(f), wrap))
+                t[k++] = static_cast<std::int32_t>(v.idx());
+            out.triangles.push_back(t);
+        }
+    } catch (const std::exception&) {
+        return {};
+    }
+    out.region.assign(out.triangles.size(), 0);
+    return out;
+}
+
+}  // namespace ice

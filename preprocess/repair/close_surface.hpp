@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "preprocess/repair/judge_caps.hpp"
+#include "preprocess/repair/make_solid.hpp"
+
+namespace ice {
+
+/// A surface without boundary, and what it took.
+struct ClosedSurface {
+    TriangleMesh mesh;             ///< each edge has two triangles that agree; parts face outwards
+    TriangleMesh open;             ///< the same without its caps
+    std::vector<CapVerdict> caps;  ///< one per hole
+    double surface = 0.0;          ///< area without caps [m2]
+    double widest = 0.0;           ///< of the holes: 4 area / perimeter [m]
+};
+
+/// Welded triangles -> a surface without boundary: copies and walls without thickness dropped, an
+/// open half hull mirrored, faces turned to agree, holes capped, sheets separated, parts turned
+/// outwards, scraps without volume dropped. What it did is appended to `repairs`; the caps are
+/// judged but not refused here.
+ClosedSurface close_surface(TriangleMesh mesh, const SolidOptions& options, Repairs& repairs);
+
+/// Turns over the parts whose volume is negative. @return parts turned. @pre closed
+std::int64_t turn_parts_outward(TriangleMesh& mesh);
+
+}  // namespace ice

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "preprocess/repair/judge_caps.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+#include "preprocess/clean/find_parts.hpp"
+#include "preprocess/measure/winding_number.hpp"
+
+namespace ice {
+
+namespace {
+
+constexpr double kDoubt = 0.005;       // of the volume: all caps together
+constexpr double kTrifle = 0.0005;     // of the volume: one cap whose kind need not be known
+constexpr double kSuspect = 0.005;     // of the surface: largest cap in a file that seems cut off
+constexpr double kContinued = 0.2;     // of the surface: all continued faces together
+constexpr double kLoose = 0.05;        // of the surface: all small caps together
+constexpr double kSteepest = 0.0872;   // cosine of 85 degrees
+constexpr double kStep = 1e-3;         // of the diagonal: a step in the rim of a deck
+constexpr double kJustOutside = 1e-4;  // of the diagonal
+const double kFlat = std::cos(std::numbers::pi / 180.0);  // one degree
+
+struct Plane {
+    Vec3 normal;
+    double offset;
+};
+
+class Judge {
+public:
+    Judge(const TriangleMesh& mesh, const std::vector<Cap>& caps)
+        : mesh_(mesh), parts_(find_parts(mesh)) {
+        std::vector<std::uint8_t> capped(mesh.triangles.size(), 0);
+        for (const Cap& cap : caps)
+            std::fill_n(capped.begin() + cap.first, cap.count, std::uint8_t{1});
+        for (std::size_t t = 0; t < capped.size(); ++t)
+            if (!capped[t]) surface_ += mesh.area_vector(t).norm();
+        for (const double part : part_volumes(mesh, parts_)) volume_ += std::abs(part);
+        Eigen::AlignedBox3d box;
+        for (const Vec3& v : mesh.vertices) box.extend(v);
+        size_ = box.diagonal().norm();
+    }
+
+    double surface() const { return surface_; }
+    double volume() const { return volume_; }
+
+    CapVerdict measure(const Cap& cap) const {
+        CapVerdict out;
+        const std::vector<Plane> planes = continued_planes(cap);
+        double guessed = 0.0;  // area that goes on from no neighbour
+        for (std::int32_t t = cap.first; t < cap.first + cap.count; ++t) {
+            const auto tt = static_cast<std::size_t>(t);
+            const double area = mesh_.area_vector(tt).norm();
+            out.area += area;
+            out.at +=
+                area * (mesh_.corner(tt, 0) + mesh_.corner(tt, 1) + mesh_.corner(tt, 2)) / 3.0;
+            if (!continues(tt, planes)) guessed += area;
+        }
+        if (out.area > 0.0) out.at /= out.area;
+        double turn = 0.0, length = 0.0;
+        for (const RimEdge& edge : cap.rim) {
+            if (continues(static_cast<std::size_t>(edge.patch), planes)) continue;
+            turn += edge.length * slope(edge);
+            length += edge.length;
+        }
+        const double mean = length > 0.0 ? turn / length : 1.0 / kSteepest;
+        if (cap.perimeter > 0.0) out.doubt = guessed * out.area / cap.perimeter * mean;
+        if (guessed <= 1e-6 * out.area) out.kind = CapKind::continued;
+        return out;
+    }
+
+    // Whether all of the cap lies inside other parts: just outside it the winding number is theirs.
+    bool is_hidden(const Cap& cap) {
+        if (!winding_) winding_.emplace(mesh_);
+        for (std::int32_t t = cap.first; t < cap.first + cap.count; ++t) {
+            const auto tt = static_cast<std::size_t>(t);
+            const Vec3 middle =
+                (mesh_.corner(tt, 0) + mesh_.corner(tt, 1) + mesh_.corner(tt, 2)) / 3.0;
+            for (const Vec3& p : {middle, Vec3(0.2 * middle + 0.8 * mesh_.corner(tt, 0)),
+                                  Vec3(0.2 * middle + 0.8 * mesh_.corner(tt, 1)),
+                                  Vec3(0.2 * middle + 0.8 * mesh_.corner(tt, 2))})
+                if (winding_->at(p + kJustOutside * size_ * normal(t)) < 0.5) return false;
+        }
+        return true;
+    }
+
+    bool is_deck(const Cap& cap) const {
+        double area = 0.0, walls = 0.0, length = 0.0;
+        Vec3 sum = Vec3::Zero();
+        for (std::int32_t t = cap.first; t < cap.first + cap.count; ++t) {
+            sum += mesh_.area_vector(static_cast<std::size_t>(t));
+            area += mesh_.area_vector(static_cast<std::size_t>(t)).norm();
+        }
+        for (const RimEdge& edge : cap.rim) {
+            walls += edge.length * normal(edge.neighbour).z();
+            length += edge.length;
+        }
+        return sum.z() >= 0.9 * area && walls <= 0.3 * length && walls >= -0.6 * length &&
+               !has_steps(cap) && spans_and_tops(cap);
+    }
+
+private:
+    Vec3 normal(std::int32_t t) const {
+        return mesh_.area_vector(static_cast<std::size_t>(t)).normalized();
+    }
+
+    // tan(a) of the angle the surface turns by across the rim; at most that of 85 degrees.
+    double slope(const RimEdge& edge) const {
+        const double c = normal(edge.patch).dot(normal(edge.neighbour));
+        return std::sqrt(std::max(1.0 - c * c, 0.0)) / std::max(c, kSteepest);
+    }
+
+    std::vector<Plane> continued_planes(const Cap& cap) const {
+        std::vector<Plane> planes;
+        for (const RimEdge& edge : cap.rim) {
+            const Vec3 n = normal(edge.neighbour);
+            if (normal(edge.patch).dot(n) < kFlat) continue;
+            const double offset = n.dot(mesh_.corner(static_cast<std::size_t>(edge.patch), 0));
+            const bool known = std::any_of(planes.begin(), planes.end(), [&](const Plane& p) {
+                return p.normal.dot(n) > kFlat && std::abs(p.offset - offset) < 1e-4 * size_;
+            });
+            if (!known) planes.push_back({n, offset});
+            if (planes.size() == 32) break;
+        }
+        return planes;
+    }
+
+    bool continues(std::size_t t, const std::vector<Plane>& planes) const {
+        const Vec3 area = mesh_.area_vector(t);
+        return std::any_of(planes.begin(), planes.end(), [&](const Plane& p) {
+            return area.dot(p.normal) >= kFlat * area.norm() &&
+                   std::abs(p.normal.dot(mesh_.corner(t, 0)) - p.offset) < 1e-4 * size_;
+        });
+    }
+
+    // A sheer line is smooth; the edge of a surface that ends within a row of faces is not.
+    bool has_steps(const Cap& cap) const {
+        return std::any_of(cap.rim.begin(), cap.rim.end(), [&](const RimEdge& edge) {
+            return std::abs(edge.along.z()) > kStep * size_ &&
+                   std::abs(edge.along.z()) > edge.along.head<2>().norm();
+        });
+    }
+
+    // Reaches over most of its part, and the part has nothing above it.
+    bool spans_and_tops(const Cap& cap) const {
+        Eigen::AlignedBox3d rim, part;
+        const auto first = static_cast<std::size_t>(cap.first);
+        for (std::int32_t t = cap.first; t < cap.first + cap.count; ++t)
+            for (int k = 0; k < 3; ++k) rim.extend(mesh_.corner(static_cast<std::size_t>(t), k));
+        std::vector<Vec3> higher;  // corners that might stand above the cap
+        for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+            if (parts_.of_triangle[t] != parts_.of_triangle[first]) continue;
+            for (int k = 0; k < 3; ++k) {
+                part.extend(mesh_.corner(t, k));
+                if (mesh_.corner(t, k).z() > rim.min().z() + 1e-6 * size_)
+                    higher.push_back(mesh_.corner(t, k));
+            }
+        }
+        for (int d = 0; d < 2; ++d)
+            if (rim.sizes()[d] < 0.6 * part.sizes()[d]) return false;
+        return std::none_of(higher.begin(), higher.end(),
+                            [&](const Vec3& p) { return p.z() > height(cap, p) + 1e-3 * size_; });
+    }
+
+    // Of the cap above or below p; where it does not reach, infinity.
+    double height(const Cap& cap, const Vec3& p) const {
+        for (std::int32_t t = cap.first; t < cap.first + cap.count; ++t) {
+            const auto tt = static_cast<std::size_t>(t);
+            const Vec3 a = mesh_.corner(tt, 0), b = mesh_.corner(tt, 1), c = mesh_.corner(tt, 2);
+            const auto side = [&](const Vec3& q, const Vec3& r) {
+                return (r.x() - q.x()) * (p.y() - q.y()) - (r.y() - q.y()) * (p.x() - q.x());
+            };
+            const double wa = side(b, c), wb = side(c, a), wc = side(a, b), sum = wa + wb + wc;
+            if (std::min({wa, wb, wc}) < 0.0 || sum <= 0.0) continue;
+            return (wa * a.z() + wb * b.z() + wc * c.z()) / sum;
+        }
+        return std::numeric_limits<double>::infinity();
+    }
+
+    const TriangleMesh& mesh_;
+    std::optional<WindingNumber> winding_;  // of all parts, when asked for
+    Parts parts_;
+    double surface_ = 0.0, volume_ = 0.0, size_ = 0.0;
+};
+
+}  // namespace
+
+std::vector<CapVerdict> judge_caps(const TriangleMesh& mesh, const std::vector<Cap>& caps,
+                                   bool suspect) {
+    Judge judge(mesh, caps);
+    std::vector<CapVerdict> out;
+    double doubt = 0.0, loose = 0.0, continued = 0.0;
+    for (const Cap& cap : caps) {
+        out.push_back(judge.measure(cap));
+        CapVerdict& cap_is = out.back();
+        const bool matters =
+            cap_is.doubt > kTrifle * judge.volume() || cap_is.area > kLoose * judge.surface();
+        if (suspect && cap_is.area > kSuspect * judge.surface())
+            cap_is.kind = CapKind::guess;
+        else if (matters && judge.is_hidden(cap))
+            cap_is.kind = CapKind::hidden;
+        else if (matters && judge.is_deck(cap))
+            cap_is.kind = CapKind::deck;
+        if (cap_is.kind == CapKind::deck || cap_is.kind == CapKind::hidden) continue;
+        doubt += cap_is.doubt;
+        (cap_is.kind == CapKind::continued ? continued : loose) += cap_is.area;
+    }
+    const bool stand = doubt <= kDoubt * judge.volume() && loose <= kLoose * judge.surface() &&
+                       continued <= kContinued * judge.surface();
+    if (stand) return out;
+    // name those that weigh most: each that by itself takes a fair share of what is allowed
+    const auto weight = [&](const CapVerdict& cap) {
+        const double of_area = cap.kind == CapKind::continued ? kContinued : kLoose;
+        return std::max(cap.doubt / (kDoubt * judge.volume()),
+                        cap.area / (of_area * judge.surface()));
+    };
+    CapVerdict* heaviest = nullptr;
+    for (CapVerdict& cap : out)
+        if (cap.kind != CapKind::deck && cap.kind != CapKind::hidden &&
+            (heaviest == nullptr || weight(cap) > weight(*heaviest)))
+            heaviest = &cap;
+    if (heaviest != nullptr) heaviest->kind = CapKind::guess;
+    return out;
+}
+
+}  // namespace ice

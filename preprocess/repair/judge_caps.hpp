@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "preprocess/repair/cap_holes.hpp"
+
+namespace ice {
+
+/// What a cap is taken for.
+enum class CapKind {
+    small,      ///< whatever its form, the volume does not depend on it
+    continued,  ///< flat, and goes on from a face next to it in the same plane
+    hidden,     ///< inside another part
+    deck,       ///< faces up and closes the top of its part from side to side
+    guess,      ///< none of these: refused
+};
+
+/// A cap as a reader of the report wants to know it.
+struct CapVerdict {
+    CapKind kind = CapKind::small;
+    Vec3 at = Vec3::Zero();  ///< its middle [m]
+    double area = 0.0;       ///< [m2]
+    double doubt = 0.0;      ///< volume that depends on the guess [m3]
+};
+
+/// Says of each cap whether it may stand.
+///
+/// A cap of area A and perimeter P, at whose rim the surface turns by the angle a, leaves a
+/// doubt of A (2 A / P) tan(a) / 2 in the volume: the wedge or cone that goes on straight from
+/// its rim has half to two thirds of that, the lens of a sphere less. Triangles that go on in
+/// the plane of a neighbour leave none. Caps stand while their doubts add up to at most 0.5 % of
+/// the volume. Beyond that a cap stands where other parts cover it (a superstructure without a
+/// bottom, standing in the deck), or as a deck: it faces up, the walls at its rim stand (they
+/// lean inwards by less than 17 degrees, outwards by less than 37), its edge has no steps, it
+/// reaches over 60 % of the length and the breadth of its part, and nothing of the part stands
+/// above it.
+///
+/// @param mesh    closed by `caps`, each part facing outwards
+/// @param suspect the file seems cut off: no cap of more than 0.5 % of the surface may stand
+std::vector<CapVerdict> judge_caps(const TriangleMesh& mesh, const std::vector<Cap>& caps,
+                                   bool suspect);
+
+}  // namespace ice

@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "preprocess/repair/make_solid.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/base/error.hpp"
+#include "common/geometry/mass_properties.hpp"
+#include "preprocess/clean/find_parts.hpp"
+#include "preprocess/clean/orient_faces.hpp"
+#include "preprocess/clean/self_intersections.hpp"
+#include "preprocess/clean/weld.hpp"
+#include "preprocess/measure/row_volumes.hpp"
+#include "preprocess/repair/check_solid.hpp"
+#include "preprocess/repair/close_surface.hpp"
+#include "preprocess/repair/unite_parts.hpp"
+#include "preprocess/repair/verify_solid.hpp"
+#include "preprocess/repair/winding_solid.hpp"
+#include "preprocess/repair/wrap_solid.hpp"
+
+namespace ice {
+
+namespace {
+
+constexpr double kWindingDiffers = 0.02;  // of the volume: caps against the open surface
+// Over a sheer line the surface where the winding number is a half sags between the ends: 3.7 % of
+// the volume at a sheer of a quarter of the depth.
+constexpr double kDeckDiffers = 0.05;
+constexpr double kCapsMatter = 0.005;   // of the surface: below, caps need no second opinion
+constexpr double kWorthWarning = 0.01;  // of the surface: one cap
+constexpr double kContourError = 0.01;  // of the volume
+constexpr double kWrapOffset = 1000.0;  // of which the diagonal is a multiple
+constexpr double kCollapsed = 0.5;      // of the volume the winding number gives
+
+const char* const kRemedy =
+    "close and orient it in the program that made it, then export again; or try --repair wrap";
+
+using CrossingPairs = std::vector<std::pair<std::size_t, std::size_t>>;
+
+std::string place(const Vec3& at) {
+    return fmt::format("({:.4g}, {:.4g}, {:.4g})", at.x(), at.y(), at.z());
+}
+
+class Ladder {
+public:
+    Ladder(const std::string& name, const SolidOptions& options, Repairs& repairs,
+           std::vector<std::string>& warnings)
+        : name_(name), options_(options), repairs_(repairs), warnings_(warnings) {}
+
+    TriangleMesh climb(TriangleMesh mesh) {
+        const WeldCounts welded = weld(mesh);
+        note("near vertices merged", welded.near_vertices);
+        note("degenerate triangles dropped", welded.degenerate_triangles);
+        note("duplicate triangles dropped", welded.duplicate_triangles);
+        if (mesh.triangles.empty()) throw refusal("the volume is zero");
+        if (options_.mode == RepairMode::wrap) return wrap(std::move(mesh));
+        const SolidDiagnosis diagnosis = diagnose_edges(mesh);
+        if (options_.mode == RepairMode::strict) return demand(std::move(mesh), welded);
+        open_edges_ = diagnosis.open_edges;
+        if (!diagnosis.closed()) mesh = close(std::move(mesh));
+        return untangle(std::move(mesh));
+    }
+
+private:
+    void note(const std::string& step, std::int64_t count) {
+        if (count > 0) repairs_.emplace_back(step, count);
+    }
+
+    Error refusal(const std::string& fault, const std::string& remedy = kRemedy) const {
+        return bad_input(name_, "is not the closed surface of a solid: " + fault, remedy);
+    }
+
+    // --repair strict
+    TriangleMesh demand(TriangleMesh mesh, const WeldCounts& welded) {
+        const SolidDiagnosis diagnosis = diagnose_solid(mesh);
+        if (!diagnosis.closed() || diagnosis.intersecting_pairs > 0)
+            throw refusal(diagnosis.text(), "mend it, or leave out --repair strict");
+        if (welded.near_vertices > 0)
+            throw refusal(fmt::format("{} vertices only nearly meet", welded.near_vertices),
+                          "mend it, or leave out --repair strict");
+        return choose(std::move(mesh));
+    }
+
+    // Holes capped, faces turned, half hulls mirrored.
+    TriangleMesh close(TriangleMesh mesh) {
+        ClosedSurface closed = close_surface(std::move(mesh), options_, repairs_);
+        if (closed.mesh.triangles.empty()) throw refusal("the volume is zero");
+        double caps = 0.0;
+        for (const CapVerdict& cap : closed.caps) {
+            if (cap.kind == CapKind::guess) throw too_large(cap, closed.surface);
+            caps += cap.area;
+            if (cap.kind == CapKind::deck)
+                warnings_.push_back(
+                    fmt::format("the open deck at {} was closed by a cap of {:.3g} m2",
+                                place(cap.at), cap.area));
+            else if (cap.kind != CapKind::hidden && cap.area > kWorthWarning * closed.surface)
+                warnings_.push_back(fmt::format(
+                    "an opening of {:.3g} m2 at {} was closed {}", cap.area, place(cap.at),
+                    cap.kind == CapKind::continued ? "flat, in the plane of the faces beside it"
+                                                   : "by the smallest surface"));
+        }
+        if (caps > kCapsMatter * closed.surface) {
+            const WindingComparison c = compare_windings(closed.open, closed.mesh);
+            const bool deck =
+                std::any_of(closed.caps.begin(), closed.caps.end(),
+                            [](const CapVerdict& cap) { return cap.kind == CapKind::deck; });
+            if (c.differs > (deck ? kDeckDiffers : kWindingDiffers))
+                throw refusal(fmt::format(
+                    "closing its openings gives {:.4g} m3, the winding number of the open surface "
+                    "{:.4g} m3",
+                    c.second_volume, c.first_volume));
+        }
+        return std::move(closed.mesh);
+    }
+
+    Error too_large(const CapVerdict& cap, double surface) const {
+        const std::string size = fmt::format(
+            "{} open edges; an opening of {:.3g} m2 ({:.3g} % of the surface) at {} is too large "
+            "to "
+            "guess",
+            open_edges_, cap.area, 100.0 * cap.area / surface, place(cap.at));
+        return refusal(
+            options_.suspect.empty() ? size : size + ", and " + options_.suspect,
+            options_.suspect.empty()
+                ? "close it in the program that made it; if it is the open deck, give --up; "
+                  "--repair wrap closes it whatever it is"
+                : "export or copy the file again");
+    }
+
+    // A closed surface -> one that crosses itself nowhere, or without effect.
+    TriangleMesh untangle(TriangleMesh mesh) {
+        const CrossingPairs pairs = find_self_intersections(mesh);
+        if (pairs.empty()) {
+            TriangleMesh solid = choose(std::move(mesh));
+            const SolidProof proof = verify_solid(solid);
+            if (!proof.good) throw refusal(proof.fault);
+            return solid;
+        }
+        turn_outward(mesh);
+        if (auto solid = unite(mesh, pairs)) return std::move(*solid);
+        if (verify_solid(mesh).good) {
+            note("crossing pairs of triangles left, without effect on the volume",
+                 static_cast<std::int64_t>(pairs.size()));
+            return choose(std::move(mesh));
+        }
+        if (auto solid = contour(mesh)) return std::move(*solid);
+        if (auto solid = wrap_last(mesh)) return std::move(*solid);
+        throw refusal(fmt::format("{} pairs of triangles cross, the first at {}", pairs.size(),
+                                  place(mesh.corner(pairs.front().first, 0))));
+    }
+
+    // Surfaces that face inwards are voids of the material, unless all of it is inside out.
+    void turn_outward(TriangleMesh& mesh) {
+        if (options_.kind == SolidKind::envelope) {
+            note("inside-out surfaces turned over", turn_parts_outward(mesh));
+        } else if (measure_mass(mesh).volume < 0.0) {
+            flip(mesh);
+            note("inside-out surfaces turned over", find_parts(mesh).count);
+        }
+    }
+
+    std::optional<TriangleMesh> unite(const TriangleMesh& mesh, const CrossingPairs& pairs) {
+        for (const double volume : part_volumes(mesh, find_parts(mesh)))
+            if (volume <= 0.0) return std::nullopt;
+        std::int64_t united = 0;
+        auto sum = unite_parts(mesh, pairs, &united);
+        if (!sum) return std::nullopt;
+        const double expected = measure_rows(mesh, 300)[0].by_winding;
+        const auto left = static_cast<std::int64_t>(find_self_intersections(*sum).size());
+        const ShellCounts shells = choose_shells(*sum, options_.kind);
+        const SolidProof proof = verify_solid(*sum);
+        // the envelope may have gained voids between the parts
+        if (!proof.good || proof.volume < (1.0 - kContourError) * expected) return std::nullopt;
+        note("overlapping parts united", united);
+        note_shells(shells);
+        note("crossing pairs of triangles left, without effect on the volume", left);
+        return sum;
+    }
+
+    std::optional<TriangleMesh> contour(const TriangleMesh& mesh) {
+        WindingSolid solid = winding_solid(mesh, options_.kind);
+        if (solid.unclear > kWindingDiffers || solid.mesh.triangles.empty()) return std::nullopt;
+        const SolidProof proof = verify_solid(solid.mesh);
+        const double expected = measure_rows(mesh, 300)[0].by_winding;
+        if (!proof.good || proof.volume < (1.0 - kContourError) * expected) return std::nullopt;
+        if (options_.kind == SolidKind::material && proof.volume > (1.0 + kContourError) * expected)
+            return std::nullopt;
+        note("surface contoured anew from the winding number, triangles",
+             static_cast<std::int64_t>(solid.mesh.triangles.size()));
+        warnings_.push_back(fmt::format(
+            "the mesh crosses itself; its surface was contoured anew with cells of {:.3g} m, and "
+            "edges and parts finer than that are rounded off",
+            solid.cell));
+        return std::move(solid.mesh);
+    }
+
+    // Last rung of `auto`: only where the winding number agrees.
+    std::optional<TriangleMesh> wrap_last(const TriangleMesh& mesh) {
+        const double alpha = diagonal(mesh) / 100.0;
+        TriangleMesh wrapped = wrap_solid(mesh, alpha, diagonal(mesh) / kWrapOffset);
+        if (!verify_solid(wrapped).good ||
+            compare_windings(mesh, wrapped).differs > kWindingDiffers)
+            return std::nullopt;
+        say_wrapped(wrapped, alpha);
+        return wrapped;
+    }
+
+    // --repair wrap
+    TriangleMesh wrap(TriangleMesh mesh) {
+        Repairs tried;  // on a copy, to learn the openings and which side is out
+        const ClosedSurface closed = close_surface(mesh, options_, tried);
+        const double alpha = std::max(diagonal(mesh) / 100.0, 0.75 * closed.widest);
+        TriangleMesh wrapped = wrap_solid(closed.open, alpha, diagonal(mesh) / kWrapOffset);
+        const SolidProof proof = verify_solid(wrapped);
+        if (!proof.good) throw refusal("shrink-wrapping fails: " + proof.fault);
+        const WindingComparison c = compare_windings(closed.open, wrapped);
+        if (proof.volume < kCollapsed * c.first_volume)
+            throw refusal(fmt::format("shrink-wrapping collapses to {:.4g} m3, where the winding "
+                                      "number gives {:.4g} m3",
+                                      proof.volume, c.first_volume),
+                          "close its largest openings in the program that made it");
+        if (std::any_of(tried.begin(), tried.end(), [](const auto& step) {
+                return step.first == "half hull mirrored across y = 0";
+            }))
+            note("half hull mirrored across y = 0", 1);
+        say_wrapped(wrapped, alpha);
+        warnings_.push_back(fmt::format(
+            "the shrink-wrapped volume is {:.4g} m3, that of the winding number {:.4g} m3 "
+            "({:+.1f} %)",
+            proof.volume, c.first_volume,
+            100.0 * (proof.volume / std::max(c.first_volume, 1e-300) - 1.0)));
+        return wrapped;
+    }
+
+    void say_wrapped(const TriangleMesh& wrapped, double alpha) {
+        note("surface shrink-wrapped, triangles",
+             static_cast<std::int64_t>(wrapped.triangles.size()));
+        warnings_.push_back(fmt::format(
+            "the surface was shrink-wrapped: openings and gaps narrower than {:.3g} m are closed, "
+            "edges rounded off",
+            2.0 * alpha));
+    }
+
+    TriangleMesh choose(TriangleMesh mesh) {
+        const ShellCounts shells = choose_shells(mesh, options_.kind);
+        if (mesh.triangles.empty()) throw refusal("the volume is zero");
+        if (shells.flipped > 0 && options_.mode == RepairMode::strict)
+            throw refusal("the surface is inside out",
+                          "turn it over, or leave out --repair strict");
+        note_shells(shells);
+        return mesh;
+    }
+
+    void note_shells(const ShellCounts& shells) {
+        note("inside-out surfaces turned over", shells.flipped);
+        note(options_.kind == SolidKind::envelope ? "surfaces inside the envelope dropped"
+                                                  : "surfaces inside the material dropped",
+             shells.dropped);
+        note("surfaces without volume dropped", shells.flat);
+    }
+
+    static double diagonal(const TriangleMesh& mesh) {
+        Eigen::AlignedBox3d box;
+        for (const Vec3& v : mesh.vertices) box.extend(v);
+        return box.diagonal().norm();
+    }
+
+    const std::string& name_;
+    const SolidOptions& options_;
+    Repairs& repairs_;
+    std::vector<std::string>& warnings_;
+    std::int64_t open_edges_ = 0;  // of the mesh as it was read
+};
+
+}  // namespace
+
+TriangleMesh make_solid(TriangleMesh mesh, const std::string& name, const SolidOptions& options,
+                        Repairs& repairs, std::vector<std::string>* warnings) {
+    std::vector<std::string> unread;
+    return Ladder(name, options, repairs, warnings != nullptr ? *warnings : unread)
+        .climb(std::move(mesh));
+}
+
+}  // namespace ice

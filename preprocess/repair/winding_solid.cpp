@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "preprocess/repair/winding_solid.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/base/parallel.hpp"
+#include "preprocess/measure/row_crossings.hpp"
+#include "preprocess/measure/surface_tree.hpp"
+#include "preprocess/repair/contour_grid.hpp"
+
+namespace ice {
+
+namespace {
+
+constexpr double kCells = 200.0;        // along the longest side
+constexpr double kNodes = 2.0e6;        // at most, or cells grow
+constexpr int kSteps = 16;              // towards the surface, at most
+constexpr double kReached = 1.0 / 256;  // of a cell
+
+Grid make_grid(const TriangleMesh& mesh) {
+    Eigen::AlignedBox3d box;
+    for (const Vec3& v : mesh.vertices) box.extend(v);
+    const Vec3 size = box.sizes();
+    Grid grid;
+    grid.step = size.maxCoeff() / kCells;
+    const auto nodes_at = [&](double step) { return ((size / step).array() + 4.0).prod(); };
+    while (nodes_at(grid.step) > kNodes) grid.step *= 1.05;
+    // off the faces of the model, which lie at round numbers
+    const Vec3 shift(0.3819660113, 0.4142135624, 0.4472135955);
+    grid.origin = box.min() - grid.step * (Vec3::Ones() + shift);
+    for (int d = 0; d < 3; ++d)
+        grid.nodes[static_cast<std::size_t>(d)] =
+            static_cast<std::int32_t>(std::ceil(size[d] / grid.step)) + 4;
+    return grid;
+}
+
+// Nodes with a positive winding number, from rows along x.
+std::vector<std::uint8_t> mark_inside(const TriangleMesh& mesh, const Grid& grid,
+                                      double* open_share) {
+    const RowGrid rows{0,    grid.origin, Vec3::Constant(grid.step), grid.nodes[1], grid.nodes[2],
+                       false};
+    const auto crossings = cross_rows(mesh, rows);
+    std::vector<std::uint8_t> inside(grid.size(), 0);
+    double crossed = 0.0, open = 0.0;
+    for (std::size_t k = 0; k < crossings.size();) {
+        const std::int32_t row = crossings[k].row;
+        const auto y = static_cast<std::size_t>(row / grid.nodes[2]);
+        const auto z = static_cast<std::size_t>(row % grid.nodes[2]);
+        const std::size_t first = static_cast<std::size_t>(grid.nodes[0]) *
+                                  (y + static_cast<std::size_t>(grid.nodes[1]) * z);
+        int winding = 0;
+        for (; k < crossings.size() && crossings[k].row == row; ++k) {
+            const auto node = [&](double x) {
+                return static_cast<std::size_t>(std::ceil((x - grid.origin.x()) / grid.step));
+            };
+            if (winding > 0)
+                for (std::size_t x = node(crossings[k - 1].depth); x < node(crossings[k].depth);
+                     ++x)
+                    inside[first + x] = 1;
+            winding += crossings[k].sign;
+        }
+        crossed += 1.0;
+        open += winding != 0 ? 1.0 : 0.0;
+    }
+    *open_share = open / std::max(crossed, 1.0);
+    return inside;
+}
+
+}  // namespace
+
+void copy_regions(const TriangleMesh& source, TriangleMesh& mesh) {
+    const SurfaceTree tree(source);
+    mesh.region_names = source.region_names;
+    mesh.region.assign(mesh.triangles.size(), 0);
+    parallel_for(mesh.triangles.size(), 100, [&](std::size_t t) {
+        const Vec3 middle = (mesh.corner(t, 0) + mesh.corner(t, 1) + mesh.corner(t, 2)) / 3.0;
+        const auto nearest = static_cast<std::size_t>(tree.closest(middle).triangle);
+        mesh.region[t] = source.region[nearest];
+    });
+}
+
+WindingSolid winding_solid(const TriangleMesh& mesh, SolidKind kind) {
+    const Grid grid = make_grid(mesh);
+    WindingSolid out;
+    out.cell = grid.step;
+    std::vector<std::uint8_t> inside = mark_inside(mesh, grid, &out.unclear);
+    if (kind == SolidKind::envelope) fill_voids(grid, inside);
+    const SurfaceTree tree(mesh);
+    out.mesh = contour_grid(grid, inside, [&](const Vec3& in, const Vec3& outer) {
+        // from outside, a step as long as the distance to the surface cannot pass it
+        const double length = (outer - in).norm();
+        double left = length;
+        for (int k = 0; k < kSteps && left > 0.0; ++k) {
+            const double distance = tree.closest(in + left / length * (outer - in)).distance;
+            left -= distance;
+            if (distance < kReached * grid.step) break;
+        }
+        return left / length;
+    });
+    if (!out.mesh.triangles.empty()) copy_regions(mesh, out.mesh);
+    return out;
+}
+
+}  // namespace ice

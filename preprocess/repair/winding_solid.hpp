@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "common/geometry/triangle_mesh.hpp"
+#include "preprocess/repair/choose_shells.hpp"
+
+namespace ice {
+
+/// A solid contoured anew from winding numbers.
+struct WindingSolid {
+    TriangleMesh mesh;     ///< closed, outward; region of the nearest triangle of the source
+    double cell = 0.0;     ///< edge of the grid's cubes [m]: nothing smaller is kept
+    double unclear = 0.0;  ///< share of the rows that leave through a hole
+};
+
+/// Solid where the winding number of the surface is positive: whatever crosses, overlaps or repeats
+/// counts once. With `envelope`, voids that cannot be reached from outside are filled. The winding
+/// number is that of rows through the nodes of a grid, about 200 cells along the longest side and
+/// two million nodes in all; between nodes the surface is found by steps of its own distance from
+/// outside, so that smooth parts keep their place. Edges sharper than a cell are rounded off.
+/// @pre the surface has no boundary as a chain; parts face outwards. Cost: about a second.
+WindingSolid winding_solid(const TriangleMesh& mesh, SolidKind kind);
+
+/// Gives each triangle of `mesh` the region of the nearest triangle of `source`, and its names.
+void copy_regions(const TriangleMesh& source, TriangleMesh& mesh);
+
+}  // namespace ice

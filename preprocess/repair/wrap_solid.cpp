@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "preprocess/repair/wrap_solid.hpp"
+
+#include "common/base/parallel.hpp"
+#include "preprocess/clean/self_intersections.hpp"
+#include "preprocess/measure/surface_tree.hpp"
+#include "preprocess/repair/winding_solid.hpp"
+
+namespace ice {
+
+namespace {
+
+// Not all the way: on a sharp edge vertices of both sides would meet in one point.
+constexpr double kBack = 0.9;
+
+}  // namespace
+
+TriangleMesh wrap_solid(const TriangleMesh& mesh, double alpha, double offset) {
+    TriangleMesh wrap = alpha_wrap(mesh, alpha, offset);
+    if (wrap.triangles.empty()) return wrap;
+    const SurfaceTree tree(mesh);
+    TriangleMesh laid = wrap;
+    parallel_for(laid.vertices.size(), 100, [&](std::size_t k) {
+        const Foot foot = tree.closest(laid.vertices[k]);
+        if (foot.distance < 2.0 * offset)
+            laid.vertices[k] += kBack * (foot.point - laid.vertices[k]);
+    });
+    if (find_self_intersections(laid).empty()) wrap = std::move(laid);
+    copy_regions(mesh, wrap);
+    return wrap;
+}
+
+}  // namespace ice

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Inside tests that do not need a closed surface, and the proof made of them.
+#include <catch2/catch.hpp>
+#include <random>
+
+#include "common/geometry/mass_properties.hpp"
+#include "preprocess/measure/row_volumes.hpp"
+#include "preprocess/measure/winding_number.hpp"
+#include "preprocess/repair/verify_solid.hpp"
+#include "tests/support/make_meshes.hpp"
+
+using namespace ice;
+
+namespace {
+
+// The globe's faces at x < 0.
+TriangleMesh half_globe(int bands) {
+    TriangleMesh globe = test::make_globe(1, bands), half = globe;
+    half.triangles.clear();
+    for (std::size_t t = 0; t < globe.triangles.size(); ++t)
+        if (globe.corner(t, 0).x() + globe.corner(t, 1).x() + globe.corner(t, 2).x() <= 0.0)
+            half.triangles.push_back(globe.triangles[t]);
+    half.region.assign(half.triangles.size(), 0);
+    return half;
+}
+
+}  // namespace
+
+TEST_CASE("rows along three axes give the volume of a box and see a hole", "[measure][analytic]") {
+    TriangleMesh box = test::make_box_mesh(Vec3(4, 2, 1));
+    for (const RowVolume& axis : measure_rows(box, 50)) {
+        CHECK(axis.by_sign ==
+              Approx(8).epsilon(1e-12));  // prism along each axis: no sampling error
+        CHECK(axis.by_winding == Approx(axis.by_sign).epsilon(1e-12));
+        CHECK(axis.by_parity == Approx(axis.by_sign).epsilon(1e-12));
+        CHECK(axis.open_rows == 0);
+    }
+    box.triangles.pop_back();
+    std::int64_t open_rows = 0;
+    for (const RowVolume& axis : measure_rows(box, 50)) open_rows += axis.open_rows;
+    CHECK(open_rows > 0);
+}
+
+TEST_CASE("rows of a globe agree with its exact volume", "[measure]") {
+    const TriangleMesh globe = test::make_globe(1, 40);
+    const double volume = measure_mass(globe).volume;
+    for (const RowVolume& axis : measure_rows(globe, 100))
+        CHECK(axis.by_sign == Approx(volume).epsilon(0.002));
+}
+
+TEST_CASE("winding numbers: 1 inside, 0 outside, a half in the middle of a missing half",
+          "[measure][analytic]") {
+    const WindingNumber whole(test::make_globe(1, 30));
+    std::mt19937 random(2);
+    std::uniform_real_distribution<double> unit(-1.5, 1.5);
+    for (int k = 0; k < 500; ++k) {
+        const Vec3 p(unit(random), unit(random), unit(random));
+        if (std::abs(p.norm() - 1.0) < 0.05) continue;
+        CHECK(whole.at(p) == Approx(p.norm() < 1.0 ? 1.0 : 0.0).margin(0.05));
+    }
+    const WindingNumber half(half_globe(30));
+    CHECK(half.at(Vec3::Zero()) == Approx(0.5).margin(0.05));
+}
+
+TEST_CASE("a proof fails on a hole, on the wrong side out and on volume counted twice",
+          "[repair][verify]") {
+    const TriangleMesh box = test::make_box_mesh(Vec3(4, 2, 1));
+    CHECK(verify_solid(box).good);
+    CHECK(verify_solid(box).volume == Approx(8).epsilon(1e-14));
+    TriangleMesh hole = box;
+    hole.triangles.pop_back();
+    CHECK_THAT(verify_solid(hole).fault, Catch::Contains("3 edges"));
+    TriangleMesh turned = box;
+    for (auto& t : turned.triangles) std::swap(t[1], t[2]);
+    CHECK_FALSE(verify_solid(turned).good);
+    TriangleMesh twice = box;
+    for (const Vec3& v : box.vertices) twice.vertices.push_back(v + Vec3(3.5, 0, 0));
+    for (const auto& t : box.triangles) twice.triangles.push_back({t[0] + 8, t[1] + 8, t[2] + 8});
+    CHECK_THAT(verify_solid(twice).fault, Catch::Contains("counted twice"));
+    CHECK(verify_solid(twice).overlap == Approx(2.0 / 16).epsilon(0.05));  // parity: 0 for 2
+}
+
+TEST_CASE("two surfaces are compared by their winding numbers", "[repair][verify]") {
+    const WindingComparison same =
+        compare_windings(test::make_globe(1, 20), test::make_globe(1, 20));
+    CHECK(same.differs == 0.0);
+    CHECK(same.second_volume == Approx(4.0 / 3.0 * 3.14159265).epsilon(0.02));
+    const WindingComparison half = compare_windings(half_globe(20), test::make_globe(1, 20));
+    CHECK(half.differs == Approx(0.5).margin(0.02));
+}
