@@ -171,23 +171,25 @@ public:
         const double y = frame_.first.y();
         const Range js((from.y() - y) * per_.y() + frame_.middle,
                        (to.y() - y) * per_.y() + frame_.middle, frame_.count[1]);
-        const std::int64_t apart = frame_.families();
-        for (int family = 0; family < apart; ++family) {
-            const double base = frame_.height(family);
-            const Range ks((from.z() - base) * per_.z(), (to.z() - base) * per_.z(),
-                           frame_.count[2]);
-            const std::int64_t first = apart == 2 ? js.from + ((js.from ^ family) & 1) : js.from;
-            for (std::int64_t k = ks.from; k <= ks.to; ++k)
-                for (std::int64_t j = first; j <= js.to; j += apart) {
-                    const Vec3 start = frame_.point(0, j, k);
-                    double left = from.x(), right = to.x();
-                    triangle.narrow(start.y(), start.z(), left, right);
-                    if (left <= right) ask_row(visit, left, right, start, frame_.row(j, k));
-                }
+        const std::array<Range, 2> ks{heights(from.z(), to.z(), 0), heights(from.z(), to.z(), 1)};
+        for (std::int64_t j = js.from; j <= js.to; ++j) {
+            const Range& rows = ks[static_cast<std::size_t>(j & 1)];
+            for (std::int64_t k = rows.from; k <= rows.to; ++k) {
+                const Vec3 start = frame_.point(0, j, k);
+                double left = from.x(), right = to.x();
+                triangle.narrow(start.y(), start.z(), left, right);
+                if (left <= right) ask_row(visit, left, right, start, frame_.row(j, k));
+            }
         }
     }
 
 private:
+    // The rows k of a family between two z.
+    Range heights(double low, double high, int family) const {
+        const double base = frame_.height(family);
+        return {(low - base) * per_.z(), (high - base) * per_.z(), frame_.count[2]};
+    }
+
     // Takes down the set points of a row between two x.
     void ask_row(Visit& visit, double from, double to, const Vec3& start, std::size_t row) const {
         const Range is((from - start.x()) * per_.x(), (to - start.x()) * per_.x(), frame_.count[0]);
