@@ -16,7 +16,7 @@ namespace ice {
 namespace {
 
 constexpr std::size_t kSerialTriangles = 1000;  // below, waking threads costs more than it saves
-constexpr std::size_t kGroup = 8;               // triangles worked at together
+constexpr std::size_t kGroup = 16;              // triangles worked at together
 constexpr double kPiece = 32.0;                 // pitches: longer triangles visit in pieces
 constexpr double kMostPieces = 1000.0;          // along the box
 constexpr double kDoubt = 1e-5;      // of the squared distance: what quick answers must leave
@@ -55,7 +55,7 @@ public:
         reach_ = distance * (1.0 + kSlack) * std::sqrt(area_sq);
         above_ = kSlack * reach_;
         // of the ball of that radius around a point of the face, the half on the inner side
-        for (int d = 0; d < 3; ++d) {
+        for (int d = 1; d < 3; ++d) {
             const double n = sides_.normal[d];
             const double wide = std::sqrt(std::max(0.0, 1.0 - n * n * sides_.per_area_sq));
             (n > 0.0 ? far_side_ : near_side_)[d] = distance * (wide + 3.0 * kSlack);
