@@ -40,7 +40,7 @@ struct LatticeFill {
 /// A symmetric solid gets a symmetric fill, bit for bit: a point stays only with its image.
 /// Same bits for any thread count. Cost O(triangles + rows + points near the surface); tests hold
 /// it to CGAL's answers and to SurfaceTree's, point by point.
-/// @pre the mesh is closed; it may be unwelded, and its shells may overlap
+/// @pre the mesh is closed, outward oriented and does not cross itself; it may be unwelded
 /// @throws Error (exit code 2) when the box holds more than 1e9 lattice points
 LatticeFill fill_lattice_rows(const TriangleMesh& mesh, const LatticeOptions& options);
 

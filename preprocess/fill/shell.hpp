@@ -22,7 +22,8 @@ struct ShellOptions {
 ///    surface and kept if no neighbour is nearer than 0.74 spacing; parts that no edge leads to
 ///    start their own.
 /// 3. Gaps: a sphere goes into every corner of the spheres' Voronoi cells that is farther than
-///    0.635 spacing from all of them, and wherever a surface sample that a sphere can touch still has none.
+///    0.635 spacing from all of them, and wherever a surface sample that a sphere can touch still
+///    has none.
 ///
 /// Space is cut into tiles of eight colours; tiles of one colour are filled at the same time. The
 /// result depends on the mesh and options alone, not on the number of threads. Parts too thin for a

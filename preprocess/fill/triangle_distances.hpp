@@ -10,7 +10,7 @@ namespace ice {
 
 /// Points beside each other in memory, so that several are asked about at a time [m].
 struct PointBatch {
-    static constexpr std::size_t kMost = 64;
+    static constexpr std::size_t kMost = 32;
     /// Entries from `count` to the next multiple of this are read, and must be finite.
     static constexpr std::size_t kPadding = 8;
 
@@ -30,7 +30,7 @@ struct TriangleSides {
 
 /// Squared distance of each point from the triangle:
 ///
-///     (n . (p - a))^2 / n^2                      where p is over the face (inward . (p - corner) >= 0)
+///     (n . (p - a))^2 / n^2                      over the face: inward . (p - corner) >= 0
 ///     min over edges of |p - corner - s edge|^2  elsewhere, s = edge . (p - corner) / edge^2
 ///                                                limited to [0, 1]
 ///

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How long it takes to fill a hull with a lattice of spheres; tests/bench/README.md has the numbers.
+// How long it takes to fill a hull with a lattice of spheres; the numbers are in README.md here.
 //
 //   bench_lattice          the 100 m hull, 1e4 to 1e6 triangles, R = 0.1 and 0.05 m
 //   bench_lattice --smoke  a few seconds' worth of it, to see that it runs

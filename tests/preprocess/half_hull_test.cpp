@@ -6,9 +6,10 @@
 #include <map>
 
 #include "common/geometry/mass_properties.hpp"
-#include "preprocess/repair/check_solid.hpp"
+#include "preprocess/clean/orient_faces.hpp"
 #include "preprocess/clean/weld.hpp"
 #include "preprocess/load/symmetry.hpp"
+#include "preprocess/repair/check_solid.hpp"
 #include "tests/support/make_meshes.hpp"
 
 using namespace ice;

@@ -3,12 +3,11 @@
 #include <bit>
 #include <catch2/catch.hpp>
 #include <map>
-#include <random>
 
 #include "common/base/parallel.hpp"
 #include "preprocess/fill/clear_near.hpp"
-#include "preprocess/slice/slice_solid.hpp"
 #include "tests/preprocess/decide_blocks.hpp"
+#include "tests/preprocess/lattice_solids.hpp"
 #include "tests/preprocess/solid_oracle.hpp"
 #include "tests/support/make_hull.hpp"
 #include "tests/support/make_meshes.hpp"
@@ -41,65 +40,6 @@ std::vector<Vec3> places(const std::vector<Site>& all) {
     std::vector<Vec3> out;
     for (const Site& site : all) out.push_back(site.at);
     return out;
-}
-
-// A prism along y over an outline in x, z, counter-clockwise seen from -y: whole numbers as corners
-// make rows run along its edges and through its corners.
-TriangleMesh make_prism(const std::vector<std::array<double, 2>>& outline, double half) {
-    Section section;
-    section.loops.emplace_back();
-    for (std::size_t k = 0; k < outline.size(); ++k) {
-        const auto& p = outline[k];
-        const auto& q = outline[(k + 1) % outline.size()];
-        const Vec3 a(p[0], 0, p[1]), b(q[0], 0, q[1]);
-        const Vec3 d = (b - a).normalized();
-        section.loops[0].push_back({a, b, Vec3(d.z(), 0, -d.x()), 0});
-    }
-    TriangleMesh mesh = extrude(section, {"hull"});
-    const double low = mesh.vertices[0].y();
-    for (Vec3& v : mesh.vertices) v.y() *= half / std::abs(low);
-    return mesh;
-}
-
-TriangleMesh make_l_prism() {
-    return make_prism({{-2, -2}, {2, -2}, {2, 0}, {0, 0}, {0, 2}, {-2, 2}}, 1.0);
-}
-
-// A ring around z: a solid with a hole.
-TriangleMesh make_torus(double major, double minor, int around, int across) {
-    TriangleMesh mesh;
-    for (int i = 0; i < around; ++i)
-        for (int j = 0; j < across; ++j) {
-            const double a = 2 * std::numbers::pi * i / around,
-                         b = 2 * std::numbers::pi * j / across;
-            const double r = major + minor * std::cos(b);
-            mesh.vertices.emplace_back(r * std::cos(a), r * std::sin(a), minor * std::sin(b));
-        }
-    const auto at = [&](int i, int j) { return i % around * across + j % across; };
-    for (int i = 0; i < around; ++i)
-        for (int j = 0; j < across; ++j) {
-            mesh.triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
-            mesh.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
-        }
-    mesh.region.assign(mesh.triangles.size(), 0);
-    return mesh;
-}
-
-TriangleMesh turned(TriangleMesh mesh, unsigned seed) {
-    std::mt19937 random(seed);
-    std::normal_distribution<double> normal;
-    const Eigen::Quaterniond q(normal(random), normal(random), normal(random), normal(random));
-    for (Vec3& v : mesh.vertices) v = q.normalized() * v;
-    return mesh;
-}
-
-TriangleMesh joined(TriangleMesh one, const TriangleMesh& other) {
-    const auto count = static_cast<std::int32_t>(one.vertices.size());
-    one.vertices.insert(one.vertices.end(), other.vertices.begin(), other.vertices.end());
-    for (const auto& t : other.triangles)
-        one.triangles.push_back({t[0] + count, t[1] + count, t[2] + count});
-    one.region.assign(one.triangles.size(), 0);
-    return one;
 }
 
 // A frame whose rows pass through points with whole coordinates.
@@ -135,15 +75,15 @@ TEST_CASE("a lattice holds the points CGAL finds inside and clear, on straight s
     const auto kind = GENERATE(LatticeKind::cubic, LatticeKind::hexagonal);
     // the floe is tangent to its spheres on all sides; the prism has a reflex edge
     check_against_cgal(test::make_box_mesh(Vec3(1, 0.8, 0.3)), kind, 0.05, 0.05);
-    check_against_cgal(make_l_prism(), kind, 0.125, 0.125);
-    check_against_cgal(make_l_prism(), kind, 0.11, 0.22);
+    check_against_cgal(test::make_l_prism(), kind, 0.125, 0.125);
+    check_against_cgal(test::make_l_prism(), kind, 0.11, 0.22);
 }
 
 TEST_CASE("a lattice holds the points CGAL finds inside and clear, on round solids",
           "[lattice][equivalence]") {
     const auto kind = GENERATE(LatticeKind::cubic, LatticeKind::hexagonal);
     check_against_cgal(test::make_globe(1.0, 16), kind, 0.07, 0.07);
-    check_against_cgal(make_torus(1.0, 0.4, 40, 16), kind, 0.05, 0.05);
+    check_against_cgal(test::make_torus(1.0, 0.4, 40, 16), kind, 0.05, 0.05);
     check_against_cgal(test::make_wigley(10, 2, 1, 40, 12), kind, 0.08, 0.08);
     check_against_cgal(test::make_hull({10, 2, 1.8}, 3000), kind, 0.1, 0.1);
 }
@@ -151,20 +91,20 @@ TEST_CASE("a lattice holds the points CGAL finds inside and clear, on round soli
 TEST_CASE("a lattice holds the points CGAL finds inside and clear, at any angle",
           "[lattice][equivalence]") {
     const auto seed = GENERATE(1u, 2u, 3u, 4u);
-    check_against_cgal(turned(test::make_box_mesh(Vec3(1, 0.8, 0.3)), seed), LatticeKind::hexagonal,
-                       0.04, 0.04);
-    check_against_cgal(turned(make_l_prism(), seed), LatticeKind::cubic, 0.12, 0.12);
-    check_against_cgal(turned(make_torus(1.0, 0.3, 30, 10), seed), LatticeKind::hexagonal, 0.05,
-                       0.05);
+    check_against_cgal(test::turned(test::make_box_mesh(Vec3(1, 0.8, 0.3)), seed),
+                       LatticeKind::hexagonal, 0.04, 0.04);
+    check_against_cgal(test::turned(test::make_l_prism(), seed), LatticeKind::cubic, 0.12, 0.12);
+    check_against_cgal(test::turned(test::make_torus(1.0, 0.3, 30, 10), seed),
+                       LatticeKind::hexagonal, 0.05, 0.05);
 }
 
 TEST_CASE("rows along edges, through corners and grazing faces wind as CGAL says",
           "[lattice][degenerate]") {
     // all coordinates are multiples of the step: only points on the surface are left open
-    const TriangleMesh mesh =
-        GENERATE(make_l_prism(), test::make_box_mesh(Vec3(2, 2, 2)),
-                 make_prism({{0, -2}, {2, 0}, {0, 2}, {-2, 0}}, 1.0),  // edges only
-                 make_prism({{-2, -1}, {0, 1}, {2, -1}, {2, 1}, {0, 2}, {-2, 1}}, 2.0));  // a notch
+    const TriangleMesh mesh = GENERATE(
+        test::make_l_prism(), test::make_box_mesh(Vec3(2, 2, 2)),
+        test::make_prism({{0, -2}, {2, 0}, {0, 2}, {-2, 0}}, 1.0),                     // edges only
+        test::make_prism({{-2, -1}, {0, 1}, {2, -1}, {2, 1}, {0, 2}, {-2, 1}}, 2.0));  // a notch
     const LatticeFrame frame = whole_frame(0.25, 11);
     const auto all = sites(frame, rows_inside(mesh, frame));
     const auto answers = test::ask_oracle(mesh, places(all));
@@ -200,7 +140,7 @@ TEST_CASE("shells that overlap are inside once", "[lattice][analytic]") {
     TriangleMesh other = test::make_box_mesh(Vec3(2, 2, 2));
     for (Vec3& v : other.vertices) v += Vec3(1, 0.5, 0.5);
     const LatticeFrame frame = whole_frame(0.19, 12);
-    const TriangleMesh both = joined(test::make_box_mesh(Vec3(2, 2, 2)), other);
+    const TriangleMesh both = test::joined(test::make_box_mesh(Vec3(2, 2, 2)), other);
     for (const Site& site : sites(frame, rows_inside(both, frame))) {
         const bool first = site.at.cwiseAbs().maxCoeff() < 1.0;
         const bool second = (site.at - Vec3(1, 0.5, 0.5)).cwiseAbs().maxCoeff() < 1.0;
@@ -215,7 +155,7 @@ TEST_CASE("1e5 and more points are decided as the slow twin decides them",
     const double clearance = GENERATE(1.0, 2.0) * radius;
     const TriangleMesh mesh = GENERATE(
         test::make_hull({10, 2, 1.8}, 4000),
-        turned(test::make_box_mesh(Vec3(8, 3, 3)), 5));  // triangles long enough to be split
+        test::turned(test::make_box_mesh(Vec3(8, 3, 3)), 5));  // triangles long enough to be split
     const LatticeFill fill = fill_lattice_rows(mesh, {kind, radius, clearance, 3, false});
     const SurfaceTree tree(mesh);
     CHECK(fill.frame.rows() * static_cast<std::size_t>(fill.frame.count[0]) > 100000);
@@ -308,7 +248,7 @@ TEST_CASE("the lattice has the same bits for 1, 2, 3 and 8 threads", "[lattice][
 }
 
 TEST_CASE("runs name the points whose bits are set, in order", "[lattice][equivalence]") {
-    const LatticeFill fill = fill_lattice_rows(make_torus(3.0, 1.0, 40, 16),
+    const LatticeFill fill = fill_lattice_rows(test::make_torus(3.0, 1.0, 40, 16),
                                                {LatticeKind::hexagonal, 0.02, 0.02, 3, true});
     CHECK(fill.frame.words() > 2);  // runs cross the ends of words
     std::vector<Vec3> centers(fill.count), expected;
@@ -320,8 +260,8 @@ TEST_CASE("runs name the points whose bits are set, in order", "[lattice][equiva
 
 TEST_CASE("outer spheres are those without all six neighbours, four in 2D", "[lattice][analytic]") {
     const int dimension = GENERATE(2, 3);
-    const LatticeFill fill =
-        fill_lattice_rows(make_l_prism(), {LatticeKind::cubic, 0.125, 0.125, dimension, true});
+    const LatticeFill fill = fill_lattice_rows(test::make_l_prism(),
+                                               {LatticeKind::cubic, 0.125, 0.125, dimension, true});
     std::map<std::array<std::int64_t, 3>, bool> set;
     std::vector<bool> expected;
     for (const LatticeRun& run : fill.runs)

@@ -60,7 +60,7 @@ TEST_CASE("points over a face, beyond an edge and beyond a corner", "[lattice][a
 
 TEST_CASE("every instruction set gives the bits of the reference, and the nearest point's distance",
           "[lattice][simd]") {
-    const std::size_t count = GENERATE(0u, 1u, 2u, 3u, 4u, 5u, 7u, 8u, 9u, 63u, 64u);
+    const std::size_t count = GENERATE(0u, 1u, 2u, 3u, 4u, 5u, 7u, 8u, 9u, 31u, 32u);
     const PointBatch points = random_points(count, static_cast<unsigned>(count));
     const Vec3 a(0.1, 0.2, -0.3), b(1.7, 0.4, 0.5), c(0.3, 1.9, 0.2);
     const TriangleSides triangle = sides_of(a, b, c);
