@@ -142,8 +142,8 @@ TEST_CASE("spherize names half a hull and says what it took for units and axes",
     w.write("closed.obj", open_half + "f 1 2 4 3\n");
     const Result closed = w.run("spherize closed.obj --check --json report.json");
     CHECK(closed.code == 0);
-    CHECK_THAT(closed.out, Catch::Contains("8.75 m3") &&
-                               Catch::Matches("(.|\n)*assumed +up: z(.|\n)*"));
+    CHECK_THAT(closed.out,
+               Catch::Contains("8.75 m3") && Catch::Matches("(.|\n)*assumed +up: z(.|\n)*"));
     CHECK_THAT(closed.err, Catch::Contains("everything is on the port side of y = 0, 2 triangles "
                                            "close it there): give --mirror y"));
     CHECK_THAT(slurp(w / "report.json"),
@@ -153,7 +153,8 @@ TEST_CASE("spherize names half a hull and says what it took for units and axes",
     CHECK_THAT(open.err, Catch::Contains("4 open edges lie in that plane): give --mirror y"));
     for (const char* name : {"open.obj", "closed.obj"}) {
         const Result whole = w.run("spherize --check --mirror y --units mm " + std::string(name));
-        CHECK_THAT(whole.out, Catch::Contains("17.5 m3") && !Catch::Matches("(.|\n)*assumed +units(.|\n)*"));
+        CHECK_THAT(whole.out,
+                   Catch::Contains("17.5 m3") && !Catch::Matches("(.|\n)*assumed +units(.|\n)*"));
         CHECK(whole.err.empty());
     }
 }

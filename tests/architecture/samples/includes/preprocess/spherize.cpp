@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <CLI/CLI.hpp>
+
 #include "preprocess/write/write_spheres.hpp"
 #include "solver/step/step.hpp"
-#include <CLI/CLI.hpp>

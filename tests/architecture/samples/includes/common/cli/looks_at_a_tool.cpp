@@ -1,3 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "solver/case/case.hpp"
 #include <CLI/CLI.hpp>
+
+#include "solver/case/case.hpp"
