@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <zlib.h>
-
-#include <catch2/catch.hpp>
-
 #include "postprocess/check/check_run.hpp"
+#include <zlib.h>
+#include <catch2/catch.hpp>

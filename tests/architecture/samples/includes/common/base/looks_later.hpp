@@ -1,4 +1,3 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <omp.h>
-
 #include "common/cli/console.hpp"
+#include <omp.h>

@@ -1,4 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <hwy/highway.h>
-#include <spdlog/spdlog.h>
 #include <toml++/toml.h>
+#include <spdlog/spdlog.h>

@@ -1,4 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "local.hpp"
-#include "postprocess/read/read_run.hpp"
 #include "solver/narrow/build_contacts.hpp"
+#include "postprocess/read/read_run.hpp"
+#include "local.hpp"

@@ -2,4 +2,4 @@
 // TODO: some day
 // FIXME(me) [;
 
-int x;  // HACK
+int x; // HACK
