@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // spherize: mesh in, sphere set out. Command line only; each step is a folder.
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -214,7 +215,9 @@ int run_spherize(Options& o, const std::string& command_line) {
     const double density = o.density.value_or(kIceDensity);
     if (!o.density && std::any_of(o.exports.begin(), o.exports.end(), ice::has_mass))
         report.guessed["density"] = fmt::format("{} kg/m3, as of ice, in the exports", density);
+    const ice::Timer writing;
     ice::write_spheres(stem, set, report);
+    report.seconds["write"] = writing.seconds();
     report.seconds["total"] = timer.seconds();
     if (!o.json.empty()) ice::write_text_file(o.json, ice::spheres_report_text(report));
     const auto exported = ice::write_exports(set, o.exports, density, export_base);
@@ -228,6 +231,9 @@ int run_spherize(Options& o, const std::string& command_line) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    // large arrays come and go: keep their pages instead of having the kernel clear new ones
+    mallopt(M_MMAP_THRESHOLD, 1 << 30);
+    mallopt(M_TRIM_THRESHOLD, 1 << 30);
     CLI::App app("Fills a closed mesh with contact spheres: mesh in, sphere set out.", "spherize");
     Options o;
     declare(app, o);

@@ -16,7 +16,7 @@ PointCells::PointCells(std::span<const Vec3> points, double cell) : cell_(cell) 
         s.cell = at;
         return s.count++ == 0;
     };
-    slots_.resize(std::bit_ceil(2 * points.size() + 1));
+    slots_.resize(std::bit_ceil(points.size() + points.size() / 4 + 1));
     std::size_t cubes = 0;
     for (std::size_t k = 0; k < points.size(); ++k) cubes += insert(k) ? 1 : 0;
     // once more into a table that fits the cubes, not the points: it stays in the cache

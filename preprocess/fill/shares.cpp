@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 #include "common/base/parallel.hpp"
 #include "preprocess/fill/narrowest_cone.hpp"
@@ -38,43 +39,50 @@ std::vector<Vec3> directions_of(const SurfaceTree& tree, const SphereSet& set, s
     return directions;
 }
 
-// Distance from the centroid of the shares to the solid's [m]; along y there is none in 2D.
-double moment_error(const SphereSet& set) {
-    double sum = 0.0;
-    Vec3 first = Vec3::Zero();
-    for (std::size_t k = 0; k < set.size(); ++k) {
-        sum += set.volumes[k];
-        first += set.volumes[k] * (set.centers[k] - set.solid.centroid);
-    }
-    if (set.dimension == 2) first.y() = 0.0;
-    return first.norm() / sum;
+// Sum of value(k) over [from, to), by blocks: the same bits for any number of threads.
+template <class Sum, class Value>
+Sum sum_of(std::size_t from, std::size_t to, Sum zero, const Value& value) {
+    constexpr std::size_t kBlock = 1 << 16;
+    std::vector<Sum> parts((to - from + kBlock - 1) / kBlock, zero);
+    parallel_tasks(parts.size(), true, [&](std::size_t b) {
+        const std::size_t end = std::min(to, from + (b + 1) * kBlock);
+        Sum sum = zero;
+        for (std::size_t k = from + b * kBlock; k < end; ++k) sum += value(k);
+        parts[b] = sum;
+    });
+    for (const Sum& part : parts) zero += part;
+    return zero;
 }
 
-// Multiplies the first `count` shares so that sum v = V and sum v x = V centroid over all, changing
-// them least. Repeated: for the rounding, and where a share would become negative, which is then
-// held just above zero.
-void match_moments(std::size_t count, bool mirror, SphereSet& set) {
-    // the others keep their shares: what is left of volume and moment is for these
-    double volume = set.solid.volume;
-    Vec3 moment = Vec3::Zero();  // about the centroid
-    for (std::size_t k = count; k < set.size(); ++k) {
-        volume -= set.volumes[k];
-        moment -= set.volumes[k] * (set.centers[k] - set.solid.centroid);
-    }
-    const double least = 1e-3 * volume / static_cast<double>(count);
+// First moment of the shares of [from, to) about the solid's centroid.
+Vec3 moment_of(const SphereSet& set, std::size_t from, std::size_t to) {
+    return sum_of(from, to, Vec3(Vec3::Zero()), [&](std::size_t k) -> Vec3 {
+        return set.volumes[k] * (set.centers[k] - set.solid.centroid);
+    });
+}
+
+// Multiplies the first `count` shares so that with `others` sum v = V and sum v x = V centroid,
+// changing them least. Repeated: for the rounding, and where a share would become negative, which
+// is then held just above zero.
+// @param others  volume and first moment about the centroid of the shares that stay
+void match_moments(std::size_t count, const Eigen::Vector4d& others, bool mirror, SphereSet& set) {
+    Eigen::Vector4d target = -others;
+    target[0] += set.solid.volume;
+    const double least = 1e-3 * target[0] / static_cast<double>(count);
     for (int pass = 0; pass < kMostPasses; ++pass) {
-        Eigen::Matrix4d moments = Eigen::Matrix4d::Zero();
-        for (std::size_t k = 0; k < count; ++k) {
-            Eigen::Vector4d u;
-            u << 1.0, set.centers[k] - set.solid.centroid;
-            moments += set.volumes[k] * u * u.transpose();
-        }
-        Eigen::Vector4d target;
-        target << volume, moment;
+        Eigen::Matrix4d moments = sum_of(0, count, Eigen::Matrix4d(Eigen::Matrix4d::Zero()),
+                                         [&](std::size_t k) -> Eigen::Matrix4d {
+                                             Eigen::Vector4d u;
+                                             u << 1.0, set.centers[k] - set.solid.centroid;
+                                             return set.volumes[k] * u * u.transpose();
+                                         });
         // where the spheres have no spread (y in 2D) least squares leaves the factor alone
         Eigen::Vector4d lack = target - moments.col(0);
-        if (mirror) lack[2] = 0.0;  // is so but for the rounding
-        if (mirror) moments.row(2).setZero(), moments.col(2).setZero();
+        if (mirror) {  // along y it is so but for the rounding
+            lack[2] = 0.0;
+            moments.row(2).setZero();
+            moments.col(2).setZero();
+        }
         const Eigen::Vector4d factor = moments.completeOrthogonalDecomposition().solve(lack);
         bool raised = false;
         for (std::size_t k = 0; k < count; ++k) {
@@ -88,6 +96,13 @@ void match_moments(std::size_t count, bool mirror, SphereSet& set) {
         }
         if (!raised && pass > 0) return;
     }
+}
+
+// Distance from the centroid of all shares to the solid's [m]; along y there is none in 2D.
+double centroid_miss(const Eigen::Vector4d& others, std::size_t count, const SphereSet& set) {
+    Vec3 first = moment_of(set, 0, count) + others.tail<3>();
+    if (set.dimension == 2) first.y() = 0.0;
+    return first.norm() / set.solid.volume;
 }
 
 // Which region has most of each sphere's area. Nearly all spheres see one: the others wait in a
@@ -194,23 +209,25 @@ void share_surface(const SurfaceTree& tree, const std::vector<Sight>& sights,
 
 double share_volume(double cell, bool mirror, SphereSet& set) {
     const std::size_t surface = set.surface_count, inside = set.size() - surface;
+    Eigen::Vector4d others = Eigen::Vector4d::Zero();
     if (cell == 0.0) {
         set.volumes.assign(set.size(), set.solid.volume / static_cast<double>(set.size()));
-        match_moments(set.size(), mirror, set);
-        return moment_error(set);
+        match_moments(set.size(), others, mirror, set);
+        return centroid_miss(others, set.size(), set);
     }
     const double most = (1.0 - kLeastRest) * set.solid.volume;
     if (static_cast<double>(inside) * cell > most) cell = most / static_cast<double>(inside);
-    const double rest = set.solid.volume - static_cast<double>(inside) * cell;
-    double area = 0.0;
-    for (const double a : set.areas) area += a;
+    others[0] = static_cast<double>(inside) * cell;
+    const double rest = set.solid.volume - others[0];
+    const double area = std::accumulate(set.areas.begin(), set.areas.end(), 0.0);
     set.volumes.assign(set.size(), cell);
     // a sphere without area keeps a little, so that no share is zero
     const double floor = 1e-3 * area / static_cast<double>(surface);
     for (std::size_t k = 0; k < surface; ++k)
         set.volumes[k] = rest * std::max(set.areas[k], floor) / area;
-    match_moments(surface, mirror, set);
-    return moment_error(set);
+    others.tail<3>() = moment_of(set, surface, set.size());
+    match_moments(surface, others, mirror, set);
+    return centroid_miss(others, surface, set);
 }
 
 }  // namespace ice

@@ -5,12 +5,9 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <optional>
-#include <utility>
 
 #include "common/base/parallel.hpp"
 #include "preprocess/fill/mirror_seat.hpp"
-#include "preprocess/fill/point_cells.hpp"
 #include "preprocess/fill/point_grid.hpp"
 #include "preprocess/fill/shell_lines.hpp"
 #include "preprocess/fill/shell_tile.hpp"
@@ -24,10 +21,7 @@ namespace {
 constexpr double kTile = 32.0;     // a tile's edge
 constexpr double kSeedSize = 0.7;  // between the samples that fronts may start from
 constexpr double kLineSize = 0.1;  // the same in 2D, where samples alone close the gaps
-constexpr double kCovered = 0.62;  // a sample that has no seat this near gets one
-constexpr double kLeast = 0.4;     // between seats that close the last gaps
-constexpr double kMirrorGap = 0.15;
-
+constexpr double kCovered = 0.62;  // in 2D a sample that has no seat this near gets one
 constexpr std::size_t kManySeeds = 20000;
 
 struct Tile {
@@ -47,9 +41,14 @@ public:
         if (o_.dimension == 3) {
             for (const Seat& seat : lines_) tile_at(tile_of(seat.center)).own.push_back(seat);
             fill_tiles([](ShellTile& work, const Tile& tile) { work.advance_front(tile.seeds); });
-            fill_tiles([](ShellTile& work, const Tile&) { work.close_gaps(); });
+            fill_tiles([](ShellTile& work, const Tile& tile) {
+                work.close_gaps();
+                work.cover(tile.seeds);
+            });
+        } else {
+            cover_outline();
         }
-        return finish();
+        return collect();
     }
 
 private:
@@ -121,71 +120,36 @@ private:
                 }
     }
 
-    // All seats with their images; samples that still have none near get theirs.
-    std::vector<Vec3> finish() {
-        std::vector<Seat> seats;
+    // 2D: most of the outline is covered by its line already.
+    void cover_outline() {
+        PointGrid placed(o_.spacing);
+        for (const Seat& seat : lines_) placed.add(seat.center);
+        const auto taken = [&](const Vec3& p, const Vec3& normal) {
+            return placed.any_within(p, kCovered * o_.spacing, [&](std::int32_t k) {
+                return lines_[static_cast<std::size_t>(k)].agrees(normal);
+            });
+        };
+        for (const auto& [at, k] : index_)
+            for (const Seed& seed : tiles_[k].seeds) {
+                if (taken(seed.seat, tree_.normal(seed.triangle))) continue;
+                const auto seat = settle(tree_, seed.seat, o_.radius, seed.triangle);
+                if (!seat || taken(seat->center, seat->normal)) continue;
+                placed.add(seat->center);
+                lines_.push_back(*seat);
+            }
+    }
+
+    // All centres with their images.
+    std::vector<Vec3> collect() const {
+        std::vector<Vec3> out;
         const auto add = [&](const Seat& seat) {
-            seats.push_back(seat);
-            if (o_.mirror && seat.center.y() > 0.0) seats.push_back(image_of(seat));
+            out.push_back(seat.center);
+            if (o_.mirror && seat.center.y() > 0.0) out.push_back(image_of(seat).center);
         };
         if (o_.dimension == 2)
             for (const Seat& seat : lines_) add(seat);
         for (const auto& [at, k] : index_)
             for (const Seat& seat : tiles_[k].own) add(seat);
-
-        const auto early = cells_of(seats);
-        PointGrid late(o_.spacing);
-        const std::size_t before = seats.size();
-        const auto taken = [&](const Seat& seat, double range) {
-            return is_taken(seats, early, seat.center, range, seat.normal) ||
-                   late.any_within(seat.center, range, [&](std::int32_t k) {
-                       return seats[before + static_cast<std::size_t>(k)].agrees(seat.normal);
-                   });
-        };
-        for (const Seed& seed : bare_seeds(seats, early)) {
-            auto seat = settle(tree_, seed.seat, o_.radius, seed.triangle);
-            if (!seat || taken(*seat, kCovered * o_.spacing)) continue;
-            if (o_.mirror) seat = mirror_seat(tree_, *seat, o_.radius, kMirrorGap * o_.spacing);
-            if (!seat || taken(*seat, kLeast * o_.spacing)) continue;
-            const std::size_t first = seats.size();
-            add(*seat);
-            for (std::size_t k = first; k < seats.size(); ++k) late.add(seats[k].center);
-        }
-        std::vector<Vec3> out;
-        out.reserve(seats.size());
-        for (const Seat& seat : seats) out.push_back(seat.center);
-        return out;
-    }
-
-    std::optional<PointCells> cells_of(const std::vector<Seat>& seats) const {
-        if (seats.empty()) return std::nullopt;
-        std::vector<Vec3> centers;
-        centers.reserve(seats.size());
-        for (const Seat& seat : seats) centers.push_back(seat.center);
-        return std::optional<PointCells>(std::in_place, centers, 2.0 * o_.spacing);
-    }
-
-    static bool is_taken(const std::vector<Seat>& seats, const std::optional<PointCells>& cells,
-                         const Vec3& p, double range, const Vec3& normal) {
-        bool taken = false;
-        if (cells)
-            cells->visit(p, range, [&](std::int32_t k, double) {
-                taken = taken || seats[static_cast<std::size_t>(k)].agrees(normal);
-            });
-        return taken;
-    }
-
-    std::vector<Seed> bare_seeds(const std::vector<Seat>& seats,
-                                 const std::optional<PointCells>& cells) const {
-        std::vector<std::vector<Seed>> bare(tiles_.size());
-        parallel_tasks(tiles_.size(), is_large(), [&](std::size_t k) {
-            for (const Seed& seed : tiles_[k].seeds)
-                if (!is_taken(seats, cells, seed.seat, kCovered * o_.spacing,
-                              tree_.normal(seed.triangle)))
-                    bare[k].push_back(seed);
-        });
-        std::vector<Seed> out;
-        for (const auto& [at, k] : index_) out.insert(out.end(), bare[k].begin(), bare[k].end());
         return out;
     }
 

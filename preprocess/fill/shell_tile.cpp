@@ -25,8 +25,10 @@ constexpr double kUnreached = 0.9;    // a seed this far from all seats starts a
 constexpr double kGap = 0.635;        // corners of Voronoi cells farther away are gaps
 constexpr double kGapSeparation = 0.61;
 constexpr double kGapMirror = 0.15;
-constexpr double kCellReach = 1.75;  // neighbours that bound a Voronoi cell
-constexpr double kCellSize = 0.9;    // half the edge of the square a cell starts as
+constexpr double kCovered = 0.62;         // a seed farther from all seats gets one
+constexpr double kCoverSeparation = 0.4;  // where it had to move into the centre plane
+constexpr double kCellReach = 1.75;       // neighbours that bound a Voronoi cell
+constexpr double kCellSize = 0.9;         // half the edge of the square a cell starts as
 
 }  // namespace
 
@@ -194,6 +196,17 @@ void ShellTile::close_gaps() {
         if (o_.mirror && seat.center.y() < 0.0) continue;
         if (box_.exteriorDistance(seat.center) >= kBeyond * o_.spacing) continue;
         for (const Plane& plane : planes_at(seat)) close_gaps_in(plane, seat.triangle);
+    }
+}
+
+void ShellTile::cover(const std::vector<Seed>& seeds) {
+    const double range = kCovered * o_.spacing;
+    for (const Seed& seed : seeds) {
+        if (grid_.any_within(seed.seat, range, tree_.normal(seed.triangle))) continue;
+        const auto seat = settle(tree_, seed.seat, o_.radius, seed.triangle);
+        if (!seat || grid_.any_within(seat->center, range, normals_at(tree_, o_.radius, *seat)))
+            continue;
+        place(seat->center, seat->triangle, kCoverSeparation, kGapMirror, true);
     }
 }
 

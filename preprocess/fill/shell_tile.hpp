@@ -33,6 +33,10 @@ public:
     /// the surface, that are farther away than 0.635 spacings.
     void close_gaps();
 
+    /// Places a sphere at every seed that has none within 0.62 spacings: what neither fronts nor
+    /// Voronoi cells reached.
+    void cover(const std::vector<Seed>& seeds);
+
     /// What was placed since the tile was made.
     const std::vector<Seat>& placed() const { return placed_; }
 

@@ -48,8 +48,11 @@ SphereFinder::SphereFinder(const SphereSet& set)
     : set_(set),
       cells_(std::span(set.centers).first(set.surface_count), 2.0 * set.spacing),
       least_(set.surface_count) {
+    const double on_face = std::cos(kFaceTurn);
     for (std::size_t k = 0; k < least_.size(); ++k)
-        least_[k] = std::cos(std::min(set.normal_spread[k] + kFaceTurn, std::numbers::pi));
+        least_[k] = set.normal_spread[k] == 0.0
+                        ? on_face
+                        : std::cos(std::min(set.normal_spread[k] + kFaceTurn, std::numbers::pi));
 }
 
 PointCells::Nearest SphereFinder::nearest(const Vec3& p, std::int32_t known) const {
