@@ -208,8 +208,12 @@ int run_spherize(Options& o, const std::string& command_line) {
     set.created_by = fmt::format("spherize {} ({})", ice::version(), ice::git_commit());
     set.command_line = report.command_line = command_line;
     if (!report.thin_features.empty())
-        report.warnings.push_back(fmt::format("{} parts are too thin for a sphere of radius {:g} m",
-                                              report.thin_features.size(), o.fill.radius));
+        report.warnings.push_back(
+            fmt::format("{} too thin for a sphere of radius {:g} m",
+                        report.thin_features.size() == 1
+                            ? std::string("1 part is")
+                            : fmt::format("{} parts are", report.thin_features.size()),
+                        o.fill.radius));
     const auto export_base = std::filesystem::path(stem).replace_extension();
     ice::check_exports(set, o.exports, export_base);
     const double density = o.density.value_or(kIceDensity);

@@ -134,7 +134,11 @@ void fill_report(const SphereSet& set, SpheresReport& report) {
     report.surface_spheres = static_cast<std::int64_t>(set.surface_count);
     report.volume = set.solid.volume;
     report.area = set.solid.area;
-    report.centroid = {set.solid.centroid.x(), set.solid.centroid.y(), set.solid.centroid.z()};
+    // what is zero but for the rounding of its sum is said to be zero
+    const double rounding = 1e-14 * std::cbrt(set.solid.volume);
+    for (int d = 0; d < 3; ++d)
+        report.centroid[static_cast<std::size_t>(d)] =
+            std::abs(set.solid.centroid[d]) < rounding ? 0.0 : set.solid.centroid[d];
     const Mat3& i = set.solid.inertia;
     report.inertia_unit_density = {i(0, 0), i(1, 1), i(2, 2), i(0, 1), i(0, 2), i(1, 2)};
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "preprocess/slice/slice_solid.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "common/base/error.hpp"
@@ -83,8 +85,10 @@ Section slice_solid(const TriangleMesh& mesh, double offset) {
         if (loop.size() >= 3) section.loops.push_back(std::move(loop));
     }
     if (section.loops.empty())
-        throw bad_input("--slice", "the plane does not cut the solid",
-                        "the hull must lie on both sides of it");
+        throw bad_input("--slice",
+                        fmt::format("the plane y = {:g} m does not cut the solid", offset),
+                        fmt::format("the solid reaches from y = {:.4g} to {:.4g} m", box.min().y(),
+                                    box.max().y()));
     return section;
 }
 

@@ -309,6 +309,37 @@ TEST_CASE("discs of a rectangle stand on its outline, corners included, at most 
     CHECK(lattice.size() == 10);  // 5 x 2
 }
 
+TEST_CASE("discs of a hull's section have the guarantees of spheres, per metre of breadth",
+          "[fill][2d][property]") {
+    const TriangleMesh hull = test::make_wigley(10, 2, 1, 60, 16);
+    const double offset = GENERATE(0.0, 0.6);
+    const Section section = slice_solid(hull, offset);
+    SpheresReport report;
+    const SphereSet set = fill_discs(section, hull.region_names, options(0.05), report);
+    double outline = 0.0;
+    for (const auto& loop : section.loops)
+        for (const SectionEdge& edge : loop) outline += (edge.b - edge.a).norm();
+    CHECK(set.solid.area == Approx(outline).epsilon(1e-12));
+    check_shares(set);
+    CHECK(report.protrusion_max <= 1e-6 * set.radius);
+    CHECK(report.covering_radius <= 0.65 * set.spacing);
+    CHECK(report.normal_error_mean_deg <= 1.0);
+    // one disc a spacing, and one more for each of the outline's corners
+    CHECK(static_cast<double>(set.surface_count) <= 1.08 * outline / set.spacing + 4.0);
+    for (std::size_t k = 0; k < set.size(); ++k) {
+        REQUIRE(set.centers[k].y() == 0.0);
+        double nearest = 1e300;
+        for (const auto& loop : section.loops)
+            for (const SectionEdge& edge : loop) {
+                const Vec3 along = edge.b - edge.a, from = set.centers[k] - edge.a;
+                const double t = std::clamp(from.dot(along) / along.squaredNorm(), 0.0, 1.0);
+                nearest = std::min(nearest, (from - t * along).norm());
+            }
+        REQUIRE(nearest >= set.radius * (1 - 1e-6));
+        if (set.on_surface(k)) REQUIRE(nearest <= set.radius * (1 + 1e-6));
+    }
+}
+
 TEST_CASE("an absurd number of spheres is refused with the unit as the likely cause",
           "[fill][errors]") {
     SpheresReport report;
