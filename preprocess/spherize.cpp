@@ -173,10 +173,28 @@ double slice_offset(const std::string& slice) {
     const auto offset = slice.starts_with("y=")
                             ? ice::parse_quantity(slice.substr(2), ice::Dimension::length)
                             : std::nullopt;
-    if (!offset)
+    if (!offset || !std::isfinite(offset->value))
         throw ice::bad_input("--slice " + slice, "is not y=VALUE",
                              "write for instance --slice y=0");
     return offset->value;
+}
+
+// A name given twice would cost the user the mesh, or one of the results.
+void refuse_overwriting(const Options& o, const std::string& out) {
+    std::map<std::filesystem::path, std::string> taken{
+        {std::filesystem::weakly_canonical(o.mesh), "the mesh"}};
+    const auto take = [&](const std::string& option, const std::filesystem::path& file) {
+        const auto [other, fresh] =
+            taken.try_emplace(std::filesystem::weakly_canonical(file), option);
+        if (!fresh)
+            throw ice::bad_input(option, "would overwrite " + other->second + ", " + file.string(),
+                                 "give another name");
+    };
+    take("--output", out);
+    if (!o.json.empty()) take("--json", o.json);
+    for (const auto& file :
+         ice::export_files(o.exports, std::filesystem::path(out).replace_extension()))
+        take("--export", file);
 }
 
 int run_spherize(Options& o, const std::string& command_line) {
@@ -191,6 +209,8 @@ int run_spherize(Options& o, const std::string& command_line) {
         throw ice::bad_input("--spacing", "has no meaning for a lattice, whose pitch is 2 R",
                              "leave it out, or use --arrangement conforming");
 
+    const std::string out = o.out.empty() ? ice::mesh_stem(o.mesh) + ".spheres.h5" : o.out;
+    refuse_overwriting(o, out);
     ice::SpheresReport report;
     if (o.check) return report_check(o, report);
     ice::TriangleMesh surface = read_surface(o, report);
@@ -202,30 +222,25 @@ int run_spherize(Options& o, const std::string& command_line) {
                              : ice::fill_discs(ice::slice_solid(mesh, slice_offset(o.slice)),
                                                mesh.region_names, o.fill, report);
     const std::filesystem::path source(o.mesh);
-    const std::string stem = o.out.empty() ? ice::mesh_stem(source) + ".spheres.h5" : o.out;
     set.source_mesh = report.source_mesh = source.filename().string();
     set.source_sha256 = ice::file_sha256(source);
     set.created_by = fmt::format("spherize {} ({})", ice::version(), ice::git_commit());
     set.command_line = report.command_line = command_line;
     if (!report.thin_features.empty())
-        report.warnings.push_back(
-            fmt::format("{} too thin for a sphere of radius {:g} m",
-                        report.thin_features.size() == 1
-                            ? std::string("1 part is")
-                            : fmt::format("{} parts are", report.thin_features.size()),
-                        o.fill.radius));
-    const auto export_base = std::filesystem::path(stem).replace_extension();
+        report.warnings.push_back(fmt::format("parts too thin for a sphere of radius {:g} m: {}",
+                                              o.fill.radius, report.thin_features.size()));
+    const auto export_base = std::filesystem::path(out).replace_extension();
     ice::check_exports(set, o.exports, export_base);
     const double density = o.density.value_or(kIceDensity);
     if (!o.density && std::any_of(o.exports.begin(), o.exports.end(), ice::has_mass))
         report.guessed["density"] = fmt::format("{} kg/m3, as of ice, in the exports", density);
     const ice::Timer writing;
-    ice::write_spheres(stem, set, report);
+    ice::write_spheres(out, set, report);
     report.seconds["write"] = writing.seconds();
     report.seconds["total"] = timer.seconds();
     if (!o.json.empty()) ice::write_text_file(o.json, ice::spheres_report_text(report));
     const auto exported = ice::write_exports(set, o.exports, density, export_base);
-    if (!o.quiet) fmt::print("{}", ice::report_text(report, stem));
+    if (!o.quiet) fmt::print("{}", ice::report_text(report, out));
     if (!o.quiet)
         for (const auto& path : exported) fmt::print("  {:<18}{}\n", "exported", path.string());
     for (const std::string& warning : report.warnings) ice::say_warning(warning);

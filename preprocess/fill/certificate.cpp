@@ -8,6 +8,7 @@
 
 #include "common/base/parallel.hpp"
 #include "preprocess/fill/offset_surface.hpp"
+#include "preprocess/fill/point_cells.hpp"
 
 namespace ice {
 
@@ -41,28 +42,34 @@ private:
     std::vector<double> weight_;
 };
 
-// Groups unfilled samples that lie near each other.
-std::vector<ThinFeature> group(std::vector<Vec3> points, double distance) {
+// Groups unfilled samples: those within `distance` of each other are of one feature.
+std::vector<ThinFeature> group(const std::vector<Vec3>& points, double distance) {
     std::vector<ThinFeature> out;
-    while (!points.empty()) {
-        std::vector<Vec3> cluster{points.back()};
-        points.pop_back();
-        Eigen::AlignedBox3d box(cluster[0]);
-        for (std::size_t k = 0; k < cluster.size(); ++k) {
-            const auto split = std::partition(points.begin(), points.end(), [&](const Vec3& p) {
-                return (p - cluster[k]).norm() > distance;
+    if (points.empty()) return out;
+    const PointCells cells(points, distance);
+    std::vector<std::uint8_t> taken(points.size(), 0);
+    std::vector<std::size_t> front;
+    for (std::size_t first = 0; first < points.size(); ++first) {
+        if (taken[first] != 0) continue;
+        taken[first] = 1;
+        front.assign(1, first);
+        Eigen::AlignedBox3d box(points[first]);
+        while (!front.empty()) {
+            const Vec3 p = points[front.back()];
+            front.pop_back();
+            cells.visit(p, distance, [&](std::int32_t k, double) {
+                const auto near = static_cast<std::size_t>(k);
+                if (taken[near] != 0) return;
+                taken[near] = 1;
+                front.push_back(near);
+                box.extend(points[near]);
             });
-            for (auto it = split; it != points.end(); ++it) {
-                cluster.push_back(*it);
-                box.extend(*it);
-            }
-            points.erase(split, points.end());
         }
         const Vec3 at = box.center();
         out.push_back({{at.x(), at.y(), at.z()}, box.diagonal().norm()});
     }
-    std::sort(out.begin(), out.end(),
-              [](const ThinFeature& l, const ThinFeature& r) { return l.size > r.size; });
+    std::stable_sort(out.begin(), out.end(),
+                     [](const ThinFeature& l, const ThinFeature& r) { return l.size > r.size; });
     return out;
 }
 
@@ -154,7 +161,7 @@ void certify(const SurfaceTree& tree, const SphereFinder& finder, const std::vec
     report.gap_max = gap_max;
     report.normal_error_mean_deg = error_area > 0.0 ? kDegrees * error_sum / error_area : 0.0;
     report.normal_error_p99_deg = kDegrees * errors.percentile(0.99);
-    report.thin_features = group(std::move(thin), 3.0 * set.radius);
+    report.thin_features = group(thin, 3.0 * set.radius);
 }
 
 }  // namespace ice

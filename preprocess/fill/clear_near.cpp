@@ -17,20 +17,8 @@ constexpr std::size_t kGroup = 16;              // triangles worked at together
 constexpr double kPiece = 32.0;                 // pitches: longer triangles visit in pieces
 constexpr double kMostPieces = 1000.0;          // along the box
 using detail::Corners;
-using detail::kSlack;
+using detail::Range;
 using Near = detail::NearTriangle;
-
-// Indices of lattice points between two reals, ends included.
-struct Range {
-    std::int64_t from, to;
-
-    Range(double low, double high, std::int64_t count) {
-        const double last = static_cast<double>(count - 1);
-        from =
-            low > 0.0 ? static_cast<std::int64_t>(std::min(low + (1.0 - kSlack), last + 1.0)) : 0;
-        to = high >= -kSlack ? static_cast<std::int64_t>(std::min(high + kSlack, last)) : -1;
-    }
-};
 
 // A triangle and the lattice points that wait for their distance from it.
 struct Visit {

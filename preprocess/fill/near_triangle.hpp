@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "preprocess/fill/lattice_range.hpp"
 #include "preprocess/fill/triangle_distances.hpp"
 #include "preprocess/measure/closest_on_triangle.hpp"
 
 namespace ice::detail {
 
 inline constexpr double kDoubt = 1e-5;  // of the squared distance: what quick answers must leave
-inline constexpr double kSlack = 1e-6;  // of the distance, pitch: by how much ranges are widened
 inline constexpr double kSteep = 1e-3;  // |n_x| from which a plane cuts a row within reach
 inline constexpr double kRounding =
     1e-15;  // of a cross product's factors: a few units in the last place

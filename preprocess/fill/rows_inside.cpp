@@ -5,10 +5,13 @@
 #include <cmath>
 
 #include "common/base/parallel.hpp"
+#include "preprocess/fill/lattice_range.hpp"
 
 namespace ice {
 
 namespace {
+
+using detail::Range;
 
 constexpr std::size_t kChunk = 256;             // triangles that share a list of crossings
 constexpr std::size_t kSerialTriangles = 4000;  // below, waking threads costs more than it saves
@@ -34,20 +37,6 @@ Cut cut_edge(const Vec3& a, const Vec3& b, double z) {
     const double part = (z - a.z()) / (b.z() - a.z());
     return {a.x() + part * (b.x() - a.x()), a.y() + part * (b.y() - a.y())};
 }
-
-constexpr double kSlack = 1e-6;  // of a step: by how much ranges of rows are widened
-
-// Row numbers that may lie between two reals; the exact comparison follows.
-struct Range {
-    std::int64_t from, to;
-
-    Range(double low, double high, std::int64_t count) {
-        const double last = static_cast<double>(count - 1);
-        from =
-            low > 0.0 ? static_cast<std::int64_t>(std::min(low + (1.0 - kSlack), last + 1.0)) : 0;
-        to = high >= -kSlack ? static_cast<std::int64_t>(std::min(high + kSlack, last)) : -1;
-    }
-};
 
 class Scanner {
 public:

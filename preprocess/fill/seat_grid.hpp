@@ -36,10 +36,6 @@ public:
     }
 
     const std::vector<Seat>& seats() const { return seats_; }
-    bool contains(const Vec3& p) const {
-        const Vec3 from = p - low_;
-        return from.minCoeff() >= 0.0 && from.maxCoeff() < count_ * cell_;
-    }
 
     /// Calls visit(index, squared distance) for the seats within `range` of p, in no order that
     /// matters: callers sort or take minima.

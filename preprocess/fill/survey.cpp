@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kMostSamples = 1.5e6;
 constexpr double kReachable = 1e-6;    // radii by which the other side may be nearer
+constexpr double kFar = 8.0;           // spacings: on a part without spheres, none stands for it
 constexpr double kFaceSpread = 0.087;  // 5 degrees: beyond, a sphere is in an edge
 
 // `last` is the sphere that the sample before was near to: likely a neighbour.
@@ -63,7 +64,7 @@ PointCells::Nearest SphereFinder::nearest(const Vec3& p, std::int32_t known) con
 
 PointCells::Nearest SphereFinder::agreeing(const Vec3& p, const Vec3& normal,
                                            const PointCells::Nearest& any) const {
-    if (agrees(any.index, normal)) return any;
+    if (agrees(any.index, normal) || any.distance > kFar * set_.spacing) return any;
     PointCells::Nearest best{-1, any.distance + 2.0 * set_.spacing};
     cells_.visit(p, best.distance, [&](std::int32_t k, double distance) {
         if (distance > best.distance || (distance == best.distance && k > best.index)) return;

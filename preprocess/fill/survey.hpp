@@ -33,8 +33,8 @@ public:
     /// Nearest sphere of any normal. `known`: one that is thought to be near, or -1.
     PointCells::Nearest nearest(const Vec3& p, std::int32_t known = -1) const;
 
-    /// Nearest sphere that agrees with `normal`; where none does within two spacings of `any`, the
-    /// nearest of any normal, that is `any` itself.
+    /// Nearest sphere that agrees with `normal`; where none does within two spacings of `any`, or
+    /// `any` is eight spacings away (a part without spheres), the nearest of any normal, `any`.
     PointCells::Nearest agreeing(const Vec3& p, const Vec3& normal,
                                  const PointCells::Nearest& any) const;
 

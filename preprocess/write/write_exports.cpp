@@ -18,6 +18,27 @@ namespace ice {
 
 namespace {
 
+struct Format {
+    std::string name;
+    std::vector<std::string> endings;
+};
+
+const std::vector<Format>& formats_known() {
+    static const std::vector<Format> known{{"csv", {".csv"}},
+                                           {"vtp", {".vtp"}},
+                                           {"yade", {".yade.txt", ".yade.py"}},
+                                           {"liggghts", {".liggghts.txt", ".liggghts.in"}},
+                                           {"chrono", {".chrono.csv", ".chrono.json"}}};
+    return known;
+}
+
+const std::vector<std::string>& endings_of(const std::string& name) {
+    const auto& known = formats_known();
+    return std::find_if(known.begin(), known.end(),
+                        [&](const Format& format) { return format.name == name; })
+        ->endings;
+}
+
 // Files that get their final names together.
 class OutputFiles {
 public:
@@ -56,22 +77,22 @@ std::string fix_id(const std::string& name) {
 
 void add_format(OutputFiles& files, const std::string& format, const SphereSet& set,
                 const RigidBody& body) {
-    if (format == "csv") files.add(".csv", [&](const Sink& sink) { write_csv(set, sink); });
-    if (format == "vtp") files.add(".vtp", [&](const Sink& sink) { write_vtp(set, sink); });
+    const std::vector<std::string>& ending = endings_of(format);
+    if (format == "csv") files.add(ending[0], [&](const Sink& sink) { write_csv(set, sink); });
+    if (format == "vtp") files.add(ending[0], [&](const Sink& sink) { write_vtp(set, sink); });
     if (format == "yade") {
-        files.add(".yade.txt", [&](const Sink& sink) { write_yade_spheres(set, body, sink); });
-        files.add_text(".yade.py", yade_text(body, set.radius, files.name(".yade.txt")));
+        files.add(ending[0], [&](const Sink& sink) { write_yade_spheres(set, body, sink); });
+        files.add_text(ending[1], yade_text(body, set.radius, files.name(ending[0])));
     }
     if (format == "liggghts") {
-        files.add(".liggghts.txt",
-                  [&](const Sink& sink) { write_liggghts_spheres(set, body, sink); });
-        files.add_text(".liggghts.in", liggghts_text(body, set.size(), fix_id(files.name("")),
-                                                     files.name(".liggghts.txt")));
+        files.add(ending[0], [&](const Sink& sink) { write_liggghts_spheres(set, body, sink); });
+        files.add_text(ending[1], liggghts_text(body, set.size(), fix_id(files.name("")),
+                                                files.name(ending[0])));
     }
     if (format == "chrono") {
-        files.add(".chrono.csv", [&](const Sink& sink) { write_chrono_spheres(set, body, sink); });
-        files.add_text(".chrono.json",
-                       rigid_body_text(body, files.name(".chrono.csv"),
+        files.add(ending[0], [&](const Sink& sink) { write_chrono_spheres(set, body, sink); });
+        files.add_text(ending[1],
+                       rigid_body_text(body, files.name(ending[0]),
                                        "origin at centroid_m, axes turned by the quaternion into "
                                        "those of the mesh",
                                        set.size()));
@@ -80,7 +101,20 @@ void add_format(OutputFiles& files, const std::string& format, const SphereSet& 
 
 }  // namespace
 
-std::vector<std::string> export_formats() { return {"csv", "vtp", "yade", "liggghts", "chrono"}; }
+std::vector<std::string> export_formats() {
+    std::vector<std::string> names;
+    for (const Format& format : formats_known()) names.push_back(format.name);
+    return names;
+}
+
+std::vector<std::filesystem::path> export_files(const std::vector<std::string>& formats,
+                                                const std::filesystem::path& base) {
+    std::vector<std::filesystem::path> files;
+    for (const std::string& format : std::set(formats.begin(), formats.end()))
+        for (const std::string& ending : endings_of(format))
+            files.emplace_back(base.string() + ending);
+    return files;
+}
 
 bool has_mass(const std::string& format) { return format != "csv" && format != "vtp"; }
 

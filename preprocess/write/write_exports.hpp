@@ -22,6 +22,10 @@ namespace ice {
 /// All spheres of the set are written; `--mode surface` is what leaves out the interior.
 std::vector<std::string> export_formats();
 
+/// The files that write_exports() makes of these formats.
+std::vector<std::filesystem::path> export_files(const std::vector<std::string>& formats,
+                                                const std::filesystem::path& base);
+
 /// Whether a format carries a mass, and so needs a density.
 bool has_mass(const std::string& format);
 

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// What the two parts of Hdf5File share; for hdf5_*.cpp alone, because it shows HDF5's types.
+#pragma once
+
+#include <hdf5.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace ice::detail {
+
+/// Closes an HDF5 handle when the scope ends.
+class Handle {
+public:
+    Handle(hid_t id, herr_t (*closer)(hid_t)) : id_(id), closer_(closer) {}
+    ~Handle() {
+        if (id_ >= 0) closer_(id_);
+    }
+    Handle(const Handle&) = delete;
+    Handle& operator=(const Handle&) = delete;
+    operator hid_t() const { return id_; }
+
+private:
+    hid_t id_;
+    herr_t (*closer_)(hid_t);
+};
+
+inline std::vector<hsize_t> to_hsize(const std::vector<std::uint64_t>& shape) {
+    return {shape.begin(), shape.end()};
+}
+
+}  // namespace ice::detail

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the README says of every sphere set, held to on every mesh of the project, in 3D and 2D.
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "preprocess/fill/fill_spheres.hpp"
+#include "preprocess/load/read_mesh.hpp"
+#include "preprocess/repair/make_solid.hpp"
+#include "tests/preprocess/check_shares.hpp"
+#include "tests/preprocess/solid_oracle.hpp"
+#include "tests/support/make_meshes.hpp"
+
+using namespace ice;
+
+namespace {
+
+TriangleMesh read_solid(const std::string& name) {
+    const std::string file = ICE_SOURCE_DIR "/meshes/" + name;
+    Repairs repairs;
+    return make_solid(read_mesh(file, {}), file, {}, repairs);
+}
+
+void check_certificate(const SpheresReport& report) {
+    CHECK(report.protrusion_max <= 1e-6 * report.radius);
+    CHECK(report.covering_radius <= 0.65 * report.spacing);
+    CHECK(report.normal_error_mean_deg <= 1.0);
+    CHECK(report.warnings.empty());
+}
+
+}  // namespace
+
+TEST_CASE("every mesh of the project: touch, cover, count, normals and shares are as promised",
+          "[fill][guarantee]") {
+    const auto [name, radius] =
+        GENERATE(table<const char*, double>({{"paper-floe-2d.obj", 0.05},
+                                             {"paper-floe-3d.obj", 0.05},
+                                             {"paper-hull-2d.obj", 0.1},
+                                             {"paper-hull-3d.obj", 0.1},
+                                             {"icebreaker-100m.obj", 0.3}}));
+    CAPTURE(name, radius);
+    SpheresReport report;
+    const SphereSet set = fill_spheres(read_solid(name), {radius}, report);
+    check_certificate(report);
+    test::check_shares(set);
+    // each sphere of a hexagonal layer stands for sqrt(3) / 2 of the spacing squared
+    const double ideal = set.solid.area / (std::sqrt(0.75) * set.spacing * set.spacing);
+    CHECK(static_cast<double>(report.surface_spheres) <= 1.08 * ideal);
+}
+
+TEST_CASE("every mesh of the project as a lattice: inside, by its certificate, with exact shares",
+          "[fill][guarantee]") {
+    const auto [name, radius] = GENERATE(table<const char*, double>(
+        {{"paper-floe-3d.obj", 0.04}, {"paper-hull-3d.obj", 0.1}, {"icebreaker-100m.obj", 0.5}}));
+    CAPTURE(name, radius);
+    SpheresReport report;
+    const SphereSet set =
+        fill_spheres(read_solid(name), {radius, 0.0, Arrangement::lattice}, report);
+    CHECK(report.protrusion_max <= 1e-6 * radius);
+    test::check_shares(set);
+}
+
+TEST_CASE("sections of every mesh of the project keep the same promises", "[fill][2d][guarantee]") {
+    const auto [name, radius] =
+        GENERATE(table<const char*, double>({{"paper-floe-2d.obj", 0.05},
+                                             {"paper-hull-2d.obj", 0.1},
+                                             {"paper-hull-3d.obj", 0.1},
+                                             {"icebreaker-100m.obj", 0.1}}));
+    CAPTURE(name, radius);
+    const TriangleMesh solid = read_solid(name);
+    SpheresReport report;
+    const SphereSet set = fill_discs(slice_solid(solid, 0.0), solid.region_names, {radius}, report);
+    check_certificate(report);
+    test::check_shares(set);
+    for (const Vec3& c : set.centers) REQUIRE(c.y() == 0.0);
+    // an outline needs a disc for each spacing of its length, and one more for each piece
+    CHECK(static_cast<double>(report.surface_spheres) * set.spacing <= 1.08 * set.solid.area);
+    // by CGAL, in a prism so broad that its ends are far
+    TriangleMesh broad = set.mesh;
+    for (Vec3& v : broad.vertices) v.y() *= 1000.0;
+    const auto answers = test::ask_oracle(broad, set.centers);
+    for (std::size_t k = 0; k < set.size(); ++k) {
+        REQUIRE(answers[k].inside);
+        REQUIRE(answers[k].distance >= radius * (1 - 1e-6));
+        if (set.on_surface(k)) REQUIRE(answers[k].distance <= radius * (1 + 1e-6));
+    }
+}
+
+TEST_CASE("a section with a hole and a second body has discs and shares on all of its loops",
+          "[fill][2d][guarantee]") {
+    // a square of 1 x 1 m, beside it a frame of 2 x 2 m with a hole of 1 x 1 m
+    Section section = slice_solid(test::make_box_mesh(Vec3(1, 1, 1)), 0.0);
+    const auto aside = [](Section s) {
+        for (SectionEdge& edge : s.loops[0]) {
+            edge.a.x() -= 3.0;
+            edge.b.x() -= 3.0;
+        }
+        return s.loops[0];
+    };
+    std::vector<SectionEdge> hole = aside(section);
+    std::reverse(hole.begin(), hole.end());
+    for (SectionEdge& edge : hole) {
+        std::swap(edge.a, edge.b);
+        edge.normal = -edge.normal;
+    }
+    section.loops.push_back(aside(slice_solid(test::make_box_mesh(Vec3(2, 2, 2)), 0.0)));
+    section.loops.push_back(hole);
+    SpheresReport report;
+    const SphereSet set = fill_discs(section, {"hull"}, {0.05}, report);
+    check_certificate(report);
+    test::check_shares(set);
+    CHECK(set.solid.volume == Approx(4.0).epsilon(1e-12));
+    CHECK(set.solid.area == Approx(8.0 + 4.0 + 4.0).epsilon(1e-12));
+    double outer = 0.0, inner = 0.0, beside = 0.0;
+    for (std::size_t k = 0; k < set.surface_count; ++k) {
+        const Vec3 c = set.centers[k];
+        const double square = std::max(std::abs(c.x() + 3.0), std::abs(c.z()));
+        (c.x() > -1.5 ? beside : square > 0.75 ? outer : inner) += set.areas[k];
+    }
+    CHECK(outer == Approx(8.0).epsilon(0.02));
+    CHECK(inner == Approx(4.0).epsilon(0.02));
+    CHECK(beside == Approx(4.0).epsilon(0.02));
+}
