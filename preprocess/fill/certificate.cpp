@@ -3,7 +3,9 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "common/base/parallel.hpp"
@@ -41,28 +43,87 @@ private:
     std::vector<double> weight_;
 };
 
-// Groups unfilled samples that lie near each other.
-std::vector<ThinFeature> group(std::vector<Vec3> points, double distance) {
-    std::vector<ThinFeature> out;
-    while (!points.empty()) {
-        std::vector<Vec3> cluster{points.back()};
-        points.pop_back();
-        Eigen::AlignedBox3d box(cluster[0]);
-        for (std::size_t k = 0; k < cluster.size(); ++k) {
-            const auto split = std::partition(points.begin(), points.end(), [&](const Vec3& p) {
-                return (p - cluster[k]).norm() > distance;
-            });
-            for (auto it = split; it != points.end(); ++it) {
-                cluster.push_back(*it);
-                box.extend(*it);
-            }
-            points.erase(split, points.end());
+// Points sorted into cubes so small that those of one cube are within `distance` of each other.
+class NearGroups {
+public:
+    NearGroups(const std::vector<Vec3>& points, double distance)
+        : distance_(distance), edge_(distance / std::sqrt(3.0)) {
+        for (const Vec3& p : points) {
+            Cube& cube = cubes_[cube_of(p)];
+            cube.points.push_back(p);
+            cube.box.extend(p);
         }
+    }
+
+    /// Boxes round the groups: points belong together when steps of at most `distance` lead from
+    /// one to the other.
+    std::vector<Eigen::AlignedBox3d> boxes() {
+        std::vector<Eigen::AlignedBox3d> out;
+        for (auto& [at, cube] : cubes_) {
+            if (cube.grouped) continue;
+            out.emplace_back();
+            std::vector<Index> waiting{at};
+            cube.grouped = true;
+            while (!waiting.empty()) {
+                const Index now = waiting.back();
+                waiting.pop_back();
+                out.back().extend(cubes_.at(now).box);
+                add_neighbours(now, waiting);
+            }
+        }
+        return out;
+    }
+
+private:
+    using Index = std::array<std::int64_t, 3>;
+    struct Cube {
+        std::vector<Vec3> points;
+        Eigen::AlignedBox3d box;
+        bool grouped = false;
+    };
+
+    Index cube_of(const Vec3& p) const {
+        Index at;
+        for (int d = 0; d < 3; ++d)
+            at[static_cast<std::size_t>(d)] = static_cast<std::int64_t>(std::floor(p[d] / edge_));
+        return at;
+    }
+
+    void add_neighbours(const Index& at, std::vector<Index>& waiting) {
+        const Cube& cube = cubes_.at(at);
+        for (std::int64_t x = -2; x <= 2; ++x)
+            for (std::int64_t y = -2; y <= 2; ++y)
+                for (std::int64_t z = -2; z <= 2; ++z) {
+                    const auto found = cubes_.find({at[0] + x, at[1] + y, at[2] + z});
+                    if (found == cubes_.end() || found->second.grouped) continue;
+                    if (!near(cube, found->second)) continue;
+                    found->second.grouped = true;
+                    waiting.push_back(found->first);
+                }
+    }
+
+    bool near(const Cube& l, const Cube& r) const {
+        if (l.box.exteriorDistance(r.box) > distance_) return false;
+        return std::any_of(l.points.begin(), l.points.end(), [&](const Vec3& p) {
+            if (r.box.exteriorDistance(p) > distance_) return false;
+            return std::any_of(r.points.begin(), r.points.end(),
+                               [&](const Vec3& q) { return (p - q).norm() <= distance_; });
+        });
+    }
+
+    double distance_, edge_;
+    std::map<Index, Cube> cubes_;
+};
+
+// Groups unfilled samples that lie near each other, the largest first.
+std::vector<ThinFeature> group(const std::vector<Vec3>& points, double distance) {
+    std::vector<ThinFeature> out;
+    for (const Eigen::AlignedBox3d& box : NearGroups(points, distance).boxes()) {
         const Vec3 at = box.center();
         out.push_back({{at.x(), at.y(), at.z()}, box.diagonal().norm()});
     }
-    std::sort(out.begin(), out.end(),
-              [](const ThinFeature& l, const ThinFeature& r) { return l.size > r.size; });
+    std::stable_sort(out.begin(), out.end(),
+                     [](const ThinFeature& l, const ThinFeature& r) { return l.size > r.size; });
     return out;
 }
 
@@ -154,7 +215,7 @@ void certify(const SurfaceTree& tree, const SphereFinder& finder, const std::vec
     report.gap_max = gap_max;
     report.normal_error_mean_deg = error_area > 0.0 ? kDegrees * error_sum / error_area : 0.0;
     report.normal_error_p99_deg = kDegrees * errors.percentile(0.99);
-    report.thin_features = group(std::move(thin), 3.0 * set.radius);
+    report.thin_features = group(thin, 3.0 * set.radius);
 }
 
 }  // namespace ice
