@@ -475,3 +475,23 @@ TEST_CASE("a spacing that would take 1e8 discs is refused", "[fill][errors]") {
     CHECK_THROWS_WITH(fill_discs(section, {"hull"}, options(0.1, spacing), report),
                       Catch::Contains("spheres"));
 }
+
+TEST_CASE("volume shares sum to the volume even where no spheres are near the centroid",
+          "[fill][degenerate]") {
+    // a 1 m bar with a plate of 5 cm that reaches 40 m aside: all spheres are in the bar
+    Section section;
+    const double x[6] = {0, 40, 40, 1, 1, 0}, z[6] = {0, 0, 0.05, 0.05, 1, 1};
+    section.loops.emplace_back();
+    for (int k = 0; k < 6; ++k) {
+        const Vec3 a(x[k], 0, z[k]), b(x[(k + 1) % 6], 0, z[(k + 1) % 6]);
+        const Vec3 d = (b - a).normalized();
+        section.loops[0].push_back({a, b, Vec3(d.z(), 0, -d.x()), 0});
+    }
+    SpheresReport report;
+    const SphereSet set = fill_spheres(extrude(section, {"hull"}), options(0.1), report);
+    const double sum = std::accumulate(set.volumes.begin(), set.volumes.end(), 0.0);
+    CHECK(sum == Approx(1.0 + 39 * 0.05).epsilon(1e-9));
+    for (const double v : set.volumes) REQUIRE(v > 0.0);
+    REQUIRE(report.warnings.size() == 1);
+    CHECK_THAT(report.warnings[0], Catch::Contains("miss the centroid"));
+}
