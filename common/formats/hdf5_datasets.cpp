@@ -139,8 +139,13 @@ std::vector<T> Hdf5File::read(const std::string& name) const {
     const Handle type(H5Dget_type(dataset), H5Tclose);
     const H5T_class_t kind = H5Tget_class(type);
     // an array that was never stored takes no room in the file: do not believe its size
-    constexpr std::uint64_t kHarmless = 1u << 26, kBestCompression = 2000;
-    if (count * sizeof(T) > kHarmless &&
+    // but where the fill value was chosen: then rows that equal it are not stored
+    constexpr std::uint64_t kUnfilled = 1u << 26, kFilled = 1u << 30, kBestCompression = 2000;
+    const Handle properties(H5Dget_create_plist(dataset), H5Pclose);
+    H5D_fill_value_t fill = H5D_FILL_VALUE_UNDEFINED;
+    H5Pfill_value_defined(properties, &fill);
+    const std::uint64_t harmless = fill == H5D_FILL_VALUE_USER_DEFINED ? kFilled : kUnfilled;
+    if (count * sizeof(T) > harmless &&
         H5Dget_storage_size(dataset) < count * sizeof(T) / kBestCompression)
         throw bad_input(describe(name), "claims more values than the file holds",
                         "make the file again with the tool that wrote it");

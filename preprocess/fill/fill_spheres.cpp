@@ -70,6 +70,9 @@ void refuse_too_many(const SphereSet& set, const FillOptions& o) {
     if (o.surface_only) count = 0.0;
     if (o.arrangement == Arrangement::conforming && !flat)
         count += 1.155 * set.solid.area / (set.spacing * set.spacing);  // a hexagonal layer
+    // the outline is a slab's area without its two ends; it is followed by five points a disc
+    if (o.arrangement == Arrangement::conforming && flat)
+        count += 5.0 * (set.solid.area - 2.0 * set.solid.volume) / set.spacing;
     if (count < kMostSpheres) return;
     Eigen::AlignedBox3d box;
     for (const Vec3& v : set.mesh.vertices) box.extend(v);

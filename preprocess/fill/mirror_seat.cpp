@@ -20,7 +20,7 @@ std::optional<Seat> on_centre_plane(const SurfaceTree& tree, const Seat& seat, d
         const double lack = radius - foot.distance;
         if (!foot.inside) return std::nullopt;
         const Vec3 out = (foot.point - c) / foot.distance;
-        if (std::abs(lack) <= 1e-10 * radius) {
+        if (std::abs(lack) <= exact_distance(c, radius)) {
             // in the plane of symmetry it touches port and starboard
             Seat middle{c, out, foot.triangle};
             find_crease(tree, radius, middle);

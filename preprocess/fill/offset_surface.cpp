@@ -4,6 +4,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "preprocess/fill/narrowest_cone.hpp"
@@ -17,6 +18,9 @@ constexpr double kTouch = 1e-5;       // of the radius: a face this near is touc
 constexpr double kNearCrease = 0.02;  // of the radius
 constexpr int kSmoothSteps = 3;       // along the foot's direction, before creases are thought of
 constexpr double kExact = 1e-10;      // of the radius: when a distance counts as reached
+constexpr double kRounding = 8.0 * std::numeric_limits<double>::epsilon();  // of the coordinates
+constexpr std::size_t kMostConditions = 200;  // the worst of them decide
+constexpr std::size_t kMostDirections = 500;  // of a sphere that fits a round solid exactly
 constexpr double kSameDirection = 0.9999995;  // cosine of 1e-3 rad: conditions that are one
 
 // g . move >= need
@@ -40,6 +44,7 @@ void collect(const SurfaceTree& tree, const Vec3& c, double radius, std::vector<
             return other.g.dot(g) > kSameDirection;
         });
         if (!seen) out.push_back({g, radius - foot.distance});
+        if (out.size() == kMostConditions) return;
     }
 }
 
@@ -100,6 +105,7 @@ std::vector<Vec3> near_directions(const SurfaceTree& tree, const Vec3& center, d
         const bool seen = std::any_of(directions.begin(), directions.end(),
                                       [&](const Vec3& d) { return d.dot(u) > kSameTouch; });
         if (!seen) directions.push_back(u);
+        if (directions.size() == kMostDirections) break;
     }
     return directions;
 }
@@ -115,7 +121,7 @@ std::optional<Seat> settle_from(const SurfaceTree& tree, const Vec3& start, doub
         hint = foot.triangle;
         if (!foot.inside) return std::nullopt;
         const bool smooth = step <= smooth_steps;
-        if (std::abs(foot.distance - radius) <= kExact * radius) {
+        if (std::abs(foot.distance - radius) <= exact_distance(c, radius)) {
             Seat seat{c, (foot.point - c) / foot.distance, foot.triangle};
             if (!smooth) find_crease(tree, radius, seat);
             return seat;
@@ -134,6 +140,10 @@ std::optional<Seat> settle_from(const SurfaceTree& tree, const Vec3& start, doub
 }
 
 }  // namespace
+
+double exact_distance(const Vec3& center, double radius) {
+    return std::max(kExact * radius, kRounding * center.cwiseAbs().maxCoeff());
+}
 
 std::optional<Seat> settle(const SurfaceTree& tree, const Vec3& start, double radius,
                            std::int32_t hint) {

@@ -31,6 +31,10 @@ struct Seat {
     }
 };
 
+/// The distance from `radius` [m] at which a centre counts as settled: 1e-10 of the radius, or far
+/// from the origin what the rounding of coordinates leaves.
+double exact_distance(const Vec3& center, double radius);
+
 /// Moves a point to the nearest place where a sphere of `radius` touches the surface from inside:
 /// a point of the offset surface {d = radius}, in its edges and corners where faces meet.
 ///
@@ -56,7 +60,8 @@ std::vector<Vec3> normals_at(const SurfaceTree& tree, double radius, const Seat&
 void find_crease(const SurfaceTree& tree, double radius, Seat& seat);
 
 /// The directions, from a settled centre, of the places where its sphere touches the surface;
-/// directions within 0.01 rad of each other count once. Unit vectors, pointing outwards.
+/// directions within 0.01 rad of each other count once, at most the nearest 500. Unit vectors,
+/// pointing outwards.
 std::vector<Vec3> touch_directions(const SurfaceTree& tree, const Vec3& center, double radius);
 
 }  // namespace ice

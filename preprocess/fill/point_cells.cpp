@@ -6,8 +6,11 @@
 namespace ice {
 
 PointCells::PointCells(std::span<const Vec3> points, double cell) : cell_(cell) {
-    low_ = points.front();
-    for (const Vec3& p : points) low_ = low_.cwiseMin(p);
+    low_ = high_ = points.front();
+    for (const Vec3& p : points) {
+        low_ = low_.cwiseMin(p);
+        high_ = high_.cwiseMax(p);
+    }
     // count, place, fill: points of a cube end up side by side, in their own order
     std::vector<std::size_t> slot(points.size());
     const auto insert = [&](std::size_t k) {
@@ -35,6 +38,11 @@ PointCells::PointCells(std::span<const Vec3> points, double cell) : cell_(cell) 
         const auto at = static_cast<std::size_t>(slots_[slot[k]].first + filled[slot[k]]++);
         points_[at] = {points[k], static_cast<std::int32_t>(k)};
     }
+    for (std::size_t k = 0; k < points_.size(); k += kBlock) {
+        Block block{{}, k, std::min(k + kBlock, points_.size())};
+        for (std::size_t i = block.first; i < block.last; ++i) block.box.extend(points_[i].at);
+        blocks_.push_back(block);
+    }
 }
 
 PointCells::Cell PointCells::cell_of(const Vec3& p) const {
@@ -55,6 +63,18 @@ PointCells::Nearest PointCells::nearest(const Vec3& p, Nearest known) const {
         best_sq = sq;
         best = point.index;
     };
+    const auto look_at_blocks = [&] {
+        for (const Block& block : blocks_)
+            // a hair below: of equally near points the lowest index may be in any block
+            if (block.box.squaredExteriorDistance(p) * (1.0 - 1e-12) <= best_sq)
+                for (std::size_t k = block.first; k < block.last; ++k) look_at(points_[k]);
+        return best < 0 ? known : Nearest{best, std::sqrt(best_sq)};
+    };
+    // beyond, the cubes are more than the points, and their numbers may not fit
+    const Vec3 past = (p - high_).cwiseMax(low_ - p);
+    if (past.maxCoeff() > kMostRings * cell_ ||
+        (std::isfinite(known.distance) && known.distance > kMostRings * cell_))
+        return look_at_blocks();
     const Cell at = cell_of(p);
     const Vec3 within = (p - low_) - cell_ * Vec3(at[0], at[1], at[2]);
     // squared distance along an axis to the cube that is `step` cubes away
@@ -67,10 +87,7 @@ PointCells::Nearest PointCells::nearest(const Vec3& p, Nearest known) const {
     for (int ring = 0; ring <= kMostRings; ++ring) {
         const double reach = (ring - 1) * cell_;
         if (reach > 0.0 && reach * reach > best_sq) break;
-        if (ring == kMostRings) {
-            for (const Point& point : points_) look_at(point);
-            break;
-        }
+        if (ring == kMostRings) return look_at_blocks();
         for (int x = -ring; x <= ring; ++x)
             for (int y = -ring; y <= ring; ++y) {
                 const double side_sq = gap_sq(0, x) + gap_sq(1, y);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -51,8 +52,14 @@ private:
         std::int32_t index;
     };
 
+    struct Block {  ///< kBlock points that follow each other in points_
+        Eigen::AlignedBox3d box;
+        std::size_t first, last;
+    };
+
+    static constexpr std::size_t kBlock = 64;
     static constexpr double kFar = std::numeric_limits<double>::infinity();
-    static constexpr int kMostRings = 12;  ///< farther away, all points are searched
+    static constexpr int kMostRings = 12;  ///< farther away, blocks are searched
 
     Cell cell_of(const Vec3& p) const;
     // The slot of a cube, or the empty one where it would be.
@@ -66,23 +73,31 @@ private:
     }
 
     double cell_;
-    Vec3 low_ = Vec3::Zero();
+    Vec3 low_ = Vec3::Zero(), high_ = Vec3::Zero();
     std::vector<Slot> slots_;  ///< open addressing, a power of two
     std::vector<Point> points_;
+    std::vector<Block> blocks_;
 };
 
 template <class Visit>
 void PointCells::visit(const Vec3& p, double range, const Visit& visit) const {
+    const auto look_at = [&](const Point& point) {
+        const double distance = (point.at - p).norm();
+        if (distance <= range) visit(point.index, distance);
+    };
+    if (range > kMostRings * cell_) {
+        for (const Block& block : blocks_)
+            if (block.box.squaredExteriorDistance(p) <= range * range * (1.0 + 1e-12))
+                for (std::size_t k = block.first; k < block.last; ++k) look_at(points_[k]);
+        return;
+    }
     const Cell from = cell_of(p - Vec3::Constant(range)), to = cell_of(p + Vec3::Constant(range));
     for (std::int32_t x = from[0]; x <= to[0]; ++x)
         for (std::int32_t y = from[1]; y <= to[1]; ++y)
             for (std::int32_t z = from[2]; z <= to[2]; ++z) {
                 const Slot& slot = slots_[slot_of({x, y, z})];
-                for (std::int32_t k = slot.first; k < slot.first + slot.count; ++k) {
-                    const Point& point = points_[static_cast<std::size_t>(k)];
-                    const double distance = (point.at - p).norm();
-                    if (distance <= range) visit(point.index, distance);
-                }
+                for (std::int32_t k = slot.first; k < slot.first + slot.count; ++k)
+                    look_at(points_[static_cast<std::size_t>(k)]);
             }
 }
 

@@ -63,12 +63,14 @@ Vec3 moment_of(const SphereSet& set, std::size_t from, std::size_t to) {
 
 // Multiplies the first `count` shares so that with `others` sum v = V and sum v x = V centroid,
 // changing them least. Repeated: for the rounding, and where a share would become negative, which
-// is then held just above zero.
+// is then held just above zero. Where that cannot be, the shares keep their proportions.
 // @param others  volume and first moment about the centroid of the shares that stay
 void match_moments(std::size_t count, const Eigen::Vector4d& others, bool mirror, SphereSet& set) {
     Eigen::Vector4d target = -others;
     target[0] += set.solid.volume;
     const double least = 1e-3 * target[0] / static_cast<double>(count);
+    const std::vector<double> before(set.volumes.begin(),
+                                     set.volumes.begin() + static_cast<std::ptrdiff_t>(count));
     for (int pass = 0; pass < kMostPasses; ++pass) {
         Eigen::Matrix4d moments = sum_of(0, count, Eigen::Matrix4d(Eigen::Matrix4d::Zero()),
                                          [&](std::size_t k) -> Eigen::Matrix4d {
@@ -96,6 +98,9 @@ void match_moments(std::size_t count, const Eigen::Vector4d& others, bool mirror
         }
         if (!raised && pass > 0) return;
     }
+    // no positive shares have their centroid there: then at least their sum is the volume
+    const double sum = std::accumulate(before.begin(), before.end(), 0.0);
+    for (std::size_t k = 0; k < count; ++k) set.volumes[k] = before[k] * target[0] / sum;
 }
 
 // Distance from the centroid of all shares to the solid's [m]; along y there is none in 2D.

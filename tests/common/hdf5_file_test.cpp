@@ -2,6 +2,7 @@
 #include "common/formats/hdf5_file.hpp"
 
 #include <catch2/catch.hpp>
+#include <filesystem>
 #include <limits>
 
 #include "tests/common/fixtures.hpp"
@@ -112,4 +113,19 @@ TEST_CASE("a folder that does not exist, a missing file and a text file are refu
                Catch::Contains("file not found"));
     CHECK_THAT(error_text([&] { Hdf5File(folder / "x.txt", Mode::read); }),
                Catch::Contains("is not an HDF5 file, or is truncated"));
+}
+
+TEST_CASE("9 million rows that all equal the chosen value are read back", "[formats]") {
+    const TempFolder folder;
+    constexpr std::uint64_t kRows = 9'000'000;  // 72 MB of doubles, none of them stored
+    {
+        Hdf5File file(folder / "x.h5", Mode::create);
+        file.write_rows<double>("/radius", nullptr, {kRows}, 0, 0.1);
+        file.close();
+    }
+    CHECK(std::filesystem::file_size(folder / "x.h5") < 100'000);
+    const auto values = Hdf5File(folder / "x.h5", Mode::read).read<double>("/radius");
+    REQUIRE(values.size() == kRows);
+    CHECK(values.front() == 0.1);
+    CHECK(values.back() == 0.1);
 }
