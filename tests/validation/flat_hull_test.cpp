@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A floe pressed against a flat hull by its buoyancy: the hull is flat whatever its spheres.
+#include <catch2/catch.hpp>
+#include <numbers>
+
+#include "preprocess/fill/fill_spheres.hpp"
+#include "tests/support/make_meshes.hpp"
+#include "tests/support/make_worlds.hpp"
+
+using namespace ice;
+
+namespace {
+
+constexpr double kDeg = std::numbers::pi / 180.0;
+const Vec3 kFloe(1.0, 0.8, 0.3);
+
+SphereSet box_set(const Vec3& size, double radius, double spacing, const Quaternion& turn) {
+    TriangleMesh mesh = test::make_box_mesh(size);
+    for (Vec3& v : mesh.vertices) v = turn * v;
+    SpheresReport report;
+    FillOptions options;
+    options.radius = radius;
+    options.spacing = spacing;
+    options.surface_only = true;
+    return fill_spheres(mesh, options, report);
+}
+
+struct Pressed {
+    Vec3 normal = Vec3::Zero(), friction = Vec3::Zero();  // mean forces of the ship on the floe [N]
+};
+
+// A floe under the lower face of a plate that turns the bow up by `slope`; the ship moves at 1 m/s.
+Pressed press(double slope, double hull_radius, double hull_spacing, double floe_radius,
+              NormalRule rule, double from, double to) {
+    Case p = test::empty_space(0.01);
+    p.gravity = 9.81;
+    p.buoyancy = BuoyancyModel::distributed;
+    p.normal = rule;
+    p.friction_ship_ice = 0.1;
+    p.restitution = 0.3;
+    p.iterations = 30;
+    p.tolerance = 1e-4;
+    p.speed_table = {{0.0, 1.0}};
+    const Quaternion turn(Eigen::AngleAxisd(-slope, Vec3::UnitY()));
+    World w;
+    w.parameters = p;
+    // the plate's lower face goes through the hull's origin
+    SphereSet plate = box_set(Vec3(8, 1.6, 0.6), hull_radius, hull_spacing, turn);
+    w.scene = make_scene(build_shape(plate, false), Vec3(0, 0, -6), Vec3(1, 0, 0));
+    const auto shape =
+        test::add_shape(w, box_set(kFloe, floe_radius, floe_radius, Quaternion::Identity()));
+    const Vec3 under = turn * Vec3(0, 0, -0.3 - 0.5 * kFloe.z() - 1e-4);
+    const std::size_t floe =
+        add_floe(w.scene, shape, 900.0, Vec3(0, 0, -6) + under, turn, 0, false);
+    // under a slope it starts with the ship and slides up along it; under a level hull it is dragged
+    if (slope > 0.0) w.scene.bodies.momentum[floe] = w.scene.bodies.mass[floe] * Vec3(1, 0, 0);
+    update_derived(w.scene.bodies, floe);
+    Pressed out;
+    int count = 0;
+    while (w.time < to) {
+        step(w);
+        if (w.time <= from) continue;
+        const auto [normal, friction] = test::ship_on_ice(w);
+        out.normal += normal;
+        out.friction += friction;
+        ++count;
+    }
+    out.normal /= count;
+    out.friction /= count;
+    return out;
+}
+
+}  // namespace
+
+TEST_CASE("a floe under a flat hull presses with its buoyancy and drags with mu of it",
+          "[validation]") {
+    const double weight = (1000.0 - 900.0) * 9.81 * kFloe.prod();
+    const auto [hull_radius, floe_radius] =
+        GENERATE(std::pair(0.1, 0.05), std::pair(0.1, 0.025), std::pair(0.05, 0.05));
+    const double spacing = hull_radius * GENERATE(0.5, 1.0, 2.0);
+    const double slope = kDeg * GENERATE(0.0, 20.0, 35.0, 60.0);
+    CAPTURE(hull_radius, spacing, floe_radius, slope / kDeg);
+    const Pressed got =
+        press(slope, hull_radius, spacing, floe_radius, NormalRule::surface, 0.3, 1.3);
+    const Vec3 down = Eigen::AngleAxisd(-slope, Vec3::UnitY()) * Vec3(0, 0, -1);
+    CHECK(got.normal.norm() == Approx(weight * std::cos(slope)).epsilon(0.005));
+    CHECK(got.normal.normalized().dot(down) > 0.99999);
+    CHECK(got.friction.norm() / got.normal.norm() == Approx(0.1).epsilon(0.01));
+    CHECK(std::abs(got.friction.normalized().dot(down)) < 1e-3);
+}
+
+TEST_CASE("from centre to centre the same hull is rough: the paper's rule, beside the default",
+          "[validation]") {
+    // the floe is as heavy as before, but rides over bumps: the drag is no longer 0.1 of that
+    const double weight = (1000.0 - 900.0) * 9.81 * kFloe.prod();
+    const double spacing = GENERATE(0.05, 0.2);
+    const Pressed got = press(0.0, 0.1, spacing, 0.05, NormalRule::centres, 0.3, 1.3);
+    const double drag = (got.normal + got.friction).x() / weight;
+    CAPTURE(spacing, drag);
+    CHECK(drag > 0.13);
+    CHECK(drag < 1.0);
+}
+
+TEST_CASE("a floe that slides under another presses with its buoyancy and drags with mu of it",
+          "[validation]") {
+    const double radius = GENERATE(0.05, 0.025);
+    Case p = test::empty_space(0.01);
+    p.gravity = 9.81;
+    p.buoyancy = BuoyancyModel::distributed;
+    p.normal = NormalRule::surface;
+    p.friction_ship_ice = 10.0;  // the upper floe stays where it is
+    p.friction_ice_ice = 0.3;
+    p.iterations = 30;
+    p.tolerance = 1e-4;
+    World w;
+    w.parameters = p;
+    w.scene =
+        make_scene(build_shape(box_set(Vec3(4, 1.6, 0.6), 0.1, 0.1, Quaternion::Identity()), false),
+                   Vec3(0, 0, -6), Vec3::Zero());
+    const auto shape = test::add_shape(w, box_set(kFloe, radius, radius, Quaternion::Identity()));
+    add_floe(w.scene, shape, 900.0, Vec3(0, 0, -6.4501), Quaternion::Identity(), 0, false);
+    const std::size_t lower =
+        add_floe(w.scene, shape, 900.0, Vec3(0, 0, -6.7502), Quaternion::Identity(), 0, false);
+    w.scene.bodies.momentum[lower] = w.scene.bodies.mass[lower] * Vec3(0.5, 0, 0);
+    update_derived(w.scene.bodies, lower);
+    Vec3 normal = Vec3::Zero(), friction = Vec3::Zero();  // on the lower floe
+    int count = 0;
+    while (w.time < 0.8) {
+        step(w);
+        if (w.time <= 0.2) continue;
+        ++count;
+        for (const Constraint& c : w.constraints) {
+            if (c.a == 0 || c.b == 0) continue;
+            const double sign = static_cast<std::size_t>(c.b) == lower ? 1.0 : -1.0;
+            normal += sign * c.total_normal() / p.time_step * c.normal;
+            friction += sign * c.total_tangent() / p.time_step;
+        }
+    }
+    normal /= count;
+    friction /= count;
+    const double weight = (1000.0 - 900.0) * 9.81 * kFloe.prod();
+    CHECK(normal.norm() == Approx(weight).epsilon(0.005));
+    CHECK(friction.norm() / normal.norm() == Approx(0.3).epsilon(0.01));
+    CHECK(friction.x() < 0.0);
+}
