@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Our fills of a hull beside those of OpenVDB and YADE, in one run; README.md has the numbers.
+//
+//   bench_peers             10 m hull of 1e4 triangles, R = 0.05 m, and 100 m, 1e5, R = 0.1 m
+//   bench_peers --smoke     a small hull, to see that it runs
+//   bench_peers --csv FILE  the table as a file, too
+//
+// Peers that were not found when this was built are named as such.
+#include <fmt/format.h>
+#include <fmt/os.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <numbers>
+#include <numeric>
+#include <optional>
+#include <string>
+
+#ifdef ICE_WITH_OPENVDB
+#include <openvdb/openvdb.h>
+#include <openvdb/tools/Interpolation.h>
+#include <openvdb/tools/MeshToVolume.h>
+#include <openvdb/tools/VolumeToSpheres.h>
+#include <tbb/global_control.h>
+#endif
+
+#include "common/base/parallel.hpp"
+#include "common/base/timer.hpp"
+#include "common/geometry/mass_properties.hpp"
+#include "preprocess/fill/lattice.hpp"
+#include "preprocess/fill/shell.hpp"
+#include "tests/bench/machine.hpp"
+#include "tests/support/make_hull.hpp"
+
+using namespace ice;
+
+namespace {
+
+constexpr double kPatience = 120.0;  // for one run of a peer [s]
+
+struct Hull {
+    std::string name;
+    TriangleMesh mesh;
+    double radius;  // of the spheres [m]
+    double volume = measure_mass(mesh).volume;
+};
+
+struct Result {
+    std::size_t spheres = 0;
+    double seconds = 0.0;
+    std::optional<std::size_t> unlike{};  // lattice points answered differently from ours
+    bool apart = true;                    // the spheres do not overlap: their volumes add up
+    std::string note{};
+};
+
+// Prints a line per result; ours of the same kind and number of threads come first and are what
+// the others are divided by.
+class Table {
+public:
+    explicit Table(const std::string& csv) {
+        if (!csv.empty()) csv_.emplace(fmt::output_file(csv));
+        fmt::print("{:<34}{:>6}{:>10}{:>6}{:>8}{:>9}{:>11}{:>11}{:>9}{:>8}{:>9}\n", "program",
+                   "hull", "triangles", "R", "threads", "spheres", "s", "ns/sphere", "coverage",
+                   "unlike", "to ours");
+        if (csv_)
+            csv_->print(
+                "program,hull,triangles,radius_m,threads,spheres,seconds,ns_per_sphere,"
+                "coverage,points_unlike_ours,ratio_to_ours\n");
+    }
+
+    void add(const std::string& program, const Hull& hull, int threads, const Result& result) {
+        const double sphere = 4.0 / 3.0 * std::numbers::pi * std::pow(hull.radius, 3);
+        const double ns = 1e9 * result.seconds / static_cast<double>(result.spheres);
+        const auto ours = ours_.try_emplace({hull.name, threads}, ns).first->second;
+        const std::string coverage =
+            result.apart
+                ? fmt::format("{:.3f}", static_cast<double>(result.spheres) * sphere / hull.volume)
+                : "";
+        const std::string unlike = result.unlike ? fmt::format("{}", *result.unlike) : "";
+        fmt::print("{:<34}{:>6}{:>10}{:>6g}{:>8}{:>9}{:>11.4g}{:>11.4g}{:>9}{:>8}{:>9.4g} {}\n",
+                   program, hull.name, hull.mesh.triangles.size(), hull.radius, threads,
+                   result.spheres, result.seconds, ns, coverage, unlike, ns / ours, result.note);
+        std::fflush(stdout);
+        if (csv_)
+            csv_->print("{},{},{},{:g},{},{},{:.6g},{:.6g},{},{},{:.6g}\n", program, hull.name,
+                        hull.mesh.triangles.size(), hull.radius, threads, result.spheres,
+                        result.seconds, ns, coverage, unlike, ns / ours);
+    }
+
+private:
+    std::optional<fmt::ostream> csv_;
+    std::map<std::pair<std::string, int>, double> ours_;  // interior fill [ns per sphere]
+};
+
+double least_seconds(int runs, const std::function<void()>& work) {
+    double least = 1e300;
+    for (int k = 0; k < runs; ++k) {
+        const Timer timer;
+        work();
+        least = std::min(least, timer.seconds());
+    }
+    return least;
+}
+
+LatticeFill fill_ours(Table& table, const Hull& hull, int threads) {
+    LatticeFill fill;
+    std::vector<Vec3> centers;
+    const double seconds = least_seconds(9, [&] {
+        fill = fill_lattice_rows(hull.mesh,
+                                 {LatticeKind::hexagonal, hull.radius, hull.radius, 3, true});
+        centers.resize(fill.count);
+        expand(fill, centers);
+    });
+    table.add("ours, hexagonal interior", hull, threads, {fill.count, seconds, 0});
+    return fill;
+}
+
+void layer_ours(Table& table, const Hull& hull, int threads) {
+    std::size_t count = 0;
+    const double seconds = least_seconds(2, [&] {
+        const SurfaceTree tree(hull.mesh);
+        count = make_shell(tree, {hull.radius, hull.radius, 3, true}).size();
+    });
+    table.add("ours, surface layer", hull, threads, {count, seconds, {}, false});
+}
+
+#ifdef ICE_WITH_OPENVDB
+
+// A level set whose band is deep enough to tell what is farther than R from the surface.
+openvdb::FloatGrid::Ptr level_set(const Hull& hull, double voxel) {
+    std::vector<openvdb::Vec3s> points;
+    std::vector<openvdb::Vec3I> triangles;
+    for (const Vec3& p : hull.mesh.vertices)
+        points.emplace_back(openvdb::Vec3d(p.x(), p.y(), p.z()));
+    for (const auto& t : hull.mesh.triangles)
+        triangles.emplace_back(static_cast<unsigned>(t[0]), static_cast<unsigned>(t[1]),
+                               static_cast<unsigned>(t[2]));
+    const auto transform = openvdb::math::Transform::createLinearTransform(voxel);
+    for (auto& p : points) p = openvdb::Vec3s(transform->worldToIndex(openvdb::Vec3d(p)));
+    const openvdb::tools::QuadAndTriangleDataAdapter<openvdb::Vec3s, openvdb::Vec3I> mesh(
+        points, triangles);
+    const auto depth = static_cast<float>(std::ceil(hull.radius / voxel) + 2.0);
+    return openvdb::tools::meshToVolume<openvdb::FloatGrid>(mesh, *transform, 1.0F, depth);
+}
+
+struct Sampled {
+    std::size_t taken = 0, unlike = 0;
+};
+
+// The same lattice points asked of the level set.
+Sampled sample(const openvdb::FloatGrid& grid, const LatticeFill& ours, double radius) {
+    const LatticeFrame& frame = ours.frame;
+    std::vector<Sampled> rows(frame.rows());
+    parallel_for(rows.size(), 2, [&](std::size_t row) {
+        const auto values = grid.getConstAccessor();
+        const openvdb::tools::GridSampler<openvdb::FloatGrid::ConstAccessor,
+                                          openvdb::tools::BoxSampler>
+            sampler(values, grid.transform());
+        const auto rows_along_y = static_cast<std::size_t>(frame.count[1]);
+        const auto j = static_cast<std::int64_t>(row % rows_along_y);
+        const auto k = static_cast<std::int64_t>(row / rows_along_y);
+        for (std::int64_t i = 0; i < frame.count[0]; ++i) {
+            const Vec3 p = frame.point(i, j, k);
+            const bool taken =
+                sampler.wsSample({p.x(), p.y(), p.z()}) <= static_cast<float>(-radius);
+            const auto at = static_cast<std::size_t>(i);
+            const bool in_ours = (ours.bits[row * frame.words() + at / 64] >> (at % 64) & 1) != 0;
+            rows[row].taken += taken;
+            rows[row].unlike += taken != in_ours;
+        }
+    });
+    return std::accumulate(rows.begin(), rows.end(), Sampled{}, [](Sampled a, const Sampled& b) {
+        return Sampled{a.taken + b.taken, a.unlike + b.unlike};
+    });
+}
+
+// Tells OpenVDB to stop when it takes too long.
+struct Patience {
+    Timer timer;
+    void start(const char* = nullptr) {}
+    void end() {}
+    bool wasInterrupted(int = -1) const { return timer.seconds() > kPatience; }
+};
+
+void compare_openvdb(Table& table, const Hull& hull, const LatticeFill& ours, int threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(threads));
+    for (const int parts : {1, 2}) {
+        const double voxel = hull.radius / parts;
+        Sampled sampled;
+        const double seconds =
+            least_seconds(2, [&] { sampled = sample(*level_set(hull, voxel), ours, hull.radius); });
+        table.add(fmt::format("OpenVDB level set, voxel R{}", parts == 1 ? "" : "/2"), hull,
+                  threads, {sampled.taken, seconds, sampled.unlike});
+    }
+    // as many candidates and spheres as ours: more of either only lengthens the search
+    std::vector<openvdb::Vec4s> spheres;
+    Patience patience;
+    const auto most = static_cast<int>(ours.count);
+    const auto radius = 2.0F;  // voxels
+    const double seconds = least_seconds(1, [&] {
+        openvdb::tools::fillWithSpheres(*level_set(hull, hull.radius / 2), spheres, {1, most},
+                                        false, radius, radius, 0.0F, most, &patience);
+    });
+    table.add("OpenVDB fillWithSpheres", hull, threads,
+              {spheres.size(),
+               seconds,
+               {},
+               true,
+               patience.wasInterrupted() ? fmt::format("stopped after {} s", kPatience) : ""});
+}
+
+#endif
+
+#ifdef ICE_YADE
+
+// A triangle mesh as GTS reads it: vertices, edges, triangles by their edges, numbered from 1.
+void write_gts(const std::filesystem::path& path, const TriangleMesh& mesh) {
+    std::map<std::pair<std::int32_t, std::int32_t>, std::size_t> number;
+    std::vector<std::pair<std::int32_t, std::int32_t>> edges;
+    std::vector<std::array<std::size_t, 3>> faces;
+    for (const auto& t : mesh.triangles) {
+        auto& face = faces.emplace_back();
+        for (std::size_t k = 0; k < 3; ++k) {
+            const auto edge = std::minmax({t[k], t[(k + 1) % 3]});
+            const auto [at, is_new] = number.try_emplace(edge, edges.size() + 1);
+            if (is_new) edges.push_back(edge);
+            face[k] = at->second;
+        }
+    }
+    auto out = fmt::output_file(path.string());
+    out.print("{} {} {}\n", mesh.vertices.size(), edges.size(), faces.size());
+    for (const Vec3& p : mesh.vertices) out.print("{} {} {}\n", p.x(), p.y(), p.z());
+    for (const auto& [a, b] : edges) out.print("{} {}\n", a + 1, b + 1);
+    for (const auto& face : faces) out.print("{} {} {}\n", face[0], face[1], face[2]);
+}
+
+// Only one thread: its lattice is a loop in Python.
+void compare_yade(Table& table, const Hull& hull) {
+    const auto path = std::filesystem::temp_directory_path() / fmt::format("hull-{}.gts", getpid());
+    write_gts(path, hull.mesh);
+    const std::string command =
+        fmt::format("timeout {} {} -n -x {} {} {} 2>/dev/null", kPatience + 60.0, ICE_YADE,
+                    ICE_YADE_FILL, path.string(), hull.radius);
+    Result result;
+    FILE* pipe = popen(command.c_str(), "r");
+    for (char line[256]; pipe != nullptr && std::fgets(line, sizeof line, pipe) != nullptr;)
+        std::sscanf(line, "spheres %zu seconds %lf", &result.spheres, &result.seconds);
+    const int status = pipe != nullptr ? pclose(pipe) : -1;
+    std::filesystem::remove(path);
+    if (result.spheres > 0)
+        table.add("YADE regularHexa(inGtsSurface)", hull, 1, result);
+    else
+        fmt::print("YADE regularHexa(inGtsSurface), {} hull: {}\n", hull.name,
+                   WEXITSTATUS(status) == 124 ? "took too long" : "no answer");
+}
+
+#endif
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app("Fills of a hull by us, OpenVDB and YADE");
+    bool smoke = false;
+    std::string csv;
+    app.add_flag("--smoke", smoke, "a small hull, to see that it runs");
+    app.add_option("--csv", csv, "write the table here, too");
+    CLI11_PARSE(app, argc, argv);
+
+    fmt::print("{}, g++ {}\n", test::machine_name(), __VERSION__);
+    Table table(csv);
+    std::vector<Hull> hulls;
+    if (smoke) {
+        hulls.push_back({"10 m", test::make_hull({10, 2, 1.8}, 1000), 0.2});
+    } else {
+        hulls.push_back({"10 m", test::make_hull({10, 2, 1.8}, 10000), 0.05});
+        hulls.push_back({"100 m", test::make_hull({100, 20, 18}, 100000), 0.1});
+    }
+    for (const Hull& hull : hulls) {
+        for (const int threads : {1, 2}) {
+            set_thread_count(threads);
+            [[maybe_unused]] const LatticeFill ours = fill_ours(table, hull, threads);
+            layer_ours(table, hull, threads);
+#ifdef ICE_WITH_OPENVDB
+            compare_openvdb(table, hull, ours, threads);
+#endif
+        }
+#ifdef ICE_YADE
+        compare_yade(table, hull);
+#endif
+    }
+#ifndef ICE_WITH_OPENVDB
+    fmt::print("OpenVDB: not installed (libopenvdb-dev)\n");
+#endif
+#ifndef ICE_YADE
+    fmt::print("YADE: not installed (yade)\n");
+#endif
+    return 0;
+}
