@@ -14,6 +14,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <ctime>
 #include <filesystem>
 #include <functional>
@@ -174,9 +175,7 @@ Sampled sample(const openvdb::FloatGrid& grid, const LatticeFill& ours, double r
         const openvdb::tools::GridSampler<openvdb::FloatGrid::ConstAccessor,
                                           openvdb::tools::BoxSampler>
             sampler(values, grid.transform());
-        const auto rows_along_y = static_cast<std::size_t>(frame.count[1]);
-        const auto j = static_cast<std::int64_t>(row % rows_along_y);
-        const auto k = static_cast<std::int64_t>(row / rows_along_y);
+        const auto [k, j] = std::lldiv(static_cast<std::int64_t>(row), frame.count[1]);
         for (std::int64_t i = 0; i < frame.count[0]; ++i) {
             const Vec3 p = frame.point(i, j, k);
             const bool taken =
@@ -274,12 +273,9 @@ int main(int argc, char** argv) {
     fmt::print("{}, g++ {}\n", test::machine_name(), __VERSION__);
     Table table(csv);
     std::vector<Hull> hulls;
-    if (smoke) {
-        hulls.push_back({"10 m", test::make_hull({10, 2, 1.8}, 1000), 0.2});
-    } else {
-        hulls.push_back({"10 m", test::make_hull({10, 2, 1.8}, 10000), 0.05});
-        hulls.push_back({"100 m", test::make_hull({100, 20, 18}, 100000), 0.1});
-    }
+    if (smoke) hulls.push_back({"10 m", test::make_hull({10, 2, 1.8}, 1000), 0.2});
+    if (!smoke) hulls.push_back({"10 m", test::make_hull({10, 2, 1.8}, 10000), 0.05});
+    if (!smoke) hulls.push_back({"100 m", test::make_hull({100, 20, 18}, 100000), 0.1});
     for (const Hull& hull : hulls) {
         for (const int threads : {1, 2}) {
             set_thread_count(threads);
