@@ -133,7 +133,7 @@ LatticeFill fill_ours(Table& table, const Hull& hull, int threads) {
         centers.resize(fill.count);
         expand(fill, centers);
     });
-    table.add("ours, hexagonal interior", hull, threads, {fill.count, cost, 0});
+    table.add("ours: hexagonal interior", hull, threads, {fill.count, cost, 0});
     return fill;
 }
 
@@ -143,7 +143,7 @@ void layer_ours(Table& table, const Hull& hull, int threads) {
         const SurfaceTree tree(hull.mesh);
         count = make_shell(tree, {hull.radius, hull.radius, 3, true}).size();
     });
-    table.add("ours, surface layer", hull, threads, {count, cost, {}, false});
+    table.add("ours: surface layer", hull, threads, {count, cost, {}, false});
 }
 
 #ifdef ICE_WITH_OPENVDB
@@ -199,7 +199,7 @@ void compare_openvdb(Table& table, const Hull& hull, const LatticeFill& ours, in
         Sampled sampled;
         const Cost cost =
             least_cost(2, [&] { sampled = sample(*level_set(hull, voxel), ours, hull.radius); });
-        table.add(fmt::format("OpenVDB level set, voxel R{}", parts == 1 ? "" : "/2"), hull,
+        table.add(fmt::format("OpenVDB level set (voxel R{})", parts == 1 ? "" : "/2"), hull,
                   threads, {sampled.taken, cost, sampled.unlike});
     }
     // as many candidates as spheres: more of them only lengthens the search
