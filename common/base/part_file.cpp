@@ -9,7 +9,13 @@
 namespace ice {
 
 PartFile::PartFile(std::filesystem::path final_path)
-    : final_(std::move(final_path)), part_(final_.string() + ".part") {}
+    : final_(std::move(final_path)), part_(final_.string() + ".part") {
+    std::error_code ignored;
+    if (std::filesystem::exists(final_, ignored) &&
+        !std::filesystem::is_regular_file(final_, ignored))
+        throw run_failed(final_.string(), "exists and is no file: it would be replaced",
+                         "give the name of a file");
+}
 
 PartFile::~PartFile() {
     if (kept_) return;

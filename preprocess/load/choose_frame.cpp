@@ -132,8 +132,11 @@ private:
             note("forward", fmt::format("{}, as {}", frame_.forward.text(), file_said()));
             return;
         }
-        note("forward", frame_.forward.text());
-        if (fineness_ratio(mesh_, *hull_) <= kFiner)
+        const double ratio = fineness_ratio(mesh_, *hull_);
+        note("forward", frame_.forward.text() + (ratio < 1.0 / kFiner && ratio > kFiner
+                                                     ? ", but which end is the bow cannot be seen"
+                                                     : ""));
+        if (ratio <= kFiner)
             warn(fmt::format("the bow seems to point to -{0}: give --forward -{0} if so",
                              axis_name(hull_->length)));
     }

@@ -20,6 +20,9 @@ constexpr double kSuspect = 0.005;     // of the surface: largest cap in a file 
 constexpr double kContinued = 0.2;     // of the surface: all continued faces together
 constexpr double kLoose = 0.05;        // of the surface: all small caps together
 constexpr double kSteepest = 0.0872;   // cosine of 85 degrees
+constexpr double kEnd = 0.0005;        // of the surface: largest cap of guessed form at an end
+constexpr std::size_t kFewEdges = 8;   // round a face or two, or round one vertex, that are missing
+constexpr double kAtEnd = 1e-3;        // of the length: what lies this near to it is at an end
 constexpr double kStep = 1e-3;         // of the diagonal: a step in the rim of a deck
 constexpr double kJustOutside = 1e-4;  // of the diagonal
 const double kFlat = std::cos(std::numbers::pi / 180.0);  // one degree
@@ -42,6 +45,24 @@ public:
         Eigen::AlignedBox3d box;
         for (const Vec3& v : mesh.vertices) box.extend(v);
         size_ = box.diagonal().norm();
+        box_ = box;
+    }
+
+    // A cap of guessed form where the solid ends along its length: how much farther it went, a
+    // whole stem perhaps, nothing tells, however little volume that had.
+    bool cuts_an_end(const Cap& cap, const CapVerdict& verdict) const {
+        if (verdict.kind != CapKind::small || verdict.area <= kEnd * surface_ ||
+            cap.rim.size() <= kFewEdges)
+            return false;
+        int along = 0;
+        box_.sizes().maxCoeff(&along);
+        const double near = kAtEnd * box_.sizes()[along];
+        for (std::int32_t t = cap.first; t < cap.first + cap.count; ++t)
+            for (int k = 0; k < 3; ++k) {
+                const double x = mesh_.corner(static_cast<std::size_t>(t), k)[along];
+                if (x < box_.min()[along] + near || x > box_.max()[along] - near) return true;
+            }
+        return false;
     }
 
     double surface() const { return surface_; }
@@ -183,6 +204,7 @@ private:
     const TriangleMesh& mesh_;
     std::optional<WindingNumber> winding_;  // of all parts, when asked for
     Parts parts_;
+    Eigen::AlignedBox3d box_;
     double surface_ = 0.0, volume_ = 0.0, size_ = 0.0;
 };
 
@@ -204,6 +226,8 @@ std::vector<CapVerdict> judge_caps(const TriangleMesh& mesh, const std::vector<C
             cap_is.kind = CapKind::hidden;
         else if (matters && judge.is_deck(cap))
             cap_is.kind = CapKind::deck;
+        else if (judge.cuts_an_end(cap, cap_is) && !judge.is_hidden(cap) && !judge.is_deck(cap))
+            cap_is.kind = CapKind::guess;
         if (cap_is.kind == CapKind::deck || cap_is.kind == CapKind::hidden) continue;
         doubt += cap_is.doubt;
         (cap_is.kind == CapKind::continued ? continued : loose) += cap_is.area;

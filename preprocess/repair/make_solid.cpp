@@ -28,11 +28,11 @@ constexpr double kWindingDiffers = 0.02;  // of the volume: caps against the ope
 // Over a sheer line the surface where the winding number is a half sags between the ends: 3.7 % of
 // the volume at a sheer of a quarter of the depth.
 constexpr double kDeckDiffers = 0.05;
-constexpr double kCapsMatter = 0.005;   // of the surface: below, caps need no second opinion
-constexpr double kWorthWarning = 0.01;  // of the surface: one cap
-constexpr double kContourError = 0.01;  // of the volume
-constexpr double kWrapOffset = 1000.0;  // of which the diagonal is a multiple
-constexpr double kCollapsed = 0.5;      // of the volume the winding number gives
+constexpr double kCapsMatter = 0.005;    // of the surface: below, caps need no second opinion
+constexpr double kWorthWarning = 0.002;  // of the surface: one cap
+constexpr double kContourError = 0.01;   // of the volume
+constexpr double kWrapOffset = 1000.0;   // of which the diagonal is a multiple
+constexpr double kCollapsed = 0.5;       // of the volume the winding number gives
 
 const char* const kRemedy =
     "close and orient it in the program that made it, then export again; or try --repair wrap";
