@@ -61,7 +61,8 @@ void declare(CLI::App& app, Options& o) {
     app.add_option("mesh", o.mesh, "Surface mesh: OBJ, STL, PLY, OFF, DAE, glTF, FBX, also .gz")
         ->required();
     app.add_option("-o,--output", o.out, "Sphere file (default <mesh stem>.spheres.h5)");
-    app.add_option("-r,--radius", o.fill.radius, "Sphere radius [m]")->check(positive_metres);
+    app.add_option("-r,--radius", o.fill.radius, "Sphere radius [m] (0.1)")
+        ->check(positive_metres);
     app.add_option("-s,--spacing", o.fill.spacing, "Centre distance on the surface [m] (radius)")
         ->check(positive_metres);
     app.add_option("--arrangement", o.arrangement, "conforming or lattice")
@@ -197,6 +198,19 @@ void refuse_overwriting(const Options& o, const std::string& out) {
         take("--export", file);
 }
 
+ice::SphereSet fill_solid(const Options& o, const ice::TriangleMesh& mesh,
+                          ice::SpheresReport& report) {
+    try {
+        if (o.slice.empty()) return ice::fill_spheres(mesh, o.fill, report);
+        return ice::fill_discs(ice::slice_solid(mesh, slice_offset(o.slice)), mesh.region_names,
+                               o.fill, report);
+    } catch (const ice::Error&) {  // a unit wrongly guessed may be the reason
+        for (const auto& [what, value] : report.guessed)
+            ice::say_warning("assumed " + what + ": " + value);
+        throw;
+    }
+}
+
 int run_spherize(Options& o, const std::string& command_line) {
     const ice::Timer timer;
     ice::set_thread_count(o.threads);
@@ -217,10 +231,7 @@ int run_spherize(Options& o, const std::string& command_line) {
     report.seconds["read"] = timer.seconds();
     const ice::TriangleMesh mesh = read_solid(o, std::move(surface), report);
     report.seconds["repair"] = timer.seconds() - report.seconds["read"];
-    ice::SphereSet set = o.slice.empty()
-                             ? ice::fill_spheres(mesh, o.fill, report)
-                             : ice::fill_discs(ice::slice_solid(mesh, slice_offset(o.slice)),
-                                               mesh.region_names, o.fill, report);
+    ice::SphereSet set = fill_solid(o, mesh, report);
     const std::filesystem::path source(o.mesh);
     set.source_mesh = report.source_mesh = source.filename().string();
     set.source_sha256 = ice::file_sha256(source);

@@ -28,6 +28,24 @@ bool lies_on_both_sides(const TriangleMesh& mesh) {
     return std::min(-box.min().y(), box.max().y()) > 0.1 * box.sizes().y();
 }
 
+// assimp keeps coordinates as floats: far from the origin, in map coordinates say, they are too
+// coarse for the shape.
+void check_distance(const TriangleMesh& mesh, const std::filesystem::path& file,
+                    ReadNotes& notes) {
+    constexpr double kFloat = 6e-8, kWorthSaying = 1e-6, kTooCoarse = 1e-4;  // of the size
+    Eigen::AlignedBox3d box;
+    for (const Vec3& v : mesh.vertices) box.extend(v);
+    const double size = box.diagonal().norm();
+    const double far = std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
+    const double rounding = kFloat * far;
+    const std::string what = fmt::format(
+        "the mesh lies {:.3g} m from its origin, where coordinates are read to {:.2g} m only", far,
+        rounding);
+    const char* const remedy = "move it to the origin before exporting it";
+    if (rounding > kTooCoarse * size) throw bad_input(file.string(), what, remedy);
+    if (rounding > kWorthSaying * size) notes.warnings.push_back(what + ": " + remedy);
+}
+
 }  // namespace
 
 TriangleMesh read_mesh(const std::filesystem::path& file, const ReadOptions& options,
@@ -44,6 +62,7 @@ TriangleMesh read_mesh(const std::filesystem::path& file, const ReadOptions& opt
     ReadNotes& noted = notes != nullptr ? *notes : unread;
     const Mat3 turn = choose_frame(mesh, said, options, noted).matrix();
     for (Vec3& v : mesh.vertices) v = turn * v;
+    check_distance(mesh, file, noted);
     if (options.mirror_y) {
         if (lies_on_both_sides(mesh))
             noted.warnings.emplace_back(

@@ -141,3 +141,21 @@ TEST_CASE("the SHA-256 of a file is that of its bytes", "[load][analytic]") {
     CHECK(file_sha256(TemporaryFile(".txt", "abc").path()) ==
           "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
 }
+
+TEST_CASE("a mesh in map coordinates is refused where floats are too coarse for it",
+          "[load][errors]") {
+    const auto box_at = [](double x) {
+        TriangleMesh box = test::make_box_mesh(Vec3(10, 2, 1));
+        for (Vec3& v : box.vertices) v.x() += x;
+        return box;
+    };
+    const test::TemporaryFile near(box_at(20), "near.obj"), far(box_at(1000), "far.obj"),
+        map(box_at(6.5e6), "map.obj");
+    ReadNotes notes;
+    read_mesh(near.path(), {}, &notes);
+    CHECK(notes.warnings.empty());
+    read_mesh(far.path(), {}, &notes);
+    REQUIRE(notes.warnings.size() == 1);
+    CHECK_THAT(notes.warnings[0], Catch::Contains("move it to the origin"));
+    CHECK_THROWS_WITH(read_mesh(map.path(), {}), Catch::Contains("6.5e+06 m from its origin"));
+}

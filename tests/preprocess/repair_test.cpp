@@ -204,6 +204,20 @@ TEST_CASE("what would have to be guessed is refused, with place, size and remedy
                           Catch::Contains("--repair wrap"));
 }
 
+TEST_CASE("a missing stem is refused, however little volume it had", "[repair][errors]") {
+    // a spindle of 0.2 % of its surface less at its tip: 12 edges round the opening
+    TriangleMesh spindle = test::make_globe(1.0, 24);
+    for (Vec3& v : spindle.vertices) v = Vec3(8.0 * v.z(), v.y(), -v.x());
+    const TriangleMesh blunt = without(spindle, [](const Vec3& p) { return p.x() > 7.85; });
+    CHECK_THROWS_WITH(repair(blunt), Catch::Contains("opening of") &&
+                                         Catch::Contains("too large to guess"));
+    // the same opening amidships is closed, and said
+    const TriangleMesh holed = without(spindle, [](const Vec3& p) {
+        return p.z() > 0.98 && std::abs(p.x()) < 0.7;
+    });
+    CHECK(repair(holed).volume == Approx(measure_mass(spindle).volume).epsilon(0.01));
+}
+
 TEST_CASE("a file that seems cut off gets no deck", "[repair][errors]") {
     SolidOptions options;
     options.suspect = "the file seems cut off: no face uses its last 4 vertices";
