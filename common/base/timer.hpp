@@ -8,11 +8,10 @@ namespace ice {
 /// Wall-clock stopwatch, started on construction.
 class Timer {
 public:
-    /// Seconds since construction or the last restart().
+    /// Seconds since construction.
     double seconds() const {
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
     }
-    void restart() { start_ = std::chrono::steady_clock::now(); }
 
 private:
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();

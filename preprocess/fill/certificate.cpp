@@ -16,6 +16,7 @@ namespace {
 
 constexpr double kThinGap =
     2.5;  // radii; sharp convex edges of 60 degrees lose 1, of 40 degrees 1.9
+constexpr double kAside = 0.65;       // spacings: the layer's covering radius
 constexpr std::size_t kClimbs = 512;  // places whose cover is looked at closely
 
 // Values up to `most` by weight, in bins of most / 65536: a percentile needs no sorting.
@@ -140,12 +141,15 @@ void certify(const SurfaceTree& tree, const SphereFinder& finder, const std::vec
         gap_max = std::max(gap_max, static_cast<double>(sight.gap));
         error_max = std::max(error_max, static_cast<double>(sight.normal_error));
     }
+    // the sphere a sample belongs to may stand aside by as much as the layer's spacing allows
+    const double thin_gap =
+        std::hypot((1.0 + kThinGap) * set.radius, kAside * set.spacing) - set.radius;
     Histogram gaps(gap_max), errors(error_max);
     double error_sum = 0.0, error_area = 0.0;
     std::vector<Vec3> thin;
     for (const Sight& sight : sights) {
         gaps.add(sight.gap, sight.area);
-        if (sight.gap > kThinGap * set.radius) {
+        if (sight.gap > thin_gap) {
             const Vec3 at = sight.point.cast<double>();
             thin.push_back(at);
             if (half && at.y() > 0.0) thin.emplace_back(at.x(), -at.y(), at.z());

@@ -19,7 +19,8 @@ namespace ice {
 /// - gap: from surface samples to the sphere they belong to, by share of the area;
 /// - normal error: between the surface and the stored normal of the nearest sphere, over the same
 ///   samples as the covering radius, on faces (spread below 5 degrees);
-/// - thin features: connected places whose gap exceeds 2.5 radii, where no sphere fits.
+/// - thin features: connected places, where no sphere fits, whose gap exceeds 2.5 radii (more where
+///   the spacing is wide, since the nearest sphere then stands aside).
 ///
 /// @param sights  of survey_surface; @param half  as there
 void certify(const SurfaceTree& tree, const SphereFinder& finder, const std::vector<Sight>& sights,

@@ -3,9 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "common/base/error.hpp"
 #include "preprocess/load/half_hull.hpp"
 #include "preprocess/load/import_scene.hpp"
+#include "preprocess/load/symmetry.hpp"
 
 namespace ice {
 
@@ -16,6 +19,13 @@ void check_finite(const TriangleMesh& mesh, const std::filesystem::path& file) {
         if (!mesh.vertices[k].allFinite())
             throw bad_input(file.string(), fmt::format("vertex {} is not a finite number", k + 1),
                             "repair or export the mesh again");
+}
+
+// Half a hull may reach a little beyond its centre plane (a shaft, a rudder), a whole one does so
+// by half its breadth.
+bool lies_on_both_sides(const TriangleMesh& mesh) {
+    const Eigen::AlignedBox3d box = bounding_box(mesh);
+    return std::min(-box.min().y(), box.max().y()) > 0.1 * box.sizes().y();
 }
 
 }  // namespace
@@ -35,6 +45,10 @@ TriangleMesh read_mesh(const std::filesystem::path& file, const ReadOptions& opt
     const Mat3 turn = choose_frame(mesh, said, options, noted).matrix();
     for (Vec3& v : mesh.vertices) v = turn * v;
     if (options.mirror_y) {
+        if (lies_on_both_sides(mesh))
+            noted.warnings.emplace_back(
+                "the mesh lies on both sides of y = 0 already: leave out --mirror y if it holds "
+                "the whole hull");
         noted.centre_plane_dropped = drop_centre_plane(mesh);
         add_mirror_image(mesh);
     }

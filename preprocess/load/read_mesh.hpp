@@ -24,7 +24,7 @@ namespace ice {
 /// Units and axes: options, else the file's metadata, else a guess (choose_frame()).
 ///
 /// With `mirror_y`, triangles in the plane y = 0 go first (a half hull closed by its centre plane),
-/// then the mirror image is added.
+/// then the mirror image is added; a mesh that lies on both sides of it gets a warning.
 ///
 /// @param notes  where given, takes what was taken from the file, guessed or dropped
 /// @throws Error (exit code 2) naming the file: not found, not readable by assimp, damaged gzip,

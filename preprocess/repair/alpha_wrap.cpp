@@ -31,7 +31,7 @@ TriangleMesh alpha_wrap(const TriangleMesh& mesh, double alpha, double offset) {
                 t[k++] = static_cast<std::int32_t>(v.idx());
             out.triangles.push_back(t);
         }
-    } catch (const std::exception&) {
+    } catch (const std::exception&) {  // CGAL gives up: the caller tries another way
         return {};
     }
     out.region.assign(out.triangles.size(), 0);

@@ -44,7 +44,7 @@ std::vector<std::array<std::int32_t, 3>> fill_loop(const std::vector<Vec3>& poin
             loop, third, std::back_inserter(patch),
             CGAL::parameters::use_2d_constrained_delaunay_triangulation(points.size() > 200)
                 .do_not_use_cubic_algorithm(points.size() > kCubic));
-    } catch (const std::exception&) {
+    } catch (const std::exception&) {  // CGAL gives up: the caller tries another way
         return {};
     }
     for (const auto& t : patch) out.push_back({t.first, t.second, t.third});

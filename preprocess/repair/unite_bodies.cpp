@@ -59,7 +59,7 @@ std::optional<TriangleMesh> unite_bodies(const std::vector<TriangleMesh>& bodies
             sum = std::move(result);
         }
         return to_mesh(sum);
-    } catch (const std::exception&) {
+    } catch (const std::exception&) {  // CGAL gives up: the caller tries another way
         return std::nullopt;
     }
 }

@@ -17,6 +17,7 @@
 
 #include "common/base/parallel.hpp"
 #include "common/base/timer.hpp"
+#include "preprocess/clean/weld.hpp"
 #include "preprocess/fill/fill_spheres.hpp"
 #include "preprocess/fill/shell.hpp"
 #include "preprocess/load/read_mesh.hpp"
@@ -132,7 +133,8 @@ int main(int argc, char** argv) {
     const bool smoke = argc > 3 && std::string_view(argv[3]) == "--smoke";
     const int runs = smoke ? 1 : 5;
     fmt::print("{}, g++ {}\n", test::machine_name(), __VERSION__);
-    const TriangleMesh paper = read_mesh(argv[2], {});
+    TriangleMesh paper = read_mesh(argv[2], {});
+    weld(paper);  // as spherize does: edges are where triangles share vertices
     const TriangleMesh hull =
         smoke ? test::make_hull({10, 2, 1.8}, 1000) : test::make_hull({100, 20, 18}, 100000);
     fmt::print("\nsurface layer, R = spacing = 0.1 m; hex: spheres over those of an ideal layer\n");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Sphere sets: counts, exact integrals, tangency, cover, symmetry, threads, refusals.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <map>
 
@@ -167,14 +168,22 @@ TEST_CASE("the set does not depend on the number of threads", "[fill][determinis
     const auto fill_with = [&](int threads) {
         set_thread_count(threads);
         SpheresReport report;
-        return fill_spheres(mesh, options(0.1), report);
+        // so close that the layer is large enough to be shared among threads
+        return fill_spheres(mesh, options(0.1, 0.03), report);
     };
     const SphereSet one = fill_with(1), three = fill_with(3);
     set_thread_count(2);
+    CHECK(one.surface_count > 40000);
     CHECK(one.centers == three.centers);
     CHECK(one.areas == three.areas);
     CHECK(one.volumes == three.volumes);
     CHECK(one.normals == three.normals);
+    CHECK(one.normal_spread == three.normal_spread);
+    CHECK(one.regions == three.regions);
+    CHECK(std::equal(one.creases.begin(), one.creases.end(), three.creases.begin(),
+                     three.creases.end(), [](const CreaseNormal& l, const CreaseNormal& r) {
+                         return l.sphere == r.sphere && l.normal == r.normal;
+                     }));
 }
 
 TEST_CASE("moving a mesh by 1 km moves its spheres and keeps its inertia to 1e-9",

@@ -110,10 +110,18 @@ TEST_CASE("option mirror y doubles half a box into a closed one", "[load]") {
     test::write_obj(file.path(), open);
     ReadOptions options;
     options.mirror_y = true;
-    TriangleMesh whole = read_mesh(file.path(), options);
+    ReadNotes notes;
+    TriangleMesh whole = read_mesh(file.path(), options, &notes);
     weld(whole);
     CHECK(diagnose_solid(whole).good());
     CHECK(measure_mass(whole).volume == Approx(8.0).epsilon(1e-14));
+    for (const std::string& warning : notes.warnings)
+        CHECK_THAT(warning, !Catch::Contains("both sides"));
+
+    test::write_obj(file.path(), test::make_box_mesh(Vec3(2, 2, 2)));
+    read_mesh(file.path(), options, &notes);
+    REQUIRE(!notes.warnings.empty());
+    CHECK_THAT(notes.warnings.back(), Catch::Contains("both sides of y = 0"));
 }
 
 TEST_CASE("bad mesh files are refused by name", "[load][errors]") {

@@ -107,6 +107,13 @@ TEST_CASE("shares that cannot meet the centroid say so", "[fill][degenerate]") {
     CHECK_THAT(report.warnings[0], Catch::Contains("centroid by 0.00667 m"));
 }
 
+TEST_CASE("widely spaced spheres make no feature thin", "[fill][property]") {
+    SpheresReport report;
+    fill_spheres(test::make_box_mesh(Vec3(6, 5, 4)), {0.1, 1.0}, report);
+    CHECK(report.gap_max > 2.5 * 0.1);  // between the spheres, not for want of room
+    CHECK(report.thin_features.empty());
+}
+
 TEST_CASE("a fin too thin for a sphere is listed with its place and size", "[fill]") {
     // a 2 m box with a 1 m fin of 2 cm under it, as one closed mesh: a prism over a T section
     Section section;
