@@ -69,10 +69,39 @@ void follow(const TriangleMesh& mesh,
     }
 }
 
-void append_points(const Vec3& a, const Vec3& b, const Vec3& shift, double step,
-                   std::vector<Vec3>& out) {
-    const int n = std::max(1, static_cast<int>(std::ceil((b - a).norm() / step)));
-    for (int k = 0; k <= n; ++k) out.push_back(a + static_cast<double>(k) / n * (b - a) + shift);
+// An edge of the outline or of a chain, and by how much its points are moved inwards.
+struct Piece {
+    Vec3 a, b, shift;
+};
+
+// From the middle of two moves to one that does both: that is where the moved edges meet.
+Vec3 meeting_shift(const Vec3& one, const Vec3& other) {
+    const Vec3 sum = one + other;
+    return (one.squaredNorm() + other.squaredNorm()) / sum.squaredNorm() * sum;
+}
+
+// Start points along edges that follow one another. Where they turn, edges moved inwards each by
+// its own shift overlap, or gape: points would go back and forth, and miss the corner in which a
+// sphere touches both. They meet where both shifts are done, unless the corner is sharp.
+std::vector<Vec3> walk(const std::vector<Piece>& pieces, bool closed, double step) {
+    constexpr double kSharpTurn =
+        0.2;  // cosine between shifts: sharper corners are left to settling
+    std::vector<Vec3> out;
+    const std::size_t count = pieces.size();
+    const auto shift_between = [&](std::size_t k, std::size_t other, bool has_other) {
+        const Vec3 &own = pieces[k].shift, &next = pieces[other % count].shift;
+        const bool meets = has_other && own.dot(next) > kSharpTurn * own.norm() * next.norm();
+        return meets ? meeting_shift(own, next) : own;
+    };
+    for (std::size_t k = 0; k < count; ++k) {
+        const Vec3 a = pieces[k].a + shift_between(k, k + count - 1, closed || k > 0);
+        const Vec3 b = pieces[k].b + shift_between(k, k + 1, closed || k + 1 < count);
+        // an edge shorter than the corners at its ends take has no points of its own
+        if ((b - a).dot(pieces[k].b - pieces[k].a) <= 0.0) continue;
+        const int n = std::max(1, static_cast<int>(std::ceil((b - a).norm() / step)));
+        for (int i = 0; i <= n; ++i) out.push_back(a + static_cast<double>(i) / n * (b - a));
+    }
+    return out;
 }
 
 }  // namespace
@@ -96,20 +125,21 @@ std::vector<std::vector<Vec3>> trace_sharp_edges(const SurfaceTree& tree, double
         const Vec3 heading = (point(edges[e].b) - point(edges[e].a)).normalized();
         follow(mesh, at_vertex, edges, edges[e].b, heading, forth);
         follow(mesh, at_vertex, edges, edges[e].a, -heading, back);
-        std::vector<Vec3> line;
+        std::vector<Piece> line;
         std::int32_t from = back.empty() ? edges[e].a : back.back().second;
         for (std::size_t k = back.size(); k-- > 0;) {
             const std::int32_t to = k == 0 ? edges[e].a : back[k - 1].second;
-            append_points(point(from), point(to), radius * edges[back[k].first].inward, step, line);
+            line.push_back({point(from), point(to), radius * edges[back[k].first].inward});
             from = to;
         }
-        append_points(point(edges[e].a), point(edges[e].b), radius * edges[e].inward, step, line);
+        line.push_back({point(edges[e].a), point(edges[e].b), radius * edges[e].inward});
         from = edges[e].b;
         for (const auto& [edge, to] : forth) {
-            append_points(point(from), point(to), radius * edges[edge].inward, step, line);
+            line.push_back({point(from), point(to), radius * edges[edge].inward});
             from = to;
         }
-        out.push_back(std::move(line));
+        const bool closed = line.size() > 2 && line.front().a == line.back().b;
+        out.push_back(walk(line, closed, step));
     }
     return out;
 }
@@ -133,18 +163,19 @@ std::vector<std::vector<Vec3>> trace_section(const SurfaceTree& tree, double rad
     }
     std::vector<std::vector<Vec3>> out;
     while (!next.empty()) {
-        std::vector<Vec3> line;
+        std::vector<Piece> line;
         for (auto at = next.begin(); at != next.end();) {
             const auto [to, n] = at->second;
             Vec3 a = mesh.vertices[static_cast<std::size_t>(at->first)],
                  b = mesh.vertices[static_cast<std::size_t>(to)];
             a.y() = b.y() = 0.0;
-            append_points(a, b, -radius * n, step, line);
+            line.push_back({a, b, -radius * n});
             next.erase(at);
             at = next.find(to);
         }
-        line.push_back(line.front());
-        out.push_back(std::move(line));
+        std::vector<Vec3> starts = walk(line, true, step);
+        if (!starts.empty()) starts.push_back(starts.front());
+        out.push_back(std::move(starts));
     }
     return out;
 }

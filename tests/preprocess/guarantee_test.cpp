@@ -7,6 +7,7 @@
 #include "preprocess/load/read_mesh.hpp"
 #include "preprocess/repair/make_solid.hpp"
 #include "tests/preprocess/check_shares.hpp"
+#include "tests/preprocess/lattice_solids.hpp"
 #include "tests/preprocess/solid_oracle.hpp"
 #include "tests/support/make_meshes.hpp"
 
@@ -119,4 +120,32 @@ TEST_CASE("a section with a hole and a second body has discs and shares on all o
     CHECK(outer == Approx(8.0).epsilon(0.02));
     CHECK(inner == Approx(4.0).epsilon(0.02));
     CHECK(beside == Approx(4.0).epsilon(0.02));
+}
+
+TEST_CASE(
+    "polygons of any turn have a disc in each corner and no more discs than their outline asks",
+    "[fill][2d][guarantee]") {
+    // the discs stand on the polygon of the same angles round a circle that is R less
+    const int corners = GENERATE(3, 5, 6, 8, 12, 100, 1000);
+    const double inscribed = 2.0 * std::cos(std::numbers::pi / corners), radius = 0.1;
+    CAPTURE(corners);
+    std::vector<std::array<double, 2>> outline;
+    for (int k = 0; k < corners; ++k) {
+        const double angle = 2.0 * std::numbers::pi * k / corners + 0.1;
+        outline.push_back({2.0 * std::cos(angle), 2.0 * std::sin(angle)});
+    }
+    SpheresReport report;
+    const SphereSet set = fill_discs(slice_solid(test::make_prism(outline, 0.5), 0.0), {"hull"},
+                                     {radius, 0.0, Arrangement::conforming, true}, report);
+    const double side =
+        2.0 * (inscribed - radius) * std::tan(std::numbers::pi / corners) / set.spacing;
+    // a side is cut into equal parts, where it turns by less than 20 degrees together with others
+    const double wanted = corners > 18 ? corners * side : corners * std::ceil(side - 1e-9);
+    CHECK(static_cast<double>(set.size()) <= 1.01 * wanted + 1.0);
+    if (corners > 18) return;
+    int met = 0;
+    for (const double spread : set.normal_spread)
+        met += std::abs(spread - std::numbers::pi / corners) < 1e-6;
+    CHECK(met == corners);
+    CHECK(report.normal_error_mean_deg < 1e-6);
 }
