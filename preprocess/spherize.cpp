@@ -61,8 +61,7 @@ void declare(CLI::App& app, Options& o) {
     app.add_option("mesh", o.mesh, "Surface mesh: OBJ, STL, PLY, OFF, DAE, glTF, FBX, also .gz")
         ->required();
     app.add_option("-o,--output", o.out, "Sphere file (default <mesh stem>.spheres.h5)");
-    app.add_option("-r,--radius", o.fill.radius, "Sphere radius [m] (0.1)")
-        ->check(positive_metres);
+    app.add_option("-r,--radius", o.fill.radius, "Sphere radius [m] (0.1)")->check(positive_metres);
     app.add_option("-s,--spacing", o.fill.spacing, "Centre distance on the surface [m] (radius)")
         ->check(positive_metres);
     app.add_option("--arrangement", o.arrangement, "conforming or lattice")

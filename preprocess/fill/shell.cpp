@@ -147,7 +147,10 @@ private:
             if (o_.mirror && seat.center.y() > 0.0) out.push_back(image_of(seat).center);
         };
         if (o_.dimension == 2)
-            for (const Seat& seat : lines_) add(seat);
+            for (Seat seat : lines_) {
+                seat.center.y() = 0.0;  // but for rounding it is
+                add(seat);
+            }
         for (const auto& [at, k] : index_)
             for (const Seat& seat : tiles_[k].own) add(seat);
         return out;

@@ -30,8 +30,7 @@ bool lies_on_both_sides(const TriangleMesh& mesh) {
 
 // assimp keeps coordinates as floats: far from the origin, in map coordinates say, they are too
 // coarse for the shape.
-void check_distance(const TriangleMesh& mesh, const std::filesystem::path& file,
-                    ReadNotes& notes) {
+void check_distance(const TriangleMesh& mesh, const std::filesystem::path& file, ReadNotes& notes) {
     constexpr double kFloat = 6e-8, kWorthSaying = 1e-6, kTooCoarse = 1e-4;  // of the size
     Eigen::AlignedBox3d box;
     for (const Vec3& v : mesh.vertices) box.extend(v);

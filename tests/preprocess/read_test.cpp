@@ -144,13 +144,12 @@ TEST_CASE("the SHA-256 of a file is that of its bytes", "[load][analytic]") {
 
 TEST_CASE("a mesh in map coordinates is refused where floats are too coarse for it",
           "[load][errors]") {
-    const auto box_at = [](double x) {
-        TriangleMesh box = test::make_box_mesh(Vec3(10, 2, 1));
-        for (Vec3& v : box.vertices) v.x() += x;
-        return box;
+    const auto tetrahedron_at = [](const std::string& x) {
+        return "v " + x + "0 0 0\nv " + x + "4 0 0\nv " + x + "0 2 0\nv " + x +
+               "0 0 3\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
     };
-    const test::TemporaryFile near(box_at(20), "near.obj"), far(box_at(1000), "far.obj"),
-        map(box_at(6.5e6), "map.obj");
+    const TemporaryFile near(".obj", tetrahedron_at("1")), far(".obj", tetrahedron_at("100")),
+        map(".obj", tetrahedron_at("650000"));
     ReadNotes notes;
     read_mesh(near.path(), {}, &notes);
     CHECK(notes.warnings.empty());

@@ -52,7 +52,8 @@ Pressed press(double slope, double hull_radius, double hull_spacing, double floe
     const Vec3 under = turn * Vec3(0, 0, -0.3 - 0.5 * kFloe.z() - 1e-4);
     const std::size_t floe =
         add_floe(w.scene, shape, 900.0, Vec3(0, 0, -6) + under, turn, 0, false);
-    // under a slope it starts with the ship and slides up along it; under a level hull it is dragged
+    // under a slope it starts with the ship and slides up along it
+    // under a level hull it is dragged
     if (slope > 0.0) w.scene.bodies.momentum[floe] = w.scene.bodies.mass[floe] * Vec3(1, 0, 0);
     update_derived(w.scene.bodies, floe);
     Pressed out;
