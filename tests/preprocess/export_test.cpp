@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Exports for contact codes. tests/interop has the codes themselves read them.
+#include <unistd.h>
+
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
@@ -62,7 +64,8 @@ double reconstruction_error(const RigidBody& body) {
 
 class Folder {
 public:
-    Folder() : path_(fs::temp_directory_path() / "ice-export-test") {
+    // each test is a process of its own, and several run at a time
+    Folder() : path_(fs::temp_directory_path() / ("ice-export-" + std::to_string(::getpid()))) {
         fs::remove_all(path_);
         fs::create_directories(path_);
     }
