@@ -7,19 +7,12 @@
 #include "preprocess/fill/narrowest_cone.hpp"
 #include "preprocess/fill/point_cells.hpp"
 #include "tests/preprocess/check_shares.hpp"
+#include "tests/preprocess/fill_options.hpp"
 #include "tests/support/make_meshes.hpp"
 
 using namespace ice;
 using test::check_shares;
-
-namespace {
-
-FillOptions options(double radius, double spacing = 0.0,
-                    Arrangement arrangement = Arrangement::conforming, bool surface_only = false) {
-    return {radius, spacing, arrangement, surface_only};
-}
-
-}  // namespace
+using test::options;
 
 TEST_CASE("the nearest of points far away is found, the first of equals", "[fill][equivalence]") {
     std::vector<Vec3> points;

@@ -9,20 +9,13 @@
 #include "preprocess/fill/lattice.hpp"
 #include "preprocess/fill/surface_samples.hpp"
 #include "tests/preprocess/check_shares.hpp"
+#include "tests/preprocess/fill_options.hpp"
 #include "tests/preprocess/solid_oracle.hpp"
 #include "tests/support/make_meshes.hpp"
 
 using namespace ice;
 using test::check_shares;
-
-namespace {
-
-FillOptions options(double radius, double spacing = 0.0,
-                    Arrangement arrangement = Arrangement::conforming, bool surface_only = false) {
-    return {radius, spacing, arrangement, surface_only};
-}
-
-}  // namespace
+using test::options;
 
 TEST_CASE("the paper's floe is exactly 240 spheres, 0.24 m3, with its inertia to 1e-12",
           "[fill][analytic]") {
