@@ -39,6 +39,8 @@ struct Case {
     std::string title;
     int dimension = 3;
     double duration = 0.0, time_step = 0.01;
+    int seed = 0;         ///< of the jitter: another seed, another run of an ensemble
+    double jitter = 0.0;  ///< largest offset of a floe's place along x and y [m]
     double gravity = 9.81, water_density = 1000.0;
 
     std::filesystem::path hull_spheres;

@@ -55,6 +55,13 @@ std::vector<Key> run_keys() {
         {"simulation.time_step", Kind::number, D::time, "0.01", 1e-6, 1.0, 0, "",
          "Length of a step; the paper uses 0.005 s in 2D and 0.01 s in 3D.",
          [](Case& c, G&, const Value& v) { c.time_step = number(v); }},
+        {"simulation.seed", Kind::integer, D::none, "0", 0, 2e9, 0, "",
+         "Which of the random offsets simulation.jitter draws: the member of an ensemble.",
+         [](Case& c, G&, const Value& v) { c.seed = integer(v); }},
+        {"simulation.jitter", Kind::number, D::length, "0.0", 0, 1e3, 0, "",
+         "Largest random offset of every floe along x and y; it also turns by as much at its "
+         "edge. Unbroken ice (hold always) stays.",
+         [](Case& c, G&, const Value& v) { c.jitter = number(v); }},
         {"environment.gravity", Kind::number, D::acceleration, "9.81", 0, 100, 0, "",
          "Gravitational acceleration.", [](Case& c, G&, const Value& v) { c.gravity = number(v); }},
         {"environment.water_density", Kind::number, D::density, "1000.0", kTiny, 2000, 0, "",

@@ -8,6 +8,7 @@
 
 #include "common/base/error.hpp"
 #include "common/formats/spheres_file.hpp"
+#include "solver/scene/jitter.hpp"
 #include "solver/water/hydrostatics.hpp"
 
 namespace ice {
@@ -147,6 +148,7 @@ Scene build_scene(const Case& parameters) {
         }
         add_group(scene, parameters, g, rows[file]);
     }
+    apply_jitter(scene, parameters);
     for (const int id : parameters.track)
         if (id >= static_cast<int>(scene.bodies.size()))
             throw bad_input(
