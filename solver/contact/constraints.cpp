@@ -38,6 +38,13 @@ double largest_tangent_response(const Mat3& k, const Vec3& n) {
     return 0.5 * (ss + tt) + std::sqrt(0.25 * (ss - tt) * (ss - tt) + st * st);
 }
 
+// Largest normal impulse: crushing pressure on the section cut half way through the step.
+double strength(const Contact& contact, double approach, const ContactLaw& law) {
+    if (std::isinf(law.crushing_pressure)) return law.crushing_pressure;
+    const double depth = contact.patch.depth - 0.5 * law.dt * std::min(approach, 0.0);
+    return law.crushing_pressure * cut_area(contact.patch, depth) * law.dt;
+}
+
 }  // namespace
 
 Vec3 relative_velocity(const Bodies& bodies, const Constraint& c) {
@@ -72,12 +79,10 @@ void build_constraints(const Bodies& bodies, const std::vector<Contact>& contact
         c.tangent_mass = tangent_response > 0.0 ? 1.0 / tangent_response : 0.0;
         c.friction =
             c.a == static_cast<std::int32_t>(kShip) ? law.friction_ship_ice : law.friction_ice_ice;
-        // rigid stays rigid for a sphere that stands for no area
-        c.strength = std::isinf(law.crushing_pressure)
-                         ? law.crushing_pressure
-                         : law.crushing_pressure * contact.area * law.dt;
         c.gap = contact.gap;
         c.approach = relative_velocity(bodies, c).dot(c.normal);
+        c.strength = strength(contact, c.approach, law);
+        c.rebounds = true;
         out[k] = c;
     });
 }

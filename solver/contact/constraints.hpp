@@ -30,6 +30,7 @@ struct Constraint {
     double tangent_mass;         ///< 1 / largest k(d) over tangents d [kg]
     double friction;             ///< Coulomb's coefficient
     double strength;             ///< largest normal impulse per step: p A dt [N s]
+    bool rebounds;               ///< false once the contact has crushed in this step's impacts
     double gap;                  ///< at the start of the step [m]
     double approach;             ///< v_r . n at the start of the step [m/s], < 0 approaching
     double impact_normal = 0.0;  ///< normal impulse of the impact stage [N s]

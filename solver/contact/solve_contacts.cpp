@@ -2,11 +2,14 @@
 //
 // Projected Gauss-Seidel ("sequential impulses") over the contacts in their order: each contact in
 // turn gets the impulse that satisfies its own conditions, given all others; repeated until no
-// contact velocity changes any more. The fixed point satisfies all conditions together.
+// contact velocity changes any more. The fixed point satisfies all conditions together;
+// extrapolation between the sweeps brings it near.
 #include "solver/contact/solve_contacts.hpp"
 
 #include <algorithm>
 #include <cmath>
+
+#include "solver/contact/extrapolation.hpp"
 
 namespace ice {
 
@@ -23,6 +26,9 @@ constexpr double kPushShare = 0.2;
 constexpr double kMostPush = 0.005;
 
 constexpr int kSeparationIterations = 10;
+
+// Solutions with rebound at most; the second one is for contacts that crush by another's rebound.
+constexpr int kRebounds = 2;
 
 // What a stage has given a contact so far [N s].
 struct StageImpulse {
@@ -60,45 +66,78 @@ double update_friction(Bodies& bodies, const Constraint& c, const StageImpulse& 
 
 // Calls update(c), which returns a change of velocity, over all constraints until it is small.
 template <class Update>
-SolveReport iterate(std::vector<Constraint>& constraints, const ContactLaw& law,
-                    const Update& update) {
+SolveReport iterate(Bodies& bodies, std::vector<Constraint>& constraints,
+                    const StageImpulses& stage, const ContactLaw& law, const Update& update) {
+    thread_local Extrapolation extrapolation;  // keeps its memory between steps
     SolveReport report;
-    while (report.iterations < law.iterations) {
+    extrapolation.begin(bodies, constraints, stage);
+    while (true) {
         ++report.iterations;
         report.residual = 0.0;
-        // every other sweep runs backwards: news travels along a chain of floes both ways
-        const bool forwards = report.iterations % 2 == 1;
-        const std::size_t count = constraints.size();
-        for (std::size_t k = 0; k < count; ++k) {
-            Constraint& c = constraints[forwards ? k : count - 1 - k];
+        for (Constraint& c : constraints)
             if (c.normal_mass > 0.0) report.residual = std::max(report.residual, update(c));
-        }
-        if (report.residual <= law.tolerance) return report;
+        report.converged = report.residual <= law.tolerance;
+        if (report.converged || report.iterations >= law.iterations) return report;
+        extrapolation.advance(bodies, constraints, stage);
     }
-    report.converged = report.residual <= law.tolerance;
-    return report;
 }
+
+constexpr StageImpulses kImpact{&Constraint::impact_normal, &Constraint::impact_tangent};
+constexpr StageImpulses kRest{&Constraint::rest_normal, &Constraint::rest_tangent};
 
 bool meets_within_step(const Constraint& c, double dt) {
     return c.gap + dt * std::min(c.approach, 0.0) <= 0.0;
+}
+
+// The ship and ice that is held for good: neither can give way, so the ice crushes.
+void drive_through(const Bodies& bodies, Constraint& c) {
+    const Vec3 v = relative_velocity(bodies, c);
+    const Vec3 sliding = v - v.dot(c.normal) * c.normal;
+    const double speed = sliding.norm();
+    c.impact_normal = c.strength;
+    if (speed > 0.0) c.impact_tangent = -(c.friction * c.strength / speed) * sliding;
 }
 
 }  // namespace
 
 SolveReport resolve_impacts(Bodies& bodies, std::vector<Constraint>& constraints,
                             const ContactLaw& law) {
+    for (Constraint& c : constraints)
+        if (c.normal_mass == 0.0 && !std::isinf(c.strength) && c.approach < 0.0 &&
+            meets_within_step(c, law.dt))
+            drive_through(bodies, c);
     const bool approaching = std::any_of(
         constraints.begin(), constraints.end(),
         [&](const Constraint& c) { return c.approach < 0.0 && meets_within_step(c, law.dt); });
     if (!approaching) return {};
-    return iterate(constraints, law, [&](Constraint& c) {
-        if (!meets_within_step(c, law.dt)) return 0.0;
-        double wanted = -law.restitution * std::min(c.approach, 0.0);
-        const double speed = relative_velocity(bodies, c).dot(c.normal);
-        if (c.impact_normal + (wanted - speed) * c.normal_mass > c.strength) wanted = 0.0;
-        const double change = update_normal(bodies, c, wanted, c.strength, c.impact_normal);
-        return std::max(change, update_friction(bodies, c, {c.impact_normal, c.impact_tangent}));
-    });
+    const auto solve = [&](double restitution) {
+        return iterate(bodies, constraints, kImpact, law, [&](Constraint& c) {
+            if (!meets_within_step(c, law.dt)) return 0.0;
+            const double rebound = c.rebounds ? -restitution * std::min(c.approach, 0.0) : 0.0;
+            const double change =
+                update_normal(bodies, c, rebound, c.strength, c.impact_normal);
+            return std::max(change,
+                            update_friction(bodies, c, {c.impact_normal, c.impact_tangent}));
+        });
+    };
+    if (std::isinf(law.crushing_pressure)) return solve(law.restitution);
+    // which contacts crush is known once the bodies have stopped, and again once others rebounded:
+    // a contact once crushed stays so, or the two answers would take turns
+    SolveReport report = solve(0.0);
+    bool converged = report.converged;
+    for (int pass = 0; pass < kRebounds; ++pass) {
+        int fresh = 0;
+        for (Constraint& c : constraints)
+            if (c.rebounds && c.impact_normal >= c.strength) {
+                c.rebounds = false;
+                ++fresh;
+            }
+        if (pass > 0 && fresh == 0) break;
+        report = solve(law.restitution);
+        converged = converged && report.converged;
+    }
+    report.converged = converged;
+    return report;
 }
 
 SolveReport resolve_rest(Bodies& bodies, std::vector<Constraint>& constraints,
@@ -110,7 +149,7 @@ SolveReport resolve_rest(Bodies& bodies, std::vector<Constraint>& constraints,
         else
             c.rest_tangent.setZero();
     }
-    return iterate(constraints, law, [&](Constraint& c) {
+    return iterate(bodies, constraints, kRest, law, [&](Constraint& c) {
         const double wanted = -std::max(c.gap, 0.0) / law.dt;
         const double change =
             update_normal(bodies, c, wanted, c.strength - c.impact_normal, c.rest_normal);
@@ -146,6 +185,24 @@ void separate_overlaps(const Bodies& bodies, const std::vector<Constraint>& cons
             out.turn[c.a] -= change * c.turn_a;
             out.turn[c.b] += change * c.turn_b;
         }
+}
+
+void crush_ice(Scene& scene, const std::vector<Contact>& contacts,
+               const std::vector<Constraint>& constraints, double dt) {
+    const Bodies& bodies = scene.bodies;
+    for (std::size_t k = 0; k < constraints.size(); ++k) {
+        const Constraint& c = constraints[k];
+        if (!c.crushed()) continue;
+        const double gap = c.gap + dt * relative_velocity(bodies, c).dot(c.normal);
+        if (gap >= 0.0) continue;
+        const Contact& contact = contacts[k];
+        const std::int32_t body = contact.crushes_a ? c.a : c.b;
+        const std::int32_t sphere = contact.crushes_a ? contact.sphere_a : contact.sphere_b;
+        const Vec3 inwards = contact.crushes_a ? Vec3(-c.normal) : c.normal;
+        const Shape& shape = scene.shapes[static_cast<std::size_t>(bodies.shape[body])];
+        scene.crushed.crush(body, sphere, shape.center.size(),
+                            bodies.rotation[body].transpose() * (-gap * inwards));
+    }
 }
 
 }  // namespace ice

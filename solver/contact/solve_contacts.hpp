@@ -22,9 +22,13 @@ struct SolveReport {
 ///     0 <= J_n <= strength,   v_r . n >= -e min(v_r0 . n, 0)  with equality where J_n > 0,
 ///     |J_t| <= mu J_n, opposite to the sliding.
 ///
-/// A contact that reaches its strength does not rebound (e = 0 for it). Contacts at rest have
+/// A contact that reaches its strength does not rebound (e = 0 for it): with a finite crushing
+/// pressure the stage first solves with e = 0 for all, then with e for those that held. Contacts at rest have
 /// v_r0 . n = 0 and do not bounce, without any threshold (Guendelman, Bridson, Fedkiw, ACM TOG
 /// 22(3), 2003, section 5).
+///
+/// Between the ship and a held floe nothing can give way: with a finite crushing pressure the
+/// contact carries its strength and friction, without one nothing (a jam, see measure_step).
 SolveReport resolve_impacts(Bodies& bodies, std::vector<Constraint>& constraints,
                             const ContactLaw& law);
 
@@ -46,5 +50,10 @@ struct Nudges {
 /// Crushed contacts are left alone: that ice is gone.
 void separate_overlaps(const Bodies& bodies, const std::vector<Constraint>& constraints,
                        const ContactLaw& law, Nudges& out);
+
+/// Ice at its strength gives way: what overlap the step leaves at a crushed contact is taken off
+/// the ice for good. @pre called before the poses advance, after resolve_rest
+void crush_ice(Scene& scene, const std::vector<Contact>& contacts,
+               const std::vector<Constraint>& constraints, double dt);
 
 }  // namespace ice

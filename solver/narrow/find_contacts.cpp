@@ -40,12 +40,18 @@ struct PairView {
           shift(s.bodies.rotation[p.a].transpose() *
                 (s.bodies.position[p.b] - s.bodies.position[p.a])) {}
 
+    Vec3 center_a(std::int32_t i) const {
+        return shape_a.center[i] + scene.crushed.recess(pair.a, i);
+    }
+    Vec3 center_b(std::int32_t j) const {  // in a's axes
+        return turn * (shape_b.center[j] + scene.crushed.recess(pair.b, j)) + shift;
+    }
     SphereSurface sphere_a(std::int32_t i) const {
-        return {shape_a.center[i], shape_a.radius[i], shape_a.normal[i], shape_a.spread_cos[i],
+        return {center_a(i), shape_a.radius[i], shape_a.normal[i], shape_a.spread_cos[i],
                 shape_a.spread_sin[i]};
     }
     SphereSurface sphere_b(std::int32_t j) const {
-        return {turn * shape_b.center[j] + shift, shape_b.radius[j], turn * shape_b.normal[j],
+        return {center_b(j), shape_b.radius[j], turn * shape_b.normal[j],
                 shape_b.spread_cos[j], shape_b.spread_sin[j]};
     }
 };
@@ -93,6 +99,29 @@ void keep_one_per_face(std::vector<Candidate>& candidates) {
     candidates.resize(kept);
 }
 
+// How deep contact has crushed a sphere along its side's outward direction [m].
+double crushed_depth(const Scene& scene, std::int32_t body, std::int32_t sphere,
+                     const Vec3& outward) {
+    return std::max(0.0, -scene.crushed.recess(body, sphere).dot(outward));
+}
+
+Patch patch_of(const Shape& shape, std::int32_t k, const Vec3& outward) {
+    return {shape.area[k], shape.normal[k].dot(outward), shape.spread_cos[k], shape.spread_sin[k],
+            0.0};
+}
+
+// The probe's patch. Where the hull is the probe, the ice it digs into is still what crushes.
+Patch probe_patch(const PairView& view, const Candidate& c) {
+    const Vec3 out_a = c.gap.normal, out_b = view.turn.transpose() * -c.gap.normal;
+    const bool ship = view.pair.a == static_cast<std::int32_t>(kShip);
+    Patch patch =
+        c.gap.a_is_surface ? patch_of(view.shape_b, c.j, out_b) : patch_of(view.shape_a, c.i, out_a);
+    patch.depth = -c.gap.gap + (c.gap.a_is_surface || ship
+                                    ? crushed_depth(view.scene, view.pair.b, c.j, out_b)
+                                    : crushed_depth(view.scene, view.pair.a, c.i, out_a));
+    return patch;
+}
+
 // Surface of an ice sphere as seen along the contact normal: with the mean normal m and the
 // half-angle s of the faces that meet there, cos(s) m is the sphere's vector area per area.
 double facing_area(const Shape& shape, std::int32_t k, const Vec3& outward) {
@@ -114,10 +143,6 @@ void emit(const PairView& view, const std::vector<Candidate>& candidates,
     const Mat3& rotation = bodies.rotation[view.pair.a];
     const bool ship = view.pair.a == static_cast<std::int32_t>(kShip);
     if (candidates.empty()) return;
-    const auto shared_b = count_contacts(candidates, &Candidate::j, view.shape_b.center.size());
-    // the hull has many spheres and its shares are not asked for
-    const auto shared_a = count_contacts(ship ? std::vector<Candidate>{} : candidates,
-                                         &Candidate::i, ship ? 0 : view.shape_a.center.size());
     std::int32_t last_probe = -1, face = 0;
     for (const Candidate& c : candidates) {
         Contact contact;
@@ -129,17 +154,12 @@ void emit(const PairView& view, const std::vector<Candidate>& candidates,
         contact.normal = rotation * c.gap.normal;
         // the probe decides where the bodies meet
         const Vec3 local = c.gap.a_is_surface
-                               ? Vec3(view.turn * view.shape_b.center[c.j] + view.shift -
-                                      c.gap.normal * (view.shape_b.radius[c.j] + 0.5 * c.gap.gap))
-                               : Vec3(view.shape_a.center[c.i] +
+                               ? Vec3(view.center_b(c.j) - c.gap.normal * (view.shape_b.radius[c.j] + 0.5 * c.gap.gap))
+                               : Vec3(view.center_a(c.i) +
                                       c.gap.normal * (view.shape_a.radius[c.i] + 0.5 * c.gap.gap));
         contact.point = rotation * local + bodies.position[view.pair.a];
-        const Vec3 normal_b = view.turn.transpose() * c.gap.normal;
-        contact.area =
-            facing_area(view.shape_b, c.j, -normal_b) / shared_b[static_cast<std::size_t>(c.j)];
-        if (!ship)
-            contact.area = std::min(contact.area, facing_area(view.shape_a, c.i, c.gap.normal) /
-                                                      shared_a[static_cast<std::size_t>(c.i)]);
+        contact.crushes_a = !ship && !c.gap.a_is_surface;
+        contact.patch = probe_patch(view, c);
         contact.region = ship ? view.shape_a.region[c.i] : -1;
         // a probe slides over many surface spheres: the probe and its face's rank are what lasts
         const std::int32_t probe = (c.probe() << 1) | (c.gap.a_is_surface ? 1 : 0);
@@ -150,15 +170,33 @@ void emit(const PairView& view, const std::vector<Candidate>& candidates,
     }
 }
 
+// Sphere on sphere: every pair of spheres is a contact, and shares of the surface are split.
+void finish_centres(const PairView& view, const std::vector<Candidate>& candidates,
+                    std::vector<Contact>& out) {
+    const bool ship = view.pair.a == static_cast<std::int32_t>(kShip);
+    const auto shared_b = count_contacts(candidates, &Candidate::j, view.shape_b.center.size());
+    // the hull has many spheres and its shares are not asked for
+    const auto shared_a = count_contacts(ship ? std::vector<Candidate>{} : candidates,
+                                         &Candidate::i, ship ? 0 : view.shape_a.center.size());
+    const auto first = out.end() - static_cast<std::ptrdiff_t>(candidates.size());
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+        const Candidate& c = candidates[k];
+        Contact& contact = first[static_cast<std::ptrdiff_t>(k)];
+        contact.key = (static_cast<std::uint64_t>(c.i) << 32) | static_cast<std::uint32_t>(c.j);
+        double area = facing_area(view.shape_b, c.j, view.turn.transpose() * -c.gap.normal) /
+                      shared_b[static_cast<std::size_t>(c.j)];
+        if (!ship)
+            area = std::min(area, facing_area(view.shape_a, c.i, c.gap.normal) /
+                                      shared_a[static_cast<std::size_t>(c.i)]);
+        contact.patch = {area, 1.0, 1.0, 0.0, 0.0};
+    }
+}
+
 void finish_pair(const PairView& view, NormalRule rule, std::vector<Candidate>& candidates,
                  std::vector<Contact>& out) {
     if (rule == NormalRule::surface) keep_one_per_face(candidates);
     emit(view, candidates, out);
-    if (rule == NormalRule::centres)
-        for (std::size_t k = 0; k < candidates.size(); ++k)
-            out[out.size() - candidates.size() + k].key =
-                (static_cast<std::uint64_t>(candidates[k].i) << 32) |
-                static_cast<std::uint32_t>(candidates[k].j);
+    if (rule == NormalRule::centres && !candidates.empty()) finish_centres(view, candidates, out);
 }
 
 void find_pair_contacts(const Scene& scene, BodyPair pair, NormalRule rule, double margin,
@@ -172,7 +210,7 @@ void find_pair_contacts(const Scene& scene, BodyPair pair, NormalRule rule, doub
     const Eigen::AlignedBox3d box(view.shape_a.box.min() - Vec3::Constant(span + reach),
                                   view.shape_a.box.max() + Vec3::Constant(span + reach));
     for (std::int32_t j = 0; j < static_cast<std::int32_t>(view.shape_b.center.size()); ++j) {
-        const Vec3 at = view.turn * view.shape_b.center[j] + view.shift;
+        const Vec3 at = view.center_b(j);
         if (!box.contains(at)) continue;
         const SphereSurface b = view.sphere_b(j);
         const double along = view.shape_a.largest_radius + b.radius + margin;

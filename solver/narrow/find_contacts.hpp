@@ -7,6 +7,7 @@
 
 #include "solver/broad/find_pairs.hpp"
 #include "solver/case/case.hpp"
+#include "solver/narrow/patch.hpp"
 #include "solver/scene/bodies.hpp"
 
 namespace ice {
@@ -19,8 +20,9 @@ struct Contact {
     Vec3 point;                       ///< midway between the surfaces, world axes [m]
     Vec3 normal;                      ///< unit, from a to b
     double gap;                       ///< [m], negative where the surfaces overlap
-    double area;                      ///< share of the ice surface that presses here [m2]
+    Patch patch;                      ///< the surface that presses here
     std::int32_t region;              ///< hull region; -1 between floes
+    bool crushes_a;                   ///< the ice that gives way is sphere_a's; else sphere_b's
 };
 
 /// Finds the contacts of all pairs, in pair order; threads share the pairs, not a pair.
@@ -30,8 +32,9 @@ struct Contact {
 /// body that it faces: of the spheres that stand for the same face, the laterally nearest, within
 /// the shape's `reach`. So a face's contacts are as many as its probes, not probes times spheres.
 ///
-/// Area: an ice sphere's share of the surface, seen along the normal, split among the contacts the
-/// sphere has with that body; the smaller one between two floes.
+/// Crushed spheres stand where the crushing left them. A contact's patch is its probe's; under the
+/// rule "centres" it is the ice sphere's share, split among the contacts the sphere has with that
+/// body, the smaller one between two floes, and counts whole.
 ///
 /// @param margin  [m] per pair is dt times a bound of the pair's closing speed, plus this much
 class ContactFinder {

@@ -38,7 +38,9 @@ void merge_regions(std::vector<RegionImpulse>& regions) {
 void find_jam(const Scene& scene, const Constraint& c, double dt, StepRecord& out) {
     const double closing =
         relative_velocity(scene.bodies, c).dot(c.normal) + std::max(c.gap, 0.0) / dt;
-    if (c.crushed() || closing > -kJamSpeed) return;
+    // a floe that no impulse reached is no jam, unless it cannot move at all
+    const bool pressed = c.total_normal() > 0.0 || c.normal_mass == 0.0;
+    if (!pressed || c.crushed() || closing > -kJamSpeed) return;
     if (out.jammed_contacts++ > 0) return;
     out.jammed_floe = c.b;
     out.jam_point = scene.bodies.position[c.b] + c.arm_b;
@@ -53,16 +55,17 @@ StepRecord measure_step(const Scene& scene, const std::vector<Contact>& contacts
         const Constraint& c = constraints[k];
         const double normal = c.total_normal();
         out.max_overlap = std::max(out.max_overlap, -c.gap);
+        const bool ship = c.a == static_cast<std::int32_t>(kShip);
+        if (ship) find_jam(scene, c, dt, out);
         if (normal <= 0.0) continue;
         ++out.contacts;
-        if (c.a != static_cast<std::int32_t>(kShip)) continue;
+        if (!ship) continue;
         // impulses act on the floe; the ship feels the opposite
         const Vec3 push = -normal * c.normal, rub = -c.total_tangent();
         out.contact_force += push / dt;
         out.friction_force += rub / dt;
         out.moment += c.arm_a.cross(Vec3(push + rub)) / dt;
         add_region(out.regions, c.b, contacts[k].region, push + rub);
-        find_jam(scene, c, dt, out);
     }
     merge_regions(out.regions);
     for (std::size_t i = 1; i < scene.bodies.size(); ++i)

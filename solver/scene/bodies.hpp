@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/geometry/triangle_mesh.hpp"
+#include "solver/scene/crushed_ice.hpp"
 #include "solver/shape/shape.hpp"
 
 namespace ice {
@@ -48,6 +49,7 @@ struct Scene {
     int dimension = 3;
     std::vector<Shape> shapes;  ///< row 0: hull
     Bodies bodies;
+    CrushedIce crushed;
     Vec3 ship_velocity = Vec3::Zero();
 };
 

@@ -80,8 +80,12 @@ void step(World& w) {
         w.warm_start.remember(w.contacts, w.constraints);
     });
 
-    // overlap that the finite step left is taken out of the poses, not of the velocities
-    timed(w, Stage::contact, [&] { separate_overlaps(bodies, w.constraints, law, w.nudges); });
+    // overlap that the finite step left is taken out of the poses, not of the velocities; where the
+    // ice crushes, out of the ice
+    timed(w, Stage::contact, [&] {
+        separate_overlaps(bodies, w.constraints, law, w.nudges);
+        crush_ice(w.scene, w.contacts, w.constraints, dt);
+    });
     timed(w, Stage::integrate, [&] {
         store_momenta(bodies, w.angular_velocity_start);
         advance_poses(w.scene, w.nudges, dt);

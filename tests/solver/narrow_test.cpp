@@ -39,7 +39,8 @@ World scattered_world(unsigned seed, int floes) {
 bool same(const Contact& l, const Contact& r) {
     return l.a == r.a && l.b == r.b && l.sphere_a == r.sphere_a && l.sphere_b == r.sphere_b &&
            l.key == r.key && l.gap == r.gap && l.normal == r.normal && l.point == r.point &&
-           l.area == r.area && l.region == r.region;
+           l.patch.share == r.patch.share &&
+           l.patch.depth == r.patch.depth && l.region == r.region;
 }
 
 }  // namespace
@@ -109,10 +110,11 @@ TEST_CASE("a floe face under a flat hull has one contact per floe sphere, all wi
     for (const Contact& c : contacts) {
         REQUIRE(c.gap == Approx(0.002).epsilon(1e-9));
         REQUIRE((c.normal + Vec3::UnitZ()).norm() < 1e-12);
-        area += c.area;
+        area += cut_area(c.patch, c.patch.depth);
     }
-    // shares of the make_box_set are 0.01 m2 per face and sphere
-    CHECK(area == Approx(0.8).epsilon(1e-6));
+    // shares of the make_box_set are 0.01 m2 per face and sphere; normals are floats, so a flat wing
+    // of an edge may lean by 1e-7 x its half side of 0.05 m, against a touch of 1e-4 m
+    CHECK(area == Approx(0.8).epsilon(5e-5));
 }
 
 TEST_CASE("the grid finds the contacts that testing every sphere with every other finds",

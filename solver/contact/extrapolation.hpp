@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "solver/contact/constraints.hpp"
+
+namespace ice {
+
+/// The impulses of one stage of the solver, inside a Constraint.
+struct StageImpulses {
+    double Constraint::*normal;
+    Vec3 Constraint::*tangent;
+};
+
+/// Carries the sweeps of the contact solver on along the way they go.
+///
+/// Sweeps alone creep where many contacts share a load (a face's spheres, a chain of floes): a
+/// hundred of them may be a tenth of the way. After each sweep, with g the change it made to the
+/// impulses and p the direction so far,
+///
+///     beta = |g|^2 / |g_last|^2,   impulses += beta p,   p = beta p + g,
+///
+/// begun afresh where g grows (Silcowitz-Hansen, Niebe, Erleben, The Visual Computer 26, 2010: a
+/// nonsmooth nonlinear conjugate gradient method). |g|^2 is sum g^2 k(n), an energy. Bodies'
+/// velocities move along with the impulses, so momentum stays balanced to rounding; bounds and
+/// cones are restored by the next sweep, which therefore always comes last.
+class Extrapolation {
+public:
+    /// Before the first sweep of a stage.
+    void begin(const Bodies& bodies, const std::vector<Constraint>& constraints,
+               const StageImpulses& stage);
+    /// Between two sweeps: notes what the last one did and moves on.
+    void advance(Bodies& bodies, std::vector<Constraint>& constraints, const StageImpulses& stage);
+
+private:
+    void note(const Bodies& bodies, const std::vector<Constraint>& constraints,
+              const StageImpulses& stage);
+
+    // state before the sweep, and the direction: per constraint and per body
+    std::vector<double> normal_, normal_way_;
+    std::vector<Vec3> tangent_, tangent_way_;
+    std::vector<Vec3> velocity_, velocity_way_, angular_, angular_way_;
+    double last_size_ = -1.0;
+};
+
+}  // namespace ice

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Sphere sets as spherize makes them, of solids made in code.
+#pragma once
+
+#include "preprocess/fill/fill_spheres.hpp"
+#include "solver/scene/bodies.hpp"
+#include "tests/support/make_meshes.hpp"
+
+namespace ice::test {
+
+/// The surface layer of a box centred at the origin, its axes turned by `turn`.
+inline SphereSet fill_box(const Vec3& size, double radius, double spacing,
+                          const Quaternion& turn = Quaternion::Identity()) {
+    TriangleMesh mesh = make_box_mesh(size);
+    for (Vec3& v : mesh.vertices) v = turn * v;
+    SpheresReport report;
+    FillOptions options;
+    options.radius = radius;
+    options.spacing = spacing;
+    options.surface_only = true;
+    return fill_spheres(mesh, options, report);
+}
+
+}  // namespace ice::test
