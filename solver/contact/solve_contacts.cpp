@@ -114,8 +114,7 @@ SolveReport resolve_impacts(Bodies& bodies, std::vector<Constraint>& constraints
         return iterate(bodies, constraints, kImpact, law, [&](Constraint& c) {
             if (!meets_within_step(c, law.dt)) return 0.0;
             const double rebound = c.rebounds ? -restitution * std::min(c.approach, 0.0) : 0.0;
-            const double change =
-                update_normal(bodies, c, rebound, c.strength, c.impact_normal);
+            const double change = update_normal(bodies, c, rebound, c.strength, c.impact_normal);
             return std::max(change,
                             update_friction(bodies, c, {c.impact_normal, c.impact_tangent}));
         });

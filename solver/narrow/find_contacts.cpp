@@ -51,8 +51,8 @@ struct PairView {
                 shape_a.spread_sin[i]};
     }
     SphereSurface sphere_b(std::int32_t j) const {
-        return {center_b(j), shape_b.radius[j], turn * shape_b.normal[j],
-                shape_b.spread_cos[j], shape_b.spread_sin[j]};
+        return {center_b(j), shape_b.radius[j], turn * shape_b.normal[j], shape_b.spread_cos[j],
+                shape_b.spread_sin[j]};
     }
 };
 
@@ -106,16 +106,24 @@ double crushed_depth(const Scene& scene, std::int32_t body, std::int32_t sphere,
 }
 
 Patch patch_of(const Shape& shape, std::int32_t k, const Vec3& outward) {
-    return {shape.area[k], shape.normal[k].dot(outward), shape.spread_cos[k], shape.spread_sin[k],
-            0.0};
+    Patch patch;
+    patch.share = shape.area[k];
+    patch.facing = shape.normal[k].dot(outward);
+    patch.spread_cos = shape.spread_cos[k];
+    patch.spread_sin = shape.spread_sin[k];
+    patch.wing = wing_length(shape.radius[k], patch.share, patch.spread_cos, patch.spread_sin);
+    // the foot is the support itself at an edge that juts out, lower on a face that leans
+    const double foot = patch.facing * corner_distance(shape.radius[k], patch.spread_cos);
+    patch.foot = std::max(shape.radius[k] - foot, 0.0);
+    return patch;
 }
 
 // The probe's patch. Where the hull is the probe, the ice it digs into is still what crushes.
 Patch probe_patch(const PairView& view, const Candidate& c) {
     const Vec3 out_a = c.gap.normal, out_b = view.turn.transpose() * -c.gap.normal;
     const bool ship = view.pair.a == static_cast<std::int32_t>(kShip);
-    Patch patch =
-        c.gap.a_is_surface ? patch_of(view.shape_b, c.j, out_b) : patch_of(view.shape_a, c.i, out_a);
+    Patch patch = c.gap.a_is_surface ? patch_of(view.shape_b, c.j, out_b)
+                                     : patch_of(view.shape_a, c.i, out_a);
     patch.depth = -c.gap.gap + (c.gap.a_is_surface || ship
                                     ? crushed_depth(view.scene, view.pair.b, c.j, out_b)
                                     : crushed_depth(view.scene, view.pair.a, c.i, out_a));
@@ -137,7 +145,17 @@ std::vector<std::int32_t> count_contacts(const std::vector<Candidate>& all,
     return count;
 }
 
-void emit(const PairView& view, const std::vector<Candidate>& candidates,
+// The probe decides where the bodies meet: midway between its surface and the other one's.
+Vec3 meeting_point(const PairView& view, NormalRule rule, const Candidate& c) {
+    const double sign = c.gap.a_is_surface ? -1.0 : 1.0;
+    const Vec3 outward = sign * c.gap.normal;
+    const SphereSurface probe = c.gap.a_is_surface ? view.sphere_b(c.j) : view.sphere_a(c.i);
+    const Vec3 surface = rule == NormalRule::centres ? Vec3(probe.center + probe.radius * outward)
+                                                     : support_point(probe, outward);
+    return surface + 0.5 * c.gap.gap * outward;
+}
+
+void emit(const PairView& view, NormalRule rule, const std::vector<Candidate>& candidates,
           std::vector<Contact>& out) {
     const Bodies& bodies = view.scene.bodies;
     const Mat3& rotation = bodies.rotation[view.pair.a];
@@ -153,10 +171,7 @@ void emit(const PairView& view, const std::vector<Candidate>& candidates,
         contact.gap = c.gap.gap;
         contact.normal = rotation * c.gap.normal;
         // the probe decides where the bodies meet
-        const Vec3 local = c.gap.a_is_surface
-                               ? Vec3(view.center_b(c.j) - c.gap.normal * (view.shape_b.radius[c.j] + 0.5 * c.gap.gap))
-                               : Vec3(view.center_a(c.i) +
-                                      c.gap.normal * (view.shape_a.radius[c.i] + 0.5 * c.gap.gap));
+        const Vec3 local = meeting_point(view, rule, c);
         contact.point = rotation * local + bodies.position[view.pair.a];
         contact.crushes_a = !ship && !c.gap.a_is_surface;
         contact.patch = probe_patch(view, c);
@@ -188,14 +203,14 @@ void finish_centres(const PairView& view, const std::vector<Candidate>& candidat
         if (!ship)
             area = std::min(area, facing_area(view.shape_a, c.i, c.gap.normal) /
                                       shared_a[static_cast<std::size_t>(c.i)]);
-        contact.patch = {area, 1.0, 1.0, 0.0, 0.0};
+        contact.patch = Patch{.share = area};
     }
 }
 
 void finish_pair(const PairView& view, NormalRule rule, std::vector<Candidate>& candidates,
                  std::vector<Contact>& out) {
     if (rule == NormalRule::surface) keep_one_per_face(candidates);
-    emit(view, candidates, out);
+    emit(view, rule, candidates, out);
     if (rule == NormalRule::centres && !candidates.empty()) finish_centres(view, candidates, out);
 }
 
@@ -206,14 +221,14 @@ void find_pair_contacts(const Scene& scene, BodyPair pair, NormalRule rule, doub
     // only b's spheres in a's box, widened by what a contact can span, can touch
     const double reach =
         rule == NormalRule::surface ? std::max(view.shape_a.reach, view.shape_b.reach) : 0.0;
-    const double span = view.shape_b.largest_radius + margin;
+    const double span = view.shape_b.largest_support + margin;
     const Eigen::AlignedBox3d box(view.shape_a.box.min() - Vec3::Constant(span + reach),
                                   view.shape_a.box.max() + Vec3::Constant(span + reach));
     for (std::int32_t j = 0; j < static_cast<std::int32_t>(view.shape_b.center.size()); ++j) {
         const Vec3 at = view.center_b(j);
         if (!box.contains(at)) continue;
         const SphereSurface b = view.sphere_b(j);
-        const double along = view.shape_a.largest_radius + b.radius + margin;
+        const double along = view.shape_a.largest_support + view.shape_b.largest_support + margin;
         const double range_sq = along * along + reach * reach;
         view.shape_a.grid.for_each_near(at, std::sqrt(range_sq), [&](std::int32_t i) {
             if ((view.shape_a.center[i] - at).squaredNorm() <= range_sq)

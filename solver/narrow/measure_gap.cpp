@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solver/narrow/measure_gap.hpp"
 
+#include <algorithm>
 #include <cmath>
+
+#include "solver/shape/shape.hpp"
 
 namespace ice {
 
@@ -23,6 +26,16 @@ Vec3 nearest_normal(const SphereSurface& s, const Vec3& u) {
 }
 
 }  // namespace
+
+double support(const SphereSurface& s, const Vec3& n) {
+    const double corner = s.normal.dot(n) * corner_distance(s.radius, s.spread_cos);
+    return s.spread_sin == 0.0 ? s.radius : std::max(s.radius, corner);
+}
+
+Vec3 support_point(const SphereSurface& s, const Vec3& n) {
+    if (s.spread_sin == 0.0) return s.center + s.radius * n;
+    return s.center + corner_distance(s.radius, s.spread_cos) * s.normal;
+}
 
 Gap measure_gap_centres(const SphereSurface& a, const SphereSurface& b) {
     const Vec3 d = b.center - a.center;
@@ -51,7 +64,7 @@ Gap measure_gap_surface(const SphereSurface& a, const SphereSurface& b, bool pre
     }
     const double along = n.dot(d);
     const double lateral_sq = std::max(d.squaredNorm() - along * along, 0.0);
-    return {n, along - (a.radius + b.radius), lateral_sq, same || a_flatter, along > 0.0};
+    return {n, along - support(a, n) - support(b, -n), lateral_sq, same || a_flatter, along > 0.0};
 }
 
 }  // namespace ice

@@ -24,6 +24,17 @@ struct Gap {
     bool valid;         ///< false where the spheres do not face each other
 };
 
+/// How far the surface goes from the centre along the outward unit vector n [m].
+///
+/// On a face this is the radius. Where faces meet, their planes, all tangent to the sphere, meet at
+/// the point r / cos s along the middle normal: n . that point for n among the normals that meet
+/// there. So a floe keeps its sharp edges; rounded by the spheres' radius it slides past corners it
+/// should catch. Knife edges are cut off, see corner_distance().
+double support(const SphereSurface& s, const Vec3& n);
+
+/// Where support() reaches: the corner of the faces that meet, or the sphere's foremost point.
+Vec3 support_point(const SphereSurface& s, const Vec3& n);
+
 /// The paper's rule (Figure 1): normal from centre to centre, gap |d| - (r_a + r_b).
 ///
 /// Coincident centres have no direction and give an invalid gap.
@@ -36,10 +47,10 @@ Gap measure_gap_centres(const SphereSurface& a, const SphereSurface& b);
 /// (the smaller spread) is the surface, the other one the probe. On equal spread `prefer_a`
 /// decides for a, else the mean of both proposals is taken. With n chosen,
 ///
-///     gap = n . (c_b - c_a) - (r_a + r_b),
+///     gap = n . (c_b - c_a) - support(a, n) - support(b, -n),
 ///
 /// exact for a face on a face, an edge on a face and an edge across an edge: a flat hull is flat
-/// whatever its spacing. Invalid when the centres are not on the proper sides,
+/// and a floe's edge sharp, whatever spheres stand for them. Invalid when the centres are not on the proper sides,
 /// n . (c_b - c_a) <= 0.
 Gap measure_gap_surface(const SphereSurface& a, const SphereSurface& b, bool prefer_a);
 

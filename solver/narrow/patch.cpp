@@ -14,26 +14,32 @@ constexpr double kTouch = 1e-4;
 // A patch that stands upright still has this share of its area, so that nothing passes through it.
 constexpr double kLeastFacing = 0.05;
 
-// Projected area of a wing of unit area turned by the angle with this sine and cosine, as far as
-// it is cut; `half_side` is the wing's extent.
-double cut_wing(double sine, double cosine, double half_side, double depth) {
-    if (cosine <= 0.0) return 0.0;   // stands upright: no area along the normal
-    if (sine <= 0.0) return cosine;  // turned towards the face
-    return cosine * std::min(1.0, (depth + kTouch) / (half_side * sine + kTouch));
+// Projected area of a wing of unit area as far as a face at `depth` below the foot cuts it; the
+// wing goes down from the foot at the angle with this sine and cosine, up where the sine is < 0.
+double cut_wing(double sine, double cosine, double wing, double depth) {
+    if (cosine <= 0.0) return 0.0;  // stands upright: no area along the normal
+    const double rise = wing * std::abs(sine) + kTouch;
+    const double part = sine > 0.0 ? (depth + kTouch) / rise : 1.0 + depth / rise;
+    return cosine * std::clamp(part, 0.0, 1.0);
 }
 
 }  // namespace
+
+double wing_length(double radius, double share, double spread_cos, double spread_sin) {
+    const double touch = radius * spread_sin / std::max(spread_cos, 1e-3);
+    return 0.5 * (touch + std::sqrt(touch * touch + share));
+}
 
 double cut_area(const Patch& patch, double depth) {
     depth = std::max(depth, 0.0);
     const double ct = std::clamp(patch.facing, -1.0, 1.0), st = std::sqrt(1.0 - ct * ct);
     const double cs = patch.spread_cos, ss = patch.spread_sin;
-    const double half_side = 0.5 * std::sqrt(patch.share);
-    const double away = cut_wing(ss * ct + cs * st, cs * ct - ss * st, half_side, depth);
-    const double other = cut_wing(ss * ct - cs * st, cs * ct + ss * st, half_side, depth);
+    const double below_foot = depth - patch.foot;
+    const double away = cut_wing(ss * ct + cs * st, cs * ct - ss * st, patch.wing, below_foot);
+    const double other = cut_wing(ss * ct - cs * st, cs * ct + ss * st, patch.wing, below_foot);
     // where a wing faces backwards, or three meet in a corner, the signed sum is the whole section
     const double whole = std::max(cs * ct, 0.0);
-    const double least = kLeastFacing * cut_wing(1.0, 1.0, half_side, depth);
+    const double least = kLeastFacing * cut_wing(1.0, 1.0, patch.wing, depth);
     return patch.share * std::max(std::min(0.5 * (away + other), whole), least);
 }
 

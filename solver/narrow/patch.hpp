@@ -6,27 +6,33 @@ namespace ice {
 
 /// A probe sphere's share of its surface, seen along the contact normal.
 ///
-/// The share is two wings of side sqrt(share) / 2 that meet under the sphere, their outward normals
-/// turned by +-s from the sphere's normal: one plane on a face (s = 0), a roof on an edge.
+/// The share is two wings of equal area that meet at the foot, where the sphere's normal leaves the
+/// surface; their outward normals are turned by +-s from it: one plane on a face (s = 0), a roof on
+/// an edge.
 struct Patch {
-    double share = 0.0;       ///< surface the sphere stands for [m2]
-    double facing = 1.0;      ///< cosine of the tilt t between the sphere's and the contact's normal
+    double share = 0.0;   ///< surface the sphere stands for [m2]
+    double facing = 1.0;  ///< cosine of the tilt t between the sphere's and the contact's normal
     double spread_cos = 1.0;  ///< of s
     double spread_sin = 0.0;
-    double depth = 0.0;  ///< how far the face lies inside the whole surface, crushed ice included;
-                         ///< negative before touch [m]
+    double wing = 0.0;  ///< length of a wing, from the foot [m]
+    double foot = 0.0;  ///< height of the foot below the probe's support along the normal [m]
+    double depth =
+        0.0;  ///< how far the face lies inside the probe's support, crushed ice included;
+              ///< negative before touch [m]
 };
 
-/// Area [m2] of the section that a face at `depth` inside the ice cuts from the patch.
+/// Length of the wings of a sphere's share [m]: wing x 2 x spacing = share, where the wing goes from
+/// the foot past the point of touch, at r tan s, by half the spacing.
+double wing_length(double radius, double share, double spread_cos, double spread_sin);
+
+/// Area [m2] of the section that a face at `depth` inside the support cuts from the patch.
 ///
-/// A wing turned away by the angle a = s + t or s - t loses the share
-/// min(1, depth / (side / 2 sin a)) of its projected area share / 2 cos a; a wing turned towards
-/// the face is cut whole. So a flat patch counts at the first touch, an edge of length l gives
-/// depth (1 / tan a_1 + 1 / tan a_2) l as a sharp edge does, and all patches of a body add up to the
-/// area of its section, whatever the spheres' radius.
-/// Never more than the patch's whole projected area, cos s cos t share.
-///
-/// Before touch (depth <= 0) only flat wings count.
+/// A wing turned away by the angle a = s + t or s - t lies below the foot by up to wing sin a, and
+/// of its projected area share / 2 cos a that part is cut which lies above the face; a wing turned
+/// towards the face rises from the foot. So a flat patch counts whole at the first touch, an edge
+/// of length l gives depth (1 / tan a_1 + 1 / tan a_2) l as a sharp edge does, and all patches of a
+/// body add up to the area of its section, whatever the spheres' radius. Never more than the
+/// patch's whole projected area, share cos s cos t.
 double cut_area(const Patch& patch, double depth);
 
 }  // namespace ice

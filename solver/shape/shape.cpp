@@ -65,6 +65,8 @@ void copy_surface_spheres(const SphereSet& set, const Vec3& origin, Shape& shape
         shape.area.push_back(set.areas[k]);
         shape.region.push_back(set.regions[k]);
         shape.largest_radius = std::max(shape.largest_radius, set.radii[k]);
+        shape.largest_support =
+            std::max(shape.largest_support, corner_distance(set.radii[k], cosine));
     }
 }
 
@@ -85,6 +87,11 @@ double measure_reach(const Shape& shape, double nominal_spacing) {
 }
 
 }  // namespace
+
+double corner_distance(double radius, double spread_cos) {
+    constexpr double kFarthest = 3.0;  // radii
+    return radius / std::max(spread_cos, 1.0 / kFarthest);
+}
 
 Shape build_shape(const SphereSet& set, bool about_centre_of_mass) {
     Shape shape;

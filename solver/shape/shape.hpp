@@ -35,6 +35,7 @@ struct Shape {
     std::size_t sphere_count = 0;  ///< of the whole set, interior included
     SphereGrid grid;               ///< of `center`
     double largest_radius = 0.0;   ///< [m]
+    double largest_support = 0.0;  ///< how far the surface goes from a sphere's centre [m]
     double reach = 0.0;            ///< how far from its centre a sphere stands for the surface [m]
 
     TriangleMesh mesh;             ///< closed, body axes
@@ -43,6 +44,11 @@ struct Shape {
     Eigen::AlignedBox3d box;       ///< of mesh and spheres
     double bounding_radius = 0.0;  ///< about the body origin [m]
 };
+
+/// Distance [m] from a sphere's centre to where the faces meet that are all tangent to it, their
+/// normals at the half-angle with this cosine from their middle: r / cos s, at most 3 r, which cuts
+/// off knife edges sharper than about 39 degrees.
+double corner_distance(double radius, double spread_cos);
 
 /// Makes the shape of a floe (axes moved to the centre of mass) or of the hull (axes kept).
 /// @throws Error (exit code 2) when the set has no surface spheres.

@@ -33,7 +33,7 @@ Scene two_boxes() {
 
 Contact contact_at(const Vec3& point, const Vec3& normal) {
     // a flat patch of 0.01 m2
-    return {1, 2, 0, 0, 0, point, normal.normalized(), -0.001, {0.01}, -1, false};
+    return {1, 2, 0, 0, 0, point, normal.normalized(), -0.001, Patch{.share = 0.01}, -1, false};
 }
 
 Mat3 cross_matrix(const Vec3& r) {

@@ -39,8 +39,7 @@ World scattered_world(unsigned seed, int floes) {
 bool same(const Contact& l, const Contact& r) {
     return l.a == r.a && l.b == r.b && l.sphere_a == r.sphere_a && l.sphere_b == r.sphere_b &&
            l.key == r.key && l.gap == r.gap && l.normal == r.normal && l.point == r.point &&
-           l.patch.share == r.patch.share &&
-           l.patch.depth == r.patch.depth && l.region == r.region;
+           l.patch.share == r.patch.share && l.patch.depth == r.patch.depth && l.region == r.region;
 }
 
 }  // namespace
@@ -108,7 +107,8 @@ TEST_CASE("a floe face under a flat hull has one contact per floe sphere, all wi
     CHECK(contacts.size() == 80);  // 10 x 8 spheres of the floe's upper face
     double area = 0.0;
     for (const Contact& c : contacts) {
-        REQUIRE(c.gap == Approx(0.002).epsilon(1e-9));
+        // normals are floats: an edge's corner is a part in 1e7 off its sphere
+        REQUIRE(c.gap == Approx(0.002).epsilon(1e-6));
         REQUIRE((c.normal + Vec3::UnitZ()).norm() < 1e-12);
         area += cut_area(c.patch, c.patch.depth);
     }
