@@ -223,10 +223,10 @@ TEST_CASE("2D: a prism that hits a plate off its centre turns as plane mechanics
     w.scene = make_scene(build_shape(test::make_box_set(Vec3(4, 1, 0.4), 0.1, 0.05, 2), false),
                          Vec3(0, 0, 0.2), Vec3::Zero());
     const auto box = test::add_shape(w, test::make_box_set(Vec3(1, 1, 0.4), 0.1, 0.05, 2));
-    // turned by 0.3 rad about y: the corner disc at (-0.4, 0, 0.1) of its axes is the highest
+    // turned by 0.3 rad about y: the corner at (-0.5, 0, 0.2) of its axes is the highest
     const double turn = 0.3, cosine = std::cos(turn), sine = std::sin(turn);
-    const Vec3 corner(-0.4 * cosine + 0.1 * sine, 0, 0.4 * sine + 0.1 * cosine);
-    const std::size_t i = add_floe(w.scene, box, 900.0, Vec3(0, 0, -corner.z() - 0.1 - 1e-5),
+    const Vec3 corner(-0.5 * cosine + 0.2 * sine, 0, 0.5 * sine + 0.2 * cosine);
+    const std::size_t i = add_floe(w.scene, box, 900.0, Vec3(0, 0, -corner.z() - 1e-5),
                                    Quaternion(Eigen::AngleAxisd(turn, Vec3::UnitY())), 0, false);
     Bodies& b = w.scene.bodies;
     b.momentum[i] = b.mass[i] * Vec3(0, 0, 0.5);
@@ -235,9 +235,10 @@ TEST_CASE("2D: a prism that hits a plate off its centre turns as plane mechanics
     // J = (1 + e) v / (1/m + x^2 / I), down on the floe at the lever arm x of the corner
     const double inertia = 900.0 * 0.4 * (1 + 0.16) / 12, x = corner.x();
     const double impulse = 1.3 * 0.5 / (1 / b.mass[i] + x * x / inertia);
-    CHECK(b.velocity[i].z() == Approx(0.5 - impulse / b.mass[i]).epsilon(1e-9));
+    // the spread of normals, which places the corner, is stored as a float
+    CHECK(b.velocity[i].z() == Approx(0.5 - impulse / b.mass[i]).epsilon(1e-7));
     // moment about y of a force -J e_z at x: x J
-    CHECK(b.angular_velocity[i].y() == Approx(x * impulse / inertia).epsilon(1e-9));
+    CHECK(b.angular_velocity[i].y() == Approx(x * impulse / inertia).epsilon(1e-7));
     CHECK(b.velocity[i].y() == 0.0);
     CHECK(b.angular_velocity[i].x() == 0.0);
     CHECK(b.angular_velocity[i].z() == 0.0);
