@@ -47,12 +47,17 @@ struct PairView {
         return turn * (shape_b.center[j] + scene.crushed.recess(pair.b, j)) + shift;
     }
     SphereSurface sphere_a(std::int32_t i) const {
-        return {center_a(i), shape_a.radius[i], shape_a.normal[i], shape_a.spread_cos[i],
-                shape_a.spread_sin[i]};
+        return {center_a(i),           shape_a.radius[i],     shape_a.normal[i],
+                shape_a.spread_cos[i], shape_a.spread_sin[i], shape_a.faces[i]};
     }
     SphereSurface sphere_b(std::int32_t j) const {
-        return {center_b(j), shape_b.radius[j], turn * shape_b.normal[j], shape_b.spread_cos[j],
-                shape_b.spread_sin[j]};
+        return {center_b(j),           shape_b.radius[j],     turn * shape_b.normal[j],
+                shape_b.spread_cos[j], shape_b.spread_sin[j], faces_b(j)};
+    }
+    Faces faces_b(std::int32_t j) const {
+        Faces out = shape_b.faces[j];
+        for (int k = 0; k < out.count; ++k) out.normal[k] = turn * out.normal[k];
+        return out;
     }
 };
 

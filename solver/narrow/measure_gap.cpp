@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "solver/shape/shape.hpp"
 
@@ -13,8 +14,10 @@ namespace {
 // Spreads closer than this (in cosine) count as equally flat: normals are stored as floats.
 constexpr double kSameSpread = 1e-6;
 
-// The direction of the sphere's cap nearest to the unit vector u: u itself inside the cone of
-// normals, else the normal turned towards u by the half-angle.
+// Edges closer to parallel than this (sine) have no normal across both.
+constexpr double kParallel = 0.05;
+
+// u itself inside the cone of normals, else the cone's direction nearest to it.
 Vec3 nearest_normal(const SphereSurface& s, const Vec3& u) {
     const double along = u.dot(s.normal);
     if (s.spread_sin == 0.0) return s.normal;
@@ -23,6 +26,37 @@ Vec3 nearest_normal(const SphereSurface& s, const Vec3& u) {
     const double length = across.norm();
     if (length == 0.0) return s.normal;  // u points straight inwards: the pair will be invalid
     return s.spread_cos * s.normal + (s.spread_sin / length) * across;
+}
+
+// Of the directions that may part two local solids the one with the largest gap; zero where the
+// solids do not face each other.
+Vec3 parting_normal(const SphereSurface& a, const SphereSurface& b, const Vec3& d) {
+    Vec3 best = Vec3::Zero();
+    double widest = -std::numeric_limits<double>::infinity();
+    const auto attempt = [&](const Vec3& n) {
+        if (n.dot(d) <= 0.0 || n.dot(a.normal) <= 0.0 || n.dot(b.normal) >= 0.0) return;
+        const double gap = n.dot(d) - support(a, n) - support(b, -n);
+        if (gap <= widest) return;
+        widest = gap;
+        best = n;
+    };
+    for (int k = 0; k < a.faces.count; ++k) attempt(a.faces.normal[k]);
+    for (int k = 0; k < b.faces.count; ++k) attempt(-b.faces.normal[k]);
+    if (a.faces.count != 2 || b.faces.count != 2) return best;
+    const Vec3 across = a.faces.normal[0]
+                            .cross(a.faces.normal[1])
+                            .normalized()
+                            .cross(b.faces.normal[0].cross(b.faces.normal[1]).normalized());
+    const double sine = across.norm();
+    if (sine > kParallel) attempt(across.dot(d) < 0.0 ? Vec3(-across / sine) : Vec3(across / sine));
+    return best;
+}
+
+// Midway between two faces' normals; zero where they face away, over 120 degrees apart.
+Vec3 mean_normal(const Vec3& normal_a, const Vec3& normal_b) {
+    const Vec3 n = normal_a - normal_b;
+    const double length = n.norm();
+    return length < 1.0 ? Vec3(Vec3::Zero()) : Vec3(n / length);
 }
 
 }  // namespace
@@ -51,20 +85,18 @@ Gap measure_gap_surface(const SphereSurface& a, const SphereSurface& b, bool pre
     const Vec3 u = d / length;
 
     const bool same = std::abs(a.spread_cos - b.spread_cos) <= kSameSpread;
-    const bool a_flatter = same ? prefer_a : a.spread_cos > b.spread_cos;
+    const bool a_flatter = same || a.spread_cos > b.spread_cos;
     Vec3 n;
-    if (same && !prefer_a) {
-        n = nearest_normal(a, u) - nearest_normal(b, -u);
-        const double norm = n.norm();
-        if (norm < 1.0)
-            return {u, 0.0, 0.0, true, false};  // the surfaces face away: over 120 degrees
-        n /= norm;
-    } else {
+    if (a.faces.count > 0 && b.faces.count > 0)
+        n = parting_normal(a, b, d);
+    else if (same && !prefer_a)
+        n = mean_normal(nearest_normal(a, u), nearest_normal(b, -u));
+    else
         n = a_flatter ? nearest_normal(a, u) : Vec3(-nearest_normal(b, -u));
-    }
+    if (n.isZero(0.0)) return {u, 0.0, 0.0, true, false};
     const double along = n.dot(d);
     const double lateral_sq = std::max(d.squaredNorm() - along * along, 0.0);
-    return {n, along - support(a, n) - support(b, -n), lateral_sq, same || a_flatter, along > 0.0};
+    return {n, along - support(a, n) - support(b, -n), lateral_sq, a_flatter, along > 0.0};
 }
 
 }  // namespace ice

@@ -2,7 +2,7 @@
 /// Distance and normal of two contact spheres, by the paper's rule and by ours.
 #pragma once
 
-#include "common/geometry/triangle_mesh.hpp"
+#include "solver/shape/shape.hpp"
 
 namespace ice {
 
@@ -13,6 +13,7 @@ struct SphereSurface {
     Vec3 normal;        ///< outward unit normal, the middle one where several meet
     double spread_cos;  ///< cosine and sine of the half-angle of the normals that meet there;
     double spread_sin;  ///<   1 and 0 on a face
+    Faces faces = {};   ///< that meet there, where they are known
 };
 
 /// What lies between sphere a and sphere b.
@@ -43,15 +44,18 @@ Gap measure_gap_centres(const SphereSurface& a, const SphereSurface& b);
 /// Our rule: a sphere touches its surface from inside, so the surface near it is the sphere's cap
 /// over the normals that meet there: a plane on a face, an arc on an edge.
 ///
-/// Each side proposes the direction of its cap nearest to the line of centres; the flatter side
-/// (the smaller spread) is the surface, the other one the probe. On equal spread `prefer_a`
-/// decides for a, else the mean of both proposals is taken. With n chosen,
+/// A face gives its own normal; of two faces b's probe takes a's where `prefer_a`, else the mean.
+/// Of two edges or corners that know their faces, each face's normal and that across both edges is
+/// tried and the one with the largest gap taken: the separating direction of the two local solids.
+/// Else the flatter side gives the one of its normals that is nearest to the line of centres. The
+/// flatter side (the smaller spread; a on equal ones) is the surface, the other one the probe. With
+/// n chosen,
 ///
 ///     gap = n . (c_b - c_a) - support(a, n) - support(b, -n),
 ///
 /// exact for a face on a face, an edge on a face and an edge across an edge: a flat hull is flat
-/// and a floe's edge sharp, whatever spheres stand for them. Invalid when the centres are not on the proper sides,
-/// n . (c_b - c_a) <= 0.
+/// and a floe's edge sharp, whatever spheres stand for them. Invalid when the centres are not on
+/// the proper sides, n . (c_b - c_a) <= 0.
 Gap measure_gap_surface(const SphereSurface& a, const SphereSurface& b, bool prefer_a);
 
 }  // namespace ice

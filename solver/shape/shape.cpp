@@ -17,6 +17,9 @@ constexpr double kPanelShare = 1.0 / 6.0;
 // Largest number of panels of one shape; finer meshes keep their triangles.
 constexpr std::size_t kMostPanels = 4000;
 
+// Normals whose box product with two others is below this lie in their plane: an edge, no corner.
+constexpr double kSamePlane = 0.1;
+
 void split_into_panels(const Vec3 (&corner)[3], double longest, std::vector<Panel>& out) {
     int edge = 0;
     double length = 0.0;
@@ -53,7 +56,44 @@ void build_panels(Shape& shape) {
     }
 }
 
+// Of the normals that meet at a sphere three at most: the two farthest apart and the one farthest
+// out of their plane. Edges of smooth strips list many that lie between these.
+Faces outermost_faces(const std::vector<Vec3>& normals) {
+    Faces out;
+    if (normals.size() < 2) return out;
+    double least = 2.0, most = kSamePlane;
+    std::size_t first = 0, second = 1;
+    for (std::size_t i = 0; i < normals.size(); ++i)
+        for (std::size_t j = i + 1; j < normals.size(); ++j)
+            if (normals[i].dot(normals[j]) < least) {
+                least = normals[i].dot(normals[j]);
+                first = i;
+                second = j;
+            }
+    out.normal[0] = normals[first];
+    out.normal[1] = normals[second];
+    out.count = 2;
+    const Vec3 across = out.normal[0].cross(out.normal[1]);
+    for (const Vec3& n : normals)
+        if (std::abs(n.dot(across)) > most) {
+            most = std::abs(n.dot(across));
+            out.normal[2] = n;
+            out.count = 3;
+        }
+    return out;
+}
+
+std::vector<Faces> meeting_faces(const SphereSet& set) {
+    std::vector<std::vector<Vec3>> normals(set.surface_count);
+    for (const CreaseNormal& c : set.creases)
+        normals[static_cast<std::size_t>(c.sphere)].push_back(c.normal);
+    std::vector<Faces> out;
+    for (const auto& n : normals) out.push_back(outermost_faces(n));
+    return out;
+}
+
 void copy_surface_spheres(const SphereSet& set, const Vec3& origin, Shape& shape) {
+    shape.faces = meeting_faces(set);
     for (std::size_t k = 0; k < set.surface_count; ++k) {
         shape.center.push_back(set.centers[k] - origin);
         shape.radius.push_back(set.radii[k]);

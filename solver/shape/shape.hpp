@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -19,6 +20,12 @@ struct Panel {
     Vec3 area;       ///< outward normal x area [m2]
 };
 
+/// Outward normals of the faces that meet in an edge (2) or a corner (3), body axes.
+struct Faces {
+    int count = 0;
+    std::array<Vec3, 3> normal;
+};
+
 /// A form in its body axes: floes about the centre of mass, the hull in the ship frame.
 struct Shape {
     int dimension = 3;
@@ -29,6 +36,7 @@ struct Shape {
     std::vector<Vec3> normal;          ///< outward, unit
     std::vector<double> spread_cos;    ///< of the half-angle between `normal` and the surface
     std::vector<double> spread_sin;    ///<   normals met there: 1 and 0 on a face
+    std::vector<Faces> faces;          ///< that meet at the sphere; none on a face
     std::vector<double> area;          ///< share of the surface [m2]
     std::vector<std::int32_t> region;  ///< row of region_names
     std::vector<std::string> region_names;

@@ -66,6 +66,10 @@ inline SphereSet make_box_set(const Vec3& size, double radius, double spacing, i
         if (pass == 1) continue;
         ++set.surface_count;
         set.normals.push_back(normal.normalized());
+        for (int d = 0; d < 3 && faces > 1; ++d)
+            if (normal[d] != 0.0)
+                set.creases.push_back(
+                    {static_cast<std::int32_t>(set.surface_count - 1), normal[d] * Vec3::Unit(d)});
         set.normal_spread.push_back(faces > 1 ? std::acos(1.0 / std::sqrt(faces)) : 0.0);
         // enough for tests: a face sphere stands for its cell of the face
         set.areas.push_back(faces * pitch.x() * (dimension == 2 ? 1.0 : pitch.y()));
