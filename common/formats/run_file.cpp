@@ -6,7 +6,9 @@
 #include <system_error>
 
 #include "common/base/error.hpp"
+#include "common/base/part_file.hpp"
 #include "common/formats/hdf5_file.hpp"
+#include "common/formats/run_column.hpp"
 #include "common/formats/run_parts.hpp"
 
 namespace ice {
@@ -17,30 +19,11 @@ constexpr std::uint64_t kFramesPerFlush = 20;  // also the chunk length: every c
 constexpr std::uint64_t kHistoryChunk = 1024;
 constexpr std::uint64_t kHistoryPerFlush = 16384;  // runs that store few frames lose no more rows
 
+using run_parts::Column;
 using Shape = std::vector<std::uint64_t>;
 using Scales = std::vector<std::string>;
 using run_parts::attach_scales;
 using run_parts::write_labels;
-
-// A dataset that grows and the rows of it that are not on disk yet.
-template <class T>
-struct Column {
-    std::string name;
-    std::vector<T> rows;
-
-    template <class Vector>
-    void add(const Vector& v) {
-        for (Eigen::Index k = 0; k < v.size(); ++k) rows.push_back(static_cast<T>(v[k]));
-    }
-    void add_value(double value) { rows.push_back(static_cast<T>(value)); }
-    void add_all(const std::vector<Vec3>& points) {
-        for (const Vec3& p : points) add(p);
-    }
-    void append_to(Hdf5File& file, std::uint64_t count) {
-        file.append(name, rows.data(), count);
-        rows.clear();
-    }
-};
 
 // w, x, y, z: the order of the files (Eigen itself stores w last)
 Eigen::Vector4d wxyz(const Eigen::Quaterniond& q) { return {q.w(), q.x(), q.y(), q.z()}; }
@@ -68,16 +51,23 @@ void write_attributes(Hdf5File& file, const RunHeader& header) {
 }  // namespace
 
 struct RunWriter::Buffers {
-    Buffers(const std::filesystem::path& path, const RunHeader& header);
+    Buffers(const std::filesystem::path& path, const std::filesystem::path& part,
+            const RunHeader& header);
     void create_history(const RunHeader& header);
     void create_frames(const RunHeader& header);
+    void copy_rows(const std::filesystem::path& earlier, const RunPosition& stop);
     void write_all();
+    // the columns of one kind with every one of their types
+    template <class Work>
+    void for_history(const Work& work);
+    template <class Work>
+    void for_frames(const Work& work);
 
     std::filesystem::path final_path, part_path;
     Hdf5File file;
     std::size_t bodies = 0;
     std::uint64_t samples = 0, frames = 0;  // buffered, not on disk yet
-    std::vector<Eigen::Quaterniond> last_orientation;
+    RunPosition written;
 
     // history: time, forces and moment [S,3], pose [S,7], scalars, then one table per tracked floe
     Column<double> time, contact, friction, total, moment, pose;
@@ -89,9 +79,10 @@ struct RunWriter::Buffers {
     Column<std::uint8_t> state;
 };
 
-RunWriter::Buffers::Buffers(const std::filesystem::path& path, const RunHeader& header)
+RunWriter::Buffers::Buffers(const std::filesystem::path& path, const std::filesystem::path& part,
+                            const RunHeader& header)
     : final_path(path),
-      part_path(path.string() + ".part"),
+      part_path(part),
       file(part_path, Hdf5File::Mode::create),
       bodies(header.body_shape.size()) {
     if (header.body_group.size() != bodies || header.body_mass.size() != bodies ||
@@ -167,25 +158,57 @@ void RunWriter::Buffers::create_frames(const RunHeader& header) {
     file.write_attribute("/frames/state", "meaning", "0 held, 1 moving, 2 behind the hull");
 }
 
-void RunWriter::Buffers::write_all() {
+template <class Work>
+void RunWriter::Buffers::for_history(const Work& work) {
     for (Column<double>* column : {&time, &contact, &friction, &total, &moment, &pose, &contacts,
                                    &moving, &overlap, &energy})
-        column->append_to(file, samples);
-    for (Column<double>& column : tracks) column.append_to(file, samples);
-    samples = 0;
+        work(*column);
+    for (Column<double>& column : tracks) work(column);
+}
 
-    frame_time.append_to(file, frames);
-    ship_position.append_to(file, frames);
+template <class Work>
+void RunWriter::Buffers::for_frames(const Work& work) {
+    work(frame_time);
+    work(ship_position);
     for (Column<float>* column : {&position, &orientation, &velocity, &spin, &floe_force})
-        column->append_to(file, frames);
-    state.append_to(file, frames);
-    frames = 0;
+        work(*column);
+    work(state);
+}
+
+void RunWriter::Buffers::write_all() {
+    for_history([&](auto& column) { column.append_to(file, samples); });
+    for_frames([&](auto& column) { column.append_to(file, frames); });
+    written.samples += static_cast<std::int64_t>(samples);
+    written.frames += static_cast<std::int64_t>(frames);
+    samples = frames = 0;
+    file.flush();
+}
+
+void RunWriter::Buffers::copy_rows(const std::filesystem::path& earlier, const RunPosition& stop) {
+    const Hdf5File from(earlier, Hdf5File::Mode::read);
+    const auto history = static_cast<std::uint64_t>(stop.samples);
+    const auto poses = static_cast<std::uint64_t>(stop.frames);
+    for_history([&](auto& column) { column.copy_from(from, file, history, kHistoryChunk); });
+    for_frames([&](auto& column) { column.copy_from(from, file, poses, kFramesPerFlush); });
+    written = stop;
     file.flush();
 }
 
 RunWriter::RunWriter(const std::filesystem::path& path, const RunHeader& header)
-    : buffers_(std::make_unique<Buffers>(path, header)) {}
+    : buffers_(std::make_unique<Buffers>(path, path.string() + ".part", header)) {}
 
+RunWriter::RunWriter(const std::filesystem::path& path, const RunHeader& header,
+                     const std::filesystem::path& earlier, const RunPosition& position) {
+    // under a name of its own until it is complete: the earlier file may be the .part file
+    PartFile next(path.string() + ".part");
+    buffers_ = std::make_unique<Buffers>(path, next.path(), header);
+    if (!earlier.empty()) buffers_->copy_rows(earlier, position);
+    buffers_->written.last_orientation = position.last_orientation;
+    next.keep();  // the open file goes on under its new name
+    buffers_->part_path = path.string() + ".part";
+}
+
+RunWriter::RunWriter(RunWriter&&) noexcept = default;
 RunWriter::~RunWriter() = default;
 
 void RunWriter::add(const HistoryRow& row) {
@@ -231,14 +254,20 @@ void RunWriter::add(const RunFrame& frame) {
     for (const FloeState state : frame.state)
         b.state.rows.push_back(static_cast<std::uint8_t>(state));
     // q and -q are the same rotation: keep the sign nearer to the last frame, for interpolation
-    b.last_orientation.resize(b.bodies, Eigen::Quaterniond::Identity());
+    std::vector<Eigen::Quaterniond>& last = b.written.last_orientation;
+    last.resize(b.bodies, Eigen::Quaterniond::Identity());
     for (std::size_t k = 0; k < frame.orientation.size(); ++k) {
         Eigen::Quaterniond q = frame.orientation[k];
-        if (q.dot(b.last_orientation[k]) < 0.0) q.coeffs() = -q.coeffs();
+        if (q.dot(last[k]) < 0.0) q.coeffs() = -q.coeffs();
         b.orientation.add(wxyz(q));
-        b.last_orientation[k] = q;
+        last[k] = q;
     }
     if (++b.frames >= kFramesPerFlush) b.write_all();
+}
+
+RunPosition RunWriter::flush() {
+    buffers_->write_all();
+    return buffers_->written;
 }
 
 void RunWriter::finish() {

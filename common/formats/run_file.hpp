@@ -24,6 +24,12 @@
 
 namespace ice {
 
+/// Where a run file stands, for a run that is continued from it.
+struct RunPosition {
+    std::int64_t samples = 0, frames = 0;              ///< rows on disk
+    std::vector<Eigen::Quaterniond> last_orientation;  ///< of the last frame, signs as stored
+};
+
 /// Writes run.h5 while the run goes on, as `run.h5.part`, renamed by finish().
 ///
 /// Rows are buffered and flushed to disk with every 20th frame, so that a killed run can be read up
@@ -34,6 +40,13 @@ namespace ice {
 class RunWriter {
 public:
     RunWriter(const std::filesystem::path& path, const RunHeader& header);
+    /// Goes on from an earlier file of the same run (run.h5, or run.h5.part, which it replaces once
+    /// the rows are copied): its first rows as far as `position`, bit by bit. Without an earlier
+    /// file (empty path) the rows begin here.
+    /// @throws Error (exit code 2) when the earlier file does not hold those rows
+    RunWriter(const std::filesystem::path& path, const RunHeader& header,
+              const std::filesystem::path& earlier, const RunPosition& position);
+    RunWriter(RunWriter&&) noexcept;
     ~RunWriter();  ///< without finish() the .part file stays, readable up to its last flush
 
     void add(const HistoryRow& row);
@@ -41,6 +54,8 @@ public:
     /// @param rows one per tracked floe, in the order of header.tracked
     void add_tracked(const std::vector<TrackRow>& rows);
     void add(const RunFrame& frame);
+    /// Writes what is buffered to disk and tells how far that is.
+    RunPosition flush();
     /// Writes what is buffered, closes and renames. Nothing may be added afterwards.
     void finish();
 
