@@ -14,7 +14,7 @@
 
 namespace ice::run_parts {
 
-constexpr std::uint64_t kValuesPerCopy = 1 << 22;  // of an earlier file, at a time
+constexpr std::uint64_t kValuesPerCopy = 1 << 22;  // at a time
 
 /// A dataset that grows and the rows of it that are not on disk yet.
 template <class T>
@@ -34,12 +34,18 @@ struct Column {
         file.append(name, rows.data(), count);
         rows.clear();
     }
-    /// Appends what an earlier file has in its first `count` rows, whole chunks at a time.
-    /// @throws Error (exit code 2) when it has fewer, or rows of another shape
-    void copy_from(const Hdf5File& earlier, Hdf5File& file, std::uint64_t count,
-                   std::uint64_t chunk) {
-        const std::vector<std::uint64_t> theirs = earlier.shape(name), ours = file.shape(name);
-        if (theirs.empty() || theirs[0] < count ||
+    /// Creates the same dataset in another file, without rows and labels.
+    void create_like(const Hdf5File& file, Hdf5File& to, std::uint64_t chunk) const {
+        std::vector<std::uint64_t> shape = file.shape(name);
+        shape.erase(shape.begin());
+        to.create_appendable<T>(name, shape, chunk);
+    }
+    /// Appends rows [first, first + count) of one file to another, whole chunks at a time.
+    /// @throws Error (exit code 2) when the first has fewer, or rows of another shape
+    void copy(const Hdf5File& from, std::uint64_t first, std::uint64_t count, Hdf5File& to,
+              std::uint64_t chunk) const {
+        const std::vector<std::uint64_t> theirs = from.shape(name), ours = to.shape(name);
+        if (theirs.empty() || theirs[0] < first + count ||
             !std::equal(ours.begin() + 1, ours.end(), theirs.begin() + 1, theirs.end()))
             throw bad_input(name, "has fewer rows than the checkpoint counted",
                             "this is not the file of that run");
@@ -47,9 +53,9 @@ struct Column {
             std::accumulate(ours.begin() + 1, ours.end(), std::uint64_t{1}, std::multiplies<>());
         const std::uint64_t block =
             chunk * std::max<std::uint64_t>(1, kValuesPerCopy / std::max(chunk * width, chunk));
-        for (std::uint64_t first = 0; first < count; first += block) {
-            const std::uint64_t now = std::min(block, count - first);
-            file.append(name, earlier.read_rows<T>(name, first, now).data(), now);
+        for (std::uint64_t done = 0; done < count; done += block) {
+            const std::uint64_t now = std::min(block, count - done);
+            to.append(name, from.read_rows<T>(name, first + done, now).data(), now);
         }
     }
 };

@@ -2,24 +2,21 @@
 // Writer of run.h5. In: rows of the solver's recorder. Out: the layout listed in run_file.hpp.
 #include "common/formats/run_file.hpp"
 
-#include <algorithm>
 #include <system_error>
 
 #include "common/base/error.hpp"
-#include "common/base/part_file.hpp"
-#include "common/formats/hdf5_file.hpp"
-#include "common/formats/run_column.hpp"
+#include "common/formats/run_buffers.hpp"
 #include "common/formats/run_parts.hpp"
 
 namespace ice {
 
 namespace {
 
-constexpr std::uint64_t kFramesPerFlush = 20;  // also the chunk length: every chunk is written once
-constexpr std::uint64_t kHistoryChunk = 1024;
 constexpr std::uint64_t kHistoryPerFlush = 16384;  // runs that store few frames lose no more rows
 
 using run_parts::Column;
+using run_parts::kFramesPerFlush;
+using run_parts::kHistoryChunk;
 using Shape = std::vector<std::uint64_t>;
 using Scales = std::vector<std::string>;
 using run_parts::attach_scales;
@@ -49,35 +46,6 @@ void write_attributes(Hdf5File& file, const RunHeader& header) {
 }
 
 }  // namespace
-
-struct RunWriter::Buffers {
-    Buffers(const std::filesystem::path& path, const std::filesystem::path& part,
-            const RunHeader& header);
-    void create_history(const RunHeader& header);
-    void create_frames(const RunHeader& header);
-    void copy_rows(const std::filesystem::path& earlier, const RunPosition& stop);
-    void write_all();
-    // the columns of one kind with every one of their types
-    template <class Work>
-    void for_history(const Work& work);
-    template <class Work>
-    void for_frames(const Work& work);
-
-    std::filesystem::path final_path, part_path;
-    Hdf5File file;
-    std::size_t bodies = 0;
-    std::uint64_t samples = 0, frames = 0;  // buffered, not on disk yet
-    RunPosition written;
-
-    // history: time, forces and moment [S,3], pose [S,7], scalars, then one table per tracked floe
-    Column<double> time, contact, friction, total, moment, pose;
-    Column<double> contacts, moving, overlap, energy;
-    std::vector<Column<double>> tracks;
-    // frames
-    Column<double> frame_time, ship_position;
-    Column<float> position, orientation, velocity, spin, floe_force;
-    Column<std::uint8_t> state;
-};
 
 RunWriter::Buffers::Buffers(const std::filesystem::path& path, const std::filesystem::path& part,
                             const RunHeader& header)
@@ -158,23 +126,6 @@ void RunWriter::Buffers::create_frames(const RunHeader& header) {
     file.write_attribute("/frames/state", "meaning", "0 held, 1 moving, 2 behind the hull");
 }
 
-template <class Work>
-void RunWriter::Buffers::for_history(const Work& work) {
-    for (Column<double>* column : {&time, &contact, &friction, &total, &moment, &pose, &contacts,
-                                   &moving, &overlap, &energy})
-        work(*column);
-    for (Column<double>& column : tracks) work(column);
-}
-
-template <class Work>
-void RunWriter::Buffers::for_frames(const Work& work) {
-    work(frame_time);
-    work(ship_position);
-    for (Column<float>* column : {&position, &orientation, &velocity, &spin, &floe_force})
-        work(*column);
-    work(state);
-}
-
 void RunWriter::Buffers::write_all() {
     for_history([&](auto& column) { column.append_to(file, samples); });
     for_frames([&](auto& column) { column.append_to(file, frames); });
@@ -184,29 +135,8 @@ void RunWriter::Buffers::write_all() {
     file.flush();
 }
 
-void RunWriter::Buffers::copy_rows(const std::filesystem::path& earlier, const RunPosition& stop) {
-    const Hdf5File from(earlier, Hdf5File::Mode::read);
-    const auto history = static_cast<std::uint64_t>(stop.samples);
-    const auto poses = static_cast<std::uint64_t>(stop.frames);
-    for_history([&](auto& column) { column.copy_from(from, file, history, kHistoryChunk); });
-    for_frames([&](auto& column) { column.copy_from(from, file, poses, kFramesPerFlush); });
-    written = stop;
-    file.flush();
-}
-
 RunWriter::RunWriter(const std::filesystem::path& path, const RunHeader& header)
     : buffers_(std::make_unique<Buffers>(path, path.string() + ".part", header)) {}
-
-RunWriter::RunWriter(const std::filesystem::path& path, const RunHeader& header,
-                     const std::filesystem::path& earlier, const RunPosition& position) {
-    // under a name of its own until it is complete: the earlier file may be the .part file
-    PartFile next(path.string() + ".part");
-    buffers_ = std::make_unique<Buffers>(path, next.path(), header);
-    if (!earlier.empty()) buffers_->copy_rows(earlier, position);
-    buffers_->written.last_orientation = position.last_orientation;
-    next.keep();  // the open file goes on under its new name
-    buffers_->part_path = path.string() + ".part";
-}
 
 RunWriter::RunWriter(RunWriter&&) noexcept = default;
 RunWriter::~RunWriter() = default;
@@ -265,11 +195,6 @@ void RunWriter::add(const RunFrame& frame) {
     if (++b.frames >= kFramesPerFlush) b.write_all();
 }
 
-RunPosition RunWriter::flush() {
-    buffers_->write_all();
-    return buffers_->written;
-}
-
 void RunWriter::finish() {
     Buffers& b = *buffers_;
     b.write_all();
@@ -280,6 +205,7 @@ void RunWriter::finish() {
         throw run_failed(b.final_path.string(),
                          "cannot rename the finished file: " + error.message(),
                          "check that the folder is writable");
+    remove_saved_rows(b.final_path.parent_path());  // the finished file has them all
 }
 
 }  // namespace ice

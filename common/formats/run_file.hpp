@@ -40,12 +40,13 @@ struct RunPosition {
 class RunWriter {
 public:
     RunWriter(const std::filesystem::path& path, const RunHeader& header);
-    /// Goes on from an earlier file of the same run (run.h5, or run.h5.part, which it replaces once
-    /// the rows are copied): its first rows as far as `position`, bit by bit. Without an earlier
-    /// file (empty path) the rows begin here.
-    /// @throws Error (exit code 2) when the earlier file does not hold those rows
+    /// Goes on with a run whose files lie in the folder `earlier`, which may be that of `path`: the
+    /// rows up to `position` come, bit by bit, from its saved rows, run.h5 or run.h5.part, whichever
+    /// holds them. Nothing of `earlier` changes before they are copied.
     RunWriter(const std::filesystem::path& path, const RunHeader& header,
               const std::filesystem::path& earlier, const RunPosition& position);
+    /// True when none of these held the rows: the file then begins without them.
+    bool begins_late() const { return begins_late_; }
     RunWriter(RunWriter&&) noexcept;
     ~RunWriter();  ///< without finish() the .part file stays, readable up to its last flush
 
@@ -54,15 +55,20 @@ public:
     /// @param rows one per tracked floe, in the order of header.tracked
     void add_tracked(const std::vector<TrackRow>& rows);
     void add(const RunFrame& frame);
-    /// Writes what is buffered to disk and tells how far that is.
-    RunPosition flush();
+    /// Saves all rows so that a kill at any moment leaves them readable, in files
+    /// checkpoint-rows-*.h5 beside run.h5, and tells how many there are.
+    RunPosition save_rows();
     /// Writes what is buffered, closes and renames. Nothing may be added afterwards.
     void finish();
 
 private:
     struct Buffers;
     std::unique_ptr<Buffers> buffers_;
+    bool begins_late_ = false;
 };
+
+/// Removes the files of saved rows; finish() does so, too.
+void remove_saved_rows(const std::filesystem::path& folder);
 
 /// Names of the columns of /tracked/<id>, SI units, world axes; the times are those of /time.
 const std::vector<std::string>& track_columns();

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <limits>
 
-#include "common/base/error.hpp"
 #include "common/base/state_hash.hpp"
 #include "common/base/version.hpp"
 
@@ -111,19 +110,9 @@ std::vector<std::string> Recorder::resume(const std::filesystem::path& folder,
                                           const std::filesystem::path& earlier,
                                           const RecordPosition& position) {
     std::vector<std::string> late;
-    const RunHeader header = make_header(parameters_, scene, command_line);
-    // an unfinished file is the newer one; where neither will do, the run's file begins now
-    for (const char* name : {"run.h5.part", "run.h5", ""}) {
-        try {
-            if (*name != '\0' && !std::filesystem::exists(earlier / name)) continue;
-            run_.emplace(folder / "run.h5", header, *name != '\0' ? earlier / name : "",
-                         position.run);
-            if (*name == '\0') late.push_back("run.h5");
-            break;
-        } catch (const Error& error) {
-            if (error.code() != ExitCode::bad_input || *name == '\0') throw;
-        }
-    }
+    run_.emplace(folder / "run.h5", make_header(parameters_, scene, command_line), earlier,
+                 position.run);
+    if (run_->begins_late()) late.push_back("run.h5");
     const auto tables = csv_tables(parameters_);
     for (std::size_t k = 0; k < tables.size(); ++k) {
         const auto& [name, columns] = tables[k];
@@ -133,8 +122,8 @@ std::vector<std::string> Recorder::resume(const std::filesystem::path& folder,
     return late;
 }
 
-RecordPosition Recorder::flush() {
-    RecordPosition position{run_->flush(), {}};
+RecordPosition Recorder::save_rows() {
+    RecordPosition position{run_->save_rows(), {}};
     for (CsvFile& file : csv_files_) position.csv_bytes.push_back(file.flush());
     return position;
 }

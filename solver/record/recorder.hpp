@@ -50,8 +50,8 @@ public:
                                     const std::string& command_line, const Scene& scene,
                                     const std::filesystem::path& earlier,
                                     const RecordPosition& position);
-    /// Writes all rows up to now to disk and tells how far the files are.
-    RecordPosition flush();
+    /// Puts all rows up to now where a kill does not harm them, and tells how many there are.
+    RecordPosition save_rows();
 
     void add(const StepView& view);
 

@@ -111,7 +111,7 @@ void check_case(const std::filesystem::path& path, const Identity& then, const I
 void write_checkpoint(const std::filesystem::path& path, World& world, Recorder& recorder,
                       RunProgress& progress) {
     Identity identity = identity_of(world);
-    RecordPosition position = recorder.flush();
+    RecordPosition position = recorder.save_rows();
     CheckpointFile file(path, Direction::write);
     carry(file, identity);
     StateFields::carry(file, world);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "common/base/error.hpp"
 #include "common/base/parallel.hpp"
@@ -133,27 +134,27 @@ struct Job {
 void start(Job& job) {
     const World& w = job.world;
     job.recorder.open(job.options.folder, job.options.command_line, w.scene);
-    if (const auto warning = initial_overlap(w)) job.progress.start_warnings = *warning;
+    if (const auto warning = initial_overlap(w)) job.progress.warnings = *warning + '\n';
 }
 
 void go_on(Job& job, const SavedRun& saved) {
     const RunOptions& o = job.options;
     job.progress = saved.progress;
     job.wall_before = saved.progress.wall_seconds;
+    std::string& warnings = job.progress.warnings;
     for (const std::string& name : job.recorder.resume(o.folder, o.command_line, job.world.scene,
                                                        saved.folder, saved.position))
-        job.summary.warnings.push_back(
-            fmt::format("the rows of {} before t = {:g} s were not found in {}: the file begins "
-                        "there; the statistics are of the whole run",
-                        name, job.world.time, saved.folder.string()));
+        warnings += fmt::format(
+            "the rows of {} before t = {:g} s were not found in {}: the file begins there; the "
+            "statistics are of the whole run\n",
+            name, job.world.time, saved.folder.string());
     // the continued files are named .part now; the finished ones of before are out of date
     remove_results(o.folder);
     const std::string here = fmt::format("icesolve {} ({})", version(), git_commit());
     if (saved.created_by != here)
-        job.summary.warnings.push_back(
-            fmt::format("the run was begun with {} and goes on with {}: its bits may not be those "
-                        "of either",
-                        saved.created_by, here));
+        warnings += fmt::format(
+            "the run was begun with {} and goes on with {}: its bits may not be those of either\n",
+            saved.created_by, here);
 }
 
 void save(Job& job) {
@@ -209,6 +210,7 @@ void make_run_folder(const std::filesystem::path& folder, const SavedRun* saved)
     // a run into the same folder replaces the old one: nothing of it may look like a result
     remove_results(folder);
     remove_parts(folder);
+    remove_saved_rows(folder);
     std::filesystem::remove(folder / kCheckpointName, ignored);
 }
 
@@ -236,8 +238,8 @@ Summary run(World& world, const RunOptions& options) {
         go_on(job, *options.saved);
     else
         start(job);
-    if (!job.progress.start_warnings.empty())
-        summary.warnings.push_back(job.progress.start_warnings);
+    std::istringstream lines(job.progress.warnings);
+    for (std::string line; std::getline(lines, line);) summary.warnings.push_back(line);
     try {
         advance(job);
         write_summary(world, options, job.wall_seconds(), thickness, job.recorder, summary);
@@ -252,6 +254,7 @@ Summary run(World& world, const RunOptions& options) {
         }
         throw;
     }
+    remove_parts(options.folder);  // of a program that was killed here before
     return summary;
 }
 

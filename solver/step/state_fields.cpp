@@ -95,7 +95,7 @@ void StateFields::carry(CheckpointFile& file, RecordPosition& position) {
 
 void StateFields::carry(CheckpointFile& file, RunProgress& progress) {
     file.carry("wall_seconds", progress.wall_seconds);
-    file.carry("start_warnings", progress.start_warnings);
+    file.carry("warnings", progress.warnings);
 }
 
 }  // namespace ice
