@@ -59,8 +59,7 @@ public:
     void finish(const StepView& view, Summary& summary);
 
 private:
-    friend struct
-        StateFields;  // step/state_fields.cpp carries row_ and what follows it, and tally_
+    friend struct StateFields;  // step/state_fields.cpp: tally_, row_ and what follows it
 
     void add_history(const StepView& view, const StepRecord& record);
     void flush_history(const StepView& view);
