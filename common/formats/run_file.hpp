@@ -40,9 +40,9 @@ struct RunPosition {
 class RunWriter {
 public:
     RunWriter(const std::filesystem::path& path, const RunHeader& header);
-    /// Goes on with a run whose files lie in the folder `earlier`, which may be that of `path`: the
-    /// rows up to `position` come, bit by bit, from its saved rows, run.h5 or run.h5.part, whichever
-    /// holds them. Nothing of `earlier` changes before they are copied.
+    /// Goes on with a run whose files lie in the folder `earlier`, which may be that of `path`:
+    /// the rows up to `position` come, bit by bit, from its saved rows, run.h5 or run.h5.part,
+    /// whichever holds them. Nothing of `earlier` changes before they are copied.
     RunWriter(const std::filesystem::path& path, const RunHeader& header,
               const std::filesystem::path& earlier, const RunPosition& position);
     /// True when none of these held the rows: the file then begins without them.

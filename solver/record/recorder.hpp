@@ -43,8 +43,9 @@ public:
     /// @throws Error (exit code 1) when it cannot.
     void open(const std::filesystem::path& folder, const std::string& command_line,
               const Scene& scene);
-    /// Goes on where an earlier run stood, from its files in `earlier`, which may be `folder`: their
-    /// first rows as far as `position`. @pre the state was carried over (step/state_fields.hpp)
+    /// Goes on where an earlier run stood, from its files in `earlier`, which may be `folder`:
+    /// their first rows as far as `position`.
+    /// @pre the state was carried over (step/state_fields.hpp)
     /// @return names of the files whose earlier rows are missing there: those begin now
     std::vector<std::string> resume(const std::filesystem::path& folder,
                                     const std::string& command_line, const Scene& scene,

@@ -164,7 +164,7 @@ void save(Job& job) {
     job.saved_step = job.world.steps;
 }
 
-// Checkpoints are due in the step that reaches a multiple of checkpoint_every.
+// Checkpoints are due in the step nearest to a multiple of checkpoint_every, and in the last one.
 bool is_due(const Job& job) {
     const double every = job.options.checkpoint_every, dt = job.world.parameters.time_step;
     if (every <= 0.0) return false;
@@ -250,7 +250,9 @@ Summary run(World& world, const RunOptions& options) {
         try {
             write_summary(world, options, job.wall_seconds(), thickness, job.recorder, summary);
         } catch (const Error&) {
-            remove_parts(options.folder);
+            // nothing half-written stays, unless a checkpoint can still make use of it
+            if (!std::filesystem::exists(options.folder / kCheckpointName))
+                remove_parts(options.folder);
         }
         throw;
     }

@@ -15,7 +15,8 @@ using namespace ice::test;
 
 namespace {
 
-// A run that would take hours, in the folder "r", ended by a signal some time after `sign` is there.
+// A run that would take hours, in the folder "r", ended by a signal some time after the file `sign`
+// is there.
 int kill_run(const Workshop& w, const std::vector<std::string>& more, int signal,
              const std::string& sign, int delay_ms) {
     const std::string folder = (w / "").string();
@@ -52,10 +53,11 @@ double time_of(const fs::path& checkpoint) {
 void check_continued(const Workshop& w) {
     const std::string duration =
         " --set simulation.duration=" + std::to_string(1.0 + time_of(w / "r/checkpoint.h5"));
-    const Result whole = w.run("icesolve case.cfg -q --out whole" + duration);
+    const Result whole = w.run("icesolve case.cfg -q --threads 1 --out whole" + duration);
     CAPTURE(whole.err);
     REQUIRE(whole.code == 0);
-    const Result rest = w.run("icesolve case.cfg -q --restart r/checkpoint.h5" + duration);
+    const Result rest =
+        w.run("icesolve case.cfg -q --threads 3 --restart r/checkpoint.h5" + duration);
     CAPTURE(rest.err);
     REQUIRE(rest.code == 0);
     check_same_runs(w / "whole", w / "r", {1});
