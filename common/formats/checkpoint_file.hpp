@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -58,6 +59,15 @@ public:
         value = one.front();
     }
     void carry(const std::string& name, std::string& text);
+    /// A value that may be missing: a list of none or one.
+    template <class T>
+    void carry(const std::string& name, std::optional<T>& value) {
+        std::vector<T> values;
+        if (value) values.push_back(*value);
+        carry(name, values);
+        if (values.size() > 1) wrong_length(name, values.size(), 1);
+        value = values.empty() ? std::nullopt : std::optional<T>(values.front());
+    }
     /// One member of every row of a table; reading the first member sets the number of rows.
     template <class Row, class T>
     void column(const std::string& name, std::vector<Row>& rows, T Row::*member) {

@@ -18,7 +18,6 @@ void StateFields::carry(CheckpointFile& file, World& w) {
     file.carry_each("bodies.momentum", b.momentum);
     file.carry_each("bodies.angular_momentum", b.angular_momentum);
     file.carry_each("bodies.held", b.held);
-    file.carry("ship_velocity", w.scene.ship_velocity);
 
     auto& entries = w.warm_start.entries_;
     file.column("warm_start.a", entries, &WarmStart::Entry::a);

@@ -31,6 +31,7 @@ struct State {
     std::string text;
     Vec3 point = Vec3::Zero();
     std::vector<double> series;
+    std::optional<double> given, missing;
     std::vector<std::uint8_t> held;
     std::vector<Vec3> points;
     std::vector<Eigen::Quaterniond> turns;
@@ -45,6 +46,8 @@ void carry(CheckpointFile& file, State& s) {
     file.carry("point", s.point);
     file.carry("series", s.series);
     file.carry("held", s.held);
+    file.carry("given", s.given);
+    file.carry("missing", s.missing);
     file.carry("points", s.points);
     file.carry("turns", s.turns);
     file.column("rows.id", s.rows, &Row::id);
@@ -73,6 +76,7 @@ State sample() {
     s.point = Vec3(1.0, -0.0, 5e-324);
     s.series = {std::nan(""), std::numeric_limits<double>::infinity(), -0.0};
     s.held = {1, 0, 255};
+    s.given = 0.25;
     s.points = {Vec3(1, 2, 3), Vec3(4, 5, 6)};
     s.turns = {Eigen::Quaterniond(0.1, 0.2, 0.3, 0.4)};
     s.rows = {{7, 1.5}, {8, 2.5}};
@@ -111,6 +115,8 @@ TEST_CASE("a checkpoint gives back every field to the bit", "[formats][checkpoin
         CHECK(std::bit_cast<std::uint64_t>(out.series[k]) ==
               std::bit_cast<std::uint64_t>(in.series[k]));
     CHECK(out.held == in.held);
+    CHECK(out.given == 0.25);
+    CHECK(out.missing == std::nullopt);
     CHECK(out.points == in.points);
     REQUIRE(out.turns.size() == 1);
     CHECK(out.turns[0].coeffs() == in.turns[0].coeffs());
