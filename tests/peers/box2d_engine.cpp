@@ -58,12 +58,12 @@ private:
         if (free) set_mass(i);
     }
 
-    void add_fixture(std::size_t i, const b2Shape& shape) {
+    b2Fixture& add_fixture(std::size_t i, const b2Shape& shape) {
         b2FixtureDef def;
         def.shape = &shape;
         def.restitution = static_cast<float>(world_.parameters.restitution);
         def.restitutionThreshold = 0.0f;
-        bodies_[i]->CreateFixture(&def);
+        return *bodies_[i]->CreateFixture(&def);
     }
 
     void add_hull() {
@@ -71,8 +71,8 @@ private:
         for (const Vec2& p : hull_) corners.push_back(to_box2d(p));
         b2ChainShape chain;
         chain.CreateLoop(corners.data(), static_cast<int32>(corners.size()));
-        chain.m_radius = 0.0f;
-        add_fixture(kShip, chain);
+        // a fixture copies the chain but not its radius
+        add_fixture(kShip, chain).GetShape()->m_radius = 0.0f;
     }
 
     void add_box(std::size_t i) {
