@@ -137,8 +137,10 @@ private:
     }
 
     void add(std::size_t body, const Vec2& impulse) {
-        if (body == kShip) impulses_.on_ship += impulse;
-        else if (world_.scene.bodies.held[body]) impulses_.on_held += impulse;
+        if (body == kShip)
+            impulses_.on_ship += impulse;
+        else if (world_.scene.bodies.held[body])
+            impulses_.on_held += impulse;
     }
 
     double skin_;

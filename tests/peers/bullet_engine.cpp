@@ -162,8 +162,10 @@ private:
 
     void add(int body, const Vec2& impulse, Impulses& out) const {
         const auto i = static_cast<std::size_t>(body);
-        if (i == kShip) out.on_ship += impulse;
-        else if (world_.scene.bodies.held[i]) out.on_held += impulse;
+        if (i == kShip)
+            out.on_ship += impulse;
+        else if (world_.scene.bodies.held[i])
+            out.on_held += impulse;
     }
 
     PlaneState state(std::size_t i) const override {

@@ -4,12 +4,16 @@
 //   compare_peers CASE.cfg...              one run of each engine per case
 //   compare_peers --runs 5 CASE.cfg...     five, the hull set back by 0, 1, 2, 3, 4 mm
 //   compare_peers --only NAME CASE.cfg...  engines whose name contains NAME
+//   compare_peers --sharp DIR CASE.cfg...  also our solver with the sets in DIR, for sharper corners
 //
 // The sphere sets of the cases must be there (cases/prepare.sh); `ninja peers` sees to that.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
@@ -17,6 +21,7 @@
 #include "common/base/error.hpp"
 #include "common/base/parallel.hpp"
 #include "common/cli/console.hpp"
+#include "common/formats/spheres_file.hpp"
 #include "solver/case/read_case.hpp"
 #include "solver/step/run.hpp"
 #include "tests/peers/measure.hpp"
@@ -28,26 +33,42 @@ namespace {
 
 constexpr double kSetBack = 0.001;  // of the hull from run to run [m]
 
+struct Options {
+    std::vector<std::string> files;
+    std::string only, sharp;
+    int runs = 1;
+};
+
 struct Contestant {
     std::string name;
     std::vector<std::string> overrides;
     std::function<std::unique_ptr<Engine>(World)> make;
 };
 
-std::vector<Contestant> contestants() {
-    return {
+std::vector<Contestant> contestants(const Options& o) {
+    std::vector<Contestant> out{
         {"ours, centres (paper)", {"contact.normal=centres"}, make_own_engine},
-        {"ours, surface", {"contact.normal=surface"}, make_own_engine},
-        {"Box2D", {}, [](World w) { return make_box2d_engine(std::move(w), kBox2dSkin); }},
-        // corners as round as those of our discs
-        {"Box2D, corners 0.1 m",
-         {},
-         [](World w) {
-             const double radius = w.scene.shapes[1].largest_radius;
-             return make_box2d_engine(std::move(w), radius);
-         }},
-        {"Bullet", {}, make_bullet_engine},
+        {"ours, surface", {"contact.normal=surface"}, make_own_engine}};
+    if (!o.sharp.empty()) {
+        const std::filesystem::path folder = std::filesystem::absolute(o.sharp);
+        const std::string hull = (folder / "hull.spheres.h5").string();
+        const std::string floe = (folder / "floe.spheres.h5").string();
+        out.push_back({fmt::format("ours, surface, R {:g} m", read_spheres(floe).radius),
+                       {"contact.normal=surface", "hull.spheres=" + hull, "floes.spheres=" + floe},
+                       make_own_engine});
+    }
+    // corners as round as those of our discs
+    const auto round = [](World w) {
+        const double radius = w.scene.shapes[1].largest_radius;
+        return make_box2d_engine(std::move(w), radius);
     };
+    const auto square = [](World w) { return make_box2d_engine(std::move(w), kBox2dSkin); };
+    out.push_back({"Box2D, round corners", {}, round});
+    out.push_back({"Box2D", {}, square});
+    out.push_back({"Bullet", {}, make_bullet_engine});
+    std::erase_if(out,
+                  [&](const Contestant& c) { return c.name.find(o.only) == std::string::npos; });
+    return out;
 }
 
 struct Row {
@@ -56,17 +77,18 @@ struct Row {
     std::vector<Outcome> runs;
 };
 
-// Of several runs: the mean of their means, and half the width of its 95 % interval from their
-// scatter; of one run its batch means.
-MeanInterval overall(const std::vector<Outcome>& runs, MeanInterval Outcome::*force) {
-    if (runs.size() == 1) return runs[0].*force;
+// Mean of the runs' means, and half the width of its 95 % interval from their scatter (Student).
+MeanInterval over_runs(const std::vector<Outcome>& runs, MeanInterval Outcome::*force) {
     constexpr double kStudent[] = {12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262};
     std::vector<double> means;
     double sum = 0.0;
     for (const Outcome& run : runs) sum += means.emplace_back((run.*force).mean);
     const double count = static_cast<double>(runs.size());
-    return {sum / count,
-            kStudent[runs.size() - 2] * standard_deviation(means) / std::sqrt(count)};
+    return {sum / count, kStudent[runs.size() - 2] * standard_deviation(means) / std::sqrt(count)};
+}
+
+MeanInterval of_first(const std::vector<Outcome>& runs, MeanInterval Outcome::*force) {
+    return runs[0].*force;
 }
 
 template <class Value>
@@ -76,58 +98,90 @@ Value largest(const std::vector<Outcome>& runs, Value Outcome::*value) {
     return most;
 }
 
-std::string counts(const std::vector<Outcome>& runs, int Outcome::*value) {
-    std::string text;
-    for (const Outcome& run : runs) {
-        const std::string count = fmt::format("{}", run.*value);
-        if (text.empty() || text.substr(text.rfind(' ') + 1) != count)
-            text += (text.empty() ? "" : ", ") + count;
-    }
-    return text;
+template <class Value>
+Value smallest(const std::vector<Outcome>& runs, Value Outcome::*value) {
+    Value least = runs[0].*value;
+    for (const Outcome& run : runs) least = std::min(least, run.*value);
+    return least;
+}
+
+std::string range(const std::vector<Outcome>& runs, int Outcome::*value) {
+    const int least = smallest(runs, value), most = largest(runs, value);
+    return least == most ? fmt::format("{}", least) : fmt::format("{}-{}", least, most);
+}
+
+// One line per speed and force, one column per engine.
+template <class Mean>
+void print_forces(const std::vector<Row>& rows, const Mean& mean) {
+    std::vector<std::string> names;
+    for (const Row& r : rows)
+        if (r.speed == rows[0].speed) names.push_back(r.name);
+    fmt::print("| m/s | N/m | {} |\n|---|---|", fmt::join(names, " | "));
+    for (std::size_t k = 0; k < names.size(); ++k) fmt::print("---|");
+    for (std::size_t first = 0; first < rows.size(); first += names.size())
+        for (const auto& [symbol, force] :
+             {std::pair{"f_x", &Outcome::force_x}, std::pair{"f_z", &Outcome::force_z}}) {
+            fmt::print("\n| {:.1f} | {} |", rows[first].speed, symbol);
+            for (std::size_t k = 0; k < names.size(); ++k) {
+                const MeanInterval m = mean(rows[first + k].runs, force);
+                fmt::print(" {:.0f} +- {:.0f} |", m.mean, m.half_width);
+            }
+        }
+    fmt::print("\n");
+}
+
+void print_checks(const std::vector<Row>& rows) {
+    fmt::print(
+        "| m/s | engine | released | behind | centre in hull | overlap hull, ice [mm] | peak "
+        "[kN/m] "
+        "| fastest [m/s] | imbalance [N/m] | us/step "
+        "|\n|---|---|---|---|---|---|---|---|---|---|\n");
+    for (const Row& r : rows)
+        fmt::print(
+            "| {:.1f} | {} | {} | {} | {} | {:.1f}, {:.1f} | {:.0f} | {:.1f} | {:.0e} | "
+            "{:.0f} |\n",
+            r.speed, r.name, range(r.runs, &Outcome::moved), range(r.runs, &Outcome::behind),
+            range(r.runs, &Outcome::inside), 1e3 * largest(r.runs, &Outcome::deepest_hull),
+            1e3 * largest(r.runs, &Outcome::deepest_ice), 1e-3 * largest(r.runs, &Outcome::peak),
+            largest(r.runs, &Outcome::fastest), largest(r.runs, &Outcome::imbalance),
+            1e6 * smallest(r.runs, &Outcome::step_seconds));
 }
 
 void print_tables(const std::vector<Row>& rows) {
-    fmt::print("| m/s | engine | f_x [N/m] | f_z [N/m] |\n|---|---|---|---|\n");
-    for (const Row& r : rows) {
-        const MeanInterval x = overall(r.runs, &Outcome::force_x);
-        const MeanInterval z = overall(r.runs, &Outcome::force_z);
-        fmt::print("| {:.1f} | {} | {:.0f} +- {:.0f} | {:.0f} +- {:.0f} |\n", r.speed, r.name,
-                   x.mean, x.half_width, z.mean, z.half_width);
+    fmt::print("The case as it stands, 95 % intervals from batch means:\n\n");
+    print_forces(rows, of_first);
+    const std::size_t runs = rows[0].runs.size();
+    if (runs > 1) {
+        fmt::print(
+            "\nMean of {} runs, the hull {:g} mm further aft from one to the next, 95 % "
+            "intervals from their scatter:\n\n",
+            runs, 1e3 * kSetBack);
+        print_forces(rows, over_runs);
     }
     fmt::print(
-        "\n| m/s | engine | released | behind | centre in hull | overlap hull [mm] | overlap ice "
-        "[mm] | peak [kN/m] | fastest [m/s] | imbalance [N/m] | us/step |\n"
-        "|---|---|---|---|---|---|---|---|---|---|---|\n");
-    for (const Row& r : rows)
-        fmt::print("| {:.1f} | {} | {} | {} | {} | {:.1f} | {:.1f} | {:.1f} | {:.1f} | {:.1g} | "
-                   "{:.0f} |\n",
-                   r.speed, r.name, counts(r.runs, &Outcome::moved),
-                   counts(r.runs, &Outcome::behind), counts(r.runs, &Outcome::inside),
-                   1e3 * largest(r.runs, &Outcome::deepest_hull),
-                   1e3 * largest(r.runs, &Outcome::deepest_ice),
-                   1e-3 * largest(r.runs, &Outcome::peak), largest(r.runs, &Outcome::fastest),
-                   largest(r.runs, &Outcome::imbalance),
-                   1e6 * largest(r.runs, &Outcome::step_seconds));
+        "\nWhat the runs showed (least to most, or the most of all runs; the least time):\n\n");
+    print_checks(rows);
 }
 
-int compare(const std::vector<std::string>& files, int runs, const std::string& only) {
+int compare(const Options& o) {
     set_thread_count(1);
     std::vector<Row> rows;
-    for (const std::string& file : files)
-        for (const Contestant& c : contestants()) {
-            if (c.name.find(only) == std::string::npos) continue;
+    for (const std::string& file : o.files)
+        for (const Contestant& c : contestants(o)) {
             Row row{0.0, c.name, {}};
-            for (int k = 0; k < runs; ++k) {
+            for (int k = 0; k < o.runs; ++k) {
                 Case parameters = read_case(file, c.overrides);
                 parameters.hull_position.x() -= k * kSetBack;
                 row.speed = parameters.ship_speed(0.0);
                 row.runs.push_back(measure(*c.make(build_world(parameters))));
                 say(fmt::format("{} m/s, {}, run {}: f_x {:.0f}, f_z {:.0f} N/m", row.speed, c.name,
-                                k + 1, row.runs.back().force_x.mean,
-                                row.runs.back().force_z.mean));
+                                k + 1, row.runs.back().force_x.mean, row.runs.back().force_z.mean));
             }
             rows.push_back(std::move(row));
         }
+    if (rows.empty())
+        throw bad_input("--only", fmt::format("no engine's name contains '{}'", o.only),
+                        "try ours, Box2D or Bullet");
     print_tables(rows);
     return 0;
 }
@@ -136,14 +190,14 @@ int compare(const std::vector<std::string>& files, int runs, const std::string& 
 
 int main(int argc, char** argv) {
     CLI::App app("The paper's 2D case in our solver, Box2D and Bullet.", "compare_peers");
-    std::vector<std::string> files;
-    std::string only;
-    int runs = 1;
-    app.add_option("case", files, "Case files, 2D")->required()->check(CLI::ExistingFile);
-    app.add_option("--runs", runs, "Runs per engine, the hull set back by 1 mm from one to the next")
+    Options o;
+    app.add_option("case", o.files, "Case files, 2D")->required()->check(CLI::ExistingFile);
+    app.add_option("--runs", o.runs, "Runs per engine, the hull 1 mm further aft each time")
         ->check(CLI::Range(1, 10));
-    app.add_option("--only", only, "Engines whose name contains this");
+    app.add_option("--only", o.only, "Engines whose name contains this");
+    app.add_option("--sharp", o.sharp, "Folder with hull and floe.spheres.h5 of small discs")
+        ->check(CLI::ExistingDirectory);
     CLI11_PARSE(app, argc, argv);
     start_messages(Colour::automatic, false);
-    return run_program("compare_peers", [&] { return compare(files, runs, only); });
+    return run_program("compare_peers", [&] { return compare(o); });
 }

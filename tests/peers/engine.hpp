@@ -18,7 +18,7 @@ public:
     virtual const World& world() const = 0;
     /// Largest difference so far, per step and as a force [N/m], between the change of momentum of
     /// the free floes and the impulses of water, ship and held floes.
-    virtual double imbalance() const { return 0.0; }
+    virtual double imbalance() const = 0;
 };
 
 /// The world in our own solver.

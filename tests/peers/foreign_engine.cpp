@@ -15,12 +15,11 @@ Vec2 half_size(const Polygon& outline) {
     Eigen::AlignedBox2d box;
     for (const Vec2& p : outline) box.extend(p);
     const Vec2 half = 0.5 * box.sizes();
-    const bool rectangle =
-        outline.size() == 4 && box.center().norm() < 1e-6 &&
-        std::all_of(outline.begin(), outline.end(),
-                    [&](const Vec2& p) { return (p.cwiseAbs() - half).norm() < 1e-6; });
-    if (!rectangle)
-        throw bad_input("floes", "are not rectangles", "the peers take boxes only");
+    const bool rectangle = outline.size() == 4 && box.center().norm() < 1e-6 &&
+                           std::all_of(outline.begin(), outline.end(), [&](const Vec2& p) {
+                               return (p.cwiseAbs() - half).norm() < 1e-6;
+                           });
+    if (!rectangle) throw bad_input("floes", "are not rectangles", "the peers take boxes only");
     return half;
 }
 

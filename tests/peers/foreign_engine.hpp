@@ -43,8 +43,8 @@ protected:
     double friction(std::size_t a, std::size_t b) const;
 
     World world_;
-    Polygon hull_;                  ///< outline in the ship frame
-    std::vector<Vec2> half_sizes_;  ///< per body; the ship's unused
+    Polygon hull_;                   ///< outline in the ship frame
+    std::vector<Vec2> half_sizes_;   ///< per body; the ship's unused
     std::vector<Polygon> outlines_;  ///< per shape
 
 private:

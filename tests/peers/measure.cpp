@@ -33,7 +33,8 @@ public:
                 inside_.insert(i);
             for (std::size_t j = i + 1; j < b.size(); ++j)
                 if (near(scene, i, j))
-                    out.deepest_ice = std::max(out.deepest_ice, overlap_depth(placed[i], placed[j]));
+                    out.deepest_ice =
+                        std::max(out.deepest_ice, overlap_depth(placed[i], placed[j]));
         }
         out.inside = static_cast<int>(inside_.size());
     }

@@ -15,8 +15,8 @@ namespace {
 
 constexpr double kDt = 0.005, kGravity = 9.81, kLength = 1.0, kHeight = 0.4;
 constexpr double kIce = 900.0, kWater = 1000.0;
-const double kMass = kIce * kLength * kHeight;                           // per metre of breadth
-const double kLift = (kWater - kIce) * kGravity * kLength * kHeight;     // net buoyancy [N/m]
+const double kMass = kIce * kLength * kHeight;                        // per metre of breadth
+const double kLift = (kWater - kIce) * kGravity * kLength * kHeight;  // net buoyancy [N/m]
 
 struct Named {
     std::string name;
@@ -39,16 +39,15 @@ World box_under_plate(double ship_speed) {
     p.iterations = 100;
     World w;
     w.parameters = p;
-    w.scene = make_scene(
-        build_shape(test::make_box_set(Vec3(20.0, 1.0, 0.5), 0.1, 0.1, 2), false),
-        Vec3(0.0, 0.0, -1.0 + 0.25), Vec3(ship_speed, 0.0, 0.0));
+    w.scene = make_scene(build_shape(test::make_box_set(Vec3(20.0, 1.0, 0.5), 0.1, 0.1, 2), false),
+                         Vec3(0.0, 0.0, -1.0 + 0.25), Vec3(ship_speed, 0.0, 0.0));
     test::add_shape(w, test::make_box_set(Vec3(kLength, 1.0, kHeight), 0.1, 0.1, 2));
     return w;
 }
 
 std::size_t add_box(World& w, double x, double z, const Vec3& velocity, bool held = false) {
-    const std::size_t i = add_floe(w.scene, 1, kIce, Vec3(x, 0.0, z), Quaternion::Identity(), 0,
-                                   held);
+    const std::size_t i =
+        add_floe(w.scene, 1, kIce, Vec3(x, 0.0, z), Quaternion::Identity(), 0, held);
     w.scene.bodies.momentum[i] = w.scene.bodies.mass[i] * velocity;
     update_derived(w.scene.bodies, i);
     return i;
@@ -120,8 +119,7 @@ TEST_CASE("a box that meets a level hull at 1 m/s leaves with 0.3 m/s and no spi
         World w = box_under_plate(0.0);
         w.parameters.gravity = 0.0;
         w.parameters.buoyancy = BuoyancyModel::none;
-        const std::size_t i =
-            add_box(w, 0.0, -1.0 - 0.5 * kHeight - 0.02, Vec3(0.0, 0.0, 1.0));
+        const std::size_t i = add_box(w, 0.0, -1.0 - 0.5 * kHeight - 0.02, Vec3(0.0, 0.0, 1.0));
         const auto engine = kind.make(std::move(w));
         const Vec3 force = mean_force(*engine, 20);
         const Bodies& b = engine->world().scene.bodies;
