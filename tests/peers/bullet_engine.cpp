@@ -8,9 +8,9 @@
 //   bounce, so that of the restitution 0.3 nearly nothing is left
 //   friction from the case's pair table
 //
-// Bodies are prisms of 1 m breadth that move in Bullet's x-y plane only; with the breadth along its
-// z the first friction direction lies in the plane also where nothing slides. The hull is a compound
-// of convex parts cut from corner to corner, so that no face has a seam on which floes could catch.
+// Bodies are prisms of 1 m breadth that move in Bullet's x-y plane only; with the breadth along
+// its z the first friction direction lies in the plane also where nothing slides. The hull is a
+// compound of convex parts cut from corner to corner: no face has a seam for floes to catch on.
 #include <btBulletDynamicsCommon.h>
 
 #include "tests/peers/foreign_engine.hpp"

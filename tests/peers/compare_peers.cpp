@@ -2,9 +2,10 @@
 // The paper's 2D case in our solver, Box2D and Bullet: mean forces side by side, as Markdown.
 //
 //   compare_peers CASE.cfg...              one run of each engine per case
-//   compare_peers --runs 5 CASE.cfg...     five, the hull set back by 0, 1, 2, 3, 4 mm
+//   compare_peers --runs 5 CASE.cfg...     five, the hull a little further aft each time
 //   compare_peers --only NAME CASE.cfg...  engines whose name contains NAME
-//   compare_peers --sharp DIR CASE.cfg...  also our solver with the sets in DIR, for sharper corners
+//   compare_peers --sharp DIR CASE.cfg...  also our solver with the sets in DIR: sharper corners
+//   compare_peers --set KEY=VALUE ...      replaces a key of the cases, as icesolve does
 //
 // The sphere sets of the cases must be there (cases/prepare.sh); `ninja peers` sees to that.
 #include <fmt/format.h>
@@ -31,10 +32,12 @@ using namespace ice::peers;
 
 namespace {
 
-constexpr double kSetBack = 0.001;  // of the hull from run to run [m]
+// Of the hull from run to run [m]. No whole number of steps of travel at any of the speeds: that
+// would be the same run, later.
+constexpr double kSetBack = 0.00037;
 
 struct Options {
-    std::vector<std::string> files;
+    std::vector<std::string> files, overrides;
     std::string only, sharp;
     int runs = 1;
 };
@@ -170,7 +173,9 @@ int compare(const Options& o) {
         for (const Contestant& c : contestants(o)) {
             Row row{0.0, c.name, {}};
             for (int k = 0; k < o.runs; ++k) {
-                Case parameters = read_case(file, c.overrides);
+                std::vector<std::string> overrides = o.overrides;
+                overrides.insert(overrides.end(), c.overrides.begin(), c.overrides.end());
+                Case parameters = read_case(file, overrides);
                 parameters.hull_position.x() -= k * kSetBack;
                 row.speed = parameters.ship_speed(0.0);
                 row.runs.push_back(measure(*c.make(build_world(parameters))));
@@ -192,11 +197,14 @@ int main(int argc, char** argv) {
     CLI::App app("The paper's 2D case in our solver, Box2D and Bullet.", "compare_peers");
     Options o;
     app.add_option("case", o.files, "Case files, 2D")->required()->check(CLI::ExistingFile);
-    app.add_option("--runs", o.runs, "Runs per engine, the hull 1 mm further aft each time")
+    app.add_option("--runs", o.runs, "Runs per engine, the hull a little further aft each time")
         ->check(CLI::Range(1, 10));
     app.add_option("--only", o.only, "Engines whose name contains this");
     app.add_option("--sharp", o.sharp, "Folder with hull and floe.spheres.h5 of small discs")
         ->check(CLI::ExistingDirectory);
+    app.add_option("--set", o.overrides, "key=value, replaces a key of the cases; repeatable")
+        ->allow_extra_args(false)
+        ->take_all();
     CLI11_PARSE(app, argc, argv);
     start_messages(Colour::automatic, false);
     return run_program("compare_peers", [&] { return compare(o); });

@@ -27,7 +27,7 @@ Vec2 half_size(const Polygon& outline) {
 
 ForeignEngine::ForeignEngine(World world) : world_(std::move(world)) {
     const Case& p = world_.parameters;
-    if (p.dimension != 2 && world_.scene.dimension != 2)
+    if (p.dimension != 2 || world_.scene.dimension != 2)
         throw bad_input("simulation.dimension", "is not 2", "the peers take 2D cases only");
     for (const FloeGroup& group : p.floes)
         if (group.hold == Hold::until_contact)
@@ -54,8 +54,8 @@ PlaneState ForeignEngine::start_of(std::size_t i) const {
             -b.angular_velocity[i].y()};
 }
 
-// Neither engine lets prescribed and immovable bodies meet, so the rule of the case is applied here:
-// a floe goes free when the ship reaches it within the step.
+// Neither engine lets prescribed and immovable bodies meet, so the rule of the case is applied
+// here: a floe goes free when the ship reaches it within the step.
 void ForeignEngine::release_near_ship() {
     Bodies& b = world_.scene.bodies;
     const double reach = b.velocity[kShip].norm() * world_.parameters.time_step;
