@@ -7,8 +7,8 @@
 //   friction from the case's pair table, set before each solve
 //
 // The hull is one chain: its edges know their neighbours, so floes that slide along a face do not
-// catch on the ends of edges, as they would on the seams of convex parts. Its own skin is off. The
-// floes keep theirs (Box2D needs it), inside the faces: the box is smaller by the skin.
+// catch on the ends of edges, as they would on the seams of convex parts. Box2D wants a skin around
+// every form; it lies inside the faces here: the forms inside are smaller by it.
 #include <box2d/box2d.h>
 
 #include <map>
@@ -68,11 +68,11 @@ private:
 
     void add_hull() {
         std::vector<b2Vec2> corners;
-        for (const Vec2& p : hull_) corners.push_back(to_box2d(p));
+        for (const Vec2& p : inset(hull_, skin_)) corners.push_back(to_box2d(p));
         b2ChainShape chain;
         chain.CreateLoop(corners.data(), static_cast<int32>(corners.size()));
         // a fixture copies the chain but not its radius
-        add_fixture(kShip, chain).GetShape()->m_radius = 0.0f;
+        add_fixture(kShip, chain).GetShape()->m_radius = static_cast<float>(skin_);
     }
 
     void add_box(std::size_t i) {

@@ -60,7 +60,7 @@ std::vector<Contestant> contestants(const Options& o) {
                        {"contact.normal=surface", "hull.spheres=" + hull, "floes.spheres=" + floe},
                        make_own_engine});
     }
-    // corners as round as those of our discs
+    // corners of floes and hull as round as our discs make them
     const auto round = [](World w) {
         const double radius = w.scene.shapes[1].largest_radius;
         return make_box2d_engine(std::move(w), radius);

@@ -25,8 +25,8 @@ public:
 std::unique_ptr<Engine> make_own_engine(World world);
 
 /// The world in Box2D: floes are boxes, the hull is a chain.
-/// @param skin  radius [m] of the floes' corners; Box2D's own is b2_polygonRadius. The faces stay
-///              where they are: the box inside is smaller by it.
+/// @param skin  radius [m] that rounds the convex corners of floes and hull; the faces stay where
+///              they are. Box2D's own is kBox2dSkin.
 std::unique_ptr<Engine> make_box2d_engine(World world, double skin);
 extern const double kBox2dSkin;
 

@@ -120,6 +120,19 @@ std::vector<Polygon> convex_parts(const Polygon& polygon) {
     return out;
 }
 
+Polygon inset(const Polygon& polygon, double depth) {
+    const std::size_t count = polygon.size();
+    Polygon out;
+    for (std::size_t k = 0; k < count; ++k) {
+        const Vec2 in = (polygon[k] - polygon[(k + count - 1) % count]).normalized();
+        const Vec2 on = (polygon[(k + 1) % count] - polygon[k]).normalized();
+        // the shifted lines p + depth n + s t of both edges meet on the bisector of their normals
+        const Vec2 normals = Vec2(-in.y(), in.x()) + Vec2(-on.y(), on.x());
+        out.push_back(polygon[k] + 2.0 * depth / normals.squaredNorm() * normals);
+    }
+    return out;
+}
+
 Polygon place(const Polygon& polygon, const Mat3& rotation, const Vec3& position) {
     Polygon out;
     for (const Vec2& p : polygon) {

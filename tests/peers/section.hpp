@@ -24,6 +24,10 @@ Polygon outline_of(const TriangleMesh& mesh);
 /// so no edge of the outline is divided.
 std::vector<Polygon> convex_parts(const Polygon& polygon);
 
+/// The polygon whose edges lie `depth` [m] further in.
+/// @pre no edge vanishes: depth is small against the edges
+Polygon inset(const Polygon& polygon, double depth);
+
 /// Corners of a polygon turned by `rotation` (about y) and moved to `position`.
 Polygon place(const Polygon& polygon, const Mat3& rotation, const Vec3& position);
 

@@ -29,8 +29,8 @@ TriangleMesh walls(const Polygon& p) {
     const auto count = static_cast<std::int32_t>(p.size());
     for (std::int32_t k = 0; k < count; ++k) {
         const std::int32_t a = 2 * k, b = 2 * ((k + 1) % count);
-        mesh.triangles.push_back({a, b, a + 1});
-        mesh.triangles.push_back({b, b + 1, a + 1});
+        mesh.triangles.push_back({a, a + 1, b});
+        mesh.triangles.push_back({b, a + 1, b + 1});
         mesh.region.insert(mesh.region.end(), 2, 0);
     }
     return mesh;
@@ -71,6 +71,13 @@ TEST_CASE("an L falls into two convex parts that keep its area and cut no edge",
     CHECK(area_of(parts[0]) + area_of(parts[1]) == Approx(3.0).epsilon(1e-12));
     for (const Polygon& part : parts)
         for (const Vec2& corner : part) CHECK(std::find(kL.begin(), kL.end(), corner) != kL.end());
+}
+
+TEST_CASE("the inset of an L by 0.1 m has its edges 0.1 m further in", "[peers]") {
+    const Polygon p = inset(kL, 0.1);
+    const Polygon expected{{0.1, 0.1}, {1.9, 0.1}, {1.9, 0.9}, {0.9, 0.9}, {0.9, 1.9}, {0.1, 1.9}};
+    REQUIRE(p.size() == expected.size());
+    for (std::size_t k = 0; k < p.size(); ++k) CHECK((p[k] - expected[k]).norm() < 1e-12);
 }
 
 TEST_CASE("distance and depth of unit squares", "[peers]") {
