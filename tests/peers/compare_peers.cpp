@@ -113,12 +113,11 @@ std::string range(const std::vector<Outcome>& runs, int Outcome::*value) {
     return least == most ? fmt::format("{}", least) : fmt::format("{}-{}", least, most);
 }
 
-// One line per speed and force, one column per engine.
+// One line per case and force, one column per engine; rows come engine by engine, case after case.
 template <class Mean>
-void print_forces(const std::vector<Row>& rows, const Mean& mean) {
+void print_forces(const std::vector<Row>& rows, std::size_t engines, const Mean& mean) {
     std::vector<std::string> names;
-    for (const Row& r : rows)
-        if (r.speed == rows[0].speed) names.push_back(r.name);
+    for (std::size_t k = 0; k < engines; ++k) names.push_back(rows[k].name);
     fmt::print("| m/s | N/m | {} |\n|---|---|", fmt::join(names, " | "));
     for (std::size_t k = 0; k < names.size(); ++k) fmt::print("---|");
     for (std::size_t first = 0; first < rows.size(); first += names.size())
@@ -134,11 +133,9 @@ void print_forces(const std::vector<Row>& rows, const Mean& mean) {
 }
 
 void print_checks(const std::vector<Row>& rows) {
-    fmt::print(
-        "| m/s | engine | released | behind | centre in hull | overlap hull, ice [mm] | peak "
-        "[kN/m] "
-        "| fastest [m/s] | imbalance [N/m] | us/step "
-        "|\n|---|---|---|---|---|---|---|---|---|---|\n");
+    fmt::print("| m/s | engine | released | behind | centre in hull | overlap hull, ice [mm] | ");
+    fmt::print("peak [kN/m] | fastest [m/s] | imbalance [N/m] | us/step |\n");
+    fmt::print("|---|---|---|---|---|---|---|---|---|---|\n");
     for (const Row& r : rows)
         fmt::print(
             "| {:.1f} | {} | {} | {} | {} | {:.1f}, {:.1f} | {:.0f} | {:.1f} | {:.0e} | "
@@ -150,16 +147,16 @@ void print_checks(const std::vector<Row>& rows) {
             1e6 * smallest(r.runs, &Outcome::step_seconds));
 }
 
-void print_tables(const std::vector<Row>& rows) {
+void print_tables(const std::vector<Row>& rows, std::size_t engines) {
     fmt::print("The case as it stands, 95 % intervals from batch means:\n\n");
-    print_forces(rows, of_first);
+    print_forces(rows, engines, of_first);
     const std::size_t runs = rows[0].runs.size();
     if (runs > 1) {
         fmt::print(
             "\nMean of {} runs, the hull {:g} mm further aft from one to the next, 95 % "
             "intervals from their scatter:\n\n",
             runs, 1e3 * kSetBack);
-        print_forces(rows, over_runs);
+        print_forces(rows, engines, over_runs);
     }
     fmt::print(
         "\nWhat the runs showed (least to most, or the most of all runs; the least time):\n\n");
@@ -187,7 +184,7 @@ int compare(const Options& o) {
     if (rows.empty())
         throw bad_input("--only", fmt::format("no engine's name contains '{}'", o.only),
                         "try ours, Box2D or Bullet");
-    print_tables(rows);
+    print_tables(rows, rows.size() / o.files.size());
     return 0;
 }
 
