@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 
 #include "common/base/error.hpp"
 #include "common/base/parallel.hpp"
@@ -19,10 +20,11 @@
 namespace {
 
 struct Options {
-    std::string case_file, out, explain, simd = "auto", colour = "auto";
+    std::string case_file, out, explain, restart, simd = "auto", colour = "auto";
     std::vector<std::string> overrides;
     int threads = 0;
     std::int64_t hash_every = 0;
+    double checkpoint_every = 0.0;
     bool check = false, schema = false, defaults = false, json = false, quiet = false;
 };
 
@@ -38,6 +40,14 @@ void declare(CLI::App& app, Options& o) {
         ->check(CLI::Range(1, 4096));
     app.add_option("--simd", o.simd, "Instruction set; results have the same bits on all")
         ->check(CLI::IsMember({"auto", "scalar", "sse4", "avx2", "avx512"}));
+    app.add_option("--checkpoint-every", o.checkpoint_every,
+                   "Write checkpoint.h5 in the run folder every T simulated seconds and at the end")
+        ->type_name("T")
+        ->check(CLI::PositiveNumber);
+    app.add_option("--restart", o.restart,
+                   "Go on from a checkpoint, in its folder (or --out), to the same bits; only "
+                   "simulation.duration may have changed")
+        ->type_name("FILE");
     auto* hashes =
         app.add_option("--hash-every", o.hash_every, "Print step and state hash every N steps")
             ->check(CLI::PositiveNumber);
@@ -49,7 +59,18 @@ void declare(CLI::App& app, Options& o) {
     app.add_flag("-q,--quiet", o.quiet, "No progress, no messages but errors");
     app.add_option("--color", o.colour, "Colour of messages")
         ->check(CLI::IsMember({"auto", "always", "never"}));
-    app.footer("Exit codes: 0 ok; 1 the run failed; 2 bad command line or case; 130 interrupted.");
+    app.footer(
+        "Exit codes: 0 ok; 1 the run failed; 2 bad command line or case; 130 interrupted,\n"
+        "checkpoint written. Ctrl-C (SIGINT) and SIGTERM finish the step first; a second "
+        "one ends at once.");
+}
+
+// The command that goes on with an interrupted run.
+std::string command_to_go_on(const Options& o, const std::filesystem::path& folder) {
+    std::string line = "icesolve " + ice::shell_word(o.case_file);
+    for (const std::string& text : o.overrides) line += " --set " + ice::shell_word(text);
+    if (o.checkpoint_every > 0.0) line += fmt::format(" --checkpoint-every {}", o.checkpoint_every);
+    return line + " --restart " + ice::shell_word((folder / ice::kCheckpointName).string());
 }
 
 int report(const ice::Summary& s, const Options& o, const std::string& folder) {
@@ -69,36 +90,50 @@ int report(const ice::Summary& s, const Options& o, const std::string& folder) {
     for (const std::string& warning : s.warnings) ice::say_warning(warning);
     ice::say(fmt::format("{} s simulated in {:.1f} s ({:.1f}x real time); results in {}",
                          s.simulated_s, s.wall_s, s.simulated_s / s.wall_s, folder));
-    return static_cast<int>(s.status == "interrupted" ? ice::ExitCode::interrupted
-                                                      : ice::ExitCode::ok);
+    if (s.status != "interrupted") return 0;
+    ice::say_warning(fmt::format("interrupted at t = {:g} s; go on with\n  {}", s.simulated_s,
+                                 command_to_go_on(o, folder)));
+    return static_cast<int>(ice::ExitCode::interrupted);
+}
+
+std::filesystem::path run_folder(const Options& o) {
+    if (!o.out.empty()) return o.out;
+    if (!o.restart.empty()) {
+        const auto parent = std::filesystem::path(o.restart).parent_path();
+        return parent.empty() ? "." : parent;
+    }
+    return std::filesystem::path("results") / std::filesystem::path(o.case_file).stem();
 }
 
 int run_case(const Options& o, const std::string& command_line) {
     ice::set_thread_count(o.threads);
     const ice::Case parameters = ice::read_case(o.case_file, o.overrides);
     ice::World world = ice::build_world(parameters);
+    std::optional<ice::SavedRun> saved;
+    if (!o.restart.empty()) saved.emplace(ice::read_checkpoint(o.restart, world));
+    ice::SavedRun* going_on = saved ? &*saved : nullptr;
     if (o.check) {
         ice::say(fmt::format("{}: good, {} floes", o.case_file, world.scene.bodies.size() - 1));
         return 0;
     }
-    const std::filesystem::path folder =
-        o.out.empty() ? std::filesystem::path("results") / parameters.file.stem()
-                      : std::filesystem::path(o.out);
-    ice::make_run_folder(folder);
-    ice::log_to_file(folder / "run.log");
+    const std::filesystem::path folder = run_folder(o);
+    ice::make_run_folder(folder, going_on);
+    ice::log_to_file(folder / "run.log", going_on != nullptr);
     ice::say(fmt::format("icesolve {} ({}): {}", ice::version(), ice::git_commit(), command_line));
     if (o.simd != "auto" && o.simd != "scalar")
         ice::say_warning("--simd " + o.simd + ": this version has scalar code only and runs that");
     ice::catch_interrupts();
     ice::Progress progress("icesolve", o.quiet);
     const ice::Timer timer;
+    const double begun = world.time;
     const auto watch = [&](double done, const ice::World& w) {
-        progress.update(done, fmt::format("{:.1f}x real time", w.time / timer.seconds()));
+        progress.update(done, fmt::format("{:.1f}x real time", (w.time - begun) / timer.seconds()));
         if (o.hash_every > 0 && w.steps % o.hash_every == 0)
             fmt::print("{} {:016x}\n", w.steps, ice::state_hash(w.scene, w.constraints));
         return !ice::interrupted();
     };
-    const ice::Summary summary = ice::run(world, {folder, command_line, watch});
+    const ice::Summary summary =
+        ice::run(world, {folder, command_line, o.checkpoint_every, going_on, watch});
     progress.finish();
     return report(summary, o, folder.string());
 }

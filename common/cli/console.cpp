@@ -40,9 +40,9 @@ void start_messages(Colour colour, bool quiet) {
     spdlog::set_default_logger(logger);
 }
 
-void log_to_file(const std::filesystem::path& path) {
+void log_to_file(const std::filesystem::path& path, bool append) {
     try {
-        auto sink = std::make_shared<spdlog::sinks::basic_file_sink_mt>(path.string(), true);
+        auto sink = std::make_shared<spdlog::sinks::basic_file_sink_mt>(path.string(), !append);
         sink->set_pattern("%Y-%m-%d %H:%M:%S  %v");
         spdlog::default_logger()->sinks().push_back(sink);
         spdlog::default_logger()->flush_on(spdlog::level::info);
@@ -81,20 +81,19 @@ void catch_interrupts() {
 
 bool interrupted() { return interrupt_flag != 0; }
 
+std::string shell_word(const std::string& word) {
+    const bool plain = word.find_first_of(" '\"$*?[]{}()<>|&;\\") == std::string::npos;
+    if (plain && !word.empty()) return word;
+    std::string quoted = "'";
+    for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return quoted + "'";
+}
+
 std::string command_line(int argc, const char* const* argv) {
     std::string line;
     for (int k = 0; k < argc; ++k) {
-        const std::string word =
-            k == 0 ? std::filesystem::path(argv[0]).filename().string() : argv[k];
-        const bool plain = word.find_first_of(" '\"$*?[]{}()<>|&;\\") == std::string::npos;
         if (k > 0) line += ' ';
-        if (plain && !word.empty()) {
-            line += word;
-            continue;
-        }
-        line += '\'';
-        for (const char c : word) line += c == '\'' ? std::string("'\\''") : std::string(1, c);
-        line += '\'';
+        line += shell_word(k == 0 ? std::filesystem::path(argv[0]).filename().string() : argv[k]);
     }
     return line;
 }

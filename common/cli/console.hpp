@@ -16,8 +16,9 @@ bool stderr_is_terminal();
 
 /// Prepares messages: stderr with optional colour, nothing but errors when quiet.
 void start_messages(Colour colour, bool quiet);
-/// Also writes every message to a file from now on. @throws Error (exit code 1) if it cannot.
-void log_to_file(const std::filesystem::path& path);
+/// Also writes every message to a file from now on, behind what it holds when `append` is true.
+/// @throws Error (exit code 1) if it cannot.
+void log_to_file(const std::filesystem::path& path, bool append = false);
 void say(const std::string& text);          ///< information
 void say_warning(const std::string& text);  ///< something the user should know
 
@@ -30,5 +31,7 @@ bool interrupted();
 
 /// The words of the command line joined, quoted where a shell needs it.
 std::string command_line(int argc, const char* const* argv);
+/// A word of a command line, quoted where a shell needs it.
+std::string shell_word(const std::string& word);
 
 }  // namespace ice

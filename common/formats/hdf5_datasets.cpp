@@ -158,6 +158,26 @@ std::vector<T> Hdf5File::read(const std::string& name) const {
     return values;
 }
 
+template <class T>
+std::vector<T> Hdf5File::read_rows(const std::string& name, std::uint64_t first,
+                                   std::uint64_t count) const {
+    std::vector<hsize_t> block = to_hsize(shape(name)), start(block.size(), 0);
+    start.at(0) = first;
+    block[0] = count;
+    const Handle dataset(H5Dopen2(id_, name.c_str(), H5P_DEFAULT), H5Dclose);
+    const Handle file_space(H5Dget_space(dataset), H5Sclose);
+    const Handle memory(H5Screate_simple(static_cast<int>(block.size()), block.data(), nullptr),
+                        H5Sclose);
+    std::vector<T> values(product({block.begin(), block.end()}));
+    if (!values.empty() &&
+        (H5Sselect_hyperslab(file_space, H5S_SELECT_SET, start.data(), nullptr, block.data(),
+                             nullptr) < 0 ||
+         H5Dread(dataset, memory_type<T>(), memory, file_space, H5P_DEFAULT, values.data()) < 0))
+        throw bad_input(describe(name), "cannot be read as numbers",
+                        "make the file again with the tool that wrote it");
+    return values;
+}
+
 std::vector<std::string> Hdf5File::read_strings(const std::string& name) const {
     const std::uint64_t count = product(shape(name));
     const Handle dataset(H5Dopen2(id_, name.c_str(), H5P_DEFAULT), H5Dclose);
@@ -246,6 +266,8 @@ void Hdf5File::attach_scale(const std::string& dataset, unsigned dimension,
     template void Hdf5File::write_rows<T>(const std::string&, const T*,                         \
                                           const std::vector<std::uint64_t>&, std::uint64_t, T); \
     template std::vector<T> Hdf5File::read<T>(const std::string&) const;                        \
+    template std::vector<T> Hdf5File::read_rows<T>(const std::string&, std::uint64_t,           \
+                                                   std::uint64_t) const;                        \
     template void Hdf5File::create_appendable<T>(                                               \
         const std::string&, const std::vector<std::uint64_t>&, std::uint64_t);                  \
     template void Hdf5File::append<T>(const std::string&, const T*, std::uint64_t);

@@ -51,6 +51,10 @@ public:
     void write_strings(const std::string& name, const std::vector<std::string>& texts);
     template <class T>
     std::vector<T> read(const std::string& name) const;
+    /// Rows [first, first + count) of a dataset. @pre it has them
+    template <class T>
+    std::vector<T> read_rows(const std::string& name, std::uint64_t first,
+                             std::uint64_t count) const;
     std::vector<std::string> read_strings(const std::string& name) const;
     std::vector<std::uint64_t> shape(const std::string& name) const;
 

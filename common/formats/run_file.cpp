@@ -2,45 +2,25 @@
 // Writer of run.h5. In: rows of the solver's recorder. Out: the layout listed in run_file.hpp.
 #include "common/formats/run_file.hpp"
 
-#include <algorithm>
 #include <system_error>
 
 #include "common/base/error.hpp"
-#include "common/formats/hdf5_file.hpp"
+#include "common/formats/run_buffers.hpp"
 #include "common/formats/run_parts.hpp"
 
 namespace ice {
 
 namespace {
 
-constexpr std::uint64_t kFramesPerFlush = 20;  // also the chunk length: every chunk is written once
-constexpr std::uint64_t kHistoryChunk = 1024;
 constexpr std::uint64_t kHistoryPerFlush = 16384;  // runs that store few frames lose no more rows
 
+using run_parts::Column;
+using run_parts::kFramesPerFlush;
+using run_parts::kHistoryChunk;
 using Shape = std::vector<std::uint64_t>;
 using Scales = std::vector<std::string>;
 using run_parts::attach_scales;
 using run_parts::write_labels;
-
-// A dataset that grows and the rows of it that are not on disk yet.
-template <class T>
-struct Column {
-    std::string name;
-    std::vector<T> rows;
-
-    template <class Vector>
-    void add(const Vector& v) {
-        for (Eigen::Index k = 0; k < v.size(); ++k) rows.push_back(static_cast<T>(v[k]));
-    }
-    void add_value(double value) { rows.push_back(static_cast<T>(value)); }
-    void add_all(const std::vector<Vec3>& points) {
-        for (const Vec3& p : points) add(p);
-    }
-    void append_to(Hdf5File& file, std::uint64_t count) {
-        file.append(name, rows.data(), count);
-        rows.clear();
-    }
-};
 
 // w, x, y, z: the order of the files (Eigen itself stores w last)
 Eigen::Vector4d wxyz(const Eigen::Quaterniond& q) { return {q.w(), q.x(), q.y(), q.z()}; }
@@ -67,31 +47,10 @@ void write_attributes(Hdf5File& file, const RunHeader& header) {
 
 }  // namespace
 
-struct RunWriter::Buffers {
-    Buffers(const std::filesystem::path& path, const RunHeader& header);
-    void create_history(const RunHeader& header);
-    void create_frames(const RunHeader& header);
-    void write_all();
-
-    std::filesystem::path final_path, part_path;
-    Hdf5File file;
-    std::size_t bodies = 0;
-    std::uint64_t samples = 0, frames = 0;  // buffered, not on disk yet
-    std::vector<Eigen::Quaterniond> last_orientation;
-
-    // history: time, forces and moment [S,3], pose [S,7], scalars, then one table per tracked floe
-    Column<double> time, contact, friction, total, moment, pose;
-    Column<double> contacts, moving, overlap, energy;
-    std::vector<Column<double>> tracks;
-    // frames
-    Column<double> frame_time, ship_position;
-    Column<float> position, orientation, velocity, spin, floe_force;
-    Column<std::uint8_t> state;
-};
-
-RunWriter::Buffers::Buffers(const std::filesystem::path& path, const RunHeader& header)
+RunWriter::Buffers::Buffers(const std::filesystem::path& path, const std::filesystem::path& part,
+                            const RunHeader& header)
     : final_path(path),
-      part_path(path.string() + ".part"),
+      part_path(part),
       file(part_path, Hdf5File::Mode::create),
       bodies(header.body_shape.size()) {
     if (header.body_group.size() != bodies || header.body_mass.size() != bodies ||
@@ -168,24 +127,18 @@ void RunWriter::Buffers::create_frames(const RunHeader& header) {
 }
 
 void RunWriter::Buffers::write_all() {
-    for (Column<double>* column : {&time, &contact, &friction, &total, &moment, &pose, &contacts,
-                                   &moving, &overlap, &energy})
-        column->append_to(file, samples);
-    for (Column<double>& column : tracks) column.append_to(file, samples);
-    samples = 0;
-
-    frame_time.append_to(file, frames);
-    ship_position.append_to(file, frames);
-    for (Column<float>* column : {&position, &orientation, &velocity, &spin, &floe_force})
-        column->append_to(file, frames);
-    state.append_to(file, frames);
-    frames = 0;
+    for_history([&](auto& column) { column.append_to(file, samples); });
+    for_frames([&](auto& column) { column.append_to(file, frames); });
+    written.samples += static_cast<std::int64_t>(samples);
+    written.frames += static_cast<std::int64_t>(frames);
+    samples = frames = 0;
     file.flush();
 }
 
 RunWriter::RunWriter(const std::filesystem::path& path, const RunHeader& header)
-    : buffers_(std::make_unique<Buffers>(path, header)) {}
+    : buffers_(std::make_unique<Buffers>(path, path.string() + ".part", header)) {}
 
+RunWriter::RunWriter(RunWriter&&) noexcept = default;
 RunWriter::~RunWriter() = default;
 
 void RunWriter::add(const HistoryRow& row) {
@@ -231,12 +184,13 @@ void RunWriter::add(const RunFrame& frame) {
     for (const FloeState state : frame.state)
         b.state.rows.push_back(static_cast<std::uint8_t>(state));
     // q and -q are the same rotation: keep the sign nearer to the last frame, for interpolation
-    b.last_orientation.resize(b.bodies, Eigen::Quaterniond::Identity());
+    std::vector<Eigen::Quaterniond>& last = b.written.last_orientation;
+    last.resize(b.bodies, Eigen::Quaterniond::Identity());
     for (std::size_t k = 0; k < frame.orientation.size(); ++k) {
         Eigen::Quaterniond q = frame.orientation[k];
-        if (q.dot(b.last_orientation[k]) < 0.0) q.coeffs() = -q.coeffs();
+        if (q.dot(last[k]) < 0.0) q.coeffs() = -q.coeffs();
         b.orientation.add(wxyz(q));
-        b.last_orientation[k] = q;
+        last[k] = q;
     }
     if (++b.frames >= kFramesPerFlush) b.write_all();
 }
@@ -251,6 +205,7 @@ void RunWriter::finish() {
         throw run_failed(b.final_path.string(),
                          "cannot rename the finished file: " + error.message(),
                          "check that the folder is writable");
+    remove_saved_rows(b.final_path.parent_path());  // the finished file has them all
 }
 
 }  // namespace ice

@@ -24,6 +24,12 @@
 
 namespace ice {
 
+/// Where a run file stands, for a run that is continued from it.
+struct RunPosition {
+    std::int64_t samples = 0, frames = 0;              ///< rows on disk
+    std::vector<Eigen::Quaterniond> last_orientation;  ///< of the last frame, signs as stored
+};
+
 /// Writes run.h5 while the run goes on, as `run.h5.part`, renamed by finish().
 ///
 /// Rows are buffered and flushed to disk with every 20th frame, so that a killed run can be read up
@@ -34,6 +40,14 @@ namespace ice {
 class RunWriter {
 public:
     RunWriter(const std::filesystem::path& path, const RunHeader& header);
+    /// Goes on with a run whose files lie in the folder `earlier`, which may be that of `path`:
+    /// the rows up to `position` come, bit by bit, from its saved rows, run.h5 or run.h5.part,
+    /// whichever holds them. Nothing of `earlier` changes before they are copied.
+    RunWriter(const std::filesystem::path& path, const RunHeader& header,
+              const std::filesystem::path& earlier, const RunPosition& position);
+    /// True when none of these held the rows: the file then begins without them.
+    bool begins_late() const { return begins_late_; }
+    RunWriter(RunWriter&&) noexcept;
     ~RunWriter();  ///< without finish() the .part file stays, readable up to its last flush
 
     void add(const HistoryRow& row);
@@ -41,13 +55,20 @@ public:
     /// @param rows one per tracked floe, in the order of header.tracked
     void add_tracked(const std::vector<TrackRow>& rows);
     void add(const RunFrame& frame);
+    /// Saves all rows so that a kill at any moment leaves them readable, in files
+    /// checkpoint-rows-*.h5 beside run.h5, and tells how many there are.
+    RunPosition save_rows();
     /// Writes what is buffered, closes and renames. Nothing may be added afterwards.
     void finish();
 
 private:
     struct Buffers;
     std::unique_ptr<Buffers> buffers_;
+    bool begins_late_ = false;
 };
+
+/// Removes the files of saved rows; finish() does so, too.
+void remove_saved_rows(const std::filesystem::path& folder);
 
 /// Names of the columns of /tracked/<id>, SI units, world axes; the times are those of /time.
 const std::vector<std::string>& track_columns();

@@ -68,6 +68,8 @@ public:
     void remember(const std::vector<Contact>& contacts, const std::vector<Constraint>& constraints);
 
 private:
+    friend struct StateFields;  // step/state_fields.cpp
+
     struct Entry {
         std::int32_t a, b;
         std::uint64_t key;

@@ -6,12 +6,23 @@
 #include <system_error>
 
 #include "common/base/error.hpp"
+#include "common/base/part_file.hpp"
 
 namespace ice {
 
 namespace {
 
 std::filesystem::path part_of(const std::filesystem::path& path) { return path.string() + ".part"; }
+
+// "" when the file is shorter
+std::string first_bytes(const std::filesystem::path& path, std::int64_t count) {
+    std::error_code error;
+    const std::uintmax_t size = std::filesystem::file_size(path, error);
+    if (error || count < 0 || size < static_cast<std::uintmax_t>(count)) return "";
+    std::string text(static_cast<std::size_t>(count), '\0');
+    std::ifstream(path, std::ios::binary).read(text.data(), count);
+    return text;
+}
 
 void append(std::vector<double>& row, const Vec3& v) {
     row.insert(row.end(), {v.x(), v.y(), v.z()});
@@ -33,6 +44,25 @@ CsvFile::CsvFile(std::filesystem::path path, const std::string& header)
     if (!out_)
         throw run_failed(path_.string(), "cannot be written",
                          "check that the folder is writable and the disk is not full");
+}
+
+CsvFile::CsvFile(std::filesystem::path path, const std::string& header,
+                 const std::filesystem::path& earlier, std::int64_t bytes)
+    : path_(std::move(path)) {
+    std::string text = first_bytes(part_of(earlier), bytes);
+    if (text.empty()) text = first_bytes(earlier, bytes);
+    begins_late_ = !text.starts_with(header + "\n");
+    if (begins_late_) text = header + "\n";
+    write_text_file(part_of(path_), text);
+    out_.open(part_of(path_), std::ios::binary | std::ios::app);
+    out_.seekp(0, std::ios::end);
+}
+
+std::int64_t CsvFile::flush() {
+    out_.flush();
+    if (!out_)
+        throw run_failed(path_.string(), "cannot be written", "check that the disk is not full");
+    return out_.tellp();
 }
 
 void CsvFile::add(const std::vector<double>& row) {

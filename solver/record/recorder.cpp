@@ -43,6 +43,18 @@ double worrying_overlap(const Scene& scene) {
     return 0.5 * smallest;
 }
 
+struct CsvTable {
+    std::string name;
+    const char* columns;
+};
+
+std::vector<CsvTable> csv_tables(const Case& parameters) {
+    std::vector<CsvTable> tables{{"forces.csv", kForceColumns}};
+    for (const int id : parameters.track)
+        tables.push_back({fmt::format("floe_{}.csv", id), kFloeColumns});
+    return tables;
+}
+
 FloeState state_of(const Scene& scene, std::size_t i) {
     if (scene.bodies.held[i]) return FloeState::held;
     return is_behind(scene, i) ? FloeState::behind : FloeState::moving;
@@ -74,23 +86,46 @@ std::uint64_t state_hash(const Scene& scene, const std::vector<Constraint>& cons
     return hash.value();
 }
 
-Recorder::Recorder(const std::filesystem::path& folder, const Case& parameters, const Scene& scene,
-                   const std::string& command_line)
+Recorder::Recorder(const Case& parameters, const Scene& scene)
     : parameters_(parameters),
       dt_(parameters.time_step),
-      run_(folder / "run.h5", make_header(parameters, scene, command_line)),
-      forces_(folder / "forces.csv", kForceColumns),
       tally_({scene.shapes[0].region_names, parameters.average_from,
               std::isinf(parameters.crushing_pressure), worrying_overlap(scene)}),
       floe_forces_(scene.bodies.size()),
       tracked_sum_(parameters.track.size()),
-      frame_impulse_(scene.bodies.size(), Vec3::Zero()),
-      last_orientation_(scene.bodies.orientation) {
-    for (const int id : parameters.track)
-        floe_files_.emplace_back(folder / fmt::format("floe_{}.csv", id), kFloeColumns);
+      frame_impulse_(scene.bodies.size(), Vec3::Zero()) {}
+
+void Recorder::open(const std::filesystem::path& folder, const std::string& command_line,
+                    const Scene& scene) {
+    run_.emplace(folder / "run.h5", make_header(parameters_, scene, command_line));
+    for (const CsvTable& table : csv_tables(parameters_))
+        csv_files_.emplace_back(folder / table.name, table.columns);
     const std::vector<Contact> no_contacts;
     const std::vector<Constraint> no_constraints;
     add_frame({scene, no_contacts, no_constraints, 0.0, true});
+}
+
+std::vector<std::string> Recorder::resume(const std::filesystem::path& folder,
+                                          const std::string& command_line, const Scene& scene,
+                                          const std::filesystem::path& earlier,
+                                          const RecordPosition& position) {
+    std::vector<std::string> late;
+    run_.emplace(folder / "run.h5", make_header(parameters_, scene, command_line), earlier,
+                 position.run);
+    if (run_->begins_late()) late.push_back("run.h5");
+    const auto tables = csv_tables(parameters_);
+    for (std::size_t k = 0; k < tables.size(); ++k) {
+        const auto& [name, columns] = tables[k];
+        csv_files_.emplace_back(folder / name, columns, earlier / name, position.csv_bytes.at(k));
+        if (csv_files_.back().begins_late()) late.push_back(name);
+    }
+    return late;
+}
+
+RecordPosition Recorder::save_rows() {
+    RecordPosition position{run_->save_rows(), {}};
+    for (CsvFile& file : csv_files_) position.csv_bytes.push_back(file.flush());
+    return position;
 }
 
 void Recorder::add(const StepView& view) {
@@ -133,8 +168,8 @@ void Recorder::flush_history(const StepView& view) {
     row_.moment *= share;
     row_.contacts *= share;
     row_.ship_position = view.scene.bodies.position[kShip];
-    run_.add(row_);
-    forces_.add(csv_row(row_));
+    run_->add(row_);
+    csv_files_[0].add(csv_row(row_));
 
     std::vector<TrackRow> tracks(tracked_sum_.size());
     const Bodies& b = view.scene.bodies;
@@ -148,10 +183,10 @@ void Recorder::flush_history(const StepView& view) {
                      share * tracked_sum_[k].contact,
                      share * tracked_sum_[k].friction,
                      share * tracked_sum_[k].ice};
-        floe_files_[k].add(csv_row(tracks[k]));
+        csv_files_[k + 1].add(csv_row(tracks[k]));
         tracked_sum_[k] = {};
     }
-    run_.add_tracked(tracks);
+    run_->add_tracked(tracks);
     row_ = {};
     row_steps_ = 0;
     ++rows_;
@@ -164,18 +199,14 @@ void Recorder::add_frame(const StepView& view) {
     frame.ship_position = b.position[kShip];
     const double span = view.time - last_frame_;
     for (std::size_t i = 1; i < b.size(); ++i) {
-        // q and -q are the same pose: keep the sign that moves least, for interpolation
-        Quaternion q = b.orientation[i];
-        if (q.dot(last_orientation_[i]) < 0.0) q.coeffs() *= -1.0;
-        last_orientation_[i] = q;
         frame.position.push_back(b.position[i]);
-        frame.orientation.push_back(q);
+        frame.orientation.push_back(b.orientation[i]);
         frame.velocity.push_back(b.velocity[i]);
         frame.angular_velocity.push_back(b.angular_velocity[i]);
         frame.contact_force.push_back(span > 0.0 ? Vec3(frame_impulse_[i] / span) : Vec3::Zero());
         frame.state.push_back(state_of(view.scene, i));
     }
-    run_.add(frame);
+    run_->add(frame);
     std::fill(frame_impulse_.begin(), frame_impulse_.end(), Vec3::Zero());
     last_frame_ = view.time;
     ++frames_;
@@ -184,9 +215,8 @@ void Recorder::add_frame(const StepView& view) {
 void Recorder::finish(const StepView& view, Summary& summary) {
     flush_history(view);
     if (view.time > last_frame_) add_frame(view);
-    run_.finish();
-    forces_.finish();
-    for (CsvFile& file : floe_files_) file.finish();
+    run_->finish();
+    for (CsvFile& file : csv_files_) file.finish();
     tally_.fill(summary);
     summary.state_hash = state_hash(view.scene, view.constraints);
     const Bodies& b = view.scene.bodies;

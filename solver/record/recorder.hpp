@@ -25,15 +25,34 @@ struct StepView {
     bool converged;  ///< both stages of the contact solver
 };
 
+/// Where the files of a run stand, for a run that is continued from them.
+struct RecordPosition {
+    RunPosition run;
+    std::vector<std::int64_t> csv_bytes;  ///< of forces.csv, then of the tracked floes' files
+};
+
 /// run.h5, forces.csv, floe_<id>.csv and the numbers of summary.json.
 ///
 /// Rows of the histories are means over history_every (contacts, forces) or the maximum (overlap);
 /// tracked floes' poses are those at the end of the row.
 class Recorder {
 public:
-    /// Creates the folder's files. @throws Error (exit code 1) when it cannot.
-    Recorder(const std::filesystem::path& folder, const Case& parameters, const Scene& scene,
-             const std::string& command_line);
+    Recorder(const Case& parameters, const Scene& scene);
+
+    /// Creates the folder's files and stores the first frame.
+    /// @throws Error (exit code 1) when it cannot.
+    void open(const std::filesystem::path& folder, const std::string& command_line,
+              const Scene& scene);
+    /// Goes on where an earlier run stood, from its files in `earlier`, which may be `folder`:
+    /// their first rows as far as `position`.
+    /// @pre the state was carried over (step/state_fields.hpp)
+    /// @return names of the files whose earlier rows are missing there: those begin now
+    std::vector<std::string> resume(const std::filesystem::path& folder,
+                                    const std::string& command_line, const Scene& scene,
+                                    const std::filesystem::path& earlier,
+                                    const RecordPosition& position);
+    /// Puts all rows up to now where a kill does not harm them, and tells how many there are.
+    RecordPosition save_rows();
 
     void add(const StepView& view);
 
@@ -41,23 +60,23 @@ public:
     void finish(const StepView& view, Summary& summary);
 
 private:
+    friend struct StateFields;  // step/state_fields.cpp: tally_, row_ and what follows it
+
     void add_history(const StepView& view, const StepRecord& record);
     void flush_history(const StepView& view);
     void add_frame(const StepView& view);
 
     Case parameters_;
     double dt_;
-    RunWriter run_;
-    CsvFile forces_;
-    std::vector<CsvFile> floe_files_;
+    std::optional<RunWriter> run_;    ///< from open() or resume() on
+    std::vector<CsvFile> csv_files_;  ///< forces.csv, then the tracked floes'
     Tally tally_;
+    std::vector<FloeForces> floe_forces_;  ///< of the last step, per body
 
     HistoryRow row_;
     int row_steps_ = 0;
-    std::vector<FloeForces> floe_forces_;  ///< of the last step, per body
     std::vector<FloeForces> tracked_sum_;  ///< per tracked floe, since the last row
     std::vector<Vec3> frame_impulse_;      ///< ship on floe since the last frame [N s]
-    std::vector<Quaternion> last_orientation_;
     double last_frame_ = 0.0;
     std::int64_t frames_ = 0, rows_ = 0;
 };

@@ -33,6 +33,8 @@ public:
     void fill(Summary& summary) const;
 
 private:
+    friend struct StateFields;  // step/state_fields.cpp carries all members but options_
+
     struct Region {
         std::int64_t hits = 0;
         double max_impulse = 0.0;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "common/base/error.hpp"
 #include "common/base/parallel.hpp"
@@ -70,7 +71,7 @@ void fill_run(const World& w, double wall_seconds, Summary& s) {
 // say nothing about the ice: worth a warning that names the place.
 constexpr double kInitialOverlap = 1e-3;  // [m]
 
-void warn_of_initial_overlap(const World& w, Summary& summary) {
+std::optional<std::string> initial_overlap(const World& w) {
     std::vector<BodyPair> pairs;
     std::vector<Contact> contacts;
     ContactFinder finder;
@@ -79,15 +80,15 @@ void warn_of_initial_overlap(const World& w, Summary& summary) {
     const auto deepest =
         std::min_element(contacts.begin(), contacts.end(),
                          [](const Contact& l, const Contact& r) { return l.gap < r.gap; });
-    if (deepest == contacts.end() || deepest->gap > -kInitialOverlap) return;
+    if (deepest == contacts.end() || deepest->gap > -kInitialOverlap) return std::nullopt;
     const auto name = [](std::int32_t body) {
         return body == 0 ? std::string("the hull") : fmt::format("floe {}", body);
     };
-    summary.warnings.push_back(fmt::format(
+    return fmt::format(
         "{} and {} overlap by {:.3g} m at the start, at x = {:.2f}, y = {:.2f}, z = {:.2f} m; move "
         "the hull or widen floes.gap",
         name(deepest->a), name(deepest->b), -deepest->gap, deepest->point.x(), deepest->point.y(),
-        deepest->point.z()));
+        deepest->point.z());
 }
 
 void write_summary(const World& w, const RunOptions& options, double wall_seconds, double thickness,
@@ -104,6 +105,91 @@ void remove_parts(const std::filesystem::path& folder) {
         if (entry.path().extension() == ".part") std::filesystem::remove(entry.path(), ignored);
 }
 
+void remove_results(const std::filesystem::path& folder) {
+    std::error_code ignored;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
+        const std::string name = entry.path().filename().string();
+        const bool old = name == "summary.json" || name == "report.html" || name == "run.h5" ||
+                         name == "forces.csv" || name.starts_with("floe_");
+        if (old && entry.path().extension() != ".part")
+            std::filesystem::remove(entry.path(), ignored);
+    }
+}
+
+// A run on its way: what run() and its parts share.
+struct Job {
+    World& world;
+    const RunOptions& options;
+    std::int64_t steps;  // of the whole run
+    Recorder recorder;
+    RunProgress progress = {};
+    Summary summary = {};
+    double wall_before = 0.0;  // of the programs that worked on the run before
+    Timer timer = {};
+    std::int64_t saved_step = -1;  // of the last checkpoint
+
+    double wall_seconds() const { return wall_before + timer.seconds(); }
+};
+
+void start(Job& job) {
+    const World& w = job.world;
+    job.recorder.open(job.options.folder, job.options.command_line, w.scene);
+    if (const auto warning = initial_overlap(w)) job.progress.warnings = *warning + '\n';
+}
+
+void go_on(Job& job, const SavedRun& saved) {
+    const RunOptions& o = job.options;
+    job.progress = saved.progress;
+    job.wall_before = saved.progress.wall_seconds;
+    std::string& warnings = job.progress.warnings;
+    for (const std::string& name : job.recorder.resume(o.folder, o.command_line, job.world.scene,
+                                                       saved.folder, saved.position))
+        warnings += fmt::format(
+            "the rows of {} before t = {:g} s were not found in {}: the file begins there; the "
+            "statistics are of the whole run\n",
+            name, job.world.time, saved.folder.string());
+    // the continued files are named .part now; the finished ones of before are out of date
+    remove_results(o.folder);
+    const std::string here = fmt::format("icesolve {} ({})", version(), git_commit());
+    if (saved.created_by != here)
+        warnings += fmt::format(
+            "the run was begun with {} and goes on with {}: its bits may not be those of either\n",
+            saved.created_by, here);
+}
+
+void save(Job& job) {
+    if (job.saved_step == job.world.steps) return;
+    job.progress.wall_seconds = job.wall_seconds();
+    write_checkpoint(job.options.folder / kCheckpointName, job.world, job.recorder, job.progress);
+    job.saved_step = job.world.steps;
+}
+
+// Checkpoints are due in the step nearest to a multiple of checkpoint_every, and in the last one.
+bool is_due(const Job& job) {
+    const double every = job.options.checkpoint_every, dt = job.world.parameters.time_step;
+    if (every <= 0.0) return false;
+    if (job.world.steps == job.steps) return true;
+    const double now = job.world.time + 0.5 * dt;  // times are multiples of dt up to rounding
+    return std::floor(now / every) > std::floor((now - dt) / every);
+}
+
+void advance(Job& job) {
+    World& w = job.world;
+    while (w.steps < job.steps) {
+        step(w);
+        check_finite(w);
+        job.recorder.add(view_of(w));
+        if (is_due(job)) save(job);
+        const double done = static_cast<double>(w.steps) / static_cast<double>(job.steps);
+        // an interruption in the last step comes too late to be one
+        if (!job.options.keep_going(done, w) && w.steps < job.steps) {
+            save(job);
+            job.summary.status = "interrupted";
+            return;
+        }
+    }
+}
+
 }  // namespace
 
 World build_world(const Case& parameters) {
@@ -113,27 +199,24 @@ World build_world(const Case& parameters) {
     return world;
 }
 
-void make_run_folder(const std::filesystem::path& folder) {
+void make_run_folder(const std::filesystem::path& folder, const SavedRun* saved) {
     std::error_code error;
     std::filesystem::create_directories(folder, error);
     if (error)
         throw run_failed(folder.string(), "cannot be created: " + error.message(),
                          "choose another folder with --out");
-    // a run into the same folder replaces the old one: nothing of it may look like a result
     std::error_code ignored;
-    for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
-        const std::string name = entry.path().filename().string();
-        const bool old = name == "summary.json" || name == "report.html" || name == "run.h5" ||
-                         name == "forces.csv" || name.starts_with("floe_") ||
-                         name.ends_with(".part");
-        if (old) std::filesystem::remove(entry.path(), ignored);
-    }
+    if (saved != nullptr && std::filesystem::equivalent(folder, saved->folder, ignored)) return;
+    // a run into the same folder replaces the old one: nothing of it may look like a result
+    remove_results(folder);
+    remove_parts(folder);
+    remove_saved_rows(folder);
+    std::filesystem::remove(folder / kCheckpointName, ignored);
 }
 
 Summary run(World& world, const RunOptions& options) {
-    const Timer timer;
     const Case& p = world.parameters;
-    make_run_folder(options.folder);
+    make_run_folder(options.folder, options.saved);
     std::string command = options.command_line;
     std::replace(command.begin(), command.end(), '\n', ' ');  // it stands in a comment
     write_text_file(
@@ -142,37 +225,38 @@ Summary run(World& world, const RunOptions& options) {
     const double thickness = ice_thickness(world);
     const auto steps = static_cast<std::int64_t>(std::llround(p.duration / p.time_step));
 
-    Recorder recorder(options.folder, p, world.scene, options.command_line);
-    Summary summary;
+    Job job{
+        world, options, steps,
+        options.saved != nullptr ? std::move(options.saved->recorder) : Recorder(p, world.scene)};
+    Summary& summary = job.summary;
     summary.command_line = options.command_line;
     if (std::abs(static_cast<double>(steps) * p.time_step - p.duration) > 1e-9 * p.duration)
         summary.warnings.push_back(
             fmt::format("simulation.duration is not a whole number of steps: {:g} s are simulated",
                         static_cast<double>(steps) * p.time_step));
-    warn_of_initial_overlap(world, summary);
+    if (options.saved != nullptr)
+        go_on(job, *options.saved);
+    else
+        start(job);
+    std::istringstream lines(job.progress.warnings);
+    for (std::string line; std::getline(lines, line);) summary.warnings.push_back(line);
     try {
-        while (world.steps < steps) {
-            step(world);
-            check_finite(world);
-            recorder.add(view_of(world));
-            const double done = static_cast<double>(world.steps) / static_cast<double>(steps);
-            if (!options.keep_going(done, world)) {
-                summary.status = "interrupted";
-                break;
-            }
-        }
-        write_summary(world, options, timer.seconds(), thickness, recorder, summary);
+        advance(job);
+        write_summary(world, options, job.wall_seconds(), thickness, job.recorder, summary);
     } catch (const Error& error) {
         // what was computed up to here is kept where it can be written, and says that it failed
         summary.status = "failed";
         summary.warnings.push_back(error.what());
         try {
-            write_summary(world, options, timer.seconds(), thickness, recorder, summary);
+            write_summary(world, options, job.wall_seconds(), thickness, job.recorder, summary);
         } catch (const Error&) {
-            remove_parts(options.folder);
+            // nothing half-written stays, unless a checkpoint can still make use of it
+            if (!std::filesystem::exists(options.folder / kCheckpointName))
+                remove_parts(options.folder);
         }
         throw;
     }
+    remove_parts(options.folder);  // of a program that was killed here before
     return summary;
 }
 

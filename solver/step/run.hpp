@@ -7,6 +7,7 @@
 #include <string>
 
 #include "common/formats/summary_file.hpp"
+#include "solver/step/checkpoint.hpp"
 #include "solver/step/step.hpp"
 
 namespace ice {
@@ -15,7 +16,10 @@ namespace ice {
 struct RunOptions {
     std::filesystem::path folder;  ///< run folder; created
     std::string command_line;
-    /// Called after every step with (fraction done, world); false ends the run as "interrupted".
+    double checkpoint_every = 0.0;  ///< simulated seconds; 0: only when interrupted
+    SavedRun* saved = nullptr;      ///< go on with this run; its recorder is taken over
+    /// Called after every step with (fraction done, world); false ends the run as "interrupted",
+    /// with a checkpoint.
     std::function<bool(double, const World&)> keep_going = [](double, const World&) {
         return true;
     };
@@ -24,11 +28,20 @@ struct RunOptions {
 /// A case made ready: sphere sets read, floes placed.
 World build_world(const Case& parameters);
 
-/// Creates the run folder and removes an older run's files from it.
+/// Name of the checkpoint in a run folder.
+constexpr const char* kCheckpointName = "checkpoint.h5";
+
+/// Creates the run folder and removes an older run's files from it, but not where that run goes on
+/// in its folder.
 /// @throws Error (exit code 1) when it cannot be created
-void make_run_folder(const std::filesystem::path& folder);
+void make_run_folder(const std::filesystem::path& folder, const SavedRun* saved = nullptr);
 
 /// Runs a world to its case's duration and writes the run folder.
+///
+/// A saved run goes on to the bits of one that was never stopped: the files of its folder are cut
+/// to the checkpoint's rows and continued, or copied up to there into another folder. Files that
+/// are missing begin at the checkpoint, with a warning; the summary is of the whole run all the
+/// same. Only wall times (sums over the programs) and the warnings of that kind differ.
 ///
 /// A body whose position is no longer finite ends the run with an Error (exit code 1) naming step
 /// and floe; the folder then holds what was computed, with the status "failed".

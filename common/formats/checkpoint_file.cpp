@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "common/formats/checkpoint_file.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <bit>
+#include <cstring>
+#include <fstream>
+#include <type_traits>
+
+#include "common/base/error.hpp"
+#include "common/base/part_file.hpp"
+#include "common/base/state_hash.hpp"
+#include "common/base/version.hpp"
+#include "common/formats/hdf5_file.hpp"
+
+namespace ice {
+
+namespace {
+
+constexpr const char* kFormat = "icesolve-checkpoint";
+constexpr std::int64_t kFormatVersion = 1;
+constexpr std::uintmax_t kSealLength = 16;
+constexpr const char* kStartAnew = "restart from another checkpoint, or run the case anew";
+
+// How a T is stored: as `width` values of type Base.
+template <class T>
+struct Flat {
+    using Base = T;
+    static constexpr std::uint64_t width = 1;
+    static void put(const T& value, Base* out) { *out = value; }
+    static T take(const Base* in) { return *in; }
+};
+template <>
+struct Flat<std::uint64_t> {
+    using Base = std::int64_t;
+    static constexpr std::uint64_t width = 1;
+    static void put(std::uint64_t value, Base* out) { *out = std::bit_cast<Base>(value); }
+    static std::uint64_t take(const Base* in) { return std::bit_cast<std::uint64_t>(*in); }
+};
+template <>
+struct Flat<Vec3> {
+    using Base = double;
+    static constexpr std::uint64_t width = 3;
+    static void put(const Vec3& v, Base* out) { std::copy(v.data(), v.data() + 3, out); }
+    static Vec3 take(const Base* in) { return {in[0], in[1], in[2]}; }
+};
+template <>
+struct Flat<Eigen::Quaterniond> {
+    using Base = double;
+    static constexpr std::uint64_t width = 4;
+    static void put(const Eigen::Quaterniond& q, Base* out) {
+        out[0] = q.w();
+        out[1] = q.x();
+        out[2] = q.y();
+        out[3] = q.z();
+    }
+    static Eigen::Quaterniond take(const Base* in) { return {in[0], in[1], in[2], in[3]}; }
+};
+
+// Hash of the first `length` bytes, 8 at a time, the last ones padded with zeros.
+std::string hash_of(const std::filesystem::path& path, std::uintmax_t length) {
+    std::ifstream in(path, std::ios::binary);
+    StateHash hash;
+    hash.add(std::uint64_t{length});
+    std::array<char, 1 << 16> block;
+    while (length > 0 && in) {
+        const auto count = std::min<std::uintmax_t>(length, block.size());
+        block.fill('\0');
+        in.read(block.data(), static_cast<std::streamsize>(count));
+        for (std::size_t k = 0; k < count; k += sizeof(std::uint64_t)) {
+            std::uint64_t word = 0;
+            std::memcpy(&word, block.data() + k, sizeof word);
+            hash.add(word);
+        }
+        length -= count;
+    }
+    return fmt::format("{:016x}", hash.value());
+}
+
+void add_seal(const std::filesystem::path& path) {
+    const std::string seal = hash_of(path, std::filesystem::file_size(path));
+    std::ofstream out(path, std::ios::binary | std::ios::app);
+    out << seal;
+    out.close();
+    if (!out)
+        throw run_failed(path.string(), "cannot be completed", "check that the disk is not full");
+}
+
+// Before HDF5 looks at it, which trusts what it reads.
+void check_seal(const std::filesystem::path& path) {
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(path, error))
+        throw bad_input(path.string(), "checkpoint not found", "check the path");
+    const std::uintmax_t size = std::filesystem::file_size(path, error);
+    std::string seal(kSealLength, ' ');
+    std::ifstream in(path, std::ios::binary);
+    if (!error && size > kSealLength) {
+        in.seekg(static_cast<std::streamoff>(size - kSealLength));
+        in.read(seal.data(), kSealLength);
+    }
+    if (size <= kSealLength || !in || seal != hash_of(path, size - kSealLength))
+        throw bad_input(path.string(), "is not a checkpoint of icesolve, or is damaged",
+                        kStartAnew);
+}
+
+}  // namespace
+
+struct CheckpointFile::Parts {
+    std::filesystem::path path;
+    std::string created_by;
+    std::unique_ptr<PartFile> part;  // null when reading
+    std::unique_ptr<Hdf5File> file;
+
+    void create();
+    void open();
+};
+
+void CheckpointFile::Parts::create() {
+    created_by = fmt::format("icesolve {} ({})", version(), git_commit());
+    part = std::make_unique<PartFile>(path);
+    file = std::make_unique<Hdf5File>(part->path(), Hdf5File::Mode::create);
+    file->write_attribute("/", "format", std::string(kFormat));
+    file->write_attribute("/", "format_version", kFormatVersion);
+    file->write_attribute("/", "created_by", created_by);
+}
+
+void CheckpointFile::Parts::open() {
+    check_seal(path);
+    file = std::make_unique<Hdf5File>(path, Hdf5File::Mode::read);
+    if (!file->has_attribute("/", "format") || file->read_text_attribute("/", "format") != kFormat)
+        throw bad_input(path.string(), "is not a checkpoint of icesolve", kStartAnew);
+    created_by = file->read_text_attribute("/", "created_by");
+    const double format_version = file->read_number_attribute("/", "format_version")[0];
+    if (format_version != kFormatVersion)
+        throw bad_input(path.string(),
+                        fmt::format("has format_version {:g}, written by {}; this program knows {}",
+                                    format_version, created_by, kFormatVersion),
+                        "restart with the version that wrote it");
+}
+
+CheckpointFile::CheckpointFile(const std::filesystem::path& path, Direction direction)
+    : parts_(std::make_unique<Parts>()) {
+    parts_->path = path;
+    if (direction == Direction::write)
+        parts_->create();
+    else
+        parts_->open();
+}
+
+CheckpointFile::~CheckpointFile() = default;
+CheckpointFile::CheckpointFile(CheckpointFile&&) noexcept = default;
+
+bool CheckpointFile::reading() const { return parts_->part == nullptr; }
+const std::string& CheckpointFile::created_by() const { return parts_->created_by; }
+
+template <class T>
+void CheckpointFile::carry(const std::string& name, std::vector<T>& values) {
+    using Base = typename Flat<T>::Base;
+    constexpr std::uint64_t width = Flat<T>::width;
+    Hdf5File& file = *parts_->file;
+    if (!reading()) {
+        std::vector<Base> flat(width * values.size());
+        for (std::size_t k = 0; k < values.size(); ++k)
+            Flat<T>::put(values[k], flat.data() + width * k);
+        std::vector<std::uint64_t> shape{values.size()};
+        if (width > 1) shape.push_back(width);
+        file.write(name, flat.data(), shape);
+        return;
+    }
+    if (!file.has(name))
+        throw bad_input(parts_->path.string(),
+                        fmt::format("has no field {}: it was written by {}", name, created_by()),
+                        "restart with the version that wrote it");
+    const std::vector<Base> flat = file.read<Base>(name);
+    if (flat.size() % width != 0) wrong_length(name, flat.size(), width);
+    values.clear();
+    for (std::size_t k = 0; k < flat.size(); k += width)
+        values.push_back(Flat<T>::take(flat.data() + k));
+}
+
+void CheckpointFile::carry(const std::string& name, std::string& text) {
+    if (reading())
+        text = parts_->file->read_text_attribute("/", name);
+    else
+        parts_->file->write_attribute("/", name, text);
+}
+
+void CheckpointFile::finish() {
+    if (reading()) return;
+    parts_->file->close();
+    add_seal(parts_->part->path());
+    parts_->part->keep();
+}
+
+void CheckpointFile::wrong_length(const std::string& name, std::size_t got,
+                                  std::size_t wanted) const {
+    throw bad_input(parts_->path.string(),
+                    fmt::format("field {} has {} values where {} belong: it was written by {}",
+                                name, got, wanted, created_by()),
+                    kStartAnew);
+}
+
+template void CheckpointFile::carry(const std::string&, std::vector<double>&);
+template void CheckpointFile::carry(const std::string&, std::vector<std::int64_t>&);
+template void CheckpointFile::carry(const std::string&, std::vector<std::int32_t>&);
+template void CheckpointFile::carry(const std::string&, std::vector<std::uint64_t>&);
+template void CheckpointFile::carry(const std::string&, std::vector<std::uint8_t>&);
+template void CheckpointFile::carry(const std::string&, std::vector<Vec3>&);
+template void CheckpointFile::carry(const std::string&, std::vector<Eigen::Quaterniond>&);
+
+}  // namespace ice

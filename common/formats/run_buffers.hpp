@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// The inside of RunWriter: run.h5 and the rows that are not in it yet. Used by run_file.cpp and
+/// run_rows.cpp only.
+#pragma once
+
+#include "common/formats/run_column.hpp"
+#include "common/formats/run_file.hpp"
+
+namespace ice {
+
+namespace run_parts {
+constexpr std::uint64_t kFramesPerFlush = 20;  // also the chunk length: every chunk is written once
+constexpr std::uint64_t kHistoryChunk = 1024;
+}  // namespace run_parts
+
+struct RunWriter::Buffers {
+    Buffers(const std::filesystem::path& path, const std::filesystem::path& part,
+            const RunHeader& header);
+    void create_history(const RunHeader& header);
+    void create_frames(const RunHeader& header);
+    void write_all();
+
+    // run_rows.cpp
+    void copy_rows(const std::filesystem::path& earlier, const RunPosition& stop);
+    void copy_saved_rows(const std::filesystem::path& folder, const RunPosition& stop);
+    void save_rows();
+
+    // every column of one kind, whatever its type
+    template <class Work>
+    void for_history(const Work& work) {
+        for (Column<double>* column : {&time, &contact, &friction, &total, &moment, &pose,
+                                       &contacts, &moving, &overlap, &energy})
+            work(*column);
+        for (Column<double>& column : tracks) work(column);
+    }
+    template <class Work>
+    void for_frames(const Work& work) {
+        work(frame_time);
+        work(ship_position);
+        for (Column<float>* column : {&position, &orientation, &velocity, &spin, &floe_force})
+            work(*column);
+        work(state);
+    }
+
+    template <class T>
+    using Column = run_parts::Column<T>;
+
+    std::filesystem::path final_path, part_path;
+    Hdf5File file;
+    std::size_t bodies = 0;
+    std::uint64_t samples = 0, frames = 0;             // buffered, not on disk yet
+    RunPosition written;                               // in `file`
+    std::int64_t saved_samples = 0, saved_frames = 0;  // of these, in saved rows
+
+    // history: time, forces and moment [S,3], pose [S,7], scalars, then one table per tracked floe
+    Column<double> time, contact, friction, total, moment, pose;
+    Column<double> contacts, moving, overlap, energy;
+    std::vector<Column<double>> tracks;
+    // frames
+    Column<double> frame_time, ship_position;
+    Column<float> position, orientation, velocity, spin, floe_force;
+    Column<std::uint8_t> state;
+};
+
+}  // namespace ice

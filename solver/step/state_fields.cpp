@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The list of all state. carry() writes a field or sets it, by the file's direction.
+#include "solver/step/state_fields.hpp"
+
+#include <fmt/format.h>
+
+namespace ice {
+
+void StateFields::carry(CheckpointFile& file, World& w) {
+    file.carry("time", w.time);
+    file.carry("steps", w.steps);
+    for (std::size_t k = 0; k < kStageNames.size(); ++k)
+        file.carry(fmt::format("stage_seconds.{}", kStageNames[k]), w.stage_seconds[k]);
+
+    Bodies& b = w.scene.bodies;
+    file.carry_each("bodies.position", b.position);
+    file.carry_each("bodies.orientation", b.orientation);
+    file.carry_each("bodies.momentum", b.momentum);
+    file.carry_each("bodies.angular_momentum", b.angular_momentum);
+    file.carry_each("bodies.held", b.held);
+
+    auto& entries = w.warm_start.entries_;
+    file.column("warm_start.a", entries, &WarmStart::Entry::a);
+    file.column("warm_start.b", entries, &WarmStart::Entry::b);
+    file.column("warm_start.key", entries, &WarmStart::Entry::key);
+    file.column("warm_start.normal", entries, &WarmStart::Entry::normal);
+    file.column("warm_start.tangent", entries, &WarmStart::Entry::tangent);
+
+    // the last step's impulses: they are part of the state hash, which may be asked for at once
+    file.column("impulses.impact_normal", w.constraints, &Constraint::impact_normal);
+    file.column("impulses.impact_tangent", w.constraints, &Constraint::impact_tangent);
+    file.column("impulses.rest_normal", w.constraints, &Constraint::rest_normal);
+    file.column("impulses.rest_tangent", w.constraints, &Constraint::rest_tangent);
+}
+
+void StateFields::carry(CheckpointFile& file, Recorder& r) {
+    file.carry("row.contact_force", r.row_.contact_force);
+    file.carry("row.friction_force", r.row_.friction_force);
+    file.carry("row.moment", r.row_.moment);
+    file.carry("row.contacts", r.row_.contacts);
+    file.carry("row.moving_floes", r.row_.moving_floes);
+    file.carry("row.max_overlap", r.row_.max_overlap);
+    file.carry("row.kinetic_energy", r.row_.kinetic_energy);
+    file.carry("row.steps", r.row_steps_);
+    file.column("row.tracked_contact", r.tracked_sum_, &FloeForces::contact);
+    file.column("row.tracked_friction", r.tracked_sum_, &FloeForces::friction);
+    file.column("row.tracked_ice", r.tracked_sum_, &FloeForces::ice);
+    file.carry_each("frame.impulse", r.frame_impulse_);
+    file.carry("frame.last_time", r.last_frame_);
+    file.carry("frame.count", r.frames_);
+    file.carry("row.count", r.rows_);
+    carry(file, r.tally_);
+}
+
+void StateFields::carry(CheckpointFile& file, Tally& t) {
+    for (std::size_t d = 0; d < 3; ++d) {
+        file.carry(fmt::format("tally.total.{}", d), t.total_[d]);
+        file.carry(fmt::format("tally.contact.{}", d), t.contact_[d]);
+        file.carry(fmt::format("tally.friction.{}", d), t.friction_[d]);
+    }
+    file.carry("tally.averaged_time", t.averaged_time_);
+    file.column("tally.region_hits", t.regions_, &Tally::Region::hits);
+    file.column("tally.region_max_impulse", t.regions_, &Tally::Region::max_impulse);
+    file.column("tally.region_impulse", t.regions_, &Tally::Region::impulse);
+
+    // a set goes as a table
+    std::vector<std::pair<std::int32_t, std::int32_t>> touching(t.touching_.begin(),
+                                                                t.touching_.end());
+    file.column("tally.touching_floe", touching, &std::pair<std::int32_t, std::int32_t>::first);
+    file.column("tally.touching_region", touching, &std::pair<std::int32_t, std::int32_t>::second);
+    t.touching_ = {touching.begin(), touching.end()};
+
+    file.carry("tally.steps", t.steps_);
+    file.carry("tally.unconverged", t.unconverged_);
+    file.carry("tally.jammed_steps", t.jammed_steps_);
+    file.carry("tally.contacts", t.contacts_);
+    file.carry("tally.contacts_max", t.contacts_max_);
+    file.carry("tally.max_overlap", t.max_overlap_);
+    file.carry("tally.ship_work", t.ship_work_);
+    file.carry("tally.kinetic", t.kinetic_);
+    file.carry("tally.kinetic_max", t.kinetic_max_);
+    file.carry("tally.first_jam_time", t.first_jam_time_);
+    file.carry("tally.deepest_time", t.deepest_time_);
+    file.carry("tally.first_jam_floe", t.first_jam_floe_);
+    file.carry("tally.first_jam_point", t.first_jam_point_);
+}
+
+void StateFields::carry(CheckpointFile& file, RecordPosition& position) {
+    file.carry("files.samples", position.run.samples);
+    file.carry("files.frames", position.run.frames);
+    file.carry("files.last_orientation", position.run.last_orientation);
+    file.carry("files.csv_bytes", position.csv_bytes);
+}
+
+void StateFields::carry(CheckpointFile& file, RunProgress& progress) {
+    file.carry("wall_seconds", progress.wall_seconds);
+    file.carry("warnings", progress.warnings);
+}
+
+}  // namespace ice

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A run that is stopped and continued is the run that was never stopped.
+#include <catch2/catch.hpp>
+#include <limits>
+
+#include "common/base/error.hpp"
+#include "solver/step/run.hpp"
+#include "tests/common/fixtures.hpp"
+#include "tests/support/compare_runs.hpp"
+#include "tests/support/make_worlds.hpp"
+
+using namespace ice;
+using namespace ice::test;
+
+namespace {
+
+constexpr std::int64_t kSteps = 120;
+
+// A plate drives over a row of floes that buoyancy presses against it; the first floe is let go at
+// once, the next ones when touched. Rows and frames are no multiples of each other or of the step.
+Case pressed_row(double crushing_pressure) {
+    Case p;
+    p.time_step = 0.01;
+    p.duration = kSteps * p.time_step;
+    p.average_from = 0.25;
+    p.speed_table = {{0.0, 0.5}, {1.0, 1.0}};
+    p.crushing_pressure = crushing_pressure;
+    p.frames_every = 0.07;
+    p.history_every = 0.023;
+    p.track = {1, 3};
+    p.floes.resize(1);
+    p.floes[0].hold = Hold::until_contact;
+    p.resolved = "\n[simulation]\nduration = 1.2\n\n[contact]\nrestitution = 0.3\n";
+    return p;
+}
+
+World make_world(const Case& parameters, double floe_radius = 0.05) {
+    World w = plate_world(parameters, Vec3(3, 2, 0.4), 0.1, 0.2, -0.5);
+    const auto box = add_shape(w, make_box_set(Vec3(0.5, 0.4, 0.2), floe_radius, 0.1));
+    for (int k = 0; k < 4; ++k)
+        add_floe(w.scene, box, 900.0, Vec3(0.55 * k, 0.05 * k, -0.6 - 0.002 * k),
+                 Quaternion(Eigen::AngleAxisd(0.1 * k, Vec3(1, 2, 3).normalized())), 0, k > 0);
+    // one more under the first: contacts between floes carry load, too
+    add_floe(w.scene, box, 900.0, Vec3(0.1, 0, -0.805), Quaternion::Identity(), 0, false);
+    return w;
+}
+
+// Runs until step `stop` and is interrupted there.
+void run_until(const Case& parameters, const std::filesystem::path& folder, std::int64_t stop) {
+    World w = make_world(parameters);
+    RunOptions options{folder, "first"};
+    options.keep_going = [&](double, const World& now) { return now.steps < stop; };
+    REQUIRE(run(w, options).status == "interrupted");
+    REQUIRE(w.steps == stop);
+}
+
+Summary go_on(const Case& parameters, const std::filesystem::path& checkpoint,
+              const std::filesystem::path& folder) {
+    World w = make_world(parameters);
+    SavedRun saved = read_checkpoint(checkpoint, w);
+    RunOptions options{folder, "first"};
+    options.saved = &saved;
+    return run(w, options);
+}
+
+// The hull with a floe, and two floes with each other, under load.
+bool in_contact(const World& w) {
+    return std::any_of(w.constraints.begin(), w.constraints.end(),
+                       [](const Constraint& c) { return c.a == 0 && c.rest_normal > 0.0; }) &&
+           std::any_of(w.constraints.begin(), w.constraints.end(),
+                       [](const Constraint& c) { return c.a > 0 && c.rest_normal > 0.0; });
+}
+
+}  // namespace
+
+TEST_CASE("a run continued from a checkpoint ends with the same bits and files",
+          "[step][checkpoint]") {
+    const double pressure = GENERATE(std::numeric_limits<double>::infinity(), 2e5);
+    const std::int64_t stop = GENERATE(1, 2, 24, 25, 26, 70, 97, 119);
+    CAPTURE(pressure, stop);
+    const TempFolder folder;
+    const Case p = pressed_row(pressure);
+    World whole = make_world(p);
+    run(whole, {folder / "whole", "first"});
+    CHECK(in_contact(whole));
+
+    run_until(p, folder / "parts", stop);
+    go_on(p, folder / "parts" / "checkpoint.h5", folder / "parts");
+    check_same_runs(folder / "whole", folder / "parts", p.track);
+}
+
+TEST_CASE("contacts are active at the steps where the runs above are stopped",
+          "[step][checkpoint]") {
+    World w = make_world(pressed_row(std::numeric_limits<double>::infinity()));
+    for (int k = 0; k < 24; ++k) step(w);
+    CHECK(in_contact(w));
+    for (int k = 24; k < 97; ++k) step(w);
+    CHECK(in_contact(w));
+}
+
+TEST_CASE("a run stopped three times, once in each folder, is still the same run",
+          "[step][checkpoint]") {
+    const TempFolder folder;
+    const Case p = pressed_row(2e5);
+    World whole = make_world(p);
+    run(whole, {folder / "whole", "first"});
+
+    run_until(p, folder / "a", 10);
+    std::filesystem::path from = folder / "a";
+    for (const auto& [name, stop] : {std::pair("b", 33), std::pair("b", 34), std::pair("c", 80)}) {
+        World w = make_world(p);
+        SavedRun saved = read_checkpoint(from / "checkpoint.h5", w);
+        RunOptions options{folder / name, "first"};
+        options.saved = &saved;
+        const std::int64_t last = stop;
+        options.keep_going = [&](double, const World& now) { return now.steps < last; };
+        REQUIRE(run(w, options).status == "interrupted");
+        from = folder / name;
+    }
+    go_on(p, from / "checkpoint.h5", from);
+    check_same_runs(folder / "whole", from, p.track);
+    // the folders that were only read are as they were
+    CHECK(read_summary(folder / "a" / "summary.json").steps == 10);
+    CHECK(std::filesystem::exists(folder / "a" / "run.h5"));
+}
+
+TEST_CASE("a finished run goes on to a longer duration", "[step][checkpoint]") {
+    const TempFolder folder;
+    const Case p = pressed_row(2e5);
+    World whole = make_world(p);
+    run(whole, {folder / "whole", "first"});
+
+    Case half = p;
+    half.duration = 0.59;  // within a row of the histories
+    half.resolved = "\n[simulation]\nduration = 0.59\n\n[contact]\nrestitution = 0.3\n";
+    World w = make_world(half);
+    RunOptions options{folder / "parts", "first"};
+    options.checkpoint_every = 1000.0;  // at the end only
+    REQUIRE(run(w, options).status == "completed");
+    go_on(p, folder / "parts" / "checkpoint.h5", folder / "parts");
+    check_same_runs(folder / "whole", folder / "parts", p.track);
+
+    // and nothing is left to do for the shorter one: the same files again
+    World again = make_world(half);
+    run(again, {folder / "half", "first"});
+    go_on(half, folder / "parts" / "checkpoint.h5", folder / "same");
+    check_same_runs(folder / "half", folder / "same", p.track);
+}
+
+TEST_CASE("checkpoints are written at the multiples of checkpoint_every and at the end",
+          "[step][checkpoint]") {
+    const TempFolder folder;
+    World w = make_world(pressed_row(2e5));
+    RunOptions options{folder / "r", "first"};
+    options.checkpoint_every = 0.352;
+    std::vector<std::int64_t> steps;
+    options.keep_going = [&](double, const World&) {
+        World now = make_world(pressed_row(2e5));
+        if (!std::filesystem::exists(folder / "r" / "checkpoint.h5")) return true;
+        read_checkpoint(folder / "r" / "checkpoint.h5", now);
+        if (steps.empty() || steps.back() != now.steps) steps.push_back(now.steps);
+        return true;
+    };
+    run(w, options);
+    CHECK(steps ==
+          std::vector<std::int64_t>{35, 70, 106, 120});  // nearest to 0.352, 0.704, 1.056; 1.2 s
+    for (const auto& entry : std::filesystem::directory_iterator(folder / "r"))
+        CHECK_FALSE(entry.path().filename().string().starts_with("checkpoint-rows"));
+}
+
+TEST_CASE("files that are lost begin at the checkpoint, and the summary says so",
+          "[step][checkpoint]") {
+    const TempFolder folder;
+    const Case p = pressed_row(2e5);
+    World whole = make_world(p);
+    const Summary expected = run(whole, {folder / "whole", "first"});
+    run_until(p, folder / "parts", 50);
+    for (const char* name : {"run.h5", "floe_1.csv"})
+        std::filesystem::remove(folder / "parts" / name);
+
+    const Summary s = go_on(p, folder / "parts" / "checkpoint.h5", folder / "parts");
+    CHECK(s.state_hash == expected.state_hash);
+    CHECK(s.resistance.mean == expected.resistance.mean);
+    REQUIRE(s.warnings.size() == expected.warnings.size() + 2);
+    CHECK(read_bytes(folder / "parts" / "forces.csv") ==
+          read_bytes(folder / "whole" / "forces.csv"));
+    const RunData rest = read_run(folder / "parts" / "run.h5");
+    CHECK(rest.history.front().time > 0.5);
+    CHECK(rest.history.back().time == read_run(folder / "whole" / "run.h5").history.back().time);
+}
+
+TEST_CASE("a checkpoint of another case or sphere set is refused with the key's name",
+          "[step][checkpoint][errors]") {
+    const TempFolder folder;
+    const Case p = pressed_row(2e5);
+    run_until(p, folder / "r", 20);
+    const auto text_of = [&](const Case& now, double radius) {
+        return error_text([&] {
+            World w = make_world(now, radius);
+            read_checkpoint(folder / "r" / "checkpoint.h5", w);
+        });
+    };
+    CHECK(text_of(p, 0.05).empty());
+    Case other = p;
+    other.resolved = "\n[simulation]\nduration = 9.0\n\n[contact]\nrestitution = 0.2\n";
+    CHECK_THAT(text_of(other, 0.05),
+               Catch::Contains("contact.restitution: 0.3 in the checkpoint, 0.2 in the case") &&
+                   !Catch::Contains("duration: "));
+    CHECK_THAT(text_of(p, 0.04), Catch::Contains("floes.1.spheres"));
+    Case shorter = p;
+    shorter.duration = 0.1;
+    CHECK_THAT(text_of(shorter, 0.05),
+               Catch::Contains("simulation.duration") && Catch::Contains("which is at 0.2 s"));
+}
