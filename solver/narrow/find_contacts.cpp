@@ -41,10 +41,10 @@ struct PairView {
                 (s.bodies.position[p.b] - s.bodies.position[p.a])) {}
 
     Vec3 center_a(std::int32_t i) const {
-        return shape_a.center[i] + scene.crushed.recess(pair.a, i);
+        return shape_a.center[i] + scene.crushed.recess_of(pair.a, i);
     }
     Vec3 center_b(std::int32_t j) const {  // in a's axes
-        return turn * (shape_b.center[j] + scene.crushed.recess(pair.b, j)) + shift;
+        return turn * (shape_b.center[j] + scene.crushed.recess_of(pair.b, j)) + shift;
     }
     SphereSurface sphere_a(std::int32_t i) const {
         return {center_a(i),           shape_a.radius[i],     shape_a.normal[i],
@@ -107,7 +107,7 @@ void keep_one_per_face(std::vector<Candidate>& candidates) {
 // How deep contact has crushed a sphere along its side's outward direction [m].
 double crushed_depth(const Scene& scene, std::int32_t body, std::int32_t sphere,
                      const Vec3& outward) {
-    return std::max(0.0, -scene.crushed.recess(body, sphere).dot(outward));
+    return std::max(0.0, -scene.crushed.recess_of(body, sphere).dot(outward));
 }
 
 Patch patch_of(const Shape& shape, std::int32_t k, const Vec3& outward) {

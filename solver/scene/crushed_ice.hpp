@@ -11,31 +11,30 @@ namespace ice {
 /// How far contact has crushed the ice: crushed ice does not come back, so its sphere lies deeper.
 ///
 /// Mass, buoyancy and drag stay those of the whole floe: the crushed ice floats on.
-class CrushedIce {
-public:
-    /// Place of surface sphere `k` of body `i` relative to its place in the whole floe, body axes
-    /// [m]; zero while nothing is crushed.
-    Vec3 recess(std::int32_t i, std::int32_t k) const {
-        return is_whole(i) ? Vec3(Vec3::Zero()) : recess_[static_cast<std::size_t>(i)][k];
-    }
-    bool is_whole(std::int32_t i) const {
-        return static_cast<std::size_t>(i) >= recess_.size() ||
-               recess_[static_cast<std::size_t>(i)].empty();
-    }
-    /// Moves sphere `k` of a body with `count` surface spheres by `move` [m], body axes.
-    void crush(std::int32_t i, std::int32_t k, std::size_t count, const Vec3& move) {
-        if (static_cast<std::size_t>(i) >= recess_.size())
-            recess_.resize(static_cast<std::size_t>(i) + 1);
-        auto& body = recess_[static_cast<std::size_t>(i)];
-        if (body.empty()) body.assign(count, Vec3::Zero());
-        body[static_cast<std::size_t>(k)] += move;
-    }
-    /// Recesses by body and sphere; empty for bodies that are whole. For checkpoints.
-    std::vector<std::vector<Vec3>>& all() { return recess_; }
-    const std::vector<std::vector<Vec3>>& all() const { return recess_; }
+struct CrushedIce {
+    std::vector<std::int64_t> first;  ///< per body: its row of recess, -1 while whole
+    std::vector<Vec3> recess;         ///< per surface sphere of crushed bodies, body axes [m]
 
-private:
-    std::vector<std::vector<Vec3>> recess_;
+    bool is_whole(std::int32_t body) const {
+        return static_cast<std::size_t>(body) >= first.size() ||
+               first[static_cast<std::size_t>(body)] < 0;
+    }
+    /// Place of a surface sphere relative to its place in the whole floe, body axes [m].
+    Vec3 recess_of(std::int32_t body, std::int32_t sphere) const {
+        if (is_whole(body)) return Vec3::Zero();
+        return recess[static_cast<std::size_t>(first[static_cast<std::size_t>(body)] + sphere)];
+    }
+    /// Moves a sphere of a body with `spheres` surface spheres by `move` [m], body axes.
+    void crush(std::int32_t body, std::int32_t sphere, std::size_t spheres, const Vec3& move) {
+        if (static_cast<std::size_t>(body) >= first.size())
+            first.resize(static_cast<std::size_t>(body) + 1, -1);
+        auto& row = first[static_cast<std::size_t>(body)];
+        if (row < 0) {
+            row = static_cast<std::int64_t>(recess.size());
+            recess.resize(recess.size() + spheres, Vec3::Zero());
+        }
+        recess[static_cast<std::size_t>(row + sphere)] += move;
+    }
 };
 
 }  // namespace ice

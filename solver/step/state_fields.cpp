@@ -19,6 +19,9 @@ void StateFields::carry(CheckpointFile& file, World& w) {
     file.carry_each("bodies.angular_momentum", b.angular_momentum);
     file.carry_each("bodies.held", b.held);
 
+    file.carry("crushed.first", w.scene.crushed.first);
+    file.carry("crushed.recess", w.scene.crushed.recess);
+
     auto& entries = w.warm_start.entries_;
     file.column("warm_start.a", entries, &WarmStart::Entry::a);
     file.column("warm_start.b", entries, &WarmStart::Entry::b);
