@@ -33,7 +33,7 @@ struct Comparison {
 /// table to FILE as markdown when it ends.
 void validate(const Comparison& row);
 
-/// Adds a row that is shown beside the others but has no bound, such as what the paper's rule gives.
+/// Adds a row that is shown beside the others without a bound: what the paper's rule gives.
 void show(const Comparison& row);
 
 }  // namespace ice::test
