@@ -73,10 +73,10 @@ CATCH_REGISTER_LISTENER(TableWriter)
 }  // namespace
 
 void validate(const Comparison& row) {
-    const double out = std::abs(row.got - row.expected) / allowed(row);
-    add(row, out, true);
+    const double off = std::abs(row.got - row.expected);
+    add(row, off == 0.0 ? 0.0 : off / allowed(row), true);
     CAPTURE(row.name, row.expected, row.got, row.unit, allowed(row));
-    CHECK(std::abs(row.got - row.expected) <= allowed(row));
+    CHECK(off <= allowed(row));
 }
 
 void show(const Comparison& row) { add(row, std::abs(row.got - row.expected), false); }
