@@ -2,7 +2,6 @@
 // What no step may create or lose: momentum, angular momentum, energy.
 #include <catch2/catch.hpp>
 
-#include "common/base/error.hpp"
 #include "solver/step/balance.hpp"
 #include "tests/support/make_worlds.hpp"
 #include "tests/validation/paper_case.hpp"

@@ -41,10 +41,12 @@ SphereSet set_of_section(const std::string& name, const FillOptions& options) {
     return fill_discs(slice_solid(mesh, 0.0), mesh.region_names, options, report);
 }
 
-SphereSet set_of_prism(const std::string& name, const FillOptions& options) {
+SphereSet set_of_prism(const std::string& name, double breadth, const FillOptions& options) {
     SpheresReport report;
     const TriangleMesh mesh = read(name);
-    return fill_spheres(extrude(slice_solid(mesh, 0.0), mesh.region_names), options, report);
+    TriangleMesh prism = extrude(slice_solid(mesh, 0.0), mesh.region_names);
+    for (Vec3& v : prism.vertices) v.y() *= breadth;  // 1 m broad as extruded
+    return fill_spheres(prism, options, report);
 }
 
 World world_of_case(const std::string& name, const SphereSet& hull, const SphereSet& floe,
