@@ -188,7 +188,7 @@ TEST_CASE("mirror-image poses give mirror-image contacts in the same order, bit 
         add_floe(starboard.scene, box, 900.0, Vec3(at.x(), -at.y(), at.z()),
                  Quaternion(turn.w(), -turn.x(), turn.y(), -turn.z()), 0, false);
     }
-    for (const BodyPair pair : {BodyPair{0, 1}, BodyPair{0, 2}, BodyPair{1, 2}}) {
+    for (const BodyPair pair : {BodyPair{0, 1}, BodyPair{1, 2}}) {
         std::vector<Contact> left, right;
         reference::find_contacts(port.scene, pair, rule, 0.05, left);
         reference::find_contacts(starboard.scene, pair, rule, 0.05, right);
