@@ -55,7 +55,8 @@ TEST_CASE("icesolve writes the run folder of the contract", "[cli]") {
     CHECK(s.resistance.mean == Approx(mean / count).epsilon(1e-6));  // CSV-free: same doubles
 }
 
-TEST_CASE("--verify finds every step in balance, says so, and changes no bit of the run", "[cli]") {
+TEST_CASE("icesolve --verify finds every step in balance, says so, and changes no bit of the run",
+          "[cli]") {
     const Workshop w;
     w.make_case();
     REQUIRE(w.run("icesolve case.cfg -q --out plain").code == 0);
