@@ -15,6 +15,7 @@
 #include "solver/record/lindqvist.hpp"
 #include "solver/record/recorder.hpp"
 #include "solver/scene/build_scene.hpp"
+#include "solver/step/balance.hpp"
 
 namespace ice {
 
@@ -33,6 +34,20 @@ void check_finite(const World& w) {
             throw run_failed(fmt::format("step {}, floe {}", w.steps, i),
                              "its position is no longer a number, or is beyond any sea",
                              "use a smaller simulation.time_step");
+}
+
+// A step that must balance; the summary keeps the worst of each kind.
+void verified_step(World& w, Summary& summary) {
+    const Momenta before = momenta_of(w.scene.bodies);
+    step(w);
+    const Imbalance found = require_balance(before, w);
+    const auto keep = [&](const char* key, double value) {
+        double& worst = summary.imbalance[key];
+        worst = std::max(worst, value);
+    };
+    keep("floe_momentum", found.linear);
+    keep("floe_angular_momentum", found.angular);
+    keep("ship_and_floes", found.together);
 }
 
 // Thickness of the first group's floes as they lie: h of the empirical formula.
@@ -176,7 +191,10 @@ bool is_due(const Job& job) {
 void advance(Job& job) {
     World& w = job.world;
     while (w.steps < job.steps) {
-        step(w);
+        if (job.options.verify)
+            verified_step(w, job.summary);
+        else
+            step(w);
         check_finite(w);
         job.recorder.add(view_of(w));
         if (is_due(job)) save(job);

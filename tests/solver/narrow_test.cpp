@@ -172,3 +172,36 @@ TEST_CASE("a grid query finds every point in range", "[shape][property]") {
     }
     CHECK(SphereGrid({}, 1.0).cell_count() == 0);
 }
+
+TEST_CASE("mirror-image poses give mirror-image contacts in the same order, bit for bit",
+          "[narrow][property]") {
+    // sizes that binary numbers hold exactly, so that the sets are exactly symmetric
+    const NormalRule rule = GENERATE(NormalRule::surface, NormalRule::centres);
+    std::mt19937 random(GENERATE(1u, 2u, 3u, 4u, 5u));
+    std::uniform_real_distribution<double> unit(-1.0, 1.0);
+    World port = test::plate_world(test::empty_space(0.01), Vec3(4, 2, 0.5), 0.125, 0.25, -0.25);
+    const auto box = test::add_shape(port, test::make_box_set(Vec3(1, 0.75, 0.25), 0.0625, 0.125));
+    World starboard = port;
+    for (int k = 0; k < 2; ++k) {
+        const Vec3 at(0.3 * unit(random), 0.3 * unit(random), -0.4 - 0.15 * k);
+        const Quaternion turn(Eigen::AngleAxisd(0.3 * unit(random),
+                                                Vec3(unit(random), unit(random), 2).normalized()));
+        add_floe(port.scene, box, 900.0, at, turn, 0, false);
+        add_floe(starboard.scene, box, 900.0, Vec3(at.x(), -at.y(), at.z()),
+                 Quaternion(turn.w(), -turn.x(), turn.y(), -turn.z()), 0, false);
+    }
+    for (const BodyPair pair : {BodyPair{0, 1}, BodyPair{1, 2}}) {
+        std::vector<Contact> left, right;
+        reference::find_contacts(port.scene, pair, rule, 0.05, left);
+        reference::find_contacts(starboard.scene, pair, rule, 0.05, right);
+        CAPTURE(pair.a, pair.b, left.size());
+        REQUIRE(left.size() > 5);
+        REQUIRE(left.size() == right.size());
+        for (std::size_t k = 0; k < left.size(); ++k) {
+            const Vec3 flip(1, -1, 1);
+            REQUIRE(left[k].gap == right[k].gap);
+            REQUIRE(left[k].normal.cwiseProduct(flip) == right[k].normal);
+            REQUIRE(left[k].point.cwiseProduct(flip) == right[k].point);
+        }
+    }
+}

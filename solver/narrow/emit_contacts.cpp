@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/narrow/emit_contacts.hpp"
+
+#include <algorithm>
+
+namespace ice {
+
+namespace {
+
+// An edge that presses sideways still has some area, so that no contact is without strength.
+constexpr double kLeastFacing = 0.05;
+
+// How deep contact has crushed a sphere along its side's outward direction [m].
+double crushed_depth(const Scene& scene, std::int32_t body, std::int32_t sphere,
+                     const Vec3& outward) {
+    return std::max(0.0, -scene.crushed.recess_of(body, sphere).dot(outward));
+}
+
+Patch patch_of(const Shape& shape, std::int32_t k, const Vec3& outward) {
+    Patch patch;
+    patch.share = shape.area[k];
+    patch.facing = shape.normal[k].dot(outward);
+    patch.spread_cos = shape.spread_cos[k];
+    patch.spread_sin = shape.spread_sin[k];
+    patch.wing = wing_length(shape.radius[k], patch.share, patch.spread_cos, patch.spread_sin);
+    // the foot is the support itself at an edge that juts out, lower on a face that leans
+    const double foot = patch.facing * corner_distance(shape.radius[k], patch.spread_cos);
+    patch.foot = std::max(shape.radius[k] - foot, 0.0);
+    return patch;
+}
+
+// The probe's patch. Where the hull is the probe, the ice it digs into is still what crushes.
+Patch probe_patch(const PairView& view, const Candidate& c) {
+    const Vec3 out_a = c.gap.normal, out_b = view.turn.transpose() * -c.gap.normal;
+    const bool ship = view.pair.a == static_cast<std::int32_t>(kShip);
+    Patch patch = c.gap.a_is_surface ? patch_of(view.shape_b, c.j, out_b)
+                                     : patch_of(view.shape_a, c.i, out_a);
+    patch.depth = -c.gap.gap + (c.gap.a_is_surface || ship
+                                    ? crushed_depth(view.scene, view.pair.b, c.j, out_b)
+                                    : crushed_depth(view.scene, view.pair.a, c.i, out_a));
+    return patch;
+}
+
+// Surface of an ice sphere as seen along the contact normal: with the mean normal m and the
+// half-angle s of the faces that meet there, cos(s) m is the sphere's vector area per area.
+double facing_area(const Shape& shape, std::int32_t k, const Vec3& outward) {
+    const double facing = shape.spread_cos[k] * shape.normal[k].dot(outward);
+    return shape.area[k] * std::max(facing, kLeastFacing);
+}
+
+// Contacts per sphere of one side; spheres not in contact have none.
+std::vector<std::int32_t> count_contacts(const std::vector<Candidate>& all,
+                                         std::int32_t Candidate::*side, std::size_t spheres) {
+    std::vector<std::int32_t> count(spheres, 0);
+    for (const Candidate& c : all) ++count[static_cast<std::size_t>(c.*side)];
+    return count;
+}
+
+// The probe decides where the bodies meet: midway between its surface and the other one's.
+Vec3 meeting_point(const PairView& view, NormalRule rule, const Candidate& c) {
+    const double sign = c.gap.a_is_surface ? -1.0 : 1.0;
+    const Vec3 outward = sign * c.gap.normal;
+    const SphereSurface probe = c.gap.a_is_surface ? view.sphere_b(c.j) : view.sphere_a(c.i);
+    const Vec3 surface = rule == NormalRule::centres ? Vec3(probe.center + probe.radius * outward)
+                                                     : support_point(probe, outward);
+    return surface + 0.5 * c.gap.gap * outward;
+}
+
+void emit_all(const PairView& view, NormalRule rule, const std::vector<Candidate>& candidates,
+              std::vector<Contact>& out) {
+    const Bodies& bodies = view.scene.bodies;
+    const Mat3& rotation = bodies.rotation[view.pair.a];
+    const bool ship = view.pair.a == static_cast<std::int32_t>(kShip);
+    if (candidates.empty()) return;
+    std::int32_t last_probe = -1, face = 0;
+    for (const Candidate& c : candidates) {
+        Contact contact;
+        contact.a = view.pair.a;
+        contact.b = view.pair.b;
+        contact.sphere_a = c.i;
+        contact.sphere_b = c.j;
+        contact.gap = c.gap.gap;
+        contact.normal = rotation * c.gap.normal;
+        // the probe decides where the bodies meet
+        const Vec3 local = meeting_point(view, rule, c);
+        contact.point = rotation * local + bodies.position[view.pair.a];
+        contact.crushes_a = !ship && !c.gap.a_is_surface;
+        contact.patch = probe_patch(view, c);
+        contact.region = ship ? view.shape_a.region[c.i] : -1;
+        // a probe slides over many surface spheres: the probe and its face's rank are what lasts
+        const std::int32_t probe = (c.probe() << 1) | (c.gap.a_is_surface ? 1 : 0);
+        face = probe == last_probe ? face + 1 : 0;
+        last_probe = probe;
+        contact.key = (static_cast<std::uint64_t>(probe) << 32) | static_cast<std::uint32_t>(face);
+        out.push_back(contact);
+    }
+}
+
+// Sphere on sphere: every pair of spheres is a contact, and shares of the surface are split.
+void finish_centres(const PairView& view, const std::vector<Candidate>& candidates,
+                    std::vector<Contact>& out) {
+    const bool ship = view.pair.a == static_cast<std::int32_t>(kShip);
+    const auto shared_b = count_contacts(candidates, &Candidate::j, view.shape_b.center.size());
+    // the hull has many spheres and its shares are not asked for
+    const auto shared_a = count_contacts(ship ? std::vector<Candidate>{} : candidates,
+                                         &Candidate::i, ship ? 0 : view.shape_a.center.size());
+    const auto first = out.end() - static_cast<std::ptrdiff_t>(candidates.size());
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+        const Candidate& c = candidates[k];
+        Contact& contact = first[static_cast<std::ptrdiff_t>(k)];
+        contact.key = (static_cast<std::uint64_t>(c.i) << 32) | static_cast<std::uint32_t>(c.j);
+        double area = facing_area(view.shape_b, c.j, view.turn.transpose() * -c.gap.normal) /
+                      shared_b[static_cast<std::size_t>(c.j)];
+        if (!ship)
+            area = std::min(area, facing_area(view.shape_a, c.i, c.gap.normal) /
+                                      shared_a[static_cast<std::size_t>(c.i)]);
+        contact.patch = Patch{.share = area};
+    }
+}
+
+}  // namespace
+
+void emit_contacts(const PairView& view, NormalRule rule, const std::vector<Candidate>& candidates,
+                   std::vector<Contact>& out) {
+    if (candidates.empty()) return;
+    emit_all(view, rule, candidates, out);
+    if (rule == NormalRule::centres) finish_centres(view, candidates, out);
+}
+
+}  // namespace ice

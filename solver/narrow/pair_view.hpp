@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cmath>
+#include <tuple>
+
+#include "solver/broad/find_pairs.hpp"
+#include "solver/narrow/measure_gap.hpp"
+#include "solver/scene/bodies.hpp"
+
+namespace ice {
+
+/// Two bodies seen from a: b's spheres are brought into a's axes, where a's grid lies.
+struct PairView {
+    const Scene& scene;
+    BodyPair pair;
+    const Shape& shape_a;
+    const Shape& shape_b;
+    Mat3 turn;   // b's axes to a's
+    Vec3 shift;  // b's origin in a's axes
+
+    PairView(const Scene& s, BodyPair p)
+        : scene(s),
+          pair(p),
+          shape_a(s.shapes[static_cast<std::size_t>(s.bodies.shape[p.a])]),
+          shape_b(s.shapes[static_cast<std::size_t>(s.bodies.shape[p.b])]),
+          turn(s.bodies.rotation[p.a].transpose() * s.bodies.rotation[p.b]),
+          shift(s.bodies.rotation[p.a].transpose() *
+                (s.bodies.position[p.b] - s.bodies.position[p.a])) {}
+
+    Vec3 center_a(std::int32_t i) const {
+        return shape_a.center[i] + scene.crushed.recess_of(pair.a, i);
+    }
+    Vec3 center_b(std::int32_t j) const {  // in a's axes
+        return turn * (shape_b.center[j] + scene.crushed.recess_of(pair.b, j)) + shift;
+    }
+    SphereSurface sphere_a(std::int32_t i) const {
+        return {center_a(i),           shape_a.radius[i],     shape_a.normal[i],
+                shape_a.spread_cos[i], shape_a.spread_sin[i], shape_a.faces[i]};
+    }
+    SphereSurface sphere_b(std::int32_t j) const {
+        return {center_b(j),           shape_b.radius[j],     turn * shape_b.normal[j],
+                shape_b.spread_cos[j], shape_b.spread_sin[j], faces_b(j)};
+    }
+    Faces faces_b(std::int32_t j) const {
+        Faces out = shape_b.faces[j];
+        for (int k = 0; k < out.count; ++k) out.normal[k] = turn * out.normal[k];
+        return out;
+    }
+};
+
+/// Two spheres that may touch.
+struct Candidate {
+    std::int32_t i, j;  // spheres of a and b
+    Gap gap;
+    std::int32_t probe() const { return gap.a_is_surface ? j : i; }
+};
+
+/// What a sphere has in common with its mirror image about y = 0 in the body's axes. Decisions and
+/// orders that look at this before any index make mirror-image states go on as mirror images, bit
+/// for bit.
+inline std::tuple<double, double, double> mirrored_place(const Shape& shape, std::int32_t k) {
+    const Vec3& c = shape.center[static_cast<std::size_t>(k)];
+    return {c.x(), std::abs(c.y()), c.z()};
+}
+
+}  // namespace ice
