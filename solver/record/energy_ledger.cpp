@@ -13,17 +13,16 @@ namespace {
 // A residual above this share of the ship's work is worth a warning.
 constexpr double kWorryingResidual = 0.005;
 
-Vec3 relative_velocity(const Velocities& v, const Constraint& c) {
-    return v.linear[c.b] + v.angular[c.b].cross(c.arm_b) - v.linear[c.a] -
-           v.angular[c.a].cross(c.arm_a);
-}
-
-// One stage of one contact.
-void book_impulse(const Constraint& c, double normal, const Vec3& tangent, const Vec3& mean,
+void book_contact(const Bodies& now, const Constraint& c, const StepBooks& start,
                   EnergyLedger& ledger) {
-    const double pressed = -normal * c.normal.dot(mean);
-    (c.crushed() ? ledger.crushing : ledger.restitution) += pressed;
-    ledger.friction -= tangent.dot(mean);
+    const Vec3 before = start.velocity[c.b] + start.angular_velocity[c.b].cross(c.arm_b) -
+                        start.velocity[c.a] - start.angular_velocity[c.a].cross(c.arm_a);
+    const Vec3 mean = 0.5 * (before + relative_velocity(now, c));
+    const Vec3 push = c.total_normal() * c.normal, rub = c.total_tangent();
+    (c.crushed() ? ledger.crushing : ledger.restitution) -= push.dot(mean);
+    ledger.friction -= rub.dot(mean);
+    if (c.a == static_cast<std::int32_t>(kShip))
+        ledger.ship_work += (push + rub).dot(now.velocity[kShip]);
 }
 
 }  // namespace
@@ -33,39 +32,27 @@ double EnergyLedger::residual(double potential_now) const {
            friction - restitution - crushing - drag - buoyancy_moment;
 }
 
-void Velocities::take(const Bodies& bodies) {
-    linear = bodies.velocity;
-    angular = bodies.angular_velocity;
+void StepBooks::open(const Bodies& bodies) {
+    kinetic = kinetic_energy(bodies);
+    velocity = bodies.velocity;
+    angular_velocity = bodies.angular_velocity;
 }
 
 void book_step(const Scene& scene, const Case& parameters,
                const std::vector<Constraint>& constraints, const std::vector<FloeLoad>& loads,
                const Nudges& nudges, const StepBooks& books, EnergyLedger& ledger) {
     const Bodies& b = scene.bodies;
-    for (const Constraint& c : constraints) {
-        if (c.total_normal() == 0.0) continue;
-        const Vec3 before = relative_velocity(books.start, c);
-        const Vec3 between = relative_velocity(books.collided, c);
-        const Vec3 after = relative_velocity(b, c);
-        book_impulse(c, c.impact_normal, c.impact_tangent, 0.5 * (before + between), ledger);
-        book_impulse(c, c.rest_normal, c.rest_tangent, 0.5 * (between + after), ledger);
-        if (c.a == static_cast<std::int32_t>(kShip))
-            ledger.ship_work +=
-                (c.total_normal() * c.normal + c.total_tangent()).dot(b.velocity[kShip]);
-    }
+    for (const Constraint& c : constraints)
+        if (c.total_normal() > 0.0) book_contact(b, c, books, ledger);
     const double dt = parameters.time_step;
     const bool unrighted = parameters.buoyancy == BuoyancyModel::centre;
     for (std::size_t i = 1; i < b.size(); ++i) {
         if (b.held[i]) continue;
         const FloeLoad& load = loads[i];
-        const Vec3 v = 0.5 * (books.collided.linear[i] + b.velocity[i]);
-        const Vec3 w = 0.5 * (books.collided.angular[i] + b.angular_velocity[i]);
+        const Vec3 v = 0.5 * (books.velocity[i] + b.velocity[i]);
+        const Vec3 w = 0.5 * (books.angular_velocity[i] + b.angular_velocity[i]);
         ledger.drag -= dt * (load.drag.force.dot(v) + load.drag.moment.dot(w));
-        // the rotation of the last step and of this one, half each: the trapezoidal rule over the
-        // run, with the moment at the pose between the two
-        if (unrighted)
-            ledger.buoyancy_moment +=
-                dt * load.righting.dot(0.5 * (books.start.angular[i] + b.angular_velocity[i]));
+        if (unrighted) ledger.buoyancy_moment += dt * load.righting.dot(w);
         const Vec3 weight = load.force - load.drag.force;
         ledger.separation -= weight.dot(nudges.shift[i]) + load.righting.dot(nudges.turn[i]);
     }

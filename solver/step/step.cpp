@@ -63,15 +63,13 @@ void step(World& w) {
                           w.contacts);
         });
     } while (release_touched(w.scene, w.parameters, w.contacts));
-    w.books.start.take(bodies);
-    w.books.kinetic = kinetic_energy(bodies);
+    w.books.open(bodies);
 
     // impacts act on the velocities before the loads, so that ice at rest does not bounce
     timed(w, Stage::contact, [&] {
         build_constraints(bodies, w.contacts, law, w.constraints);
         w.impacts = resolve_impacts(bodies, w.constraints, law);
     });
-    w.books.collided.take(bodies);
 
     // gravity, buoyancy and drag change velocities; resting contacts then carry those loads
     timed(w, Stage::water, [&] {
@@ -88,7 +86,7 @@ void step(World& w) {
     timed(w, Stage::contact, [&] { separate_overlaps(bodies, w.constraints, law, w.nudges); });
     timed(w, Stage::integrate, [&] {
         book_step(w.scene, w.parameters, w.constraints, w.loads, w.nudges, w.books, w.ledger);
-        store_momenta(bodies, w.books.start.angular);
+        store_momenta(bodies, w.books.angular_velocity);
         advance_poses(w.scene, w.nudges, dt);
         w.ledger.kinetic += kinetic_energy(bodies) - w.books.kinetic;
     });
