@@ -23,7 +23,8 @@ struct Options {
     std::vector<std::string> overrides;
     int threads = 0;
     std::int64_t hash_every = 0;
-    bool check = false, schema = false, defaults = false, json = false, quiet = false;
+    bool check = false, schema = false, defaults = false, json = false, quiet = false,
+         verify = false;
 };
 
 void declare(CLI::App& app, Options& o) {
@@ -42,6 +43,8 @@ void declare(CLI::App& app, Options& o) {
         app.add_option("--hash-every", o.hash_every, "Print step and state hash every N steps")
             ->check(CLI::PositiveNumber);
     app.add_flag("--check", o.check, "Read and build everything, run nothing");
+    app.add_flag("--verify", o.verify,
+                 "Stop at a step that loses momentum; the worst imbalance goes into the summary");
     app.add_option("--explain", o.explain, "Tell what a case key takes")->type_name("KEY");
     app.add_flag("--print-schema", o.schema, "JSON schema of the case file");
     app.add_flag("--print-defaults", o.defaults, "A complete case with all defaults");
@@ -98,7 +101,7 @@ int run_case(const Options& o, const std::string& command_line) {
             fmt::print("{} {:016x}\n", w.steps, ice::state_hash(w.scene, w.constraints));
         return !ice::interrupted();
     };
-    const ice::Summary summary = ice::run(world, {folder, command_line, watch});
+    const ice::Summary summary = ice::run(world, {folder, command_line, o.verify, watch});
     progress.finish();
     return report(summary, o, folder.string());
 }

@@ -182,6 +182,7 @@ std::string summary_text(const Summary& s) {
                         {"max_overlap_m", s.max_overlap},
                         {"unconverged_steps", s.unconverged_steps}};
     json["energy"] = s.energy;
+    if (!s.imbalance.empty()) json["imbalance"] = s.imbalance;
     json["lindqvist_submersion_N"] =
         s.lindqvist_submersion ? Json(*s.lindqvist_submersion) : Json(nullptr);
     json["warnings"] = s.warnings;
@@ -221,6 +222,7 @@ Summary read_summary(const std::filesystem::path& path) {
     s.max_overlap = in.number("contacts.max_overlap_m");
     s.unconverged_steps = in.get<std::int64_t>("contacts.unconverged_steps");
     s.energy = in.numbers("energy");
+    s.imbalance = in.numbers("imbalance");
     s.lindqvist_submersion = in.get<std::optional<double>>("lindqvist_submersion_N");
     s.warnings = in.get<std::vector<std::string>>("warnings");
     return s;

@@ -14,6 +14,7 @@
 #include "solver/record/lindqvist.hpp"
 #include "solver/record/recorder.hpp"
 #include "solver/scene/build_scene.hpp"
+#include "solver/step/balance.hpp"
 
 namespace ice {
 
@@ -33,6 +34,20 @@ void check_finite(const World& w) {
             throw run_failed(fmt::format("step {}, floe {}", w.steps, i),
                              "its position is no longer a number, or is beyond any sea",
                              "use a smaller simulation.time_step");
+}
+
+// A step that must balance; the summary keeps the worst of each kind.
+void verified_step(World& w, Summary& summary) {
+    const Momenta before = momenta_of(w.scene.bodies);
+    step(w);
+    const Imbalance found = require_balance(before, w);
+    const auto keep = [&](const char* key, double value) {
+        double& worst = summary.imbalance[key];
+        worst = std::max(worst, value);
+    };
+    keep("floe_momentum", found.linear);
+    keep("floe_angular_momentum", found.angular);
+    keep("ship_and_floes", found.together);
 }
 
 // Thickness of the first group's floes as they lie: h of the empirical formula.
@@ -153,7 +168,10 @@ Summary run(World& world, const RunOptions& options) {
     warn_of_initial_overlap(world, summary);
     try {
         while (world.steps < steps) {
-            step(world);
+            if (options.verify)
+                verified_step(world, summary);
+            else
+                step(world);
             check_finite(world);
             recorder.add(view_of(world));
             const double done = static_cast<double>(world.steps) / static_cast<double>(steps);

@@ -15,6 +15,7 @@ namespace ice {
 struct RunOptions {
     std::filesystem::path folder;  ///< run folder; created
     std::string command_line;
+    bool verify = false;  ///< every step must balance (balance.hpp); the worst is in the summary
     /// Called after every step with (fraction done, world); false ends the run as "interrupted".
     std::function<bool(double, const World&)> keep_going = [](double, const World&) {
         return true;

@@ -55,6 +55,23 @@ TEST_CASE("icesolve writes the run folder of the contract", "[cli]") {
     CHECK(s.resistance.mean == Approx(mean / count).epsilon(1e-6));  // CSV-free: same doubles
 }
 
+TEST_CASE("--verify finds every step in balance, says so, and changes no bit of the run", "[cli]") {
+    const Workshop w;
+    w.make_case();
+    REQUIRE(w.run("icesolve case.cfg -q --out plain").code == 0);
+    REQUIRE(w.run("icesolve case.cfg -q --out verified --verify").code == 0);
+    const Summary plain = read_summary(w / "plain/summary.json");
+    const Summary verified = read_summary(w / "verified/summary.json");
+    CHECK(plain.imbalance.empty());
+    CHECK(verified.imbalance.size() == 3);
+    for (const auto& [kind, worst] : verified.imbalance) {
+        CAPTURE(kind);
+        CHECK(worst > 0.0);  // it did look: rounding is never exactly zero over 600 steps
+        CHECK(worst <= 1e-12);
+    }
+    CHECK(plain.state_hash == verified.state_hash);
+}
+
 TEST_CASE("the same case gives the same state hash for 1, 2, 3 and 4 threads",
           "[cli][determinism]") {
     const Workshop w;

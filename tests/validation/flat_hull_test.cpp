@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A floe pressed against a flat hull by its buoyancy: the hull is flat whatever its spheres.
+#include <fmt/format.h>
+
 #include <catch2/catch.hpp>
 #include <numbers>
 
 #include "preprocess/fill/fill_spheres.hpp"
 #include "tests/support/make_meshes.hpp"
 #include "tests/support/make_worlds.hpp"
+#include "tests/validation/table.hpp"
 
 using namespace ice;
 
@@ -13,6 +16,8 @@ namespace {
 
 constexpr double kDeg = std::numbers::pi / 180.0;
 const Vec3 kFloe(1.0, 0.8, 0.3);
+const double kPress =
+    (1000.0 - 900.0) * 9.81 * kFloe.prod();  // what buoyancy exceeds weight by [N]
 
 SphereSet box_set(const Vec3& size, double radius, double spacing, const Quaternion& turn) {
     TriangleMesh mesh = test::make_box_mesh(size);
@@ -75,28 +80,43 @@ Pressed press(double slope, double hull_radius, double hull_spacing, double floe
 
 TEST_CASE("a floe under a flat hull presses with its buoyancy and drags with mu of it",
           "[validation]") {
-    const double weight = (1000.0 - 900.0) * 9.81 * kFloe.prod();
-    const auto [hull_radius, floe_radius] =
-        GENERATE(std::pair(0.1, 0.05), std::pair(0.1, 0.025), std::pair(0.05, 0.05));
+    const double slope = GENERATE(0.0, 20.0, 35.0, 60.0);  // degrees
+    const auto [hull_radius, floe_radius] = GENERATE(std::pair(0.1, 0.05), std::pair(0.1, 0.025),
+                                                     std::pair(0.05, 0.05), std::pair(0.05, 0.025));
     const double spacing = hull_radius * GENERATE(0.5, 1.0, 2.0);
-    const double slope = kDeg * GENERATE(0.0, 20.0, 35.0, 60.0);
-    CAPTURE(hull_radius, spacing, floe_radius, slope / kDeg);
+    CAPTURE(hull_radius, spacing, floe_radius, slope);
     const Pressed got =
-        press(slope, hull_radius, spacing, floe_radius, NormalRule::surface, 0.3, 1.3);
-    const Vec3 down = Eigen::AngleAxisd(-slope, Vec3::UnitY()) * Vec3(0, 0, -1);
-    CHECK(got.normal.norm() == Approx(weight * std::cos(slope)).epsilon(0.005));
-    CHECK(got.normal.normalized().dot(down) > 0.99999);
-    CHECK(got.friction.norm() / got.normal.norm() == Approx(0.1).epsilon(0.01));
-    CHECK(std::abs(got.friction.normalized().dot(down)) < 1e-3);
+        press(kDeg * slope, hull_radius, spacing, floe_radius, NormalRule::surface, 0.3, 1.3);
+    const Vec3 down = Eigen::AngleAxisd(-kDeg * slope, Vec3::UnitY()) * Vec3(0, 0, -1);
+    test::validate({fmt::format("floe under a flat hull at {:g} degrees: normal force", slope), "N",
+                    kPress * std::cos(kDeg * slope), got.normal.norm(), test::within_percent(0.5),
+                    "(rho_w - rho_i) g V cos(slope)"});
+    test::validate({"floe under a flat hull at any slope: friction over normal force", "", 0.1,
+                    got.friction.norm() / got.normal.norm(), test::within_percent(1), "mu"});
+    // the sine of the angles; nothing but rounding bends them
+    test::validate({"floe under a flat hull at any slope: angle of the force to the hull's normal",
+                    "rad", 0.0, got.normal.normalized().cross(down).norm(), test::within(1e-9),
+                    "a flat hull pushes along its normal"});
+    test::validate(
+        {"floe under a flat hull at any slope: angle of the friction to the hull's plane", "rad",
+         0.0, got.friction.normalized().dot(down), test::within(1e-9),
+         "friction acts in the plane"});
 }
 
 TEST_CASE("from centre to centre the same hull is rough: the paper's rule, beside the default",
           "[validation]") {
     // the floe is as heavy as before, but rides over bumps: the drag is no longer 0.1 of that
-    const double weight = (1000.0 - 900.0) * 9.81 * kFloe.prod();
-    const double spacing = GENERATE(0.05, 0.2);
+    const double spacing = GENERATE(0.05, 0.1, 0.2);
     const Pressed got = press(0.0, 0.1, spacing, 0.05, NormalRule::centres, 0.3, 1.3);
-    const double drag = (got.normal + got.friction).x() / weight;
+    const double drag = (got.normal + got.friction).x() / kPress;
+    test::show({fmt::format("the same hull, level, `normal = \"centres\"`, spheres {:g} m apart: "
+                            "drag over buoyancy",
+                            spacing),
+                "",
+                0.1,
+                drag,
+                {},
+                "mu; the paper's rule rides over the spheres"});
     CAPTURE(spacing, drag);
     CHECK(drag > 0.13);
     CHECK(drag < 1.0);
@@ -139,8 +159,8 @@ TEST_CASE("a floe that slides under another presses with its buoyancy and drags 
     }
     normal /= count;
     friction /= count;
-    const double weight = (1000.0 - 900.0) * 9.81 * kFloe.prod();
-    CHECK(normal.norm() == Approx(weight).epsilon(0.005));
-    CHECK(friction.norm() / normal.norm() == Approx(0.3).epsilon(0.01));
-    CHECK(friction.x() < 0.0);
+    test::validate({"floe sliding under another: normal force", "N", kPress, normal.norm(),
+                    test::within_percent(0.5), "(rho_w - rho_i) g V"});
+    test::validate({"floe sliding under another: friction over normal force", "", 0.3,
+                    -friction.x() / normal.norm(), test::within_percent(1), "mu between floes"});
 }

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The check of momentum: it passes what balances and names what does not.
+#include "solver/step/balance.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "common/base/error.hpp"
+#include "tests/support/make_worlds.hpp"
+
+using namespace ice;
+
+namespace {
+
+// Two floes, one above the other, pressed under a plate that moves: every kind of contact and load.
+World pressed_floes() {
+    Case p = test::empty_space(0.01);
+    p.gravity = 9.81;
+    p.buoyancy = BuoyancyModel::distributed;
+    p.drag = DragModel::panel;
+    p.speed_table = {{0.0, 1.0}};
+    p.iterations = 30;
+    p.tolerance = 1e-4;
+    World w = test::plate_world(p, Vec3(8, 4, 0.4), 0.1, 0.2, -1.0);
+    const auto box = test::add_shape(w, test::make_box_set(Vec3(1, 0.8, 0.3), 0.05, 0.1));
+    for (const double z : {-1.16, -1.47})
+        add_floe(w.scene, box, 900.0, Vec3(0, 0, z),
+                 Quaternion(Eigen::AngleAxisd(0.1 * z, Vec3::UnitX())), 0, false);
+    return w;
+}
+
+Momenta advance(World& w, int steps) {
+    Momenta before;
+    for (int k = 0; k < steps; ++k) {
+        before = momenta_of(w.scene.bodies);
+        step(w);
+    }
+    return before;
+}
+
+// a contact of the ship that carries an impulse
+Constraint& pressed_contact(World& w) {
+    for (Constraint& c : w.constraints)
+        if (c.a == 0 && c.total_normal() > 0.0) return c;
+    FAIL("nothing touches the ship");
+    return w.constraints.front();
+}
+
+}  // namespace
+
+TEST_CASE("every step of two pressed floes balances", "[step][balance]") {
+    World w = pressed_floes();
+    for (int k = 0; k < 200; ++k) {
+        const Momenta before = advance(w, 1);
+        REQUIRE_NOTHROW(require_balance(before, w));
+    }
+    CHECK(pressed_contact(w).total_normal() > 0.0);
+}
+
+TEST_CASE("an impulse off by 1e-9 of itself is caught, with the step and the floe",
+          "[step][balance]") {
+    World w = pressed_floes();
+    const Momenta before = advance(w, 50);
+    REQUIRE_NOTHROW(require_balance(before, w));
+    Constraint& c = pressed_contact(w);
+    SECTION("a normal impulse that the floe did not get") {
+        c.rest_normal *= 1.0 + 1e-9;
+        CHECK_THROWS_WITH(require_balance(before, w), Catch::Contains("step 50, floe 1"));
+    }
+    SECTION("a tangential one") {
+        c.rest_tangent += Vec3(1e-9 * c.total_normal(), 0, 0);
+        CHECK_THROWS_WITH(require_balance(before, w), Catch::Contains("step 50, floe 1"));
+    }
+    SECTION("one that acts at another place") {
+        c.arm_b += Vec3(1e-6, 0, 0);
+        CHECK_THROWS_WITH(require_balance(before, w), Catch::Contains("angular momentum"));
+    }
+    SECTION("a floe that is given some on its way") {
+        w.scene.bodies.momentum[2] += Vec3(0, 1e-9 * w.scene.bodies.momentum[2].norm(), 0);
+        CHECK_THROWS_WITH(require_balance(before, w), Catch::Contains("floe 2"));
+    }
+    SECTION("a state that is no number") {
+        w.scene.bodies.momentum[2].x() = std::numeric_limits<double>::quiet_NaN();
+        CHECK_THROWS_AS(require_balance(before, w), Error);
+    }
+}
+
+TEST_CASE("what a held floe takes counts as momentum that left", "[step][balance]") {
+    World w = pressed_floes();
+    w.parameters.floes.resize(2);
+    w.parameters.floes[1].hold = Hold::always;
+    w.scene.bodies.group[1] = 1;
+    w.scene.bodies.held[1] = 1;
+    update_derived(w.scene.bodies, 1);
+    const Momenta before = advance(w, 50);
+    const Imbalance found = require_balance(before, w);
+    CHECK(found.linear_floe != 1);
+    CHECK(found.together <= kBalanceTolerance);
+    CHECK(w.scene.bodies.momentum[1] == Vec3::Zero());
+}
