@@ -25,9 +25,7 @@ void limit_drag(const Bodies& b, std::size_t i, double dt, WaterLoad& drag) {
 }
 
 // In 2D the plane's other components are rounding only; they must not add up over a run.
-void keep_in_plane(WaterLoad& load) {
-    load.force.y() = load.moment.x() = load.moment.z() = 0.0;
-}
+void keep_in_plane(WaterLoad& load) { load.force.y() = load.moment.x() = load.moment.z() = 0.0; }
 
 FloeLoad load_of(const Scene& scene, const Case& p, std::size_t i) {
     const Bodies& b = scene.bodies;

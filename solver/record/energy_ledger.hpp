@@ -54,7 +54,7 @@ struct EnergyLedger {
 
 /// What the ledger needs to know of the start of a step.
 struct StepBooks {
-    double kinetic = 0.0;  ///< kinetic energy [J]
+    double kinetic = 0.0;                          ///< kinetic energy [J]
     std::vector<Vec3> velocity, angular_velocity;  ///< after floes were released
 
     /// Takes both from the bodies at the start of a step.
