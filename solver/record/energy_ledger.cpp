@@ -90,14 +90,19 @@ std::string energy_line(const Summary& summary) {
     const auto& energy = summary.energy;
     const auto work = energy.find("ship_work_J");
     if (work == energy.end() || work->second == 0.0) return "";
-    const auto share = [&](const char* key) { return 100.0 * energy.at(key) / work->second; };
-    return fmt::format(
-        "work of the ship {:.5g} {}: potential {:.1f} %, kinetic {:.1f} %, friction {:.1f} %, "
-        "impacts {:.1f} %, crushing {:.1f} %, drag {:.1f} %, opened overlaps {:.2f} %, left-out "
-        "buoyancy moment {:.1f} %, unexplained {:.3f} %",
-        work->second, summary.dimension == 2 ? "J/m" : "J", share("potential_J"),
-        share("kinetic_change_J"), share("friction_J"), share("restitution_J"), share("crushing_J"),
-        share("drag_J"), -share("separation_J"), share("buoyancy_moment_J"), share("residual_J"));
+    const auto share = [&](const char* key, const char* name, int digits = 1) {
+        const double scale = std::pow(10.0, digits);
+        const double percent = std::round(100.0 * scale * energy.at(key) / work->second) / scale;
+        return fmt::format(", {} {:.{}f} %", name, percent + 0.0, digits);  // no -0
+    };
+    return fmt::format("work of the ship {:.5g} {}: ", work->second,
+                       summary.dimension == 2 ? "J/m" : "J") +
+           share("potential_J", "potential").substr(2) + share("kinetic_change_J", "kinetic") +
+           share("friction_J", "friction") + share("restitution_J", "impacts") +
+           share("crushing_J", "crushing") + share("drag_J", "drag") +
+           share("buoyancy_moment_J", "left-out buoyancy moment") +
+           share("separation_J", "put in by opened overlaps", 2) +
+           share("residual_J", "unexplained", 3);
 }
 
 }  // namespace ice
