@@ -67,8 +67,8 @@ void book_step(const Scene& scene, const Case& parameters,
                const std::vector<Constraint>& constraints, const std::vector<FloeLoad>& loads,
                const Nudges& nudges, const StepBooks& books, EnergyLedger& ledger);
 
-/// Fills Summary::energy, and warns where more than 0.5 % of the ship's work, or of the losses where
-/// they are larger, is not explained.
+/// Fills Summary::energy, and warns where more than 0.5 % of the ship's work, or of the losses
+/// where they are larger, is not explained.
 void fill_energy(const EnergyLedger& ledger, double potential_now, Summary& summary);
 
 /// The ship's work and where it went in percent of it, one line; "" when the ship did none.

@@ -84,8 +84,8 @@ Entry entry_at(World& w, double travel) {
     return {w.ledger, potential_energy(w.scene, w.parameters), w.time * start};
 }
 
-// Means over a travel of whole pieces: joules per metre of travel, which are newtons, both per metre
-// of breadth.
+// Means over a travel of whole pieces: joules per metre of travel, which are newtons, both per
+// metre of breadth.
 struct Window {
     double resistance;
     double kinetic,
