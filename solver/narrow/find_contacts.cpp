@@ -71,11 +71,26 @@ void consider(const PairView& view, NormalRule rule, double margin, std::int32_t
         out.push_back({i, j, gap});
 }
 
+// What a sphere has in common with its mirror image about y = 0 in the body's axes. Decisions and
+// orders that look at this before any index make mirror-image states go on as mirror images, bit
+// for bit.
+std::tuple<double, double, double> mirrored_place(const Shape& shape, std::int32_t k) {
+    const Vec3& c = shape.center[static_cast<std::size_t>(k)];
+    return {c.x(), std::abs(c.y()), c.z()};
+}
+
 // Of a probe's candidates, the laterally nearest for each face; see the header.
-void keep_one_per_face(std::vector<Candidate>& candidates) {
-    const auto order = [](const Candidate& l, const Candidate& r) {
-        return std::tuple(l.gap.a_is_surface, l.probe(), l.gap.lateral_sq, l.i, l.j) <
-               std::tuple(r.gap.a_is_surface, r.probe(), r.gap.lateral_sq, r.i, r.j);
+void keep_one_per_face(const PairView& view, std::vector<Candidate>& candidates) {
+    const auto order = [&](const Candidate& l, const Candidate& r) {
+        const auto first = [](const Candidate& c) {
+            return std::tuple(c.gap.a_is_surface, c.probe(), c.gap.lateral_sq);
+        };
+        if (first(l) != first(r)) return first(l) < first(r);
+        const auto tie = [&](const Candidate& c) {
+            return std::tuple(mirrored_place(view.shape_a, c.i), mirrored_place(view.shape_b, c.j),
+                              c.i, c.j);
+        };
+        return tie(l) < tie(r);
     };
     std::sort(candidates.begin(), candidates.end(), order);
     std::size_t kept = 0, group = 0;  // [group, kept) are the kept ones of the present probe
@@ -152,13 +167,21 @@ void emit(const PairView& view, const std::vector<Candidate>& candidates,
 
 void finish_pair(const PairView& view, NormalRule rule, std::vector<Candidate>& candidates,
                  std::vector<Contact>& out) {
-    if (rule == NormalRule::surface) keep_one_per_face(candidates);
+    const auto before = static_cast<std::ptrdiff_t>(out.size());
+    if (rule == NormalRule::surface) keep_one_per_face(view, candidates);
     emit(view, candidates, out);
     if (rule == NormalRule::centres)
         for (std::size_t k = 0; k < candidates.size(); ++k)
             out[out.size() - candidates.size() + k].key =
                 (static_cast<std::uint64_t>(candidates[k].i) << 32) |
                 static_cast<std::uint32_t>(candidates[k].j);
+    // the solver takes contacts in this order, and its answer depends on it
+    const auto order = [&](const Contact& c) {
+        return std::tuple(mirrored_place(view.shape_a, c.sphere_a),
+                          mirrored_place(view.shape_b, c.sphere_b), c.gap, c.key);
+    };
+    std::sort(out.begin() + before, out.end(),
+              [&](const Contact& l, const Contact& r) { return order(l) < order(r); });
 }
 
 void find_pair_contacts(const Scene& scene, BodyPair pair, NormalRule rule, double margin,

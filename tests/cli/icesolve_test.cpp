@@ -78,6 +78,17 @@ TEST_CASE("--verify finds every step in balance, says so, and changes no bit of 
     CHECK(plain.state_hash == verified.state_hash);
 }
 
+TEST_CASE("a run with too few iterations counts the steps it did not solve", "[cli]") {
+    const Workshop w;
+    w.make_case();
+    REQUIRE(w.run("icesolve case.cfg -q --out few --set contact.iterations=1").code == 0);
+    REQUIRE(w.run("icesolve case.cfg -q --out many --set contact.iterations=2000").code == 0);
+    const Summary few = read_summary(w / "few/summary.json");
+    const Summary many = read_summary(w / "many/summary.json");
+    CHECK(few.unconverged_steps > 10 * (1 + many.unconverged_steps));
+    CHECK_FALSE(few.warnings.empty());
+}
+
 TEST_CASE("the same case gives the same state hash for 1, 2, 3 and 4 threads",
           "[cli][determinism]") {
     const Workshop w;

@@ -41,6 +41,12 @@ SphereSet set_of_section(const std::string& name, const FillOptions& options) {
     return fill_discs(slice_solid(mesh, 0.0), mesh.region_names, options, report);
 }
 
+SphereSet set_of_prism(const std::string& name, const FillOptions& options) {
+    SpheresReport report;
+    const TriangleMesh mesh = read(name);
+    return fill_spheres(extrude(slice_solid(mesh, 0.0), mesh.region_names), options, report);
+}
+
 World world_of_case(const std::string& name, const SphereSet& hull, const SphereSet& floe,
                     std::vector<std::string> overrides) {
     const TemporaryFile hull_file(".spheres.h5", ""), floe_file(".spheres.h5", "");

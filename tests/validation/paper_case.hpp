@@ -13,6 +13,9 @@ SphereSet set_of_mesh(const std::string& name, const FillOptions& options);
 /// The same of its section y = 0: discs, per metre of breadth.
 SphereSet set_of_section(const std::string& name, const FillOptions& options);
 
+/// Sphere set of the prism of 1 m breadth over that section.
+SphereSet set_of_prism(const std::string& name, const FillOptions& options);
+
 /// cases/<name> with its hull and floes replaced by these sets, and the overrides of
 /// `icesolve --set`.
 World world_of_case(const std::string& name, const SphereSet& hull, const SphereSet& floe,

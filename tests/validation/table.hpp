@@ -8,11 +8,12 @@ namespace ice::test {
 
 /// How far `got` may be from `expected`.
 struct Tolerance {
-    double value;
-    bool relative;  ///< to |expected|; else in the row's unit
+    enum Kind { absolute, relative, upper } kind = absolute;
+    double value = 0.0;  ///< in the row's unit, or as a share of |expected|; upper: not used
 };
-constexpr Tolerance within_percent(double percent) { return {0.01 * percent, true}; }
-constexpr Tolerance within(double absolute) { return {absolute, false}; }
+constexpr Tolerance within_percent(double percent) { return {Tolerance::relative, 0.01 * percent}; }
+constexpr Tolerance within(double absolute) { return {Tolerance::absolute, absolute}; }
+constexpr Tolerance at_most_expected() { return {Tolerance::upper}; }  ///< got <= expected
 
 /// One comparison with a known answer.
 struct Comparison {
@@ -20,11 +21,12 @@ struct Comparison {
     std::string unit;  ///< "" for a ratio
     double expected = 0.0;
     double got = 0.0;
-    Tolerance tolerance{0.0, false};
+    Tolerance tolerance;
     std::string why;  ///< why `expected` is the answer: a formula, a law, a source
 };
 
-/// CHECKs |got - expected| <= tolerance (not a number fails) and adds the row to the table.
+/// CHECKs |got - expected| <= tolerance, or got <= expected for an upper bound (not a number fails
+/// either), and adds the row to the table.
 ///
 /// Of several comparisons with the same name the one farthest out, in units of its tolerance, is
 /// shown with their number: "(worst of 36)".
