@@ -61,7 +61,8 @@ TEST_CASE("icesolve writes the run folder of the contract", "[cli]") {
     CHECK(std::abs(s.energy.at("residual_J")) < 0.005 * s.energy.at("ship_work_J"));
 }
 
-TEST_CASE("--verify finds every step in balance, says so, and changes no bit of the run", "[cli]") {
+TEST_CASE("icesolve --verify finds every step in balance, says so, and changes no bit of the run",
+          "[cli]") {
     const Workshop w;
     w.make_case();
     REQUIRE(w.run("icesolve case.cfg -q --out plain").code == 0);
