@@ -136,7 +136,8 @@ std::string energy_table(const Summary& s) {
     for (const auto& [key, name] : kRows) {
         const auto found = s.energy.find(key);
         if (found == s.energy.end()) continue;
-        const double share = 100.0 * found->second / work->second;
+        const double percent = 100.0 * found->second / work->second;
+        const double share = std::round(100.0 * percent) / 100.0 + 0.0;  // no -0
         rows.push_back({name, readable(found->second),
                         std::isfinite(share) ? fmt::format("{:.2f}", share) : "n/a"});
     }

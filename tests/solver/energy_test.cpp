@@ -233,3 +233,30 @@ TEST_CASE("a ship among floes: what it gives is what motion, height and losses t
     // twenty times the largest seen here; the paper's cases ask for 5e-3
     CHECK(std::abs(residual(w)) < 1e-4 * w.ledger.ship_work);
 }
+
+TEST_CASE("more than 0.5 % of unexplained work is worth a warning, less is not", "[energy]") {
+    EnergyLedger ledger;
+    ledger.potential_start = 50.0;
+    ledger.ship_work = 1000.0;
+    ledger.friction = 700.0;
+    ledger.drag = 194.0;
+    ledger.kinetic = 2.0;
+    Summary good, bad, idle;
+    fill_energy(ledger, 150.0, good);  // 100 J of potential energy gained
+    CHECK(good.energy.at("potential_J") == Approx(100.0));
+    CHECK(good.energy.at("residual_J") == Approx(4.0));
+    CHECK(good.energy.at("residual_share") == Approx(0.004));
+    CHECK(good.warnings.empty());
+    CHECK_THAT(energy_line(good), Catch::Contains("potential 10.0 %") &&
+                                      Catch::Contains("friction 70.0 %") &&
+                                      Catch::Contains("unexplained 0.400 %"));
+
+    fill_energy(ledger, 148.0, bad);
+    REQUIRE(bad.warnings.size() == 1);
+    CHECK_THAT(bad.warnings[0], Catch::Contains("0.6 % of the ship's work"));
+
+    fill_energy({}, 0.0, idle);  // a ship that met no ice
+    CHECK(idle.warnings.empty());
+    CHECK(idle.energy.at("residual_share") == 0.0);
+    CHECK(energy_line(idle).empty());
+}
