@@ -14,6 +14,7 @@
 #include "common/cli/progress.hpp"
 #include "solver/case/case_schema.hpp"
 #include "solver/case/read_case.hpp"
+#include "solver/record/energy_ledger.hpp"
 #include "solver/record/recorder.hpp"
 #include "solver/step/run.hpp"
 
@@ -90,6 +91,7 @@ int report(const ice::Summary& s, const Options& o, const std::string& folder) {
     if (s.lindqvist_submersion)
         ice::say(
             fmt::format("Lindqvist's submersion resistance: {:.1f} N", *s.lindqvist_submersion));
+    if (const std::string line = ice::energy_line(s); !line.empty()) ice::say(line);
     for (const std::string& warning : s.warnings) ice::say_warning(warning);
     ice::say(fmt::format("{} s simulated in {:.1f} s ({:.1f}x real time); results in {}",
                          s.simulated_s, s.wall_s, s.simulated_s / s.wall_s, folder));

@@ -117,6 +117,35 @@ std::string region_table(const Summary& s) {
                  rows);
 }
 
+std::string energy_table(const Summary& s) {
+    // in the order of the balance: what went in, where it went, what is unaccounted for
+    static const std::vector<std::pair<const char*, const char*>> kRows{
+        {"ship_work_J", "Work of the ship"},
+        {"separation_J", "Put in by opening overlaps"},
+        {"potential_J", "Gained as potential energy"},
+        {"kinetic_change_J", "Gained as kinetic energy"},
+        {"friction_J", "Lost to friction"},
+        {"restitution_J", "Lost in impacts"},
+        {"crushing_J", "Lost to crushing"},
+        {"drag_J", "Lost to drag"},
+        {"buoyancy_moment_J", "Taken by the moment that buoyancy \"centre\" leaves out"},
+        {"residual_J", "Not explained"}};
+    const auto work = s.energy.find("ship_work_J");
+    if (work == s.energy.end() || !s.energy.contains("residual_J")) return "";
+    std::vector<std::vector<std::string>> rows;
+    for (const auto& [key, name] : kRows) {
+        const auto found = s.energy.find(key);
+        if (found == s.energy.end()) continue;
+        const double percent = 100.0 * found->second / work->second;
+        const double share = std::round(100.0 * percent) / 100.0 + 0.0;  // no -0
+        rows.push_back({name, readable(found->second),
+                        std::isfinite(share) ? fmt::format("{:.2f}", share) : "n/a"});
+    }
+    return table(
+        {s.dimension == 2 ? "Energy [J/m]" : "Energy [J]", "Whole run", "% of the ship's work"},
+        rows);
+}
+
 std::string numerics_table(const Summary& s) {
     std::vector<std::pair<std::string, std::string>> rows{
         {"Contacts with an impulse", "mean " + readable(s.contacts_mean) + ", largest " +
@@ -124,9 +153,6 @@ std::string numerics_table(const Summary& s) {
         {"Deepest overlap", readable(1000.0 * s.max_overlap) + " mm"},
         {"Steps that did not converge", fmt::format("{} of {}", s.unconverged_steps, s.steps)},
         {"Spheres", fmt::format("{} hull, {} ice", s.hull_spheres, s.ice_spheres)}};
-    for (const auto& [key, value] : s.energy)
-        rows.emplace_back("Energy: " + spelled(key),
-                          readable(value) + (s.dimension == 2 ? " J/m" : " J"));
     for (const auto& [key, value] : s.stage_seconds)
         rows.emplace_back("Computing time: " + spelled(key), readable(value) + " s");
     return facts(rows);

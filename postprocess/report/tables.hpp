@@ -24,7 +24,9 @@ std::string key_numbers(const Summary& summary);
 std::string force_table(const Summary& summary);
 /// One row per region of the hull; "" when there are none.
 std::string region_table(const Summary& summary);
-/// Contacts, overlap, energy: whether the numbers can be trusted.
+/// Where the ship's work went, in joules and as shares of it; "" for a run without a ledger.
+std::string energy_table(const Summary& summary);
+/// Contacts, overlap, computing time: whether the numbers can be trusted.
 std::string numerics_table(const Summary& summary);
 /// The warnings as a list; "" when there are none.
 std::string warning_list(const std::vector<std::string>& warnings);

@@ -101,9 +101,14 @@ std::string make_report(const read::RunFolder& run) {
         data, run.summary ? run.summary->average_from : 0.0,
         run.summary ? run.summary->resistance.mean : std::numeric_limits<double>::quiet_NaN());
     body += track_section(data);
-    if (run.summary)
-        body += section("numerics", "Contacts, energy and computing time", "",
-                        numerics_table(*run.summary));
+    if (run.summary) {
+        const std::string energy = energy_table(*run.summary);
+        if (!energy.empty())
+            body += section("energy", "Where the ship's work went",
+                            "Work of the ship + opened overlaps = all that follows them.", energy);
+        body +=
+            section("numerics", "Contacts and computing time", "", numerics_table(*run.summary));
+    }
     body += origin(run) + "</main>\n";
     return make_page(run.data.header.title, body);
 }

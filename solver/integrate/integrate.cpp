@@ -24,40 +24,46 @@ void limit_drag(const Bodies& b, std::size_t i, double dt, WaterLoad& drag) {
     if (twist > halt) drag.moment *= halt / twist;
 }
 
-WaterLoad load_of(const Scene& scene, const Case& p, std::size_t i) {
+// In 2D the plane's other components are rounding only; they must not add up over a run.
+void keep_in_plane(WaterLoad& load) { load.force.y() = load.moment.x() = load.moment.z() = 0.0; }
+
+FloeLoad load_of(const Scene& scene, const Case& p, std::size_t i) {
     const Bodies& b = scene.bodies;
     const Shape& shape = scene.shapes[static_cast<std::size_t>(b.shape[i])];
     const Motion motion{b.rotation[i], b.position[i].z(), b.velocity[i], b.angular_velocity[i]};
-    WaterLoad load;
+    FloeLoad load;
     if (p.drag == DragModel::projected)
-        load = projected_drag(shape, motion, p.drag_coefficient, p.water_density);
+        load.drag = projected_drag(shape, motion, p.drag_coefficient, p.water_density);
     if (p.drag == DragModel::panel)
-        load = panel_drag(shape, motion, p.drag_coefficient, p.water_density);
-    limit_drag(b, i, p.time_step, load);
+        load.drag = panel_drag(shape, motion, p.drag_coefficient, p.water_density);
+    limit_drag(b, i, p.time_step, load.drag);
+    load.force = load.drag.force;
+    load.moment = load.drag.moment;
     load.force.z() -= b.mass[i] * p.gravity;
     if (p.buoyancy != BuoyancyModel::none) {
         const Submerged wet = measure_submerged(shape, b.rotation[i], b.position[i].z());
         const Vec3 lift(0.0, 0.0, p.water_density * p.gravity * wet.volume);
         load.force += lift;
-        if (p.buoyancy == BuoyancyModel::distributed) load.moment += wet.centre.cross(lift);
+        load.righting = wet.centre.cross(lift);
+        if (p.buoyancy == BuoyancyModel::distributed) load.moment += load.righting;
     }
     if (scene.dimension == 2) {
-        // the plane's other components are rounding only; they must not add up over a run
-        load.force.y() = load.moment.x() = load.moment.z() = 0.0;
+        keep_in_plane(load);
+        keep_in_plane(load.drag);
     }
     return load;
 }
 
 }  // namespace
 
-void measure_loads(const Scene& scene, const Case& parameters, std::vector<WaterLoad>& out) {
+void measure_loads(const Scene& scene, const Case& parameters, std::vector<FloeLoad>& out) {
     out.assign(scene.bodies.size(), {});
     parallel_for(scene.bodies.size(), kSerialBodies, [&](std::size_t i) {
         if (i != kShip && !scene.bodies.held[i]) out[i] = load_of(scene, parameters, i);
     });
 }
 
-void apply_loads(Bodies& bodies, const std::vector<WaterLoad>& loads, double dt) {
+void apply_loads(Bodies& bodies, const std::vector<FloeLoad>& loads, double dt) {
     for (std::size_t i = 1; i < bodies.size(); ++i) {
         bodies.velocity[i] += dt * bodies.inverse_mass[i] * loads[i].force;
         bodies.angular_velocity[i] += dt * (bodies.inverse_inertia_world[i] * loads[i].moment);
@@ -95,6 +101,20 @@ double kinetic_energy(const Bodies& bodies) {
         if (!bodies.held[i])
             energy += 0.5 * (bodies.momentum[i].dot(bodies.velocity[i]) +
                              bodies.angular_momentum[i].dot(bodies.angular_velocity[i]));
+    return energy;
+}
+
+double potential_energy(const Scene& scene, const Case& p) {
+    const Bodies& b = scene.bodies;
+    double energy = 0.0;
+    for (std::size_t i = 1; i < b.size(); ++i) {
+        const double z = b.position[i].z();
+        energy += b.mass[i] * p.gravity * z;
+        if (p.buoyancy == BuoyancyModel::none) continue;
+        const Shape& shape = scene.shapes[static_cast<std::size_t>(b.shape[i])];
+        const Submerged wet = measure_submerged(shape, b.rotation[i], z);
+        energy -= p.water_density * p.gravity * wet.volume * (z + wet.centre.z());
+    }
     return energy;
 }
 

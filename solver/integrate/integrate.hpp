@@ -11,12 +11,18 @@
 
 namespace ice {
 
+/// Gravity, buoyancy and drag on a floe together, and the parts that the energy ledger tells apart.
+struct FloeLoad : WaterLoad {
+    WaterLoad drag;                ///< its part
+    Vec3 righting = Vec3::Zero();  ///< moment of the buoyancy, also where the model leaves it out
+};
+
 /// Gravity, buoyancy and drag on every free floe, force and moment about the centre of mass.
 /// Entries of held floes and the ship are zero. In 2D only x, z and the moment about y act.
-void measure_loads(const Scene& scene, const Case& parameters, std::vector<WaterLoad>& out);
+void measure_loads(const Scene& scene, const Case& parameters, std::vector<FloeLoad>& out);
 
 /// Velocities after the loads act for dt: v += F dt / m, w += I^-1 T dt.
-void apply_loads(Bodies& bodies, const std::vector<WaterLoad>& loads, double dt);
+void apply_loads(Bodies& bodies, const std::vector<FloeLoad>& loads, double dt);
 
 /// Takes the velocity changes of the step into the momenta: P = m v, L += I (w - w_start).
 /// Untouched floes keep L bit for bit, so torque-free motion conserves it.
@@ -28,5 +34,14 @@ void advance_poses(Scene& scene, const Nudges& nudges, double dt);
 
 /// Kinetic energy of the free floes [J]: sum of P.v/2 + L.w/2.
 double kinetic_energy(const Bodies& bodies);
+
+/// Potential energy of all floes, held ones too, in weight and water [J]:
+///
+///     U = sum m g z - rho_w g V (z + z_B),
+///
+/// V the submerged volume and z_B the height of its centre above the floe's origin: pushing a piece
+/// of volume under to a depth d lifts as much water by d. -dU/dz is weight plus buoyancy, and the
+/// derivative by rotation the moment of "distributed" buoyancy. Without buoyancy only m g z.
+double potential_energy(const Scene& scene, const Case& parameters);
 
 }  // namespace ice

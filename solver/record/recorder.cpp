@@ -102,7 +102,7 @@ void Recorder::open(const std::filesystem::path& folder, const std::string& comm
         csv_files_.emplace_back(folder / table.name, table.columns);
     const std::vector<Contact> no_contacts;
     const std::vector<Constraint> no_constraints;
-    add_frame({scene, no_contacts, no_constraints, 0.0, true});
+    add_frame({scene, no_contacts, no_constraints, {}, 0.0, true});
 }
 
 std::vector<std::string> Recorder::resume(const std::filesystem::path& folder,
@@ -130,7 +130,7 @@ RecordPosition Recorder::save_rows() {
 
 void Recorder::add(const StepView& view) {
     const StepRecord record = measure_step(view.scene, view.contacts, view.constraints, dt_);
-    tally_.add(record, view.time, dt_, view.scene.ship_velocity.x(), view.converged);
+    tally_.add(record, view.time, dt_, view.converged);
     measure_floe_forces(view.constraints, dt_, floe_forces_);
     for (std::size_t i = 1; i < floe_forces_.size(); ++i)
         frame_impulse_[i] -= dt_ * (floe_forces_[i].contact + floe_forces_[i].friction);
@@ -218,6 +218,7 @@ void Recorder::finish(const StepView& view, Summary& summary) {
     run_->finish();
     for (CsvFile& file : csv_files_) file.finish();
     tally_.fill(summary);
+    fill_energy(view.ledger, potential_energy(view.scene, parameters_), summary);
     summary.state_hash = state_hash(view.scene, view.constraints);
     const Bodies& b = view.scene.bodies;
     summary.floes_total = static_cast<std::int64_t>(b.size()) - 1;

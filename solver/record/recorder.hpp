@@ -12,6 +12,7 @@
 #include "common/formats/summary_file.hpp"
 #include "solver/case/case.hpp"
 #include "solver/record/csv_file.hpp"
+#include "solver/record/energy_ledger.hpp"
 #include "solver/record/tally.hpp"
 
 namespace ice {
@@ -21,6 +22,7 @@ struct StepView {
     const Scene& scene;
     const std::vector<Contact>& contacts;
     const std::vector<Constraint>& constraints;
+    const EnergyLedger& ledger;
     double time;     ///< at the end of the step [s]
     bool converged;  ///< both stages of the contact solver
 };

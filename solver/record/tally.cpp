@@ -49,8 +49,7 @@ ForceStatistics statistics(const std::vector<double>& total, const std::vector<d
 Tally::Tally(TallyOptions options)
     : options_(std::move(options)), regions_(options_.region_names.size()) {}
 
-void Tally::add(const StepRecord& record, double time, double dt, double ship_speed,
-                bool converged) {
+void Tally::add(const StepRecord& record, double time, double dt, bool converged) {
     ++steps_;
     unconverged_ += converged ? 0 : 1;
     contacts_ += record.contacts;
@@ -61,8 +60,6 @@ void Tally::add(const StepRecord& record, double time, double dt, double ship_sp
     }
     kinetic_ = record.kinetic_energy;
     kinetic_max_ = std::max(kinetic_max_, kinetic_);
-    // the ship pushes with what the ice pushes back
-    ship_work_ -= (record.contact_force.x() + record.friction_force.x()) * ship_speed * dt;
     add_jam(record, time);
 
     const bool averaged = time >= options_.average_from - 1e-9;
@@ -115,7 +112,6 @@ void Tally::fill(Summary& summary) const {
     summary.contacts_max = contacts_max_;
     summary.max_overlap = max_overlap_;
     summary.unconverged_steps = unconverged_;
-    summary.energy["ship_work_J"] = ship_work_;
     summary.energy["kinetic_J"] = kinetic_;
     summary.energy["kinetic_max_J"] = kinetic_max_;
     warn(summary);

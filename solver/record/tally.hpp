@@ -25,9 +25,8 @@ class Tally {
 public:
     explicit Tally(TallyOptions options);
 
-    /// @param ship_speed  [m/s], for the work done by the ship
-    /// @param converged   of both solver stages
-    void add(const StepRecord& record, double time, double dt, double ship_speed, bool converged);
+    /// @param converged  of both solver stages
+    void add(const StepRecord& record, double time, double dt, bool converged);
 
     /// Fills in forces, regions, contacts, energy and warnings of a summary.
     void fill(Summary& summary) const;
@@ -53,7 +52,7 @@ private:
     std::set<std::pair<std::int32_t, std::int32_t>> touching_;  ///< (floe, region) of the last step
     std::int64_t steps_ = 0, unconverged_ = 0, jammed_steps_ = 0;
     double contacts_ = 0.0, contacts_max_ = 0.0, max_overlap_ = 0.0;
-    double ship_work_ = 0.0, kinetic_ = 0.0, kinetic_max_ = 0.0;
+    double kinetic_ = 0.0, kinetic_max_ = 0.0;
     double first_jam_time_ = 0.0, deepest_time_ = 0.0;
     std::int32_t first_jam_floe_ = 0;
     Vec3 first_jam_point_ = Vec3::Zero();

@@ -22,7 +22,8 @@ namespace ice {
 namespace {
 
 StepView view_of(const World& w) {
-    return {w.scene, w.contacts, w.constraints, w.time, w.impacts.converged && w.rest.converged};
+    return {w.scene,  w.contacts, w.constraints,
+            w.ledger, w.time,     w.impacts.converged && w.rest.converged};
 }
 
 constexpr double kFarAway = 1e7;  // [m]

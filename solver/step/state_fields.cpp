@@ -19,6 +19,17 @@ void StateFields::carry(CheckpointFile& file, World& w) {
     file.carry_each("bodies.angular_momentum", b.angular_momentum);
     file.carry_each("bodies.held", b.held);
 
+    EnergyLedger& ledger = w.ledger;
+    file.carry("ledger.ship_work", ledger.ship_work);
+    file.carry("ledger.kinetic", ledger.kinetic);
+    file.carry("ledger.friction", ledger.friction);
+    file.carry("ledger.restitution", ledger.restitution);
+    file.carry("ledger.crushing", ledger.crushing);
+    file.carry("ledger.drag", ledger.drag);
+    file.carry("ledger.separation", ledger.separation);
+    file.carry("ledger.buoyancy_moment", ledger.buoyancy_moment);
+    file.carry("ledger.potential_start", ledger.potential_start);
+
     file.carry("crushed.first", w.scene.crushed.first);
     file.carry("crushed.recess", w.scene.crushed.recess);
 
@@ -79,7 +90,6 @@ void StateFields::carry(CheckpointFile& file, Tally& t) {
     file.carry("tally.contacts", t.contacts_);
     file.carry("tally.contacts_max", t.contacts_max_);
     file.carry("tally.max_overlap", t.max_overlap_);
-    file.carry("tally.ship_work", t.ship_work_);
     file.carry("tally.kinetic", t.kinetic_);
     file.carry("tally.kinetic_max", t.kinetic_max_);
     file.carry("tally.first_jam_time", t.first_jam_time_);

@@ -48,6 +48,8 @@ void step(World& w) {
     const double dt = w.parameters.time_step;
     const ContactLaw law = contact_law(w.parameters);
     Bodies& bodies = w.scene.bodies;
+    if (!w.ledger.potential_start)
+        w.ledger.potential_start = potential_energy(w.scene, w.parameters);
 
     // the ship goes as prescribed: its speed at mid-step carries it to the end of the step
     w.scene.ship_velocity = Vec3(w.parameters.ship_speed(w.time + 0.5 * dt), 0.0, 0.0);
@@ -61,7 +63,7 @@ void step(World& w) {
                           w.contacts);
         });
     } while (release_touched(w.scene, w.parameters, w.contacts));
-    w.angular_velocity_start = bodies.angular_velocity;
+    w.books.open(bodies);
 
     // impacts act on the velocities before the loads, so that ice at rest does not bounce
     timed(w, Stage::contact, [&] {
@@ -87,8 +89,10 @@ void step(World& w) {
         crush_ice(w.scene, w.contacts, w.constraints, dt);
     });
     timed(w, Stage::integrate, [&] {
-        store_momenta(bodies, w.angular_velocity_start);
+        book_step(w.scene, w.parameters, w.constraints, w.loads, w.nudges, w.books, w.ledger);
+        store_momenta(bodies, w.books.angular_velocity);
         advance_poses(w.scene, w.nudges, dt);
+        w.ledger.kinetic += kinetic_energy(bodies) - w.books.kinetic;
     });
     ++w.steps;
     w.time = static_cast<double>(w.steps) * dt;

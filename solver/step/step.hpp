@@ -10,6 +10,7 @@
 #include "solver/contact/solve_contacts.hpp"
 #include "solver/integrate/integrate.hpp"
 #include "solver/narrow/find_contacts.hpp"
+#include "solver/record/energy_ledger.hpp"
 #include "solver/scene/bodies.hpp"
 
 namespace ice {
@@ -28,11 +29,12 @@ struct World {
     std::vector<BodyPair> pairs;
     std::vector<Contact> contacts;
     std::vector<Constraint> constraints;
-    std::vector<WaterLoad> loads;
+    std::vector<FloeLoad> loads;
     Nudges nudges;
     WarmStart warm_start;
     ContactFinder finder;
-    std::vector<Vec3> angular_velocity_start;
+    StepBooks books;
+    EnergyLedger ledger;
 
     SolveReport impacts, rest;  ///< of the last step
     std::array<double, static_cast<std::size_t>(Stage::count)> stage_seconds{};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The paper's 2D observations (its Figures 3 to 6) on the recorded trajectories and forces.
 #include <catch2/catch.hpp>
+#include <cmath>
 
 #include "tests/cases/run_view.hpp"
 
@@ -102,6 +103,8 @@ TEST_CASE("2D: the ship travels 26 m and leaves pieces behind", "[cases]") {
     const double start = run.data.frames.front().ship_position.x();
     CHECK(run.data.history.back().ship_position.x() - start == Approx(26.0).epsilon(1e-9));
     CHECK(run.summary.floes_behind >= 8);
+    // the energy ledger explains the ship's work
+    CHECK(std::abs(run.summary.energy.at("residual_share")) < 0.005);
 }
 
 TEST_CASE("2D: pieces push the bow backwards and the propeller region forwards", "[cases]") {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The paper's 3D observations (its Figures 7 and 8) on the recorded trajectories and forces.
 #include <catch2/catch.hpp>
+#include <cmath>
 
 #include "tests/cases/run_view.hpp"
 
@@ -68,6 +69,8 @@ TEST_CASE("3D: the ship travels 17 m through the field", "[cases]") {
     const double start = run.data.frames.front().ship_position.x();
     CHECK(run.data.history.back().ship_position.x() - start == Approx(17.0).epsilon(1e-9));
     CHECK(run.summary.floes_moved > 40);
+    // the energy ledger explains the ship's work
+    CHECK(std::abs(run.summary.energy.at("residual_share")) < 0.005);
 }
 
 TEST_CASE(

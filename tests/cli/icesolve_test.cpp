@@ -53,6 +53,12 @@ TEST_CASE("icesolve writes the run folder of the contract", "[cli]") {
             count += 1.0;
         }
     CHECK(s.resistance.mean == Approx(mean / count).epsilon(1e-6));  // CSV-free: same doubles
+    // the ship pushes with what the ice pushes back: the work is that of the history's forces
+    double work = 0.0;
+    for (const HistoryRow& h : run.history)
+        work -= (h.contact_force.x() + h.friction_force.x()) * 1.0 * 0.005;
+    CHECK(s.energy.at("ship_work_J") == Approx(work).epsilon(1e-6));
+    CHECK(std::abs(s.energy.at("residual_J")) < 0.005 * s.energy.at("ship_work_J"));
 }
 
 TEST_CASE("icesolve --verify finds every step in balance, says so, and changes no bit of the run",

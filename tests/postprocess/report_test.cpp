@@ -39,6 +39,9 @@ TEST_CASE("the report of a 3D run contains its numbers, pictures and origin", "[
                              "density = 900.0",
                              "icesolve box.cfg --out box",
                              "abc123",
+                             "Where the ship's work went",
+                             "17.50",  // % of the work lost to drag
+                             "-0.07",
                              "completed"}) {
         CAPTURE(text);
         CHECK(html.find(text) != std::string::npos);

@@ -130,7 +130,7 @@ TEST_CASE("a touch that lasts is one hit, a second touch another", "[record]") {
     StepRecord touching, apart;
     touching.regions = {{3, 1, Vec3(-2, 0, 0)}};
     for (const StepRecord* r : {&touching, &touching, &apart, &touching})
-        tally.add(*r, 0.1, 0.1, 1.0, true);
+        tally.add(*r, 0.1, 0.1, true);
     Summary summary;
     tally.fill(summary);
     CHECK(summary.regions["bow"].hits == 2);

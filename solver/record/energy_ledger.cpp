@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/record/energy_ledger.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+namespace ice {
+
+namespace {
+
+// A residual above this share of the ship's work, or of the losses where they are larger, is worth
+// a warning.
+constexpr double kWorryingResidual = 0.005;
+
+void book_contact(const Bodies& now, const Constraint& c, const StepBooks& start,
+                  EnergyLedger& ledger) {
+    const Vec3 before = start.velocity[c.b] + start.angular_velocity[c.b].cross(c.arm_b) -
+                        start.velocity[c.a] - start.angular_velocity[c.a].cross(c.arm_a);
+    const Vec3 mean = 0.5 * (before + relative_velocity(now, c));
+    const Vec3 push = c.total_normal() * c.normal, rub = c.total_tangent();
+    (c.crushed() ? ledger.crushing : ledger.restitution) -= push.dot(mean);
+    ledger.friction -= rub.dot(mean);
+    if (c.a == static_cast<std::int32_t>(kShip))
+        ledger.ship_work += (push + rub).dot(now.velocity[kShip]);
+}
+
+}  // namespace
+
+double EnergyLedger::residual(double potential_now) const {
+    return ship_work + separation - kinetic - (potential_now - potential_start.value_or(0.0)) -
+           friction - restitution - crushing - drag - buoyancy_moment;
+}
+
+void StepBooks::open(const Bodies& bodies) {
+    kinetic = kinetic_energy(bodies);
+    velocity = bodies.velocity;
+    angular_velocity = bodies.angular_velocity;
+}
+
+void book_step(const Scene& scene, const Case& parameters,
+               const std::vector<Constraint>& constraints, const std::vector<FloeLoad>& loads,
+               const Nudges& nudges, const StepBooks& books, EnergyLedger& ledger) {
+    const Bodies& b = scene.bodies;
+    for (const Constraint& c : constraints)
+        if (c.total_normal() > 0.0) book_contact(b, c, books, ledger);
+    const double dt = parameters.time_step;
+    const bool unrighted = parameters.buoyancy == BuoyancyModel::centre;
+    for (std::size_t i = 1; i < b.size(); ++i) {
+        if (b.held[i]) continue;
+        const FloeLoad& load = loads[i];
+        const Vec3 v = 0.5 * (books.velocity[i] + b.velocity[i]);
+        const Vec3 w = 0.5 * (books.angular_velocity[i] + b.angular_velocity[i]);
+        ledger.drag -= dt * (load.drag.force.dot(v) + load.drag.moment.dot(w));
+        if (unrighted) ledger.buoyancy_moment += dt * load.righting.dot(w);
+        const Vec3 weight = load.force - load.drag.force;
+        ledger.separation -= weight.dot(nudges.shift[i]) + load.righting.dot(nudges.turn[i]);
+    }
+}
+
+void fill_energy(const EnergyLedger& ledger, double potential_now, Summary& summary) {
+    const double residual = ledger.residual(potential_now);
+    const double work = std::abs(ledger.ship_work);
+    const double share = work > 0.0 ? residual / work : 0.0;
+    // a ship that has hardly touched anything must not be blamed for floes that bob
+    const double turnover =
+        std::max(work, ledger.friction + ledger.restitution + ledger.crushing + ledger.drag);
+    auto& out = summary.energy;
+    out["ship_work_J"] = ledger.ship_work;
+    out["kinetic_change_J"] = ledger.kinetic;
+    out["potential_J"] = potential_now - ledger.potential_start.value_or(potential_now);
+    out["friction_J"] = ledger.friction;
+    out["restitution_J"] = ledger.restitution;
+    out["crushing_J"] = ledger.crushing;
+    out["drag_J"] = ledger.drag;
+    out["separation_J"] = ledger.separation;
+    out["buoyancy_moment_J"] = ledger.buoyancy_moment;
+    out["residual_J"] = residual;
+    out["residual_share"] = share;
+    if (std::abs(residual) > kWorryingResidual * turnover)
+        summary.warnings.push_back(fmt::format(
+            "energy: {:.2g} % of the ship's work is not explained by motion, height, friction, "
+            "impacts, crushing and drag: lower simulation.time_step",
+            100.0 * residual / turnover));
+}
+
+std::string energy_line(const Summary& summary) {
+    const auto& energy = summary.energy;
+    const auto work = energy.find("ship_work_J");
+    if (work == energy.end() || work->second == 0.0) return "";
+    const auto share = [&](const char* key, const char* name, int digits = 1) {
+        const double scale = std::pow(10.0, digits);
+        const double percent = std::round(100.0 * scale * energy.at(key) / work->second) / scale;
+        return fmt::format(", {} {:.{}f} %", name, percent + 0.0, digits);  // no -0
+    };
+    return fmt::format("work of the ship {:.5g} {}: ", work->second,
+                       summary.dimension == 2 ? "J/m" : "J") +
+           share("potential_J", "potential").substr(2) + share("kinetic_change_J", "kinetic") +
+           share("friction_J", "friction") + share("restitution_J", "impacts") +
+           share("crushing_J", "crushing") + share("drag_J", "drag") +
+           share("buoyancy_moment_J", "left-out buoyancy moment") +
+           share("separation_J", "put in by opened overlaps", 2) +
+           share("residual_J", "unexplained", 3);
+}
+
+}  // namespace ice
