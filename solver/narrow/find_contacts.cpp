@@ -19,7 +19,16 @@ constexpr double kSameFaceCos = 0.866;
 // much more on a busy machine.
 constexpr std::size_t kSerialPairs = 256;
 
-// Measures spheres i and j and keeps them when they are near enough to matter.
+// Squared distance within which spheres of a pair are compared [m2].
+double range_sq(const PairView& view, NormalRule rule, double margin) {
+    const double along = view.shape_a.largest_support + view.shape_b.largest_support + margin;
+    const double reach =
+        rule == NormalRule::surface ? std::max(view.shape_a.reach, view.shape_b.reach) : 0.0;
+    return along * along + reach * reach;
+}
+
+// Measures spheres i and j and keeps them when they are near enough to matter. Under the rule
+// "surface" a face farther than the margin matters too: it may show that the probe is outside.
 void consider(const PairView& view, NormalRule rule, double margin, std::int32_t i,
               const SphereSurface& b, std::int32_t j, std::vector<Candidate>& out) {
     const SphereSurface a = view.sphere_a(i);
@@ -30,13 +39,35 @@ void consider(const PairView& view, NormalRule rule, double margin, std::int32_t
     }
     const Gap gap = measure_gap_surface(a, b, view.pair.a == static_cast<std::int32_t>(kShip));
     const double reach = gap.a_is_surface ? view.shape_a.reach : view.shape_b.reach;
-    if (gap.valid && gap.gap <= margin && gap.lateral_sq <= reach * reach)
-        out.push_back({i, j, gap});
+    if (gap.valid && gap.lateral_sq <= reach * reach) out.push_back({i, j, gap});
 }
 
-// Of a probe's candidates, the laterally nearest for each face; see the header.
-void keep_one_per_face(const PairView& view, std::vector<Candidate>& candidates) {
-    const auto order = [&](const Candidate& l, const Candidate& r) {
+// Where a candidate's surface is and faces, a's axes.
+struct Face {
+    Vec3 point, outward;
+};
+
+Face face_of(const PairView& view, const Candidate& c) {
+    const double sign = c.gap.a_is_surface ? 1.0 : -1.0;
+    const Vec3 outward = sign * c.gap.normal;
+    return c.gap.a_is_surface
+               ? Face{view.center_a(c.i) + view.shape_a.radius[c.i] * outward, outward}
+               : Face{view.center_b(c.j) + view.shape_b.radius[c.j] * outward, outward};
+}
+
+// Do two faces of a body meet in an outward edge, each behind the other's plane?
+bool meet_outwards(const Face& l, const Face& r) {
+    const Vec3 between = r.point - l.point;
+    return between.dot(l.outward) < 0.0 && between.dot(r.outward) > 0.0;
+}
+
+bool same_probe(const Candidate& l, const Candidate& r) {
+    return l.gap.a_is_surface == r.gap.a_is_surface && l.probe() == r.probe();
+}
+
+// Ascending by probe; of a probe by distance, ties by what mirror images have in common.
+void sort_by_probe(const PairView& view, std::vector<Candidate>& candidates) {
+    std::sort(candidates.begin(), candidates.end(), [&](const Candidate& l, const Candidate& r) {
         const auto first = [](const Candidate& c) {
             return std::tuple(c.gap.a_is_surface, c.probe(), c.gap.lateral_sq);
         };
@@ -46,27 +77,36 @@ void keep_one_per_face(const PairView& view, std::vector<Candidate>& candidates)
                               c.i, c.j);
         };
         return tie(l) < tie(r);
-    };
-    std::sort(candidates.begin(), candidates.end(), order);
-    std::size_t kept = 0, group = 0;  // [group, kept) are the kept ones of the present probe
-    for (const Candidate& now : candidates) {
-        if (kept > group && (candidates[group].gap.a_is_surface != now.gap.a_is_surface ||
-                             candidates[group].probe() != now.probe()))
-            group = kept;
-        const bool seen = std::any_of(
-            candidates.begin() + static_cast<std::ptrdiff_t>(group),
-            candidates.begin() + static_cast<std::ptrdiff_t>(kept), [&](const Candidate& other) {
-                return other.gap.normal.dot(now.gap.normal) > kSameFaceCos;
-            });
-        if (!seen) candidates[kept++] = now;
-    }
-    candidates.resize(kept);
+    });
 }
 
-void finish_pair(const PairView& view, NormalRule rule, std::vector<Candidate>& candidates,
-                 std::vector<Contact>& out) {
+// Of a probe's candidates, the laterally nearest for each face; of two faces that meet in an
+// outward edge the one less deep: behind the other plane alone is not yet inside the body.
+void keep_one_per_face(const PairView& view, double margin, std::vector<Candidate>& candidates) {
+    sort_by_probe(view, candidates);
+    std::size_t kept = 0, group = 0;  // [group, kept) are the kept ones of the present probe
+    for (const Candidate& now : candidates) {
+        if (kept > group && !same_probe(candidates[group], now)) group = kept;
+        bool wanted = true;
+        for (std::size_t k = group; wanted && k < kept; ++k) {
+            Candidate& other = candidates[k];
+            if (other.gap.normal.dot(now.gap.normal) > kSameFaceCos) {
+                wanted = false;
+            } else if (meet_outwards(face_of(view, other), face_of(view, now))) {
+                if (now.gap.gap > other.gap.gap) other = now;
+                wanted = false;
+            }
+        }
+        if (wanted) candidates[kept++] = now;
+    }
+    candidates.resize(kept);
+    std::erase_if(candidates, [&](const Candidate& c) { return c.gap.gap > margin; });
+}
+
+void finish_pair(const PairView& view, NormalRule rule, double margin,
+                 std::vector<Candidate>& candidates, std::vector<Contact>& out) {
     const auto before = static_cast<std::ptrdiff_t>(out.size());
-    if (rule == NormalRule::surface) keep_one_per_face(view, candidates);
+    if (rule == NormalRule::surface) keep_one_per_face(view, margin, candidates);
     emit_contacts(view, rule, candidates, out);
     // the solver takes contacts in this order, and its answer depends on it
     const auto order = [&](const Contact& c) {
@@ -87,14 +127,13 @@ void find_pair_contacts(const Scene& scene, BodyPair pair, NormalRule rule, doub
     const double span = view.shape_b.largest_support + margin;
     const Eigen::AlignedBox3d box(view.shape_a.box.min() - Vec3::Constant(span + reach),
                                   view.shape_a.box.max() + Vec3::Constant(span + reach));
+    const double range = range_sq(view, rule, margin);
     for (std::int32_t j = 0; j < static_cast<std::int32_t>(view.shape_b.center.size()); ++j) {
         const Vec3 at = view.center_b(j);
         if (!box.contains(at)) continue;
         const SphereSurface b = view.sphere_b(j);
-        const double along = view.shape_a.largest_support + view.shape_b.largest_support + margin;
-        const double range_sq = along * along + reach * reach;
-        view.shape_a.grid.for_each_near(at, std::sqrt(range_sq), [&](std::int32_t i) {
-            if ((view.shape_a.center[i] - at).squaredNorm() <= range_sq)
+        view.shape_a.grid.for_each_near(at, std::sqrt(range), [&](std::int32_t i) {
+            if ((view.shape_a.center[i] - at).squaredNorm() <= range)
                 consider(view, rule, margin, i, b, j, candidates);
         });
     }
@@ -102,7 +141,7 @@ void find_pair_contacts(const Scene& scene, BodyPair pair, NormalRule rule, doub
     std::sort(candidates.begin(), candidates.end(), [](const Candidate& l, const Candidate& r) {
         return std::pair(l.i, l.j) < std::pair(r.i, r.j);
     });
-    finish_pair(view, rule, candidates, out);
+    finish_pair(view, rule, margin, candidates, out);
 }
 
 // Upper bound of the speed at which surface points of the two bodies approach [m/s].
@@ -136,11 +175,13 @@ namespace reference {
 void find_contacts(const Scene& scene, BodyPair pair, NormalRule rule, double margin,
                    std::vector<Contact>& out) {
     const PairView view(scene, pair);
+    const double range = range_sq(view, rule, margin);
     std::vector<Candidate> candidates;
     for (std::int32_t i = 0; i < static_cast<std::int32_t>(view.shape_a.center.size()); ++i)
         for (std::int32_t j = 0; j < static_cast<std::int32_t>(view.shape_b.center.size()); ++j)
-            consider(view, rule, margin, i, view.sphere_b(j), j, candidates);
-    finish_pair(view, rule, candidates, out);
+            if ((view.shape_a.center[i] - view.center_b(j)).squaredNorm() <= range)
+                consider(view, rule, margin, i, view.sphere_b(j), j, candidates);
+    finish_pair(view, rule, margin, candidates, out);
 }
 
 }  // namespace reference

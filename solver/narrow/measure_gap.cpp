@@ -14,6 +14,12 @@ namespace {
 // Spreads closer than this (in cosine) count as equally flat: normals are stored as floats.
 constexpr double kSameSpread = 1e-6;
 
+// A corner is over a face as long as it is not this many radii beyond the face's edge.
+constexpr double kBeyond = 0.01;
+
+// Cosines of normals this far outside an edge's still belong to it: about 4 degrees at a right angle.
+constexpr double kBelongs = 0.05;
+
 // Edges closer to parallel than this (sine) have no normal across both.
 constexpr double kParallel = 0.05;
 
@@ -28,28 +34,55 @@ Vec3 nearest_normal(const SphereSurface& s, const Vec3& u) {
     return s.spread_cos * s.normal + (s.spread_sin / length) * across;
 }
 
-// Of the directions that may part two local solids the one with the largest gap; zero where the
-// solids do not face each other.
-Vec3 parting_normal(const SphereSurface& a, const SphereSurface& b, const Vec3& d) {
-    Vec3 best = Vec3::Zero();
+// Is n, to some degrees, an outward normal of the surface? Beyond an edge's normals its corner is
+// not the body's foremost point: another sphere's is. Round surfaces have a foremost point anyway.
+bool belongs(const SphereSurface& s, const Vec3& n) {
+    return s.faces.count == 0 || s.normal.dot(n) >= s.spread_cos - kBelongs;
+}
+
+// Of the directions that may part two local solids the one with the largest gap.
+struct Parting {
+    Vec3 normal = Vec3::Zero();  // zero where the solids do not face each other
+    bool crossing = false;       // the normal across both edges, not a face's
+};
+
+Parting parting_normal(const SphereSurface& a, const SphereSurface& b, const Vec3& d) {
+    Parting best;
+    const Vec3 between = support_point(b, -a.normal) - support_point(a, -b.normal);
     double widest = -std::numeric_limits<double>::infinity();
-    const auto attempt = [&](const Vec3& n) {
-        if (n.dot(d) <= 0.0 || n.dot(a.normal) <= 0.0 || n.dot(b.normal) >= 0.0) return;
-        const double gap = n.dot(d) - support(a, n) - support(b, -n);
+    const auto attempt = [&](const Vec3& n, bool crossing) {
+        if (n.dot(d) <= 0.0 || !belongs(a, n) || !belongs(b, -n)) return;
+        const double gap = n.dot(between);
         if (gap <= widest) return;
         widest = gap;
-        best = n;
+        best = {n, crossing};
     };
-    for (int k = 0; k < a.faces.count; ++k) attempt(a.faces.normal[k]);
-    for (int k = 0; k < b.faces.count; ++k) attempt(-b.faces.normal[k]);
+    for (int k = 0; k < a.faces.count; ++k) attempt(a.faces.normal[k], false);
+    for (int k = 0; k < b.faces.count; ++k) attempt(-b.faces.normal[k], false);
     if (a.faces.count != 2 || b.faces.count != 2) return best;
     const Vec3 across = a.faces.normal[0]
                             .cross(a.faces.normal[1])
                             .normalized()
                             .cross(b.faces.normal[0].cross(b.faces.normal[1]).normalized());
     const double sine = across.norm();
-    if (sine > kParallel) attempt(across.dot(d) < 0.0 ? Vec3(-across / sine) : Vec3(across / sine));
+    if (sine > kParallel) attempt((across.dot(d) < 0.0 ? -1.0 : 1.0) / sine * across, true);
     return best;
+}
+
+// Squared distance [m2] across n from the part of the surface that `s` stands for to a probe's
+// point. An edge's sphere stands for the face from above its centre out to the corner, and for
+// nothing beyond: there the other body's edge has nothing under it.
+double distance_across(const SphereSurface& s, const Vec3& n, const Vec3& probe, bool edges) {
+    const auto across = [&](const Vec3& v) { return Vec3(v - v.dot(n) * n); };
+    const Vec3 at = across(probe - s.center);
+    if (!edges) return at.squaredNorm();
+    const Vec3 out = across(corner_distance(s.radius, s.spread_cos) * s.normal);
+    const double reach = out.norm();
+    if (reach <= kBeyond * s.radius) return at.squaredNorm();
+    const double along = at.dot(out) / reach;
+    if (along > reach + kBeyond * s.radius) return std::numeric_limits<double>::infinity();
+    const double excess = along - std::clamp(along, 0.0, reach);
+    return std::max(at.squaredNorm() - along * along, 0.0) + excess * excess;
 }
 
 // Midway between two faces' normals; zero where they face away, over 120 degrees apart.
@@ -61,13 +94,8 @@ Vec3 mean_normal(const Vec3& normal_a, const Vec3& normal_b) {
 
 }  // namespace
 
-double support(const SphereSurface& s, const Vec3& n) {
-    const double corner = s.normal.dot(n) * corner_distance(s.radius, s.spread_cos);
-    return s.spread_sin == 0.0 ? s.radius : std::max(s.radius, corner);
-}
-
 Vec3 support_point(const SphereSurface& s, const Vec3& n) {
-    if (s.spread_sin == 0.0) return s.center + s.radius * n;
+    if (s.faces.count == 0) return s.center + s.radius * n;
     return s.center + corner_distance(s.radius, s.spread_cos) * s.normal;
 }
 
@@ -83,20 +111,31 @@ Gap measure_gap_surface(const SphereSurface& a, const SphereSurface& b, bool pre
     const double length = d.norm();
     if (length == 0.0) return {Vec3::UnitZ(), 0.0, 0.0, true, false};
     const Vec3 u = d / length;
-
+    const bool edges = a.faces.count > 0 && b.faces.count > 0;
     const bool same = std::abs(a.spread_cos - b.spread_cos) <= kSameSpread;
-    const bool a_flatter = same || a.spread_cos > b.spread_cos;
+    bool a_is_surface = same || a.spread_cos > b.spread_cos;
     Vec3 n;
-    if (a.faces.count > 0 && b.faces.count > 0)
-        n = parting_normal(a, b, d);
-    else if (same && !prefer_a)
+    bool crossing = false;
+    if (edges) {
+        const Parting parting = parting_normal(a, b, d);
+        n = parting.normal;
+        crossing = parting.crossing;
+    } else if (same && !prefer_a)
         n = mean_normal(nearest_normal(a, u), nearest_normal(b, -u));
     else
-        n = a_flatter ? nearest_normal(a, u) : Vec3(-nearest_normal(b, -u));
-    if (n.isZero(0.0)) return {u, 0.0, 0.0, true, false};
-    const double along = n.dot(d);
-    const double lateral_sq = std::max(d.squaredNorm() - along * along, 0.0);
-    return {n, along - support(a, n) - support(b, -n), lateral_sq, a_flatter, along > 0.0};
+        n = a_is_surface ? nearest_normal(a, u) : Vec3(-nearest_normal(b, -u));
+    if (n.isZero(0.0) || n.dot(d) <= 0.0 || !belongs(a, n) || !belongs(b, -n))
+        return {u, 0.0, 0.0, true, false};
+    const Vec3 point_a = support_point(a, n), point_b = support_point(b, -n);
+    const double gap = n.dot(point_b - point_a);
+    if (crossing) {
+        const double apart = (point_b - point_a).squaredNorm() - gap * gap;
+        return {n, gap, std::max(apart, 0.0), a_is_surface, true};
+    }
+    const double under_a = distance_across(a, n, point_b, edges);
+    const double under_b = distance_across(b, n, point_a, edges);
+    if (edges) a_is_surface = under_a <= under_b;
+    return {n, gap, a_is_surface ? under_a : under_b, a_is_surface, true};
 }
 
 }  // namespace ice

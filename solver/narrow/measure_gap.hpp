@@ -20,20 +20,18 @@ struct SphereSurface {
 struct Gap {
     Vec3 normal;        ///< unit, from a to b
     double gap;         ///< along the normal, negative where the surfaces overlap [m]
-    double lateral_sq;  ///< squared distance of the centres across the normal [m2]
+    double lateral_sq;  ///< squared distance across the normal from the probe's foremost point to
+                        ///< the part of the surface that the other sphere stands for [m2]
     bool a_is_surface;  ///< b is the probe on a's surface; otherwise a is the probe on b's
     bool valid;         ///< false where the spheres do not face each other
 };
 
-/// How far the surface goes from the centre along the outward unit vector n [m].
+/// Foremost point of the surface along the outward unit vector n.
 ///
-/// On a face this is the radius. Where faces meet, their planes, all tangent to the sphere, meet at
-/// the point r / cos s along the middle normal: n . that point for n among the normals that meet
-/// there. So a floe keeps its sharp edges; rounded by the spheres' radius it slides past corners it
-/// should catch. Knife edges are cut off, see corner_distance().
-double support(const SphereSurface& s, const Vec3& n);
-
-/// Where support() reaches: the corner of the faces that meet, or the sphere's foremost point.
+/// Where faces are known to meet, their planes, all tangent to the sphere, meet at the point
+/// r / cos s along the middle normal: a floe keeps its sharp edges; rounded by the spheres' radius
+/// it would slide past corners that it should catch. Elsewhere it is the sphere's own.
+/// Knife edges are cut off, see corner_distance().
 Vec3 support_point(const SphereSurface& s, const Vec3& n);
 
 /// The paper's rule (Figure 1): normal from centre to centre, gap |d| - (r_a + r_b).
@@ -48,14 +46,15 @@ Gap measure_gap_centres(const SphereSurface& a, const SphereSurface& b);
 /// Of two edges or corners that know their faces, each face's normal and that across both edges is
 /// tried and the one with the largest gap taken: the separating direction of the two local solids.
 /// Else the flatter side gives the one of its normals that is nearest to the line of centres. The
-/// flatter side (the smaller spread; a on equal ones) is the surface, the other one the probe. With
-/// n chosen,
+/// flatter side (the smaller spread; of two edges the one that has the other's corner above it) is
+/// the surface, the other one the probe. With n chosen,
 ///
-///     gap = n . (c_b - c_a) - support(a, n) - support(b, -n),
+///     gap = n . (support_point(b, -n) - support_point(a, n)),
 ///
 /// exact for a face on a face, an edge on a face and an edge across an edge: a flat hull is flat
-/// and a floe's edge sharp, whatever spheres stand for them. Invalid when the centres are not on
-/// the proper sides, n . (c_b - c_a) <= 0.
+/// and a floe's edge sharp, whatever spheres stand for them. Invalid where n is not a normal of
+/// both sides (to about 4 degrees at edges), or the centres are not on the proper sides,
+/// n . (c_b - c_a) <= 0.
 Gap measure_gap_surface(const SphereSurface& a, const SphereSurface& b, bool prefer_a);
 
 }  // namespace ice
