@@ -17,8 +17,11 @@ constexpr double kSameSpread = 1e-6;
 // A corner is over a face as long as it is not this many radii beyond the face's edge.
 constexpr double kBeyond = 0.01;
 
-// Cosines of normals this far outside an edge's still belong to it: about 4 degrees at a right angle.
-constexpr double kBelongs = 0.05;
+// A part this negative is still no normal of another place: 3 degrees where faces are square.
+constexpr double kBelongs = -0.05;
+
+// A direction with less than this across an edge runs along it.
+constexpr double kMostlyAlong = 0.3;
 
 // Edges closer to parallel than this (sine) have no normal across both.
 constexpr double kParallel = 0.05;
@@ -34,10 +37,24 @@ Vec3 nearest_normal(const SphereSurface& s, const Vec3& u) {
     return s.spread_cos * s.normal + (s.spread_sin / length) * across;
 }
 
-// Is n, to some degrees, an outward normal of the surface? Beyond an edge's normals its corner is
-// not the body's foremost point: another sphere's is. Round surfaces have a foremost point anyway.
+// Is n an outward normal of the surface: are its parts along the normals of the faces that meet
+// there positive, to some degrees? Beyond them the corner is not the body's foremost point, another
+// sphere's is. What n has along an edge does not matter, unless it is most of it. Round surfaces
+// always have a foremost point.
 bool belongs(const SphereSurface& s, const Vec3& n) {
-    return s.faces.count == 0 || s.normal.dot(n) >= s.spread_cos - kBelongs;
+    if (s.faces.count == 0) return true;
+    const Vec3 &f = s.faces.normal[0], &g = s.faces.normal[1];
+    if (s.faces.count == 2) {
+        const double c = f.dot(g), nf = n.dot(f), ng = n.dot(g), square = 1.0 - c * c;
+        const double part_f = nf - c * ng, part_g = ng - c * nf;
+        return part_f >= kBelongs * square && part_g >= kBelongs * square &&
+               part_f + part_g >= kMostlyAlong * square;
+    }
+    const Vec3& h = s.faces.normal[2];
+    const Vec3 gh = g.cross(h), hf = h.cross(f), fg = f.cross(g);
+    const double volume = f.dot(gh), sign = volume < 0.0 ? -1.0 : 1.0;
+    const double least = kBelongs * std::abs(volume);
+    return sign * n.dot(gh) >= least && sign * n.dot(hf) >= least && sign * n.dot(fg) >= least;
 }
 
 // Of the directions that may part two local solids the one with the largest gap.

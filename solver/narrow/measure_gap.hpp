@@ -53,7 +53,7 @@ Gap measure_gap_centres(const SphereSurface& a, const SphereSurface& b);
 ///
 /// exact for a face on a face, an edge on a face and an edge across an edge: a flat hull is flat
 /// and a floe's edge sharp, whatever spheres stand for them. Invalid where n is not a normal of
-/// both sides (to about 4 degrees at edges), or the centres are not on the proper sides,
+/// both sides (to about 3 degrees at edges), or the centres are not on the proper sides,
 /// n . (c_b - c_a) <= 0.
 Gap measure_gap_surface(const SphereSurface& a, const SphereSurface& b, bool prefer_a);
 

@@ -82,6 +82,7 @@ inline SphereSet make_box_set(const Vec3& size, double radius, double spacing, i
 inline SphereSet make_ball_set(double radius) {
     SphereSet set = make_box_set(Vec3::Constant(2.0 * radius), radius, 2.0 * radius);
     set.surface_count = 1;
+    set.creases.clear();
     set.normals = {Vec3::UnitZ()};
     set.normal_spread = {3.14159265358979};  // all directions
     set.areas = {set.solid.area};
