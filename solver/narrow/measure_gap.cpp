@@ -20,8 +20,8 @@ constexpr double kBeyond = 0.01;
 // A part this negative is still no normal of another place: 3 degrees where faces are square.
 constexpr double kBelongs = -0.05;
 
-// A direction with less than this across an edge runs along it.
-constexpr double kMostlyAlong = 0.3;
+// A face cuts into an edge that slants towards it all along; two edges meet where they cross.
+constexpr double kSlantOnFace = 0.95, kSlantOnEdge = 0.1;
 
 // Edges closer to parallel than this (sine) have no normal across both.
 constexpr double kParallel = 0.05;
@@ -39,16 +39,17 @@ Vec3 nearest_normal(const SphereSurface& s, const Vec3& u) {
 
 // Is n an outward normal of the surface: are its parts along the normals of the faces that meet
 // there positive, to some degrees? Beyond them the corner is not the body's foremost point, another
-// sphere's is. What n has along an edge does not matter, unless it is most of it. Round surfaces
-// always have a foremost point.
-bool belongs(const SphereSurface& s, const Vec3& n) {
+// sphere's is. Nor is it where n runs along the edge, by more than `most_along` (cosine). Round
+// surfaces always have a foremost point.
+bool belongs(const SphereSurface& s, const Vec3& n, double most_along) {
     if (s.faces.count == 0) return true;
     const Vec3 &f = s.faces.normal[0], &g = s.faces.normal[1];
     if (s.faces.count == 2) {
         const double c = f.dot(g), nf = n.dot(f), ng = n.dot(g), square = 1.0 - c * c;
         const double part_f = nf - c * ng, part_g = ng - c * nf;
+        const double along = n.dot(f.cross(g));
         return part_f >= kBelongs * square && part_g >= kBelongs * square &&
-               part_f + part_g >= kMostlyAlong * square;
+               along * along <= most_along * most_along * square;
     }
     const Vec3& h = s.faces.normal[2];
     const Vec3 gh = g.cross(h), hf = h.cross(f), fg = f.cross(g);
@@ -68,7 +69,8 @@ Parting parting_normal(const SphereSurface& a, const SphereSurface& b, const Vec
     const Vec3 between = support_point(b, -a.normal) - support_point(a, -b.normal);
     double widest = -std::numeric_limits<double>::infinity();
     const auto attempt = [&](const Vec3& n, bool crossing) {
-        if (n.dot(d) <= 0.0 || !belongs(a, n) || !belongs(b, -n)) return;
+        if (n.dot(d) <= 0.0 || !belongs(a, n, kSlantOnEdge) || !belongs(b, -n, kSlantOnEdge))
+            return;
         const double gap = n.dot(between);
         if (gap <= widest) return;
         widest = gap;
@@ -141,7 +143,8 @@ Gap measure_gap_surface(const SphereSurface& a, const SphereSurface& b, bool pre
         n = mean_normal(nearest_normal(a, u), nearest_normal(b, -u));
     else
         n = a_is_surface ? nearest_normal(a, u) : Vec3(-nearest_normal(b, -u));
-    if (n.isZero(0.0) || n.dot(d) <= 0.0 || !belongs(a, n) || !belongs(b, -n))
+    if (n.isZero(0.0) || n.dot(d) <= 0.0 || !belongs(a, n, kSlantOnFace) ||
+        !belongs(b, -n, kSlantOnFace))
         return {u, 0.0, 0.0, true, false};
     const Vec3 point_a = support_point(a, n), point_b = support_point(b, -n);
     const double gap = n.dot(point_b - point_a);
