@@ -8,8 +8,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "solver/contact/extrapolation.hpp"
+#include "solver/contact/passive_impact.hpp"
 
 namespace ice {
 
@@ -28,7 +30,12 @@ constexpr double kMostPush = 0.005;
 constexpr int kSeparationIterations = 10;
 
 // Solutions with rebound at most; the second one is for contacts that crush by another's rebound.
+// Contacts that only this one brings to their strength keep what rebound it leaves them.
 constexpr int kRebounds = 2;
+
+// The last third of the iterations is plain sweeps: they end near the answer also where the
+// extrapolated ones go round it.
+constexpr int kPlainShare = 3;
 
 // What a stage has given a contact so far [N s].
 struct StageImpulse {
@@ -78,7 +85,8 @@ SolveReport iterate(Bodies& bodies, std::vector<Constraint>& constraints,
             if (c.normal_mass > 0.0) report.residual = std::max(report.residual, update(c));
         report.converged = report.residual <= law.tolerance;
         if (report.converged || report.iterations >= law.iterations) return report;
-        extrapolation.advance(bodies, constraints, stage);
+        if (report.iterations * kPlainShare < law.iterations * (kPlainShare - 1))
+            extrapolation.advance(bodies, constraints, stage);
     }
 }
 
@@ -98,6 +106,43 @@ void drive_through(const Bodies& bodies, Constraint& c) {
     if (speed > 0.0) c.impact_tangent = -(c.friction * c.strength / speed) * sliding;
 }
 
+SolveReport solve_impacts(Bodies& bodies, std::vector<Constraint>& constraints,
+                          const ContactLaw& law, double restitution) {
+    return iterate(bodies, constraints, kImpact, law, [&](Constraint& c) {
+        if (!meets_within_step(c, law.dt)) return 0.0;
+        const double wanted = c.rebounds ? -restitution * c.approach : 0.0;
+        const double change = update_normal(bodies, c, wanted, c.strength, c.impact_normal);
+        return std::max(change, update_friction(bodies, c, {c.impact_normal, c.impact_tangent}));
+    });
+}
+
+// A stage of several solutions is as good as the worst of them.
+void add(const SolveReport& part, SolveReport& whole) {
+    whole.iterations += part.iterations;
+    whole.residual = std::max(whole.residual, part.residual);
+    whole.converged = whole.converged && part.converged;
+}
+
+// Newton's restitution, but none where the ice crushes. Which contacts crush is known once the
+// bodies have stopped, and again once others rebounded: a contact once crushed stays so, or the two
+// answers would take turns.
+SolveReport rebound(Bodies& bodies, std::vector<Constraint>& constraints, const ContactLaw& law) {
+    if (std::isinf(law.crushing_pressure))
+        return solve_impacts(bodies, constraints, law, law.restitution);
+    SolveReport report = solve_impacts(bodies, constraints, law, 0.0);
+    for (int pass = 0; pass < kRebounds; ++pass) {
+        int fresh = 0;
+        for (Constraint& c : constraints)
+            if (c.rebounds && c.impact_normal >= c.strength) {
+                c.rebounds = false;
+                ++fresh;
+            }
+        if (pass > 0 && fresh == 0) break;
+        add(solve_impacts(bodies, constraints, law, law.restitution), report);
+    }
+    return report;
+}
+
 }  // namespace
 
 SolveReport resolve_impacts(Bodies& bodies, std::vector<Constraint>& constraints,
@@ -110,32 +155,18 @@ SolveReport resolve_impacts(Bodies& bodies, std::vector<Constraint>& constraints
         constraints.begin(), constraints.end(),
         [&](const Constraint& c) { return c.approach < 0.0 && meets_within_step(c, law.dt); });
     if (!approaching) return {};
-    const auto solve = [&](double restitution) {
-        return iterate(bodies, constraints, kImpact, law, [&](Constraint& c) {
-            if (!meets_within_step(c, law.dt)) return 0.0;
-            const double rebound = c.rebounds ? -restitution * std::min(c.approach, 0.0) : 0.0;
-            const double change = update_normal(bodies, c, rebound, c.strength, c.impact_normal);
-            return std::max(change,
-                            update_friction(bodies, c, {c.impact_normal, c.impact_tangent}));
-        });
-    };
-    if (std::isinf(law.crushing_pressure)) return solve(law.restitution);
-    // which contacts crush is known once the bodies have stopped, and again once others rebounded:
-    // a contact once crushed stays so, or the two answers would take turns
-    SolveReport report = solve(0.0);
-    bool converged = report.converged;
-    for (int pass = 0; pass < kRebounds; ++pass) {
-        int fresh = 0;
-        for (Constraint& c : constraints)
-            if (c.rebounds && c.impact_normal >= c.strength) {
-                c.rebounds = false;
-                ++fresh;
-            }
-        if (pass > 0 && fresh == 0) break;
-        report = solve(law.restitution);
-        converged = converged && report.converged;
-    }
-    report.converged = converged;
+    thread_local ImpactState start, plastic;  // keep their memory between steps
+    start.save(bodies, constraints);
+    SolveReport report = rebound(bodies, constraints, law);
+    if (law.restitution == 0.0 || energy_gain(bodies, constraints, start) <= 0.0) return report;
+    ImpactState full;
+    full.save(bodies, constraints);
+    start.restore(bodies, constraints);
+    const SolveReport stopped = solve_impacts(bodies, constraints, law, 0.0);
+    add(stopped, report);
+    plastic.save(bodies, constraints);
+    full.restore(bodies, constraints);
+    limit_rebound(bodies, constraints, start, plastic);
     return report;
 }
 
@@ -189,18 +220,24 @@ void separate_overlaps(const Bodies& bodies, const std::vector<Constraint>& cons
 void crush_ice(Scene& scene, const std::vector<Contact>& contacts,
                const std::vector<Constraint>& constraints, double dt) {
     const Bodies& bodies = scene.bodies;
+    std::map<std::pair<std::int32_t, std::int32_t>, Vec3> moved;  // (body, sphere), world axes
     for (std::size_t k = 0; k < constraints.size(); ++k) {
         const Constraint& c = constraints[k];
-        if (!c.crushed()) continue;
         const double gap = c.gap + dt * relative_velocity(bodies, c).dot(c.normal);
-        if (gap >= 0.0) continue;
+        if (!c.crushed() || gap >= 0.0) continue;
         const Contact& contact = contacts[k];
         const std::int32_t body = contact.crushes_a ? c.a : c.b;
         const std::int32_t sphere = contact.crushes_a ? contact.sphere_a : contact.sphere_b;
         const Vec3 inwards = contact.crushes_a ? Vec3(-c.normal) : c.normal;
+        // several hull spheres may press on one of the ice's: it gives way once
+        Vec3& done = moved.try_emplace({body, sphere}, Vec3::Zero()).first->second;
+        done += std::max(0.0, -gap - done.dot(inwards)) * inwards;
+    }
+    for (const auto& [place, move] : moved) {
+        const auto [body, sphere] = place;
         const Shape& shape = scene.shapes[static_cast<std::size_t>(bodies.shape[body])];
         scene.crushed.crush(body, sphere, shape.center.size(),
-                            bodies.rotation[body].transpose() * (-gap * inwards));
+                            bodies.rotation[body].transpose() * move);
     }
 }
 

@@ -19,7 +19,7 @@ struct SolveReport {
 ///
 /// For every contact with gap + dt min(v_r0 . n, 0) <= 0, accumulated impulses J_n, J_t such that
 ///
-///     0 <= J_n <= strength,   v_r . n >= -e min(v_r0 . n, 0)  with equality where J_n > 0,
+///     0 <= J_n <= strength,   v_r . n >= -e v_r0 . n  with equality where J_n > 0,
 ///     |J_t| <= mu J_n, opposite to the sliding.
 ///
 /// A contact that reaches its strength does not rebound (e = 0 for it): with a finite crushing
@@ -27,6 +27,7 @@ struct SolveReport {
 /// v_r0 . n = 0 and do not bounce, without any threshold (Guendelman, Bridson, Fedkiw, ACM TOG
 /// 22(3), 2003, section 5).
 ///
+/// Where this would add energy (friction at e near 1), the rebound is weakened, limit_rebound().
 /// Between the ship and a held floe nothing can give way: with a finite crushing pressure the
 /// contact carries its strength and friction, without one nothing (a jam, see measure_step).
 SolveReport resolve_impacts(Bodies& bodies, std::vector<Constraint>& constraints,

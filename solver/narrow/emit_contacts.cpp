@@ -2,6 +2,7 @@
 #include "solver/narrow/emit_contacts.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace ice {
 
@@ -23,9 +24,13 @@ Patch patch_of(const Shape& shape, std::int32_t k, const Vec3& outward) {
     patch.spread_cos = shape.spread_cos[k];
     patch.spread_sin = shape.spread_sin[k];
     patch.wing = wing_length(shape.radius[k], patch.share, patch.spread_cos, patch.spread_sin);
-    // the foot is the support itself at an edge that juts out, lower on a face that leans
-    const double foot = patch.facing * corner_distance(shape.radius[k], patch.spread_cos);
-    patch.foot = std::max(shape.radius[k] - foot, 0.0);
+    // depth counts from an edge's corner, but on a face that leans from the sphere's foremost point
+    const double facing = std::clamp(patch.facing, -1.0, 1.0);
+    if (shape.faces[k].count == 0 && facing < patch.spread_cos) {
+        const double lean = facing * patch.spread_cos +
+                            std::sqrt(1.0 - facing * facing) * patch.spread_sin;  // cos(t - s)
+        patch.foot = shape.radius[k] * (1.0 - lean);
+    }
     return patch;
 }
 
@@ -56,8 +61,20 @@ std::vector<std::int32_t> count_contacts(const std::vector<Candidate>& all,
     return count;
 }
 
+// Midway between two edges where they cross.
+Vec3 crossing_point(const SphereSurface& a, const SphereSurface& b, const Vec3& n) {
+    const auto direction = [](const Faces& f) { return f.normal[0].cross(f.normal[1]); };
+    const Vec3 pa = support_point(a, n), pb = support_point(b, -n), between = pb - pa;
+    const Vec3 ea = direction(a.faces), eb = direction(b.faces), across = ea.cross(eb);
+    const double square = across.squaredNorm();
+    const double along_a = between.cross(eb).dot(across) / square;
+    const double along_b = between.cross(ea).dot(across) / square;
+    return 0.5 * (pa + along_a * ea + pb + along_b * eb);
+}
+
 // The probe decides where the bodies meet: midway between its surface and the other one's.
 Vec3 meeting_point(const PairView& view, NormalRule rule, const Candidate& c) {
+    if (c.gap.crossing) return crossing_point(view.sphere_a(c.i), view.sphere_b(c.j), c.gap.normal);
     const double sign = c.gap.a_is_surface ? -1.0 : 1.0;
     const Vec3 outward = sign * c.gap.normal;
     const SphereSurface probe = c.gap.a_is_surface ? view.sphere_b(c.j) : view.sphere_a(c.i);
@@ -71,7 +88,6 @@ void emit_all(const PairView& view, NormalRule rule, const std::vector<Candidate
     const Bodies& bodies = view.scene.bodies;
     const Mat3& rotation = bodies.rotation[view.pair.a];
     const bool ship = view.pair.a == static_cast<std::int32_t>(kShip);
-    if (candidates.empty()) return;
     std::int32_t last_probe = -1, face = 0;
     for (const Candidate& c : candidates) {
         Contact contact;
@@ -81,7 +97,6 @@ void emit_all(const PairView& view, NormalRule rule, const std::vector<Candidate
         contact.sphere_b = c.j;
         contact.gap = c.gap.gap;
         contact.normal = rotation * c.gap.normal;
-        // the probe decides where the bodies meet
         const Vec3 local = meeting_point(view, rule, c);
         contact.point = rotation * local + bodies.position[view.pair.a];
         contact.crushes_a = !ship && !c.gap.a_is_surface;

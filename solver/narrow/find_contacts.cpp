@@ -19,19 +19,38 @@ constexpr double kSameFaceCos = 0.866;
 // much more on a busy machine.
 constexpr std::size_t kSerialPairs = 256;
 
-// Squared distance within which spheres of a pair are compared [m2].
-double range_sq(const PairView& view, NormalRule rule, double margin) {
-    const double along = view.shape_a.largest_support + view.shape_b.largest_support + margin;
-    const double reach =
-        rule == NormalRule::surface ? std::max(view.shape_a.reach, view.shape_b.reach) : 0.0;
-    return along * along + reach * reach;
-}
+// Within what distance two spheres are compared: their supports and the margin along the normal,
+// the reach and the corners' offsets across it [m].
+struct Range {
+    double margin, reach;
+
+    Range(const PairView& view, NormalRule rule, double m)
+        : margin(m),
+          reach(rule == NormalRule::centres ? 0.0
+                                            : std::max(view.shape_a.reach, view.shape_b.reach)) {}
+
+    double squared(double corner_a, double aside_a, double corner_b, double aside_b) const {
+        const double along = corner_a + corner_b + margin, across = reach + aside_a + aside_b;
+        return along * along + across * across;
+    }
+    // for any two spheres of the shapes
+    double largest(const Shape& a, const Shape& b) const {
+        return std::sqrt(
+            squared(a.largest_support, a.largest_aside, b.largest_support, b.largest_aside));
+    }
+    bool holds(const PairView& view, std::int32_t i, std::int32_t j) const {
+        const Faces &a = view.shape_a.faces[i], &b = view.shape_b.faces[j];
+        return (view.center_a(i) - view.center_b(j)).squaredNorm() <=
+               squared(a.corner, a.aside, b.corner, b.aside);
+    }
+};
 
 // Measures spheres i and j and keeps them when they are near enough to matter. Under the rule
 // "surface" a face farther than the margin matters too: it may show that the probe is outside.
-void consider(const PairView& view, NormalRule rule, double margin, std::int32_t i,
-              const SphereSurface& b, std::int32_t j, std::vector<Candidate>& out) {
-    const SphereSurface a = view.sphere_a(i);
+void consider(const PairView& view, NormalRule rule, double margin, std::int32_t i, std::int32_t j,
+              std::vector<Candidate>& out) {
+    if (view.is_gone_a(i) || view.is_gone_b(j)) return;
+    const SphereSurface a = view.sphere_a(i), b = view.sphere_b(j);
     if (rule == NormalRule::centres) {
         const Gap gap = measure_gap_centres(a, b);
         if (gap.valid && gap.gap <= margin) out.push_back({i, j, gap});
@@ -48,11 +67,9 @@ struct Face {
 };
 
 Face face_of(const PairView& view, const Candidate& c) {
-    const double sign = c.gap.a_is_surface ? 1.0 : -1.0;
-    const Vec3 outward = sign * c.gap.normal;
-    return c.gap.a_is_surface
-               ? Face{view.center_a(c.i) + view.shape_a.radius[c.i] * outward, outward}
-               : Face{view.center_b(c.j) + view.shape_b.radius[c.j] * outward, outward};
+    const Vec3 outward = c.gap.a_is_surface ? c.gap.normal : Vec3(-c.gap.normal);
+    return {support_point(c.gap.a_is_surface ? view.sphere_a(c.i) : view.sphere_b(c.j), outward),
+            outward};
 }
 
 // Do two faces of a body meet in an outward edge, each behind the other's plane?
@@ -87,17 +104,19 @@ void keep_one_per_face(const PairView& view, double margin, std::vector<Candidat
     std::size_t kept = 0, group = 0;  // [group, kept) are the kept ones of the present probe
     for (const Candidate& now : candidates) {
         if (kept > group && !same_probe(candidates[group], now)) group = kept;
-        bool wanted = true;
-        for (std::size_t k = group; wanted && k < kept; ++k) {
-            Candidate& other = candidates[k];
-            if (other.gap.normal.dot(now.gap.normal) > kSameFaceCos) {
-                wanted = false;
-            } else if (meet_outwards(face_of(view, other), face_of(view, now))) {
-                if (now.gap.gap > other.gap.gap) other = now;
-                wanted = false;
-            }
-        }
-        if (wanted) candidates[kept++] = now;
+        const auto first = candidates.begin() + static_cast<std::ptrdiff_t>(group);
+        const auto last = candidates.begin() + static_cast<std::ptrdiff_t>(kept);
+        if (std::any_of(first, last, [&](const Candidate& other) {
+                return other.gap.normal.dot(now.gap.normal) > kSameFaceCos;
+            }))
+            continue;
+        const auto edge = std::find_if(first, last, [&](const Candidate& other) {
+            return meet_outwards(face_of(view, other), face_of(view, now));
+        });
+        if (edge == last)
+            candidates[kept++] = now;
+        else if (now.gap.gap > edge->gap.gap)
+            *edge = now;
     }
     candidates.resize(kept);
     std::erase_if(candidates, [&](const Candidate& c) { return c.gap.gap > margin; });
@@ -121,21 +140,24 @@ void find_pair_contacts(const Scene& scene, BodyPair pair, NormalRule rule, doub
                         std::vector<Candidate>& candidates, std::vector<Contact>& out) {
     const PairView view(scene, pair);
     candidates.clear();
-    // only b's spheres in a's box, widened by what a contact can span, can touch
-    const double reach =
-        rule == NormalRule::surface ? std::max(view.shape_a.reach, view.shape_b.reach) : 0.0;
-    const double span = view.shape_b.largest_support + margin;
-    const Eigen::AlignedBox3d box(view.shape_a.box.min() - Vec3::Constant(span + reach),
-                                  view.shape_a.box.max() + Vec3::Constant(span + reach));
-    const double range = range_sq(view, rule, margin);
-    for (std::int32_t j = 0; j < static_cast<std::int32_t>(view.shape_b.center.size()); ++j) {
-        const Vec3 at = view.center_b(j);
+    // each sphere of the body that has fewer looks into the other one's grid, which holds the places
+    // before crushing
+    const Range range(view, rule, margin);
+    const auto visit = [&](std::int32_t i, std::int32_t j) {
+        if (range.holds(view, i, j)) consider(view, rule, margin, i, j, candidates);
+    };
+    const bool few_a = view.shape_a.center.size() < view.shape_b.center.size();
+    const Shape& few = few_a ? view.shape_a : view.shape_b;
+    const Shape& many = few_a ? view.shape_b : view.shape_a;
+    const double look = range.largest(view.shape_a, view.shape_b) +
+                        scene.crushed.deepest_of(few_a ? pair.b : pair.a);
+    const Eigen::AlignedBox3d box(many.box.min() - Vec3::Constant(look),
+                                  many.box.max() + Vec3::Constant(look));
+    for (std::int32_t k = 0; k < static_cast<std::int32_t>(few.center.size()); ++k) {
+        const Vec3 at = few_a ? view.to_b(view.center_a(k)) : view.center_b(k);
         if (!box.contains(at)) continue;
-        const SphereSurface b = view.sphere_b(j);
-        view.shape_a.grid.for_each_near(at, std::sqrt(range), [&](std::int32_t i) {
-            if ((view.shape_a.center[i] - at).squaredNorm() <= range)
-                consider(view, rule, margin, i, b, j, candidates);
-        });
+        many.grid.for_each_near(
+            at, look, [&](std::int32_t other) { few_a ? visit(k, other) : visit(other, k); });
     }
     // grid order differs between poses: ascending spheres make the answer a function of the pair
     std::sort(candidates.begin(), candidates.end(), [](const Candidate& l, const Candidate& r) {
@@ -175,12 +197,11 @@ namespace reference {
 void find_contacts(const Scene& scene, BodyPair pair, NormalRule rule, double margin,
                    std::vector<Contact>& out) {
     const PairView view(scene, pair);
-    const double range = range_sq(view, rule, margin);
+    const Range range(view, rule, margin);
     std::vector<Candidate> candidates;
     for (std::int32_t i = 0; i < static_cast<std::int32_t>(view.shape_a.center.size()); ++i)
         for (std::int32_t j = 0; j < static_cast<std::int32_t>(view.shape_b.center.size()); ++j)
-            if ((view.shape_a.center[i] - view.center_b(j)).squaredNorm() <= range)
-                consider(view, rule, margin, i, view.sphere_b(j), j, candidates);
+            if (range.holds(view, i, j)) consider(view, rule, margin, i, j, candidates);
     finish_pair(view, rule, margin, candidates, out);
 }
 

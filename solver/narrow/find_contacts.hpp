@@ -33,9 +33,10 @@ struct Contact {
 /// Rule "centres" (the paper): every two spheres with gap <= margin are a contact.
 /// Rule "surface": every probe sphere (measure_gap_surface) has one contact per face of the other
 /// body that it faces: of the spheres that stand for the same face, the laterally nearest, within
-/// the shape's `reach`; of faces that meet in an outward edge only the one less deep. So a face's contacts are as many as its probes, not probes times spheres.
+/// the shape's `reach`; of faces that meet in an outward edge only the one less deep. So a face's
+/// contacts are as many as its probes, not probes times spheres.
 ///
-/// Crushed spheres stand where the crushing left them. A contact's patch is its probe's; under the
+/// Crushed spheres stand where the crushing left them; driven out of their body they are gone. A contact's patch is its probe's; under the
 /// rule "centres" it is the ice sphere's share, split among the contacts the sphere has with that
 /// body, the smaller one between two floes, and counts whole.
 ///

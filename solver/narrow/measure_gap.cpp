@@ -23,13 +23,16 @@ constexpr double kBelongs = -0.05;
 // A face cuts into an edge that slants towards it all along; two edges meet where they cross.
 constexpr double kSlantOnFace = 0.95, kSlantOnEdge = 0.1;
 
+// Squared distances (in radii) that count as equal.
+constexpr double kFlush = 1e-3;
+
 // Edges closer to parallel than this (sine) have no normal across both.
 constexpr double kParallel = 0.05;
 
 // u itself inside the cone of normals, else the cone's direction nearest to it.
 Vec3 nearest_normal(const SphereSurface& s, const Vec3& u) {
     const double along = u.dot(s.normal);
-    if (s.spread_sin == 0.0) return s.normal;
+    if (s.spread_cos == 1.0) return s.normal;
     if (along >= s.spread_cos) return u;
     const Vec3 across = u - along * s.normal;
     const double length = across.norm();
@@ -95,7 +98,7 @@ double distance_across(const SphereSurface& s, const Vec3& n, const Vec3& probe,
     const auto across = [&](const Vec3& v) { return Vec3(v - v.dot(n) * n); };
     const Vec3 at = across(probe - s.center);
     if (!edges) return at.squaredNorm();
-    const Vec3 out = across(corner_distance(s.radius, s.spread_cos) * s.normal);
+    const Vec3 out = across(s.faces.corner * s.normal);
     const double reach = out.norm();
     if (reach <= kBeyond * s.radius) return at.squaredNorm();
     const double along = at.dot(out) / reach;
@@ -115,7 +118,7 @@ Vec3 mean_normal(const Vec3& normal_a, const Vec3& normal_b) {
 
 Vec3 support_point(const SphereSurface& s, const Vec3& n) {
     if (s.faces.count == 0) return s.center + s.radius * n;
-    return s.center + corner_distance(s.radius, s.spread_cos) * s.normal;
+    return s.center + s.faces.corner * s.normal;
 }
 
 Gap measure_gap_centres(const SphereSurface& a, const SphereSurface& b) {
@@ -150,11 +153,12 @@ Gap measure_gap_surface(const SphereSurface& a, const SphereSurface& b, bool pre
     const double gap = n.dot(point_b - point_a);
     if (crossing) {
         const double apart = (point_b - point_a).squaredNorm() - gap * gap;
-        return {n, gap, std::max(apart, 0.0), a_is_surface, true};
+        return {n, gap, std::max(apart, 0.0), a_is_surface, true, true};
     }
     const double under_a = distance_across(a, n, point_b, edges);
     const double under_b = distance_across(b, n, point_a, edges);
-    if (edges) a_is_surface = under_a <= under_b;
+    // flush edges differ by rounding only: then a, step after step
+    if (edges) a_is_surface = under_a <= under_b + kFlush * a.radius * a.radius;
     return {n, gap, a_is_surface ? under_a : under_b, a_is_surface, true};
 }
 

@@ -34,6 +34,15 @@ struct PairView {
     Vec3 center_b(std::int32_t j) const {  // in a's axes
         return turn * (shape_b.center[j] + scene.crushed.recess_of(pair.b, j)) + shift;
     }
+    Vec3 to_b(const Vec3& in_a) const { return turn.transpose() * (in_a - shift); }
+    /// Has the sphere been driven right through its body?
+    bool is_gone_a(std::int32_t i) const {
+        return !scene.crushed.is_whole(pair.a) && !shape_a.box.contains(center_a(i));
+    }
+    bool is_gone_b(std::int32_t j) const {
+        return !scene.crushed.is_whole(pair.b) &&
+               !shape_b.box.contains(Vec3(shape_b.center[j] + scene.crushed.recess_of(pair.b, j)));
+    }
     SphereSurface sphere_a(std::int32_t i) const {
         return {center_a(i),           shape_a.radius[i],     shape_a.normal[i],
                 shape_a.spread_cos[i], shape_a.spread_sin[i], shape_a.faces[i]};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -14,6 +15,7 @@ namespace ice {
 struct CrushedIce {
     std::vector<std::int64_t> first;  ///< per body: its row of recess, -1 while whole
     std::vector<Vec3> recess;         ///< per surface sphere of crushed bodies, body axes [m]
+    std::vector<double> deepest;      ///< per body, as far as `first`: its longest recess [m]
 
     bool is_whole(std::int32_t body) const {
         return static_cast<std::size_t>(body) >= first.size() ||
@@ -24,16 +26,24 @@ struct CrushedIce {
         if (is_whole(body)) return Vec3::Zero();
         return recess[static_cast<std::size_t>(first[static_cast<std::size_t>(body)] + sphere)];
     }
+    double deepest_of(std::int32_t body) const {
+        return is_whole(body) ? 0.0 : deepest[static_cast<std::size_t>(body)];
+    }
     /// Moves a sphere of a body with `spheres` surface spheres by `move` [m], body axes.
     void crush(std::int32_t body, std::int32_t sphere, std::size_t spheres, const Vec3& move) {
-        if (static_cast<std::size_t>(body) >= first.size())
+        if (static_cast<std::size_t>(body) >= first.size()) {
             first.resize(static_cast<std::size_t>(body) + 1, -1);
+            deepest.resize(first.size(), 0.0);
+        }
         auto& row = first[static_cast<std::size_t>(body)];
         if (row < 0) {
             row = static_cast<std::int64_t>(recess.size());
             recess.resize(recess.size() + spheres, Vec3::Zero());
         }
-        recess[static_cast<std::size_t>(row + sphere)] += move;
+        Vec3& total = recess[static_cast<std::size_t>(row + sphere)];
+        total += move;
+        double& most = deepest[static_cast<std::size_t>(body)];
+        most = std::max(most, total.norm());
     }
 };
 

@@ -17,6 +17,10 @@ constexpr double kPanelShare = 1.0 / 6.0;
 // Largest number of panels of one shape; finer meshes keep their triangles.
 constexpr std::size_t kMostPanels = 4000;
 
+// Faces whose normals are this far apart (cosine) meet in a knife edge of less than 40 degrees, or
+// are the two sides of a plate as thin as the sphere: that is left round.
+constexpr double kKnife = -0.77;
+
 // Normals whose box product with two others is below this lie in their plane: an edge, no corner.
 constexpr double kSamePlane = 0.1;
 
@@ -73,6 +77,7 @@ Faces outermost_faces(const std::vector<Vec3>& normals) {
     out.normal[0] = normals[first];
     out.normal[1] = normals[second];
     out.count = 2;
+    if (least < kKnife) return {};
     const Vec3 across = out.normal[0].cross(out.normal[1]);
     for (const Vec3& n : normals)
         if (std::abs(n.dot(across)) > most) {
@@ -88,7 +93,16 @@ std::vector<Faces> meeting_faces(const SphereSet& set) {
     for (const CreaseNormal& c : set.creases)
         normals[static_cast<std::size_t>(c.sphere)].push_back(c.normal);
     std::vector<Faces> out;
-    for (const auto& n : normals) out.push_back(outermost_faces(n));
+    for (std::size_t k = 0; k < set.surface_count; ++k) {
+        Faces faces = outermost_faces(normals[k]);
+        // the point along the middle normal that no face's plane leaves outside
+        double nearest = 0.0;
+        for (const Vec3& n : normals[k]) nearest = std::max(nearest, n.dot(set.normals[k]));
+        faces.corner = faces.count > 0 && nearest > 0.0 ? set.radii[k] / nearest : set.radii[k];
+        faces.aside =
+            std::sqrt(std::max(0.0, faces.corner * faces.corner - set.radii[k] * set.radii[k]));
+        out.push_back(faces);
+    }
     return out;
 }
 
@@ -105,8 +119,8 @@ void copy_surface_spheres(const SphereSet& set, const Vec3& origin, Shape& shape
         shape.area.push_back(set.areas[k]);
         shape.region.push_back(set.regions[k]);
         shape.largest_radius = std::max(shape.largest_radius, set.radii[k]);
-        shape.largest_support =
-            std::max(shape.largest_support, corner_distance(set.radii[k], cosine));
+        shape.largest_support = std::max(shape.largest_support, shape.faces[k].corner);
+        shape.largest_aside = std::max(shape.largest_aside, shape.faces[k].aside);
     }
 }
 
@@ -127,11 +141,6 @@ double measure_reach(const Shape& shape, double nominal_spacing) {
 }
 
 }  // namespace
-
-double corner_distance(double radius, double spread_cos) {
-    constexpr double kFarthest = 3.0;  // radii
-    return radius / std::max(spread_cos, 1.0 / kFarthest);
-}
 
 Shape build_shape(const SphereSet& set, bool about_centre_of_mass) {
     Shape shape;

@@ -23,7 +23,9 @@ struct Panel {
 /// Outward normals of the faces that meet in an edge (2) or a corner (3), body axes.
 struct Faces {
     int count = 0;
-    std::array<Vec3, 3> normal;
+    std::array<Vec3, 3> normal{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+    double corner = 0.0;  ///< from the sphere's centre along its normal to where they meet [m]
+    double aside = 0.0;   ///< from there to the points where the sphere touches the faces [m]
 };
 
 /// A form in its body axes: floes about the centre of mass, the hull in the ship frame.
@@ -44,6 +46,7 @@ struct Shape {
     SphereGrid grid;               ///< of `center`
     double largest_radius = 0.0;   ///< [m]
     double largest_support = 0.0;  ///< how far the surface goes from a sphere's centre [m]
+    double largest_aside = 0.0;    ///< of `faces` [m]
     double reach = 0.0;            ///< how far from its centre a sphere stands for the surface [m]
 
     TriangleMesh mesh;             ///< closed, body axes
@@ -52,11 +55,6 @@ struct Shape {
     Eigen::AlignedBox3d box;       ///< of mesh and spheres
     double bounding_radius = 0.0;  ///< about the body origin [m]
 };
-
-/// Distance [m] from a sphere's centre to where the faces meet that are all tangent to it, their
-/// normals at the half-angle with this cosine from their middle: r / cos s, at most 3 r, which cuts
-/// off knife edges sharper than about 39 degrees.
-double corner_distance(double radius, double spread_cos);
 
 /// Makes the shape of a floe (axes moved to the centre of mass) or of the hull (axes kept).
 /// @throws Error (exit code 2) when the set has no surface spheres.

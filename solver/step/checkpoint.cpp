@@ -34,6 +34,12 @@ std::uint64_t hash_of(const Shape& shape) {
     add(shape.mesh.vertices);
     for (const auto* list : {&shape.radius, &shape.area, &shape.spread_cos, &shape.spread_sin})
         for (const double value : *list) hash.add(value);
+    for (const Faces& faces : shape.faces) {
+        hash.add(static_cast<std::uint64_t>(faces.count));
+        hash.add(faces.corner);
+        for (const Vec3& n : faces.normal)
+            for (int d = 0; d < 3; ++d) hash.add(n[d]);
+    }
     for (const std::int32_t region : shape.region) hash.add(static_cast<std::uint64_t>(region));
     for (const std::string& name : shape.region_names)
         for (const char c : name + '\n') hash.add(static_cast<std::uint64_t>(c));

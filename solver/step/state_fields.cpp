@@ -32,6 +32,7 @@ void StateFields::carry(CheckpointFile& file, World& w) {
 
     file.carry("crushed.first", w.scene.crushed.first);
     file.carry("crushed.recess", w.scene.crushed.recess);
+    file.carry("crushed.deepest", w.scene.crushed.deepest);
 
     auto& entries = w.warm_start.entries_;
     file.column("warm_start.a", entries, &WarmStart::Entry::a);
