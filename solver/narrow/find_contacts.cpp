@@ -140,8 +140,8 @@ void find_pair_contacts(const Scene& scene, BodyPair pair, NormalRule rule, doub
                         std::vector<Candidate>& candidates, std::vector<Contact>& out) {
     const PairView view(scene, pair);
     candidates.clear();
-    // each sphere of the body that has fewer looks into the other one's grid, which holds the places
-    // before crushing
+    // each sphere of the body that has fewer looks into the other one's grid, which holds the
+    // places before crushing
     const Range range(view, rule, margin);
     const auto visit = [&](std::int32_t i, std::int32_t j) {
         if (range.holds(view, i, j)) consider(view, rule, margin, i, j, candidates);

@@ -36,9 +36,10 @@ struct Contact {
 /// the shape's `reach`; of faces that meet in an outward edge only the one less deep. So a face's
 /// contacts are as many as its probes, not probes times spheres.
 ///
-/// Crushed spheres stand where the crushing left them; driven out of their body they are gone. A contact's patch is its probe's; under the
-/// rule "centres" it is the ice sphere's share, split among the contacts the sphere has with that
-/// body, the smaller one between two floes, and counts whole.
+/// Crushed spheres stand where the crushing left them; driven out of their body they are gone. A
+/// contact's patch is its probe's; under the rule "centres" it is the ice sphere's share, split
+/// among the contacts the sphere has with that body, the smaller one between two floes, and counts
+/// whole.
 ///
 /// @param margin  [m] per pair is dt times a bound of the pair's closing speed, plus this much
 class ContactFinder {

@@ -30,8 +30,9 @@ struct Gap {
 /// Foremost point of the surface along the outward unit vector n.
 ///
 /// Where faces are known to meet, their planes, all tangent to the sphere, meet at the point
-/// r / cos s along the middle normal, Faces::corner: a floe keeps its sharp edges; rounded by the spheres' radius
-/// it would slide past corners that it should catch. Elsewhere it is the sphere's own.
+/// r / cos s along the middle normal, Faces::corner: a floe keeps its sharp edges; rounded by the
+/// spheres' radius it would slide past corners that it should catch. Elsewhere it is the sphere's
+/// own.
 Vec3 support_point(const SphereSurface& s, const Vec3& n);
 
 /// The paper's rule (Figure 1): normal from centre to centre, gap |d| - (r_a + r_b).
@@ -46,8 +47,8 @@ Gap measure_gap_centres(const SphereSurface& a, const SphereSurface& b);
 /// Of two edges or corners that know their faces, each face's normal and that across both edges is
 /// tried and the one with the largest gap taken: the separating direction of the two local solids.
 /// Else the flatter side gives the one of its normals that is nearest to the line of centres. The
-/// flatter side (the smaller spread; of two edges the one that has the other's corner above it, a if both) is
-/// the surface, the other one the probe. With n chosen,
+/// flatter side (the smaller spread; of two edges the one that has the other's corner above it, a
+/// if both) is the surface, the other one the probe. With n chosen,
 ///
 ///     gap = n . (support_point(b, -n) - support_point(a, n)),
 ///

@@ -21,8 +21,8 @@ struct Patch {
               ///< negative before touch [m]
 };
 
-/// Length of the wings of a sphere's share [m]: wing x 2 x spacing = share, where the wing goes from
-/// the foot past the point of touch, at r tan s, by half the spacing.
+/// Length of the wings of a sphere's share [m]: wing x 2 x spacing = share, where the wing goes
+/// from the foot past the point of touch, at r tan s, by half the spacing.
 double wing_length(double radius, double share, double spread_cos, double spread_sin);
 
 /// Area [m2] of the section that a face at `depth` inside the support cuts from the patch.
@@ -32,8 +32,8 @@ double wing_length(double radius, double share, double spread_cos, double spread
 /// towards the face rises from the foot. So a flat patch counts whole at the first touch, an edge
 /// of length l gives depth (1 / tan a_1 + 1 / tan a_2) l as a sharp edge does, and all patches of a
 /// body add up to the area of its section, whatever the spheres' radius. Never more than the
-/// patch's whole projected area, share cos s cos t, nor less than 5 % of what it would give upright:
-/// nothing passes through a side unresisted.
+/// patch's whole projected area, share cos s cos t, nor less than 5 % of what it would give
+/// upright: nothing passes through a side unresisted.
 double cut_area(const Patch& patch, double depth);
 
 }  // namespace ice

@@ -112,8 +112,8 @@ TEST_CASE("a floe face under a flat hull has one contact per floe sphere, all wi
         REQUIRE((c.normal + Vec3::UnitZ()).norm() < 1e-12);
         area += cut_area(c.patch, c.patch.depth);
     }
-    // shares of the make_box_set are 0.01 m2 per face and sphere; normals are floats, so a flat wing
-    // of an edge may lean by 1e-7 x its half side of 0.05 m, against a touch of 1e-4 m
+    // shares of the make_box_set are 0.01 m2 per face and sphere; normals are floats, so a flat
+    // wing of an edge may lean by 1e-7 x its half side of 0.05 m, against a touch of 1e-4 m
     CHECK(area == Approx(0.8).epsilon(5e-5));
 }
 

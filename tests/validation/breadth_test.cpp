@@ -106,8 +106,8 @@ void compare(const std::string& what, const Vec3& two, const Vec3& three, double
 
 TEST_CASE("one piece before the bow or under the bottom: 3D one metre broad equals 2D",
           "[validation][2d]") {
-    // not chaotic; the piece under the bottom settles on 200 spheres instead of 10. Under the ship of
-    // its own breadth the piece's edges lie on the ship's, where either may be the one that touches.
+    // not chaotic; the piece under the bottom settles on 200 spheres instead of 10. Under the ship
+    // of its own breadth the piece's edges lie on the ship's, where either may be the one to touch
     const auto [breadth, percent] = GENERATE(std::pair(1.0, 5.0), std::pair(1.6, 0.1));
     const Vec3 afloat(0.5, 0, -0.16), below(-3.0, 0, -1.42);
     const auto met = [&](const char* how) {
