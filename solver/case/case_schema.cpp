@@ -148,8 +148,8 @@ std::vector<Key> model_keys() {
          "paper).",
          [](Case& c, G&, const Value& v) { c.normal = choice<NormalRule>(v, kNormals); }},
         {"contact.crushing_pressure", Kind::number, D::pressure, "inf", 0, kInf, 0, "",
-         "Largest normal impulse of a contact is this pressure x its area x time_step; inf is "
-         "rigid.",
+         "Largest normal impulse of a contact is this pressure x the section cut x time_step, and "
+         "ice so crushed is gone; inf is rigid.",
          [](Case& c, G&, const Value& v) { c.crushing_pressure = number(v); }},
         {"contact.iterations", Kind::integer, D::none, "30", 1, 100000, 0, "",
          "Upper bound of the contact solver's iterations in a stage of a step.",

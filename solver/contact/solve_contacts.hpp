@@ -24,8 +24,8 @@ struct SolveReport {
 ///
 /// A contact that reaches its strength does not rebound (e = 0 for it): with a finite crushing
 /// pressure the stage first solves with e = 0 for all, then with e for those that held. Contacts at
-/// rest have v_r0 . n = 0 and do not bounce, without any threshold (Guendelman, Bridson, Fedkiw, ACM
-/// TOG 22(3), 2003, section 5).
+/// rest have v_r0 . n = 0 and do not bounce, without any threshold (Guendelman, Bridson, Fedkiw,
+/// ACM TOG 22(3), 2003, section 5).
 ///
 /// Where this would add energy (friction at e near 1), the rebound is weakened, limit_rebound().
 /// Between the ship and a held floe nothing can give way: with a finite crushing pressure the
