@@ -10,8 +10,8 @@ namespace ice {
 
 /// How an iterative stage ended.
 struct SolveReport {
-    int iterations = 0;
-    double residual = 0.0;  ///< largest change of a contact velocity in the last iteration [m/s]
+    int iterations = 0;     ///< of all solutions that the stage took
+    double residual = 0.0;  ///< largest change of a contact velocity in a last iteration [m/s]
     bool converged = true;  ///< residual <= tolerance
 };
 

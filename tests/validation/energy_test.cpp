@@ -190,28 +190,21 @@ TEST_CASE("contacts never add energy: head-on, with spin, wedged, non-convex, ag
     CHECK(met >= static_cast<int>(0.9 * seeds));
 }
 
-TEST_CASE("Newton's restitution with friction adds energy in oblique hits when e is near 1",
+TEST_CASE("oblique hits with friction lose energy also where Newton's restitution would add it",
           "[validation][conservation]") {
-    // a known property of the law (Kane and Levinson, 1985): it fixes the normal speed, whatever
-    // work friction does meanwhile; from e = 0.7 at mu = 0.3 here, never at the default 0.3
-    Gain worst;
+    // e = 1 and mu = 0.3: the law alone gains up to a third of the energy (Kane and Levinson, 1985)
     for (unsigned seed = 1; seed <= kSeeds; ++seed) {
         World w = meeting_world(Meeting::wall, law(1.0, 0.3, NormalRule::surface), seed);
-        worst.raw = std::max(worst.raw, run_meeting(w).raw);
+        test::validate({"floe against a wall at e = 1 with mu = 0.3: energy gained in a step", "",
+                        0.0, run_meeting(w).beyond, test::within(1e-12),
+                        "the rebound is weakened until nothing is gained"});
     }
-    CHECK(worst.raw < 0.5);
-    test::show({"floe against a wall at e = 1 with mu = 0.3: energy gained in a step",
-                "",
-                0.0,
-                worst.raw,
-                {},
-                "Newton's restitution with friction can add energy: see Limitations"});
 }
 
-TEST_CASE("a touching row that is opening when it is struck gains energy when e is near 1",
+TEST_CASE("a touching row that is opening when it is struck gains no energy",
           "[validation][conservation]") {
-    // the opening contact is stopped, not left to close with e of its speed (Moreau): masses 1 and
-    // speeds 10, 0, 1 m/s have 50.5 J, and (-3, 7, 7) with 53.5 J is what the law asks for
+    // the opening contact may close with e of its speed (Moreau); were it stopped, masses 1 with
+    // speeds 10, 0, 1 m/s (50.5 J) would go on with (-3, 7, 7) at e = 1 (53.5 J)
     const double e = GENERATE(0.3, 1.0);
     World w = test::plate_world(law(e, 0.0, NormalRule::surface), Vec3(1, 1, 1), 0.1, 0.2, 100.0);
     test::add_shape(w, floe_set(Meeting::head_on));
@@ -224,18 +217,8 @@ TEST_CASE("a touching row that is opening when it is struck gains energy when e 
     const double before = kinetic_energy(w.scene.bodies);
     step(w);
     const double gain = kinetic_energy(w.scene.bodies) / before - 1.0;
-    if (e < 1.0) {
-        CHECK(gain < 0.0);
-    } else {
-        CHECK(gain <= 53.5 / 50.5 - 1.0 + 1e-9);
-        test::show(
-            {"touching row of three, opening, struck at e = 1 without friction: energy gained",
-             "",
-             0.0,
-             gain,
-             {},
-             "an opening contact is stopped: see Limitations"});
-    }
+    test::validate({"touching row of three, opening, struck without friction: energy gained", "",
+                    0.0, gain, test::at_most_expected(), "contacts only lose energy"});
 }
 
 TEST_CASE("removing overlap moves floes, and nothing else: no force, no speed",

@@ -150,8 +150,9 @@ TEST_CASE("a step whose solver did not reach its tolerance says so, with its res
     step(w);
     CHECK(w.impacts.converged == enough);
     CHECK((w.impacts.residual <= p.tolerance) == enough);
-    CHECK(w.impacts.iterations <= iterations);
-    CHECK((w.impacts.iterations == iterations) == !enough);
+    // a stage that gains energy is solved without rebound, too
+    CHECK(w.impacts.iterations <= 2 * iterations);
+    CHECK((w.impacts.iterations >= iterations) == !enough);
     // what is left shows where it should: the box does not leave flat
     CHECK((w.scene.bodies.angular_velocity[1].norm() < 1e-8) == enough);
 }
