@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A run that is stopped and continued is the run that was never stopped.
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <limits>
 
 #include "common/base/error.hpp"
@@ -15,6 +16,9 @@ using namespace ice::test;
 namespace {
 
 constexpr std::int64_t kSteps = 120;
+
+// Pressure [Pa] low enough that the plate's impacts crush what they hit.
+constexpr double kSoft = 5e3;
 
 // A plate drives over a row of floes that buoyancy presses against it; the first floe is let go at
 // once, the next ones when touched. Rows and frames are no multiples of each other or of the step.
@@ -75,7 +79,7 @@ bool in_contact(const World& w) {
 
 TEST_CASE("a run continued from a checkpoint ends with the same bits and files",
           "[step][checkpoint]") {
-    const double pressure = GENERATE(std::numeric_limits<double>::infinity(), 2e5);
+    const double pressure = GENERATE(std::numeric_limits<double>::infinity(), kSoft);
     const std::int64_t stop = GENERATE(1, 2, 24, 25, 26, 70, 97, 119);
     CAPTURE(pressure, stop);
     const TempFolder folder;
@@ -83,6 +87,8 @@ TEST_CASE("a run continued from a checkpoint ends with the same bits and files",
     World whole = make_world(p);
     run(whole, {folder / "whole", "first"});
     CHECK(in_contact(whole));
+    // what is crushed is part of the state that goes on
+    CHECK(whole.scene.crushed.recess.empty() == std::isinf(pressure));
 
     run_until(p, folder / "parts", stop);
     go_on(p, folder / "parts" / "checkpoint.h5", folder / "parts");
@@ -98,10 +104,25 @@ TEST_CASE("contacts are active at the steps where the runs above are stopped",
     CHECK(in_contact(w));
 }
 
+TEST_CASE("ice is crushed before the runs above are stopped and goes on being crushed after",
+          "[step][checkpoint]") {
+    World w = make_world(pressed_row(kSoft));
+    for (int k = 0; k < 24; ++k) step(w);
+    const auto crushed = [&] {
+        double sum = 0.0;
+        for (const Vec3& r : w.scene.crushed.recess) sum += r.norm();
+        return sum;
+    };
+    const double before = crushed();
+    CHECK(before > 0.0);
+    for (int k = 24; k < kSteps; ++k) step(w);
+    CHECK(crushed() > before);
+}
+
 TEST_CASE("a run stopped three times, once in each folder, is still the same run",
           "[step][checkpoint]") {
     const TempFolder folder;
-    const Case p = pressed_row(2e5);
+    const Case p = pressed_row(kSoft);
     World whole = make_world(p);
     run(whole, {folder / "whole", "first"});
 
@@ -126,7 +147,7 @@ TEST_CASE("a run stopped three times, once in each folder, is still the same run
 
 TEST_CASE("a finished run goes on to a longer duration", "[step][checkpoint]") {
     const TempFolder folder;
-    const Case p = pressed_row(2e5);
+    const Case p = pressed_row(kSoft);
     World whole = make_world(p);
     run(whole, {folder / "whole", "first"});
 
@@ -150,12 +171,12 @@ TEST_CASE("a finished run goes on to a longer duration", "[step][checkpoint]") {
 TEST_CASE("checkpoints are written at the multiples of checkpoint_every and at the end",
           "[step][checkpoint]") {
     const TempFolder folder;
-    World w = make_world(pressed_row(2e5));
+    World w = make_world(pressed_row(kSoft));
     RunOptions options{folder / "r", "first"};
     options.checkpoint_every = 0.352;
     std::vector<std::int64_t> steps;
     options.keep_going = [&](double, const World&) {
-        World now = make_world(pressed_row(2e5));
+        World now = make_world(pressed_row(kSoft));
         if (!std::filesystem::exists(folder / "r" / "checkpoint.h5")) return true;
         read_checkpoint(folder / "r" / "checkpoint.h5", now);
         if (steps.empty() || steps.back() != now.steps) steps.push_back(now.steps);
@@ -171,7 +192,7 @@ TEST_CASE("checkpoints are written at the multiples of checkpoint_every and at t
 TEST_CASE("files that are lost begin at the checkpoint, and the summary says so",
           "[step][checkpoint]") {
     const TempFolder folder;
-    const Case p = pressed_row(2e5);
+    const Case p = pressed_row(kSoft);
     World whole = make_world(p);
     const Summary expected = run(whole, {folder / "whole", "first"});
     run_until(p, folder / "parts", 50);
@@ -192,7 +213,7 @@ TEST_CASE("files that are lost begin at the checkpoint, and the summary says so"
 TEST_CASE("a checkpoint of another case or sphere set is refused with the key's name",
           "[step][checkpoint][errors]") {
     const TempFolder folder;
-    const Case p = pressed_row(2e5);
+    const Case p = pressed_row(kSoft);
     run_until(p, folder / "r", 20);
     const auto text_of = [&](const Case& now, double radius) {
         return error_text([&] {

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Gaps and normals where edges and corners of boxes meet.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <initializer_list>
+#include <numbers>
+#include <random>
+
+#include "solver/narrow/measure_gap.hpp"
+
+using namespace ice;
+
+namespace {
+
+constexpr double kDeg = std::numbers::pi / 180.0;
+constexpr double kRadius = 0.05;  // [m]
+// lengths of the order of a metre are rounded to 1e-16, and a few of them are added
+constexpr double kRounding = 1e-14;
+const Vec3 kX = Vec3::UnitX(), kY = Vec3::UnitY(), kZ = Vec3::UnitZ();
+
+// The sphere of radius r tangent to the faces, at right angles, that meet at the point `tip`: an
+// edge of two, a corner of three.
+SphereSurface tip_sphere(const Vec3& tip, std::initializer_list<Vec3> normals, double r = kRadius) {
+    SphereSurface s{tip, r, Vec3::Zero(), 0.0, 0.0};
+    for (const Vec3& n : normals) {
+        s.center -= r * n;
+        s.normal += n;
+        s.faces.normal[static_cast<std::size_t>(s.faces.count++)] = n;
+    }
+    s.normal.normalize();
+    s.spread_cos = 1.0 / std::sqrt(static_cast<double>(s.faces.count));
+    s.spread_sin = std::sqrt(1.0 - s.spread_cos * s.spread_cos);
+    s.faces.corner = r / s.spread_cos;
+    return s;
+}
+
+SphereSurface face_sphere(const Vec3& on_face, const Vec3& normal, double r = kRadius) {
+    return {on_face - r * normal, r, normal, 1.0, 0.0};
+}
+
+SphereSurface turned(SphereSurface s, const Mat3& turn) {
+    s.center = turn * s.center;
+    s.normal = turn * s.normal;
+    for (int k = 0; k < s.faces.count; ++k)
+        s.faces.normal[static_cast<std::size_t>(k)] =
+            turn * s.faces.normal[static_cast<std::size_t>(k)];
+    return s;
+}
+
+Mat3 some_turn(unsigned seed) {
+    if (seed == 0) return Mat3::Identity();
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> unit(-1.0, 1.0);
+    Eigen::Vector4d q;
+    for (double& x : q) x = unit(random);
+    return Eigen::Quaterniond(q.normalized()).toRotationMatrix();
+}
+
+// Asserts normal and gap, whichever of the two comes first and is preferred, and however both are
+// turned together.
+void check_gap(const SphereSurface& a, const SphereSurface& b, const Vec3& normal, double gap) {
+    for (const unsigned seed : {0u, 1u, 2u})
+        for (const bool prefer_a : {false, true}) {
+            const Mat3 turn = some_turn(seed);
+            const Gap forth = measure_gap_surface(turned(a, turn), turned(b, turn), prefer_a);
+            const Gap back = measure_gap_surface(turned(b, turn), turned(a, turn), prefer_a);
+            CAPTURE(seed, prefer_a);
+            REQUIRE(forth.valid);
+            REQUIRE(back.valid);
+            CHECK((forth.normal - turn * normal).norm() < kRounding);
+            CHECK((back.normal + turn * normal).norm() < kRounding);
+            CHECK(forth.gap == Approx(gap).margin(kRounding));
+            CHECK(back.gap == Approx(gap).margin(kRounding));
+            CHECK(forth.lateral_sq == Approx(back.lateral_sq).margin(kRounding));
+        }
+}
+
+void check_refused(const SphereSurface& a, const SphereSurface& b) {
+    for (const unsigned seed : {0u, 1u, 2u})
+        for (const bool prefer_a : {false, true}) {
+            const Mat3 turn = some_turn(seed);
+            CHECK_FALSE(measure_gap_surface(turned(a, turn), turned(b, turn), prefer_a).valid);
+            CHECK_FALSE(measure_gap_surface(turned(b, turn), turned(a, turn), prefer_a).valid);
+        }
+}
+
+}  // namespace
+
+TEST_CASE("edges of boxes side by side have the faces' normal and distance at any height",
+          "[narrow][edges][analytic]") {
+    const double gap = GENERATE(0.004, 0.0, -0.004);
+    const double height = GENERATE(-0.08, -0.04, -0.001, 0.0, 0.001, 0.04, 0.08);
+    const double aside = GENERATE(0.0, 0.03);
+    CAPTURE(gap, height, aside);
+    const SphereSurface left = tip_sphere(Vec3::Zero(), {kX, kZ});
+    const SphereSurface right = tip_sphere(Vec3(gap, aside, height), {-kX, kZ});
+    check_gap(left, right, kX, gap);
+    // the lower edge lies on the other box's side, whose sphere stands for it from its centre up
+    const Gap found = measure_gap_surface(left, right, false);
+    const double beyond = std::max(0.0, std::abs(height) - kRadius);
+    CHECK(found.a_is_surface == (height <= 0.0));
+    CHECK(found.lateral_sq == Approx(aside * aside + beyond * beyond).margin(kRounding));
+    CHECK_FALSE(found.crossing);
+}
+
+TEST_CASE("an edge beside a corner, and a corner beside a corner, have the faces' normal, too",
+          "[narrow][edges][analytic]") {
+    const double gap = GENERATE(0.004, -0.004);
+    const double height = GENERATE(-0.04, 0.0, 0.04);
+    const Vec3 at(gap, 0.01, height);
+    const SphereSurface edge = tip_sphere(Vec3::Zero(), {kX, kZ});
+    const SphereSurface corner = tip_sphere(Vec3::Zero(), {kX, kZ, kY});
+    CAPTURE(gap, height);
+    check_gap(edge, tip_sphere(at, {-kX, kZ, kY}), kX, gap);
+    check_gap(edge, tip_sphere(at, {-kX, kZ, -kY}, 0.03), kX, gap);
+    check_gap(corner, tip_sphere(at, {-kX, kZ, kY}), kX, gap);
+}
+
+TEST_CASE("an edge above an edge has the vertical for its normal", "[narrow][edges][analytic]") {
+    const double gap = GENERATE(0.004, -0.004);
+    CAPTURE(gap);
+    const SphereSurface below = tip_sphere(Vec3::Zero(), {kX, kZ});
+    // boxes that lie on each other by 2 cm; the other one beyond or back over the first
+    check_gap(below, tip_sphere(Vec3(-0.02, 0.01, gap), {-kX, -kZ}), kZ, gap);
+    check_gap(below, tip_sphere(Vec3(-0.02, 0.01, gap), {kX, -kZ}), kZ, gap);
+    check_gap(below, tip_sphere(Vec3(-0.02, 0.01, gap), {-kX, kY, -kZ}), kZ, gap);
+}
+
+TEST_CASE("of two faces that an edge is behind, the nearer one is the contact's",
+          "[narrow][edges][analytic]") {
+    // the other box is `in` m inside the first one's side and `down` m inside its top
+    const SphereSurface a = tip_sphere(Vec3::Zero(), {kX, kZ});
+    check_gap(a, tip_sphere(Vec3(-0.02, 0, -0.01), {-kX, -kZ}), kZ, -0.01);
+    check_gap(a, tip_sphere(Vec3(-0.01, 0, -0.02), {-kX, -kZ}), kX, -0.01);
+}
+
+TEST_CASE("crossed edges meet across both, with the distance of the two lines",
+          "[narrow][edges][analytic]") {
+    const double gap = GENERATE(0.004, 0.0, -0.004);
+    const double angle = kDeg * GENERATE(30.0, 60.0, 90.0, 150.0);
+    const double along_a = GENERATE(0.0, 0.02), along_b = GENERATE(0.0, -0.03);
+    CAPTURE(gap, angle / kDeg, along_a, along_b);
+    // a ridge along y, and a keel along a line turned by `angle` from it
+    const SphereSurface ridge =
+        tip_sphere(along_a * kY, {(kX + kZ).normalized(), (kZ - kX).normalized()});
+    const Vec3 line(-std::sin(angle), std::cos(angle), 0.0), across = line.cross(kZ);
+    const SphereSurface keel = tip_sphere(
+        gap * kZ + along_b * line, {(across - kZ).normalized(), (-across - kZ).normalized()});
+    check_gap(ridge, keel, kZ, gap);
+    const Gap found = measure_gap_surface(ridge, keel, false);
+    CHECK(found.crossing);
+    const double apart_sq = (along_b * line - along_a * kY).squaredNorm();
+    CHECK(found.lateral_sq == Approx(apart_sq).margin(kRounding));
+}
+
+TEST_CASE("crossed edges that both slope meet along the common perpendicular of their lines",
+          "[narrow][edges][analytic]") {
+    const double gap = GENERATE(0.004, -0.004);
+    const double slope = kDeg * GENERATE(10.0, 25.0);
+    const Vec3 line_a(0, std::cos(slope), std::sin(slope)),
+        line_b(std::cos(slope), 0, -std::sin(slope));
+    Vec3 n = line_a.cross(line_b).normalized();
+    if (n.z() < 0.0) n = -n;
+    // roofs that are upright as seen along n: their faces at 45 degrees to it
+    const Vec3 side_a = line_a.cross(n), side_b = line_b.cross(n);
+    const SphereSurface a =
+        tip_sphere(0.01 * line_a, {(n + side_a).normalized(), (n - side_a).normalized()});
+    const SphereSurface b = tip_sphere(gap * n - 0.02 * line_b,
+                                       {(side_b - n).normalized(), (-side_b - n).normalized()});
+    check_gap(a, b, n, gap);
+}
+
+TEST_CASE("a corner over a face has the face's normal and the corner's height",
+          "[narrow][edges][analytic]") {
+    const double gap = GENERATE(0.004, 0.0, -0.004);
+    const double tilt = kDeg * GENERATE(1.0, 20.0, 50.0);
+    const double heading = kDeg * GENERATE(0.0, 40.0);
+    CAPTURE(gap, tilt / kDeg, heading / kDeg);
+    // a cube that was upright, tilted about the line x = y, so that its corner points down
+    const Mat3 turn =
+        (Eigen::AngleAxisd(heading, kZ) * Eigen::AngleAxisd(tilt, Vec3(1, -1, 0).normalized()))
+            .toRotationMatrix();
+    const Vec3 at(0.02, 0.01, gap);
+    const SphereSurface floor = face_sphere(Vec3::Zero(), kZ, 0.1);
+    const SphereSurface corner = tip_sphere(at, {turn * -kX, turn * -kY, turn * -kZ});
+    // the corner is the cube's lowest point where all three of its faces look down
+    REQUIRE(std::max({(turn * -kX).z(), (turn * -kY).z(), (turn * -kZ).z()}) < 0.0);
+    check_gap(floor, corner, kZ, gap);
+    const Gap found = measure_gap_surface(floor, corner, false);
+    CHECK(found.a_is_surface);
+    CHECK_FALSE(measure_gap_surface(corner, floor, false).a_is_surface);
+    CHECK(found.lateral_sq == Approx(at.x() * at.x() + at.y() * at.y()).margin(kRounding));
+    // an edge that slopes over the face as the cube does
+    check_gap(floor, tip_sphere(at, {turn * -kX, turn * -kZ}), kZ, gap);
+}
+
+TEST_CASE("a corner that looks away from a face is not what touches it", "[narrow][edges]") {
+    const SphereSurface floor = face_sphere(Vec3::Zero(), kZ, 0.1);
+    check_refused(floor, tip_sphere(Vec3(0, 0, 0.002), {kX, kY, kZ}));
+    // the cube leans on the edge beside this corner: its x face looks up by 30 degrees
+    const Mat3 turn = Eigen::AngleAxisd(30.0 * kDeg, kY).toRotationMatrix();
+    const SphereSurface higher =
+        tip_sphere(Vec3(0, 0, 0.002), {turn * -kX, turn * -kY, turn * -kZ});
+    REQUIRE((turn * -kX).z() > 0.4);
+    check_refused(floor, higher);
+}
+
+TEST_CASE("a direction along an edge is none of its normals", "[narrow][edges]") {
+    const SphereSurface edge = tip_sphere(Vec3::Zero(), {kX, kZ});  // along y
+    check_refused(face_sphere(Vec3(0, 0.004, -0.05), -kY), edge);
+    check_refused(tip_sphere(Vec3(-0.05, 0.004, 0), {-kY, kZ}), edge);
+    check_refused(tip_sphere(Vec3(-0.05, 0.004, 0), {-kY, kX}), edge);
+}

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Ice that is held for good gives way to the ship by crushing alone.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "solver/step/balance.hpp"
+#include "tests/support/make_worlds.hpp"
+
+using namespace ice;
+
+namespace {
+
+constexpr double kDeg = std::numbers::pi / 180.0;
+constexpr double kPressure = 2e5;  // [Pa]
+constexpr double kFriction = 0.1;
+const Vec3 kFloe(1.0, 0.8, 0.3);
+const Vec3 kHull(0.4, 4.0, 2.0);
+
+// The set with its axes turned.
+SphereSet turned(SphereSet set, const Mat3& turn) {
+    for (Vec3& v : set.centers) v = turn * v;
+    for (Vec3& v : set.normals) v = turn * v;
+    for (CreaseNormal& c : set.creases) c.normal = turn * c.normal;
+    for (Vec3& v : set.mesh.vertices) v = turn * v;
+    set.solid = measure_mass(set.mesh);
+    return set;
+}
+
+// A wide plate whose front leans over the ice by `rake`, `ahead` of a held floe along x; it moves
+// along x as the table says.
+World world_with_held_floe(double rake, double ahead,
+                           std::vector<std::pair<double, double>> speeds) {
+    Case p = test::empty_space(0.01);
+    p.crushing_pressure = kPressure;
+    p.friction_ship_ice = kFriction;
+    p.floes[0].hold = Hold::always;
+    p.speed_table = std::move(speeds);
+    World w;
+    w.parameters = p;
+    const Mat3 turn = Eigen::AngleAxisd(rake, Vec3::UnitY()).toRotationMatrix();
+    // along x from the plate's middle to its front, at the height of the floe's first corner
+    const double front = 0.5 * kHull.x() / std::cos(rake) + 0.5 * kFloe.z() * std::tan(rake);
+    w.scene =
+        make_scene(build_shape(turned(test::make_box_set(kHull, 0.1, 0.2), turn), false),
+                   Vec3(-0.5 * kFloe.x() - front - ahead, 0, 0), Vec3(p.ship_speed(0.0), 0, 0));
+    const auto shape = test::add_shape(w, test::make_box_set(kFloe, 0.05, 0.1));
+    add_floe(w.scene, shape, 900.0, Vec3::Zero(), Quaternion::Identity(), 0, true);
+    return w;
+}
+
+void advance_balanced(World& w) {
+    const Momenta before = momenta_of(w.scene.bodies);
+    step(w);
+    REQUIRE_NOTHROW(require_balance(before, w));
+}
+
+}  // namespace
+
+TEST_CASE("a ship driven into held ice loses its work to crushing and friction, nothing else",
+          "[step][crushing][energy]") {
+    const double rake = kDeg * GENERATE(0.0, 20.0, 40.0);
+    const bool speeds_up = GENERATE(false, true);
+    CAPTURE(rake / kDeg, speeds_up);
+    World w = world_with_held_floe(rake, 0.011, {{0.0, 0.5}, {1.0, speeds_up ? 1.0 : 0.5}});
+    for (int k = 0; k < 60; ++k) advance_balanced(w);
+    const EnergyLedger& books = w.ledger;
+    REQUIRE(books.crushing > 0.0);
+    CHECK(books.restitution == 0.0);
+    CHECK(books.kinetic == 0.0);
+    // sums of up to 60 steps with a hundred contacts each, of one sign, each exact to 1e-16
+    CHECK(books.crushing + books.friction == Approx(books.ship_work).epsilon(1e-12));
+    CHECK(std::abs(books.residual(*books.potential_start)) <= 1e-12 * books.ship_work);
+    // pressed along the front's normal, sliding along its slope: v sin against v cos
+    CHECK(books.friction ==
+          Approx(kFriction * std::tan(rake) * books.crushing).margin(1e-6 * books.crushing));
+    CHECK(w.scene.bodies.position[1] == Vec3::Zero());
+}
+
+TEST_CASE("a plate driven right through a held floe has cut all of it", "[step][crushing]") {
+    World w = world_with_held_floe(0.0, 0.011, {{0.0, 0.5}});
+    const double through = kFloe.x() + kHull.x() + 0.1;  // travel until it is out at the far side
+    double first = 0.0, peak = 0.0;
+    while (w.time * 0.5 < through) {
+        advance_balanced(w);
+        const auto [normal, tangent] = test::ship_on_ice(w);
+        peak = std::max(peak, normal.norm());
+        if (first == 0.0) first = peak;
+        if (w.time * 0.5 < kFloe.x() + 0.05) continue;
+        // the front has left the ice behind
+        REQUIRE(normal == Vec3::Zero());
+        REQUIRE(tangent == Vec3::Zero());
+    }
+    const double section = kFloe.y() * kFloe.z();
+    const double others = 2.0 * kFloe.x() * (kFloe.y() + kFloe.z()) + section;
+    // normals are floats: a flat wing of an edge may lean by 1e-7, against a touch of 1e-4 m
+    CHECK(first == Approx(kPressure * section).epsilon(1e-3));
+    // the sides, once the front has come to them, resist with a twentieth of their area at most
+    CHECK(peak <= kPressure * (section + 0.05 * others));
+    // spheres are gone as soon as their centres are, a radius of the length early; the sides add
+    // half of theirs, which grow with the way: for a floe of 1 m about as much
+    CHECK(w.ledger.ship_work == Approx(kPressure * section * kFloe.x()).epsilon(0.15));
+    CHECK(w.ledger.crushing == Approx(w.ledger.ship_work).epsilon(1e-12));
+}
