@@ -20,6 +20,9 @@ constexpr double kBeyond = 0.01;
 // A part this negative is still no normal of another place: 3 degrees where faces are square.
 constexpr double kBelongs = -0.05;
 
+// Cosine of the tilt of a face that is met edge first.
+constexpr double kLeaning = 0.2;
+
 // A face cuts into an edge that slants towards it all along; two edges meet where they cross.
 constexpr double kSlantOnFace = 0.95, kSlantOnEdge = 0.1;
 
@@ -42,10 +45,10 @@ Vec3 nearest_normal(const SphereSurface& s, const Vec3& u) {
 
 // Is n an outward normal of the surface: are its parts along the normals of the faces that meet
 // there positive, to some degrees? Beyond them the corner is not the body's foremost point, another
-// sphere's is. Nor is it where n runs along the edge, by more than `most_along` (cosine). Round
-// surfaces always have a foremost point.
+// sphere's is. Nor is it where n runs along the edge, by more than `most_along` (cosine), or a face
+// stands all but upright: its edges are before it.
 bool belongs(const SphereSurface& s, const Vec3& n, double most_along) {
-    if (s.faces.count == 0) return true;
+    if (s.faces.count == 0) return s.normal.dot(n) >= std::min(kLeaning, s.spread_cos);
     const Vec3 &f = s.faces.normal[0], &g = s.faces.normal[1];
     if (s.faces.count == 2) {
         const double c = f.dot(g), nf = n.dot(f), ng = n.dot(g), square = 1.0 - c * c;

@@ -92,13 +92,12 @@ TEST_CASE("a plate driven right through a held floe has cut all of it", "[step][
         REQUIRE(tangent == Vec3::Zero());
     }
     const double section = kFloe.y() * kFloe.z();
-    const double others = 2.0 * kFloe.x() * (kFloe.y() + kFloe.z()) + section;
     // normals are floats: a flat wing of an edge may lean by 1e-7, against a touch of 1e-4 m
     CHECK(first == Approx(kPressure * section).epsilon(1e-3));
-    // the sides, once the front has come to them, resist with a twentieth of their area at most
-    CHECK(peak <= kPressure * (section + 0.05 * others));
-    // spheres are gone as soon as their centres are, a radius of the length early; the sides add
-    // half of theirs, which grow with the way: for a floe of 1 m about as much
-    CHECK(w.ledger.ship_work == Approx(kPressure * section * kFloe.x()).epsilon(0.15));
+    // the sides stand upright: nothing of them counts, however far the front has come. The last rows
+    // of edges that slide out at the far side lean by rounding.
+    CHECK(peak <= 1.02 * kPressure * section);
+    // spheres are gone as soon as their centres are, a radius early
+    CHECK(w.ledger.ship_work == Approx(kPressure * section * kFloe.x()).epsilon(0.06));
     CHECK(w.ledger.crushing == Approx(w.ledger.ship_work).epsilon(1e-12));
 }
