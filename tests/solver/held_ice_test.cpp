@@ -94,8 +94,8 @@ TEST_CASE("a plate driven right through a held floe has cut all of it", "[step][
     const double section = kFloe.y() * kFloe.z();
     // normals are floats: a flat wing of an edge may lean by 1e-7, against a touch of 1e-4 m
     CHECK(first == Approx(kPressure * section).epsilon(1e-3));
-    // the sides stand upright: nothing of them counts, however far the front has come. The last rows
-    // of edges that slide out at the far side lean by rounding.
+    // the sides stand upright: nothing of them counts, however far the front has come. The last
+    // rows of edges that slide out at the far side lean by rounding.
     CHECK(peak <= 1.02 * kPressure * section);
     // spheres are gone as soon as their centres are, a radius early
     CHECK(w.ledger.ship_work == Approx(kPressure * section * kFloe.x()).epsilon(0.06));
