@@ -80,7 +80,7 @@ def main():
     parser.add_argument("--duration", type=float, help="simulated seconds, for a trial")
     parser.add_argument("--jobs", type=int, default=2)
     options = parser.parse_args()
-    names = options.only or list(VARIATIONS)
+    names = [n for n in VARIATIONS if not options.only or n in options.only]
     for name in names:
         make_sets(options, VARIATIONS[name].get("radius", BASE_RADIUS))
     seeds = range(1, options.seeds + 1)
