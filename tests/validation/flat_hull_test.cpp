@@ -5,8 +5,7 @@
 #include <catch2/catch.hpp>
 #include <numbers>
 
-#include "preprocess/fill/fill_spheres.hpp"
-#include "tests/support/make_meshes.hpp"
+#include "tests/support/make_filled_sets.hpp"
 #include "tests/support/make_worlds.hpp"
 #include "tests/validation/table.hpp"
 
@@ -18,17 +17,6 @@ constexpr double kDeg = std::numbers::pi / 180.0;
 const Vec3 kFloe(1.0, 0.8, 0.3);
 const double kPress =
     (1000.0 - 900.0) * 9.81 * kFloe.prod();  // what buoyancy exceeds weight by [N]
-
-SphereSet box_set(const Vec3& size, double radius, double spacing, const Quaternion& turn) {
-    TriangleMesh mesh = test::make_box_mesh(size);
-    for (Vec3& v : mesh.vertices) v = turn * v;
-    SpheresReport report;
-    FillOptions options;
-    options.radius = radius;
-    options.spacing = spacing;
-    options.surface_only = true;
-    return fill_spheres(mesh, options, report);
-}
 
 struct Pressed {
     Vec3 normal = Vec3::Zero(), friction = Vec3::Zero();  // mean forces of the ship on the floe [N]
@@ -50,10 +38,9 @@ Pressed press(double slope, double hull_radius, double hull_spacing, double floe
     World w;
     w.parameters = p;
     // the plate's lower face goes through the hull's origin
-    SphereSet plate = box_set(Vec3(8, 1.6, 0.6), hull_radius, hull_spacing, turn);
+    SphereSet plate = test::fill_box(Vec3(8, 1.6, 0.6), hull_radius, hull_spacing, turn);
     w.scene = make_scene(build_shape(plate, false), Vec3(0, 0, -6), Vec3(1, 0, 0));
-    const auto shape =
-        test::add_shape(w, box_set(kFloe, floe_radius, floe_radius, Quaternion::Identity()));
+    const auto shape = test::add_shape(w, test::fill_box(kFloe, floe_radius, floe_radius));
     const Vec3 under = turn * Vec3(0, 0, -0.3 - 0.5 * kFloe.z() - 1e-4);
     const std::size_t floe =
         add_floe(w.scene, shape, 900.0, Vec3(0, 0, -6) + under, turn, 0, false);
@@ -137,10 +124,9 @@ Pressed slide_under_another(double radius, double offset) {
     p.tolerance = 1e-4;
     World w;
     w.parameters = p;
-    w.scene =
-        make_scene(build_shape(box_set(Vec3(4, 1.6, 0.6), 0.1, 0.1, Quaternion::Identity()), false),
-                   Vec3(0, 0, -6), Vec3::Zero());
-    const auto shape = test::add_shape(w, box_set(kFloe, radius, radius, Quaternion::Identity()));
+    w.scene = make_scene(build_shape(test::fill_box(Vec3(4, 1.6, 0.6), 0.1, 0.1), false),
+                         Vec3(0, 0, -6), Vec3::Zero());
+    const auto shape = test::add_shape(w, test::fill_box(kFloe, radius, radius));
     add_floe(w.scene, shape, 900.0, Vec3(0, 0, -6.4501), Quaternion::Identity(), 0, false);
     const std::size_t lower =
         add_floe(w.scene, shape, 900.0, Vec3(offset, 0, -6.7502), Quaternion::Identity(), 0, false);
