@@ -21,12 +21,10 @@ using namespace ice::bench;
 
 namespace {
 
-constexpr int kSteps = 1000, kStepsWithPeers = 200;
-
 struct Options {
     std::vector<std::string> scenes = scene_names(), simd{"auto"};
     std::vector<int> floes, threads{1, 2};
-    int steps = 0;
+    int steps = 1000;
     double patience = 150.0;
     bool peers = false, quiet = false;
     std::string csv, water = "distributed", normal = "surface";
@@ -51,9 +49,7 @@ void declare(CLI::App& app, Options& o) {
     app.add_option("--simd", o.simd, "Instruction sets; all: every one there is (default auto)")
         ->delimiter(',')
         ->check(CLI::IsMember({"auto", "scalar", "sse4", "avx2", "avx512", "all"}));
-    app.add_option(
-           "--steps", o.steps,
-           fmt::format("Steps of 0.01 s (default {}, with --peers {})", kSteps, kStepsWithPeers))
+    app.add_option("--steps", o.steps, "Steps of 0.01 s (default 1000)")
         ->check(CLI::Range(1, 1000000));
     app.add_flag("--peers", o.peers,
                  "Also Bullet (libbullet-dev) and ODE (libode-dev) on loose and packed, as far as "
@@ -81,10 +77,12 @@ void declare(CLI::App& app, Options& o) {
 // The solver's instruction sets that `--simd all` stands for.
 std::vector<std::string> instruction_sets() { return {"scalar"}; }
 
-void use_instruction_set(const std::string& name) {
+// Chooses an instruction set. @return the one in force, for "auto" the machine's best
+std::string use_instruction_set(const std::string& name) {
     if (name != "auto" && name != "scalar")
         throw bad_input("--simd", name + ": this version has scalar code only",
                         "use auto, scalar or all");
+    return "scalar";
 }
 
 class Bench {
@@ -101,7 +99,6 @@ public:
             o_.models.buoyancy = BuoyancyModel::none;
             o_.models.drag = DragModel::none;
         }
-        if (o_.steps == 0) o_.steps = o_.peers ? kStepsWithPeers : kSteps;
     }
 
     int run() {
@@ -132,20 +129,19 @@ private:
     }
 
     void measure_scene(const std::string& name, int floes) {
-        BenchScene scene = make_bench_scene(name, floes, o_.models);
-        if (o_.water == "none" && name != "paper-3d") scene.world.parameters.gravity = 0.0;
+        const BenchScene scene = make_bench_scene(name, floes, o_.models);
         std::size_t fastest = rows_.size();  // of one thread: what peers are compared with
         const std::size_t first = rows_.size();
         for (const std::string& simd : o_.simd)
             for (const int threads : o_.threads) {
                 set_thread_count(threads);
-                use_instruction_set(simd);
+                const std::string in_force = use_instruction_set(simd);
                 Progress progress("icebench", o_.quiet);
                 Row row = measure_solver(scene, o_.steps,
                                          watch(progress, fmt::format("{} {}, {}, {} threads", name,
-                                                                     floes, simd, threads)));
+                                                                     floes, in_force, threads)));
                 progress.finish();
-                row.simd = simd;
+                row.simd = in_force;
                 if (!add(std::move(row), "")) return;
                 const Row& now = rows_.back();
                 if (now.threads == 1 &&

@@ -38,6 +38,11 @@ double Row::median_ms() const {
     return *middle;
 }
 
+double Row::mean_ms() const {
+    return std::accumulate(step_ms.begin(), step_ms.end(), 0.0) /
+           static_cast<double>(step_ms.size());
+}
+
 Row measure_solver(const BenchScene& scene, int steps, const Watch& watch) {
     World w = scene.world;
     Row row;

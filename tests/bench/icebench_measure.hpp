@@ -28,6 +28,7 @@ struct Row {
 
     double least_ms() const;
     double median_ms() const;
+    double mean_ms() const;
 };
 
 /// How long to measure.

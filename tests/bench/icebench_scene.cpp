@@ -56,6 +56,7 @@ Case field_case(const Models& models) {
     p.iterations = models.iterations;
     p.buoyancy = models.buoyancy;
     p.drag = models.drag;
+    if (models.buoyancy == BuoyancyModel::none) p.gravity = 0.0;  // or floes would fall
     return p;
 }
 

@@ -11,7 +11,7 @@ namespace ice::bench {
 
 /// How the solver treats the fields; the paper's case has its own models.
 struct Models {
-    BuoyancyModel buoyancy = BuoyancyModel::distributed;
+    BuoyancyModel buoyancy = BuoyancyModel::distributed;  ///< none: no weight either
     DragModel drag = DragModel::panel;
     NormalRule normal = NormalRule::surface;
     int iterations = 10;  ///< upper bound per stage of the contact solver
