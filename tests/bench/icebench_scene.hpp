@@ -24,6 +24,7 @@ struct Field {
     double gap = 0.1;               ///< between neighbours along x and y [m]
     double yaw = 0.05;              ///< floes are turned by up to this [rad]
     double drift = 0.2;             ///< and move by up to this [m/s]
+    double ship_speed = 0.5;        ///< [m/s]
 };
 
 /// A floe at t = 0.
