@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <ctime>
 #include <numeric>
 
 #include "common/base/parallel.hpp"
@@ -25,6 +26,15 @@ double energy_above_input(const World& w) {
     const EnergyLedger& ledger = w.ledger;
     return ledger.kinetic + potential_energy(w.scene, w.parameters) - *ledger.potential_start +
            ledger.buoyancy_moment - ledger.ship_work;
+}
+
+// Does one step and adds its times.
+void timed(Row& row, const std::function<void()>& work) {
+    const std::clock_t start = std::clock();
+    const Timer timer;
+    work();
+    row.step_ms.push_back(1e3 * timer.seconds());
+    row.step_cpu_ms.push_back(1e3 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
 }
 
 }  // namespace
@@ -51,9 +61,7 @@ Row measure_solver(const BenchScene& scene, int steps, const Watch& watch) {
     row.floes = static_cast<int>(w.scene.bodies.size()) - 1;
     row.threads = thread_count();
     for (int k = 1; k <= steps && !row.interrupted; ++k) {
-        const Timer timer;
-        step(w);
-        row.step_ms.push_back(1e3 * timer.seconds());
+        timed(row, [&] { step(w); });
         const StepRecord record =
             measure_step(w.scene, w.contacts, w.constraints, w.parameters.time_step);
         row.contacts += record.contacts;
@@ -82,9 +90,7 @@ Row measure_peer(const PeerKind& kind, const BenchScene& scene, const Length& le
     const Timer all;
     for (int k = 1; k <= length.steps && !row.interrupted; ++k) {
         if (k > 1 && all.seconds() > length.patience) break;
-        const Timer timer;
-        peer->step();
-        row.step_ms.push_back(1e3 * timer.seconds());
+        timed(row, [&] { peer->step(); });
         const Peer::Contacts contacts = peer->contacts();
         row.contacts += contacts.count;
         row.max_overlap = std::max(row.max_overlap, contacts.max_overlap);
@@ -96,10 +102,12 @@ Row measure_peer(const PeerKind& kind, const BenchScene& scene, const Length& le
 }
 
 double ratio(const Row& peer, const Row& ours) {
-    const auto same =
-        static_cast<std::ptrdiff_t>(std::min(peer.step_ms.size(), ours.step_ms.size()));
-    return std::accumulate(peer.step_ms.begin(), peer.step_ms.begin() + same, 0.0) /
-           std::accumulate(ours.step_ms.begin(), ours.step_ms.begin() + same, 0.0);
+    const auto same = std::min(peer.step_cpu_ms.size(), ours.step_cpu_ms.size());
+    const auto sum = [&](const Row& row) {
+        const auto from = row.step_cpu_ms.begin();
+        return std::accumulate(from, from + static_cast<std::ptrdiff_t>(same), 0.0);
+    };
+    return sum(peer) / sum(ours);
 }
 
 }  // namespace ice::bench

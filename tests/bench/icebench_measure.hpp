@@ -15,11 +15,12 @@ namespace ice::bench {
 struct Row {
     std::string engine, scene;
     int floes = 0, threads = 1;
-    std::string simd;             ///< instruction set
-    std::vector<double> step_ms;  ///< wall time of every step [ms]; fewer where time ran out
-    double contacts = 0.0;        ///< that carried an impulse, mean over the steps
-    double max_overlap = 0.0;     ///< deepest at the start of any step [m]
-    double energy = 0.0;          ///< kinetic energy of the floes at the end [J]
+    std::string simd;                 ///< instruction set
+    std::vector<double> step_ms;      ///< wall time of every step [ms]; fewer where time ran out
+    std::vector<double> step_cpu_ms;  ///< processor time of all threads [ms]
+    double contacts = 0.0;            ///< that carried an impulse, mean over the steps
+    double max_overlap = 0.0;         ///< deepest at the start of any step [m]
+    double energy = 0.0;              ///< kinetic energy of the floes at the end [J]
     /// Largest kinetic and potential energy above that at the start and the ship's work [J].
     double energy_above_input = std::numeric_limits<double>::quiet_NaN();
     std::string state_hash;        ///< of the end, 16 hexadecimal digits
@@ -48,7 +49,8 @@ struct PeerKind;
 Row measure_peer(const PeerKind& kind, const BenchScene& scene, const Length& length,
                  const Watch& watch);
 
-/// The peer's time over ours for the same steps from the start on.
+/// The peer's processor time over ours for the same steps from the start on. By the clock, other
+/// programs on the machine would count: a peer's long steps have to share it, our short ones not.
 double ratio(const Row& peer, const Row& ours);
 
 }  // namespace ice::bench
