@@ -62,19 +62,16 @@ std::vector<std::int32_t> count_contacts(const std::vector<Candidate>& all,
 }
 
 // Midway between two edges where they cross.
-Vec3 crossing_point(const SphereSurface& a, const SphereSurface& b, const Vec3& n) {
-    const auto direction = [](const Faces& f) { return f.normal[0].cross(f.normal[1]); };
-    const Vec3 pa = support_point(a, n), pb = support_point(b, -n), between = pb - pa;
-    const Vec3 ea = direction(a.faces), eb = direction(b.faces), across = ea.cross(eb);
-    const double square = across.squaredNorm();
-    const double along_a = between.cross(eb).dot(across) / square;
-    const double along_b = between.cross(ea).dot(across) / square;
-    return 0.5 * (pa + along_a * ea + pb + along_b * eb);
+Vec3 crossing_point(const SphereSurface& a, const SphereSurface& b, const Gap& gap) {
+    const Vec3 pa = support_point(a, gap.normal), pb = support_point(b, -gap.normal);
+    const Vec3 ea = a.faces.edge(gap.edge_a), eb = b.faces.edge(gap.edge_b);
+    const Crossing at = find_crossing(pa, ea, pb, eb);
+    return 0.5 * (pa + at.along_a * ea + pb + at.along_b * eb);
 }
 
 // The probe decides where the bodies meet: midway between its surface and the other one's.
 Vec3 meeting_point(const PairView& view, NormalRule rule, const Candidate& c) {
-    if (c.gap.crossing) return crossing_point(view.sphere_a(c.i), view.sphere_b(c.j), c.gap.normal);
+    if (c.gap.crossing) return crossing_point(view.sphere_a(c.i), view.sphere_b(c.j), c.gap);
     const double sign = c.gap.a_is_surface ? -1.0 : 1.0;
     const Vec3 outward = sign * c.gap.normal;
     const SphereSurface probe = c.gap.a_is_surface ? view.sphere_b(c.j) : view.sphere_a(c.i);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Bounds on what measure_gap_surface may answer later. Every normal it may choose is fixed in one of
-// the two bodies, so that the gap along it changes by no more than the bodies move; only the normal
-// across two edges turns faster than they do.
+// Bounds on what measure_gap_surface may answer later. Every normal it may choose is fixed in one
+// of the two bodies, so that the gap along it changes by no more than the bodies move; only the
+// normal across two edges turns faster than they do.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -17,10 +17,9 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Along the normal across both edges. It turns faster than they do: by an angle / sine.
-double least_gap_across(const SphereSurface& a, const SphereSurface& b, const Vec3& d,
-                        const Vec3& between, const Leeway& leeway) {
-    const Vec3 across = a.faces.edge().cross(b.faces.edge());
+// Along the normal across two edges. It turns faster than they do: by an angle / sine.
+double least_gap_across(const SphereSurface& a, const SphereSurface& b, const Vec3& across,
+                        const Vec3& d, const Vec3& between, const Leeway& leeway) {
     const double sine = across.norm();
     if (sine <= kParallel - leeway.angle) return kInfinity;
     if (sine <= 2.0 * leeway.angle) return -kInfinity;
@@ -53,8 +52,12 @@ double least_gap_of_edges(const SphereSurface& a, const SphereSurface& b, const 
     for (std::size_t k = 0; k < static_cast<std::size_t>(b.faces.count); ++k)
         attempt(-b.faces.normal[k], a.faces, -b.faces.normal[k]);
     if (certain > -kInfinity) return certain;
-    if (a.faces.count != 2 || b.faces.count != 2) return possible;
-    return std::min(possible, least_gap_across(a, b, d, between, leeway));
+    for (int ka = 0; ka < a.faces.edges(); ++ka)
+        for (int kb = 0; kb < b.faces.edges(); ++kb)
+            possible =
+                std::min(possible, least_gap_across(a, b, a.faces.edge(ka).cross(b.faces.edge(kb)),
+                                                    d, between, leeway));
+    return possible;
 }
 
 // May n still be, or come to be, an outward normal of the surface there?

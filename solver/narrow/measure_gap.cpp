@@ -15,6 +15,9 @@ namespace {
 // A corner is over a face as long as it is not this many radii beyond the face's edge.
 constexpr double kBeyond = 0.01;
 
+// An edge's or corner's sphere stands for its body as far as this many radii around.
+constexpr double kAround = 2.0;
+
 // Squared distances (in radii) that count as equal.
 constexpr double kFlush = 1e-3;
 
@@ -42,35 +45,45 @@ bool belongs(const SphereSurface& s, const Vec3& n, double most_along) {
 // Of the directions that may part two local solids the one with the largest gap.
 struct Parting {
     Vec3 normal = Vec3::Zero();  // zero where the solids do not face each other
-    bool crossing = false;       // the normal across both edges, not a face's
+    double gap = -std::numeric_limits<double>::infinity();
+    std::int8_t edge_a = -1, edge_b = -1;  // of the normal across two edges; -1: a face's
+
+    void attempt(const Vec3& n, const Vec3& between, int a, int b) {
+        const double now = n.dot(between);
+        if (now <= gap) return;
+        *this = {n, now, static_cast<std::int8_t>(a), static_cast<std::int8_t>(b)};
+    }
 };
+
+// The normal across edge ka of a and kb of b, where they meet on what there is of them.
+void attempt_across(const SphereSurface& a, const SphereSurface& b, int ka, int kb, const Vec3& d,
+                    const Vec3& between, Parting& best) {
+    const Vec3 ea = a.faces.edge(ka), eb = b.faces.edge(kb), across = ea.cross(eb);
+    const double sine = across.norm();
+    if (sine <= kParallel) return;
+    const Vec3 n = (across.dot(d) < 0.0 ? -1.0 : 1.0) / sine * across;
+    if (n.dot(d) <= 0.0 || !a.faces.have(n, kSlantOnEdge) || !b.faces.have(-n, kSlantOnEdge))
+        return;
+    const Crossing at = find_crossing(Vec3::Zero(), ea, between, eb);
+    if (a.faces.ends() && at.along_a < -kBeyond * a.radius) return;
+    if (b.faces.ends() && at.along_b < -kBeyond * b.radius) return;
+    best.attempt(n, between, ka, kb);
+}
 
 Parting parting_normal(const SphereSurface& a, const SphereSurface& b, const Vec3& d) {
     Parting best;
     const Vec3 between = support_point(b, -a.normal) - support_point(a, -b.normal);
-    double widest = -std::numeric_limits<double>::infinity();
-    const auto attempt = [&](const Vec3& n, bool crossing) {
-        const double gap = n.dot(between);
-        if (gap <= widest) return;
-        widest = gap;
-        best = {n, crossing};
-    };
     // a face's normal is one of its own edge's or corner's
     for (int k = 0; k < a.faces.count; ++k) {
         const Vec3& n = a.faces.normal[static_cast<std::size_t>(k)];
-        if (n.dot(d) > 0.0 && b.faces.have(-n, kSlantOnEdge)) attempt(n, false);
+        if (n.dot(d) > 0.0 && b.faces.have(-n, kSlantOnEdge)) best.attempt(n, between, -1, -1);
     }
     for (int k = 0; k < b.faces.count; ++k) {
         const Vec3 n = -b.faces.normal[static_cast<std::size_t>(k)];
-        if (n.dot(d) > 0.0 && a.faces.have(n, kSlantOnEdge)) attempt(n, false);
+        if (n.dot(d) > 0.0 && a.faces.have(n, kSlantOnEdge)) best.attempt(n, between, -1, -1);
     }
-    if (a.faces.count != 2 || b.faces.count != 2) return best;
-    const Vec3 across = a.faces.edge().cross(b.faces.edge());
-    const double sine = across.norm();
-    if (sine <= kParallel) return best;
-    const Vec3 n = (across.dot(d) < 0.0 ? -1.0 : 1.0) / sine * across;
-    if (n.dot(d) > 0.0 && a.faces.have(n, kSlantOnEdge) && b.faces.have(-n, kSlantOnEdge))
-        attempt(n, true);
+    for (int ka = 0; ka < a.faces.edges(); ++ka)
+        for (int kb = 0; kb < b.faces.edges(); ++kb) attempt_across(a, b, ka, kb, d, between, best);
     return best;
 }
 
@@ -90,6 +103,18 @@ double distance_across(const SphereSurface& s, const Vec3& n, const Vec3& probe,
     return std::max(at.squaredNorm() - along * along, 0.0) + excess * excess;
 }
 
+// Is one of s's faces less deep in all that the other sphere stands for than `gap`? Then that is
+// where the bodies meet, somewhere beside. A corner may lie deep behind one face's plane and yet
+// outside another's, which its body, turned a little, enters far from here.
+bool is_less_deep(const SphereSurface& s, const SphereSurface& other, double gap) {
+    const Vec3 apart = support_point(other, other.normal) - support_point(s, s.normal);
+    const auto first = s.faces.normal.begin();
+    return std::any_of(first, first + s.faces.count, [&](const Vec3& n) {
+        return n.dot(apart) + other.faces.least_along(n, kAround * other.radius) >
+               gap + kBeyond * s.radius;
+    });
+}
+
 // Midway between two faces' normals; zero where they face away, over 120 degrees apart.
 Vec3 mean_normal(const Vec3& normal_a, const Vec3& normal_b) {
     const Vec3 n = normal_a - normal_b;
@@ -102,6 +127,12 @@ Vec3 mean_normal(const Vec3& normal_a, const Vec3& normal_b) {
 Vec3 support_point(const SphereSurface& s, const Vec3& n) {
     if (s.faces.count == 0) return s.center + s.radius * n;
     return s.center + s.faces.corner * s.normal;
+}
+
+Crossing find_crossing(const Vec3& pa, const Vec3& ea, const Vec3& pb, const Vec3& eb) {
+    const Vec3 between = pb - pa, across = ea.cross(eb);
+    const double square = across.squaredNorm();
+    return {between.cross(eb).dot(across) / square, between.cross(ea).dot(across) / square};
 }
 
 Gap measure_gap_centres(const SphereSurface& a, const SphereSurface& b) {
@@ -118,11 +149,10 @@ Gap measure_gap_surface(const SphereSurface& a, const SphereSurface& b, bool pre
     const bool same = std::abs(a.spread_cos - b.spread_cos) <= kSameSpread;
     bool a_is_surface = same || a.spread_cos > b.spread_cos;
     Vec3 n;
-    bool crossing = false;
+    Parting parting;
     if (edges) {
-        const Parting parting = parting_normal(a, b, d);
+        parting = parting_normal(a, b, d);
         n = parting.normal;
-        crossing = parting.crossing;
     } else if (same && !prefer_a)
         n = mean_normal(nearest_normal(a, d), nearest_normal(b, -d));
     else
@@ -131,9 +161,11 @@ Gap measure_gap_surface(const SphereSurface& a, const SphereSurface& b, bool pre
     if (!edges && (!belongs(a, n, kSlantOnFace) || !belongs(b, -n, kSlantOnFace))) return none;
     const Vec3 point_a = support_point(a, n), point_b = support_point(b, -n);
     const double gap = n.dot(point_b - point_a);
-    if (crossing) {
+    if (edges && gap < 0.0 && (is_less_deep(a, b, gap) || is_less_deep(b, a, gap))) return none;
+    if (parting.edge_a >= 0) {
         const double apart = (point_b - point_a).squaredNorm() - gap * gap;
-        return {n, gap, std::max(apart, 0.0), a_is_surface, true, true};
+        return {n,    gap,  std::max(apart, 0.0), a_is_surface,
+                true, true, parting.edge_a,       parting.edge_b};
     }
     const double under_a = distance_across(a, n, point_b, edges);
     const double under_b = distance_across(b, n, point_a, edges);

@@ -2,6 +2,8 @@
 /// Distance and normal of two contact spheres, by the paper's rule and by ours.
 #pragma once
 
+#include <cstdint>
+
 #include "solver/shape/shape.hpp"
 
 namespace ice {
@@ -25,7 +27,15 @@ struct Gap {
     bool a_is_surface;  ///< b is the probe on a's surface; otherwise a is the probe on b's
     bool valid;         ///< false where the spheres do not face each other
     bool crossing = false;  ///< two edges meet across each other, neither on the other's face
+    std::int8_t edge_a = -1, edge_b = -1;  ///< which of the spheres' Faces::edge these are
 };
+
+/// Where two edges, through pa along unit ea and through pb along unit eb, are nearest: how far
+/// from there [m]. Parallel edges give infinities.
+struct Crossing {
+    double along_a, along_b;
+};
+Crossing find_crossing(const Vec3& pa, const Vec3& ea, const Vec3& pb, const Vec3& eb);
 
 /// Foremost point of the surface along the outward unit vector n.
 ///
@@ -44,8 +54,9 @@ Gap measure_gap_centres(const SphereSurface& a, const SphereSurface& b);
 /// over the normals that meet there: a plane on a face, an arc on an edge.
 ///
 /// A face gives its own normal; of two faces b's probe takes a's where `prefer_a`, else the mean.
-/// Of two edges or corners that know their faces, each face's normal and that across both edges is
+/// Of two edges or corners that know their faces, each face's normal and those across two edges are
 /// tried and the one with the largest gap taken: the separating direction of the two local solids.
+/// Where another face is less deep in all that the spheres stand for, they meet elsewhere: invalid.
 /// Else the flatter side gives the one of its normals that is nearest to the line of centres. The
 /// flatter side (the smaller spread; of two edges the one that has the other's corner above it, a
 /// if both) is the surface, the other one the probe. With n chosen,

@@ -2,6 +2,7 @@
 #include "solver/shape/faces.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 namespace ice {
@@ -45,6 +46,14 @@ bool Faces::have(const Vec3& n, double most_along, double slack) const {
     if (n.dot(part[0]) < least || n.dot(part[1]) < least) return false;
     const double last = n.dot(part[2]);
     return count == 2 ? std::abs(last) <= most_along + slack : last >= least;
+}
+
+double Faces::least_along(const Vec3& n, double around) const {
+    // into the solid it goes against the parts: along each of a corner's edges, or within each of
+    // an edge's faces and along the edge
+    double least = count == 2 ? -std::abs(n.dot(part[2])) : -n.dot(part[2]) / part[2].norm();
+    for (std::size_t k = 0; k < 2; ++k) least = std::min(least, -n.dot(part[k]) / part[k].norm());
+    return around * std::min(least, 0.0);
 }
 
 }  // namespace ice

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <Eigen/Geometry>
 #include <array>
 #include <span>
 
@@ -28,8 +29,19 @@ struct Faces {
     /// @pre count > 0
     bool have(const Vec3& n, double most_along, double slack = 0.0) const;
 
-    /// Unit vector along the edge; count == 2.
-    const Vec3& edge() const { return part[2]; }
+    /// Least of n . (p - corner) [m] for the points p of the solid that the faces bound, going from
+    /// the corner, or along the edge either way, not further than `around` [m] along any edge or
+    /// face; at most 0. @pre count > 0
+    double least_along(const Vec3& n, double around) const;
+
+    /// Edges that end or pass there: 3 of a corner, 1 of two faces, else none.
+    int edges() const { return count == 3 ? 3 : count / 2; }
+    /// Unit vector along edge k: of a corner from there into the solid, else either way.
+    Vec3 edge(int k) const {
+        return count == 2 ? part[2] : Vec3(-part[static_cast<std::size_t>(k)].normalized());
+    }
+    /// Does edge k end there? Then it goes one way only.
+    bool ends() const { return count == 3; }
 
 private:
     // n . part[k] is n's part along normal[k], times `size` (positive); of two faces part[2] is the

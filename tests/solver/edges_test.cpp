@@ -124,6 +124,47 @@ TEST_CASE("an edge above an edge has the vertical for its normal", "[narrow][edg
     check_gap(below, tip_sphere(Vec3(-0.02, 0.01, gap), {-kX, kY, -kZ}), kZ, gap);
 }
 
+TEST_CASE("a corner's edges cross another body's edge as any edge does",
+          "[narrow][edges][analytic]") {
+    // A ridge, down by 20 degrees along x, meets the upper edge, along y, of a box's corner at the
+    // origin: the box is below, behind and to starboard of it (x <= 0, y <= 0, z <= 0).
+    const double gap = GENERATE(0.004, -0.004);
+    const double beside = GENERATE(0.04, -0.02);  // from the corner to the crossing; -: beyond it
+    const SphereSurface corner = tip_sphere(Vec3::Zero(), {kX, kY, kZ});
+    const Mat3 turn = Eigen::AngleAxisd(20.0 * kDeg, kY).toRotationMatrix();
+    const Vec3 n = turn * kZ, along = turn * kX;
+    const double s = std::sqrt(0.5);
+    const SphereSurface ridge = tip_sphere(Vec3(0, -beside, 0) + gap * n + 0.03 * along,
+                                           {turn * Vec3(0, s, -s), turn * Vec3(0, -s, -s)});
+    const Gap found = measure_gap_surface(corner, ridge, false);
+    CAPTURE(gap, beside);
+    if (beside > 0.0) {
+        REQUIRE(found.valid);
+        CHECK(found.crossing);
+        CHECK((found.normal - n).norm() < kRounding);
+        CHECK(found.gap == Approx(gap).margin(kRounding));
+        CHECK(found.lateral_sq == Approx(0.03 * 0.03 + beside * beside).epsilon(1e-12));
+    } else {
+        // beyond the corner there is no edge to cross
+        CHECK_FALSE((found.valid && found.crossing));
+    }
+}
+
+TEST_CASE("a corner behind one face and clear of another is not inside", "[narrow][edges]") {
+    // a hull's edge between its side and a ramp, and the upper corner of a floe under the ramp that
+    // heels by 5 degrees: 8 mm below the ramp's plane, 0.1 m inside the side's
+    const Vec3 side = kY, ramp = -kZ;
+    const SphereSurface edge = tip_sphere(Vec3::Zero(), {side, ramp}, 0.1);
+    const double heel = 5.0 * kDeg;
+    const Mat3 turn = Eigen::AngleAxisd(heel, -kX).toRotationMatrix();
+    const SphereSurface corner =
+        turned(tip_sphere(Vec3::Zero(), {turn.transpose() * kX, kY, kZ}), turn);
+    SphereSurface placed = corner;
+    placed.center += Vec3(0.01, -0.1, -0.008);
+    const Gap found = measure_gap_surface(edge, placed, true);
+    CHECK_FALSE((found.valid && found.gap < -0.05));
+}
+
 TEST_CASE("of two faces that an edge is behind, the nearer one is the contact's",
           "[narrow][edges][analytic]") {
     // the other box is `in` m inside the first one's side and `down` m inside its top

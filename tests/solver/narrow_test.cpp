@@ -6,8 +6,8 @@
 
 #include "solver/broad/find_pairs.hpp"
 #include "solver/narrow/find_contacts.hpp"
-#include "solver/shape/sphere_grid.hpp"
 #include "solver/narrow/measure_gap.hpp"
+#include "solver/shape/sphere_grid.hpp"
 #include "tests/support/make_worlds.hpp"
 
 using namespace ice;
@@ -132,6 +132,32 @@ TEST_CASE("the grid finds the contacts that testing every sphere with every othe
     REQUIRE(expected.size() > 100);
     REQUIRE(found.size() == expected.size());
     for (std::size_t k = 0; k < found.size(); ++k) REQUIRE(same(found[k], expected[k]));
+}
+
+TEST_CASE("pairs that are not looked at have no contacts, step after step",
+          "[narrow][equivalence]") {
+    World w = scattered_world(GENERATE(1u, 2u), 60);
+    w.parameters.normal = GENERATE(NormalRule::centres, NormalRule::surface);
+    const NormalRule rule = w.parameters.normal;
+    const double dt = w.parameters.time_step;
+    Travel travel;
+    PairList list;
+    ContactFinder kept;
+    std::vector<Contact> found, expected;
+    std::size_t compared = 0;
+    for (int k = 0; k < 80; ++k) {
+        travel.update(w.scene, dt);
+        list.update(w.scene, travel, 0.002);
+        kept.find(w.scene, list.pairs(), travel, rule, dt, 0.002, found);
+        std::vector<BodyPair> pairs;
+        find_pairs(w.scene, 1.0, pairs);
+        ContactFinder().find(w.scene, pairs, rule, dt, 0.002, expected);
+        REQUIRE(found.size() == expected.size());
+        for (std::size_t c = 0; c < found.size(); ++c) REQUIRE(same(found[c], expected[c]));
+        compared += found.size();
+        step(w);
+    }
+    CHECK(compared > 1000);
 }
 
 TEST_CASE("the broad phase finds the pairs that testing all finds", "[broad][equivalence]") {
