@@ -15,6 +15,7 @@ namespace {
 constexpr std::uint64_t kHistoryPerFlush = 16384;  // runs that store few frames lose no more rows
 
 using run_parts::Column;
+using run_parts::kContactChunk;
 using run_parts::kFramesPerFlush;
 using run_parts::kHistoryChunk;
 using Shape = std::vector<std::uint64_t>;
@@ -64,6 +65,7 @@ RunWriter::Buffers::Buffers(const std::filesystem::path& path, const std::filesy
     run_parts::write_shapes(file, header);
     create_history(header);
     create_frames(header);
+    create_contacts(header);
     file.flush();
 }
 
@@ -126,12 +128,36 @@ void RunWriter::Buffers::create_frames(const RunHeader& header) {
     file.write_attribute("/frames/state", "meaning", "0 held, 1 moving, 2 behind the hull");
 }
 
+void RunWriter::Buffers::create_contacts(const RunHeader& header) {
+    const auto create = [&]<class T>(Column<T>& column, const std::string& name, const Shape& row,
+                                     const std::string& unit, Scales scales) {
+        column.name = "/contacts/" + name;
+        if (name != "contact_time") scales.insert(scales.begin(), "/contacts/contact_time");
+        create_column<T>(file, column.name, row, kContactChunk, unit, scales);
+    };
+    const std::string force = header.dimension == 2 ? "N/m" : "N";
+    file.create_group("/contacts");
+    create(contact_time, "contact_time", {}, "s", {});
+    file.make_scale("/contacts/contact_time");
+    create(contact_frame, "frame", {}, "1", {});
+    create(contact_floe, "floe", {}, "1", {});
+    create(contact_sphere, "sphere", {}, "1", {});
+    create(contact_point, "point", {3}, "m", {"/xyz"});
+    create(contact_push, "normal_force", {3}, force, {"/xyz"});
+    create(contact_rub, "friction_force", {3}, force, {"/xyz"});
+    file.write_attribute("/contacts/frame", "meaning",
+                         "row of /frames; forces since the one before");
+    file.write_attribute("/contacts/point", "meaning", "ship frame, weighted by normal impulse");
+}
+
 void RunWriter::Buffers::write_all() {
     for_history([&](auto& column) { column.append_to(file, samples); });
     for_frames([&](auto& column) { column.append_to(file, frames); });
+    for_contacts([&](auto& column) { column.append_to(file, contact_rows); });
     written.samples += static_cast<std::int64_t>(samples);
     written.frames += static_cast<std::int64_t>(frames);
-    samples = frames = 0;
+    written.contacts += static_cast<std::int64_t>(contact_rows);
+    samples = frames = contact_rows = 0;
     file.flush();
 }
 
@@ -183,6 +209,18 @@ void RunWriter::add(const RunFrame& frame) {
     b.floe_force.add_all(frame.contact_force);
     for (const FloeState state : frame.state)
         b.state.rows.push_back(static_cast<std::uint8_t>(state));
+    const auto row =
+        static_cast<std::int32_t>(b.written.frames) + static_cast<std::int32_t>(b.frames);
+    for (const HullContact& contact : frame.hull_contacts) {
+        b.contact_time.add_value(frame.time);
+        b.contact_frame.rows.push_back(row);
+        b.contact_floe.rows.push_back(contact.floe);
+        b.contact_sphere.rows.push_back(contact.sphere);
+        b.contact_point.add(contact.point);
+        b.contact_push.add(contact.normal_force);
+        b.contact_rub.add(contact.friction_force);
+        ++b.contact_rows;
+    }
     // q and -q are the same rotation: keep the sign nearer to the last frame, for interpolation
     std::vector<Eigen::Quaterniond>& last = b.written.last_orientation;
     last.resize(b.bodies, Eigen::Quaterniond::Identity());

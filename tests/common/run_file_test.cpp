@@ -36,6 +36,15 @@ void check_frame(const RunFrame& a, const RunFrame& b) {
     REQUIRE(a.orientation.size() == b.orientation.size());
     for (std::size_t k = 0; k < a.orientation.size(); ++k)
         CHECK(a.orientation[k].angularDistance(b.orientation[k]) < kPose);
+    REQUIRE(a.hull_contacts.size() == b.hull_contacts.size());
+    for (std::size_t k = 0; k < a.hull_contacts.size(); ++k) {
+        const HullContact &x = a.hull_contacts[k], &y = b.hull_contacts[k];
+        CHECK(x.floe == y.floe);
+        CHECK(x.sphere == y.sphere);
+        CHECK((x.point - y.point).norm() < 10 * kPose);
+        CHECK(x.normal_force == y.normal_force);  // whole numbers: exact as float
+        CHECK(x.friction_force == y.friction_force);
+    }
 }
 
 void check_history(const RunData& a, const RunData& b, std::size_t rows) {
