@@ -6,7 +6,7 @@ set -euo pipefail
 readonly packages=(
     build-essential cmake ninja-build git ca-certificates
     libeigen3-dev libcgal-dev libassimp-dev catch2 libhwy-dev libtomlplusplus-dev libcli11-dev
-    libfmt-dev libspdlog-dev libhdf5-dev libssl-dev nlohmann-json3-dev zlib1g-dev python3 python3-h5py)
+    libmeshoptimizer-dev libfmt-dev libspdlog-dev libhdf5-dev libssl-dev nlohmann-json3-dev zlib1g-dev python3 python3-h5py)
 
 usage() {
     cat <<'END'
