@@ -17,7 +17,7 @@ namespace {
 
 struct Options {
     std::filesystem::path run, out, expected, junit;
-    std::size_t every = 1;
+    std::size_t every = 1, frames = ice::report::kReportFrames;
     double time = 0.0;
     std::string from = "below";
     bool quiet = false;
@@ -26,7 +26,7 @@ struct Options {
 int report(const Options& o) {
     const auto run = ice::read::read_run_folder(o.run);
     const auto file = o.out.empty() ? run.path / "report.html" : o.out;
-    ice::report::write_report(run, file);
+    ice::report::write_report(run, file, o.frames);
     ice::say(fmt::format("wrote {}", file.string()));
     return 0;
 }
@@ -35,6 +35,11 @@ int view(const Options& o) {
     const auto run = ice::read::read_run_folder(o.run);
     ice::write_text_file(o.out,
                          ice::report::draw_view(run.data, *ice::views::parse_view(o.from), o.time));
+    const double first = run.data.frames.front().time, last = run.data.frames.back().time;
+    if (o.time < first || o.time > last)
+        ice::say_warning(fmt::format(
+            "the run has frames from {:g} to {:g} s, none at {:g} s: the nearest was drawn", first,
+            last, o.time));
     ice::say(fmt::format("wrote {}", o.out.string()));
     return 0;
 }
@@ -73,6 +78,9 @@ int main(int argc, char** argv) {
     };
     auto* make_report = command("report", "write RUN/report.html, one file that opens anywhere");
     make_report->add_option("-o,--out", o.out, "another file");
+    make_report->add_option("--frames", o.frames, "of the 3D playback at most, evenly chosen")
+        ->capture_default_str()
+        ->check(CLI::Range(2, 1000000));
     auto* draw = command("view", "draw hull and ice at one instant as SVG");
     draw->add_option("--time", o.time, "the frame nearest to this time [s]")->required();
     draw->add_option("--from", o.from, "below, top, side, front or quarter")

@@ -176,7 +176,7 @@ LoadMap make_load_map(const RunData& run, double from) {
     Eigen::AlignedBox3d box;
     for (const Vec3& v : hull.mesh.vertices) box.extend(v);
     map.radius = std::max(1.5 * sphere_spacing(hull, area), 0.01 * box.sizes().x());
-    map.mesh = refine_mesh(views::simplify_mesh(hull.mesh, kMostTriangles), 0.75 * map.radius,
+    map.mesh = refine_mesh(views::simplify_mesh(hull.mesh, kMostTriangles), map.radius,
                            2 * kMostTriangles);
     const bool flat = run.header.dimension == 2;
     const double breadth = flat ? box.sizes().y() : 1.0;

@@ -27,7 +27,7 @@ struct LoadMap {
 /// to the nearest triangle alone where none is so near. So load times area, summed, is the mean
 /// force whatever the mesh. The radius is 1.5 spacings of the hull's spheres, but at least a
 /// hundredth of the hull's length: a load on less than that is the spheres', not the hull's.
-/// Coarse hull meshes are divided until their edges are shorter than 3/4 radius, large ones are
+/// Coarse hull meshes are divided until their edges are shorter than the radius, large ones are
 /// simplified before; see refine_mesh() and simplify_mesh().
 ///
 /// In 2D distances are those in the x-z plane and the force is that on the mesh's breadth.
