@@ -3,7 +3,7 @@
 cmake_minimum_required(VERSION 3.25)
 include(${CMAKE_CURRENT_LIST_DIR}/rules.cmake)
 
-find_sources(sources hpp cpp cpp.in py sh)
+find_sources(sources hpp cpp cpp.in py sh js mjs)
 foreach(source IN LISTS sources)
   read_lines(${source} lines)
   list(POP_FRONT lines first)

@@ -110,7 +110,8 @@ export class Controls {
     const { meta } = this.run;
     const place = this.root.querySelector('.legend3d');
     const parts = [];
-    if (this.find('ice').value === 'state') parts.push(swatches(STATES.map((s) => [s.name, s.rgb])));
+    const states = STATES.map((s) => [s.name, s.rgb]);
+    if (this.find('ice').value === 'state') parts.push(swatches(states));
     else parts.push(scaleBar('Force of the ship on a floe', forceColour, meta.load));
     const hull = this.find('hull').value;
     if (hull === 'load')
