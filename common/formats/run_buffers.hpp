@@ -9,9 +9,12 @@
 namespace ice {
 
 namespace run_parts {
-constexpr std::uint64_t kFramesPerFlush = 20;  // also the chunk length: every chunk is written once
-constexpr std::uint64_t kHistoryChunk = 1024;
-constexpr std::uint64_t kContactChunk = 4096;
+// Rows per chunk. Chunks are compressed, so that one written again with more rows has another length
+// and place; a kill in between leaves a file of which the last chunk cannot be read (1 of 6 kills of
+// a run that flushes ten times a second). Hence only whole chunks are written while the run goes on.
+constexpr std::uint64_t kFramesPerFlush = 20;
+constexpr std::uint64_t kHistoryChunk = 64;
+constexpr std::uint64_t kContactChunk = 64;
 }  // namespace run_parts
 
 struct RunWriter::Buffers {
@@ -20,7 +23,9 @@ struct RunWriter::Buffers {
     void create_history(const RunHeader& header);
     void create_frames(const RunHeader& header);
     void create_contacts(const RunHeader& header);
+    void write_whole_chunks();
     void write_all();
+    void write_rows(bool all);
 
     // run_rows.cpp
     void copy_rows(const std::filesystem::path& earlier, const RunPosition& stop);

@@ -2,6 +2,7 @@
 // Writer of run.h5. In: rows of the solver's recorder. Out: the layout listed in run_file.hpp.
 #include "common/formats/run_file.hpp"
 
+#include <algorithm>
 #include <system_error>
 
 #include "common/base/error.hpp"
@@ -52,7 +53,7 @@ RunWriter::Buffers::Buffers(const std::filesystem::path& path, const std::filesy
                             const RunHeader& header)
     : final_path(path),
       part_path(part),
-      file(part_path, Hdf5File::Mode::create),
+      file(part_path, Hdf5File::Mode::create_growing),
       bodies(header.body_shape.size()) {
     if (header.body_group.size() != bodies || header.body_mass.size() != bodies ||
         header.body_inertia.size() != bodies)
@@ -150,14 +151,26 @@ void RunWriter::Buffers::create_contacts(const RunHeader& header) {
     file.write_attribute("/contacts/point", "meaning", "ship frame, weighted by normal impulse");
 }
 
-void RunWriter::Buffers::write_all() {
-    for_history([&](auto& column) { column.append_to(file, samples); });
-    for_frames([&](auto& column) { column.append_to(file, frames); });
-    for_contacts([&](auto& column) { column.append_to(file, contact_rows); });
-    written.samples += static_cast<std::int64_t>(samples);
-    written.frames += static_cast<std::int64_t>(frames);
-    written.contacts += static_cast<std::int64_t>(contact_rows);
-    samples = frames = contact_rows = 0;
+void RunWriter::Buffers::write_all() { write_rows(true); }
+void RunWriter::Buffers::write_whole_chunks() { write_rows(false); }
+
+void RunWriter::Buffers::write_rows(bool all) {
+    // of the buffered rows: all, or as many as complete the file's last chunk and whole ones
+    const auto take = [all](std::uint64_t& buffered, std::int64_t& on_disk, std::uint64_t chunk) {
+        const auto before = static_cast<std::uint64_t>(on_disk);
+        const std::uint64_t end = all ? before + buffered : (before + buffered) / chunk * chunk;
+        const std::uint64_t count = end - std::min(end, before);
+        buffered -= count;
+        on_disk += static_cast<std::int64_t>(count);
+        return count;
+    };
+    const std::uint64_t old_samples = samples, old_frames = frames, old_contacts = contact_rows;
+    const std::uint64_t s = take(samples, written.samples, kHistoryChunk);
+    const std::uint64_t f = take(frames, written.frames, kFramesPerFlush);
+    const std::uint64_t c = take(contact_rows, written.contacts, kContactChunk);
+    for_history([&](auto& column) { column.append_to(file, s, old_samples); });
+    for_frames([&](auto& column) { column.append_to(file, f, old_frames); });
+    for_contacts([&](auto& column) { column.append_to(file, c, old_contacts); });
     file.flush();
 }
 
@@ -170,7 +183,7 @@ RunWriter::~RunWriter() = default;
 void RunWriter::add(const HistoryRow& row) {
     Buffers& b = *buffers_;
     // before the new row, when the tracked floes' rows of the last one are complete
-    if (b.samples >= kHistoryPerFlush) b.write_all();
+    if (b.samples >= kHistoryPerFlush) b.write_whole_chunks();
     b.time.add_value(row.time);
     b.contact.add(row.contact_force);
     b.friction.add(row.friction_force);
@@ -230,7 +243,7 @@ void RunWriter::add(const RunFrame& frame) {
         b.orientation.add(wxyz(q));
         last[k] = q;
     }
-    if (++b.frames >= kFramesPerFlush) b.write_all();
+    if (++b.frames >= kFramesPerFlush) b.write_whole_chunks();
 }
 
 void RunWriter::finish() {
