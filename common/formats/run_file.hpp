@@ -37,8 +37,8 @@ struct RunPosition {
 ///
 /// Rows are buffered and flushed to disk with every 20th frame, so that a killed run can be read up
 /// to there (without frames, with every 16384th sample), its histories and contacts up to the last
-/// whole 64 rows: what is compressed cannot safely be written again with more rows. Quaternions are stored with the sign
-/// nearer to the frame before.
+/// whole 64 rows: what is compressed cannot safely be written again with more rows. Quaternions are
+/// stored with the sign nearer to the frame before.
 ///
 /// All functions throw Error (exit code 1) naming the file when the disk is full.
 class RunWriter {
