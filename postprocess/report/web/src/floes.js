@@ -63,6 +63,8 @@ void main() {
   colour = vec4(base * shade(vView) * outline(vEdge), 1.0);
 }`;
 
+const EDGE = 10; // degrees between faces of a floe
+
 function poseTexture(meta, arrays) {
   const { floes, frames } = meta;
   const { position, orientation, load } = arrays;
@@ -90,7 +92,7 @@ function allFloes(meta, arrays) {
   const soups = meta.shapes.map((shape, k) => (k === 0 ? null : triangleSoup(
     arrays.shape_vertices.subarray(3 * shape.first_vertex),
     arrays.shape_triangles.subarray(3 * shape.first_triangle,
-      3 * (shape.first_triangle + shape.triangles)))));
+      3 * (shape.first_triangle + shape.triangles)), EDGE)));
   const bodyShape = arrays.body_shape;
   let count = 0;
   for (const s of bodyShape) count += soups[s].position.length / 3;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Meshes for drawing: triangles with corners of their own, which know the edges to be outlined.
 
-const FLAT = 0.999; // cosine between faces that have no visible edge
-
 function normals(vertices, triangles) {
   const out = new Float32Array(triangles.length);
   for (let t = 0; t < triangles.length; t += 3) {
@@ -17,8 +15,9 @@ function normals(vertices, triangles) {
 }
 
 /** For each side of each triangle (side k is opposite to corner k): is it a crease or border? */
-function creases(vertices, triangles) {
+function creases(vertices, triangles, angle) {
   const normal = normals(vertices, triangles);
+  const flat = Math.cos((angle * Math.PI) / 180);
   const count = vertices.length / 3;
   const side = new Map(); // directed edge -> triangle
   const ends = (t, k) => [triangles[t + ((k + 1) % 3)], triangles[t + ((k + 2) % 3)]];
@@ -35,7 +34,7 @@ function creases(vertices, triangles) {
       const cosine = other === undefined ? -1
         : normal[t] * normal[other] + normal[t + 1] * normal[other + 1]
           + normal[t + 2] * normal[other + 2];
-      out[t + k] = cosine < FLAT ? 1 : 0;
+      out[t + k] = cosine < flat ? 1 : 0;
     }
   return out;
 }
@@ -44,9 +43,10 @@ function creases(vertices, triangles) {
  * Triangles without shared corners. `edge` of corner k is the k-th unit vector: interpolated, it
  * tells how far a pixel is from each side. Sides that are not to be drawn get a 1 at all corners,
  * which keeps pixels away from them.
+ * @param angle between faces in degrees from which their common side is drawn
  */
-export function triangleSoup(vertices, triangles) {
-  const crease = creases(vertices, triangles);
+export function triangleSoup(vertices, triangles, angle) {
+  const crease = creases(vertices, triangles, angle);
   const position = new Float32Array(3 * triangles.length);
   const edge = new Uint8Array(3 * triangles.length);
   for (let t = 0; t < triangles.length; t += 3)

@@ -36,6 +36,8 @@ void main() {
   colour = vec4(base * shade(vView) * mix(1.0, outline(vEdge), 0.6), opacity);
 }`;
 
+const KNUCKLE = 20; // degrees: the facets of a curved side are no edges
+
 const unit = (rgb) => new Vector3(...rgb.map((c) => c / 255));
 
 /** One colour per triangle, the same at its three corners. */
@@ -55,7 +57,7 @@ export class Hull {
     const vertices = new Float32Array(packed.length);
     for (let k = 0; k < packed.length; ++k)
       vertices[k] = packed[k] * scale[k % 3] + offset[k % 3];
-    const soup = triangleSoup(vertices, arrays.hull_triangles);
+    const soup = triangleSoup(vertices, arrays.hull_triangles, KNUCKLE);
     const triangles = arrays.hull_triangles.length / 3;
     this.tints = {
       load: tints(triangles, (t) => loadColour(Math.sqrt(arrays.hull_load[t] / 65535))),
