@@ -189,7 +189,7 @@ TEST_CASE("NaN in the summary shows as n/a", "[report]") {
     CHECK(html.find("Lindqvist (1989)") == std::string::npos);
 }
 
-TEST_CASE("forces of 5 N, 12 kN and 30 MN get units and 4 digits; 2D is per metre", "[report]") {
+TEST_CASE("forces of 5 N, 12 kN and 30 MN get units and 4 digits, 2D is per metre", "[report]") {
     CHECK(choose_unit(5.0, 3).name == "N");
     CHECK(choose_unit(5.0, 3).text(5.0) == "5.000");
     CHECK(choose_unit(1107.0, 3).text(1107.4) == "1107");
@@ -199,7 +199,7 @@ TEST_CASE("forces of 5 N, 12 kN and 30 MN get units and 4 digits; 2D is per metr
     CHECK(choose_unit(std::nan(""), 3).name == "N");
 }
 
-TEST_CASE("a view of one instant is a picture with a legend; without frames an error", "[report]") {
+TEST_CASE("a view of one instant is a picture with a legend, without frames an error", "[report]") {
     const RunData run = make_run();
     const std::string svg = draw_view(run, views::ViewFrom::below, 2.04);
     CHECK_THAT(svg, Catch::Contains("t = 2.00 s"));

@@ -144,7 +144,7 @@ TEST_CASE("a floe of 1 x 0.8 m under a bottom of 16 m2 covers a twentieth",
 }
 
 TEST_CASE(
-    "ice on deck or beside the hull does not cover its bottom; a hull out of the water has none",
+    "ice on deck or beside the hull does not cover its bottom, a hull out of the water has none",
     "[statistics]") {
     RunData run = make_run({.floes = 1, .frames = 1});
     run.frames[0].position[0] = GENERATE(Vec3(4, 0, 0.7), Vec3(4, 1.6, -0.8), Vec3(30, 0, -0.8));
