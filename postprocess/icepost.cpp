@@ -20,7 +20,7 @@ struct Options {
     std::size_t every = 1, frames = ice::report::kReportFrames;
     double time = 0.0;
     std::string from = "below";
-    bool quiet = false;
+    bool quiet = false, points_only = false;
 };
 
 int report(const Options& o) {
@@ -47,8 +47,11 @@ int view(const Options& o) {
 int paraview(const Options& o) {
     const auto run = ice::read::read_run_folder(o.run);
     const auto folder = o.out.empty() ? run.path / "paraview" : o.out;
-    const std::size_t count = ice::paraview::write_paraview(run.data, folder, o.every);
-    ice::say(fmt::format("wrote {} frames: open {}", count, (folder / "run.pvd").string()));
+    const double load_from = run.summary ? run.summary->average_from : 0.0;
+    const std::size_t count =
+        ice::paraview::write_paraview(run.data, folder, {o.every, o.points_only, load_from});
+    ice::say(fmt::format("wrote {} frames: open {}", count,
+                         (folder / (o.points_only ? "bodies.pvd" : "run.pvd")).string()));
     return 0;
 }
 
@@ -90,6 +93,8 @@ int main(int argc, char** argv) {
     export_files->add_option("-o,--out", o.out, "folder (default RUN/paraview)");
     export_files->add_option("--every", o.every, "keep each N-th frame")
         ->check(CLI::Range(1, 1000000));
+    export_files->add_flag("--points-only", o.points_only,
+                           "floes and contacts as points, no surfaces per frame");
     auto* compare = command("check", "compare summary.json with expected numbers");
     compare->add_option("EXPECTED", o.expected, "TOML file with [[expect]] entries")->required();
     compare->add_option("--junit", o.junit, "also write the verdicts as JUnit XML");

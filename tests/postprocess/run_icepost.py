@@ -46,7 +46,11 @@ with tempfile.TemporaryDirectory() as folder:
     expect(run("view", folder, "--time", "2", "--from", "side", "--out", path("a.svg")), 0)
     assert xml.parse(path("a.svg")).getroot().tag.endswith("svg")
     expect(run("paraview", folder, "--every", "20", "--out", path("pv")), 0)
-    assert len(os.listdir(path("pv/frames"))) == 3 * 3 + 2
+    assert len(os.listdir(path("pv/frames"))) == 3 * 4 + 2
+    expect(run("paraview", folder, "--points-only", "--every", "20", "--out", path("dots")), 0)
+    assert len(os.listdir(path("dots/frames"))) == 3 * 2 + 2
+    assert sorted(f for f in os.listdir(path("dots")) if f != "frames") == [
+        "bodies.pvd", "contacts.pvd", "hull_load.vtp", "shapes.vtm"]
 
     expect(run(), 2)
     expect(run("report"), 2, err="RUN")
