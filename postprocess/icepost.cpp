@@ -10,6 +10,8 @@
 #include "common/cli/console.hpp"
 #include "postprocess/check/check_run.hpp"
 #include "postprocess/paraview/write_paraview.hpp"
+#include "postprocess/report/compare_runs.hpp"
+#include "postprocess/report/draw_plot.hpp"
 #include "postprocess/report/pictures.hpp"
 #include "postprocess/report/write_report.hpp"
 
@@ -20,7 +22,8 @@ struct Options {
     std::size_t every = 1, frames = ice::report::kReportFrames;
     double time = 0.0;
     std::string from = "below";
-    bool quiet = false, points_only = false;
+    std::vector<std::string> runs;
+    bool quiet = false, points_only = false, csv = false;
 };
 
 int report(const Options& o) {
@@ -41,6 +44,22 @@ int view(const Options& o) {
             "the run has frames from {:g} to {:g} s, none at {:g} s: the nearest was drawn", first,
             last, o.time));
     ice::say(fmt::format("wrote {}", o.out.string()));
+    return 0;
+}
+
+int plot(const Options& o) {
+    const auto run = ice::read::read_run_folder(o.run);
+    const auto file = o.out.empty() ? run.path / "plot.svg" : o.out;
+    ice::write_text_file(file, ice::report::draw_plot(run));
+    ice::say(fmt::format("wrote {}", file.string()));
+    return 0;
+}
+
+int compare_runs(const Options& o) {
+    std::vector<ice::report::NamedSummary> runs;
+    for (const std::string& run : o.runs)
+        runs.emplace_back(run, ice::read_summary(ice::read::find_summary(run)));
+    fmt::print("{}", o.csv ? ice::report::compare_csv(runs) : ice::report::compare_text(runs));
     return 0;
 }
 
@@ -89,6 +108,11 @@ int main(int argc, char** argv) {
     draw->add_option("--from", o.from, "below, top, side, front or quarter")
         ->check(CLI::IsMember({"below", "top", "side", "front", "quarter"}));
     draw->add_option("-o,--out", o.out, "the SVG file")->required();
+    auto* plot_run = command("plot", "draw histories and tracked floes' paths as one SVG");
+    plot_run->add_option("-o,--out", o.out, "the SVG file (default RUN/plot.svg)");
+    auto* table = app.add_subcommand("table", "compare runs, a line each")->fallthrough();
+    table->add_option("RUN", o.runs, "run folders made by icesolve")->required();
+    table->add_flag("--csv", o.csv, "comma-separated, all digits");
     auto* export_files = command("paraview", "write PVD and VTP files for ParaView");
     export_files->add_option("-o,--out", o.out, "folder (default RUN/paraview)");
     export_files->add_option("--every", o.every, "keep each N-th frame")
@@ -107,6 +131,8 @@ int main(int argc, char** argv) {
     return ice::run_program("icepost", [&] {
         if (make_report->parsed()) return report(o);
         if (draw->parsed()) return view(o);
+        if (plot_run->parsed()) return plot(o);
+        if (table->parsed()) return compare_runs(o);
         return export_files->parsed() ? paraview(o) : check(o);
     });
 }

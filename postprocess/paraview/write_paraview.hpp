@@ -20,12 +20,12 @@ struct ParaviewOptions {
 ///     floes.pvd      posed surfaces; per triangle body, shape, group, state, contact_force and
 ///                    velocity
 ///     hull.pvd       the hull where it was; per triangle region
-///     bodies.pvd     a point per floe with orientation (w, x, y, z), shape, state and forces, to be
-///                    drawn with "3D Glyphs" (orientation mode Quaternion) and shapes.vtm as table;
-///                    contact_force is that of the ship on the floe [N]
-///     contacts.pvd   a point where a floe pressed on the hull, with floe, sphere of the hull and the
-///                    normal_force and friction_force of the floe on the ship [N], means since the
-///                    stored frame before: glyphs of type arrow show them
+///     bodies.pvd     a point per floe with orientation (w, x, y, z), shape, state and forces, to
+///                    be drawn with "3D Glyphs" (orientation mode Quaternion) and shapes.vtm as
+///                    table; contact_force is that of the ship on the floe [N]
+///     contacts.pvd   a point where a floe pressed on the hull, with floe, sphere of the hull and
+///                    the normal_force and friction_force of the floe on the ship [N], means since
+///                    the stored frame before: glyphs of type arrow show them
 ///     hull_load.vtp  the hull in the ship frame; per triangle region and load, the time-averaged
 ///                    normal load [Pa]
 ///     frames/        the .vtp files, one per frame and kind

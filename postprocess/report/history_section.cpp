@@ -17,6 +17,8 @@ namespace {
 
 constexpr std::size_t kDrawnBins = 350;  // of a curve: nearly one per pixel
 
+}  // namespace
+
 std::string draw_coverage(const statistics::BottomCoverage& coverage) {
     Chart chart;
     chart.title = "Bottom covered by ice";
@@ -45,11 +47,14 @@ std::string draw_history(const History& h) {
     }
     // room for the samples around their averages; single peaks go beyond
     const double room = 0.2 * (h.high - h.low);
-    if (room > 0.0) chart.y_range = {h.low - room, h.high + room};
+    if (room > 0.0)
+        chart.y_range = {h.low < 0.0 ? h.low - room : 0.0, h.high > 0.0 ? h.high + room : 0.0};
     chart.level = h.mean;
     chart.level_name = "mean of the run";
     return draw_chart(chart);
 }
+
+namespace {
 
 std::string axes_note(const RunFigures& figures, double window) {
     std::string peaks;

@@ -16,6 +16,12 @@ namespace ice::report {
 ///        are left out and the section says so
 std::string scene_section(const RunData& run, std::size_t budget);
 
+/// One chart of histories: averages bold, samples thin and cut where they leave the axis.
+std::string draw_history(const History& history);
+
+/// Coverage of the bottom against time.
+std::string draw_coverage(const statistics::BottomCoverage& coverage);
+
 /// Histories of the ship: resistance, each force component, coverage of the bottom.
 std::string history_section(const RunData& run, const RunFigures& figures);
 
