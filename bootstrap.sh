@@ -6,7 +6,11 @@ set -euo pipefail
 readonly packages=(
     build-essential cmake ninja-build git ca-certificates
     libeigen3-dev libcgal-dev libassimp-dev catch2 libhwy-dev libtomlplusplus-dev libcli11-dev
-    libfmt-dev libspdlog-dev libhdf5-dev libssl-dev nlohmann-json3-dev zlib1g-dev python3 python3-h5py)
+    libmeshoptimizer-dev libfmt-dev libspdlog-dev libhdf5-dev libssl-dev nlohmann-json3-dev zlib1g-dev python3 python3-h5py)
+
+# only the tests use these: the report in a browser, its page built again, run.h5 in xarray
+readonly test_packages=(chromium chromium-driver python3-selenium python3-pil python3-xarray
+    python3-h5netcdf)
 
 usage() {
     cat <<'END'
@@ -25,7 +29,7 @@ fail() {
 
 install_packages() {
     local missing=() package state
-    for package in "${packages[@]}"; do
+    for package in "$@"; do
         state=$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null || true)
         [[ $state == installed ]] || missing+=("$package")
     done
@@ -101,19 +105,21 @@ cd "$(dirname "${BASH_SOURCE[0]}")"
 # one command a line: in "a && b" a failure inside a would not stop the script
 case $1 in
     deps)
-        install_packages
+        install_packages "${packages[@]}"
         ;;
     build)
-        install_packages
+        install_packages "${packages[@]}"
         build_programs
         ;;
     demo)
-        install_packages
+        install_packages "${packages[@]}"
         build_programs
         run_demo
         ;;
     test)
-        install_packages
+        # another source's Node has its own npm, which Debian's package would replace
+        if command -v npm >/dev/null; then node=(); else node=(nodejs npm); fi
+        install_packages "${packages[@]}" "${test_packages[@]}" "${node[@]}"
         build_programs
         run_tests
         ;;

@@ -10,6 +10,8 @@
 #include "common/cli/console.hpp"
 #include "postprocess/check/check_run.hpp"
 #include "postprocess/paraview/write_paraview.hpp"
+#include "postprocess/report/compare_runs.hpp"
+#include "postprocess/report/draw_plot.hpp"
 #include "postprocess/report/pictures.hpp"
 #include "postprocess/report/write_report.hpp"
 
@@ -17,16 +19,17 @@ namespace {
 
 struct Options {
     std::filesystem::path run, out, expected, junit;
-    std::size_t every = 1;
+    std::size_t every = 1, frames = ice::report::kReportFrames;
     double time = 0.0;
     std::string from = "below";
-    bool quiet = false;
+    std::vector<std::string> runs;
+    bool quiet = false, points_only = false, csv = false;
 };
 
 int report(const Options& o) {
     const auto run = ice::read::read_run_folder(o.run);
     const auto file = o.out.empty() ? run.path / "report.html" : o.out;
-    ice::report::write_report(run, file);
+    ice::report::write_report(run, file, o.frames);
     ice::say(fmt::format("wrote {}", file.string()));
     return 0;
 }
@@ -35,15 +38,39 @@ int view(const Options& o) {
     const auto run = ice::read::read_run_folder(o.run);
     ice::write_text_file(o.out,
                          ice::report::draw_view(run.data, *ice::views::parse_view(o.from), o.time));
+    const double first = run.data.frames.front().time, last = run.data.frames.back().time;
+    if (o.time < first || o.time > last)
+        ice::say_warning(fmt::format(
+            "the run has frames from {:g} to {:g} s, none at {:g} s: the nearest was drawn", first,
+            last, o.time));
     ice::say(fmt::format("wrote {}", o.out.string()));
+    return 0;
+}
+
+int plot(const Options& o) {
+    const auto run = ice::read::read_run_folder(o.run);
+    const auto file = o.out.empty() ? run.path / "plot.svg" : o.out;
+    ice::write_text_file(file, ice::report::draw_plot(run));
+    ice::say(fmt::format("wrote {}", file.string()));
+    return 0;
+}
+
+int compare_runs(const Options& o) {
+    std::vector<ice::report::NamedSummary> runs;
+    for (const std::string& run : o.runs)
+        runs.emplace_back(run, ice::read_summary(ice::read::find_summary(run)));
+    fmt::print("{}", o.csv ? ice::report::compare_csv(runs) : ice::report::compare_text(runs));
     return 0;
 }
 
 int paraview(const Options& o) {
     const auto run = ice::read::read_run_folder(o.run);
     const auto folder = o.out.empty() ? run.path / "paraview" : o.out;
-    const std::size_t count = ice::paraview::write_paraview(run.data, folder, o.every);
-    ice::say(fmt::format("wrote {} frames: open {}", count, (folder / "run.pvd").string()));
+    const double load_from = run.summary ? run.summary->average_from : 0.0;
+    const std::size_t count =
+        ice::paraview::write_paraview(run.data, folder, {o.every, o.points_only, load_from});
+    ice::say(fmt::format("wrote {} frames: open {}", count,
+                         (folder / (o.points_only ? "bodies.pvd" : "run.pvd")).string()));
     return 0;
 }
 
@@ -73,15 +100,25 @@ int main(int argc, char** argv) {
     };
     auto* make_report = command("report", "write RUN/report.html, one file that opens anywhere");
     make_report->add_option("-o,--out", o.out, "another file");
+    make_report->add_option("--frames", o.frames, "of the 3D playback at most, evenly chosen")
+        ->capture_default_str()
+        ->check(CLI::Range(2, 1000000));
     auto* draw = command("view", "draw hull and ice at one instant as SVG");
     draw->add_option("--time", o.time, "the frame nearest to this time [s]")->required();
     draw->add_option("--from", o.from, "below, top, side, front or quarter")
         ->check(CLI::IsMember({"below", "top", "side", "front", "quarter"}));
     draw->add_option("-o,--out", o.out, "the SVG file")->required();
+    auto* plot_run = command("plot", "draw histories and tracked floes' paths as one SVG");
+    plot_run->add_option("-o,--out", o.out, "the SVG file (default RUN/plot.svg)");
+    auto* table = app.add_subcommand("table", "compare runs, a line each")->fallthrough();
+    table->add_option("RUN", o.runs, "run folders made by icesolve")->required();
+    table->add_flag("--csv", o.csv, "comma-separated, all digits");
     auto* export_files = command("paraview", "write PVD and VTP files for ParaView");
     export_files->add_option("-o,--out", o.out, "folder (default RUN/paraview)");
     export_files->add_option("--every", o.every, "keep each N-th frame")
         ->check(CLI::Range(1, 1000000));
+    export_files->add_flag("--points-only", o.points_only,
+                           "floes and contacts as points, no surfaces per frame");
     auto* compare = command("check", "compare summary.json with expected numbers");
     compare->add_option("EXPECTED", o.expected, "TOML file with [[expect]] entries")->required();
     compare->add_option("--junit", o.junit, "also write the verdicts as JUnit XML");
@@ -94,6 +131,8 @@ int main(int argc, char** argv) {
     return ice::run_program("icepost", [&] {
         if (make_report->parsed()) return report(o);
         if (draw->parsed()) return view(o);
+        if (plot_run->parsed()) return plot(o);
+        if (table->parsed()) return compare_runs(o);
         return export_files->parsed() ? paraview(o) : check(o);
     });
 }

@@ -13,6 +13,7 @@
 #include "common/base/version.hpp"
 #include "common/cli/console.hpp"
 #include "common/cli/progress.hpp"
+#include "common/cli/sibling_program.hpp"
 #include "solver/case/case_schema.hpp"
 #include "solver/case/read_case.hpp"
 #include "solver/record/energy_ledger.hpp"
@@ -28,7 +29,7 @@ struct Options {
     std::int64_t hash_every = 0;
     double checkpoint_every = 0.0;
     bool check = false, schema = false, defaults = false, json = false, quiet = false,
-         verify = false;
+         verify = false, no_report = false;
 };
 
 void declare(CLI::App& app, Options& o) {
@@ -60,6 +61,8 @@ void declare(CLI::App& app, Options& o) {
     app.add_option("--explain", o.explain, "Tell what a case key takes")->type_name("KEY");
     app.add_flag("--print-schema", o.schema, "JSON schema of the case file");
     app.add_flag("--print-defaults", o.defaults, "A complete case with all defaults");
+    app.add_flag("--no-report", o.no_report,
+                 "Do not write report.html at the end; icepost report writes it later");
     app.add_flag("--json", o.json, "Print the summary as JSON on stdout")->excludes(hashes);
     app.add_flag("-q,--quiet", o.quiet, "No progress, no messages but errors");
     app.add_option("--color", o.colour, "Colour of messages")
@@ -102,6 +105,19 @@ int report(const ice::Summary& s, const Options& o, const std::string& folder) {
     return static_cast<int>(ice::ExitCode::interrupted);
 }
 
+// The report belongs to the post-processor, of which the solver knows nothing but its command. The
+// run is complete without it: what goes wrong here is a warning.
+void write_report(const std::filesystem::path& folder) {
+    const auto code = ice::run_sibling("icepost", {"-q", "report", folder.string()});
+    if (code == 0)
+        ice::say(fmt::format("report in {}", (folder / "report.html").string()));
+    else
+        ice::say_warning(fmt::format("no report: {}; try icepost report {}",
+                                     code ? fmt::format("icepost ended with code {}", *code)
+                                          : std::string("icepost does not lie beside icesolve"),
+                                     ice::shell_word(folder.string())));
+}
+
 std::filesystem::path run_folder(const Options& o) {
     if (!o.out.empty()) return o.out;
     if (!o.restart.empty()) {
@@ -140,7 +156,9 @@ int run_case(const Options& o, const std::string& command_line) {
     const ice::Summary summary =
         ice::run(world, {folder, command_line, o.checkpoint_every, going_on, o.verify, watch});
     progress.finish();
-    return report(summary, o, folder.string());
+    const int code = report(summary, o, folder.string());
+    if (!o.no_report) write_report(folder);
+    return code;
 }
 
 int run_icesolve(const Options& o, const std::string& command_line) {

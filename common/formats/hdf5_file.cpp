@@ -20,6 +20,9 @@ Hdf5File::Hdf5File(const std::filesystem::path& path, Mode mode) : path_(path) {
     H5Pset_libver_bounds(access, H5F_LIBVER_EARLIEST, H5F_LIBVER_V110);
     // without locks a run can be looked at while it goes on, and file systems without locks work
     H5Pset_file_locking(access, false, true);
+    // Space in large pieces: the file's end, which is written last, seldom moves then. A kill
+    // between a chunk of data and the end would leave the chunk outside of the file.
+    if (mode == Mode::create_growing) H5Pset_small_data_block_size(access, 1 << 18);
     if (mode == Mode::read) {
         if (!std::filesystem::exists(path))
             throw bad_input(path.string(), "file not found", "check the path");

@@ -16,7 +16,9 @@ namespace ice {
 /// so that a file flushed before a crash can be opened.
 class Hdf5File {
 public:
-    enum class Mode { read, create };
+    /// create_growing: for rows that are appended while a program runs, which may be killed; up to
+    /// 256 kB larger.
+    enum class Mode { read, create, create_growing };
     Hdf5File(const std::filesystem::path& path, Mode mode);
     ~Hdf5File();
     Hdf5File(const Hdf5File&) = delete;

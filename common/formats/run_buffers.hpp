@@ -9,8 +9,13 @@
 namespace ice {
 
 namespace run_parts {
-constexpr std::uint64_t kFramesPerFlush = 20;  // also the chunk length: every chunk is written once
-constexpr std::uint64_t kHistoryChunk = 1024;
+// Rows per chunk. Chunks are compressed, so that one written again with more rows has another
+// length and place; a kill in between leaves a file of which the last chunk cannot be read (1 of 6
+// kills of a run that flushes ten times a second). Hence only whole chunks are written while the
+// run goes on.
+constexpr std::uint64_t kFramesPerFlush = 20;
+constexpr std::uint64_t kHistoryChunk = 64;
+constexpr std::uint64_t kContactChunk = 64;
 }  // namespace run_parts
 
 struct RunWriter::Buffers {
@@ -18,7 +23,10 @@ struct RunWriter::Buffers {
             const RunHeader& header);
     void create_history(const RunHeader& header);
     void create_frames(const RunHeader& header);
+    void create_contacts(const RunHeader& header);
+    void write_whole_chunks();
     void write_all();
+    void write_rows(bool all);
 
     // run_rows.cpp
     void copy_rows(const std::filesystem::path& earlier, const RunPosition& stop);
@@ -41,6 +49,13 @@ struct RunWriter::Buffers {
             work(*column);
         work(state);
     }
+    template <class Work>
+    void for_contacts(const Work& work) {
+        work(contact_time);
+        for (Column<std::int32_t>* column : {&contact_frame, &contact_floe, &contact_sphere})
+            work(*column);
+        for (Column<float>* column : {&contact_point, &contact_push, &contact_rub}) work(*column);
+    }
 
     template <class T>
     using Column = run_parts::Column<T>;
@@ -48,9 +63,9 @@ struct RunWriter::Buffers {
     std::filesystem::path final_path, part_path;
     Hdf5File file;
     std::size_t bodies = 0;
-    std::uint64_t samples = 0, frames = 0;             // buffered, not on disk yet
-    RunPosition written;                               // in `file`
-    std::int64_t saved_samples = 0, saved_frames = 0;  // of these, in saved rows
+    std::uint64_t samples = 0, frames = 0, contact_rows = 0;  // buffered, not on disk yet
+    RunPosition written;                                      // in `file`
+    RunPosition saved;                                        // of these, in saved rows
 
     // history: time, forces and moment [S,3], pose [S,7], scalars, then one table per tracked floe
     Column<double> time, contact, friction, total, moment, pose;
@@ -60,6 +75,10 @@ struct RunWriter::Buffers {
     Column<double> frame_time, ship_position;
     Column<float> position, orientation, velocity, spin, floe_force;
     Column<std::uint8_t> state;
+    // contacts of hull and floes, any number per frame
+    Column<double> contact_time;
+    Column<std::int32_t> contact_frame, contact_floe, contact_sphere;
+    Column<float> contact_point, contact_push, contact_rub;
 };
 
 }  // namespace ice

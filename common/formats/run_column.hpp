@@ -30,9 +30,12 @@ struct Column {
     void add_all(const std::vector<Vec3>& points) {
         for (const Vec3& p : points) add(p);
     }
-    void append_to(Hdf5File& file, std::uint64_t count) {
+    /// Writes the first `count` of `buffered` rows and forgets them.
+    void append_to(Hdf5File& file, std::uint64_t count, std::uint64_t buffered) {
+        if (count == 0) return;
         file.append(name, rows.data(), count);
-        rows.clear();
+        const std::uint64_t values = rows.size() / buffered * count;
+        rows.erase(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(values));
     }
     /// Creates the same dataset in another file, without rows and labels.
     void create_like(const Hdf5File& file, Hdf5File& to, std::uint64_t chunk) const {

@@ -56,6 +56,16 @@ struct TrackRow {
     Vec3 ice_force = Vec3::Zero();       ///< of the other floes on this one [N]
 };
 
+/// Where a floe pressed on the hull since the last frame: all touches of one floe at one sphere of
+/// the hull, as means over that time, so that force x time summed over the frames is the impulse.
+struct HullContact {
+    std::int32_t floe = 0;               ///< id, from 1
+    std::int32_t sphere = 0;             ///< surface sphere of the hull's set
+    Vec3 point = Vec3::Zero();           ///< mean weighted by normal impulse, ship frame [m]
+    Vec3 normal_force = Vec3::Zero();    ///< of the floe on the ship [N] (2D: N per metre)
+    Vec3 friction_force = Vec3::Zero();  ///< of the floe on the ship [N]
+};
+
 /// State of a floe as seen in a frame.
 enum class FloeState : std::uint8_t { held = 0, moving = 1, behind = 2 };
 
@@ -68,6 +78,7 @@ struct RunFrame {
     std::vector<Vec3> velocity, angular_velocity;
     std::vector<Vec3> contact_force;  ///< of the ship on the floe, mean since last frame [N]
     std::vector<FloeState> state;
+    std::vector<HullContact> hull_contacts;  ///< sorted by floe, sphere; as many as there were
 };
 
 }  // namespace ice

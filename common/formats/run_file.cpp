@@ -2,6 +2,7 @@
 // Writer of run.h5. In: rows of the solver's recorder. Out: the layout listed in run_file.hpp.
 #include "common/formats/run_file.hpp"
 
+#include <algorithm>
 #include <system_error>
 
 #include "common/base/error.hpp"
@@ -15,6 +16,7 @@ namespace {
 constexpr std::uint64_t kHistoryPerFlush = 16384;  // runs that store few frames lose no more rows
 
 using run_parts::Column;
+using run_parts::kContactChunk;
 using run_parts::kFramesPerFlush;
 using run_parts::kHistoryChunk;
 using Shape = std::vector<std::uint64_t>;
@@ -51,7 +53,7 @@ RunWriter::Buffers::Buffers(const std::filesystem::path& path, const std::filesy
                             const RunHeader& header)
     : final_path(path),
       part_path(part),
-      file(part_path, Hdf5File::Mode::create),
+      file(part_path, Hdf5File::Mode::create_growing),
       bodies(header.body_shape.size()) {
     if (header.body_group.size() != bodies || header.body_mass.size() != bodies ||
         header.body_inertia.size() != bodies)
@@ -64,6 +66,7 @@ RunWriter::Buffers::Buffers(const std::filesystem::path& path, const std::filesy
     run_parts::write_shapes(file, header);
     create_history(header);
     create_frames(header);
+    create_contacts(header);
     file.flush();
 }
 
@@ -126,12 +129,48 @@ void RunWriter::Buffers::create_frames(const RunHeader& header) {
     file.write_attribute("/frames/state", "meaning", "0 held, 1 moving, 2 behind the hull");
 }
 
-void RunWriter::Buffers::write_all() {
-    for_history([&](auto& column) { column.append_to(file, samples); });
-    for_frames([&](auto& column) { column.append_to(file, frames); });
-    written.samples += static_cast<std::int64_t>(samples);
-    written.frames += static_cast<std::int64_t>(frames);
-    samples = frames = 0;
+void RunWriter::Buffers::create_contacts(const RunHeader& header) {
+    const auto create = [&]<class T>(Column<T>& column, const std::string& name, const Shape& row,
+                                     const std::string& unit, Scales scales) {
+        column.name = "/contacts/" + name;
+        if (name != "contact_time") scales.insert(scales.begin(), "/contacts/contact_time");
+        create_column<T>(file, column.name, row, kContactChunk, unit, scales);
+    };
+    const std::string force = header.dimension == 2 ? "N/m" : "N";
+    file.create_group("/contacts");
+    create(contact_time, "contact_time", {}, "s", {});
+    file.make_scale("/contacts/contact_time");
+    create(contact_frame, "frame", {}, "1", {});
+    create(contact_floe, "floe", {}, "1", {});
+    create(contact_sphere, "sphere", {}, "1", {});
+    create(contact_point, "point", {3}, "m", {"/xyz"});
+    create(contact_push, "normal_force", {3}, force, {"/xyz"});
+    create(contact_rub, "friction_force", {3}, force, {"/xyz"});
+    file.write_attribute("/contacts/frame", "meaning",
+                         "row of /frames; forces since the one before");
+    file.write_attribute("/contacts/point", "meaning", "ship frame, weighted by normal impulse");
+}
+
+void RunWriter::Buffers::write_all() { write_rows(true); }
+void RunWriter::Buffers::write_whole_chunks() { write_rows(false); }
+
+void RunWriter::Buffers::write_rows(bool all) {
+    // of the buffered rows: all, or as many as complete the file's last chunk and whole ones
+    const auto take = [all](std::uint64_t& buffered, std::int64_t& on_disk, std::uint64_t chunk) {
+        const auto before = static_cast<std::uint64_t>(on_disk);
+        const std::uint64_t end = all ? before + buffered : (before + buffered) / chunk * chunk;
+        const std::uint64_t count = end - std::min(end, before);
+        buffered -= count;
+        on_disk += static_cast<std::int64_t>(count);
+        return count;
+    };
+    const std::uint64_t old_samples = samples, old_frames = frames, old_contacts = contact_rows;
+    const std::uint64_t s = take(samples, written.samples, kHistoryChunk);
+    const std::uint64_t f = take(frames, written.frames, kFramesPerFlush);
+    const std::uint64_t c = take(contact_rows, written.contacts, kContactChunk);
+    for_history([&](auto& column) { column.append_to(file, s, old_samples); });
+    for_frames([&](auto& column) { column.append_to(file, f, old_frames); });
+    for_contacts([&](auto& column) { column.append_to(file, c, old_contacts); });
     file.flush();
 }
 
@@ -144,7 +183,7 @@ RunWriter::~RunWriter() = default;
 void RunWriter::add(const HistoryRow& row) {
     Buffers& b = *buffers_;
     // before the new row, when the tracked floes' rows of the last one are complete
-    if (b.samples >= kHistoryPerFlush) b.write_all();
+    if (b.samples >= kHistoryPerFlush) b.write_whole_chunks();
     b.time.add_value(row.time);
     b.contact.add(row.contact_force);
     b.friction.add(row.friction_force);
@@ -183,6 +222,18 @@ void RunWriter::add(const RunFrame& frame) {
     b.floe_force.add_all(frame.contact_force);
     for (const FloeState state : frame.state)
         b.state.rows.push_back(static_cast<std::uint8_t>(state));
+    const auto row =
+        static_cast<std::int32_t>(b.written.frames) + static_cast<std::int32_t>(b.frames);
+    for (const HullContact& contact : frame.hull_contacts) {
+        b.contact_time.add_value(frame.time);
+        b.contact_frame.rows.push_back(row);
+        b.contact_floe.rows.push_back(contact.floe);
+        b.contact_sphere.rows.push_back(contact.sphere);
+        b.contact_point.add(contact.point);
+        b.contact_push.add(contact.normal_force);
+        b.contact_rub.add(contact.friction_force);
+        ++b.contact_rows;
+    }
     // q and -q are the same rotation: keep the sign nearer to the last frame, for interpolation
     std::vector<Eigen::Quaterniond>& last = b.written.last_orientation;
     last.resize(b.bodies, Eigen::Quaterniond::Identity());
@@ -192,7 +243,7 @@ void RunWriter::add(const RunFrame& frame) {
         b.orientation.add(wxyz(q));
         last[k] = q;
     }
-    if (++b.frames >= kFramesPerFlush) b.write_all();
+    if (++b.frames >= kFramesPerFlush) b.write_whole_chunks();
 }
 
 void RunWriter::finish() {

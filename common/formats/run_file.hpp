@@ -9,6 +9,9 @@
 ///     /frames/position [F,B,3]         /frames/orientation [F,B,4] w x y z, body to world
 ///     /frames/velocity, angular_velocity, contact_force [F,B,3]   /frames/state [F,B]
 ///     /frames/ship_position [F,3]      /frames/body_shape, body_group, mass [B], inertia [B,3]
+///     /contacts/contact_time [C] s     hull contacts, forces as means since the frame before
+///     /contacts/frame, floe, sphere [C]   /contacts/point [C,3] m in the ship frame
+///     /contacts/normal_force, friction_force [C,3]
 ///     /shapes/vertex_offset, vertices, triangle_offset, triangles, region, sphere_offset, spheres
 ///     /tracked/floe [K] ids            /tracked/<id> [S,22], columns named in track_columns()
 ///     /region_names, /xyz, /wxyz, /pose_parts, /track_columns   labels
@@ -26,15 +29,16 @@ namespace ice {
 
 /// Where a run file stands, for a run that is continued from it.
 struct RunPosition {
-    std::int64_t samples = 0, frames = 0;              ///< rows on disk
-    std::vector<Eigen::Quaterniond> last_orientation;  ///< of the last frame, signs as stored
+    std::int64_t samples = 0, frames = 0, contacts = 0;  ///< rows on disk
+    std::vector<Eigen::Quaterniond> last_orientation;    ///< of the last frame, signs as stored
 };
 
 /// Writes run.h5 while the run goes on, as `run.h5.part`, renamed by finish().
 ///
 /// Rows are buffered and flushed to disk with every 20th frame, so that a killed run can be read up
-/// to there (without frames, with every 16384th sample). Quaternions are stored with the sign
-/// nearer to the frame before.
+/// to there (without frames, with every 16384th sample), its histories and contacts up to the last
+/// whole 64 rows: what is compressed cannot safely be written again with more rows. Quaternions are
+/// stored with the sign nearer to the frame before.
 ///
 /// All functions throw Error (exit code 1) naming the file when the disk is full.
 class RunWriter {

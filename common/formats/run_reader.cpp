@@ -23,6 +23,7 @@ public:
         read_history(run);
         read_tracks(run);
         read_frames(run);
+        read_contacts(run);
         return run;
     }
 
@@ -234,6 +235,26 @@ private:
                 check(state[k] <= 2, "/frames/state", "holds a state that is not 0, 1 or 2");
                 frame.state.push_back(static_cast<FloeState>(state[k]));
             }
+        }
+    }
+
+    void read_contacts(RunData& run) const {
+        if (!file_.has("/contacts")) return;  // a run of a version that did not record them
+        const auto frame = file_.read<std::int32_t>("/contacts/frame");
+        const std::uint64_t n = frame.size();
+        const auto floe = read_as<std::int32_t>("/contacts/floe", {n});
+        const auto sphere = read_as<std::int32_t>("/contacts/sphere", {n});
+        const auto point = points("/contacts/point", {n});
+        const auto push = points("/contacts/normal_force", {n});
+        const auto rub = points("/contacts/friction_force", {n});
+        const auto floes = static_cast<std::int32_t>(run.header.body_shape.size());
+        for (std::size_t k = 0; k < n; ++k) {
+            check(frame[k] >= 0 && static_cast<std::size_t>(frame[k]) < run.frames.size(),
+                  "/contacts/frame", "points outside the frames");
+            check(floe[k] >= 1 && floe[k] <= floes, "/contacts/floe",
+                  "names a floe that does not exist");
+            run.frames[static_cast<std::size_t>(frame[k])].hull_contacts.push_back(
+                {floe[k], sphere[k], point[k], push[k], rub[k]});
         }
     }
 

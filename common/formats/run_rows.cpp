@@ -14,6 +14,7 @@
 
 namespace ice {
 
+using run_parts::kContactChunk;
 using run_parts::kFramesPerFlush;
 using run_parts::kHistoryChunk;
 
@@ -49,12 +50,15 @@ void RunWriter::Buffers::copy_rows(const std::filesystem::path& earlier, const R
     };
     const std::uint64_t history = rest("/time", stop.samples, written.samples);
     const std::uint64_t poses = rest("/frames/frame_time", stop.frames, written.frames);
+    const std::uint64_t touches = rest("/contacts/contact_time", stop.contacts, written.contacts);
     if (history + poses == 0)
         throw bad_input(earlier.string(), "has none of the rows", "this is not that run's file");
     for_history([&](auto& c) { c.copy(from, 0, history, file, kHistoryChunk); });
     for_frames([&](auto& c) { c.copy(from, 0, poses, file, kFramesPerFlush); });
+    for_contacts([&](auto& c) { c.copy(from, 0, touches, file, kContactChunk); });
     written.samples += static_cast<std::int64_t>(history);
     written.frames += static_cast<std::int64_t>(poses);
+    written.contacts += static_cast<std::int64_t>(touches);
 }
 
 void RunWriter::Buffers::copy_saved_rows(const std::filesystem::path& folder,
@@ -64,21 +68,21 @@ void RunWriter::Buffers::copy_saved_rows(const std::filesystem::path& folder,
 }
 
 void RunWriter::Buffers::save_rows() {
-    if (saved_samples == written.samples && saved_frames == written.frames) return;
-    PartFile part(saved_rows(final_path.parent_path(), saved_samples, saved_frames));
+    if (saved.samples == written.samples && saved.frames == written.frames) return;
+    PartFile part(saved_rows(final_path.parent_path(), saved.samples, saved.frames));
     Hdf5File to(part.path(), Hdf5File::Mode::create);
-    for (const char* group : {"/ship", "/tracked", "/frames"}) to.create_group(group);
+    for (const char* group : {"/ship", "/tracked", "/frames", "/contacts"}) to.create_group(group);
     const auto save = [&](auto& column, std::int64_t first, std::int64_t end, std::uint64_t chunk) {
         column.create_like(file, to, chunk);
         column.copy(file, static_cast<std::uint64_t>(first),
                     static_cast<std::uint64_t>(end - first), to, chunk);
     };
-    for_history([&](auto& c) { save(c, saved_samples, written.samples, kHistoryChunk); });
-    for_frames([&](auto& c) { save(c, saved_frames, written.frames, kFramesPerFlush); });
+    for_history([&](auto& c) { save(c, saved.samples, written.samples, kHistoryChunk); });
+    for_frames([&](auto& c) { save(c, saved.frames, written.frames, kFramesPerFlush); });
+    for_contacts([&](auto& c) { save(c, saved.contacts, written.contacts, kContactChunk); });
     to.close();
     part.keep();
-    saved_samples = written.samples;
-    saved_frames = written.frames;
+    saved = written;
 }
 
 RunWriter::RunWriter(const std::filesystem::path& path, const RunHeader& header,
@@ -95,7 +99,8 @@ RunWriter::RunWriter(const std::filesystem::path& path, const RunHeader& header,
             return false;  // missing, too short or damaged: the next source may be better
         }
         return buffers_->written.samples == position.samples &&
-               buffers_->written.frames == position.frames;
+               buffers_->written.frames == position.frames &&
+               buffers_->written.contacts == position.contacts;
     };
     const bool from_saved = try_with([&] { buffers_->copy_saved_rows(earlier, position); });
     const bool found = from_saved ||
@@ -107,8 +112,7 @@ RunWriter::RunWriter(const std::filesystem::path& path, const RunHeader& header,
     buffers_->file.flush();
 
     if (from_saved && same_folder(earlier, path.parent_path())) {
-        buffers_->saved_samples = buffers_->written.samples;
-        buffers_->saved_frames = buffers_->written.frames;
+        buffers_->saved = buffers_->written;
     } else {
         buffers_->save_rows();
     }

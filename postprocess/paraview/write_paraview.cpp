@@ -6,6 +6,7 @@
 #include "common/base/error.hpp"
 #include "common/base/part_file.hpp"
 #include "postprocess/paraview/vtp.hpp"
+#include "postprocess/statistics/load_map.hpp"
 
 namespace ice::paraview {
 
@@ -79,12 +80,36 @@ VtpFile floe_points(const RunHeader& header, const RunFrame& frame) {
     return file;
 }
 
+VtpFile contact_points(const RunFrame& frame) {
+    VtpFile file;
+    std::vector<std::int32_t> floe, sphere;
+    std::vector<float> push, rub;
+    for (const HullContact& c : frame.hull_contacts) {
+        add_point(file.points, frame.ship_position + c.point);
+        floe.push_back(c.floe);
+        sphere.push_back(c.sphere);
+        add_point(push, c.normal_force);
+        add_point(rub, c.friction_force);
+    }
+    file.point_data = {make_array("floe", 1, floe), make_array("sphere", 1, sphere),
+                       make_array("normal_force", 3, push), make_array("friction_force", 3, rub)};
+    return file;
+}
+
 VtpFile surface(const TriangleMesh& mesh, const Vec3& shift) {
     VtpFile file;
     for (const Vec3& v : mesh.vertices) add_point(file.points, shift + v);
     for (const auto& t : mesh.triangles)
         file.triangles.insert(file.triangles.end(), t.begin(), t.end());
     file.cell_data = {make_array("region", 1, mesh.region)};
+    return file;
+}
+
+VtpFile hull_load(const RunData& run, double from) {
+    const statistics::LoadMap map = statistics::make_load_map(run, from);
+    VtpFile file = surface(map.mesh, Vec3::Zero());
+    file.cell_data.push_back(
+        make_array("load", 1, std::vector<float>(map.load.begin(), map.load.end())));
     return file;
 }
 
@@ -123,7 +148,8 @@ void write_shapes(const RunHeader& header, const fs::path& folder) {
 
 }  // namespace
 
-std::size_t write_paraview(const RunData& run, const fs::path& folder, std::size_t every) {
+std::size_t write_paraview(const RunData& run, const fs::path& folder,
+                           const ParaviewOptions& options) {
     const RunHeader& header = run.header;
     if (run.frames.empty() || header.shapes.empty())
         throw bad_input(header.title, "the run has no frames to export",
@@ -133,26 +159,31 @@ std::size_t write_paraview(const RunData& run, const fs::path& folder, std::size
     if (error)
         throw run_failed(folder.string(), "cannot be created: " + error.message(),
                          "check that the folder is writable");
-    Collection both, floes, hull, bodies;
+    Collection both, floes, hull, bodies, contacts;
     std::size_t count = 0;
-    for (std::size_t f = 0; f < run.frames.size(); f += std::max<std::size_t>(1, every), ++count) {
+    const std::size_t step = std::max<std::size_t>(1, options.every);
+    for (std::size_t f = 0; f < run.frames.size(); f += step, ++count) {
         const RunFrame& frame = run.frames[f];
-        const auto name = [&](const char* kind) {
-            return fmt::format("frames/{}_{:05d}.vtp", kind, count);
+        const auto add = [&](Collection& list, const char* kind, const VtpFile& file) {
+            const std::string name = fmt::format("frames/{}_{:05d}.vtp", kind, count);
+            write_vtp(folder / name, file);
+            list.add(frame.time, 0, kind, name);
+            return name;
         };
-        write_vtp(folder / name("floes"), floe_surfaces(header, frame));
-        write_vtp(folder / name("hull"), surface(header.shapes[0].mesh, frame.ship_position));
-        write_vtp(folder / name("bodies"), floe_points(header, frame));
-        both.add(frame.time, 0, "hull", name("hull"));
-        both.add(frame.time, 1, "floes", name("floes"));
-        floes.add(frame.time, 0, "floes", name("floes"));
-        hull.add(frame.time, 0, "hull", name("hull"));
-        bodies.add(frame.time, 0, "bodies", name("bodies"));
+        add(bodies, "bodies", floe_points(header, frame));
+        add(contacts, "contacts", contact_points(frame));
+        if (options.points_only) continue;
+        both.add(frame.time, 0, "hull",
+                 add(hull, "hull", surface(header.shapes[0].mesh, frame.ship_position)));
+        both.add(frame.time, 1, "floes", add(floes, "floes", floe_surfaces(header, frame)));
     }
     write_shapes(header, folder);
+    write_vtp(folder / "hull_load.vtp", hull_load(run, options.load_from));
+    bodies.write(folder / "bodies.pvd");
+    contacts.write(folder / "contacts.pvd");
+    if (options.points_only) return count;
     floes.write(folder / "floes.pvd");
     hull.write(folder / "hull.pvd");
-    bodies.write(folder / "bodies.pvd");
     both.write(folder / "run.pvd");
     return count;
 }

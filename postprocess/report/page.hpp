@@ -7,9 +7,18 @@
 
 namespace ice::report {
 
-/// The whole page: one file, no script, nothing loaded from elsewhere.
-/// @param title plain text; @param body HTML
-std::string make_page(const std::string& title, const std::string& body);
+/// What is filled into the page that web/ builds; texts are HTML unless said otherwise.
+struct PageParts {
+    std::string title;         ///< plain text
+    std::string header;        ///< above everything
+    std::string summary;       ///< before the 3D playback
+    std::string body;          ///< behind it
+    std::string meta, arrays;  ///< of the viewer (viewer_data.hpp)
+};
+
+/// The whole page: one file that loads nothing from elsewhere. Without script it keeps all its
+/// tables and drawings.
+std::string make_page(const PageParts& parts);
 
 /// <section> with a heading. @param id for links; @param intro plain text, may be empty
 std::string section(const std::string& id, const std::string& heading, const std::string& intro,
@@ -21,6 +30,9 @@ std::string table(const std::vector<std::string>& header,
 
 /// Two columns of names and values.
 std::string facts(const std::vector<std::pair<std::string, std::string>>& rows);
+
+/// A drawing that the page's script replaces by its chart of the same id.
+std::string chart_holder(const std::string& id, const std::string& svg);
 
 /// Pictures side by side where the window is wide enough, else below each other.
 std::string figures(const std::vector<std::string>& svgs);

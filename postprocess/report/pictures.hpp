@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/formats/run_file.hpp"
+#include "postprocess/report/viewer_data.hpp"
 #include "postprocess/views/scene_view.hpp"
 
 namespace ice::report {
@@ -15,12 +16,19 @@ namespace ice::report {
 ///        are left out and the section says so
 std::string scene_section(const RunData& run, std::size_t budget);
 
-/// Force histories of the ship: moving average of the resistance, then each component.
-/// @param average_from start of the statistics [s]
-/// @param mean of the resistance [N], NaN if unknown
-std::string history_section(const RunData& run, double average_from, double mean);
+/// One chart of histories: averages bold, samples thin and cut where they leave the axis.
+std::string draw_history(const History& history);
 
-/// Force histories of the tracked floes; "" when there are none.
+/// Coverage of the bottom against time.
+std::string draw_coverage(const statistics::BottomCoverage& coverage);
+
+/// Histories of the ship: resistance, each force component, coverage of the bottom.
+std::string history_section(const RunData& run, const RunFigures& figures);
+
+/// The hull's load map from below, starboard and ahead; "" for a run without hull contacts.
+std::string load_section(const RunData& run, const RunFigures& figures);
+
+/// Force histories of the tracked floes, those never touched by name only; "" without any.
 std::string track_section(const RunData& run);
 
 /// One picture by itself, with legend: the frame nearest to `time`.

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "common/base/error.hpp"
 #include "postprocess/report/page.hpp"
@@ -36,6 +37,18 @@ std::vector<std::size_t> choose_frames(const RunData& run, std::size_t count) {
         if (chosen.empty() || chosen.back() != frame) chosen.push_back(frame);
     }
     return chosen;
+}
+
+// rows of a list, from its middle outwards
+std::vector<std::size_t> middle_first(std::size_t count) {
+    std::vector<std::size_t> rows(count);
+    std::iota(rows.begin(), rows.end(), std::size_t{0});
+    const auto distance = [&](std::size_t k) {
+        return k > count / 2 ? k - count / 2 : count / 2 - k;
+    };
+    std::stable_sort(rows.begin(), rows.end(),
+                     [&](std::size_t a, std::size_t b) { return distance(a) < distance(b); });
+    return rows;
 }
 
 }  // namespace
@@ -112,14 +125,22 @@ std::string scene_section(const RunData& run, std::size_t budget) {
         opening = SceneView(run.header, ViewFrom::quarter, options)
                       .draw(run.frames[instants[instants.size() / 2]], trails);
         used = opening.size();
-        if (used > budget / 3) opening.clear();
+        if (used > budget / 3) {
+            used = 0;
+            opening.clear();
+        }
     }
+    std::vector<SceneView> views;
     for (std::size_t v = 0; v < sides.size(); ++v) {
         views::ViewOptions options = view_options(run);
         options.hull_id = fmt::format("hull-{}", v);
-        const SceneView view(run.header, sides[v], options);
-        hulls += view.define_hull();
-        for (std::size_t k = 0; k < instants.size(); ++k) {
+        views.emplace_back(run.header, sides[v], options);
+        hulls += views.back().define_hull();
+    }
+    used += hulls.size();
+    // every side at one instant first: the other instants are the first to be left out
+    for (const std::size_t k : middle_first(instants.size()))
+        for (const SceneView& view : views) {
             std::string picture = view.draw(run.frames[instants[k]], trails);
             if (used + picture.size() > budget) {
                 ++dropped;
@@ -128,7 +149,6 @@ std::string scene_section(const RunData& run, std::size_t budget) {
             used += picture.size();
             pictures[k].push_back(std::move(picture));
         }
-    }
     std::string body = hulls + "<div class=\"legend\">" + views::draw_legend(640.0) + "</div>\n";
     if (!opening.empty()) body += "<div class=\"opening\">" + opening + "</div>\n";
     if (flat) {
@@ -146,10 +166,13 @@ std::string scene_section(const RunData& run, std::size_t budget) {
             "<p>{} more views would make this page too large; draw them with icepost view.</p>\n",
             dropped);
     return section(
-        "views", "Hull and ice",
-        "The picture moves with the ship. Paths are those of tracked floes as seen from the "
-        "ship; the dashed line is calm water.",
-        body);
+        "drawings", "Hull and ice, drawn",
+        "The picture moves with the ship; axes are world coordinates. Paths are those of "
+        "tracked floes as seen from the ship; the dashed line is calm water. From ahead "
+        "only floes beside the forebody are shown.",
+        "<details id=\"views\" open=\"open\"><summary>Views at several instants"
+        "</summary>\n" +
+            body + "</details>\n");
 }
 
 }  // namespace ice::report

@@ -46,7 +46,12 @@ std::string spelled(std::string key) {
 }  // namespace
 
 std::string ForceUnit::text(double force) const {
-    return std::isfinite(force) ? fmt::format("{:.{}f}", force / newtons, decimals) : "n/a";
+    if (!std::isfinite(force)) return "n/a";
+    const std::string number = fmt::format("{:.{}f}", force / newtons, decimals);
+    // what rounds to zero has no sign
+    return number.find_first_of("123456789") == std::string::npos && number[0] == '-'
+               ? number.substr(1)
+               : number;
 }
 
 ForceUnit choose_unit(double largest, int dimension) {
@@ -59,6 +64,12 @@ ForceUnit choose_unit(double largest, int dimension) {
         unit.decimals =
             std::clamp(3 - static_cast<int>(std::floor(std::log10(size / unit.newtons))), 0, 6);
     return unit;
+}
+
+PressureUnit choose_pressure_unit(double largest) {
+    if (size_of(largest) >= 1e6) return {"MPa", 1e6};
+    if (size_of(largest) >= 1e3) return {"kPa", 1e3};
+    return {"Pa", 1.0};
 }
 
 std::string key_numbers(const Summary& s) {

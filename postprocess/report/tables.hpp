@@ -18,6 +18,13 @@ struct ForceUnit {
 /// @param largest magnitude the unit is chosen for [N]; NaN counts as 0
 ForceUnit choose_unit(double largest, int dimension);
 
+/// Unit in which loads per area read best.
+struct PressureUnit {
+    std::string name;      ///< "Pa", "kPa", "MPa"
+    double pascals = 1.0;  ///< one unit in pascals
+};
+PressureUnit choose_pressure_unit(double largest);
+
 /// The key numbers as cards: resistance, Lindqvist, speed-up, floes.
 std::string key_numbers(const Summary& summary);
 /// Mean with its interval, parts, scatter and maximum of the three components, and Lindqvist.

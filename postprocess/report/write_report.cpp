@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "common/base/part_file.hpp"
@@ -18,9 +19,10 @@ using views::readable;
 
 namespace {
 
-constexpr std::size_t kSceneBudget =
-    1100000;                             // bytes: with the histories the page stays below 2 MB
-constexpr std::size_t kMostTracked = 8;  // floes with charts of their own
+constexpr std::size_t kPageSize = 1950000;     // bytes: drawn views take what is left of them,
+constexpr std::size_t kLeastBudget = 150000;   // but at least this much
+constexpr std::size_t kMostBudget = 500000;    // and at most this much
+constexpr std::size_t kMostTracked = 12;       // floes with charts of their own
 constexpr std::size_t kMostCaseText = 200000;  // bytes of the case shown
 
 std::string page_header(const read::RunFolder& run) {
@@ -38,14 +40,14 @@ std::string page_header(const read::RunFolder& run) {
            escape(line) + ".</p>\n</div></header>\n";
 }
 
-std::string statistics(const Summary& s) {
-    std::string out = key_numbers(s) + warning_list(s.warnings);
-    out += section("forces", "Force of the ice on the ship",
-                   fmt::format("Means over t \u2265 {} s. \u00b1 is the half width of the 95 % "
-                               "confidence interval from batch means. Lindqvist's formula is an "
-                               "empirical estimate and covers the submersion of ice only.",
-                               readable(s.average_from)),
-                   force_table(s));
+std::string statistics_sections(const Summary& s) {
+    std::string out =
+        section("forces", "Force of the ice on the ship",
+                fmt::format("Means over t \u2265 {} s. \u00b1 is the half width of the 95 % "
+                            "confidence interval from batch means. Lindqvist's formula is an "
+                            "empirical estimate and covers the submersion of ice only.",
+                            readable(s.average_from)),
+                force_table(s));
     const std::string regions = region_table(s);
     if (!regions.empty())
         out += section(
@@ -54,6 +56,15 @@ std::string statistics(const Summary& s) {
             "one floe in one step.",
             regions);
     return out;
+}
+
+std::string balance_sections(const Summary& s) {
+    std::string out;
+    const std::string energy = energy_table(s);
+    if (!energy.empty())
+        out += section("energy", "Where the ship's work went",
+                       "Work of the ship + opened overlaps = all that follows them.", energy);
+    return out + section("numerics", "Contacts and computing time", "", numerics_table(s));
 }
 
 std::string origin(const read::RunFolder& run) {
@@ -87,34 +98,38 @@ RunData with_few_tracks(const RunData& run) {
 
 }  // namespace
 
-std::string make_report(const read::RunFolder& run) {
+std::string make_report(const read::RunFolder& run, std::size_t frames) {
     const RunData data = with_few_tracks(run.data);
-    std::string body = page_header(run) + "<main>\n";
+    const double from = run.summary ? run.summary->average_from : 0.0;
+    const double mean =
+        run.summary ? run.summary->resistance.mean : std::numeric_limits<double>::quiet_NaN();
+    const RunFigures figures{statistics::make_load_map(data, from),
+                             statistics::measure_bottom_coverage(data, frames),
+                             force_histories(data, from, mean), from, data.header.dimension};
+    const ViewerData viewer = make_viewer_data(data, figures, frames);
+    PageParts page{data.header.title, page_header(run), "", "", viewer.meta, viewer.arrays};
     if (run.summary)
-        body += statistics(*run.summary);
+        page.summary = key_numbers(*run.summary) + warning_list(run.summary->warnings);
     else
-        body +=
+        page.summary =
             warning_list({"The run ended before it wrote summary.json: there are no statistics, "
                           "and pictures and histories end with the last flush."});
-    body += scene_section(data, kSceneBudget);
-    body += history_section(
-        data, run.summary ? run.summary->average_from : 0.0,
-        run.summary ? run.summary->resistance.mean : std::numeric_limits<double>::quiet_NaN());
-    body += track_section(data);
-    if (run.summary) {
-        const std::string energy = energy_table(*run.summary);
-        if (!energy.empty())
-            body += section("energy", "Where the ship's work went",
-                            "Work of the ship + opened overlaps = all that follows them.", energy);
-        body +=
-            section("numerics", "Contacts and computing time", "", numerics_table(*run.summary));
-    }
-    body += origin(run) + "</main>\n";
-    return make_page(run.data.header.title, body);
+    page.body = history_section(data, figures);
+    if (run.summary) page.body += statistics_sections(*run.summary);
+    page.body += load_section(data, figures);
+    std::string rest = track_section(data);
+    if (run.summary) rest += balance_sections(*run.summary);
+    rest += origin(run);
+    const std::size_t used = make_page(page).size() + rest.size();
+    page.body += scene_section(
+        data, std::clamp(kPageSize - std::min(kPageSize, used), kLeastBudget, kMostBudget));
+    page.body += rest;
+    return make_page(page);
 }
 
-void write_report(const read::RunFolder& run, const std::filesystem::path& file) {
-    write_text_file(file, make_report(run));
+void write_report(const read::RunFolder& run, const std::filesystem::path& file,
+                  std::size_t frames) {
+    write_text_file(file, make_report(run, frames));
 }
 
 }  // namespace ice::report

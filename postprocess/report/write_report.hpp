@@ -8,12 +8,19 @@
 
 namespace ice::report {
 
-/// The report of a run as one HTML page below 2 MB: numbers, pictures, histories, case, origin.
+/// Frames of the 3D playback: with 200 floes the page stays below 2 MB.
+constexpr std::size_t kReportFrames = 400;
+
+/// The report of a run as one HTML page: 3D playback, histories, numbers, load map, pictures, case,
+/// origin.
 ///
-/// It needs no script and no network. The report of a killed run has no tables of statistics.
-std::string make_report(const read::RunFolder& run);
+/// It needs no network, and without script or WebGL it keeps tables and drawings. The report of a
+/// killed run has no tables of statistics.
+/// @param frames of the playback at most, evenly chosen
+std::string make_report(const read::RunFolder& run, std::size_t frames = kReportFrames);
 
 /// Writes make_report() to a file. @throws Error (exit code 1) when it cannot be written.
-void write_report(const read::RunFolder& run, const std::filesystem::path& file);
+void write_report(const read::RunFolder& run, const std::filesystem::path& file,
+                  std::size_t frames = kReportFrames);
 
 }  // namespace ice::report

@@ -49,8 +49,9 @@ std::string draw_curve(const Curve& curve, const Axis& x, const Axis& y) {
     if (data.empty()) return "";
     return fmt::format(
         "<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" "
-        "stroke-linejoin=\"round\"{}/>\n",
-        data, curve.color, curve.width, dash_attribute(curve.dash));
+        "stroke-linejoin=\"round\"{}{}/>\n",
+        data, curve.color, curve.width, dash_attribute(curve.dash),
+        curve.opacity < 1.0 ? fmt::format(" opacity=\"{}\"", curve.opacity) : "");
 }
 
 }  // namespace
@@ -67,6 +68,7 @@ std::string draw_chart(const Chart& chart) {
     if (!(xs.low <= xs.high))
         return out + text_element(0.5 * chart.width, 0.5 * chart.height, "no data", "middle") +
                "</svg>\n";
+    if (chart.y_range) ys = {chart.y_range->first, chart.y_range->second};
     ys.add(0.0);
     if (chart.level) ys.add(*chart.level);
     widen(ys.low, ys.high);
@@ -85,7 +87,13 @@ std::string draw_chart(const Chart& chart) {
     }
     out += draw_axes(x, y, chart.x_title, chart.y_title);
     out += line_element(x.from, y.pixel(0.0), x.to, y.pixel(0.0), "stroke=\"#8a949c\"");
+    // the inner svg cuts off what reaches out of the plot area
+    const double wide = x.to - x.from, tall = y.from - y.to;
+    out += fmt::format(
+        "<svg x=\"{0}\" y=\"{1}\" width=\"{2}\" height=\"{3}\" viewBox=\"{0} {1} {2} {3}\">\n",
+        pixels(x.from), pixels(y.to), pixels(wide), pixels(tall));
     for (const Curve& curve : chart.curves) out += draw_curve(curve, x, y);
+    out += "</svg>\n";
     if (chart.level)
         out += line_element(x.from, y.pixel(*chart.level), x.to, y.pixel(*chart.level),
                             "stroke=\"#222222\" stroke-width=\"1.5\" stroke-dasharray=\"6 4\"");

@@ -16,12 +16,14 @@ struct Curve {
     std::vector<Vec2> points;
     double width = 1.2;  ///< of the line [px]
     std::string dash;    ///< SVG dash pattern, e.g. "6 3": tells curves apart without colour
+    double opacity = 1.0;
 };
 
 /// A line chart over time.
 struct Chart {
     std::string title, x_title = "time [s]", y_title;
     std::vector<Curve> curves;
+    std::optional<std::pair<double, double>> y_range;   ///< shown; else all; what is beyond is cut
     std::optional<double> level;                        ///< dashed line across, e.g. the mean
     std::string level_name;                             ///< its name in the legend
     std::optional<std::pair<double, double>> averaged;  ///< x range shaded as averaging window

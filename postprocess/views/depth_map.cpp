@@ -25,12 +25,13 @@ DepthMap::DepthMap(const TriangleMesh& mesh, const Projection& projection, int c
     columns_ = static_cast<int>(box.sizes().x() / cell_) + 1;
     rows_ = static_cast<int>(box.sizes().y() / cell_) + 1;
     nearest_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), kNothing);
+    triangle_.assign(nearest_.size(), 0);
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-        draw(projection.apply(mesh.corner(t, 0)), projection.apply(mesh.corner(t, 1)),
+        draw(t, projection.apply(mesh.corner(t, 0)), projection.apply(mesh.corner(t, 1)),
              projection.apply(mesh.corner(t, 2)));
 }
 
-void DepthMap::draw(const Vec3& a, const Vec3& b, const Vec3& c) {
+void DepthMap::draw(std::size_t triangle, const Vec3& a, const Vec3& b, const Vec3& c) {
     const double area = (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
     if (area == 0.0) return;
     const auto column = [&](double right) { return static_cast<int>((right - right0_) / cell_); };
@@ -48,16 +49,30 @@ void DepthMap::draw(const Vec3& a, const Vec3& b, const Vec3& c) {
             const double wc =
                 ((b.x() - a.x()) * (y - a.y()) - (b.y() - a.y()) * (x - a.x())) / area;
             if (wb < 0.0 || wc < 0.0 || wb + wc > 1.0) continue;
-            double& cell = nearest_[static_cast<std::size_t>(r * columns_ + k)];
-            cell = std::max(cell, a.z() + wb * (b.z() - a.z()) + wc * (c.z() - a.z()));
+            const auto cell = static_cast<std::size_t>(r * columns_ + k);
+            const double nearness = a.z() + wb * (b.z() - a.z()) + wc * (c.z() - a.z());
+            if (nearness <= nearest_[cell]) continue;
+            nearest_[cell] = nearness;
+            triangle_[cell] = triangle;
         }
 }
 
-double DepthMap::nearness(double right, double up) const {
-    if (columns_ == 0 || right < right0_ || up < up0_) return kNothing;
+std::optional<std::size_t> DepthMap::cell(double right, double up) const {
+    if (columns_ == 0 || right < right0_ || up < up0_) return std::nullopt;
     const double k = (right - right0_) / cell_, r = (up - up0_) / cell_;
-    if (k >= columns_ || r >= rows_) return kNothing;
-    return nearest_[static_cast<std::size_t>(static_cast<int>(r) * columns_ + static_cast<int>(k))];
+    if (k >= columns_ || r >= rows_) return std::nullopt;
+    return static_cast<std::size_t>(static_cast<int>(r) * columns_ + static_cast<int>(k));
+}
+
+double DepthMap::nearness(double right, double up) const {
+    const auto at = cell(right, up);
+    return at ? nearest_[*at] : kNothing;
+}
+
+std::optional<std::size_t> DepthMap::triangle(double right, double up) const {
+    const auto at = cell(right, up);
+    if (!at || nearest_[*at] == kNothing) return std::nullopt;
+    return triangle_[*at];
 }
 
 }  // namespace ice::views

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "postprocess/views/faces.hpp"
@@ -20,13 +21,17 @@ public:
 
     /// Nearness of the surface at a place on the page [m]; -infinity where the body is not.
     double nearness(double right, double up) const;
+    /// The triangle that is seen at a place on the page; none where the body is not.
+    std::optional<std::size_t> triangle(double right, double up) const;
 
 private:
-    void draw(const Vec3& a, const Vec3& b, const Vec3& c);
+    void draw(std::size_t triangle, const Vec3& a, const Vec3& b, const Vec3& c);
+    std::optional<std::size_t> cell(double right, double up) const;
 
     int columns_ = 0, rows_ = 0;
     double cell_ = 1.0, right0_ = 0.0, up0_ = 0.0;
     std::vector<double> nearest_;
+    std::vector<std::size_t> triangle_;  // where nearest_ is finite
 };
 
 }  // namespace ice::views

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "postprocess/views/faces.hpp"
 
+#include <meshoptimizer.h>
+
 #include <Eigen/Geometry>
 #include <cmath>
 #include <map>
@@ -160,40 +162,42 @@ CutMesh cut_mesh(const TriangleMesh& mesh, double level) {
 }
 
 TriangleMesh simplify_mesh(const TriangleMesh& mesh, std::size_t most) {
-    TriangleMesh result = mesh;
-    Eigen::AlignedBox3d box;
-    for (const Vec3& v : mesh.vertices) box.extend(v);
-    for (double cells = 120.0; result.triangles.size() > most && cells > 2.0; cells *= 0.75) {
-        const double size = box.sizes().maxCoeff() / cells;
-        std::map<std::array<long, 3>, std::int32_t> cell_vertex;
-        std::vector<std::int32_t> target(mesh.vertices.size());
-        std::vector<Vec3> sum;
-        std::vector<double> count;
-        for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-            const Vec3 p = (mesh.vertices[v] - box.min()) / size;
-            const std::array<long, 3> cell{std::lround(p.x()), std::lround(p.y()),
-                                           std::lround(p.z())};
-            target[v] =
-                cell_vertex.emplace(cell, static_cast<std::int32_t>(sum.size())).first->second;
-            const auto row = static_cast<std::size_t>(target[v]);
-            if (row == sum.size()) {
-                sum.push_back(Vec3::Zero());
-                count.push_back(0.0);
-            }
-            sum[row] += mesh.vertices[v];
-            count[row] += 1.0;
+    if (mesh.triangles.size() <= most) return mesh;
+    std::vector<float> points;
+    for (const Vec3& v : mesh.vertices)
+        for (int k = 0; k < 3; ++k) points.push_back(static_cast<float>(v[k]));
+    std::vector<unsigned> corners, kept;
+    for (const auto& t : mesh.triangles) corners.insert(corners.end(), t.begin(), t.end());
+    kept.resize(corners.size());
+    constexpr float kAnyError = 1e6f;
+    std::size_t count =
+        meshopt_simplify(kept.data(), corners.data(), corners.size(), points.data(),
+                         mesh.vertices.size(), 3 * sizeof(float), 3 * most, kAnyError, 0, nullptr);
+    // edges that may not collapse (seams of a surface that is not closed) can stop it too early
+    if (count > 3 * most)
+        count = meshopt_simplifySloppy(kept.data(), corners.data(), corners.size(), points.data(),
+                                       mesh.vertices.size(), 3 * sizeof(float), 3 * most, kAnyError,
+                                       nullptr);
+    // the corners left are corners of the mesh: a triangle has the region most of them had
+    std::vector<std::int32_t> vertex_region(mesh.vertices.size(), 0);
+    for (std::size_t t = 0; t < mesh.region.size(); ++t)
+        for (const std::int32_t v : mesh.triangles[t])
+            vertex_region[static_cast<std::size_t>(v)] = mesh.region[t];
+    TriangleMesh result;
+    result.region_names = mesh.region_names;
+    std::map<unsigned, std::int32_t> row;
+    for (std::size_t k = 0; k + 2 < count; k += 3) {
+        std::array<std::int32_t, 3> triangle{}, region{};
+        for (std::size_t c = 0; c < 3; ++c) {
+            const auto [place, is_new] =
+                row.emplace(kept[k + c], static_cast<std::int32_t>(result.vertices.size()));
+            if (is_new) result.vertices.push_back(mesh.vertices[kept[k + c]]);
+            triangle[c] = place->second;
+            region[c] = vertex_region[kept[k + c]];
         }
-        result.vertices.clear();
-        for (std::size_t k = 0; k < sum.size(); ++k) result.vertices.push_back(sum[k] / count[k]);
-        result.triangles.clear();
-        for (const auto& t : mesh.triangles) {
-            const std::int32_t a = target[static_cast<std::size_t>(t[0])],
-                               b = target[static_cast<std::size_t>(t[1])],
-                               c = target[static_cast<std::size_t>(t[2])];
-            if (a != b && b != c && c != a) result.triangles.push_back({a, b, c});
-        }
+        result.triangles.push_back(triangle);
+        result.region.push_back(region[1] == region[2] ? region[1] : region[0]);
     }
-    result.region.assign(result.triangles.size(), 0);
     return result;
 }
 

@@ -27,8 +27,9 @@ struct CutMesh {
 };
 CutMesh cut_mesh(const TriangleMesh& mesh, double level);
 
-/// Merges vertices that lie in one cell of a grid; triangles that collapse vanish. For pictures
-/// only: volume and closedness are not kept. Meshes of up to `most` triangles come back unchanged.
+/// Takes away the edges that change the form least (quadric error, Garland and Heckbert 1997) until
+/// `most` triangles are left. For pictures only: volume is not kept, nor is closedness where the
+/// surface cannot be simplified so far. Meshes of up to `most` triangles come back unchanged.
 TriangleMesh simplify_mesh(const TriangleMesh& mesh, std::size_t most);
 
 }  // namespace ice::views

@@ -12,7 +12,6 @@ namespace ice::views {
 
 namespace {
 
-const Eigen::Vector3i kUnderWater(186, 84, 62), kAboveWater(112, 124, 136);
 constexpr std::size_t kMostTriangles = 3000;  // a picture of 560 px shows no more
 constexpr std::size_t kEdgesShown = 400;      // beyond, edges of the faces would only blacken
 
@@ -76,12 +75,12 @@ double brightness(const Vec3& normal, const Projection& projection) {
 }
 
 std::string draw_hull(const TriangleMesh& mesh, const Projection& projection,
-                      const PageScale& scale, double waterline) {
+                      const PageScale& scale, double waterline, const HullColours& colours) {
     const TriangleMesh simple = simplify_mesh(mesh, kMostTriangles);
     const CutMesh cut = cut_mesh(simple, waterline);
     const auto below = make_faces(cut.below), above = make_faces(cut.above);
-    auto painted = visible_faces(below, kUnderWater, projection);
-    const auto dry = visible_faces(above, kAboveWater, projection);
+    auto painted = visible_faces(below, colours.wet, projection);
+    const auto dry = visible_faces(above, colours.dry, projection);
     painted.insert(painted.end(), dry.begin(), dry.end());
     std::stable_sort(painted.begin(), painted.end(),
                      [](const Painted& a, const Painted& b) { return a.nearness < b.nearness; });

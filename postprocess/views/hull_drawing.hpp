@@ -19,11 +19,16 @@ struct PageScale {
     }
 };
 
+/// Base colours of the hull's faces, red, green, blue in [0, 255].
+struct HullColours {
+    Eigen::Vector3i wet{186, 84, 62}, dry{112, 124, 136};
+};
+
 /// The hull as SVG: faces under and above the waterline in different colours, shaded, far ones
 /// first, then its silhouette and, from above and below, its waterline.
 /// @param mesh in the ship frame; @param waterline height of the water there [m]
 std::string draw_hull(const TriangleMesh& mesh, const Projection& projection,
-                      const PageScale& scale, double waterline);
+                      const PageScale& scale, double waterline, const HullColours& colours = {});
 
 /// Brightness of a face in [0.68, 1.06], in steps that the eye does not see: light comes from the
 /// viewer's upper left.

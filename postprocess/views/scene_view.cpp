@@ -90,6 +90,7 @@ SceneView::SceneView(const RunHeader& header, ViewFrom from, const ViewOptions& 
     s.hull = draw_hull(hull, s.projection, s.scale, options.waterline);
 }
 
+SceneView::SceneView(SceneView&&) noexcept = default;
 SceneView::~SceneView() = default;
 
 std::string SceneView::define_hull() const {
@@ -121,7 +122,10 @@ std::vector<Item> SceneView::Parts::sort_floes(const RunFrame& frame) const {
         if (p.x() + r < window.left || p.x() - r > window.right || p.y() + r < window.bottom ||
             p.y() - r > window.top)
             continue;
-        if (from == ViewFrom::front && offset.x() - r > hull_box.max().x()) continue;
+        // from ahead: what is beside the forebody, not the whole field in one plane
+        if (from == ViewFrom::front &&
+            (offset.x() - r > hull_box.max().x() || offset.x() + r < hull_box.center().x()))
+            continue;
         const Mat3 turn = frame.orientation[b].toRotationMatrix();
         double nearer = 0.0;
         for (const Face& face : faces[shape]) nearer += nearness_to_hull(face, offset, turn);
@@ -222,7 +226,7 @@ std::string SceneView::Parts::draw_frame_axes(const RunFrame& frame) const {
     const double x_shift = from == ViewFrom::front ? ship.y() : ship.x();
     Axis x{window.left + x_shift, window.right + x_shift, kLeft, kLeft + width};
     Axis y{window.bottom, window.top, kTop + height, kTop};
-    std::string x_title = "x [m]", y_title = "y [m], to port";
+    std::string x_title = "x in the world [m]", y_title = "y [m], to port";
     if (from == ViewFrom::side || from == ViewFrom::front) {
         y.low -= options.waterline;  // heights above the water
         y.high -= options.waterline;

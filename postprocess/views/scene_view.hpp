@@ -31,11 +31,13 @@ struct ViewOptions {
 /// once and looks the same in every frame.
 ///
 /// Floes are drawn face by face, the far ones first; hull and floes are ordered by comparing each
-/// floe with the hull at its place. Floes outside the picture and, from ahead, those before the
-/// stem are left out. A 2D run (per metre of breadth) is best seen from the side.
+/// floe with the hull at its place. Floes outside the picture are left out and, from ahead, those
+/// before the stem or aft of midships. Axes are world coordinates. A 2D run (per metre of breadth)
+/// is best seen from the side.
 class SceneView {
 public:
     SceneView(const RunHeader& header, ViewFrom from, const ViewOptions& options);
+    SceneView(SceneView&&) noexcept;
     ~SceneView();
 
     /// Invisible SVG that defines the hull under options.hull_id; put it once into the page.

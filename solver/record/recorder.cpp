@@ -134,6 +134,7 @@ void Recorder::add(const StepView& view) {
     measure_floe_forces(view.constraints, dt_, floe_forces_);
     for (std::size_t i = 1; i < floe_forces_.size(); ++i)
         frame_impulse_[i] -= dt_ * (floe_forces_[i].contact + floe_forces_[i].friction);
+    hull_contacts_.add(view.contacts, view.constraints);
     add_history(view, record);
     // half a step of tolerance: times are multiples of dt up to rounding
     if (view.time + 0.5 * dt_ >= static_cast<double>(frames_) * parameters_.frames_every)
@@ -206,6 +207,7 @@ void Recorder::add_frame(const StepView& view) {
         frame.contact_force.push_back(span > 0.0 ? Vec3(frame_impulse_[i] / span) : Vec3::Zero());
         frame.state.push_back(state_of(view.scene, i));
     }
+    frame.hull_contacts = hull_contacts_.take(span);
     run_->add(frame);
     std::fill(frame_impulse_.begin(), frame_impulse_.end(), Vec3::Zero());
     last_frame_ = view.time;

@@ -13,6 +13,7 @@
 #include "solver/case/case.hpp"
 #include "solver/record/csv_file.hpp"
 #include "solver/record/energy_ledger.hpp"
+#include "solver/record/hull_contacts.hpp"
 #include "solver/record/tally.hpp"
 
 namespace ice {
@@ -79,6 +80,7 @@ private:
     int row_steps_ = 0;
     std::vector<FloeForces> tracked_sum_;  ///< per tracked floe, since the last row
     std::vector<Vec3> frame_impulse_;      ///< ship on floe since the last frame [N s]
+    HullContacts hull_contacts_;           ///< since the last frame
     double last_frame_ = 0.0;
     std::int64_t frames_ = 0, rows_ = 0;
 };

@@ -61,10 +61,28 @@ void StateFields::carry(CheckpointFile& file, Recorder& r) {
     file.column("row.tracked_friction", r.tracked_sum_, &FloeForces::friction);
     file.column("row.tracked_ice", r.tracked_sum_, &FloeForces::ice);
     file.carry_each("frame.impulse", r.frame_impulse_);
+    carry(file, r.hull_contacts_);
     file.carry("frame.last_time", r.last_frame_);
     file.carry("frame.count", r.frames_);
     file.carry("row.count", r.rows_);
     carry(file, r.tally_);
+}
+
+void StateFields::carry(CheckpointFile& file, HullContacts& h) {
+    std::vector<std::pair<std::int32_t, std::int32_t>> keys;
+    std::vector<HullContacts::Sum> sums;
+    for (const auto& [key, sum] : h.sums_) {  // a map goes as a table
+        keys.push_back(key);
+        sums.push_back(sum);
+    }
+    file.column("hull_contacts.floe", keys, &std::pair<std::int32_t, std::int32_t>::first);
+    file.column("hull_contacts.sphere", keys, &std::pair<std::int32_t, std::int32_t>::second);
+    file.column("hull_contacts.weight", sums, &HullContacts::Sum::weight);
+    file.column("hull_contacts.point", sums, &HullContacts::Sum::point);
+    file.column("hull_contacts.push", sums, &HullContacts::Sum::push);
+    file.column("hull_contacts.rub", sums, &HullContacts::Sum::rub);
+    h.sums_.clear();
+    for (std::size_t k = 0; k < keys.size(); ++k) h.sums_.emplace(keys[k], sums[k]);
 }
 
 void StateFields::carry(CheckpointFile& file, Tally& t) {
@@ -102,6 +120,7 @@ void StateFields::carry(CheckpointFile& file, Tally& t) {
 void StateFields::carry(CheckpointFile& file, RecordPosition& position) {
     file.carry("files.samples", position.run.samples);
     file.carry("files.frames", position.run.frames);
+    file.carry("files.contacts", position.run.contacts);
     file.carry("files.last_orientation", position.run.last_orientation);
     file.carry("files.csv_bytes", position.csv_bytes);
 }

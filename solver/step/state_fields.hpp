@@ -30,6 +30,7 @@ struct StateFields {
 
 private:
     static void carry(CheckpointFile& file, Tally& tally);
+    static void carry(CheckpointFile& file, HullContacts& contacts);
 };
 
 }  // namespace ice

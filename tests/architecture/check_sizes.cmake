@@ -13,7 +13,7 @@ function(count_columns line out)
   set(${out} ${length} PARENT_SCOPE)
 endfunction()
 
-find_sources(sources hpp cpp)
+find_sources(sources hpp cpp js mjs)
 foreach(source IN LISTS sources)
   read_lines(${source} lines)
   set(count 0)

@@ -8,8 +8,8 @@ set(order_preprocess preprocess/load preprocess/clean preprocess/measure preproc
   preprocess/slice preprocess/fill preprocess/write preprocess)
 set(order_solver solver/case solver/shape solver/water solver/scene solver/broad solver/narrow
   solver/contact solver/integrate solver/record solver/step solver)
-set(order_postprocess postprocess/read postprocess/views postprocess/report postprocess/paraview
-  postprocess/check postprocess)
+set(order_postprocess postprocess/read postprocess/views postprocess/statistics postprocess/report
+  postprocess/paraview postprocess/check postprocess)
 set(tools preprocess solver postprocess)
 
 # Third-party headers and the files that may include them: pairs of regular expressions. Tests may
@@ -20,11 +20,12 @@ set(quarantine
   "<CGAL/"           "^preprocess/(clean|measure|repair|slice)/"
   "<toml"            "^(solver/case|postprocess/check)/"
   "<(hdf5|H5)"       "^common/formats/"
-  "<nlohmann/"       "^common/formats/"
+  "<nlohmann/"       "^(common/formats|postprocess/report)/"
   "<hwy/"            "_simd\\.cpp$"
   "<omp\\.h>"        "^common/base/parallel\\.hpp$"
   "<spdlog/"         "^common/cli/"
   "<CLI/"            "^(common/cli/|(preprocess/spherize|solver/icesolve|postprocess/icepost)\\.cpp$)"
+  "<meshoptimizer"   "^postprocess/views/"
   "<(zlib|zconf)\\." "^(preprocess/load|postprocess/(paraview|report))/"
   "<(openvdb|tbb)/"  "^tests/bench/bench_peers\\.cpp$"
   "<box2d/"          "^tests/peers/"
@@ -40,7 +41,7 @@ set(many_lines 300) # listed, not refused
 function(find_sources out)
   set(found "")
   foreach(kind IN LISTS ARGN)
-    foreach(folder IN ITEMS cases common meshes postprocess preprocess solver tests)
+    foreach(folder IN ITEMS cases common docs examples meshes postprocess preprocess solver tests)
       file(GLOB_RECURSE part RELATIVE ${ROOT} ${ROOT}/${folder}/*.${kind})
       list(APPEND found ${part})
     endforeach()

@@ -131,6 +131,11 @@ inline RunData make_run(const RunSize& size = {}) {
             frame.angular_velocity.emplace_back(0.0, pushed ? 1.5 : 0.0, 0.0);
             frame.contact_force.emplace_back(pushed ? 100.0 : 0.0, 0.0, pushed ? -300.0 : 0.0);
             frame.state.push_back(pushed ? FloeState::moving : FloeState::held);
+            // on the bottom, 1 m behind the bow; the ship feels the opposite of the floe
+            if (pushed && f > 0)
+                frame.hull_contacts.push_back(
+                    {static_cast<std::int32_t>(k + 1), static_cast<std::int32_t>(k % 2),
+                     Vec3(7.0, 0.5 * side, -0.7), Vec3(0.0, 0.0, 300.0), Vec3(-100.0, 0.0, 0.0)});
         }
         for (std::size_t s = 0; s < size.samples_per_frame; ++s) {
             HistoryRow row;

@@ -16,7 +16,7 @@ with tempfile.TemporaryDirectory() as folder:
     subprocess.run([sys.argv[1], path, "--killed"], check=True)
     with h5py.File(path + ".part", "r") as run:
         assert run["frames/position"].shape == (40, 6, 3), run["frames/position"].shape
-        assert run["time"].shape == (400,)
+        assert run["time"].shape == (384,)
 
     subprocess.run([sys.argv[1], path], check=True)
     with h5py.File(path, "r") as run:
@@ -25,6 +25,8 @@ with tempfile.TemporaryDirectory() as folder:
         assert run["frames/position"].shape == (45, 6, 3)
         assert run["ship/force"].dims[0].keys() == ["time"]
         assert run["tracked/6"].shape == (450, 22)
+        contacts = run["contacts/floe"].shape[0]
+        assert contacts > 40 and run["contacts/point"].shape == (contacts, 3), contacts
 
         def every_dimension_has_a_label(name, item):
             if not isinstance(item, h5py.Dataset) or h5py.h5ds.is_scale(item.id):
@@ -41,6 +43,7 @@ with tempfile.TemporaryDirectory() as folder:
         sys.exit(0)
     for group, variable, dims in [("ship", "force", ("time", "xyz")),
                                   ("frames", "orientation", ("frame_time", "body", "wxyz")),
+                                  ("contacts", "normal_force", ("contact_time", "xyz")),
                                   ("tracked", "6", ("time", "track_columns"))]:
         for engine in ("h5netcdf", "netcdf4"):
             try:

@@ -36,6 +36,15 @@ void check_frame(const RunFrame& a, const RunFrame& b) {
     REQUIRE(a.orientation.size() == b.orientation.size());
     for (std::size_t k = 0; k < a.orientation.size(); ++k)
         CHECK(a.orientation[k].angularDistance(b.orientation[k]) < kPose);
+    REQUIRE(a.hull_contacts.size() == b.hull_contacts.size());
+    for (std::size_t k = 0; k < a.hull_contacts.size(); ++k) {
+        const HullContact &x = a.hull_contacts[k], &y = b.hull_contacts[k];
+        CHECK(x.floe == y.floe);
+        CHECK(x.sphere == y.sphere);
+        CHECK((x.point - y.point).norm() < 10 * kPose);
+        CHECK(x.normal_force == y.normal_force);  // whole numbers: exact as float
+        CHECK(x.friction_force == y.friction_force);
+    }
 }
 
 void check_history(const RunData& a, const RunData& b, std::size_t rows) {
@@ -129,8 +138,13 @@ TEST_CASE("a run of 45 frames so far, alive or killed, can be read up to the flu
     const RunData killed = read_run(folder / "run.h5.part");
     for (const RunData* back : {&alive, &killed}) {
         REQUIRE(back->frames.size() == 40);
-        check_history(run, *back, 400);
-        check_frame(run.frames[39], back->frames[39]);
+        check_history(run, *back, 384);  // whole chunks of 64 rows of the 400
+        check_frame(run.frames[20], back->frames[20]);
+        CHECK(distance(run.frames[39].position, back->frames[39].position) < kPose);
+        std::size_t contacts = 0;
+        for (const RunFrame& frame : back->frames) contacts += frame.hull_contacts.size();
+        CHECK(contacts > 0);
+        CHECK(contacts % 64 == 0);
     }
 }
 

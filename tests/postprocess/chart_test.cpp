@@ -33,7 +33,7 @@ TEST_CASE("20000 samples become at most 2000 points that keep a hit of one sampl
     CHECK(low == -60.0);
 }
 
-TEST_CASE("short curves stay whole; NaN is left out; all at one time does not divide by 0",
+TEST_CASE("short curves stay whole, NaN is left out, all at one time does not divide by 0",
           "[views]") {
     CHECK(decimate({0, 1, 2}, {1, NAN, 3}, 10).size() == 2);
     CHECK(decimate({}, {}, 10).empty());
@@ -47,7 +47,7 @@ TEST_CASE("the moving average of a constant is the constant, of one sample nothi
     CHECK(moving_average({0}, {5}, 1.0, 7).empty());
 }
 
-TEST_CASE("ticks of 0 to 30 are 0, 10, 20, 30; labels have no needless decimals", "[views]") {
+TEST_CASE("ticks of 0 to 30 are 0, 10, 20, 30, labels have no needless decimals", "[views]") {
     CHECK(choose_ticks(0.0, 30.0, 4) == std::vector<double>{0, 10, 20, 30});
     CHECK(choose_ticks(-0.1, 0.1, 5).size() == 5);
     CHECK(choose_ticks(2.0, 2.0, 5) == std::vector<double>{2.0});

@@ -105,3 +105,17 @@ TEST_CASE("the nearest name is found within two fifths of the letters", "[check]
     CHECK(nearest_name("zzzzz", names).empty());
     CHECK(nearest_name("", names).empty());
 }
+
+TEST_CASE("every case says what is expected of it and where each value comes from", "[check]") {
+    int cases = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(ICE_SOURCE_DIR "/cases")) {
+        if (!std::filesystem::exists(entry.path() / "case.cfg")) continue;
+        ++cases;
+        CAPTURE(entry.path().string());
+        for (const Expectation& e : read_expected(entry.path() / "expected.toml")) {
+            CAPTURE(e.key);
+            CHECK(e.why.size() > 10);
+        }
+    }
+    CHECK(cases > 0);
+}

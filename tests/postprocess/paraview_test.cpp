@@ -66,7 +66,7 @@ TEST_CASE("points, triangles and data of a .vtp file come back from the compress
     CHECK(text.ends_with("</AppendedData></VTKFile>\n"));
 }
 
-TEST_CASE("points without triangles become one vertex each; an empty file has no cells",
+TEST_CASE("points without triangles become one vertex each, an empty file has no cells",
           "[paraview]") {
     VtpFile file;
     file.points = {1, 2, 3, 4, 5, 6};
@@ -80,7 +80,7 @@ TEST_CASE("points without triangles become one vertex each; an empty file has no
 TEST_CASE("a run of 45 frames exported with every 10th gives 5 files of each kind", "[paraview]") {
     const TempFolder folder;
     const RunData run = make_run();
-    CHECK(write_paraview(run, folder / "pv", 10) == 5);
+    CHECK(write_paraview(run, folder / "pv", {10}) == 5);
     for (const char* name : {"run.pvd", "floes.pvd", "hull.pvd", "bodies.pvd", "shapes.vtm"}) {
         CAPTURE(name);
         CHECK(tag_fault(read_bytes(folder / "pv" / name)).empty());
@@ -98,7 +98,7 @@ TEST_CASE("exported corners are position + rotation of the mesh, states and forc
           "[paraview]") {
     const TempFolder folder;
     const RunData run = make_run();
-    write_paraview(run, folder / "pv", 1);
+    write_paraview(run, folder / "pv", {1});
     const RunFrame& frame = run.frames[40];
     const std::string text = read_bytes(folder / "pv/frames/floes_00040.vtp");
     const auto points = values_of<float>(text, "Points", "Float32");
@@ -128,15 +128,15 @@ TEST_CASE("exported corners are position + rotation of the mesh, states and forc
     CHECK(values_of<float>(hull, "Points", "Float32")[0] == Approx(4.0));  // 0 m + 1 m/s * 4 s
 }
 
-TEST_CASE("0 floes are exported as empty surfaces; a run without frames is an error",
+TEST_CASE("0 floes are exported as empty surfaces, a run without frames is an error",
           "[paraview]") {
     const TempFolder folder;
-    CHECK(write_paraview(make_run({.floes = 0, .frames = 2}), folder / "pv", 1) == 2);
+    CHECK(write_paraview(make_run({.floes = 0, .frames = 2}), folder / "pv", {1}) == 2);
     RunData none = make_run();
     none.frames.clear();
-    CHECK_THAT(error_text([&] { write_paraview(none, folder / "pv", 1); }),
+    CHECK_THAT(error_text([&] { write_paraview(none, folder / "pv", {1}); }),
                Catch::Contains("no frames to export"));
     write_bytes(folder / "file", "");
-    CHECK_THAT(error_text([&] { write_paraview(make_run(), folder / "file", 1); }),
+    CHECK_THAT(error_text([&] { write_paraview(make_run(), folder / "file", {1}); }),
                Catch::Contains("cannot be created"));
 }

@@ -6,6 +6,7 @@ import sys
 import tempfile
 
 try:
+    from vtkmodules.vtkFiltersCore import vtkMassProperties
     from vtkmodules.vtkIOXML import vtkXMLMultiBlockDataReader, vtkXMLPolyDataReader
 except ImportError:
     print("skipped: VTK is not installed (apt-get install python3-vtk9)")
@@ -16,9 +17,9 @@ with tempfile.TemporaryDirectory() as folder:
     subprocess.run([sys.argv[2], "-q", "paraview", folder], check=True)
     out = os.path.join(folder, "paraview")
 
-    def read(name):
+    def read(name, folder="frames"):
         reader = vtkXMLPolyDataReader()
-        reader.SetFileName(os.path.join(out, "frames", name))
+        reader.SetFileName(os.path.join(out, folder, name))
         reader.Update()
         assert reader.GetErrorCode() == 0, name
         return reader.GetOutput()
@@ -39,6 +40,19 @@ with tempfile.TemporaryDirectory() as folder:
     turn = bodies.GetPointData().GetArray("orientation")
     assert turn.GetNumberOfComponents() == 4
     assert abs(sum(v * v for v in turn.GetTuple(0)) - 1) < 1e-6
+
+    # at 4 s five floes press with 300 N on the bottom, 1 m behind a bow at x = 12 m
+    contacts = read("contacts_00040.vtp")
+    assert contacts.GetNumberOfPoints() == contacts.GetNumberOfVerts() > 0
+    assert all(abs(a - b) < 1e-5 for a, b in zip(contacts.GetPoint(0), (11, -0.5, -0.7)))
+    assert contacts.GetPointData().GetArray("normal_force").GetTuple(0) == (0, 0, 300)
+    assert read("contacts_00000.vtp").GetNumberOfPoints() == 0
+
+    load = read("hull_load.vtp", ".")
+    mass = vtkMassProperties()
+    mass.SetInputData(load)
+    assert abs(mass.GetSurfaceArea() - 56) < 1e-4, mass.GetSurfaceArea()  # 8 x 2 x 1.2 m
+    assert load.GetCellData().GetArray("load").GetRange()[1] > 0
 
     shapes = vtkXMLMultiBlockDataReader()
     shapes.SetFileName(os.path.join(out, "shapes.vtm"))

@@ -45,8 +45,17 @@ with tempfile.TemporaryDirectory() as folder:
     xml.fromstring(page.replace("<!DOCTYPE html>", ""))  # well-formed
     expect(run("view", folder, "--time", "2", "--from", "side", "--out", path("a.svg")), 0)
     assert xml.parse(path("a.svg")).getroot().tag.endswith("svg")
+    expect(run("plot", folder), 0)
+    assert xml.parse(path("plot.svg")).getroot().tag.endswith("svg")
+    expect(run("table", folder), 2, err="holds no summary.json")
+    expect(run("view", folder, "--time", "99", "--out", path("b.svg")), 0,
+           err="frames from 0 to 4.4 s, none at 99 s")
     expect(run("paraview", folder, "--every", "20", "--out", path("pv")), 0)
-    assert len(os.listdir(path("pv/frames"))) == 3 * 3 + 2
+    assert len(os.listdir(path("pv/frames"))) == 3 * 4 + 2
+    expect(run("paraview", folder, "--points-only", "--every", "20", "--out", path("dots")), 0)
+    assert len(os.listdir(path("dots/frames"))) == 3 * 2 + 2
+    assert sorted(f for f in os.listdir(path("dots")) if f != "frames") == [
+        "bodies.pvd", "contacts.pvd", "hull_load.vtp", "shapes.vtm"]
 
     expect(run(), 2)
     expect(run("report"), 2, err="RUN")

@@ -77,7 +77,7 @@ TEST_CASE("a floe ahead of the stem is left out from ahead, one under it is draw
     CHECK(draw_one(ViewFrom::front, {7.0, 0.0, -0.85}).find(kTouched) != std::string::npos);
 }
 
-TEST_CASE("a floe ahead is drawn to the right of one aft; one far away is not drawn", "[views]") {
+TEST_CASE("a floe ahead is drawn to the right of one aft, one far away is not drawn", "[views]") {
     const double ahead = first_x(draw_one(ViewFrom::below, {8.6, 0.0, -0.1}), kTouched);
     const double aft = first_x(draw_one(ViewFrom::below, {-1.0, 0.0, -0.1}), kTouched);
     CHECK(ahead > aft + 300.0);

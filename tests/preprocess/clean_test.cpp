@@ -27,7 +27,7 @@ TriangleMesh unwelded(const TriangleMesh& mesh) {
 
 }  // namespace
 
-TEST_CASE("welding gives a box its 8 corners back; equal corners are no repair", "[clean]") {
+TEST_CASE("welding gives a box its 8 corners back, equal corners are no repair", "[clean]") {
     TriangleMesh mesh = unwelded(test::make_box_mesh(Vec3(1, 0.8, 0.3)));
     const WeldCounts counts = weld(mesh);
     CHECK(mesh.vertices.size() == 8);

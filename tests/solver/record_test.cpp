@@ -5,6 +5,7 @@
 #include <numbers>
 #include <random>
 
+#include "solver/record/hull_contacts.hpp"
 #include "solver/record/lindqvist.hpp"
 #include "solver/record/measure_step.hpp"
 #include "solver/record/statistics.hpp"
@@ -123,6 +124,41 @@ TEST_CASE("forces are the opposite of what the floe feels, split into normal and
     std::vector<FloeForces> forces(2);
     measure_floe_forces(w.constraints, 0.01, forces);
     CHECK((forces[1].contact - r.contact_force).norm() < 1e-9);
+}
+
+TEST_CASE("hull contacts between two frames add up to the forces of their steps",
+          "[record][property]") {
+    Case p = test::empty_space(0.01);
+    p.speed_table = {{0.0, 1.0}};
+    World w = test::plate_world(p, Vec3(4, 4, 0.4), 0.1, 0.1, 0.0);
+    const auto box = test::add_shape(w, test::make_box_set(Vec3(1, 0.8, 0.3), 0.05, 0.1));
+    const std::size_t i =
+        add_floe(w.scene, box, 900.0, Vec3(0, 0, -0.151), Quaternion::Identity(), 0, false);
+    HullContacts contacts;
+    Vec3 push = Vec3::Zero(), rub = Vec3::Zero();
+    const int steps = 5;
+    for (int k = 0; k < steps; ++k) {
+        w.scene.bodies.momentum[i] = w.scene.bodies.mass[i] * Vec3(0, 0, 0.5);
+        update_derived(w.scene.bodies, i);
+        step(w);
+        contacts.add(w.contacts, w.constraints);
+        const StepRecord r = measure_step(w.scene, w.contacts, w.constraints, 0.01);
+        push += r.contact_force / steps;
+        rub += r.friction_force / steps;
+    }
+    const auto found = contacts.take(steps * 0.01);
+    REQUIRE(found.size() > 1);
+    for (const HullContact& c : found) {
+        push -= c.normal_force;
+        rub -= c.friction_force;
+        CHECK(c.floe == 1);
+        // on the plate's lower face, in the frame of the ship that has moved on by 0.05 m
+        CHECK(c.point.z() == Approx(-0.2).margin(0.01));
+        CHECK(std::abs(c.point.x() + 0.05) < 0.55);
+    }
+    CHECK(push.norm() < 1e-9);
+    CHECK(rub.norm() < 1e-9);
+    CHECK(contacts.take(1.0).empty());
 }
 
 TEST_CASE("a touch that lasts is one hit, a second touch another", "[record]") {

@@ -88,7 +88,7 @@ TEST_CASE("a row of five apart from each other hands the blow on: ((1 + e) / 2)^
          "impacts one after another"});
 }
 
-TEST_CASE("a stack of ten floes under a hull comes to rest; each layer carries those below",
+TEST_CASE("a stack of ten floes under a hull comes to rest, each layer carries those below",
           "[validation]") {
     // the defaults, and a solver that leaves less: what it leaves keeps the stack creeping
     const bool tight = GENERATE(false, true);

@@ -1,4 +1,3 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <zlib.h>
-#include <nlohmann/json.hpp>
 #include "postprocess/icepost.hpp"

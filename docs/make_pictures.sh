@@ -1,0 +1,15 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# README's pictures, from the run that ./bootstrap.sh demo makes: docs/make_pictures.sh [RUN]
+# Needs Chromium (apt-get install chromium).
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+run=$(realpath "${1:-results/paper-3d}")
+icepost=${ICEPOST:-build/release/bin/icepost}
+
+"$icepost" view "$run" --time 17 --from quarter --out docs/paper-3d-below.svg
+[[ -f $run/report.html ]] || "$icepost" report "$run"
+# the clock of the page runs ahead of the real one until everything is drawn
+chromium --headless=new --no-sandbox --use-angle=swiftshader --enable-unsafe-swiftshader \
+    --hide-scrollbars --window-size=1100,1560 --virtual-time-budget=10000 \
+    --screenshot="$PWD/docs/report.png" "file://$run/report.html#t=17&camera=keel&hull=load"

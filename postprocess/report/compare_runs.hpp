@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/formats/summary_file.hpp"
+
+namespace ice::report {
+
+using NamedSummary = std::pair<std::string, Summary>;  ///< folder as given, summary.json
+
+/// Several runs side by side, a line each: resistance with interval, its parts, scatter, maximum,
+/// Lindqvist's estimate, floes moved, steps that did not converge, status; newtons (2D: per metre).
+/// Numbers have the digits that the interval is worth. Missing values are "-".
+std::string compare_text(const std::vector<NamedSummary>& runs);
+
+/// The same as CSV (RFC 4180), all digits; missing values are empty.
+std::string compare_csv(const std::vector<NamedSummary>& runs);
+
+}  // namespace ice::report

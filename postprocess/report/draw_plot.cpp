@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "postprocess/report/draw_plot.hpp"
+
+#include <fmt/format.h>
+
+#include <limits>
+
+#include "common/base/error.hpp"
+#include "postprocess/report/pictures.hpp"
+#include "postprocess/report/write_report.hpp"
+#include "postprocess/views/chart.hpp"
+
+namespace ice::report {
+
+namespace {
+
+constexpr int kColumns = 2;
+
+// paths of the tracked floes, x to the right and another axis up
+std::string draw_paths(const std::vector<views::Trail>& trails, int axis) {
+    views::Chart chart;
+    chart.title = axis == 1 ? "Paths of tracked floes, from above" : "Paths, from starboard";
+    chart.x_title = "x from the ship's origin [m]";
+    chart.y_title = axis == 1 ? "y [m], to port" : "z [m]";
+    for (const views::Trail& trail : trails) {
+        views::Curve curve{fmt::format("{}", trail.floe), trail.color, {}, 1.4, "", 1.0};
+        for (const Vec3& p : trail.offset) curve.points.emplace_back(p.x(), p[axis]);
+        chart.curves.push_back(std::move(curve));
+    }
+    return draw_chart(chart);
+}
+
+}  // namespace
+
+std::string draw_plot(const read::RunFolder& run) {
+    const double from = run.summary ? run.summary->average_from : 0.0;
+    const double mean =
+        run.summary ? run.summary->resistance.mean : std::numeric_limits<double>::quiet_NaN();
+    const auto histories = force_histories(run.data, from, mean);
+    if (histories.empty())
+        throw bad_input(run.path.string(), "the run has no histories to plot",
+                        "it ended before its first samples were written");
+    std::vector<std::string> charts;
+    for (const History& h : histories) charts.push_back(draw_history(h));
+    const auto coverage = statistics::measure_bottom_coverage(run.data, kReportFrames);
+    if (coverage.share.size() > 1) charts.push_back(draw_coverage(coverage));
+    const auto trails = make_trails(run.data);
+    if (!trails.empty()) {
+        if (run.data.header.dimension == 3) charts.push_back(draw_paths(trails, 1));
+        charts.push_back(draw_paths(trails, 2));
+    }
+    const views::Chart size;  // all charts have the default size
+    const auto rows = (charts.size() + kColumns - 1) / kColumns;
+    const double gap = 12.0, title = 30.0;
+    std::string out = views::svg_open(kColumns * (size.width + gap),
+                                      title + static_cast<double>(rows) * (size.height + gap),
+                                      run.data.header.title);
+    out += views::text_element(8.0, 20.0, run.data.header.title, "start",
+                               "font-weight=\"700\" font-size=\"16\"");
+    for (std::size_t k = 0; k < charts.size(); ++k)
+        out += fmt::format(
+            "<g transform=\"translate({} {})\">\n{}</g>\n",
+            views::pixels(static_cast<double>(k % kColumns) * (size.width + gap)),
+            views::pixels(title + static_cast<double>(k / kColumns) * (size.height + gap)),
+            charts[k]);
+    return out + "</svg>\n";
+}
+
+}  // namespace ice::report

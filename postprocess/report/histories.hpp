@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Force histories ready to be drawn: as SVG (history_section.cpp) and by the viewer.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/formats/run_file.hpp"
+#include "postprocess/report/tables.hpp"
+
+namespace ice::report {
+
+/// One chart: curves over a common time, in one unit.
+struct History {
+    struct Curve {
+        std::string name;
+        const char* color;
+        std::vector<double> values;  ///< in `unit`
+        bool average = false;        ///< a moving average, not the samples themselves
+    };
+    std::string id;  ///< for links; unique
+    std::string title, y_title;
+    ForceUnit unit;
+    std::vector<double> time;  ///< [s]
+    std::vector<Curve> curves;
+    double low = 0.0, high = 0.0;  ///< what an axis should show, in `unit`
+    double peak = 0.0;             ///< largest magnitude of the samples, in `unit`
+    std::optional<double> mean;    ///< a line across, in `unit`
+};
+
+/// Histories of the force on the ship: the resistance as moving averages over a thirtieth of the
+/// run, then contact and friction along x, y and z (2D: x and z) as samples and moving averages
+/// over average_window().
+///
+/// A one-step peak is an impulse divided by the time step and leaves nothing else to see where it
+/// is shown whole. So the axes show what 96 % of the averages from `average_from` on lie in, and
+/// `peak` tells what is beyond. Samples are thinned with every peak kept.
+/// @param mean of the resistance [N], NaN if unknown
+/// A run with fewer than 2 samples gives none.
+std::vector<History> force_histories(const RunData& run, double average_from, double mean);
+
+/// Contact and friction of a tracked floe (row of run.tracks) on the ship, two charts, coarser; the
+/// axes show all averages. A floe that never touched the ship gives none.
+std::vector<History> track_histories(const RunData& run, std::size_t track);
+
+/// Window of the moving averages [s]: 0.5 s, or 5 samples where these are rare.
+double average_window(const std::vector<HistoryRow>& history);
+
+}  // namespace ice::report

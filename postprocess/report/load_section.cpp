@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include "postprocess/report/page.hpp"
+#include "postprocess/report/pictures.hpp"
+#include "postprocess/views/load_view.hpp"
+#include "postprocess/views/svg.hpp"
+
+namespace ice::report {
+
+using views::readable;
+using views::ViewFrom;
+
+std::string load_section(const RunData& run, const RunFigures& figures) {
+    const statistics::LoadMap& map = figures.load;
+    if (!(map.force > 0.0)) return "";
+    const double end = statistics::scale_end(map);
+    const PressureUnit unit = choose_pressure_unit(end);
+    const views::HullLoad hull{run.header.shapes[0].mesh, map.mesh, map.load, end,
+                               -run.frames.front().ship_position.z()};
+    const std::vector<ViewFrom> sides =
+        run.header.dimension == 2
+            ? std::vector<ViewFrom>{ViewFrom::side}
+            : std::vector<ViewFrom>{ViewFrom::below, ViewFrom::side, ViewFrom::front};
+    std::vector<std::string> pictures;
+    for (const ViewFrom from : sides) pictures.push_back(views::draw_load_view(hull, from, 560.0));
+    double largest = 0.0;
+    for (const double p : map.load) largest = std::max(largest, p);
+    const ForceUnit force = choose_unit(map.force, run.header.dimension);
+    return section(
+        "load", "Load map of the hull",
+        fmt::format(
+            "Normal load of the ice per area of hull, mean over {} to {} s; each contact "
+            "is spread over {:.2g} m. Colours end at {} {}, which 99 % of the loaded area stays "
+            "below; the largest is {} {}. The sum of all normal forces is {} {} on the "
+            "average (their amounts: forces from port and starboard do not cancel).",
+            readable(map.from), readable(map.to), map.radius, readable(end / unit.pascals),
+            unit.name, readable(largest / unit.pascals), unit.name, force.text(map.force),
+            force.name),
+        "<div class=\"natural\"><div class=\"legend\">" +
+            views::draw_load_legend(readable(0.25 * end / unit.pascals),
+                                    readable(end / unit.pascals), unit.name) +
+            "</div>\n" + report::figures(pictures) + "</div>\n");
+}
+
+}  // namespace ice::report

@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "postprocess/report/viewer_data.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <set>
+
+#include "postprocess/report/pack.hpp"
+#include "postprocess/report/viewer_charts.hpp"
+#include "postprocess/statistics/choose_frames.hpp"
+#include "postprocess/views/faces.hpp"
+#include "postprocess/views/svg.hpp"
+
+namespace ice::report {
+
+using nlohmann::json;
+
+namespace {
+
+constexpr double kTurns = 8191.0;            // integers per quaternion component
+constexpr double kLoads = 8191.0;            // 13 bits; two more hold the floe's state
+constexpr std::size_t kFloeTriangles = 400;  // of one shape
+constexpr std::size_t kLargest16 = 0xffff;
+
+double round_up(double value) {
+    if (!(value > 0.0)) return 1.0;
+    const double power = std::pow(10.0, std::floor(std::log10(value)));
+    for (const double factor : {1.0, 2.0, 5.0})
+        if (factor * power >= value * (1.0 - 1e-9)) return factor * power;
+    return 10.0 * power;
+}
+
+class Packer {
+public:
+    Packer(const RunData& run, const RunFigures& figures, std::size_t frames)
+        : run_(run),
+          figures_(figures),
+          chosen_(statistics::choose_frames(run.frames.size(), frames)) {}
+
+    ViewerData make() {
+        const std::size_t floes = run_.header.body_shape.size();
+        meta_ = {{"dimension", run_.header.dimension},
+                 {"floes", floes},
+                 {"frames", chosen_.size()},
+                 {"charts", pack_charts(figures_.histories, figures_.coverage,
+                                        figures_.average_from, pack_)}};
+        add_ship();
+        add_shapes();
+        add_positions(floes);
+        add_orientations(floes);
+        add_loads(floes);
+        add_hull();
+        meta_["arrays"] = pack_.table();
+        return {safe_text(meta_.dump()), pack_.text()};
+    }
+
+private:
+    static std::string safe_text(const std::string& text) {
+        std::string out;
+        for (const char c : text)
+            out += c == '<'   ? std::string("\\u003c")
+                   : c == '>' ? std::string("\\u003e")
+                   : c == '&' ? std::string("\\u0026")
+                              : std::string(1, c);
+        return out;
+    }
+
+    void add_ship() {
+        std::vector<float> time, ship;
+        // without a hull there is nothing to play back
+        if (!figures_.load.mesh.triangles.empty())
+            for (const std::size_t f : chosen_) {
+                time.push_back(static_cast<float>(run_.frames[f].time));
+                for (int d = 0; d < 3; ++d)
+                    ship.push_back(static_cast<float>(run_.frames[f].ship_position[d]));
+            }
+        pack_.add("frame_time", time);
+        pack_.add("ship", ship);
+    }
+
+    void add_shapes() {
+        std::vector<float> vertices;
+        std::vector<std::uint32_t> triangles;
+        meta_["shapes"] = json::array();
+        for (std::size_t s = 0; s < run_.header.shapes.size(); ++s) {
+            // the hull is packed with its load map
+            const TriangleMesh mesh =
+                s == 0 ? TriangleMesh{}
+                       : views::simplify_mesh(run_.header.shapes[s].mesh, kFloeTriangles);
+            meta_["shapes"].push_back({{"first_vertex", vertices.size() / 3},
+                                       {"first_triangle", triangles.size() / 3},
+                                       {"triangles", mesh.triangles.size()}});
+            for (const Vec3& v : mesh.vertices) {
+                for (int d = 0; d < 3; ++d) vertices.push_back(static_cast<float>(v[d]));
+                if (s > 0) floe_size_ = std::max(floe_size_, v.norm());
+            }
+            for (const auto& t : mesh.triangles)
+                triangles.insert(triangles.end(), t.begin(), t.end());
+        }
+        pack_.add("shape_vertices", vertices);
+        pack_.add("shape_triangles", triangles);
+        std::vector<std::uint32_t> shape(run_.header.body_shape.begin(),
+                                         run_.header.body_shape.end());
+        pack_.add("body_shape", shape);
+    }
+
+    void add_positions(std::size_t floes) {
+        std::vector<std::int16_t> codes;
+        json scale = json::array(), offset = json::array();
+        for (int d = 0; d < 3; ++d) {
+            double low = std::numeric_limits<double>::infinity(), high = -low;
+            for (const std::size_t f : chosen_)
+                for (const Vec3& p : run_.frames[f].position) {
+                    low = std::min(low, p[d]);
+                    high = std::max(high, p[d]);
+                }
+            const Quantiser axis = make_quantiser(low, high, 1e-3 * floe_size_);
+            scale.push_back(axis.step);
+            offset.push_back(axis.offset);
+            for (std::size_t b = 0; b < floes; ++b)
+                for (const std::size_t f : chosen_)
+                    codes.push_back(axis.code(run_.frames[f].position[b][d]));
+        }
+        meta_["position"] = {{"scale", scale}, {"offset", offset}};
+        pack_.add_series("position", std::move(codes), rows(), 2);
+    }
+
+    void add_orientations(std::size_t floes) {
+        std::vector<std::int16_t> codes;
+        const Quantiser part{1.0 / kTurns, 0.0};
+        for (int d = 0; d < 4; ++d)
+            for (std::size_t b = 0; b < floes; ++b)
+                for (const std::size_t f : chosen_) {
+                    const Eigen::Quaterniond& q = run_.frames[f].orientation[b];
+                    codes.push_back(part.code(d == 0 ? q.w() : q.vec()[d - 1]));
+                }
+        pack_.add_series("orientation", std::move(codes), rows(), 2);
+    }
+
+    // mean force of the ship on a floe between two chosen frames [N]
+    double mean_load(std::size_t body, std::size_t k) const {
+        if (k == 0) return 0.0;
+        Vec3 impulse = Vec3::Zero();
+        for (std::size_t f = chosen_[k - 1] + 1; f <= chosen_[k]; ++f)
+            impulse += run_.frames[f].contact_force[body] *
+                       (run_.frames[f].time - run_.frames[f - 1].time);
+        const double time = run_.frames[chosen_[k]].time - run_.frames[chosen_[k - 1]].time;
+        return time > 0.0 ? impulse.norm() / time : 0.0;
+    }
+
+    void add_loads(std::size_t floes) {
+        std::vector<double> loads, pressed;
+        for (std::size_t b = 0; b < floes; ++b)
+            for (std::size_t k = 0; k < chosen_.size(); ++k) {
+                loads.push_back(mean_load(b, k));
+                if (loads.back() > 0.0) pressed.push_back(loads.back());
+            }
+        std::sort(pressed.begin(), pressed.end());
+        const double most = pressed.empty() ? 0.0 : pressed.back();
+        // single hits are far above all others: the colours end where 95 % of the loads do
+        const double end =
+            round_up(pressed.empty() ? 0.0 : pressed[(pressed.size() - 1) * 95 / 100]);
+        const ForceUnit unit = choose_unit(end, run_.header.dimension);
+        meta_["load"] = {{"max", std::max(most, 1e-9)},
+                         {"scale_end", end},
+                         {"scale_text", views::readable(end / unit.newtons)},
+                         {"quarter_text", views::readable(0.25 * end / unit.newtons)},
+                         {"unit", unit.name}};
+        std::vector<std::int16_t> codes;
+        for (std::size_t b = 0; b < floes; ++b)
+            for (std::size_t k = 0; k < chosen_.size(); ++k) {
+                const double share = most > 0.0 ? loads[b * chosen_.size() + k] / most : 0.0;
+                const auto state = static_cast<int>(run_.frames[chosen_[k]].state[b]);
+                codes.push_back(static_cast<std::int16_t>(
+                    4 * static_cast<int>(std::lround(kLoads * std::sqrt(share))) + state));
+            }
+        pack_.add_series("load", std::move(codes), rows(), 0);
+    }
+
+    void add_hull() {
+        const TriangleMesh& mesh = figures_.load.mesh;
+        json scale = json::array(), offset = json::array();
+        std::vector<Quantiser> axes;
+        for (int d = 0; d < 3; ++d) {
+            double low = std::numeric_limits<double>::infinity(), high = -low;
+            for (const Vec3& v : mesh.vertices) {
+                low = std::min(low, v[d]);
+                high = std::max(high, v[d]);
+            }
+            axes.push_back(make_quantiser(low, high, 0.0));
+            scale.push_back(axes.back().step);
+            offset.push_back(axes.back().offset);
+        }
+        std::vector<std::int16_t> vertices;
+        for (const Vec3& v : mesh.vertices)
+            for (std::size_t d = 0; d < 3; ++d)
+                vertices.push_back(axes[d].code(v[static_cast<Eigen::Index>(d)]));
+        pack_.add_series("hull_vertices", std::move(vertices), 1, 0);
+        add_triangles(mesh);
+        const double end = statistics::scale_end(figures_.load);
+        std::vector<std::uint16_t> load;
+        for (const double p : figures_.load.load)
+            load.push_back(static_cast<std::uint16_t>(
+                end > 0.0 ? std::lround(65535.0 * std::min(1.0, p / end)) : 0));
+        pack_.add("hull_load", load);
+        std::vector<std::uint8_t> region;
+        std::set<int> used;
+        for (const std::int32_t r : mesh.region) {
+            region.push_back(static_cast<std::uint8_t>(std::min(r, 255)));
+            used.insert(region.back());
+        }
+        pack_.add("hull_region", region);
+        json regions = json::array();
+        for (const int r : used)
+            regions.push_back({r, mesh.region_names[static_cast<std::size_t>(r)]});
+        const PressureUnit unit = choose_pressure_unit(end);
+        meta_["hull"] = {{"scale", scale},
+                         {"offset", offset},
+                         {"regions", regions},
+                         {"scale_text", views::readable(end / unit.pascals)},
+                         {"quarter_text", views::readable(0.25 * end / unit.pascals)},
+                         {"unit", unit.name}};
+    }
+
+    void add_triangles(const TriangleMesh& mesh) {
+        std::vector<std::uint16_t> narrow;
+        std::vector<std::uint32_t> wide;
+        for (const auto& t : mesh.triangles)
+            for (const std::int32_t v : t) {
+                narrow.push_back(static_cast<std::uint16_t>(v));
+                wide.push_back(static_cast<std::uint32_t>(v));
+            }
+        if (mesh.vertices.size() <= kLargest16)
+            pack_.add("hull_triangles", narrow);
+        else
+            pack_.add("hull_triangles", wide);
+    }
+
+    std::size_t rows() const { return std::max<std::size_t>(1, chosen_.size()); }
+
+    const RunData& run_;
+    const RunFigures& figures_;
+    std::vector<std::size_t> chosen_;  // rows of run_.frames
+    double floe_size_ = 0.0;           // largest radius [m]
+    Pack pack_;
+    json meta_;
+};
+
+}  // namespace
+
+ViewerData make_viewer_data(const RunData& run, const RunFigures& figures, std::size_t frames) {
+    return Packer(run, figures, frames).make();
+}
+
+}  // namespace ice::report

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace ice::statistics {
+
+/// Series over one common time.
+struct ThinSeries {
+    std::vector<double> time;
+    std::vector<std::vector<double>> values;  ///< one list per series, as many values as times
+};
+
+/// Thins several series at once for drawing and keeps every peak of each.
+///
+/// Samples are cut into `bins` groups of equal number. Each group leaves two times, its first and
+/// its last, and of each series its lowest and highest value there in the order they had: a peak
+/// may move within its group. Up to 2 * bins samples come back as they are.
+/// @param series lists as long as `time`
+ThinSeries thin_series(const std::vector<double>& time,
+                       const std::vector<std::vector<double>>& series, std::size_t bins);
+
+/// Means of y over a window of `width` around each of the given places, cut at the ends of x.
+/// Values that are not finite count as 0. @param x rising; @param y as many values
+std::vector<double> moving_average(const std::vector<double>& x, const std::vector<double>& y,
+                                   double width, const std::vector<double>& places);
+
+}  // namespace ice::statistics

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "postprocess/views/load_view.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "postprocess/views/axis.hpp"
+#include "postprocess/views/depth_map.hpp"
+#include "postprocess/views/hull_drawing.hpp"
+#include "postprocess/views/svg.hpp"
+
+namespace ice::views {
+
+namespace {
+
+constexpr int kSteps = 10;
+constexpr double kCell = 3.0;                                               // [px]
+constexpr double kLeft = 52.0, kRight = 10.0, kTop = 26.0, kBottom = 40.0;  // margins [px]
+const HullColours kBare{{222, 226, 230}, {236, 239, 241}};
+
+// the viewer's ramp (web/src/colours.js)
+std::string load_colour(double x) {
+    static const Eigen::Vector3d stops[] = {
+        {214, 219, 224}, {250, 212, 120}, {238, 120, 60}, {176, 42, 90}, {66, 10, 104}};
+    const double at = std::clamp(x, 0.0, 1.0) * 4.0;
+    const int k = std::min(3, static_cast<int>(at));
+    const Eigen::Vector3d c = stops[k] + (at - k) * (stops[k + 1] - stops[k]);
+    return shade(c.array().round().cast<int>().matrix(), 1.0);
+}
+
+// colours follow the square root of the load: half the ramp for the quarter that most loads are in
+int step_of(double load, double end) {
+    return std::min(kSteps, static_cast<int>(kSteps * std::sqrt(load / end)));
+}
+std::string step_colour(int step) { return load_colour(static_cast<double>(step) / kSteps); }
+
+// Cells of the picture by the load of what is seen there; cells of one colour in a row are one
+// piece, and all pieces of a colour one path.
+std::string draw_loads(const HullLoad& hull, const Projection& projection, const PageScale& scale,
+                       const Eigen::AlignedBox3d& page) {
+    const double cell = kCell / scale.per_metre;
+    const auto columns = static_cast<int>(page.sizes().x() / cell) + 1;
+    const auto rows = static_cast<int>(page.sizes().y() / cell) + 1;
+    const DepthMap seen(hull.mesh, projection, 2 * std::max(columns, rows));
+    std::map<int, std::string> paths;
+    for (int row = 0; row < rows; ++row) {
+        const double up = page.max().y() - (row + 0.5) * cell;
+        const auto step_at = [&](int column) {
+            const auto t = seen.triangle(page.min().x() + (column + 0.5) * cell, up);
+            return t ? step_of(hull.load[*t], hull.scale_end) : 0;
+        };
+        for (int column = 0, end = 0; column < columns; column = end) {
+            const int step = step_at(column);
+            for (end = column + 1; end < columns && step_at(end) == step; ++end) {
+            }
+            if (step == 0) continue;
+            const Vec2 corner = scale.pixel(page.min().x() + column * cell, up + 0.5 * cell);
+            paths[step] += fmt::format("M{} {}h{}v{}h-{}z", pixels(corner.x()), pixels(corner.y()),
+                                       pixels((end - column) * kCell), pixels(kCell),
+                                       pixels((end - column) * kCell));
+        }
+    }
+    std::string out;
+    for (const auto& [step, data] : paths)
+        out += fmt::format("<path d=\"{}\" fill=\"{}\"/>\n", data, step_colour(step));
+    return out;
+}
+
+}  // namespace
+
+std::string draw_load_view(const HullLoad& hull, ViewFrom from, double width) {
+    const Projection projection = projection_of(from);
+    Eigen::AlignedBox3d page;
+    for (const Vec3& v : hull.mesh.vertices) page.extend(projection.apply(v));
+    const double room = 0.03 * std::max(page.sizes().x(), page.sizes().y());
+    const double left = page.min().x() - room, right = page.max().x() + room;
+    const double low = page.min().y() - room, high = page.max().y() + room;
+    const double per_metre =
+        std::min((width - kLeft - kRight) / (right - left), 0.55 * width / (high - low));
+    const double wide = per_metre * (right - left), tall = per_metre * (high - low);
+    const PageScale scale{left, high, kLeft, kTop, per_metre};
+
+    const std::string title = view_caption(from);
+    std::string out = svg_open(kLeft + wide + kRight, kTop + tall + kBottom, title);
+    out += text_element(kLeft, 17.0, title, "start", "font-weight=\"600\"");
+    const bool below = from == ViewFrom::below;
+    const Axis x{left, right, kLeft, kLeft + wide};
+    Axis y{low, high, kTop + tall, kTop};
+    if (below) y = {-low, -high, kTop + tall, kTop};
+    out += draw_axes(x, y,
+                     from == ViewFrom::front ? "y on the ship [m], to port" : "x on the ship [m]",
+                     below ? "y on the ship [m]" : "z on the ship [m]");
+    out += draw_hull(hull.hull, projection, scale, hull.waterline, kBare);
+    if (hull.scale_end > 0.0) out += draw_loads(hull, projection, scale, page);
+    return out + "</svg>\n";
+}
+
+std::string draw_load_legend(const std::string& quarter, const std::string& end,
+                             const std::string& unit) {
+    const double left = 170.0, box = 24.0;
+    std::string out = svg_open(640.0, 40.0, "Meaning of the colours");
+    out += text_element(left - 12.0, 15.0, "mean normal load", "end");
+    for (int k = 0; k <= kSteps; ++k)
+        out += fmt::format("<rect x=\"{}\" y=\"4\" width=\"{}\" height=\"14\" fill=\"{}\"/>\n",
+                           pixels(left + k * box), pixels(box), step_colour(k));
+    // step k begins at (k / 10)^2 of the end
+    out += text_element(left, 34.0, "0", "middle");
+    out += text_element(left + 0.5 * kSteps * box, 34.0, quarter, "middle");
+    out += text_element(left + kSteps * box, 34.0, end + " " + unit, "middle");
+    return out + "</svg>\n";
+}
+
+}  // namespace ice::views

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "postprocess/views/projection.hpp"
+
+namespace ice::views {
+
+/// A scalar on the hull's triangles.
+struct HullLoad {
+    const TriangleMesh& hull;         ///< as it is, ship frame: drawn bare below the colours
+    const TriangleMesh& mesh;         ///< the same in small triangles
+    const std::vector<double>& load;  ///< [T] per triangle
+    double scale_end = 0.0;           ///< load of the darkest colour
+    double waterline = 0.0;           ///< height of the water in the ship frame [m]
+};
+
+/// The hull from one side with its loaded triangles coloured, as one SVG element with axes in the
+/// ship frame, in cells of 3 px. Colours have 10 steps and follow the square root of the load: most
+/// of a hull bears far less than its hardest places.
+/// @param width of the picture [px]
+std::string draw_load_view(const HullLoad& hull, ViewFrom from, double width);
+
+/// The colours with their loads. @param quarter, end loads as text: a quarter of the scale's end,
+/// which is half way, and the end
+std::string draw_load_legend(const std::string& quarter, const std::string& end,
+                             const std::string& unit);
+
+}  // namespace ice::views

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "postprocess/report/compare_runs.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "postprocess/report/draw_plot.hpp"
+#include "tests/postprocess/make_folder.hpp"
+
+using namespace ice;
+using namespace ice::test;
+using namespace ice::report;
+
+TEST_CASE("runs are compared a line each, missing values as a dash", "[report]") {
+    Summary a = *make_folder().summary, b = a;
+    b.resistance.mean = -0.25;
+    b.resistance.ci95 = std::nan("");
+    b.lindqvist_submersion.reset();
+    b.unconverged_steps = 45;
+    b.status = "interrupted";
+    const std::string text = compare_text({{"results/a", a}, {"results/longer", b}});
+    CHECK(count(text, "\n") == 3);
+    CHECK_THAT(text, Catch::Contains("results/a         1107      12"));
+    CHECK_THAT(text, Catch::Contains("954            5              0  completed\n"));
+    CHECK_THAT(text, Catch::Contains("results/longer   -0.25       -"));
+    CHECK_THAT(text, Catch::Contains("10  interrupted\n"));  // 45 of 450 steps
+
+    const std::string csv = compare_csv({{"a, \"b\"", b}});
+    CHECK_THAT(csv, Catch::StartsWith("run,mean_N,ci95_N,contact_N,friction_N,std_N,max_N,"));
+    CHECK_THAT(csv, Catch::Contains("\n\"a, \"\"b\"\"\",-0.25,,1006,101,143,1320,,5,10,interr"));
+    CHECK(compare_text({}).find("mean_N") != std::string::npos);
+}
+
+TEST_CASE("the plot of a run has its forces, coverage and paths, in 2D no lateral ones",
+          "[report]") {
+    const std::string svg = draw_plot(make_folder());
+    CHECK(tag_fault(svg).empty());
+    for (const char* title :
+         {"Resistance, moving average", "on the ship, x", "on the ship, y", "on the ship, z",
+          "Bottom covered by ice", "from above", "from starboard"}) {
+        CAPTURE(title);
+        CHECK_THAT(svg, Catch::Contains(title));
+    }
+    const std::string flat = draw_plot(make_folder({.dimension = 2}));
+    CHECK(flat.find("from above") == std::string::npos);
+    CHECK(flat.find("on the ship, y") == std::string::npos);
+    read::RunFolder none = make_folder();
+    none.data.history.clear();
+    CHECK_THAT(error_text([&] { draw_plot(none); }), Catch::Contains("no histories to plot"));
+}

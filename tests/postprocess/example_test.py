@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""example_test.py SPHERIZE ICESOLVE ICEPOST SOURCE: examples/read_run.py and icepost read a finished
+run and one that was killed (SIGKILL) on its way. Skipped (exit code 77) without h5py and xarray."""
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import time
+
+try:
+    import h5netcdf  # noqa: F401
+    import h5py
+    import xarray  # noqa: F401
+except ImportError as error:
+    print(f"skipped: {error} (apt-get install python3-h5py python3-xarray python3-h5netcdf)")
+    sys.exit(77)
+
+spherize, icesolve, icepost, source = sys.argv[1:5]
+CASE = """title = "example"
+[simulation]
+dimension = 2
+duration = {duration}
+time_step = 0.005
+[hull]
+spheres = "hull.h5"
+position = [-9.6, 0, 0]
+speed = 1.0
+[[floes]]
+spheres = "floe.h5"
+count = [5, 1]
+origin = [0.05, 0]
+[output]
+frames_every = 0.05
+"""
+
+
+def read(path):
+    return subprocess.run([sys.executable, os.path.join(source, "examples/read_run.py"), path],
+                          capture_output=True, text=True, check=True).stdout
+
+
+def rows(path):
+    with h5py.File(path, "r") as run:
+        return run["frames/frame_time"].shape[0]
+
+
+with tempfile.TemporaryDirectory() as folder:
+    os.chdir(folder)
+    for name in ("hull", "floe"):
+        mesh = os.path.join(source, f"meshes/paper-{name}-2d.obj")
+        subprocess.run([spherize, mesh, "--slice", "y=0", "-o", f"{name}.h5", "-q"], check=True)
+    for name, duration in (("short", 3.0), ("long", 100000.0)):
+        with open(f"{name}.cfg", "w", encoding="utf-8") as file:
+            file.write(CASE.format(duration=duration))
+
+    subprocess.run([icesolve, "short.cfg", "--out", "whole", "-q"], check=True)
+    text = read("whole/run.h5")
+    force = float(re.search(r"resistance (-?[\d.]+) N/m", text).group(1))
+    with h5py.File("whole/run.h5", "r") as run:
+        late = run["time"][:] >= 1.0 - 1e-9
+        assert abs(-run["ship/force"][:, 0][late].mean() - force) < 0.1, (text, force)
+    assert "example by icesolve" in text and "hardest place: [" in text, text
+
+    # killed after a flush (every 20th frame), at whatever it was doing then
+    run = subprocess.Popen([icesolve, "long.cfg", "--out", "killed", "-q"])
+    until = time.monotonic() + 120
+    while time.monotonic() < until and run.poll() is None:
+        time.sleep(0.1)
+        # a line of the histories per step: 20 frames of 10 steps each are long on disk
+        if os.path.exists("killed/forces.csv.part") and os.path.getsize(
+                "killed/forces.csv.part") > 300000:
+            break
+    assert run.poll() is None, "the run ended by itself"
+    run.kill()
+    run.wait()
+    assert not os.path.exists("killed/run.h5")
+    assert rows("killed/run.h5.part") >= 20
+    assert "hardest place" in read("killed/run.h5.part")
+    subprocess.run([icepost, "-q", "report", "killed"], check=True)
+    with open("killed/report.html", encoding="utf-8") as page:
+        assert "before it wrote summary.json" in page.read()
+    print("ok,", rows("killed/run.h5.part"), "frames of the killed run")

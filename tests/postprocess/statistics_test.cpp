@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Load map and bottom coverage: answers known beforehand, then what must hold for any run.
+#include <catch2/catch.hpp>
+#include <numeric>
+#include <random>
+
+#include "postprocess/statistics/bottom_coverage.hpp"
+#include "postprocess/statistics/choose_frames.hpp"
+#include "postprocess/statistics/load_map.hpp"
+#include "tests/common/fixtures.hpp"
+
+using namespace ice;
+using namespace ice::test;
+using namespace ice::statistics;
+
+namespace {
+
+double area_of(const TriangleMesh& mesh) {
+    double area = 0.0;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) area += mesh.area_vector(t).norm();
+    return area;
+}
+
+// one contact per frame at a place of the box hull (x 0 to 8, y -1 to 1, z -0.7 to 0.5)
+RunData run_with_contact(const Vec3& point, const Vec3& force, int dimension = 3) {
+    RunData run = make_run({.dimension = dimension, .floes = 2, .frames = 11});
+    // a hull of 56 m2 with 2000 spheres, 0.18 m apart: a radius of 0.27 m
+    run.header.shapes[0].centers.assign(2000, Vec3::Zero());
+    run.header.shapes[0].radii.assign(2000, 0.05);
+    for (std::size_t f = 0; f < run.frames.size(); ++f) {
+        run.frames[f].hull_contacts.clear();
+        if (f > 0) run.frames[f].hull_contacts = {{1, 0, point, force, Vec3::Zero()}};
+    }
+    return run;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "300 N in the middle of the bottom are 300 N on the map, on the bottom, within its radius",
+    "[statistics][analytic]") {
+    const Vec3 at(4.0, 0.0, -0.7);
+    const LoadMap map = make_load_map(run_with_contact(at, Vec3(0, 0, 300)), 0.0);
+    CHECK(map.force == Approx(300.0).epsilon(1e-12));
+    CHECK(map.from == 0.0);
+    CHECK(map.to == Approx(1.0));
+    double peak = 0.0;
+    for (std::size_t t = 0; t < map.load.size(); ++t) {
+        if (map.load[t] == 0.0) continue;
+        peak = std::max(peak, map.load[t]);
+        const Vec3 c = (map.mesh.corner(t, 0) + map.mesh.corner(t, 1) + map.mesh.corner(t, 2)) / 3;
+        CHECK((c - at).norm() < map.radius);
+        CHECK(map.mesh.area_vector(t).z() < 0.0);
+    }
+    // the kernel's height in the middle of a plane is 3 / (pi radius^2); triangles as large as the
+    // radius take their centres' values, hence half
+    CHECK(peak == Approx(300.0 * 3.0 / (3.14159265 * map.radius * map.radius)).epsilon(0.5));
+}
+
+TEST_CASE("the map is the mean over time: a second half without load halves it",
+          "[statistics][analytic]") {
+    RunData run = run_with_contact(Vec3(4, 0, -0.7), Vec3(0, 0, 300));
+    for (std::size_t f = 6; f < 11; ++f) run.frames[f].hull_contacts.clear();
+    CHECK(make_load_map(run, 0.0).force == Approx(150.0));
+    CHECK(make_load_map(run, 0.5).force == 0.0);
+    CHECK(make_load_map(run, 0.25).from == Approx(0.3));  // whole frames only
+}
+
+TEST_CASE("load times area is the mean force wherever floes press", "[statistics][property]") {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> part(0.0, 1.0);
+    RunData run = run_with_contact(Vec3::Zero(), Vec3::Zero());
+    double sum = 0.0;
+    for (std::size_t f = 1; f < run.frames.size(); ++f)
+        for (HullContact& c : run.frames[f].hull_contacts) {
+            // some on edges and corners, some a little off the surface
+            c.point = Vec3(8.0 * part(random), part(random) < 0.5 ? -1.02 : 0.99, -0.7);
+            c.normal_force = Vec3(-part(random), 0.3, part(random)) * 100.0;
+            sum += 0.1 * c.normal_force.norm();
+        }
+    const LoadMap map = make_load_map(run, 0.0);
+    CHECK(map.force == Approx(sum).epsilon(1e-9));
+    CHECK(*std::min_element(map.load.begin(), map.load.end()) >= 0.0);
+    CHECK(scale_end(map) > 0.0);
+}
+
+TEST_CASE("in 2D 300 N per metre on a hull 1 m broad are 300 N", "[statistics][analytic]") {
+    const LoadMap map = make_load_map(run_with_contact(Vec3(4, 0, -0.7), Vec3(0, 0, 300), 2), 0.0);
+    CHECK(map.force == Approx(300.0));
+    for (std::size_t t = 0; t < map.load.size(); ++t)
+        if (map.load[t] > 0.0) CHECK(map.mesh.area_vector(t).z() < 0.0);
+}
+
+TEST_CASE("a run without contacts or without a hull has a map without load", "[statistics]") {
+    RunData run = make_run({.floes = 0, .frames = 3});
+    CHECK(make_load_map(run, 0.0).force == 0.0);
+    CHECK(scale_end(make_load_map(run, 0.0)) == 0.0);
+    run.header.shapes[0].mesh = {};
+    CHECK(make_load_map(run, 0.0).mesh.triangles.empty());
+    run.header.shapes.clear();
+    CHECK(make_load_map(run, 0.0).load.empty());
+}
+
+TEST_CASE("refining keeps area, closedness and regions, and leaves no long edge",
+          "[statistics][property]") {
+    TriangleMesh box = make_box({8.0, 2.0, 1.2});
+    box.region[3] = 1;
+    box.region_names = {"hull", "bow"};
+    const double region_area = box.area_vector(3).norm();
+    const TriangleMesh fine = refine_mesh(box, 0.5, 100000);
+    CHECK(area_of(fine) == Approx(area_of(box)).epsilon(1e-12));
+    Vec3 sum = Vec3::Zero();
+    double bow = 0.0, longest = 0.0;
+    for (std::size_t t = 0; t < fine.triangles.size(); ++t) {
+        sum += fine.area_vector(t);
+        if (fine.region[t] == 1) bow += fine.area_vector(t).norm();
+        for (int k = 0; k < 3; ++k)
+            longest = std::max(longest, (fine.corner(t, k) - fine.corner(t, (k + 1) % 3)).norm());
+    }
+    CHECK(sum.norm() < 1e-12 * area_of(box));  // closed
+    // Euler's formula for a closed surface without handles: V - E + F = 2 with E = 3/2 F
+    CHECK(2 * fine.vertices.size() == fine.triangles.size() + 4);
+    CHECK(bow == Approx(region_area));
+    CHECK(longest <= 0.5);
+    CHECK(refine_mesh(box, 0.01, 1000).triangles.size() <= 1000);
+}
+
+TEST_CASE("a floe of 1 x 0.8 m under a bottom of 16 m2 covers a twentieth",
+          "[statistics][analytic]") {
+    RunData run = make_run({.floes = 1, .frames = 2});
+    for (RunFrame& frame : run.frames) {
+        frame.ship_position = Vec3(2.0, 0.0, 0.0);
+        frame.orientation[0] = Eigen::Quaterniond::Identity();
+    }
+    run.frames[0].position[0] = Vec3(6.0, 0.1, -0.85);
+    run.frames[1].position[0] =
+        Vec3(6.0, 1.1, -0.85);  // half of its 0.8 m, less 0.1, under the hull
+    const BottomCoverage cover = measure_bottom_coverage(run, 100);
+    REQUIRE(cover.share.size() == 2);
+    CHECK(cover.area == Approx(16.0).epsilon(0.01));
+    // cells of 8 m / 300 along the floe's edge of 3.6 m: 0.6 % of the hull at most
+    CHECK(cover.share[0] == Approx(0.05).margin(0.006));
+    CHECK(cover.share[1] == Approx(0.05 * 0.3 / 0.8).margin(0.006));
+}
+
+TEST_CASE(
+    "ice on deck or beside the hull does not cover its bottom, a hull out of the water has none",
+    "[statistics]") {
+    RunData run = make_run({.floes = 1, .frames = 1});
+    run.frames[0].position[0] = GENERATE(Vec3(4, 0, 0.7), Vec3(4, 1.6, -0.8), Vec3(30, 0, -0.8));
+    CHECK(measure_bottom_coverage(run, 10).share == std::vector<double>{0.0});
+    run.frames[0].ship_position.z() = 2.0;
+    CHECK(measure_bottom_coverage(run, 10).share.empty());
+}
+
+TEST_CASE("chosen frames are evenly spread, with the first and the last", "[statistics]") {
+    CHECK(choose_frames(0, 5).empty());
+    CHECK(choose_frames(1, 5) == std::vector<std::size_t>{0});
+    CHECK(choose_frames(3, 5) == std::vector<std::size_t>{0, 1, 2});
+    CHECK(choose_frames(9, 5) == std::vector<std::size_t>{0, 2, 4, 6, 8});
+    CHECK(choose_frames(1000, 0) == std::vector<std::size_t>{0, 999});
+}
