@@ -18,5 +18,5 @@ find_package(assimp 5.2 CONFIG REQUIRED)         # preprocess/load
 find_package(OpenSSL REQUIRED COMPONENTS Crypto) # preprocess/load: SHA-256
 find_package(CGAL 5.5 CONFIG REQUIRED)           # preprocess/clean, repair, slice
 find_package(ZLIB REQUIRED)                      # preprocess/load, postprocess/paraview
-find_package(tomlplusplus 3.3 CONFIG REQUIRED)   # solver/case, postprocess/check
+find_package(tomlplusplus 3.3 CONFIG REQUIRED)   # common/toml, postprocess/check
 find_package(HWY 1.0 CONFIG REQUIRED)            # *_simd.cpp

@@ -3,7 +3,7 @@
 
 # A file may include its own folder and the ones before it: of common/ and of its own tool, never of
 # another tool. The last entry of a tool is its top folder with the main program.
-set(order_common common/base common/geometry common/formats common/cli)
+set(order_common common/base common/toml common/geometry common/formats common/cli)
 set(order_preprocess preprocess/load preprocess/clean preprocess/measure preprocess/repair
   preprocess/slice preprocess/fill preprocess/write preprocess)
 set(order_solver solver/case solver/shape solver/water solver/scene solver/broad solver/narrow
@@ -18,7 +18,7 @@ set(tools preprocess solver postprocess)
 set(quarantine
   "<assimp/"         "^preprocess/load/"
   "<CGAL/"           "^preprocess/(clean|measure|repair|slice)/"
-  "<toml"            "^(solver/case|postprocess/check)/"
+  "<toml"            "^(common/toml|postprocess/check)/"
   "<(hdf5|H5)"       "^common/formats/"
   "<nlohmann/"       "^common/formats/"
   "<hwy/"            "_simd\\.cpp$"
