@@ -89,11 +89,16 @@ std::vector<CaseKey> run_keys() {
 
 std::vector<CaseKey> floe_keys() {
     return {
-        {"floes.spheres", Kind::path, D::none, "", 0, 0, 0, "",
+        {"floes.spheres", Kind::path, D::none, "-", 0, 0, 0, "",
          "Sphere set of these floes, made by spherize; relative to the case file.",
          [](Case&, G& g, const Value& v) { g.spheres = text(v); }},
+        {"floes.file", Kind::path, D::none, "-", 0, 0, 0, "",
+         "Pattern file: the field, made by icefield; its unbroken ice is held always.",
+         [](Case&, G& g, const Value& v) { g.file = text(v); }},
         {"floes.pattern", Kind::choice, D::none, "\"grid\"", 0, 0, 0, kPatterns,
-         "How the floes lie: rows and columns, columns shifted by half a floe, or one floe.",
+         "How the floes lie: rows and columns, columns shifted by half a floe, one floe, or as in "
+         "a "
+         "file.",
          [](Case&, G& g, const Value& v) { g.pattern = choice<Pattern>(v, kPatterns); }},
         {"floes.count", Kind::counts, D::none, "[1, 1]", 1, 1e5, 2, "",
          "Number of floes along x and y.",
@@ -103,7 +108,7 @@ std::vector<CaseKey> floe_keys() {
          }},
         {"floes.origin", Kind::vector, D::length, "[0.0, 0.0]", -1e6, 1e6, 2, "",
          "x of the first row's edge that meets the ship first (its smallest x), y of the field's "
-         "centre line.",
+         "centre line; pattern file: moves the field.",
          [](Case&, G& g, const Value& v) { g.origin = vector2(v); }},
         {"floes.gap", Kind::vector, D::length, "[0.0, 0.0]", 0, 1e4, 2, "",
          "Open water between neighbours along x and y.",

@@ -85,6 +85,14 @@ public:
             ++k;
         }
         if (mistakes_.texts.empty()) check_case();
+        // unbroken ice of fields: groups of their own, behind the case's, which keep their numbers
+        for (std::size_t g = 0; g < groups_; ++g) {
+            if (case_.floes[g].pattern != Pattern::file) continue;
+            FloeGroup unbroken = case_.floes[g];
+            unbroken.unbroken_part = true;
+            unbroken.hold = Hold::always;
+            case_.floes.push_back(unbroken);
+        }
         return case_;
     }
 
@@ -154,8 +162,9 @@ private:
         if (path.is_relative()) path = std::filesystem::absolute(file_).parent_path() / path;
         path = path.lexically_normal();
         if (!std::filesystem::exists(path))
-            complain_at(label, fmt::format("{}: file {} not found; make it with spherize",
-                                           counted_from_one(label), path.string()));
+            complain_at(label, fmt::format("{}: file {} not found; make it with {}",
+                                           counted_from_one(label), path.string(),
+                                           label.ends_with(".file") ? "icefield" : "spherize"));
         return path.string();
     }
 
@@ -167,9 +176,32 @@ private:
         if (speed == table && !bad)
             complain(speed ? "hull.speed and hull.speed_table are both given; keep one"
                            : "required key 'hull.speed' (or hull.speed_table) is missing");
+        for (std::size_t g = 0; g < groups_; ++g) check_source(g);
         if (groups_ == 0) complain("no [[floes]] table: a run needs at least one group of floes");
         if (!values_.contains("output.average_from") && values_.contains("simulation.duration"))
             values_["output.average_from"] = std::get<double>(values_["simulation.duration"]) / 3.0;
+    }
+
+    // Floes come from a sphere set, or with pattern "file" from a field.
+    void check_source(std::size_t g) {
+        const auto label = [&](const char* key) { return fmt::format("floes.{}.{}", g, key); };
+        const auto given = [&](const char* key) {
+            return values_.contains(label(key)) || mistakes_.bad_keys.contains(label(key));
+        };
+        if (mistakes_.bad_keys.contains(label("pattern"))) return;
+        const auto pattern = values_.find(label("pattern"));
+        const bool field =
+            pattern != values_.end() && std::get<std::string>(pattern->second) == "file";
+        const char* const needed = field ? "file" : "spheres";
+        const char* const other = field ? "spheres" : "file";
+        if (!given(needed))
+            complain(fmt::format("required key '{}' is missing ({})",
+                                 counted_from_one(label(needed)),
+                                 case_schema().find(fmt::format("floes.{}", needed))->doc));
+        if (given(other))
+            complain_at(label(other),
+                        fmt::format("floes.{}.{} is given, but pattern \"file\" {}", g + 1, other,
+                                    field ? "takes its shapes from the field" : "alone takes it"));
     }
 
     void check_case() {
@@ -197,9 +229,8 @@ private:
         const auto wrong = [&](const char* key, const std::string& what) {
             complain_at(label(key), fmt::format("floes.{}.{} {}", g + 1, key, what));
         };
-        if (group.pattern == Pattern::file)
-            wrong("pattern",
-                  "= \"file\" is not available in this version; use grid, brick or single");
+        if (group.pattern == Pattern::file && case_.dimension == 2)
+            wrong("pattern", "= \"file\" is for cases of dimension 3");
         if (group.pattern == Pattern::single && !values_.contains(label("position")))
             wrong("position", "is missing: pattern \"single\" needs it");
         if (group.orientation.norm() < 1e-6)

@@ -145,7 +145,7 @@ TEST_CASE("mistakes are named with line, column and remedy", "[case][errors]") {
                    ":5:"));
     CHECK(contains(complaint(kGood, {"ice.densty=900"}), "did you mean 'ice.density'?"));
     CHECK(contains(complaint(kGood, {"nonsense"}), "write it as key=value"));
-    CHECK(contains(complaint(kGood, {"floes.pattern=file"}), "not available"));
+    CHECK(contains(complaint(kGood, {"floes.pattern=file"}), "takes its shapes from the field"));
     CHECK(contains(complaint(kGood, {"floes.pattern=single"}), "position is missing"));
     CHECK(contains(complaint(kGood, {"output.average_from=99"}), "not before the end"));
     CHECK(contains(complaint(kGood, {"output.track=[2,2]"}), "names floe 2 twice"));
@@ -195,4 +195,27 @@ TEST_CASE("the default case parses as TOML and every key explains itself", "[cas
     }
     CHECK(complaint(text) == "");
     CHECK(contains(json_schema(case_schema()), "\"crushing_pressure\""));
+}
+
+TEST_CASE("pattern file takes a field, and its unbroken ice is a group of its own", "[case]") {
+    const std::string field = "file = \"floe.spheres.h5\"\npattern = \"file\"";  // any file
+    const CaseFolder folder(with("spheres = \"floe.spheres.h5\"", field));
+    const Case c = read_case(folder.file(), {"floes.hold=never"});
+    REQUIRE(c.floes.size() == 2);
+    CHECK(c.floes[0].hold == Hold::never);
+    CHECK_FALSE(c.floes[0].unbroken_part);
+    CHECK(c.floes[1].hold == Hold::always);
+    CHECK(c.floes[1].unbroken_part);
+    CHECK(c.floes[1].file == c.floes[0].file);
+
+    CHECK(contains(complaint(with("spheres = \"floe.spheres.h5\"", "pattern = \"file\"")),
+                   "'floes.1.file' is missing"));
+    CHECK(contains(
+        complaint(with("spheres = \"floe.spheres.h5\"", field + "\nspheres = \"floe.spheres.h5\"")),
+        "floes.1.spheres is given, but pattern \"file\" takes its shapes"));
+    CHECK(contains(complaint(with("hold", "file = \"floe.spheres.h5\"\nhold")),
+                   "floes.1.file is given, but pattern \"file\" alone takes it"));
+    CHECK(contains(
+        complaint(with("spheres = \"floe.spheres.h5\"", "file = \"lost.h5\"\npattern = \"file\"")),
+        "make it with icefield"));
 }
