@@ -174,7 +174,7 @@ SphereSet fill(const TriangleMesh& solid, const TriangleMesh& space, int dimensi
     const std::vector<Sight> sights = survey_surface(tree, set, finder, mirror);
     share_surface(tree, sights, twins, set);
     report.seconds["shares"] = measuring.seconds();
-    certify(tree, finder, sights, mirror, set, report);
+    if (o.certificate) certify(tree, finder, sights, mirror, set, report);
     report.seconds["certificate"] = measuring.seconds() - report.seconds["shares"];
 
     const double cell = place_interior(tree, o, mirror, set, report);
