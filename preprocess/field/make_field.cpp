@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -51,30 +52,53 @@ private:
     std::map<std::vector<std::int64_t>, std::int32_t> rows_;
 };
 
-std::vector<SphereSet> fill_forms(const FieldSpec& spec, const std::vector<Outline>& outlines) {
+bool is_mirror_symmetric(const Outline& outline) {
+    return std::all_of(outline.begin(), outline.end(), [&](const Vec2& p) {
+        return std::any_of(outline.begin(), outline.end(), [&](const Vec2& q) {
+            return (q - Vec2(p.x(), -p.y())).norm() < kEqual;
+        });
+    });
+}
+
+// The shell is made in tiles of 32 spacings, and their corner is the origin. A floe about its
+// centroid would lie in eight of them; it is moved into one and back. What is symmetric about y = 0
+// stays there, so that its spheres are symmetric, too.
+SphereSet fill_form(const FieldSpec& spec, const Outline& outline) {
     FillOptions options;
     options.radius = spec.radius;
     options.spacing = spec.spacing;
     options.surface_only = spec.surface_only;
-    options.certificate = false;
+    options.quick = true;
+    const double half_tile = 16.0 * spec.spacing;
+    const Vec3 move(half_tile, is_mirror_symmetric(outline) ? 0.0 : half_tile, half_tile);
+    TriangleMesh prism = make_prism(outline, spec.thickness, spec.chamfer);
+    for (Vec3& vertex : prism.vertices) vertex += move;
+    SpheresReport unused;
+    SphereSet set = fill_spheres(prism, options, unused);
+    for (Vec3& vertex : set.mesh.vertices) vertex -= move;
+    for (Vec3& center : set.centers) center -= move;
+    set.solid = measure_mass(set.mesh);
+    return set;
+}
+
+std::vector<SphereSet> fill_forms(const FieldSpec& spec, const std::vector<Outline>& outlines) {
     std::vector<SphereSet> shapes(outlines.size());
     std::vector<std::optional<Error>> errors(outlines.size());
     parallel_tasks(outlines.size(), true, [&](std::size_t k) {
         try {
-            SpheresReport unused;
-            const TriangleMesh prism = make_prism(outlines[k], spec.thickness, spec.chamfer);
-            shapes[k] = fill_spheres(prism, options, unused);
+            shapes[k] = fill_form(spec, outlines[k]);
         } catch (const Error& error) {
             errors[k] = error;
         }
     });
     for (std::size_t k = 0; k < outlines.size(); ++k) {
         if (!errors[k]) continue;
-        const double size = size_of(outlines[k]);
-        throw bad_input(
-            "spheres.radius",
-            fmt::format("a floe of size {:.4g} m cannot be filled: {}", size, errors[k]->what()),
-            "use smaller spheres, or larger floes");
+        // what fill_spheres says about its own option stands behind "--radius: "
+        const std::string what = errors[k]->what();
+        throw bad_input("spheres.radius",
+                        fmt::format("a floe of size {:.4g} m cannot be filled: {}",
+                                    size_of(outlines[k]), what.substr(what.find(": ") + 2)),
+                        "use smaller spheres or larger floes");
     }
     return shapes;
 }

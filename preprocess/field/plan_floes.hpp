@@ -25,10 +25,10 @@ FieldPlan plan_cusps(const FieldSpec& spec);
 /// Cells of a power diagram, each shrunk about its centroid, so that none overlap.
 ///
 /// Voronoi: as many random sites as give the mean size, relaxed (Lloyd). Power-law: as many floes
-/// as the concentration takes, one drawn from each of that many equal parts of N(> d) ~ d^-a between
-/// smallest and largest; then the sites' weights are solved for so that every cell has its floe's
-/// share of the field (semi-discrete optimal transport: Kitagawa, Merigot, Thibert, J. Eur. Math.
-/// Soc. 21, 2019): sizes are met to rounding, whatever the concentration.
+/// as the concentration takes, one drawn from each of that many equal parts of N(> d) ~ d^-a
+/// between smallest and largest; then the sites' weights are solved for so that every cell has its
+/// floe's share of the field (semi-discrete optimal transport: Kitagawa, Merigot, Thibert, J. Eur.
+/// Math. Soc. 21, 2019): sizes are met to rounding, whatever the concentration.
 ///
 /// @throws Error (exit code 2) when the field is too small for a floe or has over a million
 FieldPlan plan_cells(const FieldSpec& spec);
