@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "common/base/error.hpp"
+#include "common/base/instruction_set.hpp"
 #include "common/base/parallel.hpp"
 #include "common/base/version.hpp"
 #include "common/cli/console.hpp"
@@ -112,6 +113,7 @@ std::filesystem::path run_folder(const Options& o) {
 
 int run_case(const Options& o, const std::string& command_line) {
     ice::set_thread_count(o.threads);
+    ice::set_instruction_set(o.simd);
     const ice::Case parameters = ice::read_case(o.case_file, o.overrides);
     ice::World world = ice::build_world(parameters);
     std::optional<ice::SavedRun> saved;
@@ -125,8 +127,6 @@ int run_case(const Options& o, const std::string& command_line) {
     ice::make_run_folder(folder, going_on);
     ice::log_to_file(folder / "run.log", going_on != nullptr);
     ice::say(fmt::format("icesolve {} ({}): {}", ice::version(), ice::git_commit(), command_line));
-    if (o.simd != "auto" && o.simd != "scalar")
-        ice::say_warning("--simd " + o.simd + ": this version has scalar code only and runs that");
     ice::catch_interrupts();
     ice::Progress progress("icesolve", o.quiet);
     const ice::Timer timer;

@@ -1,17 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <vector>
-
-#include "solver/contact/constraints.hpp"
+#include "solver/contact/sweep.hpp"
 
 namespace ice {
-
-/// The impulses of one stage of the solver, inside a Constraint.
-struct StageImpulses {
-    double Constraint::*normal;
-    Vec3 Constraint::*tangent;
-};
 
 /// Carries the sweeps of the contact solver on along the way they go.
 ///
@@ -28,19 +20,12 @@ struct StageImpulses {
 class Extrapolation {
 public:
     /// Before the first sweep of a stage.
-    void begin(const Bodies& bodies, const std::vector<Constraint>& constraints,
-               const StageImpulses& stage);
+    void begin(const ContactRows& contacts);
     /// Between two sweeps: notes what the last one did and moves on.
-    void advance(Bodies& bodies, std::vector<Constraint>& constraints, const StageImpulses& stage);
+    void advance(ContactRows& contacts);
 
 private:
-    void note(const Bodies& bodies, const std::vector<Constraint>& constraints,
-              const StageImpulses& stage);
-
-    // state before the sweep, and the direction: per constraint and per body
-    std::vector<double> normal_, normal_way_;
-    std::vector<Vec3> tangent_, tangent_way_;
-    std::vector<Vec3> velocity_, velocity_way_, angular_, angular_way_;
+    SweepMemory memory_;
     double last_size_ = -1.0;
 };
 

@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Projected Gauss-Seidel ("sequential impulses") over the contacts in their order: each contact in
-// turn gets the impulse that satisfies its own conditions, given all others; repeated until no
-// contact velocity changes any more. The fixed point satisfies all conditions together;
+// Projected Gauss-Seidel ("sequential impulses") over the contacts in the order of ContactRows:
+// each in turn gets the impulse that satisfies its own conditions, given all others; repeated
+// until no contact velocity changes any more. The fixed point satisfies all conditions together;
 // extrapolation between the sweeps brings it near.
 #include "solver/contact/solve_contacts.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
-
-#include "solver/contact/extrapolation.hpp"
-#include "solver/contact/passive_impact.hpp"
 
 namespace ice {
 
@@ -37,62 +34,6 @@ constexpr int kRebounds = 2;
 // extrapolated ones go round it.
 constexpr int kPlainShare = 3;
 
-// What a stage has given a contact so far [N s].
-struct StageImpulse {
-    double& normal;
-    Vec3& tangent;
-};
-
-// Both updates bring one contact to its conditions, the others being as they are, and return by how
-// much its velocity changed [m/s].
-double update_normal(Bodies& bodies, const Constraint& c, double wanted, double bound,
-                     double& accumulated) {
-    const double speed = relative_velocity(bodies, c).dot(c.normal);
-    const double next =
-        std::clamp(accumulated + (wanted - speed) * c.normal_mass, 0.0, std::max(bound, 0.0));
-    const double change = next - accumulated;
-    if (change == 0.0) return 0.0;
-    accumulated = next;
-    apply_impulse(bodies, c, change * c.normal);
-    return std::abs(change) / c.normal_mass;
-}
-
-double update_friction(Bodies& bodies, const Constraint& c, const StageImpulse& j) {
-    if (c.friction == 0.0) return 0.0;
-    const Vec3 v = relative_velocity(bodies, c);
-    const Vec3 sliding = v - v.dot(c.normal) * c.normal;
-    Vec3 next = j.tangent - c.tangent_mass * sliding;
-    const double most = c.friction * j.normal, size = next.norm();
-    if (size > most) next *= most / size;
-    const Vec3 change = next - j.tangent;
-    if (change.isZero(0.0)) return 0.0;
-    j.tangent = next;
-    apply_impulse(bodies, c, change);
-    return change.norm() / c.tangent_mass;
-}
-
-// Calls update(c), which returns a change of velocity, over all constraints until it is small.
-template <class Update>
-SolveReport iterate(Bodies& bodies, std::vector<Constraint>& constraints,
-                    const StageImpulses& stage, const ContactLaw& law, const Update& update) {
-    thread_local Extrapolation extrapolation;  // keeps its memory between steps
-    SolveReport report;
-    extrapolation.begin(bodies, constraints, stage);
-    while (true) {
-        ++report.iterations;
-        report.residual = 0.0;
-        for (Constraint& c : constraints)
-            if (c.normal_mass > 0.0) report.residual = std::max(report.residual, update(c));
-        report.converged = report.residual <= law.tolerance;
-        if (report.converged || report.iterations >= law.iterations) return report;
-        if (report.iterations * kPlainShare < law.iterations * (kPlainShare - 1))
-            extrapolation.advance(bodies, constraints, stage);
-    }
-}
-
-constexpr StageImpulses kImpact{&Constraint::impact_normal, &Constraint::impact_tangent};
-constexpr StageImpulses kRest{&Constraint::rest_normal, &Constraint::rest_tangent};
-
 bool meets_within_step(const Constraint& c, double dt) {
     return c.gap + dt * std::min(c.approach, 0.0) <= 0.0;
 }
@@ -106,16 +47,6 @@ void drive_through(const Bodies& bodies, Constraint& c) {
     if (speed > 0.0) c.impact_tangent = -(c.friction * c.strength / speed) * sliding;
 }
 
-SolveReport solve_impacts(Bodies& bodies, std::vector<Constraint>& constraints,
-                          const ContactLaw& law, double restitution) {
-    return iterate(bodies, constraints, kImpact, law, [&](Constraint& c) {
-        if (!meets_within_step(c, law.dt)) return 0.0;
-        const double wanted = c.rebounds ? -restitution * c.approach : 0.0;
-        const double change = update_normal(bodies, c, wanted, c.strength, c.impact_normal);
-        return std::max(change, update_friction(bodies, c, {c.impact_normal, c.impact_tangent}));
-    });
-}
-
 // A stage of several solutions is as good as the worst of them.
 void add(const SolveReport& part, SolveReport& whole) {
     whole.iterations += part.iterations;
@@ -123,10 +54,40 @@ void add(const SolveReport& part, SolveReport& whole) {
     whole.converged = whole.converged && part.converged;
 }
 
+}  // namespace
+
+SolveReport ContactSolver::iterate(const ContactLaw& law) {
+    SolveReport report;
+    extrapolation_.begin(contacts_);
+    while (true) {
+        ++report.iterations;
+        report.residual = sweep(contacts_.blocks, contacts_.rows, contacts_.motion);
+        report.converged = report.residual <= law.tolerance;
+        if (report.converged || report.iterations >= law.iterations) return report;
+        if (report.iterations * kPlainShare < law.iterations * (kPlainShare - 1))
+            extrapolation_.advance(contacts_);
+    }
+}
+
+SolveReport ContactSolver::solve_impacts(Bodies& bodies, std::vector<Constraint>& constraints,
+                                         const ContactLaw& law, double restitution) {
+    contacts_.begin_stage(bodies, constraints, &Constraint::impact_normal,
+                          &Constraint::impact_tangent,
+                          [&](const Constraint& c) -> ContactRows::Target {
+                              return {meets_within_step(c, law.dt),
+                                      c.rebounds ? -restitution * c.approach : 0.0, c.strength};
+                          });
+    const SolveReport report = iterate(law);
+    contacts_.end_stage(bodies, constraints, &Constraint::impact_normal,
+                        &Constraint::impact_tangent);
+    return report;
+}
+
 // Newton's restitution, but none where the ice crushes. Which contacts crush is known once the
 // bodies have stopped, and again once others rebounded: a contact once crushed stays so, or the two
 // answers would take turns.
-SolveReport rebound(Bodies& bodies, std::vector<Constraint>& constraints, const ContactLaw& law) {
+SolveReport ContactSolver::rebound(Bodies& bodies, std::vector<Constraint>& constraints,
+                                   const ContactLaw& law) {
     if (std::isinf(law.crushing_pressure))
         return solve_impacts(bodies, constraints, law, law.restitution);
     SolveReport report = solve_impacts(bodies, constraints, law, 0.0);
@@ -143,10 +104,9 @@ SolveReport rebound(Bodies& bodies, std::vector<Constraint>& constraints, const 
     return report;
 }
 
-}  // namespace
-
-SolveReport resolve_impacts(Bodies& bodies, std::vector<Constraint>& constraints,
-                            const ContactLaw& law) {
+SolveReport ContactSolver::resolve_impacts(Bodies& bodies, std::vector<Constraint>& constraints,
+                                           const ContactLaw& law) {
+    contacts_.build(bodies, constraints);
     for (Constraint& c : constraints)
         if (c.normal_mass == 0.0 && !std::isinf(c.strength) && c.approach < 0.0 &&
             meets_within_step(c, law.dt))
@@ -155,23 +115,21 @@ SolveReport resolve_impacts(Bodies& bodies, std::vector<Constraint>& constraints
         constraints.begin(), constraints.end(),
         [&](const Constraint& c) { return c.approach < 0.0 && meets_within_step(c, law.dt); });
     if (!approaching) return {};
-    thread_local ImpactState start, plastic;  // keep their memory between steps
-    start.save(bodies, constraints);
+    start_.save(bodies, constraints);
     SolveReport report = rebound(bodies, constraints, law);
-    if (law.restitution == 0.0 || energy_gain(bodies, constraints, start) <= 0.0) return report;
-    ImpactState full;
-    full.save(bodies, constraints);
-    start.restore(bodies, constraints);
+    if (law.restitution == 0.0 || energy_gain(bodies, constraints, start_) <= 0.0) return report;
+    full_.save(bodies, constraints);
+    start_.restore(bodies, constraints);
     const SolveReport stopped = solve_impacts(bodies, constraints, law, 0.0);
     add(stopped, report);
-    plastic.save(bodies, constraints);
-    full.restore(bodies, constraints);
-    limit_rebound(bodies, constraints, start, plastic);
+    plastic_.save(bodies, constraints);
+    full_.restore(bodies, constraints);
+    limit_rebound(bodies, constraints, start_, plastic_);
     return report;
 }
 
-SolveReport resolve_rest(Bodies& bodies, std::vector<Constraint>& constraints,
-                         const ContactLaw& law) {
+SolveReport ContactSolver::resolve_rest(Bodies& bodies, std::vector<Constraint>& constraints,
+                                        const ContactLaw& law) {
     for (Constraint& c : constraints) {
         if (c.normal_mass == 0.0) c.rest_normal = 0.0;
         if (c.rest_normal > 0.0)
@@ -179,12 +137,14 @@ SolveReport resolve_rest(Bodies& bodies, std::vector<Constraint>& constraints,
         else
             c.rest_tangent.setZero();
     }
-    return iterate(bodies, constraints, kRest, law, [&](Constraint& c) {
-        const double wanted = -std::max(c.gap, 0.0) / law.dt;
-        const double change =
-            update_normal(bodies, c, wanted, c.strength - c.impact_normal, c.rest_normal);
-        return std::max(change, update_friction(bodies, c, {c.rest_normal, c.rest_tangent}));
-    });
+    contacts_.begin_stage(
+        bodies, constraints, &Constraint::rest_normal, &Constraint::rest_tangent,
+        [&](const Constraint& c) -> ContactRows::Target {
+            return {true, -std::max(c.gap, 0.0) / law.dt, c.strength - c.impact_normal};
+        });
+    const SolveReport report = iterate(law);
+    contacts_.end_stage(bodies, constraints, &Constraint::rest_normal, &Constraint::rest_tangent);
+    return report;
 }
 
 void separate_overlaps(const Bodies& bodies, const std::vector<Constraint>& constraints,

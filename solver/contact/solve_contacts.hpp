@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "solver/contact/constraints.hpp"
+#include "solver/contact/extrapolation.hpp"
+#include "solver/contact/passive_impact.hpp"
 
 namespace ice {
 
@@ -15,29 +17,47 @@ struct SolveReport {
     bool converged = true;  ///< residual <= tolerance
 };
 
-/// Impact stage: contacts that meet within the step bounce, on the velocities before the loads.
-///
-/// For every contact with gap + dt min(v_r0 . n, 0) <= 0, accumulated impulses J_n, J_t such that
-///
-///     0 <= J_n <= strength,   v_r . n >= -e v_r0 . n  with equality where J_n > 0,
-///     |J_t| <= mu J_n, opposite to the sliding.
-///
-/// A contact that reaches its strength does not rebound (e = 0 for it): with a finite crushing
-/// pressure the stage first solves with e = 0 for all, then with e for those that held. Contacts at
-/// rest have v_r0 . n = 0 and do not bounce, without any threshold (Guendelman, Bridson, Fedkiw,
-/// ACM TOG 22(3), 2003, section 5).
-///
-/// Where this would add energy (friction at e near 1), the rebound is weakened, limit_rebound().
-/// Between the ship and a held floe nothing can give way: with a finite crushing pressure the
-/// contact carries its strength and friction, without one nothing (a jam, see measure_step).
-SolveReport resolve_impacts(Bodies& bodies, std::vector<Constraint>& constraints,
-                            const ContactLaw& law);
+/// The two stages of a step's contacts; keeps its memory between steps, and nothing else.
+class ContactSolver {
+public:
+    /// Impact stage: contacts that meet within the step bounce, on the velocities before the
+    /// loads.
+    ///
+    /// For every contact with gap + dt min(v_r0 . n, 0) <= 0, accumulated impulses J_n, J_t with
+    ///
+    ///     0 <= J_n <= strength,   v_r . n >= -e v_r0 . n  with equality where J_n > 0,
+    ///     |J_t| <= mu J_n, opposite to the sliding.
+    ///
+    /// A contact that reaches its strength does not rebound (e = 0 for it): with a finite crushing
+    /// pressure the stage first solves with e = 0 for all, then with e for those that held.
+    /// Contacts at rest have v_r0 . n = 0 and do not bounce, without any threshold (Guendelman,
+    /// Bridson, Fedkiw, ACM TOG 22(3), 2003, section 5).
+    ///
+    /// Where this would add energy (friction at e near 1) the rebound is weakened: limit_rebound().
+    /// Between the ship and a held floe nothing can give way: with a finite crushing pressure the
+    /// contact carries its strength and friction, without one nothing (a jam, see measure_step).
+    SolveReport resolve_impacts(Bodies& bodies, std::vector<Constraint>& constraints,
+                                const ContactLaw& law);
 
-/// Resting stage, after the loads: no contact closes further than its gap,
-/// v_r . n >= -max(gap, 0) / dt, with what strength the impact stage left. Starts from
-/// rest_normal and rest_tangent as given.
-SolveReport resolve_rest(Bodies& bodies, std::vector<Constraint>& constraints,
-                         const ContactLaw& law);
+    /// Resting stage, after the loads: no contact closes further than its gap,
+    /// v_r . n >= -max(gap, 0) / dt, with what strength the impact stage left. Starts from
+    /// rest_normal and rest_tangent as given.
+    /// @pre resolve_impacts was called with the same constraints
+    SolveReport resolve_rest(Bodies& bodies, std::vector<Constraint>& constraints,
+                             const ContactLaw& law);
+
+private:
+    // Sweeps over contacts_ until no velocity changes any more.
+    SolveReport iterate(const ContactLaw& law);
+    SolveReport solve_impacts(Bodies& bodies, std::vector<Constraint>& constraints,
+                              const ContactLaw& law, double restitution);
+    SolveReport rebound(Bodies& bodies, std::vector<Constraint>& constraints,
+                        const ContactLaw& law);
+
+    ContactRows contacts_;
+    Extrapolation extrapolation_;
+    ImpactState start_, plastic_, full_;
+};
 
 /// Small moves that shrink overlaps; they change poses, never velocities or reported forces.
 struct Nudges {

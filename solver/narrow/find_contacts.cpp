@@ -7,6 +7,8 @@
 
 #include "common/base/parallel.hpp"
 #include "solver/narrow/emit_contacts.hpp"
+#include "solver/narrow/pair_surfaces.hpp"
+#include "solver/narrow/search_pair.hpp"
 
 namespace ice {
 
@@ -33,33 +35,36 @@ struct Range {
         const double along = corner_a + corner_b + margin, across = reach + aside_a + aside_b;
         return along * along + across * across;
     }
-    // for any two spheres of the shapes
-    double largest(const Shape& a, const Shape& b) const {
-        return std::sqrt(
-            squared(a.largest_support, a.largest_aside, b.largest_support, b.largest_aside));
-    }
-    bool holds(const PairView& view, std::int32_t i, std::int32_t j) const {
-        const Faces &a = view.shape_a.faces[i], &b = view.shape_b.faces[j];
-        return (view.center_a(i) - view.center_b(j)).squaredNorm() <=
-               squared(a.corner, a.aside, b.corner, b.aside);
+    bool holds(const SphereSurface& a, const SphereSurface& b) const {
+        return (a.center - b.center).squaredNorm() <=
+               squared(a.faces.corner, a.faces.aside, b.faces.corner, b.faces.aside);
     }
 };
 
-// Measures spheres i and j and keeps them when they are near enough to matter. Under the rule
-// "surface" a face farther than the margin matters too: it may show that the probe is outside.
-void consider(const PairView& view, NormalRule rule, double margin, std::int32_t i, std::int32_t j,
-              std::vector<Candidate>& out) {
-    if (view.is_gone_a(i) || view.is_gone_b(j)) return;
-    const SphereSurface a = view.sphere_a(i), b = view.sphere_b(j);
-    if (rule == NormalRule::centres) {
-        const Gap gap = measure_gap_centres(a, b);
-        if (gap.valid && gap.gap <= margin) out.push_back({i, j, gap});
-        return;
+// Measures the candidates of a pair.
+struct Measure {
+    const PairView& view;
+    PairSurfaces& surfaces;
+    NormalRule rule;
+    Range range;
+    std::vector<Candidate>& out;
+
+    // Keeps spheres i and j when they are near enough to matter. Under the rule "surface" a face
+    // farther than the margin matters too: it may show that the probe is outside.
+    void operator()(std::int32_t i, std::int32_t j) const {
+        const PairSurfaces::Entry &a = surfaces.a(view, i), &b = surfaces.b(view, j);
+        if (!range.holds(a.surface, b.surface) || a.gone || b.gone) return;
+        if (rule == NormalRule::centres) {
+            const Gap gap = measure_gap_centres(a.surface, b.surface);
+            if (gap.valid && gap.gap <= range.margin) out.push_back({i, j, gap});
+            return;
+        }
+        const bool ship = view.pair.a == static_cast<std::int32_t>(kShip);
+        const Gap gap = measure_gap_surface(a.surface, b.surface, ship);
+        const double reach = gap.a_is_surface ? view.shape_a.reach : view.shape_b.reach;
+        if (gap.valid && gap.lateral_sq <= reach * reach) out.push_back({i, j, gap});
     }
-    const Gap gap = measure_gap_surface(a, b, view.pair.a == static_cast<std::int32_t>(kShip));
-    const double reach = gap.a_is_surface ? view.shape_a.reach : view.shape_b.reach;
-    if (gap.valid && gap.lateral_sq <= reach * reach) out.push_back({i, j, gap});
-}
+};
 
 // Where a candidate's surface is and faces, a's axes.
 struct Face {
@@ -124,6 +129,8 @@ void keep_one_per_face(const PairView& view, double margin, std::vector<Candidat
 
 void finish_pair(const PairView& view, NormalRule rule, double margin,
                  std::vector<Candidate>& candidates, std::vector<Contact>& out) {
+    const auto touches = [&](const Candidate& c) { return c.gap.gap <= margin; };
+    if (std::none_of(candidates.begin(), candidates.end(), touches)) return;
     const auto before = static_cast<std::ptrdiff_t>(out.size());
     if (rule == NormalRule::surface) keep_one_per_face(view, margin, candidates);
     emit_contacts(view, rule, candidates, out);
@@ -137,29 +144,18 @@ void finish_pair(const PairView& view, NormalRule rule, double margin,
 }
 
 void find_pair_contacts(const Scene& scene, BodyPair pair, NormalRule rule, double margin,
-                        std::vector<Candidate>& candidates, std::vector<Contact>& out) {
+                        std::vector<Contact>& out) {
+    // these keep their memory between pairs
+    thread_local PairSearch search;
+    thread_local PairSurfaces surfaces;
+    thread_local std::vector<Candidate> candidates;
     const PairView view(scene, pair);
     candidates.clear();
-    // each sphere of the body that has fewer looks into the other one's grid, which holds the
-    // places before crushing
+    surfaces.begin(view);
     const Range range(view, rule, margin);
-    const auto visit = [&](std::int32_t i, std::int32_t j) {
-        if (range.holds(view, i, j)) consider(view, rule, margin, i, j, candidates);
-    };
-    const bool few_a = view.shape_a.center.size() < view.shape_b.center.size();
-    const Shape& few = few_a ? view.shape_a : view.shape_b;
-    const Shape& many = few_a ? view.shape_b : view.shape_a;
-    const double look = range.largest(view.shape_a, view.shape_b) +
-                        scene.crushed.deepest_of(few_a ? pair.b : pair.a);
-    const Eigen::AlignedBox3d box(many.box.min() - Vec3::Constant(look),
-                                  many.box.max() + Vec3::Constant(look));
-    for (std::int32_t k = 0; k < static_cast<std::int32_t>(few.center.size()); ++k) {
-        const Vec3 at = few_a ? view.to_b(view.center_a(k)) : view.center_b(k);
-        if (!box.contains(at)) continue;
-        many.grid.for_each_near(
-            at, look, [&](std::int32_t other) { few_a ? visit(k, other) : visit(other, k); });
-    }
-    // grid order differs between poses: ascending spheres make the answer a function of the pair
+    search.for_each_near(view, range.margin, range.reach,
+                         Measure{view, surfaces, rule, range, candidates});
+    // the order of the search differs between poses: ascending, the answer is the pair's alone
     std::sort(candidates.begin(), candidates.end(), [](const Candidate& l, const Candidate& r) {
         return std::pair(l.i, l.j) < std::pair(r.i, r.j);
     });
@@ -182,10 +178,9 @@ void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
                          double dt, double margin, std::vector<Contact>& out) {
     if (per_pair_.size() < pairs.size()) per_pair_.resize(pairs.size());
     parallel_for(pairs.size(), kSerialPairs, [&](std::size_t k) {
-        thread_local std::vector<Candidate> candidates;
         per_pair_[k].clear();
         find_pair_contacts(scene, pairs[k], rule, dt * closing_speed(scene, pairs[k]) + margin,
-                           candidates, per_pair_[k]);
+                           per_pair_[k]);
     });
     out.clear();
     for (std::size_t k = 0; k < pairs.size(); ++k)
@@ -197,11 +192,13 @@ namespace reference {
 void find_contacts(const Scene& scene, BodyPair pair, NormalRule rule, double margin,
                    std::vector<Contact>& out) {
     const PairView view(scene, pair);
-    const Range range(view, rule, margin);
+    PairSurfaces surfaces;
+    surfaces.begin(view);
     std::vector<Candidate> candidates;
+    const Measure measure{view, surfaces, rule, Range(view, rule, margin), candidates};
     for (std::int32_t i = 0; i < static_cast<std::int32_t>(view.shape_a.center.size()); ++i)
         for (std::int32_t j = 0; j < static_cast<std::int32_t>(view.shape_b.center.size()); ++j)
-            if (range.holds(view, i, j)) consider(view, rule, margin, i, j, candidates);
+            measure(i, j);
     finish_pair(view, rule, margin, candidates, out);
 }
 

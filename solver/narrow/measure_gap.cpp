@@ -17,9 +17,6 @@ constexpr double kSameSpread = 1e-6;
 // A corner is over a face as long as it is not this many radii beyond the face's edge.
 constexpr double kBeyond = 0.01;
 
-// A part this negative is still no normal of another place: 3 degrees where faces are square.
-constexpr double kBelongs = -0.05;
-
 // Cosine of the tilt of a face that is met edge first.
 constexpr double kLeaning = 0.2;
 
@@ -32,10 +29,13 @@ constexpr double kFlush = 1e-3;
 // Edges closer to parallel than this (sine) have no normal across both.
 constexpr double kParallel = 0.05;
 
-// u itself inside the cone of normals, else the cone's direction nearest to it.
-Vec3 nearest_normal(const SphereSurface& s, const Vec3& u) {
-    const double along = u.dot(s.normal);
+// The direction of d itself inside the cone of normals, else the cone's nearest to it.
+Vec3 nearest_normal(const SphereSurface& s, const Vec3& d) {
     if (s.spread_cos == 1.0) return s.normal;
+    const double distance = d.norm();
+    if (distance == 0.0) return s.normal;  // no direction: the pair will be invalid
+    const Vec3 u = d / distance;
+    const double along = u.dot(s.normal);
     if (along >= s.spread_cos) return u;
     const Vec3 across = u - along * s.normal;
     const double length = across.norm();
@@ -43,25 +43,11 @@ Vec3 nearest_normal(const SphereSurface& s, const Vec3& u) {
     return s.spread_cos * s.normal + (s.spread_sin / length) * across;
 }
 
-// Is n an outward normal of the surface: are its parts along the normals of the faces that meet
-// there positive, to some degrees? Beyond them the corner is not the body's foremost point, another
-// sphere's is. Nor is it where n runs along the edge, by more than `most_along` (cosine), or a face
-// stands all but upright: its edges are before it.
+// Is n an outward normal of the surface there? No face that stands all but upright: its edges are
+// before it.
 bool belongs(const SphereSurface& s, const Vec3& n, double most_along) {
-    if (s.faces.count == 0) return s.normal.dot(n) >= std::min(kLeaning, s.spread_cos);
-    const Vec3 &f = s.faces.normal[0], &g = s.faces.normal[1];
-    if (s.faces.count == 2) {
-        const double c = f.dot(g), nf = n.dot(f), ng = n.dot(g), square = 1.0 - c * c;
-        const double part_f = nf - c * ng, part_g = ng - c * nf;
-        const double along = n.dot(f.cross(g));
-        return part_f >= kBelongs * square && part_g >= kBelongs * square &&
-               along * along <= most_along * most_along * square;
-    }
-    const Vec3& h = s.faces.normal[2];
-    const Vec3 gh = g.cross(h), hf = h.cross(f), fg = f.cross(g);
-    const double volume = f.dot(gh), sign = volume < 0.0 ? -1.0 : 1.0;
-    const double least = kBelongs * std::abs(volume);
-    return sign * n.dot(gh) >= least && sign * n.dot(hf) >= least && sign * n.dot(fg) >= least;
+    if (s.faces.count > 0) return s.faces.have(n, most_along);
+    return s.normal.dot(n) >= std::min(kLeaning, s.spread_cos);
 }
 
 // Of the directions that may part two local solids the one with the largest gap.
@@ -75,22 +61,27 @@ Parting parting_normal(const SphereSurface& a, const SphereSurface& b, const Vec
     const Vec3 between = support_point(b, -a.normal) - support_point(a, -b.normal);
     double widest = -std::numeric_limits<double>::infinity();
     const auto attempt = [&](const Vec3& n, bool crossing) {
-        if (n.dot(d) <= 0.0 || !belongs(a, n, kSlantOnEdge) || !belongs(b, -n, kSlantOnEdge))
-            return;
         const double gap = n.dot(between);
         if (gap <= widest) return;
         widest = gap;
         best = {n, crossing};
     };
-    for (int k = 0; k < a.faces.count; ++k) attempt(a.faces.normal[k], false);
-    for (int k = 0; k < b.faces.count; ++k) attempt(-b.faces.normal[k], false);
+    // a face's normal is one of its own edge's or corner's
+    for (int k = 0; k < a.faces.count; ++k) {
+        const Vec3& n = a.faces.normal[static_cast<std::size_t>(k)];
+        if (n.dot(d) > 0.0 && b.faces.have(-n, kSlantOnEdge)) attempt(n, false);
+    }
+    for (int k = 0; k < b.faces.count; ++k) {
+        const Vec3 n = -b.faces.normal[static_cast<std::size_t>(k)];
+        if (n.dot(d) > 0.0 && a.faces.have(n, kSlantOnEdge)) attempt(n, false);
+    }
     if (a.faces.count != 2 || b.faces.count != 2) return best;
-    const Vec3 across = a.faces.normal[0]
-                            .cross(a.faces.normal[1])
-                            .normalized()
-                            .cross(b.faces.normal[0].cross(b.faces.normal[1]).normalized());
+    const Vec3 across = a.faces.edge().cross(b.faces.edge());
     const double sine = across.norm();
-    if (sine > kParallel) attempt((across.dot(d) < 0.0 ? -1.0 : 1.0) / sine * across, true);
+    if (sine <= kParallel) return best;
+    const Vec3 n = (across.dot(d) < 0.0 ? -1.0 : 1.0) / sine * across;
+    if (n.dot(d) > 0.0 && a.faces.have(n, kSlantOnEdge) && b.faces.have(-n, kSlantOnEdge))
+        attempt(n, true);
     return best;
 }
 
@@ -133,9 +124,7 @@ Gap measure_gap_centres(const SphereSurface& a, const SphereSurface& b) {
 
 Gap measure_gap_surface(const SphereSurface& a, const SphereSurface& b, bool prefer_a) {
     const Vec3 d = b.center - a.center;
-    const double length = d.norm();
-    if (length == 0.0) return {Vec3::UnitZ(), 0.0, 0.0, true, false};
-    const Vec3 u = d / length;
+    const Gap none{Vec3::UnitZ(), 0.0, 0.0, true, false};
     const bool edges = a.faces.count > 0 && b.faces.count > 0;
     const bool same = std::abs(a.spread_cos - b.spread_cos) <= kSameSpread;
     bool a_is_surface = same || a.spread_cos > b.spread_cos;
@@ -146,12 +135,11 @@ Gap measure_gap_surface(const SphereSurface& a, const SphereSurface& b, bool pre
         n = parting.normal;
         crossing = parting.crossing;
     } else if (same && !prefer_a)
-        n = mean_normal(nearest_normal(a, u), nearest_normal(b, -u));
+        n = mean_normal(nearest_normal(a, d), nearest_normal(b, -d));
     else
-        n = a_is_surface ? nearest_normal(a, u) : Vec3(-nearest_normal(b, -u));
-    if (n.isZero(0.0) || n.dot(d) <= 0.0 || !belongs(a, n, kSlantOnFace) ||
-        !belongs(b, -n, kSlantOnFace))
-        return {u, 0.0, 0.0, true, false};
+        n = a_is_surface ? nearest_normal(a, d) : Vec3(-nearest_normal(b, -d));
+    if (n.isZero(0.0) || n.dot(d) <= 0.0) return none;
+    if (!edges && (!belongs(a, n, kSlantOnFace) || !belongs(b, -n, kSlantOnFace))) return none;
     const Vec3 point_a = support_point(a, n), point_b = support_point(b, -n);
     const double gap = n.dot(point_b - point_a);
     if (crossing) {

@@ -49,12 +49,7 @@ struct PairView {
     }
     SphereSurface sphere_b(std::int32_t j) const {
         return {center_b(j),           shape_b.radius[j],     turn * shape_b.normal[j],
-                shape_b.spread_cos[j], shape_b.spread_sin[j], faces_b(j)};
-    }
-    Faces faces_b(std::int32_t j) const {
-        Faces out = shape_b.faces[j];
-        for (int k = 0; k < out.count; ++k) out.normal[k] = turn * out.normal[k];
-        return out;
+                shape_b.spread_cos[j], shape_b.spread_sin[j], shape_b.faces[j].turned(turn)};
     }
 };
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "common/base/error.hpp"
+#include "solver/shape/sphere_grid.hpp"
 
 namespace ice {
 
@@ -63,29 +64,26 @@ void build_panels(Shape& shape) {
 // Of the normals that meet at a sphere three at most: the two farthest apart and the one farthest
 // out of their plane. Edges of smooth strips list many that lie between these.
 Faces outermost_faces(const std::vector<Vec3>& normals) {
-    Faces out;
-    if (normals.size() < 2) return out;
+    if (normals.size() < 2) return {};
     double least = 2.0, most = kSamePlane;
-    std::size_t first = 0, second = 1;
+    std::array<Vec3, 3> out{normals[0], normals[1], Vec3::Zero()};
+    std::size_t count = 2;
     for (std::size_t i = 0; i < normals.size(); ++i)
         for (std::size_t j = i + 1; j < normals.size(); ++j)
             if (normals[i].dot(normals[j]) < least) {
                 least = normals[i].dot(normals[j]);
-                first = i;
-                second = j;
+                out[0] = normals[i];
+                out[1] = normals[j];
             }
-    out.normal[0] = normals[first];
-    out.normal[1] = normals[second];
-    out.count = 2;
     if (least < kKnife) return {};
-    const Vec3 across = out.normal[0].cross(out.normal[1]);
+    const Vec3 across = out[0].cross(out[1]);
     for (const Vec3& n : normals)
         if (std::abs(n.dot(across)) > most) {
             most = std::abs(n.dot(across));
-            out.normal[2] = n;
-            out.count = 3;
+            out[2] = n;
+            count = 3;
         }
-    return out;
+    return Faces::meeting({out.data(), count});
 }
 
 std::vector<Faces> meeting_faces(const SphereSet& set) {
@@ -119,8 +117,6 @@ void copy_surface_spheres(const SphereSet& set, const Vec3& origin, Shape& shape
         shape.area.push_back(set.areas[k]);
         shape.region.push_back(set.regions[k]);
         shape.largest_radius = std::max(shape.largest_radius, set.radii[k]);
-        shape.largest_support = std::max(shape.largest_support, shape.faces[k].corner);
-        shape.largest_aside = std::max(shape.largest_aside, shape.faces[k].aside);
     }
 }
 
@@ -128,10 +124,11 @@ void copy_surface_spheres(const SphereSet& set, const Vec3& origin, Shape& shape
 // A square lattice leaves points s / sqrt(2) from every sphere, a hexagonal one s / sqrt(3).
 double measure_reach(const Shape& shape, double nominal_spacing) {
     const double limit = 3.0 * std::max(nominal_spacing, 2.0 * shape.largest_radius);
+    const SphereGrid grid(shape.center, 2.0 * shape.largest_radius);
     double spacing = 0.0;
     for (std::size_t k = 0; k < shape.center.size(); ++k) {
         double nearest = limit;
-        shape.grid.for_each_near(shape.center[k], nominal_spacing, [&](std::int32_t other) {
+        grid.for_each_near(shape.center[k], nominal_spacing, [&](std::int32_t other) {
             const double distance = (shape.center[other] - shape.center[k]).norm();
             if (static_cast<std::size_t>(other) != k) nearest = std::min(nearest, distance);
         });
@@ -169,7 +166,10 @@ Shape build_shape(const SphereSet& set, bool about_centre_of_mass) {
         shape.box.max().y() = shape.largest_radius;
     }
     shape.bounding_radius = shape.box.min().cwiseAbs().cwiseMax(shape.box.max().cwiseAbs()).norm();
-    shape.grid = SphereGrid(shape.center, 2.0 * shape.largest_radius);
+    std::vector<SearchSphere> spheres;
+    for (std::size_t k = 0; k < shape.center.size(); ++k)
+        spheres.push_back({shape.center[k], shape.faces[k].corner, shape.faces[k].aside});
+    shape.blocks = SphereBlocks(spheres);
     shape.reach = measure_reach(shape, set.spacing);
     build_panels(shape);
     return shape;

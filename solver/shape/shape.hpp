@@ -9,7 +9,8 @@
 #include <vector>
 
 #include "common/formats/sphere_set.hpp"
-#include "solver/shape/sphere_grid.hpp"
+#include "solver/shape/faces.hpp"
+#include "solver/shape/sphere_blocks.hpp"
 
 namespace ice {
 
@@ -18,14 +19,6 @@ struct Panel {
     Vec3 corner[3];  ///< [m], body axes
     Vec3 center;     ///< [m]
     Vec3 area;       ///< outward normal x area [m2]
-};
-
-/// Outward normals of the faces that meet in an edge (2) or a corner (3), body axes.
-struct Faces {
-    int count = 0;
-    std::array<Vec3, 3> normal{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
-    double corner = 0.0;  ///< from the sphere's centre along its normal to where they meet [m]
-    double aside = 0.0;   ///< from there to the points where the sphere touches the faces [m]
 };
 
 /// A form in its body axes: floes about the centre of mass, the hull in the ship frame.
@@ -43,10 +36,8 @@ struct Shape {
     std::vector<std::int32_t> region;  ///< row of region_names
     std::vector<std::string> region_names;
     std::size_t sphere_count = 0;  ///< of the whole set, interior included
-    SphereGrid grid;               ///< of `center`
+    SphereBlocks blocks;           ///< of `center`, for the search
     double largest_radius = 0.0;   ///< [m]
-    double largest_support = 0.0;  ///< how far the surface goes from a sphere's centre [m]
-    double largest_aside = 0.0;    ///< of `faces` [m]
     double reach = 0.0;            ///< how far from its centre a sphere stands for the surface [m]
 
     TriangleMesh mesh;             ///< closed, body axes

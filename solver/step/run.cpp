@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "common/base/error.hpp"
+#include "common/base/instruction_set.hpp"
 #include "common/base/parallel.hpp"
 #include "common/base/part_file.hpp"
 #include "common/base/timer.hpp"
@@ -78,6 +79,7 @@ void fill_run(const World& w, double wall_seconds, Summary& s) {
     s.simulated_s = w.time;
     s.wall_s = wall_seconds;
     s.threads = thread_count();
+    s.simd = instruction_set();
     s.case_file = p.file.string();
     for (std::size_t k = 0; k < kStageNames.size(); ++k)
         s.stage_seconds[kStageNames[k]] = w.stage_seconds[k];

@@ -68,7 +68,7 @@ void step(World& w) {
     // impacts act on the velocities before the loads, so that ice at rest does not bounce
     timed(w, Stage::contact, [&] {
         build_constraints(bodies, w.contacts, law, w.constraints);
-        w.impacts = resolve_impacts(bodies, w.constraints, law);
+        w.impacts = w.solver.resolve_impacts(bodies, w.constraints, law);
     });
 
     // gravity, buoyancy and drag change velocities; resting contacts then carry those loads
@@ -78,7 +78,7 @@ void step(World& w) {
     });
     timed(w, Stage::contact, [&] {
         w.warm_start.recall(w.contacts, w.constraints);
-        w.rest = resolve_rest(bodies, w.constraints, law);
+        w.rest = w.solver.resolve_rest(bodies, w.constraints, law);
         w.warm_start.remember(w.contacts, w.constraints);
     });
 

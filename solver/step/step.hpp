@@ -33,6 +33,7 @@ struct World {
     Nudges nudges;
     WarmStart warm_start;
     ContactFinder finder;
+    ContactSolver solver;
     StepBooks books;
     EnergyLedger ledger;
 

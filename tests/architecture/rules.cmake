@@ -14,7 +14,7 @@ set(tools preprocess solver postprocess)
 
 # Third-party headers and the files that may include them: pairs of regular expressions. Tests may
 # include all of them but those whose home is in tests/: OpenVDB is no dependency of the project,
-# only something bench_peers measures where it happens to be installed. So are Box2D and Bullet.
+# only something bench_peers measures where it happens to be installed. So are Box2D, Bullet and ODE.
 set(quarantine
   "<assimp/"         "^preprocess/load/"
   "<CGAL/"           "^preprocess/(clean|measure|repair|slice|field)/"
@@ -27,7 +27,9 @@ set(quarantine
   "<CLI/"            "^(common/cli/|(preprocess/(spherize|icefield)|solver/icesolve|postprocess/icepost)\\.cpp$)"
   "<(zlib|zconf)\\." "^(preprocess/load|postprocess/(paraview|report))/"
   "<(openvdb|tbb)/"  "^tests/bench/bench_peers\\.cpp$"
-  "<(box2d/|bt[A-Z])" "^tests/peers/"
+  "<box2d/"          "^tests/peers/"
+  "<bt[A-Z]"         "^tests/(peers/|bench/icebench_bullet\\.cpp$)"
+  "<ode/"            "^tests/bench/icebench_ode\\.cpp$"
   "<catch2/"         "^tests/")
 
 set(max_columns 100)

@@ -71,7 +71,7 @@ Outcome collide(Scene& scene, const Contact& contact, const Vec3& v1, const Vec3
     Outcome out;
     out.k = response(b, contact.point);
     out.velocity_before = relative_velocity(b, constraints[0]);
-    REQUIRE(resolve_impacts(b, constraints, law).converged);
+    REQUIRE(ContactSolver().resolve_impacts(b, constraints, law).converged);
     out.velocity_after = relative_velocity(b, constraints[0]);
     out.impulse =
         constraints[0].total_normal() * constraints[0].normal + constraints[0].total_tangent();
@@ -148,7 +148,7 @@ TEST_CASE("a contact gives b what it takes from a: momentum and angular momentum
     std::vector<Constraint> constraints;
     build_constraints(b, {contact_at(Vec3(0.45, 0.3, 0.1), Vec3(1, 0.2, 0.5))}, law, constraints);
     const auto before = momenta();
-    resolve_impacts(b, constraints, law);
+    ContactSolver().resolve_impacts(b, constraints, law);
     const auto after = momenta();
     CHECK(constraints[0].total_normal() > 1.0);
     CHECK((after.first - before.first).norm() <= kRounding * before.first.norm());

@@ -25,8 +25,8 @@ SphereSurface tip_sphere(const Vec3& tip, std::initializer_list<Vec3> normals, d
     for (const Vec3& n : normals) {
         s.center -= r * n;
         s.normal += n;
-        s.faces.normal[static_cast<std::size_t>(s.faces.count++)] = n;
     }
+    s.faces = Faces::meeting(normals);
     s.normal.normalize();
     s.spread_cos = 1.0 / std::sqrt(static_cast<double>(s.faces.count));
     s.spread_sin = std::sqrt(1.0 - s.spread_cos * s.spread_cos);
@@ -41,9 +41,7 @@ SphereSurface face_sphere(const Vec3& on_face, const Vec3& normal, double r = kR
 SphereSurface turned(SphereSurface s, const Mat3& turn) {
     s.center = turn * s.center;
     s.normal = turn * s.normal;
-    for (int k = 0; k < s.faces.count; ++k)
-        s.faces.normal[static_cast<std::size_t>(k)] =
-            turn * s.faces.normal[static_cast<std::size_t>(k)];
+    s.faces = s.faces.turned(turn);
     return s;
 }
 

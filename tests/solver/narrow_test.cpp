@@ -6,6 +6,7 @@
 
 #include "solver/broad/find_pairs.hpp"
 #include "solver/narrow/find_contacts.hpp"
+#include "solver/shape/sphere_grid.hpp"
 #include "solver/narrow/measure_gap.hpp"
 #include "tests/support/make_worlds.hpp"
 

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <hwy/targets.h>
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include "common/base/error.hpp"
+#include "common/base/instruction_set.hpp"
+
+namespace ice {
+
+namespace {
+
+struct Target {
+    std::string_view name;
+    std::int64_t bit;
+};
+
+// best first; AVX3 is Highway's name for AVX-512
+constexpr std::array<Target, 4> kTargets{
+    {{"avx512", HWY_AVX3}, {"avx2", HWY_AVX2}, {"sse4", HWY_SSE4}, {"scalar", HWY_SCALAR}}};
+
+constexpr std::int64_t kScalarBits = HWY_SCALAR | HWY_EMU128;
+
+std::int64_t supported() { return hwy::SupportedTargets() | kScalarBits; }
+
+const Target& best_of(std::int64_t targets) {
+    for (const Target& t : kTargets)
+        if ((targets & t.bit) != 0) return t;
+    return kTargets.back();
+}
+
+}  // namespace
+
+void set_instruction_set(std::string_view name) {
+    hwy::DisableTargets(0);
+    const std::int64_t all = supported();
+    const Target& wanted = [&]() -> const Target& {
+        for (const Target& t : kTargets)
+            if (t.name == name) return t;
+        return best_of(all);
+    }();
+    if ((all & wanted.bit) == 0)
+        throw bad_input("--simd", "this machine lacks " + std::string(name),
+                        "the best it has is " + std::string(best_of(all).name));
+    // better targets have lower bits
+    hwy::DisableTargets((wanted.bit - 1) & ~kScalarBits);
+    hwy::GetChosenTarget().Update(supported());
+}
+
+std::string_view instruction_set() { return best_of(supported()).name; }
+
+}  // namespace ice

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/contact/contact_rows.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <bit>
+
+namespace ice {
+
+namespace {
+
+// Colours that pairs share; a pair for whose bodies none is left gets one of its own.
+constexpr int kColours = 64;
+
+void put(LaneVectors& to, std::size_t lane, const Vec3& from) {
+    for (int d = 0; d < 3; ++d) to[static_cast<std::size_t>(d)].v[lane] = from[d];
+}
+
+void put(std::array<LaneValues, 6>& to, std::size_t lane, const Mat3& m) {
+    const double entries[6] = {m(0, 0), m(1, 1), m(2, 2), m(0, 1), m(0, 2), m(1, 2)};
+    for (std::size_t k = 0; k < 6; ++k) to[k].v[lane] = entries[k];
+}
+
+Vec3 get(const LaneVectors& from, std::size_t lane) {
+    return {from[0].v[lane], from[1].v[lane], from[2].v[lane]};
+}
+
+}  // namespace
+
+std::int32_t ContactRows::local(std::int32_t body) {
+    std::int32_t& number = local_[static_cast<std::size_t>(body)];
+    if (number < 0) {
+        number = static_cast<std::int32_t>(bodies_.size());
+        bodies_.push_back(body);
+    }
+    return number;
+}
+
+void ContactRows::find_pairs(const Bodies& bodies, const std::vector<Constraint>& constraints) {
+    for (const std::int32_t body : bodies_) local_[static_cast<std::size_t>(body)] = -1;
+    local_.resize(bodies.size(), -1);
+    bodies_.clear();
+    pairs_.clear();
+    for (std::size_t k = 0; k < constraints.size();) {
+        const Constraint& c = constraints[k];
+        std::size_t end = k;
+        while (end < constraints.size() && constraints[end].a == c.a && constraints[end].b == c.b)
+            ++end;
+        if (c.normal_mass > 0.0)
+            pairs_.push_back({local(c.a), local(c.b), static_cast<std::int32_t>(k),
+                              static_cast<std::int32_t>(end - k), 0});
+        k = end;
+    }
+}
+
+void ContactRows::colour_pairs(const Bodies& bodies) {
+    used_colours_.assign(bodies_.size(), 0);
+    int own = kColours;
+    const auto is_free = [&](std::int32_t b) {
+        return bodies.inverse_mass[static_cast<std::size_t>(bodies_[static_cast<std::size_t>(b)])] >
+               0.0;
+    };
+    for (Pair& p : pairs_) {
+        std::uint64_t &a = used_colours_[static_cast<std::size_t>(p.a)],
+                      &b = used_colours_[static_cast<std::size_t>(p.b)];
+        const bool free_a = is_free(p.a), free_b = is_free(p.b);
+        const std::uint64_t used = (free_a ? a : 0) | (free_b ? b : 0);
+        p.colour = std::countr_one(used);
+        if (p.colour == kColours) {
+            p.colour = own++;
+            continue;
+        }
+        if (free_a) a |= std::uint64_t{1} << p.colour;
+        if (free_b) b |= std::uint64_t{1} << p.colour;
+    }
+    // `first` makes the order complete: pairs_ are found in ascending order
+    std::sort(pairs_.begin(), pairs_.end(), [](const Pair& l, const Pair& r) {
+        if (l.colour != r.colour) return l.colour < r.colour;
+        if (l.count != r.count) return l.count > r.count;
+        return l.first < r.first;
+    });
+}
+
+void ContactRows::fill_block(const Bodies& bodies, const std::vector<Constraint>& constraints,
+                             std::size_t first_pair, std::size_t last_pair) {
+    PairBlock block;
+    block.first_row = static_cast<std::int32_t>(rows.size());
+    block.rows = pairs_[first_pair].count;  // the first has the most
+    block.colour = pairs_[first_pair].colour;
+    block.a.fill(-1);
+    block.b.fill(-1);
+    rows.resize(rows.size() + static_cast<std::size_t>(block.rows), ContactRow{});
+    for (std::size_t p = first_pair; p < last_pair; ++p) {
+        const Pair& pair = pairs_[p];
+        const std::size_t lane = p - first_pair;
+        const auto body = [&](std::int32_t l) {
+            return static_cast<std::size_t>(bodies_[static_cast<std::size_t>(l)]);
+        };
+        const std::size_t a = body(pair.a), b = body(pair.b);
+        block.a[lane] = pair.a;
+        block.b[lane] = pair.b;
+        block.inverse_mass_a.v[lane] = bodies.inverse_mass[a];
+        block.inverse_mass_b.v[lane] = bodies.inverse_mass[b];
+        put(block.inverse_inertia_a, lane, bodies.inverse_inertia_world[a]);
+        put(block.inverse_inertia_b, lane, bodies.inverse_inertia_world[b]);
+        for (std::int32_t k = 0; k < pair.count; ++k) {
+            const std::size_t contact = static_cast<std::size_t>(pair.first + k);
+            const Constraint& c = constraints[contact];
+            ContactRow& row = rows[static_cast<std::size_t>(block.first_row + k)];
+            put(row.normal, lane, c.normal);
+            put(row.arm_a, lane, c.arm_a);
+            put(row.arm_b, lane, c.arm_b);
+            put(row.response, lane,
+                (bodies.inverse_mass[a] + bodies.inverse_mass[b]) * c.normal +
+                    c.turn_a.cross(c.arm_a) + c.turn_b.cross(c.arm_b));
+            row.normal_response.v[lane] = 1.0 / c.normal_mass;
+            row.tangent_response.v[lane] = 1.0 / c.tangent_mass;
+            row.friction.v[lane] = c.friction;
+            slot_[contact] =
+                static_cast<std::int32_t>(kLanes) * (block.first_row + k) + static_cast<int>(lane);
+        }
+    }
+    blocks.push_back(block);
+}
+
+void ContactRows::build(const Bodies& bodies, const std::vector<Constraint>& constraints) {
+    blocks.clear();
+    rows.clear();
+    slot_.assign(constraints.size(), -1);
+    find_pairs(bodies, constraints);
+    colour_pairs(bodies);
+    for (std::size_t first = 0; first < pairs_.size();) {
+        std::size_t last = first + 1;
+        while (last < pairs_.size() && last < first + kLanes &&
+               pairs_[last].colour == pairs_[first].colour)
+            ++last;
+        fill_block(bodies, constraints, first, last);
+        first = last;
+    }
+}
+
+void ContactRows::load_motions(const Bodies& bodies) {
+    motion.resize(bodies_.size());
+    for (std::size_t k = 0; k < bodies_.size(); ++k) {
+        const std::size_t body = static_cast<std::size_t>(bodies_[k]);
+        const Vec3 &v = bodies.velocity[body], &w = bodies.angular_velocity[body];
+        motion[k] = {{v.x(), v.y(), v.z(), w.x(), w.y(), w.z(), 0.0, 0.0}};
+    }
+}
+
+void ContactRows::set(std::size_t slot, const Constraint& c, double normal, const Vec3& tangent,
+                      const Target& target) {
+    ContactRow& row = rows[slot / kLanes];
+    const std::size_t lane = slot % kLanes;
+    row.normal_mass.v[lane] = target.takes_part ? c.normal_mass : 0.0;
+    row.tangent_mass.v[lane] = target.takes_part ? c.tangent_mass : 0.0;
+    row.wanted.v[lane] = target.takes_part ? target.wanted : 0.0;
+    // what takes no part keeps what it has
+    row.bound.v[lane] = target.takes_part ? std::max(target.bound, 0.0) : normal;
+    row.impulse.normal.v[lane] = normal;
+    put(row.impulse.tangent, lane, tangent);
+}
+
+void ContactRows::end_stage(Bodies& bodies, std::vector<Constraint>& constraints,
+                            double Constraint::*normal, Vec3 Constraint::*tangent) const {
+    for (std::size_t k = 0; k < bodies_.size(); ++k) {
+        const std::size_t body = static_cast<std::size_t>(bodies_[k]);
+        if (bodies.inverse_mass[body] == 0.0) continue;
+        const double* v = motion[k].v;
+        bodies.velocity[body] = Vec3(v[0], v[1], v[2]);
+        bodies.angular_velocity[body] = Vec3(v[3], v[4], v[5]);
+    }
+    for (std::size_t k = 0; k < constraints.size(); ++k) {
+        if (slot_[k] < 0) continue;
+        const std::size_t slot = static_cast<std::size_t>(slot_[k]);
+        const RowImpulses& impulse = rows[slot / kLanes].impulse;
+        constraints[k].*normal = impulse.normal.v[slot % kLanes];
+        constraints[k].*tangent = get(impulse.tangent, slot % kLanes);
+    }
+}
+
+}  // namespace ice

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Contacts as the sweeps of the solver read them: eight body pairs beside each other.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "solver/contact/constraints.hpp"
+
+namespace ice {
+
+/// Body pairs in a block; fixed, so that the arithmetic's order depends on no instruction set.
+constexpr std::size_t kLanes = 8;
+
+/// One number for each pair of a block.
+struct alignas(64) LaneValues {
+    double v[kLanes];
+};
+using LaneVectors = std::array<LaneValues, 3>;  ///< x, y, z
+
+/// Impulses of a row: what a sweep changes.
+struct RowImpulses {
+    LaneValues normal;    ///< accumulated in the stage, >= 0 [N s]
+    LaneVectors tangent;  ///< [N s]
+};
+
+/// One contact of each pair of a block; where a pair has no more contacts all is zero.
+struct ContactRow {
+    LaneVectors normal, arm_a, arm_b;  ///< as in Constraint
+    LaneVectors response;              ///< change of v_r by a unit normal impulse [1/kg]
+    LaneValues normal_response;        ///< k(n) [1/kg]
+    LaneValues tangent_response;       ///< largest k(t) [1/kg]
+    LaneValues friction;               ///< Coulomb's coefficient
+    // of the stage; all 0 where the contact takes no part
+    LaneValues normal_mass, tangent_mass;  ///< 1 / the responses [kg]
+    LaneValues wanted;                     ///< least v_r . n [m/s]
+    LaneValues bound;                      ///< largest normal impulse, >= 0 [N s]
+    RowImpulses impulse;
+};
+
+/// Eight body pairs of which no two share a free body, so that they may be taken at once.
+struct PairBlock {
+    std::int32_t first_row = 0, rows = 0;
+    std::int32_t colour = 0;  ///< neither do blocks of one colour; later ones have no more rows
+    std::array<std::int32_t, kLanes> a{}, b{};  ///< local bodies; lanes without a pair: -1
+    LaneValues inverse_mass_a{}, inverse_mass_b{};
+    std::array<LaneValues, 6> inverse_inertia_a{}, inverse_inertia_b{};  ///< xx yy zz xy xz yz
+};
+
+/// Velocity and angular velocity of a body: v x y z, w x y z; two are not used.
+struct alignas(64) BodyMotion {
+    double v[8];
+};
+
+/// All contacts of a step that can move something, in blocks.
+///
+/// Pairs are coloured greedily in their order: each gets the first colour that none of its free
+/// bodies has yet, and the blocks of a colour hold pairs of about as many contacts. So the order of
+/// the sweeps depends on which bodies touch at how many points, and on nothing else.
+class ContactRows {
+public:
+    /// @pre constraints ordered by (a, b), as ContactFinder gives them
+    void build(const Bodies& bodies, const std::vector<Constraint>& constraints);
+
+    /// What a stage asks of a contact.
+    struct Target {
+        bool takes_part;
+        double wanted;  ///< [m/s]
+        double bound;   ///< [N s]; negative counts as 0
+    };
+
+    /// Takes velocities from the bodies, impulses and targets from the constraints.
+    template <class TargetOf>
+    void begin_stage(const Bodies& bodies, const std::vector<Constraint>& constraints,
+                     double Constraint::*normal, Vec3 Constraint::*tangent,
+                     const TargetOf& target_of) {
+        load_motions(bodies);
+        for (std::size_t k = 0; k < constraints.size(); ++k)
+            if (slot_[k] >= 0)
+                set(static_cast<std::size_t>(slot_[k]), constraints[k], constraints[k].*normal,
+                    constraints[k].*tangent, target_of(constraints[k]));
+    }
+
+    /// Gives velocities back to the bodies and impulses to the constraints.
+    void end_stage(Bodies& bodies, std::vector<Constraint>& constraints, double Constraint::*normal,
+                   Vec3 Constraint::*tangent) const;
+
+    std::vector<PairBlock> blocks;   ///< by colour
+    std::vector<ContactRow> rows;    ///< by block
+    std::vector<BodyMotion> motion;  ///< of the bodies that take part
+
+private:
+    struct Pair {
+        std::int32_t a, b, first, count, colour;  // local bodies, constraints
+    };
+    void find_pairs(const Bodies& bodies, const std::vector<Constraint>& constraints);
+    void colour_pairs(const Bodies& bodies);
+    void fill_block(const Bodies& bodies, const std::vector<Constraint>& constraints,
+                    std::size_t first_pair, std::size_t last_pair);
+    std::int32_t local(std::int32_t body);
+    void load_motions(const Bodies& bodies);
+    void set(std::size_t slot, const Constraint& c, double normal, const Vec3& tangent,
+             const Target& target);
+
+    std::vector<Pair> pairs_;
+    std::vector<std::int32_t> bodies_;         // by local number
+    std::vector<std::int32_t> local_;          // by body; -1 for those without contacts
+    std::vector<std::uint64_t> used_colours_;  // by local number
+    std::vector<std::int32_t> slot_;           // by constraint: kLanes row + lane, or -1
+};
+
+}  // namespace ice

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "solver/contact/contact_rows.hpp"
+
+namespace ice {
+
+/// Brings every contact in turn to its conditions, the others being as they are.
+///
+/// Blocks one after the other, the rows of a block one after the other, its eight pairs at once.
+/// For a contact with accumulated impulses J_n n + J_t, relative velocity v_r, masses m_n, m_t:
+///
+///     J_n'  = clamp(J_n + (wanted - v_r . n) m_n, 0, bound)
+///     v_r'  = v_r + (J_n' - J_n) K n
+///     J_t'  = J_t - m_t (v_r' - (v_r' . n) n), shortened to mu J_n' where longer
+///
+/// and the bodies' velocities change by the change of impulse.
+/// @return largest change of a contact's velocity [m/s]: |dJ_n| k(n) or |dJ_t| k(t)
+double sweep(const std::vector<PairBlock>& blocks, std::vector<ContactRow>& rows,
+             std::vector<BodyMotion>& motion);
+
+/// State before a sweep and the direction of the extrapolation, beside rows and motions.
+struct SweepMemory {
+    std::vector<RowImpulses> before, way;
+    std::vector<BodyMotion> motion_before, motion_way;
+};
+
+/// |g|^2 = sum of k(n) (dJ_n^2 + dJ_t^2) for the changes since `memory` [J], twice the energy of
+/// them on unit masses; summed by lanes, then over the lanes.
+double measure_change(const std::vector<ContactRow>& rows, const SweepMemory& memory);
+
+/// With g the change since `before`: values += beta way, way = beta way + g, before = values; for
+/// impulses and velocities.
+void move_on(std::vector<ContactRow>& rows, std::vector<BodyMotion>& motion, double beta,
+             SweepMemory& memory);
+
+namespace reference {
+// The definitions, one contact at a time: read these first. Same bits on every instruction set.
+double sweep(const std::vector<PairBlock>& blocks, std::vector<ContactRow>& rows,
+             std::vector<BodyMotion>& motion);
+double measure_change(const std::vector<ContactRow>& rows, const SweepMemory& memory);
+void move_on(std::vector<ContactRow>& rows, std::vector<BodyMotion>& motion, double beta,
+             SweepMemory& memory);
+}  // namespace reference
+
+}  // namespace ice

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Search for the spheres of two bodies that are near enough to be measured.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "solver/shape/sphere_blocks.hpp"
+
+namespace ice {
+
+/// p' = turn p + shift, from one body's axes to another's.
+struct FloatPose {
+    float turn[3][3];
+    float shift[3];  ///< [m]
+};
+
+/// How far apart two spheres may be and still matter: see in_range.
+struct SearchRange {
+    float along, across;  ///< added to the two spheres' own `along` and `aside` [m]
+};
+
+/// Spheres picked from a body, in the axes of the search; entries from `count` on mean nothing.
+struct NearSpheres {
+    std::vector<float> x, y, z, along, aside, own;
+    std::vector<std::int32_t> id;
+    std::size_t count = 0;
+    FloatBox box;  ///< of their centres; empty (low > high) where there are none
+};
+
+/// Pairs found by find_near_pairs. The partners of its k-th row are [end[k - 1], end[k]).
+struct NearPairs {
+    std::vector<std::int32_t> partner;  ///< ids of the many; beyond end.back() without meaning
+    std::vector<std::int32_t> end;      ///< one per row
+};
+
+/// Groups of 16 spheres whose box comes within `reach` [m] of `box`, ascending; body axes.
+void find_groups(const SphereBlocks& spheres, const FloatBox& box, float reach,
+                 std::vector<std::int32_t>& out);
+
+/// Picks, of these groups, the spheres whose centres, moved by `pose`, lie in `box` grown by
+/// `grow` + the sphere's own hypot(along, aside) on all sides; order of the groups is kept.
+void pick_spheres(const SphereBlocks& spheres, const std::vector<std::int32_t>& groups,
+                  const FloatPose& pose, const FloatBox& box, float grow, NearSpheres& out);
+
+/// The same from spheres that have been picked already.
+void pick_spheres(const NearSpheres& from, const FloatBox& box, float grow, NearSpheres& out);
+
+/// For rows f = first .. last - 1 of `few` finds all spheres of `many` with
+///
+///     |c_f - c_m|^2 <= (along_f + along_m + range.along)^2 + (aside_f + aside_m + range.across)^2
+///
+/// in the order of `many`.
+void find_near_pairs(const NearSpheres& few, std::size_t first, std::size_t last,
+                     const NearSpheres& many, const SearchRange& range, NearPairs& out);
+
+namespace reference {
+// The definitions, one sphere at a time: read these first. Same bits on every instruction set.
+void find_groups(const SphereBlocks& spheres, const FloatBox& box, float reach,
+                 std::vector<std::int32_t>& out);
+void pick_spheres(const SphereBlocks& spheres, const std::vector<std::int32_t>& groups,
+                  const FloatPose& pose, const FloatBox& box, float grow, NearSpheres& out);
+void pick_spheres(const NearSpheres& from, const FloatBox& box, float grow, NearSpheres& out);
+void find_near_pairs(const NearSpheres& few, std::size_t first, std::size_t last,
+                     const NearSpheres& many, const SearchRange& range, NearPairs& out);
+}  // namespace reference
+
+}  // namespace ice

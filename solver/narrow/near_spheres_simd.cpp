@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The search for near spheres, as many at a time as the machine has lanes, compiled once per
+// instruction set. The mathematics is in near_spheres_reference.cpp.
+#include "solver/narrow/near_spheres.hpp"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "solver/narrow/near_spheres_simd.cpp"
+#include <hwy/foreach_target.h>  // must precede highway.h
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace ice::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+constexpr std::size_t kBlock = SphereBlocks::kGroup;
+
+using Tag = hn::CappedTag<float, kBlock>;
+using IdTag = hn::RebindToSigned<Tag>;
+using Lanes = hn::Vec<Tag>;
+using Mask = hn::Mask<Tag>;
+
+// StoreU(Compress()) and not CompressStore(): the latter is slow on AMD's AVX-512.
+HWY_INLINE void Append(Lanes values, Mask which, float* to) {
+    hn::StoreU(hn::Compress(values, which), Tag(), to);
+}
+
+HWY_INLINE void Append(const std::int32_t* ids, Mask which, std::int32_t* to) {
+    const IdTag d;
+    hn::StoreU(hn::Compress(hn::LoadU(d, ids), hn::RebindMask(d, which)), d, to);
+}
+
+// Appends the numbers of those of 16 boxes from `first` on that touch `box` grown by `reach`.
+HWY_INLINE std::size_t TouchingBoxes(const BoxRows& rows, std::size_t first, const FloatBox& box,
+                                     float reach, std::int32_t* out) {
+    const Tag d;
+    const IdTag di;
+    std::size_t found = 0;
+    for (std::size_t k = first; k < first + kBlock; k += hn::Lanes(d)) {
+        Mask near = hn::Le(hn::LoadU(d, rows.low[0].data() + k), hn::Set(d, box.high[0] + reach));
+        for (int axis = 0; axis < 3; ++axis) {
+            if (axis > 0)
+                near = hn::And(near, hn::Le(hn::LoadU(d, rows.low[axis].data() + k),
+                                            hn::Set(d, box.high[axis] + reach)));
+            near = hn::And(near, hn::Ge(hn::LoadU(d, rows.high[axis].data() + k),
+                                        hn::Set(d, box.low[axis] - reach)));
+        }
+        const auto number = hn::Iota(di, static_cast<std::int32_t>(k));
+        hn::StoreU(hn::Compress(number, hn::RebindMask(di, near)), di, out + found);
+        found += hn::CountTrue(d, near);
+    }
+    return found;
+}
+
+void FindGroups(const SphereBlocks& spheres, const FloatBox& box, float reach,
+                std::vector<std::int32_t>& out) {
+    out.resize(spheres.groups.size() + 2 * kBlock);  // full vectors are stored behind the last
+    std::size_t found = 0;
+    std::int32_t clusters[2 * kBlock];
+    for (std::size_t k = 0; k < spheres.clusters.size(); k += kBlock) {
+        const std::size_t near = TouchingBoxes(spheres.clusters, k, box, reach, clusters);
+        for (std::size_t c = 0; c < near; ++c)
+            found += TouchingBoxes(spheres.groups, kBlock * static_cast<std::size_t>(clusters[c]),
+                                   box, reach, out.data() + found);
+    }
+    out.resize(found);
+}
+
+// The spheres picked so far: appends, and keeps the box around them.
+class Picked {
+public:
+    Picked(const FloatBox& box, float grow, std::size_t most, NearSpheres& out)
+        : box_(box), grow_(grow), out_(out) {
+        const std::size_t room = most + kBlock;  // full vectors are stored behind the last
+        if (out.id.size() >= room) return;
+        for (auto* values : {&out.x, &out.y, &out.z, &out.along, &out.aside, &out.own})
+            values->resize(room);
+        out.id.resize(room);
+    }
+
+    // Spheres k, k + 1, ... of `from` as far as `valid`, which are at x, y, z.
+    template <class Spheres>
+    HWY_INLINE void Add(const Spheres& from, std::size_t k, Mask valid, Lanes x, Lanes y, Lanes z) {
+        const Tag d;
+        const auto own = hn::LoadU(d, from.own.data() + k);
+        const auto reach = hn::Add(hn::Set(d, grow_), own);
+        const auto inside = [&](Lanes at, int axis) {
+            return hn::And(hn::Ge(at, hn::Sub(hn::Set(d, box_.low[axis]), reach)),
+                           hn::Le(at, hn::Add(hn::Set(d, box_.high[axis]), reach)));
+        };
+        const Mask picked =
+            hn::And(hn::And(valid, inside(x, 0)), hn::And(inside(y, 1), inside(z, 2)));
+        if (hn::AllFalse(d, picked)) return;
+        Append(x, picked, out_.x.data() + count_);
+        Append(y, picked, out_.y.data() + count_);
+        Append(z, picked, out_.z.data() + count_);
+        Append(hn::LoadU(d, from.along.data() + k), picked, out_.along.data() + count_);
+        Append(hn::LoadU(d, from.aside.data() + k), picked, out_.aside.data() + count_);
+        Append(own, picked, out_.own.data() + count_);
+        Append(from.id.data() + k, picked, out_.id.data() + count_);
+        count_ += hn::CountTrue(d, picked);
+        low_x_ = hn::Min(low_x_, hn::IfThenElse(picked, x, low_x_));
+        low_y_ = hn::Min(low_y_, hn::IfThenElse(picked, y, low_y_));
+        low_z_ = hn::Min(low_z_, hn::IfThenElse(picked, z, low_z_));
+        high_x_ = hn::Max(high_x_, hn::IfThenElse(picked, x, high_x_));
+        high_y_ = hn::Max(high_y_, hn::IfThenElse(picked, y, high_y_));
+        high_z_ = hn::Max(high_z_, hn::IfThenElse(picked, z, high_z_));
+    }
+
+    void Finish() {
+        const Tag d;
+        const auto least = [&](Lanes v) { return hn::GetLane(hn::MinOfLanes(d, v)); };
+        const auto most = [&](Lanes v) { return hn::GetLane(hn::MaxOfLanes(d, v)); };
+        out_.count = count_;
+        out_.box = {{least(low_x_), least(low_y_), least(low_z_)},
+                    {most(high_x_), most(high_y_), most(high_z_)}};
+    }
+
+private:
+    static constexpr float kNone = 1e18f;
+    FloatBox box_;
+    float grow_;
+    NearSpheres& out_;
+    std::size_t count_ = 0;
+    Lanes low_x_ = hn::Set(Tag(), kNone), low_y_ = low_x_, low_z_ = low_x_;
+    Lanes high_x_ = hn::Set(Tag(), -kNone), high_y_ = high_x_, high_z_ = high_x_;
+};
+
+void PickMoved(const SphereBlocks& spheres, const std::vector<std::int32_t>& groups,
+               const FloatPose& pose, const FloatBox& box, float grow, NearSpheres& out) {
+    const Tag d;
+    Picked picked(box, grow, groups.size() * kBlock, out);
+    for (const std::int32_t g : groups)
+        for (std::size_t k = kBlock * static_cast<std::size_t>(g);
+             k < kBlock * (static_cast<std::size_t>(g) + 1); k += hn::Lanes(d)) {
+            const auto x = hn::LoadU(d, spheres.x.data() + k);
+            const auto y = hn::LoadU(d, spheres.y.data() + k);
+            const auto z = hn::LoadU(d, spheres.z.data() + k);
+            // Mul then Add, not MulAdd: a fused product would differ from the reference
+            const auto moved = [&](int axis) {
+                const float* row = pose.turn[axis];
+                return hn::Add(
+                    hn::Add(hn::Mul(hn::Set(d, row[0]), x), hn::Mul(hn::Set(d, row[1]), y)),
+                    hn::Add(hn::Mul(hn::Set(d, row[2]), z), hn::Set(d, pose.shift[axis])));
+            };
+            picked.Add(spheres, k, hn::FirstN(d, kBlock), moved(0), moved(1), moved(2));
+        }
+    picked.Finish();
+}
+
+void PickNear(const NearSpheres& from, const FloatBox& box, float grow, NearSpheres& out) {
+    const Tag d;
+    Picked picked(box, grow, from.count, out);
+    for (std::size_t k = 0; k < from.count; k += hn::Lanes(d))
+        picked.Add(from, k, hn::FirstN(d, from.count - k), hn::LoadU(d, from.x.data() + k),
+                   hn::LoadU(d, from.y.data() + k), hn::LoadU(d, from.z.data() + k));
+    picked.Finish();
+}
+
+void FindNearPairs(const NearSpheres& few, std::size_t first, std::size_t last,
+                   const NearSpheres& many, const SearchRange& range, NearPairs& out) {
+    const Tag d;
+    const std::size_t room = (last - first) * many.count + kBlock;
+    if (out.partner.size() < room) out.partner.resize(room);
+    out.end.clear();
+    std::size_t found = 0;
+    for (std::size_t f = first; f < last; ++f) {
+        const auto x = hn::Set(d, few.x[f]), y = hn::Set(d, few.y[f]), z = hn::Set(d, few.z[f]);
+        const auto along = hn::Set(d, few.along[f] + range.along);
+        const auto across = hn::Set(d, few.aside[f] + range.across);
+        for (std::size_t m = 0; m < many.count; m += hn::Lanes(d)) {
+            const auto dx = hn::Sub(hn::LoadU(d, many.x.data() + m), x);
+            const auto dy = hn::Sub(hn::LoadU(d, many.y.data() + m), y);
+            const auto dz = hn::Sub(hn::LoadU(d, many.z.data() + m), z);
+            const auto a = hn::Add(hn::LoadU(d, many.along.data() + m), along);
+            const auto c = hn::Add(hn::LoadU(d, many.aside.data() + m), across);
+            const auto apart = hn::Add(hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy)), hn::Mul(dz, dz));
+            const auto near = hn::And(hn::Le(apart, hn::Add(hn::Mul(a, a), hn::Mul(c, c))),
+                                      hn::FirstN(d, many.count - m));
+            if (hn::AllFalse(d, near)) continue;
+            Append(many.id.data() + m, near, out.partner.data() + found);
+            found += hn::CountTrue(d, near);
+        }
+        out.end.push_back(static_cast<std::int32_t>(found));
+    }
+}
+
+}  // namespace ice::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace ice {
+HWY_EXPORT(FindGroups);
+HWY_EXPORT(PickMoved);
+HWY_EXPORT(PickNear);
+HWY_EXPORT(FindNearPairs);
+
+void find_groups(const SphereBlocks& spheres, const FloatBox& box, float reach,
+                 std::vector<std::int32_t>& out) {
+    HWY_DYNAMIC_DISPATCH(FindGroups)(spheres, box, reach, out);
+}
+
+void pick_spheres(const SphereBlocks& spheres, const std::vector<std::int32_t>& groups,
+                  const FloatPose& pose, const FloatBox& box, float grow, NearSpheres& out) {
+    HWY_DYNAMIC_DISPATCH(PickMoved)(spheres, groups, pose, box, grow, out);
+}
+
+void pick_spheres(const NearSpheres& from, const FloatBox& box, float grow, NearSpheres& out) {
+    HWY_DYNAMIC_DISPATCH(PickNear)(from, box, grow, out);
+}
+
+void find_near_pairs(const NearSpheres& few, std::size_t first, std::size_t last,
+                     const NearSpheres& many, const SearchRange& range, NearPairs& out) {
+    HWY_DYNAMIC_DISPATCH(FindNearPairs)(few, first, last, many, range, out);
+}
+}  // namespace ice
+#endif

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/narrow/search_pair.hpp"
+
+#include <cmath>
+
+namespace ice {
+
+namespace {
+
+// Up to so many it costs less to compare with all than to pick the nearer ones.
+constexpr std::size_t kAllAtOnce = 64;
+
+FloatPose to_floats(const Mat3& turn, const Vec3& shift) {
+    FloatPose out;
+    for (int r = 0; r < 3; ++r) {
+        for (int c = 0; c < 3; ++c) out.turn[r][c] = static_cast<float>(turn(r, c));
+        out.shift[r] = static_cast<float>(shift[r]);
+    }
+    return out;
+}
+
+// The box around a box that was moved by p' = turn p + shift.
+FloatBox move_box(const FloatBox& box, const Mat3& turn, const Vec3& shift) {
+    Vec3 middle, half;
+    for (int d = 0; d < 3; ++d) {
+        middle[d] = 0.5 * (box.high[d] + box.low[d]);
+        half[d] = 0.5 * (box.high[d] - box.low[d]);
+    }
+    middle = Vec3(turn * middle + shift);
+    half = Vec3(turn.cwiseAbs() * half);
+    FloatBox out;
+    for (int d = 0; d < 3; ++d) {
+        out.low[d] = static_cast<float>(middle[d] - half[d]);
+        out.high[d] = static_cast<float>(middle[d] + half[d]);
+    }
+    return out;
+}
+
+// How far a sphere's partner among `others` may be, less its own hypot(along, aside).
+float reach_of(const SphereBlocks& others, const SearchRange& range) {
+    return std::hypot(others.largest_along + range.along, others.largest_aside + range.across);
+}
+
+}  // namespace
+
+void PairSearch::pick(const PairView& view, double along, double across) {
+    const bool few_a = asks_first(view);
+    const SphereBlocks& few = (few_a ? view.shape_a : view.shape_b).blocks;
+    const SphereBlocks& many = (few_a ? view.shape_b : view.shape_a).blocks;
+    // to and from the axes of the few
+    const Mat3 turn = few_a ? view.turn : Mat3(view.turn.transpose());
+    const Vec3 shift = few_a ? view.shift : Vec3(-(view.turn.transpose() * view.shift));
+    const Mat3 back = turn.transpose();
+
+    const double extent = 2.0 * (few.size + 2.0 * many.size) + shift.norm();
+    const double slack = static_cast<double>(SphereBlocks::kFloatShare) * extent +
+                         view.scene.crushed.deepest_of(view.pair.a) +
+                         view.scene.crushed.deepest_of(view.pair.b);
+    range_ = {static_cast<float>(along + slack), static_cast<float>(across + slack)};
+
+    const float reach_few = reach_of(many, range_);
+    reach_ = reach_of(few, range_);
+    few_.count = 0;
+    find_groups(many, move_box(few.box, back, -(back * shift)), many.largest_own + reach_, groups_);
+    if (groups_.empty()) return;
+    pick_spheres(many, groups_, to_floats(turn, shift), few.box, reach_, many_);
+    if (many_.count == 0) return;
+    find_groups(few, many_.box, few.largest_own + reach_few, groups_);
+    pick_spheres(few, groups_, to_floats(Mat3::Identity(), Vec3::Zero()), many_.box, reach_few,
+                 few_);
+}
+
+const NearSpheres& PairSearch::partners_of(std::size_t first, std::size_t last) {
+    if (many_.count <= kAllAtOnce) return many_;
+    const auto extent = [&](const std::vector<float>& values, int d, FloatBox& box) {
+        const auto [low, high] = std::minmax_element(values.begin() + static_cast<long>(first),
+                                                     values.begin() + static_cast<long>(last));
+        box.low[d] = *low;
+        box.high[d] = *high;
+    };
+    FloatBox box;
+    extent(few_.x, 0, box);
+    extent(few_.y, 1, box);
+    extent(few_.z, 2, box);
+    pick_spheres(many_, box, reach_, partners_);
+    return partners_;
+}
+
+}  // namespace ice

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+
+#include "solver/narrow/near_spheres.hpp"
+#include "solver/narrow/pair_view.hpp"
+
+namespace ice {
+
+/// Finds the spheres of two bodies that are near each other; keeps its memory between pairs.
+///
+/// The body with fewer spheres asks the other one: of that one the groups and then the spheres near
+/// its own box are picked, of its own those near what was picked, and these are compared all with
+/// all. Crushed spheres are searched where they were before the crushing, further by its depth.
+class PairSearch {
+public:
+    /// Calls visit(i, j) for all spheres i of a and j of b with
+    ///
+    ///     |c_i - c_j|^2 <= (corner_i + corner_j + along)^2 + (aside_i + aside_j + across)^2,
+    ///
+    /// corner and aside as in Faces, and for some that are farther by rounding to floats or by
+    /// crushing. A sphere of the body with fewer spheres comes with all its partners at once.
+    template <class Visit>
+    void for_each_near(const PairView& view, double along, double across, const Visit& visit) {
+        pick(view, along, across);
+        const bool few_a = asks_first(view);
+        for (std::size_t first = 0; first < few_.count; first += kRows) {
+            const std::size_t last = std::min(first + kRows, few_.count);
+            find_near_pairs(few_, first, last, partners_of(first, last), range_, pairs_);
+            std::int32_t k = 0;
+            for (std::size_t f = first; f < last; ++f)
+                for (; k < pairs_.end[f - first]; ++k) {
+                    const std::int32_t one = few_.id[f], other = pairs_.partner[k];
+                    few_a ? visit(one, other) : visit(other, one);
+                }
+        }
+    }
+
+private:
+    static bool asks_first(const PairView& view) {
+        return view.shape_a.center.size() < view.shape_b.center.size();
+    }
+    // That many spheres, neighbours, choose together whom they are compared with.
+    static constexpr std::size_t kRows = SphereBlocks::kGroup;
+
+    // Sets few_, many_ (in the axes of the body with fewer spheres) and range_.
+    void pick(const PairView& view, double along, double across);
+
+    // Of many_ those that rows [first, last) may be near to.
+    const NearSpheres& partners_of(std::size_t first, std::size_t last);
+
+    SearchRange range_{};
+    float reach_ = 0.0f;  // of the few, less a sphere's own hypot(along, aside) [m]
+    std::vector<std::int32_t> groups_;
+    NearSpheres few_, many_, partners_;
+    NearPairs pairs_;
+};
+
+}  // namespace ice

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Times of the solver's steps on fixed scenes, beside other engines; README.md has the numbers.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+
+#include "common/base/error.hpp"
+#include "common/base/parallel.hpp"
+#include "common/base/part_file.hpp"
+#include "common/base/version.hpp"
+#include "common/cli/console.hpp"
+#include "common/cli/progress.hpp"
+#include "tests/bench/icebench_peer.hpp"
+#include "tests/bench/icebench_table.hpp"
+#include "tests/bench/machine.hpp"
+
+using namespace ice;
+using namespace ice::bench;
+
+namespace {
+
+struct Options {
+    std::vector<std::string> scenes = scene_names(), simd{"auto"};
+    std::vector<int> floes, threads{1, 2};
+    int steps = 1000;
+    double patience = 150.0;
+    bool peers = false, quiet = false;
+    std::string csv, water = "distributed", normal = "surface";
+    Models models;
+};
+
+void declare(CLI::App& app, Options& o) {
+    app.set_version_flag("--version",
+                         fmt::format("icebench {} ({}, {})", version(), git_commit(), compiler()));
+    app.add_option("--scene", o.scenes, "Scenes, separated by commas (default: all)")
+        ->delimiter(',')
+        ->check(CLI::IsMember(scene_names()));
+    app.add_option("--floes", o.floes,
+                   "Numbers of floes, separated by commas. loose and packed take any (default "
+                   "100,400,1600,10000); paper-3d has 180 and ship-100m 2000 and they are left "
+                   "out where the list lacks that")
+        ->delimiter(',')
+        ->check(CLI::Range(1, 1000000));
+    app.add_option("--threads", o.threads, "Numbers of threads (default 1,2)")
+        ->delimiter(',')
+        ->check(CLI::Range(1, 4096));
+    app.add_option("--simd", o.simd, "Instruction sets; all: every one there is (default auto)")
+        ->delimiter(',')
+        ->check(CLI::IsMember({"auto", "scalar", "sse4", "avx2", "avx512", "all"}));
+    app.add_option("--steps", o.steps, "Steps of 0.01 s (default 1000)")
+        ->check(CLI::Range(1, 1000000));
+    app.add_flag("--peers", o.peers,
+                 "Also Bullet (libbullet-dev) and ODE (libode-dev) on loose and packed, as far as "
+                 "they were there when this was built; one thread");
+    app.add_option("--patience", o.patience,
+                   "Wall time after which a peer does not begin another step [s] (default 150)")
+        ->check(CLI::PositiveNumber);
+    app.add_option("--water", o.water,
+                   "Loads on the floes of our solver: distributed (buoyancy) with panel (drag), "
+                   "the default; paper: centre with projected; none: no water, no weight")
+        ->check(CLI::IsMember({"distributed", "paper", "none"}));
+    app.add_option("--normal", o.normal, "Contact rule of our solver (default surface)")
+        ->check(CLI::IsMember({"surface", "centres"}));
+    app.add_option("--iterations", o.models.iterations,
+                   "Upper bound per stage of our contact solver (default 10)")
+        ->check(CLI::Range(1, 100000));
+    app.add_option("--csv", o.csv, "Write the table here, too")->type_name("FILE");
+    app.add_flag("-q,--quiet", o.quiet, "No progress");
+    app.footer(
+        "Nothing sleeps and every contact is kept. --water, --normal and --iterations do not\n"
+        "concern paper-3d, which is the case of that name. Exit codes: 0 ok; 1 failed, or state\n"
+        "hashes of one scene differ; 2 bad command line; 130 interrupted.");
+}
+
+// The solver's instruction sets that `--simd all` stands for.
+std::vector<std::string> instruction_sets() { return {"scalar"}; }
+
+// Chooses an instruction set. @return the one in force, for "auto" the machine's best
+std::string use_instruction_set(const std::string& name) {
+    if (name != "auto" && name != "scalar")
+        throw bad_input("--simd", name + ": this version has scalar code only",
+                        "use auto, scalar or all");
+    return "scalar";
+}
+
+class Bench {
+public:
+    explicit Bench(Options options) : o_(std::move(options)) {
+        const auto all = std::find(o_.simd.begin(), o_.simd.end(), "all");
+        if (all != o_.simd.end()) o_.simd = instruction_sets();
+        for (const std::string& name : o_.simd) use_instruction_set(name);  // or refuse it now
+        o_.models.normal = o_.normal == "centres" ? NormalRule::centres : NormalRule::surface;
+        if (o_.water == "paper") {
+            o_.models.buoyancy = BuoyancyModel::centre;
+            o_.models.drag = DragModel::projected;
+        } else if (o_.water == "none") {
+            o_.models.buoyancy = BuoyancyModel::none;
+            o_.models.drag = DragModel::none;
+        }
+    }
+
+    int run() {
+        fmt::print("{}, {}, icesolve {} ({})\n\n{}", test::machine_name(), compiler(), version(),
+                   git_commit(), table_head());
+        for (const std::string& name : o_.scenes)
+            for (const int floes : numbers_of(name))
+                if (!interrupted()) measure_scene(name, floes);
+        if (interrupted()) return static_cast<int>(ExitCode::interrupted);
+        fmt::print("\nMean time per step by stage [ms]\n\n{}", stage_table(rows_));
+        if (o_.peers)
+            for (const PeerKind& kind : peer_kinds())
+                if (kind.make == nullptr)
+                    fmt::print("\n{}: not installed ({})\n", kind.name, kind.package);
+        if (!o_.csv.empty()) write_text_file(o_.csv, csv_text(rows_));
+        return hashes_agree_ ? 0 : static_cast<int>(ExitCode::failed);
+    }
+
+private:
+    std::vector<int> numbers_of(const std::string& scene) const {
+        std::vector<int> usual = usual_floes(scene);
+        if (o_.floes.empty()) return usual;
+        if (takes_any_number(scene)) return o_.floes;
+        std::erase_if(usual, [&](int n) {
+            return std::find(o_.floes.begin(), o_.floes.end(), n) == o_.floes.end();
+        });
+        return usual;
+    }
+
+    void measure_scene(const std::string& name, int floes) {
+        const BenchScene scene = make_bench_scene(name, floes, o_.models);
+        std::size_t fastest = rows_.size();  // of one thread: what peers are compared with
+        const std::size_t first = rows_.size();
+        for (const std::string& simd : o_.simd)
+            for (const int threads : o_.threads) {
+                set_thread_count(threads);
+                const std::string in_force = use_instruction_set(simd);
+                Progress progress("icebench", o_.quiet);
+                Row row = measure_solver(scene, o_.steps,
+                                         watch(progress, fmt::format("{} {}, {}, {} threads", name,
+                                                                     floes, in_force, threads)));
+                progress.finish();
+                row.simd = in_force;
+                if (!add(std::move(row), "")) return;
+                const Row& now = rows_.back();
+                if (now.threads == 1 &&
+                    (rows_[fastest].threads > 1 || now.median_ms() < rows_[fastest].median_ms()))
+                    fastest = rows_.size() - 1;
+            }
+        compare_hashes(first);
+        if (o_.peers && scene.for_peers) measure_peers(scene, rows_[fastest]);
+    }
+
+    void measure_peers(const BenchScene& scene, Row ours) {
+        for (const PeerKind& kind : peer_kinds()) {
+            if (kind.make == nullptr || interrupted()) continue;
+            Progress progress("icebench", o_.quiet);
+            Row row = measure_peer(
+                kind, scene, {o_.steps, o_.patience},
+                watch(progress, fmt::format("{} {}, {}", scene.name, ours.floes, kind.name)));
+            progress.finish();
+            const std::string to_ours = fmt::format("{:.1f}", ratio(row, ours));
+            add(std::move(row), to_ours);
+        }
+    }
+
+    static Watch watch(Progress& progress, const std::string& note) {
+        return [&progress, note](double done) {
+            progress.update(done, note);
+            return !interrupted();
+        };
+    }
+
+    bool add(Row row, const std::string& to_ours) {
+        if (row.interrupted) return false;
+        fmt::print("{}", table_line(row, to_ours));
+        std::fflush(stdout);
+        rows_.push_back(std::move(row));
+        return true;
+    }
+
+    void compare_hashes(std::size_t first) {
+        for (std::size_t k = first + 1; k < rows_.size(); ++k)
+            if (rows_[k].state_hash != rows_[first].state_hash) {
+                say_warning(fmt::format("{} {}: the state depends on threads or instruction set",
+                                        rows_[k].scene, rows_[k].floes));
+                hashes_agree_ = false;
+                return;
+            }
+    }
+
+    Options o_;
+    std::vector<Row> rows_;
+    bool hashes_agree_ = true;
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app(
+        "Times the solver's steps on fixed scenes: fields of box floes of spheres and a ship that "
+        "goes into them.",
+        "icebench");
+    Options options;
+    declare(app, options);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::bad_input);
+    }
+    start_messages(Colour::automatic, options.quiet);
+    catch_interrupts();
+    return run_program("icebench", [&] { return Bench(options).run(); });
+}

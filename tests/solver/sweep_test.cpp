@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The solver's sweeps: blocks share no free body, bits on every instruction set.
+#include "solver/contact/sweep.hpp"
+
+#include <Eigen/Geometry>
+#include <bit>
+#include <catch2/catch.hpp>
+#include <cstring>
+#include <random>
+
+#include "tests/support/every_instruction_set.hpp"
+
+using namespace ice;
+
+namespace {
+
+// Bodies of about a ton; body 0 and every tenth are immovable.
+Bodies make_bodies(std::size_t count, std::mt19937& random) {
+    std::uniform_real_distribution<double> unit(-1.0, 1.0);
+    const auto vector = [&] { return Vec3(unit(random), unit(random), unit(random)); };
+    Bodies out;
+    for (std::size_t k = 0; k < count; ++k) {
+        const bool free = k % 10 != 0;
+        out.shape.push_back(0);
+        out.position.push_back(3.0 * vector());
+        out.velocity.push_back(vector());
+        out.angular_velocity.push_back(vector());
+        out.inverse_mass.push_back(free ? 1e-3 * (2.0 + unit(random)) : 0.0);
+        const Mat3 turn =
+            Quaternion(Eigen::AngleAxisd(unit(random), vector().normalized())) * Mat3::Identity();
+        const Vec3 inertia =
+            free ? Vec3(1e-2 * (vector() + Vec3::Constant(2.0))) : Vec3(Vec3::Zero());
+        out.inverse_inertia_world.push_back(turn * inertia.asDiagonal() * turn.transpose());
+    }
+    return out;
+}
+
+// Contacts of random pairs, up to `most` each, ordered by pair.
+std::vector<Constraint> make_constraints(const Bodies& bodies, std::size_t pairs, int most,
+                                         std::mt19937& random) {
+    std::uniform_real_distribution<double> unit(-1.0, 1.0);
+    std::uniform_int_distribution<std::int32_t> body(0, static_cast<int>(bodies.size()) - 1);
+    std::uniform_int_distribution<int> count(1, most);
+    std::vector<std::pair<std::int32_t, std::int32_t>> chosen;
+    while (chosen.size() < pairs) {
+        const std::int32_t a = body(random), b = body(random);
+        if (a < b) chosen.emplace_back(a, b);
+    }
+    std::sort(chosen.begin(), chosen.end());
+    chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
+    std::vector<Contact> contacts;
+    for (const auto& [a, b] : chosen)
+        for (int k = count(random); k > 0; --k) {
+            Contact c{};
+            c.a = a;
+            c.b = b;
+            c.point = 0.5 * (bodies.position[a] + bodies.position[b]) +
+                      0.1 * Vec3(unit(random), unit(random), unit(random));
+            c.normal = Vec3(unit(random), unit(random), unit(random)).normalized();
+            contacts.push_back(c);
+        }
+    ContactLaw law;
+    law.crushing_pressure = std::numeric_limits<double>::infinity();
+    std::vector<Constraint> out;
+    build_constraints(bodies, contacts, law, out);
+    return out;
+}
+
+struct Problem {
+    Bodies bodies;
+    std::vector<Constraint> constraints;
+    ContactRows contacts;
+
+    Problem(std::size_t pairs, int most, unsigned seed) {
+        std::mt19937 random(seed);
+        bodies = make_bodies(pairs / 2 + 5, random);
+        constraints = make_constraints(bodies, pairs, most, random);
+        contacts.build(bodies, constraints);
+    }
+    void begin() {
+        contacts.begin_stage(bodies, constraints, &Constraint::rest_normal,
+                             &Constraint::rest_tangent, [](const Constraint& c) {
+                                 const bool takes_part = c.normal.x() < 0.7;
+                                 return ContactRows::Target{takes_part, 0.1, 400.0 * c.normal.y()};
+                             });
+    }
+};
+
+template <class T>
+bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+}
+
+std::vector<RowImpulses> impulses_of(const ContactRows& contacts) {
+    std::vector<RowImpulses> out;
+    for (const ContactRow& row : contacts.rows) out.push_back(row.impulse);
+    return out;
+}
+
+}  // namespace
+
+TEST_CASE("no two pairs of a block, nor of blocks of one colour, share a free body", "[sweep]") {
+    Problem problem(GENERATE(1u, 8u, 9u, 300u), 5, 3);
+    const ContactRows& contacts = problem.contacts;
+    std::size_t pairs = 0, rows = 0;
+    for (std::size_t k = 0; k < contacts.blocks.size();) {
+        const std::int32_t colour = contacts.blocks[k].colour;
+        std::vector<std::int32_t> seen;
+        std::int32_t most = contacts.blocks[k].rows;
+        for (; k < contacts.blocks.size() && contacts.blocks[k].colour == colour; ++k) {
+            const PairBlock& block = contacts.blocks[k];
+            CHECK(block.rows <= most);  // what the sweep of two blocks at a time relies on
+            most = block.rows;
+            rows += static_cast<std::size_t>(block.rows);
+            for (std::size_t lane = 0; lane < kLanes; ++lane) {
+                if (block.a[lane] < 0) continue;
+                ++pairs;
+                if (block.inverse_mass_a.v[lane] > 0.0) seen.push_back(block.a[lane]);
+                if (block.inverse_mass_b.v[lane] > 0.0) seen.push_back(block.b[lane]);
+            }
+        }
+        std::sort(seen.begin(), seen.end());
+        CHECK(std::adjacent_find(seen.begin(), seen.end()) == seen.end());
+    }
+    CHECK(rows == contacts.rows.size());
+    std::size_t expected = 0;
+    for (std::size_t k = 0; k < problem.constraints.size(); ++k) {
+        const Constraint& c = problem.constraints[k];
+        const bool first =
+            k == 0 || problem.constraints[k - 1].a != c.a || problem.constraints[k - 1].b != c.b;
+        if (first && c.normal_mass > 0.0) ++expected;
+    }
+    CHECK(pairs == expected);
+}
+
+TEST_CASE("a floe with more neighbours than there are colours is solved with all of them",
+          "[sweep]") {
+    std::mt19937 random(5);
+    Bodies bodies = make_bodies(200, random);
+    std::vector<Contact> contacts;
+    for (std::int32_t k = 2; k < 200; ++k) {
+        Contact c{};
+        c.a = 1;
+        c.b = k;
+        c.point = bodies.position[1];
+        c.normal = Vec3::UnitX();
+        contacts.push_back(c);
+    }
+    std::vector<Constraint> constraints;
+    ContactLaw law;
+    law.crushing_pressure = std::numeric_limits<double>::infinity();
+    build_constraints(bodies, contacts, law, constraints);
+    ContactRows rows;
+    rows.build(bodies, constraints);
+    CHECK(rows.blocks.size() == 198);  // body 1 is free: no two of its pairs share a block
+}
+
+TEST_CASE("one contact is brought to its conditions by one sweep", "[sweep][analytic]") {
+    // 2 and 3 kg meet head-on at 1 and -4 m/s; they should part at 0.5 m/s
+    Bodies bodies;
+    for (const double mass : {2.0, 3.0}) {
+        bodies.shape.push_back(0);
+        bodies.inverse_mass.push_back(1.0 / mass);
+        bodies.inverse_inertia_world.push_back(Mat3::Identity());
+        bodies.angular_velocity.push_back(Vec3::Zero());
+    }
+    bodies.position = {Vec3::Zero(), Vec3(2, 0, 0)};
+    bodies.velocity = {Vec3(1, 0, 0), Vec3(-4, 0, 0)};
+    Contact contact{};
+    contact.b = 1;
+    contact.point = Vec3(1, 0, 0);
+    contact.normal = Vec3::UnitX();
+    ContactLaw law;
+    law.crushing_pressure = std::numeric_limits<double>::infinity();
+    std::vector<Constraint> constraints;
+    build_constraints(bodies, {contact}, law, constraints);
+    ContactRows rows;
+    rows.build(bodies, constraints);
+    rows.begin_stage(bodies, constraints, &Constraint::rest_normal, &Constraint::rest_tangent,
+                     [](const Constraint&) {
+                         return ContactRows::Target{true, 0.5, 1e9};
+                     });
+    CHECK(sweep(rows.blocks, rows.rows, rows.motion) == Approx(5.5).epsilon(1e-15));
+    CHECK(sweep(rows.blocks, rows.rows, rows.motion) <= 1e-15);
+    rows.end_stage(bodies, constraints, &Constraint::rest_normal, &Constraint::rest_tangent);
+    CHECK(constraints[0].rest_normal == Approx(5.5 * 6.0 / 5.0).epsilon(1e-15));
+    CHECK(bodies.velocity[0].x() == Approx(1.0 - 3.3).epsilon(1e-15));
+    CHECK(bodies.velocity[1].x() == Approx(-4.0 + 2.2).epsilon(1e-15));
+}
+
+TEST_CASE("every instruction set sweeps to the bits of the reference", "[sweep][simd]") {
+    const std::size_t pairs = GENERATE(1u, 2u, 3u, 5u, 7u, 8u, 9u, 17u, 400u);
+    Problem problem(pairs, 6, static_cast<unsigned>(pairs));
+    ContactRows& contacts = problem.contacts;
+    const auto run = [&](const auto& sweep_once, const auto& change, const auto& go_on) {
+        problem.begin();
+        SweepMemory memory;
+        memory.before = impulses_of(contacts);
+        memory.way.assign(contacts.rows.size(), RowImpulses{});
+        memory.motion_before = contacts.motion;
+        memory.motion_way.assign(contacts.motion.size(), BodyMotion{});
+        std::vector<double> out;
+        for (int k = 0; k < 4; ++k) {
+            out.push_back(sweep_once(contacts.blocks, contacts.rows, contacts.motion));
+            out.push_back(change(contacts.rows, memory));
+            go_on(contacts.rows, contacts.motion, 0.3, memory);
+        }
+        return out;
+    };
+    const auto expected = run(reference::sweep, reference::measure_change, reference::move_on);
+    const auto expected_impulses = impulses_of(contacts);
+    const auto expected_motion = contacts.motion;
+    if (pairs > 8) REQUIRE(expected[0] > 0.0);  // or nothing is compared
+    test::on_every_instruction_set([&] {
+        CHECK(same_bits(run(sweep, measure_change, move_on), expected));
+        CHECK(same_bits(impulses_of(contacts), expected_impulses));
+        CHECK(same_bits(contacts.motion, expected_motion));
+    });
+}
