@@ -20,7 +20,8 @@ namespace ice {
 
 namespace {
 
-constexpr double kEqual = 1e-6;  // [m]
+constexpr double kEqual = 1e-6;       // [m]
+constexpr double kMostSpheres = 2e8;  // of all shapes together; 100 bytes each in the file
 
 // Outlines about their centroids, each form once, and which of them every floe has.
 struct Forms {
@@ -81,7 +82,21 @@ SphereSet fill_form(const FieldSpec& spec, const Outline& outline) {
     return set;
 }
 
+// Surface spheres: a hexagonal layer.
+void refuse_too_many(const FieldSpec& spec, const std::vector<Outline>& outlines) {
+    double surface = 0.0;
+    for (const Outline& outline : outlines)
+        surface += 2.0 * area_of(outline) + 4.0 * size_of(outline) * spec.thickness;
+    const double count = 1.155 * surface / (spec.spacing * spec.spacing);
+    if (count > kMostSpheres)
+        throw bad_input(
+            "spheres.spacing",
+            fmt::format("{} shapes would take about {:.1g} spheres", outlines.size(), count),
+            "use a larger spacing, or fewer floes");
+}
+
 std::vector<SphereSet> fill_forms(const FieldSpec& spec, const std::vector<Outline>& outlines) {
+    refuse_too_many(spec, outlines);
     std::vector<SphereSet> shapes(outlines.size());
     std::vector<std::optional<Error>> errors(outlines.size());
     parallel_tasks(outlines.size(), true, [&](std::size_t k) {

@@ -12,6 +12,9 @@ using Rectangle = Eigen::AlignedBox2d;
 /// A floe seen from above: corners in order, anticlockwise, without repeating the first [m].
 using Outline = std::vector<Vec2>;
 
+/// More floes than this are a wrong unit more often than a wish.
+constexpr double kMostFloes = 1e6;
+
 /// All floes of a field before they become solids.
 struct FieldPlan {
     Rectangle area;              ///< that the loose floes' concentration refers to [m]

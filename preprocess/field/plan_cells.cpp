@@ -13,7 +13,6 @@ namespace ice {
 
 namespace {
 
-constexpr double kMostFloes = 1e6;
 constexpr double kDensest = 0.975;   // floes over area: shrunk() needs some water
 constexpr double kShortEdge = 0.02;  // of a cell's size: shorter edges end in one corner
 constexpr double kSizeMiss = 0.005;  // of the mean size: tried again beyond

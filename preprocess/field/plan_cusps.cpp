@@ -12,7 +12,6 @@ namespace {
 
 constexpr int kPieces = 8;      // straight pieces of an arc over a whole breaking width
 constexpr double kSnap = 0.02;  // of the width: a cusp's end this near to a knot is moved there
-constexpr double kMostCusps = 1e6;
 
 // The edge of the ice behind a row: x over y, straight between knots.
 class Front {
@@ -57,13 +56,13 @@ public:
     explicit CuspMaker(const FieldSpec& spec)
         : s_(spec),
           breadth_(spec.extent[1]),
-          across_(std::max(1, static_cast<int>(std::lround(breadth_ / spec.breaking_width)))),
-          rows_(std::max(1, static_cast<int>(std::lround(spec.extent[0] / spec.breaking_length)))),
+          across_(count(breadth_, spec.breaking_width)),
+          rows_(count(spec.extent[0], spec.breaking_length)),
           width_(breadth_ / across_),
           slope_(std::max(0.0, 1.0 / std::tan(spec.entrance_angle))) {}
 
     FieldPlan make() {
-        if (static_cast<double>(rows_) * across_ > kMostCusps)
+        if (static_cast<double>(rows_) * across_ > kMostFloes)
             throw bad_input("floes.breaking_length", "asks for more than a million cusps",
                             "use longer or wider cusps, or a smaller area");
         FieldPlan plan;
@@ -84,6 +83,11 @@ public:
     }
 
 private:
+    // pieces of about that length in a whole; beyond the most there may be, one more than that
+    static int count(double whole, double piece) {
+        return static_cast<int>(std::clamp(std::round(whole / piece), 1.0, kMostFloes + 1.0));
+    }
+
     // y where the cusps of a row meet, from one side of the channel to the other
     std::vector<double> ends_of(int row, const Front* behind) const {
         const double low = s_.origin[1] - 0.5 * breadth_;

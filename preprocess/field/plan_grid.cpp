@@ -17,6 +17,8 @@ Outline rectangle(double x, double y, double length, double breadth) {
 FieldPlan plan_grid(const FieldSpec& s) {
     const auto [columns, rows] = s.count;
     const auto [length, breadth] = s.floe_size;
+    if (static_cast<double>(columns) * rows > kMostFloes)
+        throw bad_input("floes.count", "asks for more than a million floes", "use fewer");
     const double whole = rows * breadth + (rows - 1) * s.gap[1];
     const double low = s.origin[1] - 0.5 * whole;
     const auto x_of = [&](int column) { return s.origin[0] + column * (length + s.gap[0]); };
@@ -54,7 +56,10 @@ void add_edges(const FieldSpec& s, FieldPlan& plan) {
     const double length = plan.area.max().x() + s.edge_overhang[1] - first;
     if (!(length > 0.0))
         throw bad_input("edges.overhang", "leaves nothing of the edges", "use larger numbers");
-    const int pieces = std::max(1, static_cast<int>(std::ceil(length / s.edge_piece - 1e-9)));
+    const double count = std::max(1.0, std::ceil(length / s.edge_piece - 1e-9));
+    if (count > kMostFloes)
+        throw bad_input("edges.piece", "asks for more than a million pieces", "use longer ones");
+    const int pieces = static_cast<int>(count);
     for (const double y :
          {plan.area.min().y() - s.edge_gap - s.edge_breadth, plan.area.max().y() + s.edge_gap})
         for (int k = 0; k < pieces; ++k)

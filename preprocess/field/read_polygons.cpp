@@ -17,6 +17,8 @@ namespace {
 
 using Json = nlohmann::json;
 
+constexpr int kDeepest = 20;  // collections within collections
+
 class GeoJsonReader {
 public:
     GeoJsonReader(const std::filesystem::path& file, std::size_t& holes)
@@ -33,18 +35,20 @@ public:
     }
 
 private:
-    void add(const Json& node) {
+    void add(const Json& node, int depth = 0) {
+        if (depth > kDeepest)
+            throw bad_input(file_.string(), "nests collections too deeply", "flatten them");
         const std::string type = node.is_object() ? node.value("type", "") : "";
         if (type == "FeatureCollection") {
             for (const Json& feature : node.at("features")) {
                 ++feature_;
-                add(feature);
+                add(feature, depth + 1);
             }
         } else if (type == "Feature") {
             if (node.contains("geometry") && node.at("geometry").is_object())
-                add(node.at("geometry"));
+                add(node.at("geometry"), depth + 1);
         } else if (type == "GeometryCollection") {
-            for (const Json& geometry : node.at("geometries")) add(geometry);
+            for (const Json& geometry : node.at("geometries")) add(geometry, depth + 1);
         } else if (type == "MultiPolygon") {
             for (const Json& polygon : node.at("coordinates")) add_polygon(polygon);
         } else if (type == "Polygon") {
