@@ -24,7 +24,7 @@ namespace {
 // Volume shares whose centroid is off by more than this many radii are worth a warning.
 constexpr double kCentroidMiss = 1e-6;
 constexpr double kLineStep = 0.2;   // of the spacing: between the points that edges are followed by
-constexpr double kQuickStep = 0.9;  // where they are straight
+constexpr double kQuickStep = 0.5;  // where they are straight
 constexpr double kMostSpheres = 3e7;  // 250 bytes each while they are made
 
 // Radius of the largest sphere found inside [m]: the deepest point of a coarse grid, then uphill.
