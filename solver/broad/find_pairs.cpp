@@ -57,6 +57,30 @@ void find_pairs(const Scene& scene, double margin, std::vector<BodyPair>& out) {
     std::sort(out.begin(), out.end());
 }
 
+namespace {
+
+// The list is made for bodies that go this far [m]; more makes it longer, less makes it anew often.
+constexpr double kSkin = 0.1;
+
+}  // namespace
+
+bool PairList::is_good(const Scene& scene, const Travel& travel) const {
+    if (held_ != scene.bodies.held) return false;
+    for (std::size_t i = 0; i < way_.size(); ++i)
+        if (travel.soon(static_cast<std::int32_t>(i)) > way_[i] + kSkin) return false;
+    return true;
+}
+
+void PairList::update(const Scene& scene, const Travel& travel, double margin) {
+    if (is_good(scene, travel)) return;
+    // both bodies of a pair may go as far
+    find_pairs(scene, margin + 2.0 * kSkin, pairs_);
+    held_ = scene.bodies.held;
+    way_.resize(travel.size());
+    for (std::size_t i = 0; i < way_.size(); ++i)
+        way_[i] = travel.way(static_cast<std::int32_t>(i));
+}
+
 namespace reference {
 
 void find_pairs(const Scene& scene, double margin, std::vector<BodyPair>& out) {

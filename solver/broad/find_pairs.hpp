@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "solver/broad/travel.hpp"
 #include "solver/scene/bodies.hpp"
 
 namespace ice {
@@ -25,5 +26,23 @@ namespace reference {
 /// The same by testing all pairs: the definition and the oracle of the tests.
 void find_pairs(const Scene& scene, double margin, std::vector<BodyPair>& out);
 }  // namespace reference
+
+/// The pairs of bodies that may touch within a step, kept until bodies have gone too far.
+class PairList {
+public:
+    /// Brings the list up to date: afterwards it holds all pairs that find_pairs gives for bodies
+    /// that keep their velocities for the step that `travel` looks ahead, and others.
+    /// @param margin  [m] beyond that motion
+    void update(const Scene& scene, const Travel& travel, double margin);
+
+    const std::vector<BodyPair>& pairs() const { return pairs_; }
+
+private:
+    bool is_good(const Scene& scene, const Travel& travel) const;
+
+    std::vector<BodyPair> pairs_;
+    std::vector<double> way_;         // of the bodies when the list was made [m]
+    std::vector<std::uint8_t> held_;  // which were held then
+};
 
 }  // namespace ice

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 #include <tuple>
 
 #include "common/base/parallel.hpp"
@@ -143,23 +145,49 @@ void finish_pair(const PairView& view, NormalRule rule, double margin,
               [&](const Contact& l, const Contact& r) { return order(l) < order(r); });
 }
 
+// What the search of a pair needs; kept between pairs.
+struct Workspace {
+    PairSearch search;
+    PairSurfaces surfaces;
+    std::vector<Candidate> candidates;
+};
+
 void find_pair_contacts(const Scene& scene, BodyPair pair, NormalRule rule, double margin,
-                        std::vector<Contact>& out) {
-    // these keep their memory between pairs
-    thread_local PairSearch search;
-    thread_local PairSurfaces surfaces;
-    thread_local std::vector<Candidate> candidates;
+                        Workspace& work, std::vector<Contact>& out) {
     const PairView view(scene, pair);
-    candidates.clear();
-    surfaces.begin(view);
+    work.candidates.clear();
+    work.surfaces.begin(view);
     const Range range(view, rule, margin);
-    search.for_each_near(view, range.margin, range.reach,
-                         Measure{view, surfaces, rule, range, candidates});
+    work.search.for_each_near(view, range.margin, range.reach,
+                              Measure{view, work.surfaces, rule, range, work.candidates});
     // the order of the search differs between poses: ascending, the answer is the pair's alone
-    std::sort(candidates.begin(), candidates.end(), [](const Candidate& l, const Candidate& r) {
-        return std::pair(l.i, l.j) < std::pair(r.i, r.j);
-    });
-    finish_pair(view, rule, margin, candidates, out);
+    std::sort(work.candidates.begin(), work.candidates.end(),
+              [](const Candidate& l, const Candidate& r) {
+                  return std::pair(l.i, l.j) < std::pair(r.i, r.j);
+              });
+    finish_pair(view, rule, margin, work.candidates, out);
+}
+
+// The least gap that the pair's spheres may have, less their motion, while that is within `leeway`.
+double least_gap(const Scene& scene, BodyPair pair, NormalRule rule, double margin,
+                 const Leeway& leeway, Workspace& work) {
+    const PairView view(scene, pair);
+    work.surfaces.begin(view);
+    const Range range(view, rule, margin + leeway.distance);
+    const bool ship = pair.a == static_cast<std::int32_t>(kShip);
+    double least = std::numeric_limits<double>::infinity();
+    work.search.for_each_near(
+        view, range.margin, range.reach + leeway.distance, [&](std::int32_t i, std::int32_t j) {
+            const PairSurfaces::Entry &a = work.surfaces.a(view, i), &b = work.surfaces.b(view, j);
+            if (a.gone || b.gone) return;
+            const double gap =
+                rule == NormalRule::centres
+                    ? (a.surface.center - b.surface.center).norm() -
+                          (a.surface.radius + b.surface.radius)
+                    : least_gap_surface(a.surface, b.surface, ship, range.reach, leeway);
+            least = std::min(least, gap);
+        });
+    return least;
 }
 
 // Upper bound of the speed at which surface points of the two bodies approach [m/s].
@@ -176,15 +204,44 @@ double closing_speed(const Scene& scene, BodyPair pair) {
 
 void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs, NormalRule rule,
                          double dt, double margin, std::vector<Contact>& out) {
-    if (per_pair_.size() < pairs.size()) per_pair_.resize(pairs.size());
-    parallel_for(pairs.size(), kSerialPairs, [&](std::size_t k) {
-        per_pair_[k].clear();
-        find_pair_contacts(scene, pairs[k], rule, dt * closing_speed(scene, pairs[k]) + margin,
-                           per_pair_[k]);
+    awake_.resize(pairs.size());
+    std::iota(awake_.begin(), awake_.end(), std::size_t{0});
+    find_awake(scene, pairs, rule, dt, margin, out);
+}
+
+void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
+                         const Travel& travel, NormalRule rule, double dt, double margin,
+                         std::vector<Contact>& out) {
+    dormant_.match(scene, pairs);
+    awake_.clear();
+    for (std::size_t k = 0; k < pairs.size(); ++k)
+        if (dormant_.is_awake(k, pairs[k], travel)) awake_.push_back(k);
+    find_awake(scene, pairs, rule, dt, margin, out);
+    parallel_for(awake_.size(), kSerialPairs, [&](std::size_t n) {
+        const std::size_t k = awake_[n];
+        if (!per_pair_[n].empty() || !dormant_.may_try(k)) return;
+        thread_local Workspace work;
+        const Leeway leeway = dormant_leeway(scene, pairs[k]);
+        const double least = least_gap(scene, pairs[k], rule, margin, leeway, work);
+        dormant_.settle(k, pairs[k], travel,
+                        {std::min(least - margin, leeway.distance), leeway.angle});
+    });
+}
+
+void ContactFinder::find_awake(const Scene& scene, const std::vector<BodyPair>& pairs,
+                               NormalRule rule, double dt, double margin,
+                               std::vector<Contact>& out) {
+    if (per_pair_.size() < awake_.size()) per_pair_.resize(awake_.size());
+    parallel_for(awake_.size(), kSerialPairs, [&](std::size_t n) {
+        thread_local Workspace work;
+        const BodyPair pair = pairs[awake_[n]];
+        per_pair_[n].clear();
+        find_pair_contacts(scene, pair, rule, dt * closing_speed(scene, pair) + margin, work,
+                           per_pair_[n]);
     });
     out.clear();
-    for (std::size_t k = 0; k < pairs.size(); ++k)
-        out.insert(out.end(), per_pair_[k].begin(), per_pair_[k].end());
+    for (std::size_t n = 0; n < awake_.size(); ++n)
+        out.insert(out.end(), per_pair_[n].begin(), per_pair_[n].end());
 }
 
 namespace reference {

@@ -7,6 +7,7 @@
 
 #include "solver/broad/find_pairs.hpp"
 #include "solver/case/case.hpp"
+#include "solver/narrow/dormant_pairs.hpp"
 #include "solver/narrow/patch.hpp"
 #include "solver/scene/bodies.hpp"
 
@@ -46,9 +47,20 @@ class ContactFinder {
 public:
     void find(const Scene& scene, const std::vector<BodyPair>& pairs, NormalRule rule, double dt,
               double margin, std::vector<Contact>& out);
+    /// The same contacts, to the last bit; pairs that cannot have come together since they were
+    /// last seen apart are not looked at.
+    /// @pre travel was updated with the present poses and dt
+    void find(const Scene& scene, const std::vector<BodyPair>& pairs, const Travel& travel,
+              NormalRule rule, double dt, double margin, std::vector<Contact>& out);
 
 private:
-    std::vector<std::vector<Contact>> per_pair_;  // kept between steps: no allocation once warm
+    void find_awake(const Scene& scene, const std::vector<BodyPair>& pairs, NormalRule rule,
+                    double dt, double margin, std::vector<Contact>& out);
+
+    // kept between steps: no allocation once warm
+    std::vector<std::size_t> awake_;              // rows of the pairs that are looked at
+    std::vector<std::vector<Contact>> per_pair_;  // of these
+    DormantPairs dormant_;
 };
 
 namespace reference {

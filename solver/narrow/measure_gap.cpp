@@ -5,29 +5,18 @@
 #include <cmath>
 #include <limits>
 
+#include "solver/narrow/gap_rule.hpp"
 #include "solver/shape/shape.hpp"
 
 namespace ice {
 
 namespace {
 
-// Spreads closer than this (in cosine) count as equally flat: normals are stored as floats.
-constexpr double kSameSpread = 1e-6;
-
 // A corner is over a face as long as it is not this many radii beyond the face's edge.
 constexpr double kBeyond = 0.01;
 
-// Cosine of the tilt of a face that is met edge first.
-constexpr double kLeaning = 0.2;
-
-// A face cuts into an edge that slants towards it all along; two edges meet where they cross.
-constexpr double kSlantOnFace = 0.95, kSlantOnEdge = 0.1;
-
 // Squared distances (in radii) that count as equal.
 constexpr double kFlush = 1e-3;
-
-// Edges closer to parallel than this (sine) have no normal across both.
-constexpr double kParallel = 0.05;
 
 // The direction of d itself inside the cone of normals, else the cone's nearest to it.
 Vec3 nearest_normal(const SphereSurface& s, const Vec3& d) {

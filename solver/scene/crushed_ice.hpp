@@ -16,6 +16,7 @@ struct CrushedIce {
     std::vector<std::int64_t> first;  ///< per body: its row of recess, -1 while whole
     std::vector<Vec3> recess;         ///< per surface sphere of crushed bodies, body axes [m]
     std::vector<double> deepest;      ///< per body, as far as `first`: its longest recess [m]
+    std::size_t changes = 0;          ///< how often crush() was called in this process
 
     bool is_whole(std::int32_t body) const {
         return static_cast<std::size_t>(body) >= first.size() ||
@@ -40,6 +41,7 @@ struct CrushedIce {
             row = static_cast<std::int64_t>(recess.size());
             recess.resize(recess.size() + spheres, Vec3::Zero());
         }
+        ++changes;
         Vec3& total = recess[static_cast<std::size_t>(row + sphere)];
         total += move;
         double& most = deepest[static_cast<std::size_t>(body)];

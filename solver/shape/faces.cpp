@@ -40,11 +40,11 @@ Faces Faces::turned(const Mat3& turn) const {
     return out;
 }
 
-bool Faces::have(const Vec3& n, double most_along) const {
-    const double least = kBelongs * size;
+bool Faces::have(const Vec3& n, double most_along, double slack) const {
+    const double least = kBelongs * size - slack;  // no `part` is longer than 1
     if (n.dot(part[0]) < least || n.dot(part[1]) < least) return false;
     const double last = n.dot(part[2]);
-    return count == 2 ? std::abs(last) <= most_along : last >= least;
+    return count == 2 ? std::abs(last) <= most_along + slack : last >= least;
 }
 
 }  // namespace ice

@@ -24,8 +24,9 @@ struct Faces {
     /// Is n an outward normal of the edge or corner: are its parts along the faces' normals
     /// positive, to some degrees? Beyond them the corner is not the body's foremost point, another
     /// sphere's is. Nor is it where n runs along the edge, by more than `most_along` (cosine).
+    /// @param slack  all bounds are wider by this [rad]; negative: narrower
     /// @pre count > 0
-    bool have(const Vec3& n, double most_along) const;
+    bool have(const Vec3& n, double most_along, double slack = 0.0) const;
 
     /// Unit vector along the edge; count == 2.
     const Vec3& edge() const { return part[2]; }

@@ -26,17 +26,6 @@ void timed(World& w, Stage stage, const Work& work) {
 // ... and as far as loads of the size of gravity move a floe within the step [m].
 double contact_margin(const Case& p) { return kMargin + p.gravity * p.time_step * p.time_step; }
 
-// Distance [m] that any two bodies' surfaces may come closer within a step.
-double closest_approach(const World& w) {
-    const Bodies& b = w.scene.bodies;
-    double speed = 0.0;
-    for (std::size_t i = 0; i < b.size(); ++i) {
-        const double radius = w.scene.shapes[static_cast<std::size_t>(b.shape[i])].bounding_radius;
-        speed = std::max(speed, b.velocity[i].norm() + b.angular_velocity[i].norm() * radius);
-    }
-    return 2.0 * speed * w.parameters.time_step + contact_margin(w.parameters);
-}
-
 }  // namespace
 
 ContactLaw contact_law(const Case& p) {
@@ -57,10 +46,13 @@ void step(World& w) {
 
     // who touches whom; a floe let go may touch neighbours that did not matter while it was held
     do {
-        timed(w, Stage::broad, [&] { find_pairs(w.scene, closest_approach(w), w.pairs); });
+        timed(w, Stage::broad, [&] {
+            w.travel.update(w.scene, dt);
+            w.pairs.update(w.scene, w.travel, contact_margin(w.parameters));
+        });
         timed(w, Stage::narrow, [&] {
-            w.finder.find(w.scene, w.pairs, w.parameters.normal, dt, contact_margin(w.parameters),
-                          w.contacts);
+            w.finder.find(w.scene, w.pairs.pairs(), w.travel, w.parameters.normal, dt,
+                          contact_margin(w.parameters), w.contacts);
         });
     } while (release_touched(w.scene, w.parameters, w.contacts));
     w.books.open(bodies);

@@ -26,7 +26,8 @@ struct World {
     double time = 0.0;  ///< [s]
     std::int64_t steps = 0;
 
-    std::vector<BodyPair> pairs;
+    Travel travel;
+    PairList pairs;
     std::vector<Contact> contacts;
     std::vector<Constraint> constraints;
     std::vector<FloeLoad> loads;

@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "common/base/error.hpp"
+#include "common/base/instruction_set.hpp"
 #include "common/base/parallel.hpp"
 #include "common/base/part_file.hpp"
 #include "common/base/version.hpp"
@@ -46,7 +47,7 @@ void declare(CLI::App& app, Options& o) {
     app.add_option("--threads", o.threads, "Numbers of threads (default 1,2)")
         ->delimiter(',')
         ->check(CLI::Range(1, 4096));
-    app.add_option("--simd", o.simd, "Instruction sets; all: every one there is (default auto)")
+    app.add_option("--simd", o.simd, "Instruction sets; all: those this machine has (default auto)")
         ->delimiter(',')
         ->check(CLI::IsMember({"auto", "scalar", "sse4", "avx2", "avx512", "all"}));
     app.add_option("--steps", o.steps, "Steps of 0.01 s (default 1000)")
@@ -74,15 +75,18 @@ void declare(CLI::App& app, Options& o) {
         "hashes of one scene differ; 2 bad command line; 130 interrupted.");
 }
 
-// The solver's instruction sets that `--simd all` stands for.
-std::vector<std::string> instruction_sets() { return {"scalar"}; }
-
-// Chooses an instruction set. @return the one in force, for "auto" the machine's best
-std::string use_instruction_set(const std::string& name) {
-    if (name != "auto" && name != "scalar")
-        throw bad_input("--simd", name + ": this version has scalar code only",
-                        "use auto, scalar or all");
-    return "scalar";
+// What `--simd all` stands for: the instruction sets that this machine has.
+std::vector<std::string> instruction_sets() {
+    std::vector<std::string> out;
+    for (const char* name : {"scalar", "sse4", "avx2", "avx512"}) {
+        try {
+            set_instruction_set(name);
+        } catch (const Error&) {
+            continue;
+        }
+        out.emplace_back(name);
+    }
+    return out;
 }
 
 class Bench {
@@ -90,7 +94,7 @@ public:
     explicit Bench(Options options) : o_(std::move(options)) {
         const auto all = std::find(o_.simd.begin(), o_.simd.end(), "all");
         if (all != o_.simd.end()) o_.simd = instruction_sets();
-        for (const std::string& name : o_.simd) use_instruction_set(name);  // or refuse it now
+        for (const std::string& name : o_.simd) set_instruction_set(name);  // or refuse it now
         o_.models.normal = o_.normal == "centres" ? NormalRule::centres : NormalRule::surface;
         if (o_.water == "paper") {
             o_.models.buoyancy = BuoyancyModel::centre;
@@ -135,7 +139,8 @@ private:
         for (const std::string& simd : o_.simd)
             for (const int threads : o_.threads) {
                 set_thread_count(threads);
-                const std::string in_force = use_instruction_set(simd);
+                set_instruction_set(simd);
+                const std::string in_force(instruction_set());  // of "auto" the best
                 Progress progress("icebench", o_.quiet);
                 Row row = measure_solver(scene, o_.steps,
                                          watch(progress, fmt::format("{} {}, {}, {} threads", name,

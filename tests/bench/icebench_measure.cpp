@@ -37,6 +37,10 @@ void timed(Row& row, const std::function<void()>& work) {
     row.step_cpu_ms.push_back(1e3 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
 }
 
+double mean(const std::vector<double>& values) {
+    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
 }  // namespace
 
 double Row::least_ms() const { return *std::min_element(step_ms.begin(), step_ms.end()); }
@@ -48,10 +52,8 @@ double Row::median_ms() const {
     return *middle;
 }
 
-double Row::mean_ms() const {
-    return std::accumulate(step_ms.begin(), step_ms.end(), 0.0) /
-           static_cast<double>(step_ms.size());
-}
+double Row::mean_ms() const { return mean(step_ms); }
+double Row::mean_cpu_ms() const { return mean(step_cpu_ms); }
 
 Row measure_solver(const BenchScene& scene, int steps, const Watch& watch) {
     World w = scene.world;

@@ -30,6 +30,7 @@ struct Row {
     double least_ms() const;
     double median_ms() const;
     double mean_ms() const;
+    double mean_cpu_ms() const;
 };
 
 /// How long to measure.

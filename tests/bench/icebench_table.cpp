@@ -10,7 +10,8 @@ namespace ice::bench {
 namespace {
 
 constexpr const char* kLine =
-    "| {:<8} | {:<9} | {:>5} | {:>7} | {:<6} | {:>5} | {:>8} | {:>9} | {:>9} | {:>8} | {:>10} | "
+    "| {:<8} | {:<9} | {:>5} | {:>7} | {:<6} | {:>5} | {:>8} | {:>9} | {:>9} | {:>9} | {:>8} | "
+    "{:>10} | "
     "{:>8} | "
     "{:>14} | {:>16} | {:>7} |\n";
 constexpr const char* kStageLine = "| {:<9} | {:>5} | {:>7} | {:<6} |";
@@ -19,20 +20,20 @@ constexpr const char* kStageLine = "| {:<9} | {:>5} | {:>7} | {:<6} |";
 
 std::string table_head() {
     return fmt::format(kLine, "engine", "scene", "floes", "threads", "simd", "steps", "ms, min",
-                       "median", "mean", "contacts", "overlap mm", "energy J", "above input J",
-                       "state hash", "to ours") +
-           "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+                       "median", "mean", "cpu", "contacts", "overlap mm", "energy J",
+                       "above input J", "state hash", "to ours") +
+           "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
 }
 
 std::string table_line(const Row& row, const std::string& to_ours) {
     const std::string above =
         std::isnan(row.energy_above_input) ? "" : fmt::format("{:.3g}", row.energy_above_input);
-    return fmt::format(kLine, row.engine, row.scene, row.floes, row.threads, row.simd,
-                       row.step_ms.size(), fmt::format("{:.4f}", row.least_ms()),
-                       fmt::format("{:.4f}", row.median_ms()), fmt::format("{:.4f}", row.mean_ms()),
-                       fmt::format("{:.1f}", row.contacts),
-                       fmt::format("{:.3f}", 1e3 * row.max_overlap),
-                       fmt::format("{:.1f}", row.energy), above, row.state_hash, to_ours);
+    return fmt::format(
+        kLine, row.engine, row.scene, row.floes, row.threads, row.simd, row.step_ms.size(),
+        fmt::format("{:.4f}", row.least_ms()), fmt::format("{:.4f}", row.median_ms()),
+        fmt::format("{:.4f}", row.mean_ms()), fmt::format("{:.4f}", row.mean_cpu_ms()),
+        fmt::format("{:.1f}", row.contacts), fmt::format("{:.3f}", 1e3 * row.max_overlap),
+        fmt::format("{:.1f}", row.energy), above, row.state_hash, to_ours);
 }
 
 std::string stage_table(const std::vector<Row>& rows) {

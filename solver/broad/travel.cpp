@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/broad/travel.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ice {
+
+namespace {
+
+// A turn by more than this between two looks [rad] counts as any.
+constexpr double kLargeTurn = 0.5;
+
+// Further than any two bodies are apart [m].
+constexpr double kAnywhere = 1e9;
+
+// Angle of the turn from p to q, at least: |q - p| is 2 sin(angle / 4) for the nearer of +-p.
+double turn_between(const Quaternion& p, const Quaternion& q) {
+    const double apart =
+        std::min((q.coeffs() - p.coeffs()).norm(), (q.coeffs() + p.coeffs()).norm());
+    return apart > 0.5 * kLargeTurn ? kAnywhere : 2.02 * apart;
+}
+
+}  // namespace
+
+void Travel::update(const Scene& scene, double dt) {
+    const Bodies& b = scene.bodies;
+    const std::size_t known = std::min(way_.size(), b.size());
+    way_.resize(b.size(), 0.0);
+    soon_.resize(b.size(), 0.0);
+    turn_.resize(b.size(), 0.0);
+    position_.resize(b.size());
+    orientation_.resize(b.size());
+    for (std::size_t i = 0; i < b.size(); ++i) {
+        const bool seen = i < known;
+        if (seen && b.held[i]) continue;
+        if (seen) {
+            const double arm = Travel::arm(scene.shapes[static_cast<std::size_t>(b.shape[i])]);
+            const double turn = turn_between(orientation_[i], b.orientation[i]);
+            turn_[i] += turn;
+            way_[i] += (b.position[i] - position_[i]).norm() + arm * turn;
+            soon_[i] = way_[i] + dt * (b.velocity[i].norm() + arm * b.angular_velocity[i].norm());
+        }
+        position_[i] = b.position[i];
+        orientation_[i] = b.orientation[i];
+    }
+    if (known < b.size()) update(scene, dt);  // `soon` of those just met
+}
+
+}  // namespace ice
