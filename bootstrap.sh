@@ -16,7 +16,7 @@ usage() {
     cat <<'END'
 usage: ./bootstrap.sh COMMAND
   deps   installs the Debian packages that are missing (as root or with sudo)
-  build  deps, then the programs: build/release/bin/{spherize,icesolve,icepost}
+  build  deps, then the programs: build/release/bin/{spherize,icefield,icesolve,icepost}
   demo   build, then the paper's 3D case from mesh to report
   test   build, then the whole test suite (CI=true: compiler warnings are errors)
 END

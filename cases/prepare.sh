@@ -1,14 +1,16 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Makes the sphere sets of a case: cases/prepare.sh CASE_DIR
+# Makes the sphere sets and ice fields of a case: cases/prepare.sh CASE_DIR
 #
 # Each line of CASE_DIR/spheres.txt is the arguments of one spherize call, "MESH [option]... -o FILE",
-# with paths relative to the case folder; "#" starts a comment line. A set newer than its mesh,
-# spheres.txt and the program is kept. SPHERIZE names another program than build/release/bin/spherize.
+# or of one icefield call, "SPECIFICATION.toml [option]... -o FILE", with paths relative to the case
+# folder; "#" starts a comment line. An output newer than its input, spheres.txt and the program is
+# kept. SPHERIZE and ICEFIELD name other programs than those in build/release/bin.
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 spherize=$(realpath -m "${SPHERIZE:-$root/build/release/bin/spherize}")
+icefield=$(realpath -m "${ICEFIELD:-$root/build/release/bin/icefield}")
 
 fail() {
     echo "prepare.sh: $*" >&2
@@ -16,24 +18,25 @@ fail() {
 }
 
 [[ $# -eq 1 ]] || fail "usage: cases/prepare.sh CASE_DIR"
-[[ -x $spherize ]] || fail "no program $spherize; run ./bootstrap.sh build or set SPHERIZE"
-[[ -f $1/spheres.txt ]] || fail "no file $1/spheres.txt; it lists the spherize calls of a case"
+[[ -f $1/spheres.txt ]] || fail "no file $1/spheres.txt; it lists the calls that make the sets of a case"
 cd "$1"
 
 mapfile -t lines <spheres.txt
 for line in "${lines[@]}"; do
     read -r -a arguments <<<"$line"
     [[ ${#arguments[@]} -eq 0 || ${arguments[0]} == '#'* ]] && continue
-    mesh=${arguments[0]}
+    input=${arguments[0]} program=$spherize name=SPHERIZE kind=mesh
+    [[ $input == *.toml ]] && program=$icefield name=ICEFIELD kind=specification
+    [[ -x $program ]] || fail "no program $program; run ./bootstrap.sh build or set $name"
     output=
     for ((k = 1; k + 1 < ${#arguments[@]}; ++k)); do
         [[ ${arguments[k]} == -o ]] && output=${arguments[k + 1]}
     done
     [[ -n $output ]] || fail "$1/spheres.txt: '${arguments[*]}' names no output; add -o FILE"
-    [[ -f $mesh ]] || fail "$1/spheres.txt: no mesh $mesh; paths are relative to $1"
-    if [[ $output -nt $mesh && $output -nt spheres.txt && $output -nt $spherize ]]; then
+    [[ -f $input ]] || fail "$1/spheres.txt: no $kind $input; paths are relative to $1"
+    if [[ $output -nt $input && $output -nt spheres.txt && $output -nt $program ]]; then
         echo "$1/$output is up to date" >&2
     else
-        "$spherize" "${arguments[@]}"
+        "$program" "${arguments[@]}"
     fi
 done

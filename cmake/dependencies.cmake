@@ -10,14 +10,14 @@ find_package(Threads REQUIRED)
 find_package(OpenMP REQUIRED COMPONENTS CXX)     # common/base/parallel.hpp
 set(HDF5_PREFER_PARALLEL FALSE)
 find_package(HDF5 REQUIRED COMPONENTS C HL)      # common/formats; HL: dimension scales
-find_package(nlohmann_json 3.11 CONFIG REQUIRED) # common/formats
+find_package(nlohmann_json 3.11 CONFIG REQUIRED) # common/formats, preprocess/field
 find_package(fmt 9 CONFIG REQUIRED)              # everywhere: text
 find_package(spdlog 1.10 CONFIG REQUIRED)        # common/cli
-find_package(CLI11 2.1 CONFIG REQUIRED)          # common/cli and the three programs
+find_package(CLI11 2.1 CONFIG REQUIRED)          # common/cli and the four programs
 find_package(assimp 5.2 CONFIG REQUIRED)         # preprocess/load
 find_package(OpenSSL REQUIRED COMPONENTS Crypto) # preprocess/load: SHA-256
-find_package(CGAL 5.5 CONFIG REQUIRED)           # preprocess/clean, repair, slice
+find_package(CGAL 5.5 CONFIG REQUIRED)           # preprocess/clean, repair, slice, field
 find_package(ZLIB REQUIRED)                      # preprocess/load, postprocess/paraview
 find_package(meshoptimizer 0.18 CONFIG REQUIRED) # postprocess/views: large hulls in pictures
-find_package(tomlplusplus 3.3 CONFIG REQUIRED)   # solver/case, postprocess/check
+find_package(tomlplusplus 3.3 CONFIG REQUIRED)   # common/toml, postprocess/check
 find_package(HWY 1.0 CONFIG REQUIRED)            # *_simd.cpp

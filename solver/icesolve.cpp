@@ -163,11 +163,11 @@ int run_case(const Options& o, const std::string& command_line) {
 
 int run_icesolve(const Options& o, const std::string& command_line) {
     if (!o.explain.empty()) {
-        fmt::print("{}", ice::explain_key(o.explain));
+        fmt::print("{}", ice::explain_key(ice::case_schema(), o.explain));
     } else if (o.schema) {
-        fmt::print("{}", ice::case_json_schema());
+        fmt::print("{}", ice::json_schema(ice::case_schema()));
     } else if (o.defaults) {
-        fmt::print("{}", ice::default_case_text());
+        fmt::print("{}", ice::default_text(ice::case_schema()));
     } else if (o.case_file.empty()) {
         throw ice::bad_input("", "no case file given", "icesolve --help lists what it takes");
     } else {

@@ -11,7 +11,8 @@ struct ShellOptions {
     double radius = 0.1;   ///< [m]
     double spacing = 0.1;  ///< wanted distance of neighbours [m]
     int dimension = 3;
-    bool mirror = false;  ///< the solid is symmetric about y = 0: make the layer so, bit for bit
+    bool mirror = false;     ///< the solid is symmetric about y = 0: make the layer so, bit for bit
+    double line_step = 0.2;  ///< between the points that edges are followed by [spacings]
 };
 
 /// Centres of spheres that touch the surface from inside, spaced evenly: the conforming layer.

@@ -11,7 +11,6 @@ namespace ice {
 namespace {
 
 // In units of the spacing.
-constexpr double kStep = 0.2;        // between the points that an edge is followed by
 constexpr double kSeparation = 0.5;  // between spheres of different edges
 constexpr double kMirrorGap = 0.25;  // half of it: a sphere and its image
 
@@ -78,7 +77,7 @@ private:
 }  // namespace
 
 std::vector<Seat> seat_lines(const SurfaceTree& tree, const ShellOptions& options) {
-    const double step = kStep * options.spacing;
+    const double step = options.line_step * options.spacing;
     const auto lines = options.dimension == 2 ? trace_section(tree, options.radius, step)
                                               : trace_sharp_edges(tree, options.radius, step);
     LineSeats seats(tree, options);

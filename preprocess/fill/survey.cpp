@@ -13,13 +13,14 @@ namespace ice {
 namespace {
 
 constexpr double kMostSamples = 1.5e6;
-constexpr double kReachable = 1e-6;    // radii by which the other side may be nearer
-constexpr double kFar = 8.0;           // spacings: on a part without spheres, none stands for it
-constexpr double kFaceSpread = 0.087;  // 5 degrees: beyond, a sphere is in an edge
+constexpr double kShareSize = 1.0 / 3.0;  // spacings, where only shares are asked for
+constexpr double kReachable = 1e-6;       // radii by which the other side may be nearer
+constexpr double kFar = 8.0;              // spacings: on a part without spheres, none stands for it
+constexpr double kFaceSpread = 0.087;     // 5 degrees: beyond, a sphere is in an edge
 
 // `last` is the sphere that the sample before was near to: likely a neighbour.
 Sight look(const SurfaceTree& tree, const SphereSet& set, const SphereFinder& finder,
-           const SurfaceSample& sample, std::int32_t& last) {
+           const SurfaceSample& sample, bool share_only, std::int32_t& last) {
     const double radius = set.radius;
     Sight out;
     out.area = sample.area;
@@ -32,7 +33,7 @@ Sight look(const SurfaceTree& tree, const SphereSet& set, const SphereFinder& fi
     out.owner = near.index;
     const Vec3& center = set.centers[static_cast<std::size_t>(near.index)];
     out.gap = static_cast<float>(std::max((sample.point - center).norm() - radius, 0.0));
-    if (!tree.is_clear(seat, radius * (1.0 - kReachable))) return out;
+    if (share_only || !tree.is_clear(seat, radius * (1.0 - kReachable))) return out;
     out.cover = static_cast<float>(near.distance);
     const auto k = static_cast<std::size_t>(near.index);
     if (set.normal_spread[k] >= kFaceSpread) return out;
@@ -80,8 +81,9 @@ double survey_size(const SphereSet& set, bool half) {
 }
 
 std::vector<Sight> survey_surface(const SurfaceTree& tree, const SphereSet& set,
-                                  const SphereFinder& finder, bool half) {
-    const SurfaceSampler sampler(tree.mesh(), survey_size(set, half), set.dimension, half);
+                                  const SphereFinder& finder, bool half, bool shares_only) {
+    const double size = shares_only ? kShareSize * set.spacing : survey_size(set, half);
+    const SurfaceSampler sampler(tree.mesh(), size, set.dimension, half);
     // triangles by the block, so that the blocks' sights join in order
     constexpr std::size_t kBlock = 64;
     const std::size_t blocks = (sampler.triangle_count() + kBlock - 1) / kBlock;
@@ -93,7 +95,7 @@ std::vector<Sight> survey_surface(const SurfaceTree& tree, const SphereSet& set,
         for (std::size_t t = b * kBlock; t < end; ++t) {
             sampler.sample(t, samples);
             for (const SurfaceSample& sample : samples)
-                found[b].push_back(look(tree, set, finder, sample, last));
+                found[b].push_back(look(tree, set, finder, sample, shares_only, last));
         }
     });
     std::vector<Sight> out;

@@ -54,9 +54,10 @@ private:
 /// for its face, so that the spheres of one face take no area of another round an edge.
 ///
 /// @param half  sample only y >= 0 (solid and set are their own mirror images)
+/// @param shares_only  from fewer samples, which tell area, owner, gap and place only
 /// @pre as for SphereFinder
 std::vector<Sight> survey_surface(const SurfaceTree& tree, const SphereSet& set,
-                                  const SphereFinder& finder, bool half);
+                                  const SphereFinder& finder, bool half, bool shares_only = false);
 
 /// Edge of the surface pieces that survey_surface looks from [m]: a quarter of the spacing, more
 /// where that would be over one and a half million of them.

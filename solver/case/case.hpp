@@ -21,9 +21,12 @@ enum class NormalRule { surface, centres };
 enum class BuoyancyModel { none, centre, distributed };
 enum class DragModel { none, projected, panel };
 
-/// One [[floes]] table: floes of one shape.
+/// One [[floes]] table: floes of one shape, or those of a field file.
 struct FloeGroup {
-    std::filesystem::path spheres;
+    std::filesystem::path spheres;  ///< not with pattern "file"
+    std::filesystem::path file;     ///< pattern "file"
+    bool unbroken_part = false;  ///< pattern "file": the file's unbroken ice, held always; else the
+                                 ///< loose floes
     Pattern pattern = Pattern::grid;
     std::array<int, 2> count{1, 1};  ///< along x, y
     std::array<double, 2> origin{0,
@@ -49,6 +52,7 @@ struct Case {
         speed_table;  ///< (t [s], u [m/s]), t rising; never empty
 
     double ice_density = 900.0;
+    /// In the case's order; behind them one group of unbroken ice for each pattern "file".
     std::vector<FloeGroup> floes;
 
     double restitution = 0.3, friction_ship_ice = 0.1, friction_ice_ice = 0.3;

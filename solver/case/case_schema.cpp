@@ -42,7 +42,7 @@ constexpr std::string_view kDrags = "none|projected|panel";
 using D = Dimension;
 using G = FloeGroup;
 
-std::vector<Key> run_keys() {
+std::vector<CaseKey> run_keys() {
     return {
         {"title", Kind::text, D::none, "\"\"", 0, 0, 0, "",
          "Title of the run, shown in every output.",
@@ -87,15 +87,20 @@ std::vector<Key> run_keys() {
     };
 }
 
-std::vector<Key> floe_keys() {
+std::vector<CaseKey> floe_keys() {
     return {
-        {"floes.spheres", Kind::path, D::none, "", 0, 0, 0, "",
+        {"floes.spheres", Kind::path, D::none, "-", 0, 0, 0, "",
          "Sphere set of these floes, made by spherize; relative to the case file.",
          [](Case&, G& g, const Value& v) { g.spheres = text(v); }},
+        {"floes.file", Kind::path, D::none, "-", 0, 0, 0, "",
+         "Pattern file: the field, made by icefield; its unbroken ice is held always.",
+         [](Case&, G& g, const Value& v) { g.file = text(v); }},
         {"floes.pattern", Kind::choice, D::none, "\"grid\"", 0, 0, 0, kPatterns,
-         "How the floes lie: rows and columns, columns shifted by half a floe, or one floe.",
+         "How the floes lie: rows and columns, columns shifted by half a floe, one floe, or as in "
+         "a "
+         "file.",
          [](Case&, G& g, const Value& v) { g.pattern = choice<Pattern>(v, kPatterns); }},
-        {"floes.count", Kind::vector, D::none, "[1, 1]", 1, 1e5, 2, "",
+        {"floes.count", Kind::counts, D::none, "[1, 1]", 1, 1e5, 2, "",
          "Number of floes along x and y.",
          [](Case&, G& g, const Value& v) {
              const auto n = vector2(v);
@@ -103,7 +108,7 @@ std::vector<Key> floe_keys() {
          }},
         {"floes.origin", Kind::vector, D::length, "[0.0, 0.0]", -1e6, 1e6, 2, "",
          "x of the first row's edge that meets the ship first (its smallest x), y of the field's "
-         "centre line.",
+         "centre line; pattern file: moves the field.",
          [](Case&, G& g, const Value& v) { g.origin = vector2(v); }},
         {"floes.gap", Kind::vector, D::length, "[0.0, 0.0]", 0, 1e4, 2, "",
          "Open water between neighbours along x and y.",
@@ -111,7 +116,7 @@ std::vector<Key> floe_keys() {
         {"floes.hold", Kind::choice, D::none, "\"until-hull-contact\"", 0, 0, 0, kHolds,
          "Until when the floes are immovable; the paper holds them until the ship touches them.",
          [](Case&, G& g, const Value& v) { g.hold = choice<Hold>(v, kHolds); }},
-        {"floes.position", Kind::vector, D::length, "-", -1e6, 1e6, 3, "",
+        {"floes.position", Kind::place, D::length, "-", -1e6, 1e6, 3, "",
          "Pattern single: centre of mass; z left out (two numbers) gives floating equilibrium.",
          [](Case&, G& g, const Value& v) {
              const auto& x = std::get<std::vector<double>>(v);
@@ -132,7 +137,7 @@ std::vector<Key> floe_keys() {
     };
 }
 
-std::vector<Key> model_keys() {
+std::vector<CaseKey> model_keys() {
     return {
         {"contact.restitution", Kind::number, D::none, "0.3", 0, 1, 0, "",
          "Normal speed after an impact over the speed before it.",
@@ -183,27 +188,11 @@ std::vector<Key> model_keys() {
     };
 }
 
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        std::size_t diagonal = row[0];
-        row[0] = i;
-        for (std::size_t j = 1; j <= b.size(); ++j) {
-            const std::size_t above = row[j];
-            row[j] =
-                std::min({row[j] + 1, row[j - 1] + 1, diagonal + (a[i - 1] == b[j - 1] ? 0 : 1)});
-            diagonal = above;
-        }
-    }
-    return row[b.size()];
-}
-
 }  // namespace
 
-const std::vector<Key>& case_keys() {
-    static const std::vector<Key> keys = [] {
-        std::vector<Key> all = run_keys();
+const std::vector<CaseKey>& case_keys() {
+    static const std::vector<CaseKey> keys = [] {
+        std::vector<CaseKey> all = run_keys();
         for (const auto& part : {floe_keys(), model_keys()})
             all.insert(all.end(), part.begin(), part.end());
         return all;
@@ -211,27 +200,13 @@ const std::vector<Key>& case_keys() {
     return keys;
 }
 
-const Key* find_key(std::string_view path) {
-    for (const Key& key : case_keys())
-        if (key.path == path) return &key;
-    return nullptr;
-}
-
-std::string nearest_key(std::string_view path) {
-    const Key* best = nullptr;
-    std::size_t least = std::max<std::size_t>(2, path.size() / 4) + 1;
-    for (const Key& key : case_keys()) {
-        // a right name in the wrong table is as near as a misspelt one
-        const auto tail = key.path.substr(key.path.rfind('.') + 1);
-        const std::size_t distance =
-            std::min(edit_distance(key.path, path),
-                     1 + edit_distance(tail, path.substr(path.rfind('.') + 1)));
-        if (distance < least) {
-            least = distance;
-            best = &key;
-        }
-    }
-    return best ? std::string(best->path) : "";
+const Schema& case_schema() {
+    static const Schema schema = [] {
+        Schema out{{}, "floes", "icesolve", "icesolve case"};
+        for (const CaseKey& key : case_keys()) out.keys.push_back(key);
+        return out;
+    }();
+    return schema;
 }
 
 }  // namespace ice

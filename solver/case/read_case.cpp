@@ -10,26 +10,14 @@
 #include <iterator>
 
 #include "common/base/error.hpp"
-#include "solver/case/toml_document.hpp"
+#include "common/toml/input_file.hpp"
+#include "solver/case/case_schema.hpp"
 
 namespace ice {
 
 namespace {
 
 constexpr double kMostSteps = 1e8;
-constexpr std::uintmax_t kLargestCase = 64u << 20;  // 64 MB: a million lines fit many times
-
-std::string read_text(const std::filesystem::path& file) {
-    std::error_code error;
-    if (!std::filesystem::is_regular_file(file, error))
-        throw bad_input(file.string(), "case file not found", "check the path");
-    if (std::filesystem::file_size(file, error) > kLargestCase)
-        throw bad_input(file.string(), "is too large for a case file (64 MB)",
-                        "is this the right file?");
-    std::ifstream in(file, std::ios::binary);
-    if (!in) throw bad_input(file.string(), "cannot be read", "check its permissions");
-    return {std::istreambuf_iterator<char>(in), {}};
-}
 
 std::string toml_text(const Value& value, const Key& key) {
     struct Writer {
@@ -54,7 +42,7 @@ std::string toml_text(const Value& value, const Key& key) {
             return out + "\"";
         }
         std::string operator()(const std::vector<double>& v) const {
-            const bool whole = key.kind == Kind::integer_list || key.path == "floes.count";
+            const bool whole = key.kind == Kind::integer_list || key.kind == Kind::counts;
             std::string out = "[";
             for (const double x : v)
                 out += (out.size() > 1 ? ", " : "") +
@@ -97,6 +85,14 @@ public:
             ++k;
         }
         if (mistakes_.texts.empty()) check_case();
+        // unbroken ice of fields: groups of their own, behind the case's, which keep their numbers
+        for (std::size_t g = 0; g < groups_; ++g) {
+            if (case_.floes[g].pattern != Pattern::file) continue;
+            FloeGroup unbroken = case_.floes[g];
+            unbroken.unbroken_part = true;
+            unbroken.hold = Hold::always;
+            case_.floes.push_back(unbroken);
+        }
         return case_;
     }
 
@@ -144,7 +140,7 @@ private:
     }
 
     // stores the given value of a key, or its default
-    void take(const Key& key, const std::string& label, FloeGroup& group) {
+    void take(const CaseKey& key, const std::string& label, FloeGroup& group) {
         auto given = values_.find(label);
         if (given == values_.end() && key.default_text == "-") return;
         if (given == values_.end() && mistakes_.bad_keys.contains(label)) return;
@@ -153,14 +149,8 @@ private:
                 fmt::format("required key '{}' is missing ({})", counted_from_one(label), key.doc));
             return;
         }
-        if (given == values_.end()) {
-            // the default goes the same way as a given value
-            const std::string line = fmt::format("{} = {}", key.path, key.default_text);
-            std::size_t unused = 0;
-            const Values defaults = read_toml(line, "default", mistakes_, unused);
-            if (defaults.empty()) return;
-            given = values_.emplace(label, defaults.begin()->second).first;
-        }
+        if (given == values_.end())
+            given = values_.emplace(label, default_value(key, case_schema())).first;
         if (key.kind == Kind::path) given->second = resolve_path(label, given->second);
         key.store(case_, group, given->second);
         case_.resolved += fmt::format("{} = {}\n", key.path.substr(key.path.rfind('.') + 1),
@@ -172,8 +162,9 @@ private:
         if (path.is_relative()) path = std::filesystem::absolute(file_).parent_path() / path;
         path = path.lexically_normal();
         if (!std::filesystem::exists(path))
-            complain_at(label, fmt::format("{}: file {} not found; make it with spherize",
-                                           counted_from_one(label), path.string()));
+            complain_at(label, fmt::format("{}: file {} not found; make it with {}",
+                                           counted_from_one(label), path.string(),
+                                           label.ends_with(".file") ? "icefield" : "spherize"));
         return path.string();
     }
 
@@ -185,9 +176,32 @@ private:
         if (speed == table && !bad)
             complain(speed ? "hull.speed and hull.speed_table are both given; keep one"
                            : "required key 'hull.speed' (or hull.speed_table) is missing");
+        for (std::size_t g = 0; g < groups_; ++g) check_source(g);
         if (groups_ == 0) complain("no [[floes]] table: a run needs at least one group of floes");
         if (!values_.contains("output.average_from") && values_.contains("simulation.duration"))
             values_["output.average_from"] = std::get<double>(values_["simulation.duration"]) / 3.0;
+    }
+
+    // Floes come from a sphere set, or with pattern "file" from a field.
+    void check_source(std::size_t g) {
+        const auto label = [&](const char* key) { return fmt::format("floes.{}.{}", g, key); };
+        const auto given = [&](const char* key) {
+            return values_.contains(label(key)) || mistakes_.bad_keys.contains(label(key));
+        };
+        if (mistakes_.bad_keys.contains(label("pattern"))) return;
+        const auto pattern = values_.find(label("pattern"));
+        const bool field =
+            pattern != values_.end() && std::get<std::string>(pattern->second) == "file";
+        const char* const needed = field ? "file" : "spheres";
+        const char* const other = field ? "spheres" : "file";
+        if (!given(needed))
+            complain(fmt::format("required key '{}' is missing ({})",
+                                 counted_from_one(label(needed)),
+                                 case_schema().find(fmt::format("floes.{}", needed))->doc));
+        if (given(other))
+            complain_at(label(other),
+                        fmt::format("floes.{}.{} is given, but pattern \"file\" {}", g + 1, other,
+                                    field ? "takes its shapes from the field" : "alone takes it"));
     }
 
     void check_case() {
@@ -215,9 +229,8 @@ private:
         const auto wrong = [&](const char* key, const std::string& what) {
             complain_at(label(key), fmt::format("floes.{}.{} {}", g + 1, key, what));
         };
-        if (group.pattern == Pattern::file)
-            wrong("pattern",
-                  "= \"file\" is not available in this version; use grid, brick or single");
+        if (group.pattern == Pattern::file && case_.dimension == 2)
+            wrong("pattern", "= \"file\" is for cases of dimension 3");
         if (group.pattern == Pattern::single && !values_.contains(label("position")))
             wrong("position", "is missing: pattern \"single\" needs it");
         if (group.orientation.norm() < 1e-6)
@@ -251,7 +264,7 @@ private:
 
 // "floes.gap" of an override goes to every group
 void spread_to_groups(Values& values, std::size_t groups) {
-    for (const Key& key : case_keys()) {
+    for (const CaseKey& key : case_keys()) {
         const auto found = values.find(std::string(key.path));
         if (!key.path.starts_with("floes.") || found == values.end()) continue;
         for (std::size_t g = 0; g < groups; ++g)
@@ -276,9 +289,10 @@ double Case::ship_speed(double time) const {
 Case read_case(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
     Mistakes mistakes;
     std::size_t groups = 0;
-    Values values = read_toml(read_text(file), file.string(), mistakes, groups);
+    Values values = read_toml(read_input_text(file, "case file"), file.string(), case_schema(),
+                              mistakes, groups);
     for (const std::string& text : overrides) {
-        Values given = read_override(text, groups, mistakes);
+        Values given = read_override(text, case_schema(), groups, mistakes);
         spread_to_groups(given, groups);
         // a speed replaces a table and the other way round
         if (given.contains("hull.speed")) values.erase("hull.speed_table");
@@ -289,12 +303,8 @@ Case read_case(const std::filesystem::path& file, const std::vector<std::string>
     const bool unreadable = !mistakes.texts.empty() && values.empty();
     Case result;
     if (!unreadable) result = Builder(file, std::move(values), groups, mistakes).build();
-    if (mistakes.texts.empty()) return result;
-
-    std::string all =
-        fmt::format("{} mistake{}", mistakes.texts.size(), mistakes.texts.size() == 1 ? "" : "s");
-    for (const std::string& text : mistakes.texts) all += "\n" + text;
-    throw bad_input(file.string(), all, "icesolve --explain KEY tells what a key takes");
+    throw_mistakes(mistakes, file, "icesolve --explain KEY tells what a key takes");
+    return result;
 }
 
 }  // namespace ice

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "common/base/error.hpp"
+#include "common/formats/field_file.hpp"
 #include "common/formats/spheres_file.hpp"
 #include "solver/scene/jitter.hpp"
 #include "solver/water/hydrostatics.hpp"
@@ -81,6 +82,49 @@ void add_group(Scene& scene, const Case& parameters, std::size_t g, std::int32_t
     }
 }
 
+// Rows of Scene::shapes by file: equal files share their shapes.
+struct ShapeRows {
+    std::map<std::filesystem::path, std::int32_t> of_set;
+    std::map<std::filesystem::path, std::pair<Field, std::int32_t>> of_field;  // and first row
+};
+
+void add_set_group(Scene& scene, const Case& parameters, std::size_t g, ShapeRows& rows) {
+    const auto& file = parameters.floes[g].spheres;
+    const auto [found, fresh] =
+        rows.of_set.try_emplace(file, static_cast<std::int32_t>(scene.shapes.size()));
+    if (fresh) scene.shapes.push_back(read_shape(file, parameters.dimension, true));
+    add_group(scene, parameters, g, found->second);
+}
+
+// The loose floes or the unbroken ice of a field. All float at equilibrium.
+void add_field_group(Scene& scene, const Case& parameters, std::size_t g, ShapeRows& rows) {
+    const FloeGroup& group = parameters.floes[g];
+    const double fraction = parameters.ice_density / parameters.water_density;
+    if (fraction >= 1.0)
+        throw bad_input(fmt::format("floes.{}", g + 1),
+                        "ice as dense as water has no floating equilibrium", "lower ice.density");
+    auto found = rows.of_field.find(group.file);
+    if (found == rows.of_field.end()) {
+        const auto first = static_cast<std::int32_t>(scene.shapes.size());
+        found = rows.of_field.emplace(group.file, std::pair{read_field(group.file), first}).first;
+        for (SphereSet& set : found->second.first.shapes) {
+            scene.shapes.push_back(build_shape(set, true));
+            set = {};
+        }
+    }
+    const auto& [field, first_row] = found->second;
+    for (const FieldFloe& floe : field.floes) {
+        if (floe.fixed != group.unbroken_part) continue;
+        const std::int32_t row = first_row + floe.shape;
+        const double height = floating_height(scene.shapes[static_cast<std::size_t>(row)],
+                                              floe.orientation.toRotationMatrix(), fraction);
+        add_floe(
+            scene, row, parameters.ice_density,
+            Vec3(group.origin[0] + floe.position[0], group.origin[1] + floe.position[1], height),
+            floe.orientation, static_cast<std::int32_t>(g), group.hold != Hold::never);
+    }
+}
+
 }  // namespace
 
 Scene make_scene(Shape hull, const Vec3& position, const Vec3& velocity) {
@@ -139,14 +183,12 @@ std::size_t add_floe(Scene& scene, std::int32_t shape_row, double density, const
 Scene build_scene(const Case& parameters) {
     Scene scene = make_scene(read_shape(parameters.hull_spheres, parameters.dimension, false),
                              parameters.hull_position, Vec3(parameters.ship_speed(0.0), 0.0, 0.0));
-    std::map<std::filesystem::path, std::int32_t> rows;  // equal files share a shape
+    ShapeRows rows;
     for (std::size_t g = 0; g < parameters.floes.size(); ++g) {
-        const auto& file = parameters.floes[g].spheres;
-        if (!rows.contains(file)) {
-            rows[file] = static_cast<std::int32_t>(scene.shapes.size());
-            scene.shapes.push_back(read_shape(file, parameters.dimension, true));
-        }
-        add_group(scene, parameters, g, rows[file]);
+        if (parameters.floes[g].pattern == Pattern::file)
+            add_field_group(scene, parameters, g, rows);
+        else
+            add_set_group(scene, parameters, g, rows);
     }
     apply_jitter(scene, parameters);
     for (const int id : parameters.track)

@@ -10,7 +10,8 @@ namespace ice {
 ///
 /// Floes are numbered in the order of the case's groups, x fastest. Their height is floating
 /// equilibrium unless a single floe states z. "brick" shifts every other column (along x) by half a
-/// floe and its gap along y.
+/// floe and its gap along y. "file" takes shapes and places from a field; its unbroken ice comes
+/// last.
 ///
 /// @throws Error (exit code 2) naming file or key: set of the wrong dimension, tracked floe that
 ///         does not exist, floe denser than water without a stated z, more than 10 million floes.

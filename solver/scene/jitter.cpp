@@ -1,26 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solver/scene/jitter.hpp"
 
-#include <cmath>
+#include "common/base/counter_random.hpp"
 
 namespace ice {
-
-namespace {
-
-// splitmix64: the n-th word of a stream is a function of seed and n alone
-std::uint64_t random_word(std::uint64_t seed, std::uint64_t n) {
-    std::uint64_t z = (seed << 32) + 0x9e3779b97f4a7c15ull * (n + 1);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
-    return z ^ (z >> 31);
-}
-
-// uniform in (-1, 1)
-double random_offset(std::uint64_t seed, std::uint64_t n) {
-    return static_cast<double>(random_word(seed, n) >> 11) * 0x1p-52 - 1.0;
-}
-
-}  // namespace
 
 void apply_jitter(Scene& scene, const Case& parameters) {
     if (parameters.jitter == 0.0) return;

@@ -51,6 +51,20 @@ touch -d 'now + 1 minute' case/spheres.txt
 expect "$both"
 
 program=./none refuse "no program"
+
+# a specification goes to the other program
+sed 's/calls/field-calls/' program >field-program
+chmod +x field-program
+echo "channel.toml --seed 3 -o field.h5" >case/spheres.txt
+touch case/channel.toml
+: >calls
+: >field-calls
+SPHERIZE=./none ICEFIELD=./field-program "$prepare" case 2>/dev/null
+[[ ! -s calls && $(cat field-calls) == "channel.toml --seed 3 -o field.h5" ]] ||
+    { echo "icefield was not called: $(cat calls field-calls)"; exit 1; }
+rm case/channel.toml
+ICEFIELD=./field-program refuse "no specification channel.toml"
+
 echo "../h.obj -r 0.1" >case/spheres.txt
 refuse "names no output; add -o FILE"
 echo "../other.obj -o h.h5" >case/spheres.txt

@@ -3,9 +3,9 @@
 
 # A file may include its own folder and the ones before it: of common/ and of its own tool, never of
 # another tool. The last entry of a tool is its top folder with the main program.
-set(order_common common/base common/geometry common/formats common/cli)
+set(order_common common/base common/toml common/geometry common/formats common/cli)
 set(order_preprocess preprocess/load preprocess/clean preprocess/measure preprocess/repair
-  preprocess/slice preprocess/fill preprocess/write preprocess)
+  preprocess/slice preprocess/fill preprocess/field preprocess/write preprocess)
 set(order_solver solver/case solver/shape solver/water solver/scene solver/broad solver/narrow
   solver/contact solver/integrate solver/record solver/step solver)
 set(order_postprocess postprocess/read postprocess/views postprocess/statistics postprocess/report
@@ -17,14 +17,14 @@ set(tools preprocess solver postprocess)
 # only something bench_peers measures where it happens to be installed. So are Box2D, Bullet and ODE.
 set(quarantine
   "<assimp/"         "^preprocess/load/"
-  "<CGAL/"           "^preprocess/(clean|measure|repair|slice)/"
-  "<toml"            "^(solver/case|postprocess/check)/"
+  "<CGAL/"           "^preprocess/(clean|measure|repair|slice|field)/"
+  "<toml"            "^(common/toml|postprocess/check)/"
   "<(hdf5|H5)"       "^common/formats/"
-  "<nlohmann/"       "^(common/formats|postprocess/report)/"
+  "<nlohmann/"       "^(common/formats|preprocess/field|postprocess/report)/"
   "<hwy/"            "_simd\\.cpp$"
   "<omp\\.h>"        "^common/base/parallel\\.hpp$"
   "<spdlog/"         "^common/cli/"
-  "<CLI/"            "^(common/cli/|(preprocess/spherize|solver/icesolve|postprocess/icepost)\\.cpp$)"
+  "<CLI/"            "^(common/cli/|(preprocess/(spherize|icefield)|solver/icesolve|postprocess/icepost)\\.cpp$)"
   "<meshoptimizer"   "^postprocess/views/"
   "<(zlib|zconf)\\." "^(preprocess/load|postprocess/(paraview|report))/"
   "<(openvdb|tbb)/"  "^tests/bench/bench_peers\\.cpp$"

@@ -145,7 +145,7 @@ TEST_CASE("mistakes are named with line, column and remedy", "[case][errors]") {
                    ":5:"));
     CHECK(contains(complaint(kGood, {"ice.densty=900"}), "did you mean 'ice.density'?"));
     CHECK(contains(complaint(kGood, {"nonsense"}), "write it as key=value"));
-    CHECK(contains(complaint(kGood, {"floes.pattern=file"}), "not available"));
+    CHECK(contains(complaint(kGood, {"floes.pattern=file"}), "takes its shapes from the field"));
     CHECK(contains(complaint(kGood, {"floes.pattern=single"}), "position is missing"));
     CHECK(contains(complaint(kGood, {"output.average_from=99"}), "not before the end"));
     CHECK(contains(complaint(kGood, {"output.track=[2,2]"}), "names floe 2 twice"));
@@ -178,12 +178,13 @@ TEST_CASE("a missing case file is named", "[case][errors]") {
 }
 
 TEST_CASE("the default case parses as TOML and every key explains itself", "[case]") {
-    for (const Key& key : case_keys())
-        CHECK(contains(explain_key(std::string(key.path)), key.path.data()));
-    CHECK_THROWS_WITH(explain_key("contact.restitutoin"), Catch::Contains("contact.restitution"));
-    CHECK(contains(default_case_text(), "restitution = 0.3"));
+    for (const Key& key : case_schema().keys)
+        CHECK(contains(explain_key(case_schema(), std::string(key.path)), key.path.data()));
+    CHECK_THROWS_WITH(explain_key(case_schema(), "contact.restitutoin"),
+                      Catch::Contains("contact.restitution"));
+    CHECK(contains(default_text(case_schema()), "restitution = 0.3"));
     // what is printed reads back without a mistake, once the required keys are filled in
-    std::string text = default_case_text();
+    std::string text = default_text(case_schema());
     for (const auto& [from, to] : std::vector<std::pair<std::string, std::string>>{
              {"# duration = ...", "duration = 1.0"},
              {"[hull]\n# spheres = ...", "[hull]\nspheres = \"hull.spheres.h5\""},
@@ -193,5 +194,28 @@ TEST_CASE("the default case parses as TOML and every key explains itself", "[cas
         text.replace(text.find(from), from.size(), to);
     }
     CHECK(complaint(text) == "");
-    CHECK(contains(case_json_schema(), "\"crushing_pressure\""));
+    CHECK(contains(json_schema(case_schema()), "\"crushing_pressure\""));
+}
+
+TEST_CASE("pattern file takes a field, and its unbroken ice is a group of its own", "[case]") {
+    const std::string field = "file = \"floe.spheres.h5\"\npattern = \"file\"";  // any file
+    const CaseFolder folder(with("spheres = \"floe.spheres.h5\"", field));
+    const Case c = read_case(folder.file(), {"floes.hold=never"});
+    REQUIRE(c.floes.size() == 2);
+    CHECK(c.floes[0].hold == Hold::never);
+    CHECK_FALSE(c.floes[0].unbroken_part);
+    CHECK(c.floes[1].hold == Hold::always);
+    CHECK(c.floes[1].unbroken_part);
+    CHECK(c.floes[1].file == c.floes[0].file);
+
+    CHECK(contains(complaint(with("spheres = \"floe.spheres.h5\"", "pattern = \"file\"")),
+                   "'floes.1.file' is missing"));
+    CHECK(contains(
+        complaint(with("spheres = \"floe.spheres.h5\"", field + "\nspheres = \"floe.spheres.h5\"")),
+        "floes.1.spheres is given, but pattern \"file\" takes its shapes"));
+    CHECK(contains(complaint(with("hold", "file = \"floe.spheres.h5\"\nhold")),
+                   "floes.1.file is given, but pattern \"file\" alone takes it"));
+    CHECK(contains(
+        complaint(with("spheres = \"floe.spheres.h5\"", "file = \"lost.h5\"\npattern = \"file\"")),
+        "make it with icefield"));
 }

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "common/base/error.hpp"
-#include "solver/case/case_schema.hpp"
+#include "common/toml/schema.hpp"
 
 namespace ice {
 
@@ -24,7 +24,10 @@ std::string kind_text(const Key& key) {
         case Kind::choice:
             return "one of " + std::string(key.choices);
         case Kind::vector:
+        case Kind::place:
             return fmt::format("list of {} numbers", key.length);
+        case Kind::counts:
+            return fmt::format("list of {} whole numbers", key.length);
         case Kind::integer_list:
             return "list of integers";
         case Kind::pair_list:
@@ -57,6 +60,8 @@ std::string json_type(const Key& key) {
             return "\"enum\": [\"" + list + "\"]";
         }
         case Kind::vector:
+        case Kind::counts:
+        case Kind::place:
         case Kind::integer_list:
         case Kind::pair_list:
             return R"("type": "array")";
@@ -73,12 +78,12 @@ std::string table_of(const Key& key) {
 
 }  // namespace
 
-std::string explain_key(const std::string& path) {
-    const Key* key = find_key(path);
+std::string explain_key(const Schema& schema, const std::string& path) {
+    const Key* key = schema.find(path);
     if (key == nullptr) {
-        const std::string near = nearest_key(path);
-        throw bad_input("--explain", "no case key is called '" + path + "'",
-                        near.empty() ? "icesolve --print-defaults lists all keys"
+        const std::string near = schema.nearest(path);
+        throw bad_input("--explain", "no key is called '" + path + "'",
+                        near.empty() ? schema.program + " --print-defaults lists all keys"
                                      : "did you mean '" + near + "'?");
     }
     std::string out =
@@ -90,11 +95,12 @@ std::string explain_key(const std::string& path) {
     return out + "\n";
 }
 
-std::string default_case_text() {
+std::string default_text(const Schema& schema) {
     std::string out, table;
-    for (const Key& key : case_keys()) {
+    for (const Key& key : schema.keys) {
         if (const std::string now = table_of(key); now != table) {
-            out += now == "floes" ? "\n[[floes]]\n" : fmt::format("\n[{}]\n", now);
+            out += now == schema.repeated_table ? fmt::format("\n[[{}]]\n", now)
+                                                : fmt::format("\n[{}]\n", now);
             table = now;
         }
         const auto name = key.path.substr(key.path.rfind('.') + 1);
@@ -105,27 +111,29 @@ std::string default_case_text() {
     return out;
 }
 
-std::string case_json_schema() {
-    std::string out =
-        "{\n  \"$schema\": \"http://json-schema.org/draft-04/schema#\",\n"
-        "  \"title\": \"icesolve case\",\n  \"type\": \"object\",\n"
-        "  \"additionalProperties\": false,\n  \"properties\": {";
+std::string json_schema(const Schema& schema) {
+    std::string out = fmt::format(
+        "{{\n  \"$schema\": \"http://json-schema.org/draft-04/schema#\",\n"
+        "  \"title\": \"{}\",\n  \"type\": \"object\",\n"
+        "  \"additionalProperties\": false,\n  \"properties\": {{",
+        schema.title);
     std::string table, separator;
     const auto close_table = [&] {
-        if (table == "floes")
+        if (table == schema.repeated_table && !table.empty())
             out += "\n    } } }";
         else if (!table.empty())
             out += "\n    } }";
     };
-    for (const Key& key : case_keys()) {
+    for (const Key& key : schema.keys) {
         const std::string now = table_of(key);
         const std::string name(key.path.substr(key.path.rfind('.') + 1));
         if (now != table) {
             close_table();
             const std::string open =
                 R"("type": "object", "additionalProperties": false, "properties": {)";
-            out += fmt::format("{}\n    \"{}\": {{ {}", separator, now,
-                               now == "floes" ? R"("type": "array", "items": { )" + open : open);
+            out += fmt::format(
+                "{}\n    \"{}\": {{ {}", separator, now,
+                now == schema.repeated_table ? R"("type": "array", "items": { )" + open : open);
             table = now;
             separator = "";
         }

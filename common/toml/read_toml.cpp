@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "solver/case/toml_document.hpp"
+#include "common/toml/read_toml.hpp"
 
 // Debian's libtomlplusplus.so holds the version that throws
 #define TOML_HEADER_ONLY 0
@@ -10,6 +10,7 @@
 #include <charconv>
 #include <cmath>
 #include <sstream>
+#include <stdexcept>
 
 namespace ice {
 
@@ -17,13 +18,13 @@ namespace {
 
 class Document {
 public:
-    Document(const std::string& text, std::string name, Mistakes& mistakes)
-        : name_(std::move(name)), mistakes_(mistakes) {
+    Document(const std::string& text, std::string name, const Schema& schema, Mistakes& mistakes)
+        : name_(std::move(name)), schema_(schema), mistakes_(mistakes) {
         std::istringstream in(text);
         for (std::string line; std::getline(in, line);) lines_.push_back(line);
     }
 
-    Values read(const std::string& text, std::size_t& floe_groups) {
+    Values read(const std::string& text, std::size_t& groups) {
         toml::table root;
         try {
             root = toml::parse(text);
@@ -32,7 +33,7 @@ public:
             return {};
         }
         Values values;
-        walk(root, "", "", values, floe_groups);
+        walk(root, "", "", values, groups);
         return values;
     }
 
@@ -49,58 +50,64 @@ private:
 
     // `path` is the schema's name of a table, `label` the one with the group's number
     void walk(const toml::table& table, const std::string& path, const std::string& label,
-              Values& values, std::size_t& floe_groups) {
+              Values& values, std::size_t& groups) {
         for (auto&& [key, node] : table) {
             const std::string name(key.str());
             const std::string full = path.empty() ? name : path + "." + name;
             const std::string labelled = label.empty() ? name : label + "." + name;
             const bool number =
-                path == "floes" && std::all_of(name.begin(), name.end(),
-                                               [](unsigned char c) { return std::isdigit(c); });
+                is_repeated(path) && std::all_of(name.begin(), name.end(),
+                                                 [](unsigned char c) { return std::isdigit(c); });
             if (number && node.is_table()) {  // an override's floes.2.gap, numbered from 1
                 const long group = name.size() < 9 ? std::atol(name.c_str()) : 0;
-                if (group < 1 || group > static_cast<long>(floe_groups))
-                    complain(key.source(),
-                             fmt::format("there is no floes.{}: the case has {} group(s), numbered "
-                                         "from 1",
-                                         name, floe_groups),
-                             name.size());
+                if (group < 1 || group > static_cast<long>(groups))
+                    complain(
+                        key.source(),
+                        fmt::format("there is no {}.{}: the case has {} group(s), numbered from 1",
+                                    path, name, groups),
+                        name.size());
                 else
                     walk(*node.as_table(), path, label + "." + std::to_string(group - 1), values,
-                         floe_groups);
-            } else if (const auto* rows = node.as_array(); rows && full == "floes") {
-                walk_floes(*rows, values, floe_groups);
+                         groups);
+            } else if (const auto* rows = node.as_array(); rows && is_repeated(full)) {
+                walk_repeated(*rows, values, groups);
             } else if (const auto* inner = node.as_table(); inner && is_table(full)) {
-                walk(*inner, full, labelled, values, floe_groups);
+                walk(*inner, full, labelled, values, groups);
             } else {
                 read_key(key, node, full, labelled, values);
             }
         }
     }
 
-    void walk_floes(const toml::array& rows, Values& values, std::size_t& floe_groups) {
+    void walk_repeated(const toml::array& rows, Values& values, std::size_t& groups) {
+        const std::string& name = schema_.repeated_table;
         for (const toml::node& row : rows) {
             if (const auto* table = row.as_table())
-                walk(*table, "floes", "floes." + std::to_string(floe_groups), values, floe_groups);
+                walk(*table, name, name + "." + std::to_string(groups), values, groups);
             else
-                complain(row.source(), "floes must be tables: write [[floes]] for each group", 1);
-            ++floe_groups;
+                complain(row.source(),
+                         fmt::format("{0} must be tables: write [[{0}]] for each group", name), 1);
+            ++groups;
         }
     }
 
-    static bool is_table(const std::string& path) {
-        return std::any_of(case_keys().begin(), case_keys().end(),
+    bool is_repeated(const std::string& path) const {
+        return !path.empty() && path == schema_.repeated_table;
+    }
+
+    bool is_table(const std::string& path) const {
+        return std::any_of(schema_.keys.begin(), schema_.keys.end(),
                            [&](const Key& key) { return key.path.starts_with(path + "."); });
     }
 
     void read_key(const toml::key& name, const toml::node& node, const std::string& path,
                   const std::string& label, Values& values) {
-        const Key* key = find_key(path);
+        const Key* key = schema_.find(path);
         if (key == nullptr) {
-            const std::string near = nearest_key(path);
+            const std::string near = schema_.nearest(path);
             complain(name.source(),
                      "unknown key '" + path + "'" +
-                         (near.empty() ? "; icesolve --print-defaults lists all keys"
+                         (near.empty() ? "; " + schema_.program + " --print-defaults lists all keys"
                                        : "; did you mean '" + near + "'?"),
                      name.str().size());
             return;
@@ -125,6 +132,8 @@ private:
             case Kind::choice:
                 return read_text(key, node, out);
             case Kind::vector:
+            case Kind::counts:
+            case Kind::place:
             case Kind::integer_list:
                 return read_list(key, node, out);
             case Kind::pair_list:
@@ -204,18 +213,17 @@ private:
 
     bool read_list(const Key& key, const toml::node& node, Value& out) {
         const auto* list = node.as_array();
-        // a floe's position may leave out z
-        const std::size_t least = key.path == "floes.position" ? 2 : key.length;
-        if (!list ||
-            (key.kind == Kind::vector && (list->size() < least || list->size() > key.length))) {
+        const bool any_length = key.kind == Kind::integer_list;
+        const std::size_t least = key.kind == Kind::place ? key.length - 1 : key.length;
+        if (!list || (!any_length && (list->size() < least || list->size() > key.length))) {
             complain(node.source(),
-                     key.kind == Kind::vector
-                         ? fmt::format("{} must be a list of {} numbers", key.path, key.length)
-                         : fmt::format("{} must be a list", key.path),
+                     any_length
+                         ? fmt::format("{} must be a list", key.path)
+                         : fmt::format("{} must be a list of {} numbers", key.path, key.length),
                      1);
             return false;
         }
-        const bool whole = key.kind == Kind::integer_list || key.path == "floes.count";
+        const bool whole = key.kind == Kind::integer_list || key.kind == Kind::counts;
         std::vector<double> values;
         for (const toml::node& item : *list) {
             double number = 0.0;
@@ -257,6 +265,7 @@ private:
     }
 
     std::string name_;
+    const Schema& schema_;
     Mistakes& mistakes_;
     std::vector<std::string> lines_;
 };
@@ -272,12 +281,13 @@ bool parses(const std::string& text) {
 
 }  // namespace
 
-Values read_toml(const std::string& text, const std::string& name, Mistakes& mistakes,
-                 std::size_t& floe_groups) {
-    return Document(text, name, mistakes).read(text, floe_groups);
+Values read_toml(const std::string& text, const std::string& name, const Schema& schema,
+                 Mistakes& mistakes, std::size_t& groups) {
+    return Document(text, name, schema, mistakes).read(text, groups);
 }
 
-Values read_override(const std::string& text, std::size_t floe_groups, Mistakes& mistakes) {
+Values read_override(const std::string& text, const Schema& schema, std::size_t groups,
+                     Mistakes& mistakes) {
     const auto equals = text.find('=');
     if (equals == std::string::npos || equals == 0) {
         mistakes.texts.push_back("--set " + text + ": error: write it as key=value");
@@ -286,7 +296,17 @@ Values read_override(const std::string& text, std::size_t floe_groups, Mistakes&
     const std::string key = text.substr(0, equals), value = text.substr(equals + 1);
     std::string line = key + " = " + value;
     if (!parses(line)) line = key + " = \"" + value + "\"";
-    return read_toml(line, "--set", mistakes, floe_groups);
+    return read_toml(line, "--set", schema, mistakes, groups);
+}
+
+Value default_value(const Key& key, const Schema& schema) {
+    // the default goes the same way as a given value
+    Mistakes mistakes;
+    std::size_t groups = 0;
+    const std::string line = fmt::format("{} = {}", key.path, key.default_text);
+    const Values values = read_toml(line, "default", schema, mistakes, groups);
+    if (values.empty()) throw std::logic_error("bad default: " + line);
+    return values.begin()->second;
 }
 
 }  // namespace ice

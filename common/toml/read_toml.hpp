@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// A case file or an override as checked values; the only header behind which toml++ is used.
+/// A TOML input or an override as checked values; the only header behind which toml++ is used.
 #pragma once
 
 #include <map>
@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "solver/case/case_schema.hpp"
+#include "common/toml/schema.hpp"
 
 namespace ice {
 
@@ -18,17 +18,22 @@ struct Mistakes {
     std::map<std::string, std::string> places;  ///< "file:line:column" of each key given
 };
 
-/// Values of the keys given, checked against the schema. Keys of [[floes]] carry the group's
+/// Values of the keys given, checked against the schema. Keys of the repeated table carry its
 /// number, from 0: "floes.0.gap"; an override without a number is kept as "floes.gap".
 using Values = std::map<std::string, Value>;
 
 /// Parses TOML and checks it. Mistakes are collected, never thrown.
 /// @param name   what messages call the text: the file, or "--set"
-Values read_toml(const std::string& text, const std::string& name, Mistakes& mistakes,
-                 std::size_t& floe_groups);
+/// @param groups  the number of repeated tables, counted on
+Values read_toml(const std::string& text, const std::string& name, const Schema& schema,
+                 Mistakes& mistakes, std::size_t& groups);
 
 /// Parses one `key=value` override: the value as TOML, or as text where that fails.
-/// @param floe_groups  [[floes]] tables of the case; an override of another is a mistake
-Values read_override(const std::string& text, std::size_t floe_groups, Mistakes& mistakes);
+/// @param groups  repeated tables of the file; an override of another is a mistake
+Values read_override(const std::string& text, const Schema& schema, std::size_t groups,
+                     Mistakes& mistakes);
+
+/// The value of a key's default_text. @pre it has one
+Value default_value(const Key& key, const Schema& schema);
 
 }  // namespace ice

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace ice::detail {
+
+constexpr const char* kFieldFormat = "icesolve-field";
+constexpr std::int64_t kFieldVersion = 1;
+
+/// The arrays of all shapes of a field one after the other, as they stand in its file.
+struct FieldArrays {
+    std::vector<std::int64_t> spheres, surface, creases, vertices, triangles;  // rows per shape
+    std::vector<double> volume, area, centroid, inertia;
+    std::vector<double> center, share_volume, share_area, vertex;
+    std::vector<float> normal, spread, crease_normal;
+    std::vector<std::int32_t> crease_sphere, triangle;
+};
+
+}  // namespace ice::detail

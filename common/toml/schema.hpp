@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// What keys a TOML input may have: one table per kind of file drives reading, range checks,
+/// "did you mean", --explain, --print-defaults and --print-schema.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "common/base/units.hpp"
+
+namespace ice {
+
+enum class Kind {
+    number,
+    integer,
+    text,
+    path,
+    choice,
+    vector,  ///< of `length` numbers
+    counts,  ///< of `length` whole numbers
+    place,   ///< of `length` numbers, of which the last may be left out
+    integer_list,
+    pair_list
+};
+
+using Value = std::variant<double, std::int64_t, std::string, std::vector<double>,
+                           std::vector<std::pair<double, double>>>;
+
+/// One key of an input file.
+struct Key {
+    std::string_view path;  ///< "contact.restitution"; of repeated tables: "floes.gap"
+    Kind kind;
+    Dimension dimension;
+    std::string_view
+        default_text;          ///< TOML literal; "" when the key is required, "-" when optional
+    double low, high;          ///< inclusive range of each number, SI
+    std::size_t length;        ///< of a vector
+    std::string_view choices;  ///< "grid|brick|single|file"
+    std::string_view doc;      ///< one sentence
+};
+
+/// All keys of one kind of input file.
+struct Schema {
+    std::vector<Key> keys;       ///< in the order in which they are shown
+    std::string repeated_table;  ///< "floes" where [[floes]] may be given many times; "" for none
+    std::string program;         ///< whose --print-defaults lists the keys
+    std::string title;           ///< "icesolve case"
+
+    /// The key of that path, or null.
+    const Key* find(std::string_view path) const;
+    /// The most similar known key, or "" when none is near (edit distance above a quarter of the
+    /// name).
+    std::string nearest(std::string_view path) const;
+};
+
+/// Text of `--explain KEY`. @throws Error (exit code 2) for an unknown key.
+std::string explain_key(const Schema& schema, const std::string& path);
+/// A complete file with all defaults, as TOML.
+std::string default_text(const Schema& schema);
+/// JSON schema (draft 4) of the file, for editors.
+std::string json_schema(const Schema& schema);
+
+}  // namespace ice

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "preprocess/field/field_spec.hpp"
+
+namespace ice {
+
+/// One key of a specification and where its value goes.
+struct FieldKey : Key {
+    void (*store)(FieldSpec&, const Value&);
+};
+
+/// All keys in the order in which they are shown.
+const std::vector<FieldKey>& field_keys();
+
+/// Of the keys that belong to some patterns only, those of one pattern.
+struct PatternKeys {
+    std::string_view name;
+    std::vector<std::string_view> required, optional;
+};
+
+/// In the order of FieldPattern.
+const std::vector<PatternKeys>& pattern_keys();
+
+}  // namespace ice

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "common/formats/field.hpp"
+#include "preprocess/field/field_spec.hpp"
+
+namespace ice {
+
+/// What was made, for people and other programs. Sizes are those of the loose floes.
+struct FieldReport {
+    std::size_t floes = 0, fixed = 0, shapes = 0;  ///< loose floes, pieces of unbroken ice
+    std::size_t spheres = 0, surface_spheres = 0;  ///< of all floes together
+    double concentration = 0.0;                    ///< area of loose floes over the field's
+    double mean_size = 0.0, smallest = 0.0, largest = 0.0;  ///< [m]
+    double plan_seconds = 0.0, fill_seconds = 0.0;
+    std::vector<std::string> warnings;
+};
+
+/// The outlines that a specification asks for.
+FieldPlan plan_field(const FieldSpec& spec, std::vector<std::string>& warnings);
+
+/// Turns outlines into prisms and fills them with spheres, loose floes first. Outlines that are
+/// equal but for their place (to a thousandth of a millimetre) share a shape. Provenance is the
+/// caller's.
+///
+/// The same bits for any number of threads.
+/// @throws Error (exit code 2) when a floe is too small for a sphere, naming its place
+Field make_field(const FieldSpec& spec, const FieldPlan& plan, FieldReport& report);
+
+/// The report as JSON (schema icefield/1).
+std::string field_report_text(const FieldReport& report);
+
+/// The field from above as SVG: x to the right, unbroken ice darker.
+std::string field_svg(const FieldPlan& plan);
+
+}  // namespace ice

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Geometry>
+#include <vector>
+
+namespace ice {
+
+using Vec2 = Eigen::Vector2d;
+using Rectangle = Eigen::AlignedBox2d;
+
+/// A floe seen from above: corners in order, anticlockwise, without repeating the first [m].
+using Outline = std::vector<Vec2>;
+
+/// More floes than this are a wrong unit more often than a wish.
+constexpr double kMostFloes = 1e6;
+
+/// All floes of a field before they become solids.
+struct FieldPlan {
+    Rectangle area;              ///< that the loose floes' concentration refers to [m]
+    std::vector<Outline> loose;  ///< floes
+    std::vector<Outline> fixed;  ///< unbroken ice
+};
+
+/// Area inside [m2]; negative for clockwise outlines.
+double area_of(const Outline& outline);
+
+/// Centroid of the area inside. @pre the area is not zero
+Vec2 centroid_of(const Outline& outline);
+
+/// Diameter of the circle with that area [m]: what "size" of a floe means in the whole program.
+double size_of(const Outline& outline);
+
+/// True when every corner turns left or goes straight.
+bool is_convex(const Outline& outline);
+
+/// The outline without the corners at which it goes straight on.
+Outline without_straight_corners(const Outline& outline);
+
+/// The outline moved inward by `distance`, corner by corner along the bisectors (mitred).
+/// @return an empty outline when an edge would vanish or turn round
+Outline inset(const Outline& outline, double distance);
+
+}  // namespace ice

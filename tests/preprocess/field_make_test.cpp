@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// From specification to field: keys, shared shapes, spheres, equal bytes.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+
+#include "common/base/error.hpp"
+#include "common/base/parallel.hpp"
+#include "common/formats/field_file.hpp"
+#include "preprocess/field/plan_floes.hpp"
+#include "preprocess/fill/certificate.hpp"
+#include "tests/preprocess/field_support.hpp"
+
+using namespace ice;
+using namespace ice::test;
+
+namespace {
+
+const std::string kBrick =
+    "pattern = \"brick\"\nseed = 2\n[ice]\nthickness = \"300 mm\"\nchamfer = 0.02\n"
+    "[spheres]\nradius = 0.05\n[floes]\nsize = [1.0, 0.8]\ncount = [4, 3]\ngap = [0.1, 0.2]\n"
+    "[edges]\nbreadth = 1\n";
+const std::string kVoronoi =
+    "pattern = \"voronoi\"\n[ice]\nthickness = 1\n[spheres]\nspacing = 1\n[area]\nsize = [40, 30]\n"
+    "[floes]\nmean_size = 5\nconcentration = 0.8\n";
+
+Field make(const std::string& text, FieldReport& report) {
+    const FieldSpec spec = field_spec(text);
+    return make_field(spec, plan_field(spec, report.warnings), report);
+}
+
+std::string bytes_of(const std::string& text, int threads) {
+    set_thread_count(threads);
+    FieldReport report;
+    const TemporaryFile file(".h5", "");
+    write_field(file.path(), make(text, report));
+    std::ifstream in(file.path(), std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+std::string complaint(const std::string& text) {
+    try {
+        field_spec(text);
+    } catch (const Error& error) {
+        CHECK(error.code() == ExitCode::bad_input);
+        return error.what();
+    }
+    return "";
+}
+
+std::string polygons(const std::string& suffix, const std::string& text, std::size_t count,
+                     std::vector<std::string>* warnings = nullptr) {
+    const TemporaryFile file(suffix, text);
+    try {
+        std::vector<std::string> unused;
+        const FieldSpec spec = field_spec(
+            "pattern = \"polygons\"\n[ice]\nthickness = 0.5\n[floes]\nscale = 2\nfile = "
+            "\"" +
+            file.path().string() + "\"\n[area]\norigin = [10, 0]\n");
+        const FieldPlan plan = plan_field(spec, warnings ? *warnings : unused);
+        CHECK(plan.loose.size() == count);
+        for (const Outline& floe : plan.loose) CHECK(area_of(floe) > 0.0);
+        CHECK(plan.area.min().x() == 10.0);
+        CHECK(total_area(plan.loose) == Approx(4.0 * static_cast<double>(count)));
+    } catch (const Error& error) {
+        CHECK(error.code() == ExitCode::bad_input);
+        return error.what();
+    }
+    return "";
+}
+
+}  // namespace
+
+TEST_CASE("equal floes share a shape, wherever they lie", "[field]") {
+    FieldReport report;
+    const Field field = make(kBrick, report);
+    CHECK(field.shapes.size() == 3);        // whole, half, edge
+    REQUIRE(field.floes.size() == 14 + 4);  // edges 4.3 m long in pieces of up to 4 m
+    CHECK(report.floes == 14);
+    CHECK(report.fixed == 4);
+    CHECK_FALSE(field.floes[13].fixed);
+    CHECK(field.floes[14].fixed);
+    // first column of three whole floes, then a half one
+    CHECK(field.floes[0].shape == field.floes[2].shape);
+    CHECK(field.floes[3].shape != field.floes[2].shape);
+    CHECK(field.floes[0].position[0] == Approx(0.5));
+    CHECK(field.floes[0].position[1] == Approx(-1.0));
+    CHECK(field.radius == 0.05);
+    CHECK(field.spacing == 0.1);
+    CHECK(field.specification == kBrick);
+    CHECK(field.seed == 2);
+}
+
+TEST_CASE("a shape's spheres touch its faces, and their shares add up", "[field][property]") {
+    FieldReport report;
+    const bool fill = GENERATE(false, true);
+    std::string text = kVoronoi;
+    if (fill) text.replace(text.find("spacing"), 7, "mode = \"fill\"\nspacing");
+    const Field field = make(text, report);
+    CHECK(report.spheres > field.floes.size() * 20);
+    for (const SphereSet& shape : field.shapes) {
+        CHECK((fill ? shape.size() > shape.surface_count : shape.size() == shape.surface_count));
+        CHECK(shape.solid.centroid.norm() < 1e-12);
+        double area = 0.0, volume = 0.0;
+        Vec3 moment = Vec3::Zero();
+        for (const double a : shape.areas) area += a;
+        for (std::size_t k = 0; k < shape.size(); ++k) {
+            volume += shape.volumes[k];
+            moment += shape.volumes[k] * shape.centers[k];
+            // none reaches beyond the flat faces; 1e-9: settled to 1e-10 of the radius
+            REQUIRE(std::abs(shape.centers[k].z()) <= 0.5 - 0.25 + 1e-9);
+        }
+        CHECK(area == Approx(shape.solid.area).epsilon(1e-9));
+        CHECK(volume == Approx(shape.solid.volume).epsilon(1e-9));
+        CHECK(moment.norm() < 1e-9 * shape.solid.volume);
+        for (std::size_t k = 0; k < shape.surface_count; ++k)
+            REQUIRE((shape.centers[k].z() > 0.2499 || shape.centers[k].z() < -0.2499 ||
+                     std::abs(shape.normals[k].z()) < 1e-6));
+    }
+}
+
+TEST_CASE("floes are covered as spherize covers solids, by its own certificate",
+          "[field][property]") {
+    // 0.634 spacings are seen with and without the quick fill; chamfered and concave ones as well
+    for (const std::string& text :
+         {kVoronoi, kBrick,
+          std::string("pattern = \"cusps\"\n[ice]\nthickness = 1\nchamfer = 0.1\n[spheres]\n"
+                      "spacing = 0.7\n[area]\nsize = [20, 24]\n[floes]\nbreaking_length = 5\n"
+                      "breaking_width = 8\n")}) {
+        FieldReport report;
+        const Field field = make(text, report);
+        for (const SphereSet& shape : field.shapes) {
+            const SurfaceTree tree(shape.mesh);
+            const SphereFinder finder(shape);
+            SpheresReport certificate;
+            certify(tree, finder, survey_surface(tree, shape, finder, false), false, shape,
+                    certificate);
+            REQUIRE(certificate.covering_radius < 0.75 * field.spacing);
+            REQUIRE(certificate.protrusion_max < 1e-9);
+        }
+    }
+}
+
+TEST_CASE("same seed, same bytes, whatever the number of threads", "[field][determinism]") {
+    for (const std::string& text :
+         {kBrick, kVoronoi,
+          std::string("pattern = \"power-law\"\n[ice]\nthickness = 1\n[spheres]\nspacing = 1\n"
+                      "[area]\nsize = [60, 40]\n[floes]\nexponent = 1.5\nsmallest = 2\n"
+                      "largest = 15\nconcentration = 0.9\n")}) {
+        const std::string once = bytes_of(text, 1);
+        CHECK(bytes_of(text, 2) == once);
+        CHECK(bytes_of(text, 3) == once);
+        CHECK(bytes_of("title = \"x\"\n" + text, 2) != once);
+    }
+    CHECK(bytes_of("seed = 1\n" + kVoronoi, 2) != bytes_of("seed = 2\n" + kVoronoi, 2));
+    set_thread_count(0);
+}
+
+TEST_CASE("a floe too small for a sphere is named by its size", "[field][errors]") {
+    FieldReport report;
+    std::string text = kVoronoi;
+    text.replace(text.find("mean_size = 5"), 13, "mean_size = 0.3");
+    text.replace(text.find("[40, 30]"), 8, "[4, 3]");
+    CHECK_THROWS_WITH(make(text, report), Catch::Contains("spheres.radius: a floe of size 0.") &&
+                                              Catch::Contains("no sphere of radius 0.25 m fits"));
+}
+
+TEST_CASE("mistakes in a specification come with line, suggestion and remedy", "[field][errors]") {
+    CHECK_THAT(complaint(kBrick + "breadht = 3\n"),
+               Catch::Contains(":14:1: error: unknown key 'edges.breadht'; did you mean "
+                               "'edges.breadth'?"));
+    CHECK_THAT(complaint("seed = 1\n[ice]\nthickness = \"3 kg\"\n"),
+               Catch::Contains("ice.thickness = \"3 kg\" is not a number with a unit") &&
+                   Catch::Contains("required key 'pattern' is missing"));
+    CHECK_THAT(
+        complaint("pattern = \"voronoi\"\n[ice]\nthickness = 1\n[floes]\nexponent = 2\n"),
+        Catch::Contains(":5:1: error: floes.exponent means nothing to pattern \"voronoi\"") &&
+            Catch::Contains("required key 'floes.mean_size' is missing for pattern "
+                            "\"voronoi\""));
+    CHECK_THAT(complaint("pattern = \"hexagons\"\n[ice]\nthickness = 1\n"),
+               Catch::Contains("none of grid|brick|cusps|voronoi|power-law|polygons"));
+    CHECK_THAT(complaint(kBrick + "[area]\nsize = [1, 2]\n"),
+               Catch::Contains("area.size means nothing to pattern \"brick\""));
+    std::string thick = kBrick;
+    thick.replace(thick.find("0.05"), 4, "0.15");
+    CHECK_THAT(complaint(thick), Catch::Contains("does not fit into ice of 0.3 m"));
+    CHECK_THAT(complaint("pattern = \"polygons\"\n[ice]\nthickness = 1\n[floes]\nfile = \"no\"\n"),
+               Catch::Contains("floes.file: file") && Catch::Contains("not found"));
+    CHECK_THAT(complaint("pattern = \"cusps\"\n[ice]\nthickness = 1\n[area]\nsize = [9, 9]\n"
+                         "[floes]\nbreaking_length = 4\nbreaking_width = 8\nbreaking_depth = 4\n"),
+               Catch::Contains("cusps of one row would reach into those of the next"));
+    CHECK(complaint(kBrick) == "");
+}
+
+TEST_CASE("polygons come from CSV and GeoJSON, scaled, moved and turned", "[field]") {
+    // unit squares: one clockwise, one with a point on an edge, touching along an edge
+    CHECK(polygons(".csv",
+                   "floe,x,y\n7,0,0\n7,0,1\n7,1,1\n7,1,0\n# next\n8,1,0\n8,1.5,0\n8,2,0\n"
+                   "8,2,1\n8,1,1\n",
+                   2) == "");
+    std::vector<std::string> warnings;
+    CHECK(polygons(".geojson",
+                   R"({"type":"FeatureCollection","features":[
+                   {"type":"Feature","properties":{},"geometry":{"type":"Polygon","coordinates":
+                     [[[0,0],[1,0],[1,1],[0,1],[0,0]],
+                      [[0.4,0.4],[0.4,0.6],[0.6,0.6],[0.4,0.4]]]}},
+                   {"type":"Feature","geometry":{"type":"MultiPolygon","coordinates":
+                     [[[[1,0],[2,0],[2,1],[1,1],[1,0]]],[[[3,0],[4,0],[4,1],[3,1]]]]}},
+                   {"type":"Feature","geometry":{"type":"Point","coordinates":[9,9]}},
+                   {"type":"Feature","geometry":null}]})",
+                   3, &warnings) == "");
+    REQUIRE(warnings.size() == 1);
+    CHECK_THAT(warnings[0], Catch::Contains("1 holes in polygons are filled"));
+}
+
+TEST_CASE("polygons that are none, or overlap, are named", "[field][errors]") {
+    CHECK_THAT(polygons(".csv", "a,0,0\na,1,1\na,1,0\na,0,1\n", 1),
+               Catch::Contains("floe a: crosses itself"));
+    CHECK_THAT(polygons(".csv", "a,0,0\na,1,1\n", 1),
+               Catch::Contains("floe a: has fewer than three corners"));
+    CHECK_THAT(polygons(".csv", "a,0,0\na,1,x\n", 1), Catch::Contains(".csv:2: is no row"));
+    CHECK_THAT(polygons(".csv", "a,0,0\na,1,inf\na,1,1\n", 1), Catch::Contains("infinity"));
+    CHECK_THAT(polygons(".csv", "", 1), Catch::Contains("holds no polygons"));
+    CHECK_THAT(polygons(".csv", "a,0,0\na,1,0\na,1,1\nb,0.5,0\nb,2,0\nb,2,1\n", 2),
+               Catch::Contains("floe a: overlaps floe b by 0.") && Catch::Contains(" m"));
+    CHECK_THAT(polygons(".json", "{", 1), Catch::Contains("is no GeoJSON"));
+    CHECK_THAT(polygons(".json", R"({"type":"Polygon","coordinates":[[[0,"a"]]]})", 1),
+               Catch::Contains("is no GeoJSON"));
+    CHECK_THAT(polygons(".json", R"({"type":"Point","coordinates":[0,1]})", 1),
+               Catch::Contains("holds no polygons"));
+}

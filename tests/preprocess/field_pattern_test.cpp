@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Grids, bricks, cusps and edges: where floes lie, what they cover, that none overlap.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "preprocess/field/polygon_checks.hpp"
+#include "tests/preprocess/field_support.hpp"
+
+using namespace ice;
+using namespace ice::test;
+
+namespace {
+
+const std::string kIce = "[ice]\nthickness = 0.3\n";
+const std::string kGrid =
+    "[area]\norigin = [5.0, 1.0]\n[floes]\nsize = [1.0, 0.8]\ncount = [4, 3]\ngap = [0.1, 0.2]\n";
+
+std::string cusps(const std::string& more) {
+    return "pattern = \"cusps\"\n" + kIce +
+           "[area]\nsize = [80, 24]\n[floes]\nbreaking_length = 4\nbreaking_width = 8\n" + more;
+}
+
+// 1e-9: rounding of coordinates below 1e3 m, a hundred thousand times over
+constexpr double kTouch = 1e-9;
+
+}  // namespace
+
+TEST_CASE("a grid lies where its case pattern would, x fastest", "[field][analytic]") {
+    const FieldPlan plan = field_plan("pattern = \"grid\"\n" + kIce + kGrid);
+    REQUIRE(plan.loose.size() == 12);
+    CHECK(plan.fixed.empty());
+    // breadth 3 x 0.8 + 2 x 0.2 = 2.8 m about y = 1
+    CHECK((plan.loose[0][0] - Vec2(5.0, -0.4)).norm() < 1e-14);
+    CHECK((plan.loose[1][0] - Vec2(6.1, -0.4)).norm() < 1e-14);
+    CHECK((plan.loose[4][0] - Vec2(5.0, 0.6)).norm() < 1e-14);
+    CHECK((plan.loose[11][2] - Vec2(9.3, 2.4)).norm() < 1e-14);
+    CHECK((plan.area.sizes() - Vec2(4.3, 2.8)).norm() < 1e-14);
+}
+
+TEST_CASE("bricks are shifted by half a floe and the channel's sides stay straight",
+          "[field][analytic]") {
+    const FieldPlan plan = field_plan("pattern = \"brick\"\n" + kIce + kGrid);
+    REQUIRE(plan.loose.size() == 3 + 4 + 3 + 4);
+    for (std::size_t column = 0, k = 0; column < 4; ++column) {
+        const std::size_t count = column % 2 == 0 ? 3 : 4;
+        CHECK(plan.loose[k][0].y() == Approx(-0.4));
+        CHECK(plan.loose[k + count - 1][2].y() == Approx(2.4));
+        double length = 0.0;
+        for (std::size_t j = 0; j < count; ++j)
+            length += plan.loose[k + j][2].y() - plan.loose[k + j][0].y();
+        CHECK(length == Approx(2.8 - (static_cast<double>(count) - 1.0) * 0.2));
+        // seams of odd columns are half a floe and gap beside those of even ones
+        if (column == 1) CHECK(plan.loose[k + 1][0].y() - plan.loose[0][0].y() == Approx(0.5));
+        k += count;
+    }
+    CHECK_THROWS_WITH(field_plan("pattern = \"brick\"\n" + kIce +
+                                 "[floes]\nsize = [1.0, 0.8]\ncount = [4, 3]\ngap = [0.1, 0.8]\n"),
+                      Catch::Contains("floes.gap: leaves nothing of the half floes"));
+}
+
+TEST_CASE("edges lie beside the field, in equal pieces, with their overhang", "[field][analytic]") {
+    const FieldPlan plan = field_plan("pattern = \"grid\"\n" + kIce + kGrid +
+                                      "[edges]\nbreadth = 2\npiece = 3\ngap = 0.5\n"
+                                      "overhang = [4, 1]\n");
+    // x from 1.0 to 10.3 m: four pieces of 2.325 m on each side
+    REQUIRE(plan.fixed.size() == 8);
+    CHECK((plan.fixed[0][0] - Vec2(1.0, -2.9)).norm() < 1e-14);
+    CHECK((plan.fixed[3][2] - Vec2(10.3, -0.9)).norm() < 1e-14);
+    CHECK((plan.fixed[4][0] - Vec2(1.0, 2.9)).norm() < 1e-14);
+    for (const Outline& piece : plan.fixed) CHECK(area_of(piece) == Approx(2.325 * 2.0));
+}
+
+TEST_CASE("cusps fill the channel: each row is as long as the breaking length", "[field]") {
+    for (const char* more : {"", "jitter = 0\n", "jitter = 0.9\n", "breaking_depth = 3.9\n",
+                             "entrance_angle = \"35 deg\"\n", "breaking_depth = 0\n"}) {
+        CAPTURE(more);
+        const FieldPlan plan = field_plan(cusps(more));
+        // twenty rows of three whole or two whole and two half cusps
+        CHECK(plan.loose.size() == 10 * 3 + 10 * 4);
+        for (const Outline& floe : plan.loose) {
+            CHECK(is_simple(floe));
+            CHECK(area_of(floe) > 0.0);
+        }
+        double deepest = 0.0;
+        for_near_pairs(plan.loose, [&](const Outline& a, const Outline& b) {
+            deepest = std::max(deepest, overlap_depth(a, b));
+        });
+        CHECK(deepest < kTouch);
+    }
+}
+
+TEST_CASE("cusps without jitter have the exact area of their arcs", "[field][analytic]") {
+    // rows 80 m long, and the last front's arcs in place of the first's, all 8 m wide and 2 m deep
+    const FieldPlan plan = field_plan(cusps("jitter = 0\n"));
+    CHECK(total_area(plan.loose) == Approx(80.0 * 24.0).epsilon(1e-12));
+    // equal forms: whole cusps behind halves, halves at each side, whole ones behind whole ones
+    FieldReport report;
+    const FieldSpec spec = field_spec(cusps("jitter = 0\n"));
+    CHECK(make_field(spec, plan, report).shapes.size() <= 10);
+}
+
+TEST_CASE("a gap between cusps is open water everywhere", "[field]") {
+    const FieldPlan plan = field_plan(cusps("gap = [0.2, 0.1]\n"));
+    double nearest = 1e9;
+    for_near_pairs(plan.loose, [&](const Outline& a, const Outline& b) {
+        for (const Outline* one : {&a, &b})
+            for (const Vec2& p : *one) {
+                const Outline& other = one == &a ? b : a;
+                for (std::size_t k = 0; k < other.size(); ++k) {
+                    const Vec2 q = other[k], edge = other[(k + 1) % other.size()] - q;
+                    const double t = std::clamp((p - q).dot(edge) / edge.squaredNorm(), 0.0, 1.0);
+                    nearest = std::min(nearest, (p - q - t * edge).norm());
+                }
+            }
+    });
+    // along x the gap is 0.2 m; arcs 2 m deep over 8 m are at most 53 degrees steep
+    CHECK(nearest > 0.2 * std::cos(53.2 / 180.0 * 3.14159));
+    CHECK(nearest < 0.2);
+    CHECK_THROWS_WITH(field_plan(cusps("gap = [5, 0]\n")),
+                      Catch::Contains("floes.gap: leaves nothing of a cusp"));
+}
+
+TEST_CASE("another seed, other cusps; the same seed, the same", "[field]") {
+    const auto corners = [](const std::string& seed) {
+        return field_plan("seed = " + seed + "\n" + cusps("")).loose;
+    };
+    CHECK(corners("4") == corners("4"));
+    CHECK(corners("4") != corners("5"));
+}

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Floes from a field file: which shapes, where, how high, and which of them may move.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "common/formats/field_file.hpp"
+#include "common/formats/spheres_file.hpp"
+#include "solver/scene/build_scene.hpp"
+#include "tests/support/make_sphere_sets.hpp"
+#include "tests/support/temporary_file.hpp"
+
+using namespace ice;
+
+namespace {
+
+const Vec3 kSmall(1.0, 0.8, 0.4), kLarge(2.0, 1.0, 0.4);
+
+// Two shapes, four floes; the second and the last are unbroken ice.
+Field make_field() {
+    Field field;
+    field.radius = 0.1;
+    field.spacing = 0.2;
+    field.mode = "surface";
+    for (const Vec3& size : {kSmall, kLarge}) {
+        SphereSet set = test::make_box_set(size, 0.1, 0.2);
+        set.mesh.region_names = {"ice"};
+        field.shapes.push_back(set);
+    }
+    const Eigen::Quaterniond turned(0.6, 0.0, 0.0, 0.8);
+    const auto straight = Eigen::Quaterniond::Identity();
+    field.floes = {{0, {1.0, 2.0}, straight, false},
+                   {1, {5.0, 3.0}, straight, true},
+                   {1, {9.0, -2.0}, turned, false},
+                   {1, {5.0, -3.0}, straight, true}};
+    return field;
+}
+
+Case parameters(const test::TemporaryFile& hull, const test::TemporaryFile& field) {
+    SphereSet set = test::make_box_set({4.0, 2.0, 1.0}, 0.2, 0.4);
+    write_spheres(hull.path(), set);
+    write_field(field.path(), make_field());
+    Case p;
+    p.hull_spheres = hull.path();
+    p.speed_table = {{0.0, 1.0}};
+    p.floes.resize(2);
+    for (FloeGroup& group : p.floes) {
+        group.pattern = Pattern::file;
+        group.file = field.path();
+        group.origin = {10.0, -1.0};
+    }
+    p.floes[1].unbroken_part = true;
+    p.floes[1].hold = Hold::always;
+    return p;
+}
+
+}  // namespace
+
+TEST_CASE("a field's floes lie where the file says, afloat, unbroken ice last", "[scene][field]") {
+    const test::TemporaryFile hull(".spheres.h5", ""), file(".h5", "");
+    const Scene scene = build_scene(parameters(hull, file));
+    const Bodies& b = scene.bodies;
+    REQUIRE(b.size() == 1 + 4);
+    CHECK(scene.shapes.size() == 3);          // both groups share the file's shapes
+    const double height = 0.4 * (0.5 - 0.9);  // floating at 900 / 1000, body axes halfway up
+    const std::vector<Vec3> expected{Vec3(11.0, 1.0, height), Vec3(19.0, -3.0, height),
+                                     Vec3(15.0, 2.0, height), Vec3(15.0, -4.0, height)};
+    for (std::size_t i = 1; i < b.size(); ++i) {
+        CAPTURE(i);
+        // floating_height bisects to 1e-12 of the height
+        CHECK((b.position[i] - expected[i - 1]).norm() < 1e-11);
+        CHECK(b.group[i] == (i <= 2 ? 0 : 1));
+        CHECK(b.held[i] == 1);  // the default, until the hull's contact
+    }
+    CHECK(b.mass[1] == Approx(900.0 * kSmall.prod()).epsilon(1e-12));
+    CHECK(b.mass[2] == Approx(900.0 * kLarge.prod()).epsilon(1e-12));
+    CHECK(b.orientation[2].z() == 0.8);
+}
+
+TEST_CASE("a field's hold is the case's for loose floes only", "[scene][field]") {
+    const test::TemporaryFile hull(".spheres.h5", ""), file(".h5", "");
+    Case p = parameters(hull, file);
+    p.floes[0].hold = Hold::never;
+    const Scene scene = build_scene(p);
+    CHECK(scene.bodies.held == std::vector<std::uint8_t>{0, 0, 0, 1, 1});
+}
