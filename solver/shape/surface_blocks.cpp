@@ -11,8 +11,10 @@ namespace {
 constexpr std::size_t kLanes = PanelBlock::kLanes;
 
 void put(const Panel& panel, std::size_t lane, PanelBlock& block) {
+    const Vec3 swing = panel.center.cross(panel.area);
     for (int d = 0; d < 3; ++d) {
         block.area[d][lane] = panel.area[d];
+        block.swing[d][lane] = swing[d];
         block.center[d][lane] = panel.center[d];
         for (int k = 0; k < 3; ++k) block.corner[k][d][lane] = panel.corner[k][d];
     }

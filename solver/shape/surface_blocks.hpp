@@ -26,6 +26,7 @@ struct alignas(64) PanelBlock {
     static constexpr std::size_t kLanes = 8;
 
     double area[3][kLanes];       ///< [m2]
+    double swing[3][kLanes];      ///< center x area: flow through it per rate of turn [m3]
     double center[3][kLanes];     ///< [m]
     double corner[3][3][kLanes];  ///< number, component [m]
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solver/water/drag.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "solver/water/wetted_sums.hpp"
@@ -12,11 +13,12 @@ double wetted_share(double z0, double z1, double z2) {
     if (z1 > z2) std::swap(z1, z2);
     if (z0 > z1) std::swap(z0, z1);
     if (z2 <= 0.0) return 1.0;
-    if (z0 >= 0.0) return 0.0;
-    // one corner wet: the cut-off tip is similar to the triangle in two edges
-    if (z1 >= 0.0) return z0 / (z0 - z1) * (z0 / (z0 - z2));
-    // two corners wet: all but the dry tip
-    return 1.0 - z2 / (z2 - z1) * (z2 / (z2 - z0));
+    if (z0 > 0.0) return 0.0;
+    // the tip that is cut off is similar to the triangle in two edges
+    const auto tip = [](double apex, double middle, double other) {
+        return apex * apex / std::max((apex - middle) * (apex - other), kFlat);
+    };
+    return z1 > 0.0 ? tip(z0, z1, z2) : 1.0 - tip(z2, z1, z0);
 }
 
 WaterLoad projected_drag(const Shape& shape, const Motion& motion, double coefficient,
@@ -38,12 +40,19 @@ WaterLoad panel_drag(const Shape& shape, const Motion& motion, double coefficien
     if (motion.velocity.isZero(0.0) && motion.angular_velocity.isZero(0.0)) return out;
     const WaterPlane water(motion.rotation, motion.height, shape.bounding_radius);
     // in body axes: panels stay, the two velocities turn
-    const FacingSums sums =
-        sum_facing(shape.panels, water, motion.rotation.transpose() * motion.velocity,
-                   motion.rotation.transpose() * motion.angular_velocity);
+    const Vec3 v = motion.rotation.transpose() * motion.velocity;
+    const Vec3 w = motion.rotation.transpose() * motion.angular_velocity;
+    const FacingSums sums = sum_facing(shape.panels, water, v, w);
+    // with u = v + w x c: sum f u, and sum f c x u as c x (w x c) = (c . c) w - (c . w) c
+    const Vec3 force = sums.flow * v + w.cross(sums.first);
+    Mat3 second;
+    second << sums.square.x(), sums.mixed.x(), sums.mixed.y(),  //
+        sums.mixed.x(), sums.square.y(), sums.mixed.z(),        //
+        sums.mixed.y(), sums.mixed.z(), sums.square.z();
+    const Vec3 moment = sums.first.cross(v) + sums.square.sum() * w - second * w;
     const double factor = -0.5 * water_density * coefficient;
-    out.force = factor * (motion.rotation * sums.force);
-    out.moment = factor * (motion.rotation * sums.moment);
+    out.force = factor * (motion.rotation * force);
+    out.moment = factor * (motion.rotation * moment);
     return out;
 }
 

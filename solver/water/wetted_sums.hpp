@@ -39,18 +39,25 @@ struct WettedIntegrals {
 /// dry.
 WettedIntegrals integrate_wetted(const PanelBlocks& facets, const WaterPlane& water);
 
-/// Twice the negative of drag per density and coefficient.
+/// Sums over panels of f, the flow that meets the wetted part of each.
 struct FacingSums {
-    Vec3 force = Vec3::Zero();   ///< sum of f u [m4/s2]
-    Vec3 moment = Vec3::Zero();  ///< sum of c x f u, about the body origin [m5/s2]
+    double flow = 0.0;           ///< sum of f [m3/s]
+    Vec3 first = Vec3::Zero();   ///< sum of f c [m4/s]
+    Vec3 square = Vec3::Zero();  ///< sum of f (x x, y y, z z) [m5/s]
+    Vec3 mixed = Vec3::Zero();   ///< sum of f (x y, x z, y z) [m5/s]
 };
 
-/// Over the panels, with centre c, area vector a and wetted share s: u = v + w x c,
-/// f = s max(0, a . u).
+/// Least product of two differences of height that a share is divided by, so that a triangle level
+/// with the water to 1e-150 m has one, too [m2].
+constexpr double kFlat = 1e-300;
+
+/// With the panels' centres c, area vectors a and wetted shares s, in a flow v + w x c:
+///
+///     f = s max(0, a . (v + w x c)) = s max(0, a . v + (c x a) . w).
 FacingSums sum_facing(const PanelBlocks& panels, const WaterPlane& water, const Vec3& v,
                       const Vec3& w);
 
-/// The sum of s max(0, a . v) alone [m3/s].
+/// The sum of f alone, for w = 0 [m3/s].
 double sum_facing(const PanelBlocks& panels, const WaterPlane& water, const Vec3& v);
 
 namespace reference {

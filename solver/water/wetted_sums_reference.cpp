@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <array>
 
+#include "solver/water/drag.hpp"
 #include "solver/water/wetted_sums.hpp"
 
 namespace ice::reference {
@@ -17,9 +18,6 @@ struct Vector {
     friend Vector operator*(double s, Vector a) { return {s * a.x, s * a.y, s * a.z}; }
 };
 double dot(Vector a, Vector b) { return (a.x * b.x + a.y * b.y) + a.z * b.z; }
-Vector cross(Vector a, Vector b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
 Vector get(const Vec3& from) { return {from[0], from[1], from[2]}; }
 Vector get(const double (&from)[3][kLanes], std::size_t lane) {
     return {from[0][lane], from[1][lane], from[2][lane]};
@@ -57,15 +55,15 @@ struct Heights {
         cut = differ_01 || differ_12;
         if (differ_01) apex = differ_12 ? 1 : 0;
     }
-    // share of the edge from the apex to the next corner but `k` that is on the apex' side
-    double part(std::size_t k) const { return z[apex] / (z[apex] - z[(apex + 1 + k) % 3]); }
+    // share of the edge from the apex to the k-th corner after it that is on the apex' side
+    double part(std::size_t k) const { return z[apex] / (z[apex] - z[(apex + k) % 3]); }
     bool tip_is_wet() const { return wet(z[apex]); }
-    double wetted_share() const {
-        if (!cut) return wet(z[0]) ? 1.0 : 0.0;
-        const double tip = part(0) * part(1);  // similar to the triangle in two edges
-        return tip_is_wet() ? tip : 1.0 - tip;
-    }
 };
+
+double share_of(const PanelBlock& block, std::size_t lane, const WaterPlane& water) {
+    const Heights h(block, lane, water);
+    return ice::wetted_share(h.z[0], h.z[1], h.z[2]);
+}
 
 }  // namespace
 
@@ -90,7 +88,7 @@ WettedIntegrals integrate_wetted(const PanelBlocks& facets, const WaterPlane& wa
             if (h.cut) {
                 const Vector p = corner[h.apex];
                 const Vector q = corner[(h.apex + 1) % 3], r = corner[(h.apex + 2) % 3];
-                const double s = h.part(0), t = h.part(1);
+                const double s = h.part(1), t = h.part(2);
                 const double tip = (s * t) * (area * h.z[h.apex]);
                 const double sign = h.tip_is_wet() ? 1.0 : -1.0;
                 // the corners' sum, and the apex once more: only its z is not 0
@@ -106,19 +104,21 @@ WettedIntegrals integrate_wetted(const PanelBlocks& facets, const WaterPlane& wa
 
 FacingSums sum_facing(const PanelBlocks& panels, const WaterPlane& water, const Vec3& v,
                       const Vec3& w) {
-    VectorSum force, moment;
+    Sum flow{};
+    VectorSum first, square, mixed;
     for (const PanelBlock& block : panels.blocks)
         for (std::size_t lane = 0; lane < kLanes; ++lane) {
-            const Vector center = get(block.center, lane);
-            const Vector u = get(v) + cross(get(w), center);
-            const double facing = dot(get(block.area, lane), u);
+            const double facing =
+                dot(get(block.area, lane), get(v)) + dot(get(block.swing, lane), get(w));
             if (facing <= 0.0) continue;
-            const double share = Heights(block, lane, water).wetted_share();
-            const Vector part = (facing * share) * u;
-            force.add(part, lane);
-            moment.add(cross(center, part), lane);
+            const double f = facing * share_of(block, lane, water);
+            const Vector c = get(block.center, lane), g = f * c;
+            flow[lane] += f;
+            first.add(g, lane);
+            square.add({g.x * c.x, g.y * c.y, g.z * c.z}, lane);
+            mixed.add({g.x * c.y, g.x * c.z, g.y * c.z}, lane);
         }
-    return {force.totals(), moment.totals()};
+    return {total(flow), first.totals(), square.totals(), mixed.totals()};
 }
 
 double sum_facing(const PanelBlocks& panels, const WaterPlane& water, const Vec3& v) {
@@ -127,7 +127,7 @@ double sum_facing(const PanelBlocks& panels, const WaterPlane& water, const Vec3
         for (std::size_t lane = 0; lane < kLanes; ++lane) {
             const double facing = dot(get(block.area, lane), get(v));
             if (facing <= 0.0) continue;
-            sum[lane] += facing * Heights(block, lane, water).wetted_share();
+            sum[lane] += facing * share_of(block, lane, water);
         }
     return total(sum);
 }

@@ -43,11 +43,6 @@ HWY_INLINE Vectors Scale(Lanes s, Vectors a) {
 HWY_INLINE Lanes Dot(Vectors a, Vectors b) {
     return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
 }
-HWY_INLINE Vectors Cross(Vectors a, Vectors b) {
-    return {hn::Sub(hn::Mul(a.y, b.z), hn::Mul(a.z, b.y)),
-            hn::Sub(hn::Mul(a.z, b.x), hn::Mul(a.x, b.z)),
-            hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x))};
-}
 HWY_INLINE Vectors Choose(Mask which, Vectors yes, Vectors no) {
     return {hn::IfThenElse(which, yes.x, no.x), hn::IfThenElse(which, yes.y, no.y),
             hn::IfThenElse(which, yes.z, no.z)};
@@ -124,13 +119,22 @@ struct Tip {
 };
 
 HWY_INLINE Lanes WettedShare(const PanelBlock& block, std::size_t lane, const Water& water) {
-    const Lanes one = hn::Set(Tag(), 1.0);
-    const Heights h(block, lane, water);
-    const Lanes whole = hn::IfThenElseZero(h.wet0, one);
-    if (hn::AllFalse(Tag(), h.cut)) return whole;
-    const Tip tip(h);
-    const Lanes share = hn::Mul(tip.next, tip.last);
-    return hn::IfThenElse(h.cut, hn::IfThenElse(tip.wet, share, hn::Sub(one, share)), whole);
+    const Tag d;
+    const Lanes one = hn::Set(d, 1.0);
+    const Lanes z0 = water.HeightOf(Get(block.corner[0], lane));
+    const Lanes z1 = water.HeightOf(Get(block.corner[1], lane));
+    const Lanes z2 = water.HeightOf(Get(block.corner[2], lane));
+    const Lanes less = hn::Min(z0, z1), more = hn::Max(z0, z1);
+    const Lanes low = hn::Min(less, z2), high = hn::Max(more, z2);
+    const Lanes middle = hn::Max(less, hn::Min(more, z2));
+    // the corner alone on its side, and the one farthest from it
+    const Mask tip_is_wet = hn::Gt(middle, hn::Zero(d));
+    const Lanes apex = hn::IfThenElse(tip_is_wet, low, high);
+    const Lanes other = hn::IfThenElse(tip_is_wet, high, low);
+    const Lanes product = hn::Mul(hn::Sub(apex, middle), hn::Sub(apex, other));
+    const Lanes tip = hn::Div(hn::Mul(apex, apex), hn::Max(product, hn::Set(d, kFlat)));
+    const Lanes share = hn::IfThenElse(tip_is_wet, tip, hn::Sub(one, tip));
+    return hn::IfThenElse(Wet(high), one, hn::IfThenElseZero(Wet(low), share));
 }
 
 // Bounds of the heights of eight blocks' corners, certain in spite of rounding.
@@ -168,25 +172,30 @@ FacingSums SumFacing(const PanelBlocks& panels, const WaterPlane& water, const V
     const Tag d;
     const Water plane(water);
     const Vectors velocity = Set(v), spin = Set(w);
-    VectorSum force, moment;
+    Sum flow;
+    VectorSum first, square, mixed;
     for (std::size_t lane = 0; lane < kLanes; lane += hn::Lanes(d)) {
-        Vectors f = Zero(), m = Zero();
+        Lanes s = hn::Zero(d);
+        Vectors s_c = Zero(), s_cc = Zero(), s_cd = Zero();
         ForEachWetBlock(panels, water, [&](const PanelBlock& block, bool below) HWY_ATTR {
-            const Vectors center = Get(block.center, lane);
-            const Vectors u = Add(velocity, Cross(spin, center));
-            const Lanes facing = Dot(Get(block.area, lane), u);
+            const Lanes facing =
+                hn::Add(Dot(Get(block.area, lane), velocity), Dot(Get(block.swing, lane), spin));
             const Mask away = hn::Le(facing, hn::Zero(d));
             if (hn::AllTrue(d, away)) return;
-            Lanes size = hn::IfThenZeroElse(away, facing);
-            if (!below) size = hn::Mul(size, WettedShare(block, lane, plane));
-            const Vectors part = Scale(size, u);
-            f = Add(f, part);
-            m = Add(m, Cross(center, part));
+            Lanes f = hn::IfThenZeroElse(away, facing);
+            if (!below) f = hn::Mul(f, WettedShare(block, lane, plane));
+            const Vectors c = Get(block.center, lane), g = Scale(f, c);
+            s = hn::Add(s, f);
+            s_c = Add(s_c, g);
+            s_cc = Add(s_cc, {hn::Mul(g.x, c.x), hn::Mul(g.y, c.y), hn::Mul(g.z, c.z)});
+            s_cd = Add(s_cd, {hn::Mul(g.x, c.y), hn::Mul(g.x, c.z), hn::Mul(g.y, c.z)});
         });
-        force.Put(f, lane);
-        moment.Put(m, lane);
+        flow.Put(s, lane);
+        first.Put(s_c, lane);
+        square.Put(s_cc, lane);
+        mixed.Put(s_cd, lane);
     }
-    return {force.Totals(), moment.Totals()};
+    return {flow.Total(), first.Totals(), square.Totals(), mixed.Totals()};
 }
 
 double SumFacingEven(const PanelBlocks& panels, const WaterPlane& water, const Vec3& v) {
