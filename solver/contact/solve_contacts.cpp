@@ -45,7 +45,7 @@ void add(const SolveReport& part, SolveReport& whole) {
 
 SolveReport ContactSolver::iterate(const ContactLaw& law) {
     SolveReport report;
-    extrapolation_.begin(contacts_);
+    extrapolation_.begin(contacts_, !std::isinf(law.crushing_pressure));
     while (true) {
         ++report.iterations;
         report.residual = sweep(contacts_.blocks, contacts_.rows, contacts_.motion);
