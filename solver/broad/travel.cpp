@@ -44,6 +44,10 @@ void Travel::update(const Scene& scene, double dt) {
     };
     for (std::size_t i = known; i < b.size(); ++i) look(i);
     if (known < b.size()) return update(scene, dt);  // `soon` of those just met
+    for (const CrushedIce::Dent& dent : scene.crushed.recent) {
+        way_[static_cast<std::size_t>(dent.body)] += dent.depth;
+        soon_[static_cast<std::size_t>(dent.body)] += dent.depth;
+    }
     look(kShip);
     for (const std::int32_t i : b.moving) look(static_cast<std::size_t>(i));
 }

@@ -19,7 +19,8 @@ namespace ice {
 /// cones are restored by the next sweep, which therefore always comes last.
 class Extrapolation {
 public:
-    /// Before the first sweep of a stage. @param bounded  impulses have a bound that they may grow to
+    /// Before the first sweep of a stage.
+    /// @param bounded  impulses have a bound that they may grow to
     void begin(const ContactRows& contacts, bool bounded);
     /// Between two sweeps: notes what the last one did and moves on.
     void advance(ContactRows& contacts);

@@ -62,6 +62,7 @@ void Overlaps::crush(Scene& scene, const std::vector<Contact>& contacts,
                      const std::vector<Constraint>& constraints, double dt) {
     const Bodies& bodies = scene.bodies;
     dents_.clear();
+    scene.crushed.recent.clear();
     for (std::size_t k = 0; k < constraints.size(); ++k) {
         const Constraint& c = constraints[k];
         if (!c.crushed()) continue;

@@ -57,7 +57,7 @@ TEST_CASE("a step that has seen as much before allocates nothing", "[step][alloc
     std::size_t contacts = 0;
     long before = 0;
     // the first rounds find out how much memory is needed; pairs are dormant in other steps then
-    for (int round = 0; round < 4; ++round) {
+    for (int round = 0; round < 10; ++round) {
         w.scene = start.scene;
         before = allocations;
         contacts = 0;
