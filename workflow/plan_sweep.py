@@ -20,7 +20,7 @@ from dataclasses import dataclass, field
 SEED = "simulation.seed"
 LONGEST_NAME = 150  # of a run's folder; file systems take 255 bytes
 KEYS = ("title", "case", "out", "inputs", "threads", "report", "memory_mb", "runtime_min", "set",
-        "axes", "spherize")
+        "axes", "tied", "spherize")
 
 
 class SweepError(Exception):
@@ -278,6 +278,24 @@ class Planner:
         run.inputs = [path for path in self.recipes if path not in replaced] + made
         return run
 
+    def read_tied(self, axes):
+        """Keys with one value per value of an axis: axis -> key -> values."""
+        tied = {}
+        for name, values in flatten(self.get("tied", dict, {})).items():
+            axis = next((a for a in axes if name.startswith(f"{a}.")), None)
+            if axis is None:
+                self.fail(f"'tied.{name}' belongs to no axis", 'write [tied."hull.speed"] with the '
+                          'keys below it')
+            key = name[len(axis) + 1:]
+            self.explain(key)
+            if key in axes or key in flatten(self.get("set", dict, {})):
+                self.fail(f"'{key}' is tied to {axis} and also in [axes] or [set]", "remove one")
+            if not isinstance(values, list) or len(values) != len(axes[axis]):
+                self.fail(f"'{key}' is tied to {axis} but is no list of {len(axes[axis])} values",
+                          "give one value for each of the axis")
+            tied.setdefault(axis, {})[key] = values
+        return tied
+
     def check_seeds(self, axes, constant):
         """Seeds without jitter would be the same run several times."""
         jitter = axes.get("simulation.jitter", constant.get(
@@ -294,13 +312,16 @@ class Planner:
             if key in axes:
                 self.fail(f"'{key}' is in [set] and in [axes]", "remove it from one of them")
         self.check_seeds(axes, constant)
+        tied = self.read_tied(axes)
         runs = {}
         for values in itertools.product(*axes.values()):
             values = dict(zip(axes, values))
             name = run_name(values)
             if len(name) > LONGEST_NAME or name in runs:
                 name = f"run-{len(runs) + 1:04d}"
-            runs[name] = self.plan_run(name, values, constant)
+            along = {key: each[axes[axis].index(values[axis])]
+                     for axis, keys in tied.items() for key, each in keys.items()}
+            runs[name] = self.plan_run(name, values, {**constant, **along})
         needed = {path for run in runs.values() for path in run.inputs}
         inputs = [i for i in [*self.recipes.values(), *self.made.values()] if i.output in needed]
         return Plan(self.get("title", str, ""), self.case, self.out, self.get("threads", int, 1),
@@ -318,9 +339,9 @@ def safe(text):
 
 
 def run_name(values):
-    """hull.speed=0.5,simulation.seed=1; of a path the file's name."""
-    return ",".join(f"{key}={safe(set_text(value).rsplit('/', 1)[-1])}"
-                    for key, value in values.items())
+    """hull.speed=0.5,simulation.seed=1; of a mesh the file's name."""
+    text = lambda key, value: os.path.basename(value) if key.endswith(".mesh") else set_text(value)
+    return ",".join(f"{key}={safe(text(key, value))}" for key, value in values.items())
 
 
 def plan_sweep(path, out=None, folder=None):

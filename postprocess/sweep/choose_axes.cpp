@@ -21,7 +21,7 @@ std::vector<std::string> varying_keys(const Sweep& sweep) {
         for (const auto& [key, setting] : run.settings) keys.insert(key);
     std::vector<std::string> varying;
     for (const std::string& key : keys)
-        if (key != kSeedKey && values_of(sweep, key).size() > 1) varying.push_back(key);
+        if (!is_seed(key) && values_of(sweep, key).size() > 1) varying.push_back(key);
     return varying;
 }
 
@@ -62,7 +62,9 @@ bool is_tied(const Sweep& sweep, const std::string& key, const std::string& x) {
 
 void choose_axes(Sweep& sweep, const std::vector<std::string>& planned) {
     sweep.axes = planned.empty() ? varying_keys(sweep) : planned;
-    std::erase(sweep.axes, kSeedKey);
+    std::erase_if(sweep.axes, [&](const std::string& key) {
+        return is_seed(key) || values_of(sweep, key).size() < 2;
+    });
     sweep.x = choose_x(sweep, sweep.axes);
     if (sweep.x.empty() || !planned.empty()) return;
     const auto tied = std::stable_partition(

@@ -11,7 +11,8 @@ namespace ice::sweep {
 /// early, do not count. x is hull.speed where it varies, else the number with most values, the
 /// first of equals. A key that has one value for each value of x (a duration chosen for the speed)
 /// is tied to x and no axis of its own.
-/// @param planned keys that the plan names as axes: then no others are; empty: found as above
+/// @param planned keys that the plan names as axes: then no others are, and none is tied;
+///        empty: found as above
 void choose_axes(Sweep& sweep, const std::vector<std::string>& planned);
 
 }  // namespace ice::sweep

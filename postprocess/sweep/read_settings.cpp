@@ -15,10 +15,11 @@ namespace {
 
 Setting make_setting(const toml::node& node) {
     if (const auto text = node.value_exact<std::string>()) return {*text, std::nullopt};
+    if (const auto number = node.value<double>(); node.is_number() && number)
+        return {fmt::format("{}", *number), *number};  // "0.1", not all digits; 1 and 1.0 agree
     std::ostringstream text;
     node.visit([&](const auto& n) { text << n; });
-    return {text.str(),
-            node.is_number() ? std::optional(node.value_or<double>(0.0)) : std::nullopt};
+    return {text.str(), std::nullopt};
 }
 
 void flatten(const toml::table& table, const std::string& prefix,

@@ -41,13 +41,16 @@ std::vector<fs::path> find_runs(const fs::path& folder) {
     return found;
 }
 
-// The first complaint of a log, else its last line.
+// The first complaint of a log, else its last line; "1 mistake" is only the heading of complaints.
 std::string first_error(const fs::path& log) {
     std::ifstream in(log);
     std::string last;
     for (std::string line; std::getline(in, line);) {
-        if (line.find("error:") != std::string::npos) return line;
-        if (!line.empty()) last = line;
+        if (line.empty()) continue;
+        last = line;
+        if (line.find("error:") != std::string::npos && !line.ends_with("mistake") &&
+            !line.ends_with("mistakes"))
+            break;
     }
     return last;
 }
@@ -101,6 +104,8 @@ void read_planned(const fs::path& file, Sweep& sweep) {
 }
 
 }  // namespace
+
+bool is_seed(const std::string& key) { return key == kSeedKey || key == kFieldSeedKey; }
 
 bool operator<(const Setting& a, const Setting& b) {
     if (a.number && b.number) return *a.number < *b.number;

@@ -23,8 +23,12 @@
 
 namespace ice::sweep {
 
-/// Key of a case that chooses the member of an ensemble: no axis, statistics run over it.
+/// Keys that choose the member of an ensemble, of the case and of the ice field: no axes, statistics
+/// run over them.
 inline constexpr const char* kSeedKey = "simulation.seed";
+inline constexpr const char* kFieldSeedKey = "field.seed";
+bool is_seed(const std::string& key);
+
 inline constexpr const char* kSpeedKey = "hull.speed";
 
 /// Value of one setting: as text, and as a number where it is one (SI).
@@ -54,7 +58,7 @@ struct Sweep {
     std::filesystem::path folder;
     std::string title;
     std::vector<SweepRun> runs;         ///< in the plan's order, else by name
-    std::vector<std::string> axes;      ///< keys that vary, without seed and tied ones
+    std::vector<std::string> axes;      ///< keys that vary, without seeds and tied ones
     std::string x;                      ///< the axis curves run along; "" when none is a number
     std::vector<std::string> tied;      ///< keys that vary only together with x
     std::vector<std::string> warnings;  ///< e.g. run folders that the plan does not name

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "postprocess/sweep/key_names.hpp"
 #include "postprocess/views/axis.hpp"
 #include "postprocess/views/chart.hpp"
 
@@ -99,23 +100,43 @@ bool has_formula(const std::vector<Curve>& curves) {
     return false;
 }
 
-// what all charts show, so that they can be compared; room for intervals
+// What all charts show, so that they can be compared. Two seeds that disagree have an interval many
+// times the mean, which would flatten every curve: it is cut at one span of the means beyond them.
 std::pair<double, double> common_range(const std::vector<Curve>& curves,
+                                       const std::vector<Part>& parts,
                                        const report::ForceUnit& unit) {
-    double low = 0.0, high = 0.0;
+    double low = 0.0, high = 0.0, low_bar = 0.0, high_bar = 0.0;
     const auto add = [&](double mean, double half) {
         if (!std::isfinite(mean)) return;
         const double reach = std::isfinite(half) ? half : 0.0;
-        low = std::min(low, (mean - reach) / unit.newtons);
-        high = std::max(high, (mean + reach) / unit.newtons);
+        low = std::min(low, mean / unit.newtons);
+        high = std::max(high, mean / unit.newtons);
+        low_bar = std::min(low_bar, (mean - reach) / unit.newtons);
+        high_bar = std::max(high_bar, (mean + reach) / unit.newtons);
     };
     for (const Curve& curve : curves)
         for (const Point& point : curve.points) {
-            for (const Estimate& part : point.parts) add(part.mean, part.half);
+            for (const Part part : parts) add(point.part(part).mean, point.part(part).half);
             add(point.lindqvist, std::nan(""));
         }
+    const double span = high - low;
+    low = std::max(low_bar, low - span);
+    high = std::min(high_bar, high + span);
     views::widen(low, high);
     return {low, high};
+}
+
+// Names in the overview's legend: labels, or letters where these are too long for one row.
+std::vector<std::string> name_curves(const std::vector<Curve>& curves) {
+    constexpr std::size_t kMostLetters = 75;
+    std::vector<std::string> names;
+    std::size_t length = 0;
+    for (const Curve& curve : curves) length += curve.label.size() + 6;
+    for (std::size_t k = 0; k < curves.size(); ++k) {
+        const bool lettered = length > kMostLetters && curves.size() <= kColors.size();
+        names.push_back(lettered ? std::string(1, static_cast<char>('A' + k)) : curves[k].label);
+    }
+    return names;
 }
 
 }  // namespace
@@ -128,23 +149,6 @@ report::ForceUnit choose_sweep_unit(const std::vector<Point>& points) {
     return report::choose_unit(largest, points.empty() ? 3 : points.front().dimension);
 }
 
-std::string axis_title(const std::string& key) {
-    static const std::map<std::string, std::string> kTitles{
-        {kSpeedKey, "speed [m/s]"},
-        {"simulation.time_step", "time step [s]"},
-        {"ice.density", "ice density [kg/m\u00b3]"},
-        {"environment.water_density", "water density [kg/m\u00b3]"},
-        {"contact.friction_ship_ice", "friction, ship on ice"},
-        {"contact.friction_ice_ice", "friction, ice on ice"},
-        {"contact.crushing_pressure", "crushing pressure [Pa]"},
-        {"contact.restitution", "restitution"},
-        {"field.ice.thickness", "ice thickness [m]"},
-        {"field.floes.mean_size", "mean size of floes [m]"},
-        {"field.floes.concentration", "concentration"}};
-    const auto found = kTitles.find(key);
-    return found == kTitles.end() ? key : found->second;
-}
-
 std::string draw_overview(const Sweep& sweep, const std::vector<Curve>& curves,
                           const report::ForceUnit& unit) {
     if (sweep.x.empty() || curves.empty() || curves.size() > kColors.size()) return "";
@@ -154,20 +158,20 @@ std::string draw_overview(const Sweep& sweep, const std::vector<Curve>& curves,
     chart.y_title = "resistance [" + unit.name + "]";
     chart.width = 860.0;
     chart.height = 360.0;
+    chart.y_range = common_range(curves, {Part::total}, unit);
+    const std::vector<std::string> names = name_curves(curves);
     Plotter plotter(sweep, curves, unit);
     plotter.add_ends(chart);
     for (std::size_t k = 0; k < curves.size(); ++k) {
-        const std::string name = curves[k].label.empty() ? "computed" : curves[k].label;
+        const std::string name = names[k].empty() ? "computed" : names[k];
         plotter.add(chart, curves[k], {name, kColors[k], "", 2.2},
                     [](const Point& p) { return p.part(Part::total); });
         plotter.add(chart, curves[k],
-                    {curves.size() == 1 ? "Lindqvist (1989), submersion" : "", kColors[k],
-                     kFormulaDash, 1.8},
+                    {curves.size() == 1 ? "Lindqvist" : "", kColors[k], kFormulaDash, 1.8},
                     formula);
     }
     if (curves.size() > 1 && has_formula(curves))
-        chart.curves.push_back(
-            {"Lindqvist (1989), submersion", views::kBlack, {}, 1.8, kFormulaDash, 1.0});
+        chart.curves.push_back({"Lindqvist", views::kBlack, {}, 1.8, kFormulaDash, 1.0});
     return draw_chart(chart);
 }
 
@@ -183,13 +187,18 @@ std::vector<std::string> draw_parts(const Sweep& sweep, const std::vector<Curve>
     std::vector<std::string> charts;
     if (sweep.x.empty()) return charts;
     Plotter plotter(sweep, curves, unit);
-    for (const Curve& curve : curves) {
+    std::vector<Part> parts;
+    for (const auto& [part, style] : kStyles) parts.push_back(part);
+    const std::vector<std::string> names = name_curves(curves);
+    for (std::size_t k = 0; k < curves.size(); ++k) {
+        const Curve& curve = curves[k];
         views::Chart chart;
         chart.title = curve.label.empty() ? "Parts of the resistance" : curve.label;
+        if (names[k] != curve.label) chart.title = names[k] + ": " + curve.label;
         chart.x_title = axis_title(sweep.x);
         chart.y_title = "resistance [" + unit.name + "]";
         chart.height = 300.0;
-        chart.y_range = common_range(curves, unit);
+        chart.y_range = common_range(curves, parts, unit);
         plotter.add_ends(chart);
         for (const auto& [part, style] : kStyles)
             plotter.add(chart, curve, style,

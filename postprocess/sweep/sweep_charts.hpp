@@ -9,9 +9,6 @@ namespace ice::sweep {
 /// Unit that all charts and tables of a sweep share.
 report::ForceUnit choose_sweep_unit(const std::vector<Point>& points);
 
-/// Name of a key on an axis, with its unit where the key is a common one: "speed [m/s]".
-std::string axis_title(const std::string& key);
-
 /// Resistance against x with intervals, a curve for each combination of the other axes' values,
 /// Lindqvist's formula dashed in the same colour. "" without x or points, or with so many curves
 /// that they could not be told apart.

@@ -7,6 +7,8 @@
 #include <limits>
 #include <numeric>
 
+#include "postprocess/sweep/key_names.hpp"
+
 namespace ice::sweep {
 
 namespace {
@@ -113,9 +115,7 @@ std::vector<Curve> make_curves(const Sweep& sweep, const std::vector<Point>& poi
         std::string label;
         for (const std::string& axis : sweep.axes) {
             if (axis == sweep.x) continue;
-            const Setting& value = point.at.at(axis);
-            label += (label.empty() ? "" : ", ") + axis + " = " +
-                     (whole ? value.text : short_text(value));
+            label += (label.empty() ? "" : ", ") + name_value(axis, point.at.at(axis), whole);
         }
         return label;
     };
@@ -135,12 +135,6 @@ std::vector<Curve> make_curves(const Sweep& sweep, const std::vector<Point>& poi
                          [&](const Point& a, const Point& b) { return a.x(sweep) < b.x(sweep); });
     }
     return curves;
-}
-
-std::string short_text(const Setting& setting) {
-    if (setting.text.empty()) return "-";
-    if (setting.number) return setting.text;
-    return setting.text.substr(setting.text.rfind('/') + 1);
 }
 
 }  // namespace ice::sweep

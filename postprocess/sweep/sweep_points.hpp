@@ -58,7 +58,4 @@ struct Curve {
 };
 std::vector<Curve> make_curves(const Sweep& sweep, const std::vector<Point>& points);
 
-/// Text of a setting for people: of a path only the file's name.
-std::string short_text(const Setting& setting);
-
 }  // namespace ice::sweep

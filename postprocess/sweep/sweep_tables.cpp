@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "postprocess/sweep/sweep_charts.hpp"
+#include "postprocess/sweep/key_names.hpp"
 #include "postprocess/views/svg.hpp"
 
 namespace ice::sweep {
@@ -84,9 +84,8 @@ std::string point_table(const Sweep& sweep, const std::vector<Point>& points,
 
 std::string run_table(const Sweep& sweep, const report::ForceUnit& unit,
                       const std::filesystem::path& page) {
-    std::string out =
-        head({"Run", "Status", "Resistance \u00b1 95 % [" + unit.name + "]", "Friction",
-              "Unconverged steps", "Warnings", "Wall time [s]", "Remark"});
+    std::string out = head({"Run", "Status", "Resistance \u00b1 95 % [" + unit.name + "]",
+                            "Friction", "Unconverged steps", "Warnings", "Wall time [s]"});
     for (const SweepRun& run : sweep.runs) {
         out += "<tr><td>" + link(run, run.name, page) + "</td><td><span class=\"status" +
                (run.summary ? "" : " bad") + "\">" + escape(run.status) + "</span></td>";
@@ -96,8 +95,9 @@ std::string run_table(const Sweep& sweep, const report::ForceUnit& unit,
                    cell(std::to_string(s->unconverged_steps)) +
                    cell(std::to_string(s->warnings.size())) + cell(readable(s->wall_s));
         else
-            out += "<td></td><td></td><td></td><td></td><td></td>";
-        out += cell(run.fault) + "</tr>\n";
+            out += "<td colspan=\"5\" style=\"text-align:left;white-space:normal\">" +
+                   escape(run.fault) + "</td>";
+        out += "</tr>\n";
     }
     return out + "</tbody></table></div>\n";
 }

@@ -10,6 +10,7 @@
 #include "common/base/version.hpp"
 #include "postprocess/report/page.hpp"
 #include "postprocess/report/page_template.hpp"
+#include "postprocess/sweep/key_names.hpp"
 #include "postprocess/sweep/sweep_charts.hpp"
 #include "postprocess/sweep/sweep_tables.hpp"
 #include "postprocess/views/svg.hpp"
@@ -89,7 +90,8 @@ std::string curve_sections(const Sweep& sweep, const std::vector<Point>& points,
     if (points.empty()) return "";
     const std::string what =
         "Points are means over the runs of a combination. Bars: 95 % interval, "
-        "Student's over seeds; of a single run, from batch means.";
+        "Student's over seeds; of a single run, from batch means. Long bars are cut off. "
+        "Lindqvist (1989) is an estimate of the submersion part only.";
     if (sweep.x.empty())
         return section("curve", "Resistance", "No number varies: there is no curve to draw.", "");
     const auto curves = make_curves(sweep, points);
@@ -102,6 +104,24 @@ std::string curve_sections(const Sweep& sweep, const std::vector<Point>& points,
         out += section("curve", "Resistance against " + axis_title(sweep.x), what + tied,
                        "<div class=\"opening\">" + overview + "</div>\n");
     return out + parts_section(sweep, curves, unit);
+}
+
+// runs without numbers and why; the table has the rest of a long list
+std::string fault_list(const Sweep& sweep) {
+    std::vector<std::string> texts;
+    for (const SweepRun& run : sweep.runs)
+        if (!run.summary) texts.push_back(run.name + ": " + run.status + ". " + run.fault);
+    texts.insert(texts.end(), sweep.warnings.begin(), sweep.warnings.end());
+    if (texts.empty()) return "";
+    const std::size_t count = texts.size();
+    if (count > kMostNamed) texts.resize(kMostNamed);
+    std::string out =
+        "<section id=\"faults\" class=\"warnings\">\n<b>Runs without a result, "
+        "and other warnings</b>\n<ul>\n";
+    for (const std::string& text : texts) out += "<li>" + escape(text) + "</li>\n";
+    if (texts.size() < count)
+        out += fmt::format("<li>and {} more: see \"All runs\"</li>\n", count - texts.size());
+    return out + "</ul>\n</section>\n";
 }
 
 }  // namespace
@@ -123,19 +143,12 @@ std::string list_faults(const Sweep& sweep) {
 std::string make_sweep_page(const Sweep& sweep, const std::filesystem::path& page) {
     const auto points = make_points(sweep);
     const report::ForceUnit unit = choose_sweep_unit(points);
-    std::vector<std::string> warnings = sweep.warnings;
-    for (const SweepRun& run : sweep.runs)
-        if (!run.summary) warnings.push_back(run.name + ": " + run.status + ". " + run.fault);
-    std::string warned = report::warning_list(warnings);
-    const std::string own = "Warnings of the run";
-    if (const auto at = warned.find(own); at != std::string::npos)
-        warned.replace(at, own.size(), "Runs without a result, and other warnings");
     std::string out =
         "<!DOCTYPE html>\n<html lang=\"en\" xmlns=\"http://www.w3.org/1999/xhtml\">\n<head>\n"
         "<meta charset=\"utf-8\" />\n<meta name=\"viewport\" content=\"width=device-width, "
         "initial-scale=1\" />\n<title>" +
         escape(sweep.title) + "</title>\n" + style() + "</head>\n<body>\n" + header(sweep) +
-        "<main>\n" + warned;
+        "<main>\n" + fault_list(sweep);
     out += curve_sections(sweep, points, unit);
     if (!points.empty())
         out += section("points", "All points",
