@@ -201,11 +201,11 @@ class Planner:
                 if not isinstance(values, int) or isinstance(values, bool) or values < 1:
                     self.fail("axes: 'seeds' is wrong", "it takes the number of seeds: seeds = 5")
                 key, values = SEED, list(range(1, values + 1))
+            self.explain(key)
             if not isinstance(values, list) or not values:
                 self.fail(f"axes: '{key}' is no list of values", f"write \"{key}\" = [a, b, c]")
             if len({toml_text(v) for v in values}) < len(values):
                 self.fail(f"axes: '{key}' has a value twice", "remove one")
-            self.explain(key)
             axes[key] = values
         if not axes:
             self.fail("'axes' is empty", 'write e.g. "hull.speed" = [0.5, 1.0] below [axes]')
@@ -339,9 +339,10 @@ def safe(text):
 
 
 def run_name(values):
-    """hull.speed=0.5,simulation.seed=1; of a mesh the file's name."""
+    """hull.speed=0.5__simulation.seed=1; of a mesh the file's name."""
+    # no commas: Snakemake splits the wildcards of a cluster's job there
     text = lambda key, value: os.path.basename(value) if key.endswith(".mesh") else set_text(value)
-    return ",".join(f"{key}={safe(text(key, value))}" for key, value in values.items())
+    return "__".join(f"{key}={safe(text(key, value))}" for key, value in values.items())
 
 
 def plan_sweep(path, out=None, folder=None):

@@ -7,7 +7,7 @@
 ///          title = "Paper 2D, resistance against speed"
 ///          axes = ["hull.speed", "simulation.seed"]
 ///          [[run]]
-///          name = "hull.speed=0.5,simulation.seed=1"    # folder runs/NAME, messages logs/NAME.log
+///          name = "hull.speed=0.5__simulation.seed=1"    # folder runs/NAME, messages logs/NAME.log
 ///          values = {"hull.speed" = 0.5, "simulation.seed" = 1}
 ///
 /// Out: one row per run, read by sweep_points.hpp.

@@ -66,18 +66,18 @@ std::string point_table(const Sweep& sweep, const std::vector<Point>& points,
     std::vector<std::string> names;
     for (const std::string& axis : sweep.axes) names.push_back(axis_title(axis));
     names.insert(names.end(), {"Runs", "Resistance \u00b1 95 % [" + unit.name + "]", "Bow", "Sides",
-                               "Bottom", "Rest", "Contact", "Friction", "Lindqvist", "Reports"});
+                               "Bottom", "Rest", "Contact", "Friction", "Lindqvist"});
     std::string out = head(names);
     for (const Point& point : points) {
         out += "<tr>";
         for (const std::string& axis : sweep.axes) out += cell(value_text(point, axis));
-        out += cell(std::to_string(point.runs.size()));
-        for (const Part part : kParts) out += cell(with_interval(unit, point.part(part)));
-        out += cell(std::isfinite(point.lindqvist) ? unit.text(point.lindqvist) : "-") + "<td>";
+        out += "<td>";
         for (std::size_t k = 0; k < point.runs.size(); ++k)
             out +=
                 (k > 0 ? " " : "") + link(sweep.runs[point.runs[k]], std::to_string(k + 1), page);
-        out += "</td></tr>\n";
+        out += "</td>";
+        for (const Part part : kParts) out += cell(with_interval(unit, point.part(part)));
+        out += cell(std::isfinite(point.lindqvist) ? unit.text(point.lindqvist) : "-") + "</tr>\n";
     }
     return out + "</tbody></table></div>\n";
 }
