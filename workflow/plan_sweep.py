@@ -3,8 +3,6 @@
 
 In:  sweep.toml (keys: README.md beside this file), the case it names, and that case's spheres.txt.
 Out: a Plan, from which the Snakefile makes its jobs and `icepost sweep` reads the axes (runs.toml).
-
-Only Python's standard library is used: Snakemake runs it on every machine of a cluster.
 """
 import difflib
 import itertools
@@ -12,28 +10,16 @@ import json
 import os
 import re
 import shlex
-import shutil
 import subprocess
-import tomllib
 from dataclasses import dataclass, field
+
+from sweep_inputs import (Input, SweepError, find_programs, flatten, read_recipes, read_toml, safe,
+                          set_text, toml_text)
 
 SEED = "simulation.seed"
 LONGEST_NAME = 150  # of a run's folder; file systems take 255 bytes
 KEYS = ("title", "case", "out", "inputs", "threads", "report", "memory_mb", "runtime_min", "set",
         "axes", "tied", "spherize")
-
-
-class SweepError(Exception):
-    """What is wrong, where, and what to do about it."""
-
-
-@dataclass
-class Input:
-    """A sphere set or ice field, made once for all runs that need it."""
-    program: str  # spherize or icefield
-    source: str   # mesh or specification
-    options: list
-    output: str
 
 
 @dataclass
@@ -67,55 +53,6 @@ class Plan:
             values = ", ".join(f"{quote(k)} = {toml_text(v)}" for k, v in run.values.items())
             lines += ["[[run]]", f"name = {quote(run.name)}", f"values = {{{values}}}"]
         return "\n".join(lines) + "\n"
-
-
-def toml_text(value):
-    """A value as TOML."""
-    if isinstance(value, bool):
-        return "true" if value else "false"
-    if isinstance(value, str):
-        return json.dumps(value, ensure_ascii=False)
-    if isinstance(value, list):
-        return "[" + ", ".join(map(toml_text, value)) + "]"
-    return repr(value)
-
-
-def read_toml(path, what):
-    try:
-        with open(path, "rb") as file:
-            return tomllib.load(file)
-    except OSError as error:
-        raise SweepError(f"{path}: {what} not readable: {error.strerror}") from None
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise SweepError(f"{path}: {what} is no TOML: {error}") from None
-
-
-def flatten(table, prefix=""):
-    """Nested tables as one of dotted keys: hull.speed = 1 and "hull.speed" = 1 are the same."""
-    flat = {}
-    for key, value in table.items():
-        if isinstance(value, dict):
-            flat.update(flatten(value, f"{prefix}{key}."))
-        else:
-            flat[prefix + key] = value
-    return flat
-
-
-def find_programs(folder):
-    """Programs by name: in the folder given, else in the build, else on the PATH."""
-    build = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../build/release/bin")
-    found = {}
-    for name in ("spherize", "icefield", "icesolve", "icepost"):
-        places = [folder] if folder else [build, None]
-        for place in places:
-            program = shutil.which(name, path=place)
-            if program:
-                found[name] = os.path.realpath(program)
-                break
-        else:
-            raise SweepError(f"no program {name} in {folder or 'build/release/bin or the PATH'}; run "
-                             "./bootstrap.sh build or give --config bin=DIR")
-    return found
 
 
 class Planner:
@@ -157,28 +94,13 @@ class Planner:
         return os.path.normpath(os.path.join(os.path.dirname(self.path), path))
 
     def read_recipes(self):
-        """The calls of the case's spheres.txt (cases/prepare.sh) by output."""
         default = os.path.join(os.path.dirname(self.case), "spheres.txt")
-        path = self.beside(self.file["inputs"]) if "inputs" in self.file else default
-        if not os.path.exists(path):
-            if "inputs" in self.file:
-                self.fail(f"no file {path}", "'inputs' names a list like a case's spheres.txt")
-            return {}
-        folder, recipes = os.path.dirname(path), {}
-        with open(path, encoding="utf-8") as file:
-            for line in file:
-                words = line.split()
-                if not words or words[0].startswith("#"):
-                    continue
-                if "-o" not in words[:-1]:
-                    raise SweepError(f"{path}: '{line.strip()}' names no output; add -o FILE")
-                at = words.index("-o")
-                absolute = lambda name: os.path.normpath(os.path.join(folder, name))
-                program = "icefield" if words[0].endswith(".toml") else "spherize"
-                recipe = Input(program, absolute(words[0]), words[1:at] + words[at + 2:],
-                               absolute(words[at + 1]))
-                recipes[recipe.output] = recipe
-        return recipes
+        path = self.beside(self.get("inputs", str, None)) if "inputs" in self.file else default
+        if os.path.exists(path):
+            return read_recipes(path)
+        if "inputs" in self.file:
+            self.fail(f"no file {path}", "'inputs' names a list like a case's spheres.txt")
+        return {}
 
     def explain(self, key):
         """Refuses a key that the program would not take, before anything runs."""
@@ -327,15 +249,6 @@ class Planner:
         return Plan(self.get("title", str, ""), self.case, self.out, self.get("threads", int, 1),
                     self.get("report", bool, True), self.get("memory_mb", int, 1000),
                     self.get("runtime_min", int, 60), self.programs, list(axes), inputs, runs)
-
-
-def set_text(value):
-    """A value as icesolve's --set takes it: texts without quotes."""
-    return value if isinstance(value, str) else toml_text(value)
-
-
-def safe(text):
-    return re.sub(r"[^A-Za-z0-9.+-]", "_", text)
 
 
 def run_name(values):

@@ -7,7 +7,7 @@
 ///          title = "Paper 2D, resistance against speed"
 ///          axes = ["hull.speed", "simulation.seed"]
 ///          [[run]]
-///          name = "hull.speed=0.5__simulation.seed=1"    # folder runs/NAME, messages logs/NAME.log
+///          name = "hull.speed=0.5__simulation.seed=1"    # folder runs/NAME, log logs/NAME.log
 ///          values = {"hull.speed" = 0.5, "simulation.seed" = 1}
 ///
 /// Out: one row per run, read by sweep_points.hpp.
@@ -23,8 +23,8 @@
 
 namespace ice::sweep {
 
-/// Keys that choose the member of an ensemble, of the case and of the ice field: no axes, statistics
-/// run over them.
+/// Keys that choose the member of an ensemble, of the case and of the ice field: no axes,
+/// statistics run over them.
 inline constexpr const char* kSeedKey = "simulation.seed";
 inline constexpr const char* kFieldSeedKey = "field.seed";
 bool is_seed(const std::string& key);

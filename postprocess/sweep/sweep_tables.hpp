@@ -8,9 +8,9 @@
 
 namespace ice::sweep {
 
-/// HTML: a row per point with the axes' values, resistance with interval, parts, Lindqvist's formula,
-/// and the runs as links to their reports (their folders, where they have none), relative to the
-/// folder of `page`.
+/// HTML: a row per point with the axes' values, resistance with interval, parts and Lindqvist's
+/// formula, and the runs as links to their reports (their folders, where they have none), relative
+/// to the folder of `page`.
 std::string point_table(const Sweep& sweep, const std::vector<Point>& points,
                         const report::ForceUnit& unit, const std::filesystem::path& page);
 
