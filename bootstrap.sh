@@ -74,7 +74,6 @@ run_demo() {
     local bin=build/release/bin run=results/paper-3d
     cases/prepare.sh cases/paper-3d
     "$bin/icesolve" cases/paper-3d/case.cfg --out "$run"
-    "$bin/icepost" report "$run"
     python3 - "$run/summary.json" <<'END'
 import json
 import sys

@@ -43,7 +43,8 @@ void find_pairs(const Scene& scene, double margin, std::vector<BodyPair>& out) {
     if (largest == 0.0) return;
 
     // only moving floes ask; a pair of two moving ones is reported by the lower
-    const SphereGrid grid({b.position.data() + 1, b.size() - 1}, 2.0 * largest + margin);
+    thread_local SphereGrid grid;  // keeps its memory
+    grid.build({b.position.data() + 1, b.size() - 1}, 2.0 * largest + margin);
     for (std::size_t i = 1; i < b.size(); ++i) {
         if (b.held[i]) continue;
         const double range = bounding_radius(scene, i) + largest + margin;
@@ -65,17 +66,17 @@ constexpr double kSkin = 0.1;
 }  // namespace
 
 bool PairList::is_good(const Scene& scene, const Travel& travel) const {
-    if (held_ != scene.bodies.held) return false;
-    for (std::size_t i = 0; i < way_.size(); ++i)
-        if (travel.soon(static_cast<std::int32_t>(i)) > way_[i] + kSkin) return false;
-    return true;
+    const Bodies& b = scene.bodies;
+    if (way_.size() != b.size() || moving_ != b.moving) return false;
+    const auto stayed = [&](std::int32_t i) { return travel.soon(i) <= way_[i] + kSkin; };
+    return stayed(kShip) && std::all_of(moving_.begin(), moving_.end(), stayed);
 }
 
 void PairList::update(const Scene& scene, const Travel& travel, double margin) {
     if (is_good(scene, travel)) return;
     // both bodies of a pair may go as far
     find_pairs(scene, margin + 2.0 * kSkin, pairs_);
-    held_ = scene.bodies.held;
+    moving_ = scene.bodies.moving;
     way_.resize(travel.size());
     for (std::size_t i = 0; i < way_.size(); ++i)
         way_[i] = travel.way(static_cast<std::int32_t>(i));

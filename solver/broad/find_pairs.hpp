@@ -41,8 +41,8 @@ private:
     bool is_good(const Scene& scene, const Travel& travel) const;
 
     std::vector<BodyPair> pairs_;
-    std::vector<double> way_;         // of the bodies when the list was made [m]
-    std::vector<std::uint8_t> held_;  // which were held then
+    std::vector<double> way_;           // of the bodies when the list was made [m]
+    std::vector<std::int32_t> moving_;  // which moved then
 };
 
 }  // namespace ice

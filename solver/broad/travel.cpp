@@ -31,10 +31,8 @@ void Travel::update(const Scene& scene, double dt) {
     turn_.resize(b.size(), 0.0);
     position_.resize(b.size());
     orientation_.resize(b.size());
-    for (std::size_t i = 0; i < b.size(); ++i) {
-        const bool seen = i < known;
-        if (seen && b.held[i]) continue;
-        if (seen) {
+    const auto look = [&](std::size_t i) {
+        if (i < known) {
             const double arm = Travel::arm(scene.shapes[static_cast<std::size_t>(b.shape[i])]);
             const double turn = turn_between(orientation_[i], b.orientation[i]);
             turn_[i] += turn;
@@ -43,8 +41,15 @@ void Travel::update(const Scene& scene, double dt) {
         }
         position_[i] = b.position[i];
         orientation_[i] = b.orientation[i];
+    };
+    for (std::size_t i = known; i < b.size(); ++i) look(i);
+    if (known < b.size()) return update(scene, dt);  // `soon` of those just met
+    for (const CrushedIce::Dent& dent : scene.crushed.recent) {
+        way_[static_cast<std::size_t>(dent.body)] += dent.depth;
+        soon_[static_cast<std::size_t>(dent.body)] += dent.depth;
     }
-    if (known < b.size()) update(scene, dt);  // `soon` of those just met
+    look(kShip);
+    for (const std::int32_t i : b.moving) look(static_cast<std::size_t>(i));
 }
 
 }  // namespace ice

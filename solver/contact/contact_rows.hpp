@@ -87,6 +87,13 @@ public:
     void end_stage(Bodies& bodies, std::vector<Constraint>& constraints, double Constraint::*normal,
                    Vec3 Constraint::*tangent) const;
 
+    /// Bodies that take part, by local number.
+    const std::vector<std::int32_t>& bodies() const { return bodies_; }
+    /// Local number of a body; -1 for those that do not take part.
+    std::int32_t local_of(std::int32_t body) const {
+        return local_[static_cast<std::size_t>(body)];
+    }
+
     std::vector<PairBlock> blocks;   ///< by colour
     std::vector<ContactRow> rows;    ///< by block
     std::vector<BodyMotion> motion;  ///< of the bodies that take part

@@ -7,13 +7,15 @@ namespace ice {
 
 namespace {
 
-// A squeezed floe's impulse grows by the same step in every sweep: beta is 1 to rounding and the
-// way must go on. Beyond this the sweeps turned elsewhere.
-constexpr double kAfresh = 1.1;
+// A squeezed floe's impulse grows by the same step in every sweep: beta is 1 to rounding. Where the
+// ice crushes at last, the way must go on to there, and only beyond this have the sweeps turned
+// elsewhere. Between rigid bodies that cannot give way it would go on for ever.
+constexpr double kAfreshBounded = 1.1, kAfreshRigid = 0.98;
 
 }  // namespace
 
-void Extrapolation::begin(const ContactRows& contacts) {
+void Extrapolation::begin(const ContactRows& contacts, bool bounded) {
+    afresh_ = bounded ? kAfreshBounded : kAfreshRigid;
     memory_.before.resize(contacts.rows.size());
     for (std::size_t r = 0; r < contacts.rows.size(); ++r)
         memory_.before[r] = contacts.rows[r].impulse;
@@ -26,7 +28,7 @@ void Extrapolation::begin(const ContactRows& contacts) {
 void Extrapolation::advance(ContactRows& contacts) {
     const double size = measure_change(contacts.rows, memory_);
     double beta = last_size_ > 0.0 ? size / last_size_ : 0.0;
-    beta = beta > kAfresh ? 0.0 : std::min(beta, 1.0);
+    beta = beta > afresh_ ? 0.0 : std::min(beta, 1.0);
     last_size_ = size;
     move_on(contacts.rows, contacts.motion, beta, memory_);
 }

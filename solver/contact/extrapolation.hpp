@@ -20,13 +20,15 @@ namespace ice {
 class Extrapolation {
 public:
     /// Before the first sweep of a stage.
-    void begin(const ContactRows& contacts);
+    /// @param bounded  impulses have a bound that they may grow to
+    void begin(const ContactRows& contacts, bool bounded);
     /// Between two sweeps: notes what the last one did and moves on.
     void advance(ContactRows& contacts);
 
 private:
     SweepMemory memory_;
     double last_size_ = -1.0;
+    double afresh_ = 1.0;
 };
 
 }  // namespace ice

@@ -10,49 +10,6 @@ namespace ice {
 
 namespace {
 
-// Free bodies connected by contacts share the smallest of their numbers.
-std::vector<std::int32_t> find_islands(const Bodies& bodies,
-                                       const std::vector<Constraint>& constraints) {
-    std::vector<std::int32_t> parent(bodies.size());
-    std::iota(parent.begin(), parent.end(), 0);
-    const auto root = [&](std::int32_t i) {
-        while (parent[i] != i) i = parent[i] = parent[parent[i]];
-        return i;
-    };
-    for (const Constraint& c : constraints) {
-        if (bodies.inverse_mass[c.a] == 0.0 || bodies.inverse_mass[c.b] == 0.0) continue;
-        const std::int32_t a = root(c.a), b = root(c.b);
-        parent[std::max(a, b)] = std::min(a, b);
-    }
-    for (std::size_t i = 0; i < parent.size(); ++i) parent[i] = root(static_cast<std::int32_t>(i));
-    return parent;
-}
-
-std::int32_t island_of(const Bodies& bodies, const std::vector<std::int32_t>& islands,
-                       const Constraint& c) {
-    return islands[bodies.inverse_mass[c.a] > 0.0 ? c.a : c.b];
-}
-
-Vec3 relative_in(const ImpactState& state, const Constraint& c) {
-    return state.velocity[c.b] + state.angular_velocity[c.b].cross(c.arm_b) - state.velocity[c.a] -
-           state.angular_velocity[c.a].cross(c.arm_a);
-}
-
-// Per island: the gain of energy of impulses J that lead from `start` to `end`.
-std::vector<double> island_gains(const Bodies& bodies, const std::vector<Constraint>& constraints,
-                                 const std::vector<std::int32_t>& islands, const ImpactState& start,
-                                 const ImpactState& end) {
-    std::vector<double> gain(bodies.size(), 0.0);
-    for (std::size_t k = 0; k < constraints.size(); ++k) {
-        const Constraint& c = constraints[k];
-        if (c.normal_mass == 0.0) continue;
-        const Vec3 j = end.normal[k] * c.normal + end.tangent[k];
-        gain[island_of(bodies, islands, c)] +=
-            0.5 * j.dot(relative_in(start, c) + relative_in(end, c));
-    }
-    return gain;
-}
-
 // Largest s in [0, 1] where a convex parabola through its values at 0, 1/2 and 1 is at most 0.
 double largest_share(double at_zero, double at_half, double at_one) {
     if (at_one <= 0.0) return 1.0;
@@ -64,75 +21,130 @@ double largest_share(double at_zero, double at_half, double at_one) {
     return std::clamp((-slope + root) / (2.0 * curve), 0.0, 1.0);
 }
 
-ImpactState half_way(const ImpactState& a, const ImpactState& b) {
-    ImpactState out = a;
-    const auto mix = [](auto& x, const auto& y) {
-        for (std::size_t k = 0; k < x.size(); ++k) x[k] = 0.5 * (x[k] + y[k]);
-    };
-    mix(out.velocity, b.velocity);
-    mix(out.angular_velocity, b.angular_velocity);
-    mix(out.normal, b.normal);
-    mix(out.tangent, b.tangent);
-    return out;
+template <class T>
+void mix(const std::vector<T>& a, const std::vector<T>& b, std::vector<T>& out) {
+    out.resize(a.size());
+    for (std::size_t k = 0; k < a.size(); ++k) out[k] = 0.5 * (a[k] + b[k]);
 }
 
 }  // namespace
 
-void ImpactState::save(const Bodies& bodies, const std::vector<Constraint>& constraints) {
-    velocity = bodies.velocity;
-    angular_velocity = bodies.angular_velocity;
-    normal.clear();
-    tangent.clear();
+void PassiveImpact::save(const Bodies& bodies, const ContactRows& contacts,
+                         const std::vector<Constraint>& constraints, State& out) {
+    out.velocity.clear();
+    out.angular_velocity.clear();
+    out.normal.clear();
+    out.tangent.clear();
+    for (const std::int32_t body : contacts.bodies()) {
+        out.velocity.push_back(bodies.velocity[body]);
+        out.angular_velocity.push_back(bodies.angular_velocity[body]);
+    }
     for (const Constraint& c : constraints) {
-        normal.push_back(c.impact_normal);
-        tangent.push_back(c.impact_tangent);
+        out.normal.push_back(c.impact_normal);
+        out.tangent.push_back(c.impact_tangent);
     }
 }
 
-void ImpactState::restore(Bodies& bodies, std::vector<Constraint>& constraints) const {
-    bodies.velocity = velocity;
-    bodies.angular_velocity = angular_velocity;
+// Free bodies connected by contacts share the smallest of their numbers.
+void PassiveImpact::find_islands(const Bodies& bodies, const ContactRows& contacts,
+                                 const std::vector<Constraint>& constraints) {
+    islands_.resize(contacts.bodies().size());
+    std::iota(islands_.begin(), islands_.end(), 0);
+    const auto root = [&](std::int32_t i) {
+        while (islands_[i] != i) i = islands_[i] = islands_[islands_[i]];
+        return i;
+    };
+    for (const Constraint& c : constraints) {
+        if (bodies.inverse_mass[c.a] == 0.0 || bodies.inverse_mass[c.b] == 0.0) continue;
+        const std::int32_t a = root(contacts.local_of(c.a)), b = root(contacts.local_of(c.b));
+        islands_[std::max(a, b)] = std::min(a, b);
+    }
+    for (std::size_t i = 0; i < islands_.size(); ++i)
+        islands_[i] = root(static_cast<std::int32_t>(i));
+}
+
+std::int32_t PassiveImpact::island_of(const Bodies& bodies, const ContactRows& contacts,
+                                      const Constraint& c) const {
+    return islands_[contacts.local_of(bodies.inverse_mass[c.a] > 0.0 ? c.a : c.b)];
+}
+
+void PassiveImpact::measure_gains(const Bodies& bodies, const ContactRows& contacts,
+                                  const std::vector<Constraint>& constraints, const State& end,
+                                  std::vector<double>& out) const {
+    out.assign(contacts.bodies().size(), 0.0);
     for (std::size_t k = 0; k < constraints.size(); ++k) {
-        constraints[k].impact_normal = normal[k];
-        constraints[k].impact_tangent = tangent[k];
+        const Constraint& c = constraints[k];
+        if (c.normal_mass == 0.0) continue;
+        const std::int32_t a = contacts.local_of(c.a), b = contacts.local_of(c.b);
+        const auto relative = [&](const State& s) -> Vec3 {
+            return s.velocity[b] + s.angular_velocity[b].cross(c.arm_b) - s.velocity[a] -
+                   s.angular_velocity[a].cross(c.arm_a);
+        };
+        const Vec3 j = end.normal[k] * c.normal + end.tangent[k];
+        out[island_of(bodies, contacts, c)] += 0.5 * j.dot(relative(start_) + relative(end));
     }
 }
 
-double energy_gain(const Bodies& bodies, const std::vector<Constraint>& constraints,
-                   const ImpactState& start) {
-    ImpactState now;
-    now.save(bodies, constraints);
-    const auto gains =
-        island_gains(bodies, constraints, find_islands(bodies, constraints), start, now);
-    return *std::max_element(gains.begin(), gains.end());
+void PassiveImpact::begin(const Bodies& bodies, const ContactRows& contacts,
+                          const std::vector<Constraint>& constraints) {
+    save(bodies, contacts, constraints, start_);
 }
 
-void limit_rebound(Bodies& bodies, std::vector<Constraint>& constraints, const ImpactState& start,
-                   const ImpactState& plastic) {
-    ImpactState full;
-    full.save(bodies, constraints);
-    const auto islands = find_islands(bodies, constraints);
-    const auto gain = [&](const ImpactState& end) {
-        return island_gains(bodies, constraints, islands, start, end);
-    };
-    const auto at_zero = gain(plastic), at_one = gain(full);
-    const auto at_half = gain(half_way(plastic, full));
+double PassiveImpact::energy_gain(const Bodies& bodies, const ContactRows& contacts,
+                                  const std::vector<Constraint>& constraints) {
+    save(bodies, contacts, constraints, now_);
+    find_islands(bodies, contacts, constraints);
+    measure_gains(bodies, contacts, constraints, now_, gains_);
+    return gains_.empty() ? 0.0 : *std::max_element(gains_.begin(), gains_.end());
+}
+
+void PassiveImpact::set_aside(Bodies& bodies, const ContactRows& contacts,
+                              std::vector<Constraint>& constraints) {
+    save(bodies, contacts, constraints, rebound_);
+    for (std::size_t k = 0; k < contacts.bodies().size(); ++k) {
+        const std::int32_t body = contacts.bodies()[k];
+        bodies.velocity[body] = start_.velocity[k];
+        bodies.angular_velocity[body] = start_.angular_velocity[k];
+    }
+    for (std::size_t k = 0; k < constraints.size(); ++k) {
+        constraints[k].impact_normal = start_.normal[k];
+        constraints[k].impact_tangent = start_.tangent[k];
+    }
+}
+
+void PassiveImpact::limit_rebound(Bodies& bodies, const ContactRows& contacts,
+                                  std::vector<Constraint>& constraints) {
+    save(bodies, contacts, constraints, plastic_);
+    mix(plastic_.velocity, rebound_.velocity, now_.velocity);
+    mix(plastic_.angular_velocity, rebound_.angular_velocity, now_.angular_velocity);
+    mix(plastic_.normal, rebound_.normal, now_.normal);
+    mix(plastic_.tangent, rebound_.tangent, now_.tangent);
+    find_islands(bodies, contacts, constraints);
+    measure_gains(bodies, contacts, constraints, plastic_, at_zero_);
+    measure_gains(bodies, contacts, constraints, now_, at_half_);
+    measure_gains(bodies, contacts, constraints, rebound_, at_one_);
     const auto share = [&](std::int32_t island) {
-        return largest_share(at_zero[island], at_half[island], at_one[island]);
+        return largest_share(at_zero_[island], at_half_[island], at_one_[island]);
     };
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
-        const double s = share(islands[i]);
-        if (s == 1.0) continue;
-        bodies.velocity[i] = plastic.velocity[i] + s * (full.velocity[i] - plastic.velocity[i]);
-        bodies.angular_velocity[i] = plastic.angular_velocity[i] +
-                                     s * (full.angular_velocity[i] - plastic.angular_velocity[i]);
+    const auto between = [](const auto& plastic, auto& rebound, double s) {
+        // the whole rebound to the last bit, not the sum of its parts
+        if (s != 1.0) rebound = plastic + s * (rebound - plastic);
+    };
+    for (std::size_t k = 0; k < contacts.bodies().size(); ++k) {
+        const std::int32_t body = contacts.bodies()[k];
+        const double s = share(islands_[k]);
+        between(plastic_.velocity[k], rebound_.velocity[k], s);
+        between(plastic_.angular_velocity[k], rebound_.angular_velocity[k], s);
+        bodies.velocity[body] = rebound_.velocity[k];
+        bodies.angular_velocity[body] = rebound_.angular_velocity[k];
     }
     for (std::size_t k = 0; k < constraints.size(); ++k) {
         Constraint& c = constraints[k];
-        const double s = share(island_of(bodies, islands, c));
-        if (s == 1.0 || c.normal_mass == 0.0) continue;
-        c.impact_normal = plastic.normal[k] + s * (full.normal[k] - plastic.normal[k]);
-        c.impact_tangent = plastic.tangent[k] + s * (full.tangent[k] - plastic.tangent[k]);
+        const double s = c.normal_mass > 0.0 ? share(island_of(bodies, contacts, c)) : 1.0;
+        between(plastic_.normal[k], rebound_.normal[k], s);
+        between(plastic_.tangent[k], rebound_.tangent[k], s);
+        c.impact_normal = rebound_.normal[k];
+        c.impact_tangent = rebound_.tangent[k];
     }
 }
 

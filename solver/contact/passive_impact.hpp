@@ -3,38 +3,62 @@
 
 #include <vector>
 
-#include "solver/contact/constraints.hpp"
+#include "solver/contact/contact_rows.hpp"
 
 namespace ice {
 
-/// The velocities and impact impulses of a solution of the impact stage.
-struct ImpactState {
-    std::vector<Vec3> velocity, angular_velocity;  ///< per body
-    std::vector<double> normal;                    ///< per constraint [N s]
-    std::vector<Vec3> tangent;
+/// Looks after the energy of the impact stage; keeps its memory between steps.
+class PassiveImpact {
+public:
+    /// Before the impacts.
+    void begin(const Bodies& bodies, const ContactRows& contacts,
+               const std::vector<Constraint>& constraints);
 
-    void save(const Bodies& bodies, const std::vector<Constraint>& constraints);
-    void restore(Bodies& bodies, std::vector<Constraint>& constraints) const;
+    /// Energy [J] that the impacts put into the floes beyond the ship's work, largest of all
+    /// islands (floes connected by contacts); at most 0 for impacts that only lose energy.
+    ///
+    /// With v_r at the constraints at the beginning and now, the sum of
+    /// J . (v_r before + v_r now) / 2 over an island's constraints.
+    double energy_gain(const Bodies& bodies, const ContactRows& contacts,
+                       const std::vector<Constraint>& constraints);
+
+    /// Remembers the solution with rebound and goes back to the beginning.
+    void set_aside(Bodies& bodies, const ContactRows& contacts,
+                   std::vector<Constraint>& constraints);
+
+    /// Takes as much of the rebound away as keeps every island from gaining energy.
+    ///
+    /// Newton's restitution fixes normal speeds whatever work friction does meanwhile, and may add
+    /// energy in oblique impacts (Kane and Levinson, Dynamics, 1985). The solution without rebound
+    /// never does, and any mixture of the two keeps contacts closed, cones and bounds: per island
+    ///
+    ///     J = J_plastic + s (J_rebound - J_plastic),   s in [0, 1] the largest with gain <= 0.
+    ///
+    /// On entry bodies and constraints hold the solution without rebound, on return the mixture.
+    /// @pre set_aside was called with the other one
+    void limit_rebound(Bodies& bodies, const ContactRows& contacts,
+                       std::vector<Constraint>& constraints);
+
+private:
+    /// Velocities of the touched bodies, by local number, and impulses of the constraints.
+    struct State {
+        std::vector<Vec3> velocity, angular_velocity, tangent;
+        std::vector<double> normal;
+    };
+    static void save(const Bodies& bodies, const ContactRows& contacts,
+                     const std::vector<Constraint>& constraints, State& out);
+    void find_islands(const Bodies& bodies, const ContactRows& contacts,
+                      const std::vector<Constraint>& constraints);
+    std::int32_t island_of(const Bodies& bodies, const ContactRows& contacts,
+                           const Constraint& c) const;
+    // Per island: the gain of energy of impulses J that lead from the beginning to `end`.
+    void measure_gains(const Bodies& bodies, const ContactRows& contacts,
+                       const std::vector<Constraint>& constraints, const State& end,
+                       std::vector<double>& out) const;
+
+    State start_, rebound_, plastic_, now_;
+    std::vector<std::int32_t> islands_;  // per touched body: the smallest local number in it
+    std::vector<double> gains_, at_zero_, at_half_, at_one_;  // per touched body
 };
-
-/// Energy [J] that the impacts put into the floes beyond the ship's work, largest of all islands
-/// (floes connected by contacts); at most 0 for impacts that only lose energy.
-///
-/// With v_r at the constraints before (from `start`) and now, the sum of
-/// J . (v_r before + v_r now) / 2 over an island's constraints.
-double energy_gain(const Bodies& bodies, const std::vector<Constraint>& constraints,
-                   const ImpactState& start);
-
-/// Takes as much of the rebound away as keeps every island from gaining energy.
-///
-/// Newton's restitution fixes normal speeds whatever work friction does meanwhile, and may add
-/// energy in oblique impacts (Kane and Levinson, Dynamics, 1985). The solution without rebound
-/// never does, and any mixture of the two keeps contacts closed, cones and bounds: per island
-///
-///     J = J_plastic + s (J_rebound - J_plastic),   s in [0, 1] the largest with gain <= 0.
-///
-/// On entry bodies and constraints hold the solution with rebound, on return the mixture.
-void limit_rebound(Bodies& bodies, std::vector<Constraint>& constraints, const ImpactState& start,
-                   const ImpactState& plastic);
 
 }  // namespace ice

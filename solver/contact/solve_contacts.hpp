@@ -56,25 +56,7 @@ private:
 
     ContactRows contacts_;
     Extrapolation extrapolation_;
-    ImpactState start_, plastic_, full_;
+    PassiveImpact passive_;
 };
-
-/// Small moves that shrink overlaps; they change poses, never velocities or reported forces.
-struct Nudges {
-    std::vector<Vec3> shift;  ///< per body [m]
-    std::vector<Vec3> turn;   ///< per body, rotation vector [rad]
-};
-
-/// Moves overlapping bodies apart by a part of the overlap that this step's velocities leave.
-///
-/// The same inequality solver on displacements instead of velocities: n . (d_b - d_a) >= push.
-/// Crushed contacts are left alone: that ice is gone.
-void separate_overlaps(const Bodies& bodies, const std::vector<Constraint>& constraints,
-                       const ContactLaw& law, Nudges& out);
-
-/// Ice at its strength gives way: what overlap the step leaves at a crushed contact is taken off
-/// the ice for good. @pre called before the poses advance, after resolve_rest
-void crush_ice(Scene& scene, const std::vector<Contact>& contacts,
-               const std::vector<Constraint>& constraints, double dt);
 
 }  // namespace ice

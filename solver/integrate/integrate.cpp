@@ -9,9 +9,15 @@ namespace ice {
 
 namespace {
 
-// Below this many bodies waking threads costs more than they save: held ones cost nothing, and a
-// moving one a few microseconds.
+// Below this many bodies waking threads costs more than they save.
 constexpr std::size_t kSerialBodies = 512;
+
+// Calls body(i) for every floe that is not held.
+template <class Body>
+void for_each_moving(const Bodies& b, const Body& body) {
+    parallel_for(b.moving.size(), kSerialBodies,
+                 [&](std::size_t k) { body(static_cast<std::size_t>(b.moving[k])); });
+}
 
 // Drag slows down, it never turns a motion round: in a step longer than it takes to stop, the
 // force is the one that just stops. At the paper's steps this is never reached.
@@ -57,35 +63,32 @@ FloeLoad load_of(const Scene& scene, const Case& p, std::size_t i) {
 }  // namespace
 
 void measure_loads(const Scene& scene, const Case& parameters, std::vector<FloeLoad>& out) {
-    out.assign(scene.bodies.size(), {});
-    parallel_for(scene.bodies.size(), kSerialBodies, [&](std::size_t i) {
-        if (i != kShip && !scene.bodies.held[i]) out[i] = load_of(scene, parameters, i);
-    });
+    out.resize(scene.bodies.size());
+    for_each_moving(scene.bodies,
+                    [&](std::size_t i) { out[i] = load_of(scene, parameters, i); });
 }
 
 void apply_loads(Bodies& bodies, const std::vector<FloeLoad>& loads, double dt) {
-    for (std::size_t i = 1; i < bodies.size(); ++i) {
+    for_each_moving(bodies, [&](std::size_t i) {
         bodies.velocity[i] += dt * bodies.inverse_mass[i] * loads[i].force;
         bodies.angular_velocity[i] += dt * (bodies.inverse_inertia_world[i] * loads[i].moment);
-    }
+    });
 }
 
 void store_momenta(Bodies& bodies, const std::vector<Vec3>& angular_velocity_start) {
-    for (std::size_t i = 1; i < bodies.size(); ++i) {
-        if (bodies.held[i]) continue;
+    for_each_moving(bodies, [&](std::size_t i) {
         const Mat3& r = bodies.rotation[i];
         const Vec3 change = bodies.angular_velocity[i] - angular_velocity_start[i];
         bodies.momentum[i] = bodies.mass[i] * bodies.velocity[i];
         if (!change.isZero(0.0))
             bodies.angular_momentum[i] += r * (bodies.inertia[i] * (r.transpose() * change));
-    }
+    });
 }
 
 void advance_poses(Scene& scene, const Nudges& nudges, double dt) {
     Bodies& b = scene.bodies;
     b.position[kShip] += dt * b.velocity[kShip];
-    parallel_for(b.size(), kSerialBodies, [&](std::size_t i) {
-        if (i == kShip || b.held[i]) return;
+    for_each_moving(b, [&](std::size_t i) {
         b.position[i] += dt * b.velocity[i] + nudges.shift[i];
         b.orientation[i] =
             advance_orientation(b.orientation[i], b.inverse_inertia[i], b.angular_momentum[i], dt);
@@ -97,10 +100,9 @@ void advance_poses(Scene& scene, const Nudges& nudges, double dt) {
 
 double kinetic_energy(const Bodies& bodies) {
     double energy = 0.0;
-    for (std::size_t i = 1; i < bodies.size(); ++i)
-        if (!bodies.held[i])
-            energy += 0.5 * (bodies.momentum[i].dot(bodies.velocity[i]) +
-                             bodies.angular_momentum[i].dot(bodies.angular_velocity[i]));
+    for (const std::int32_t i : bodies.moving)
+        energy += 0.5 * (bodies.momentum[i].dot(bodies.velocity[i]) +
+                         bodies.angular_momentum[i].dot(bodies.angular_velocity[i]));
     return energy;
 }
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "solver/case/case.hpp"
-#include "solver/contact/solve_contacts.hpp"
+#include "solver/contact/overlaps.hpp"
 #include "solver/scene/bodies.hpp"
 #include "solver/water/drag.hpp"
 

@@ -2,51 +2,68 @@
 #include "solver/narrow/dormant_pairs.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace ice {
 
 namespace {
 
-// To ask costs as much as to look: worth it from this distance on [m], else not for some looks.
-constexpr double kWorth = 0.002;
-constexpr int kWait = 4;
+// A pair is looked ahead for this turn [rad] and this share of its ice's radius: more keeps more
+// spheres, less has to be found anew sooner.
+constexpr double kLeewayAngle = 0.01, kLeewayShare = 0.6;
 
-// A pair is looked ahead for this turn [rad] and one radius of its ice: more leaves more undecided.
-constexpr double kLeewayAngle = 0.01;
+// Up to so many entries gaps do not matter.
+constexpr std::size_t kFewest = 4096;
 
 }  // namespace
 
-void DormantPairs::match(const Scene& scene, const std::vector<BodyPair>& pairs) {
-    if (crushed_ != scene.crushed.changes) {
-        crushed_ = scene.crushed.changes;
-        for (std::size_t k = 0; k < rows_.size(); ++k)
-            if (!scene.crushed.is_whole(pairs_[k].a) || !scene.crushed.is_whole(pairs_[k].b))
-                rows_[k].wake = 0.0;
-    }
+void DormantPairs::match(const std::vector<BodyPair>& pairs) {
     if (pairs == pairs_) return;
     moved_.assign(pairs.size(), Row{});
+    kept_ = 0;
     std::size_t old = 0;
     for (std::size_t k = 0; k < pairs.size(); ++k) {
         while (old < pairs_.size() && pairs_[old] < pairs[k]) ++old;
         if (old < pairs_.size() && pairs_[old] == pairs[k]) moved_[k] = rows_[old];
+        kept_ += moved_[k].count;
     }
     rows_.swap(moved_);
     pairs_ = pairs;
 }
 
-void DormantPairs::settle(std::size_t k, BodyPair pair, const Travel& travel,
-                          const Leeway& leeway) {
+void DormantPairs::keep(std::size_t k, std::span<const SpherePair> near) {
     Row& row = rows_[k];
-    row = {0.0, 0.0, kWait};
-    if (leeway.distance < kWorth) return;
-    row.wake = travel.way(pair.a) + travel.way(pair.b) + leeway.distance;
+    kept_ += near.size() - row.count;
+    row.count = near.size();
+    row.first = near_.size();
+    near_.insert(near_.end(), near.begin(), near.end());
+    if (near_.size() > kFewest && near_.size() > 2 * kept_) close_gaps();
+}
+
+void DormantPairs::close_gaps() {
+    moved_near_.clear();
+    for (Row& row : rows_) {
+        const auto first = near_.begin() + static_cast<std::ptrdiff_t>(row.first);
+        row.first = moved_near_.size();
+        moved_near_.insert(moved_near_.end(), first,
+                           first + static_cast<std::ptrdiff_t>(row.count));
+    }
+    near_.swap(moved_near_);
+}
+
+void DormantPairs::settle(std::size_t k, BodyPair pair, const Travel& travel, const Leeway& leeway,
+                          double free) {
+    Row& row = rows_[k];
+    const double gone = travel.way(pair.a) + travel.way(pair.b);
+    row.wake = gone + free;
+    row.way = gone + leeway.distance;
     row.turn = travel.turn(pair.a) + travel.turn(pair.b) + leeway.angle;
-    row.wait = 0;
 }
 
 Leeway dormant_leeway(const Scene& scene, BodyPair pair) {
     const auto shape = scene.bodies.shape[static_cast<std::size_t>(pair.b)];
-    return {scene.shapes[static_cast<std::size_t>(shape)].largest_radius, kLeewayAngle};
+    return {kLeewayShare * scene.shapes[static_cast<std::size_t>(shape)].largest_radius,
+            kLeewayAngle};
 }
 
 }  // namespace ice

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "solver/broad/find_pairs.hpp"
@@ -10,34 +12,54 @@
 
 namespace ice {
 
-/// Pairs that need not be looked at: how far their bodies may go before they can touch.
+/// Two spheres that may touch before their bodies have gone too far.
+struct SpherePair {
+    std::int32_t a, b;
+};
+
+/// What is known of pairs of bodies until they have gone too far: how far they may go before they
+/// can touch, and which of their spheres may.
 class DormantPairs {
 public:
-    /// Takes what is known of pairs over to a new list; both sorted. What a body lost by crushing
-    /// since the last call wakes its pairs.
-    void match(const Scene& scene, const std::vector<BodyPair>& pairs);
+    /// Takes what is known of pairs over to a new list; both sorted.
+    void match(const std::vector<BodyPair>& pairs);
 
-    /// May row k's bodies touch within the coming step?
+    /// May row k's bodies touch within the coming step, as far as is known?
     bool is_awake(std::size_t k, BodyPair pair, const Travel& travel) const {
-        return travel.soon(pair.a) + travel.soon(pair.b) >= rows_[k].wake ||
-               travel.turn(pair.a) + travel.turn(pair.b) >= rows_[k].turn;
+        return !is_known(k, pair, travel) ||
+               travel.soon(pair.a) + travel.soon(pair.b) >= rows_[k].wake;
+    }
+    /// Is what is known of row k still true at the end of the coming step?
+    bool is_known(std::size_t k, BodyPair pair, const Travel& travel) const {
+        return travel.soon(pair.a) + travel.soon(pair.b) < rows_[k].way &&
+               travel.turn(pair.a) + travel.turn(pair.b) < rows_[k].turn;
     }
 
-    /// Is it time to ask how far they may go? Not again at once where the answer was: not far.
-    bool may_try(std::size_t k) { return rows_[k].wait == 0 || --rows_[k].wait == 0; }
+    /// Spheres of row k that may touch while it is known; good until the next keep() or match().
+    std::span<const SpherePair> near(std::size_t k) const {
+        return {near_.data() + rows_[k].first, rows_[k].count};
+    }
 
-    /// Row k's bodies may now go and turn so far together.
-    void settle(std::size_t k, BodyPair pair, const Travel& travel, const Leeway& leeway);
+    /// From now on row k is known as far as `leeway`, and cannot touch before its bodies have gone
+    /// `free` [m] together. Rows may be settled at the same time.
+    void settle(std::size_t k, BodyPair pair, const Travel& travel, const Leeway& leeway,
+                double free);
+
+    /// Keeps the spheres of row k that may touch while it is known.
+    void keep(std::size_t k, std::span<const SpherePair> near);
 
 private:
     struct Row {
-        double wake = 0.0;  // sum of the bodies' ways at which they may touch [m]
-        double turn = 0.0;  // sum of their turns at which they may [rad]
-        int wait = 0;       // looks until it is worth to ask again
+        double wake = 0.0;                 // sum of the bodies' ways at which they may touch [m]
+        double way = 0.0, turn = 0.0;      // sums at which nothing is known any more [m], [rad]
+        std::size_t first = 0, count = 0;  // of near_
     };
+    void close_gaps();
+
     std::vector<BodyPair> pairs_;
     std::vector<Row> rows_, moved_;  // by pair
-    std::size_t crushed_ = 0;        // CrushedIce::changes at the last match
+    std::vector<SpherePair> near_, moved_near_;
+    std::size_t kept_ = 0;  // entries of near_ that rows use
 };
 
 /// How far a pair is looked ahead.

@@ -53,12 +53,12 @@ double facing_area(const Shape& shape, std::int32_t k, const Vec3& outward) {
     return shape.area[k] * std::max(facing, kLeastFacing);
 }
 
-// Contacts per sphere of one side; spheres not in contact have none.
-std::vector<std::int32_t> count_contacts(const std::vector<Candidate>& all,
-                                         std::int32_t Candidate::*side, std::size_t spheres) {
-    std::vector<std::int32_t> count(spheres, 0);
-    for (const Candidate& c : all) ++count[static_cast<std::size_t>(c.*side)];
-    return count;
+// Contacts per sphere of one side; of spheres not in contact the entry is not set.
+void count_contacts(const std::vector<Candidate>& all, std::int32_t Candidate::*side,
+                    std::size_t spheres, std::vector<std::int32_t>& out) {
+    if (out.size() < spheres) out.resize(spheres);
+    for (const Candidate& c : all) out[static_cast<std::size_t>(c.*side)] = 0;
+    for (const Candidate& c : all) ++out[static_cast<std::size_t>(c.*side)];
 }
 
 // Midway between two edges where they cross.
@@ -112,10 +112,10 @@ void emit_all(const PairView& view, NormalRule rule, const std::vector<Candidate
 void finish_centres(const PairView& view, const std::vector<Candidate>& candidates,
                     std::vector<Contact>& out) {
     const bool ship = view.pair.a == static_cast<std::int32_t>(kShip);
-    const auto shared_b = count_contacts(candidates, &Candidate::j, view.shape_b.center.size());
+    thread_local std::vector<std::int32_t> shared_a, shared_b;  // keep their memory
+    count_contacts(candidates, &Candidate::j, view.shape_b.center.size(), shared_b);
     // the hull has many spheres and its shares are not asked for
-    const auto shared_a = count_contacts(ship ? std::vector<Candidate>{} : candidates,
-                                         &Candidate::i, ship ? 0 : view.shape_a.center.size());
+    if (!ship) count_contacts(candidates, &Candidate::i, view.shape_a.center.size(), shared_a);
     const auto first = out.end() - static_cast<std::ptrdiff_t>(candidates.size());
     for (std::size_t k = 0; k < candidates.size(); ++k) {
         const Candidate& c = candidates[k];

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <tuple>
 
 #include "common/base/parallel.hpp"
@@ -152,14 +151,15 @@ struct Workspace {
     std::vector<Candidate> candidates;
 };
 
+// Measures the spheres that visit_pairs(view, range, measure) names, and makes contacts of them.
+template <class VisitPairs>
 void find_pair_contacts(const Scene& scene, BodyPair pair, NormalRule rule, double margin,
-                        Workspace& work, std::vector<Contact>& out) {
+                        Workspace& work, std::vector<Contact>& out, const VisitPairs& visit_pairs) {
     const PairView view(scene, pair);
     work.candidates.clear();
     work.surfaces.begin(view);
     const Range range(view, rule, margin);
-    work.search.for_each_near(view, range.margin, range.reach,
-                              Measure{view, work.surfaces, rule, range, work.candidates});
+    visit_pairs(view, range, Measure{view, work.surfaces, rule, range, work.candidates});
     // the order of the search differs between poses: ascending, the answer is the pair's alone
     std::sort(work.candidates.begin(), work.candidates.end(),
               [](const Candidate& l, const Candidate& r) {
@@ -168,11 +168,13 @@ void find_pair_contacts(const Scene& scene, BodyPair pair, NormalRule rule, doub
     finish_pair(view, rule, margin, work.candidates, out);
 }
 
-// The least gap that the pair's spheres may have, less their motion, while that is within `leeway`.
-double least_gap(const Scene& scene, BodyPair pair, NormalRule rule, double margin,
-                 const Leeway& leeway, Workspace& work) {
+// The spheres that may be candidates while the pair moves within `leeway`, and the least gap that
+// they may have, less that motion.
+double find_near(const Scene& scene, BodyPair pair, NormalRule rule, double margin,
+                 const Leeway& leeway, Workspace& work, std::vector<SpherePair>& out) {
     const PairView view(scene, pair);
     work.surfaces.begin(view);
+    out.clear();
     const Range range(view, rule, margin + leeway.distance);
     const bool ship = pair.a == static_cast<std::int32_t>(kShip);
     double least = std::numeric_limits<double>::infinity();
@@ -185,7 +187,9 @@ double least_gap(const Scene& scene, BodyPair pair, NormalRule rule, double marg
                     ? (a.surface.center - b.surface.center).norm() -
                           (a.surface.radius + b.surface.radius)
                     : least_gap_surface(a.surface, b.surface, ship, range.reach, leeway);
+            if (gap == std::numeric_limits<double>::infinity()) return;
             least = std::min(least, gap);
+            out.push_back({i, j});
         });
     return least;
 }
@@ -204,43 +208,63 @@ double closing_speed(const Scene& scene, BodyPair pair) {
 
 void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs, NormalRule rule,
                          double dt, double margin, std::vector<Contact>& out) {
-    awake_.resize(pairs.size());
-    std::iota(awake_.begin(), awake_.end(), std::size_t{0});
-    find_awake(scene, pairs, rule, dt, margin, out);
+    per_pair_.resize(std::max(per_pair_.size(), pairs.size()));
+    parallel_for(pairs.size(), kSerialPairs, [&](std::size_t k) {
+        thread_local Workspace work;  // keeps its memory between pairs
+        per_pair_[k].clear();
+        find_pair_contacts(scene, pairs[k], rule, dt * closing_speed(scene, pairs[k]) + margin,
+                           work, per_pair_[k],
+                           [&](const PairView& view, const Range& range, const Measure& measure) {
+                               work.search.for_each_near(view, range.margin, range.reach, measure);
+                           });
+    });
+    join(pairs.size(), out);
 }
 
 void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
                          const Travel& travel, NormalRule rule, double dt, double margin,
                          std::vector<Contact>& out) {
-    dormant_.match(scene, pairs);
+    dormant_.match(pairs);
     awake_.clear();
     for (std::size_t k = 0; k < pairs.size(); ++k)
         if (dormant_.is_awake(k, pairs[k], travel)) awake_.push_back(k);
-    find_awake(scene, pairs, rule, dt, margin, out);
+    per_pair_.resize(std::max(per_pair_.size(), awake_.size()));
+    found_.resize(std::max(found_.size(), awake_.size()));
+    asked_.resize(found_.size());
     parallel_for(awake_.size(), kSerialPairs, [&](std::size_t n) {
-        const std::size_t k = awake_[n];
-        if (!per_pair_[n].empty() || !dormant_.may_try(k)) return;
         thread_local Workspace work;
-        const Leeway leeway = dormant_leeway(scene, pairs[k]);
-        const double least = least_gap(scene, pairs[k], rule, margin, leeway, work);
-        dormant_.settle(k, pairs[k], travel,
-                        {std::min(least - margin, leeway.distance), leeway.angle});
+        const std::size_t k = awake_[n];
+        const BodyPair pair = pairs[k];
+        per_pair_[n].clear();
+        found_[n].clear();
+        asked_[n] = 0;
+        std::span<const SpherePair> near = dormant_.near(k);
+        if (!dormant_.is_known(k, pair, travel)) {
+            asked_[n] = 1;
+            const Leeway leeway = dormant_leeway(scene, pair);
+            const double least = find_near(scene, pair, rule, margin, leeway, work, found_[n]);
+            dormant_.settle(k, pair, travel, leeway, std::min(least - margin, leeway.distance));
+            if (!dormant_.is_awake(k, pair, travel)) return;
+            near = found_[n];
+        }
+        // a pair too fast for what can be known in advance is searched afresh
+        const bool known = dormant_.is_known(k, pair, travel);
+        find_pair_contacts(
+            scene, pair, rule, dt * closing_speed(scene, pair) + margin, work, per_pair_[n],
+            [&](const PairView& view, const Range& range, const Measure& measure) {
+                if (!known)
+                    return work.search.for_each_near(view, range.margin, range.reach, measure);
+                for (const SpherePair& spheres : near) measure(spheres.a, spheres.b);
+            });
     });
+    for (std::size_t n = 0; n < awake_.size(); ++n)
+        if (asked_[n] != 0) dormant_.keep(awake_[n], found_[n]);
+    join(awake_.size(), out);
 }
 
-void ContactFinder::find_awake(const Scene& scene, const std::vector<BodyPair>& pairs,
-                               NormalRule rule, double dt, double margin,
-                               std::vector<Contact>& out) {
-    if (per_pair_.size() < awake_.size()) per_pair_.resize(awake_.size());
-    parallel_for(awake_.size(), kSerialPairs, [&](std::size_t n) {
-        thread_local Workspace work;
-        const BodyPair pair = pairs[awake_[n]];
-        per_pair_[n].clear();
-        find_pair_contacts(scene, pair, rule, dt * closing_speed(scene, pair) + margin, work,
-                           per_pair_[n]);
-    });
+void ContactFinder::join(std::size_t rows, std::vector<Contact>& out) const {
     out.clear();
-    for (std::size_t n = 0; n < awake_.size(); ++n)
+    for (std::size_t n = 0; n < rows; ++n)
         out.insert(out.end(), per_pair_[n].begin(), per_pair_[n].end());
 }
 

@@ -48,18 +48,20 @@ public:
     void find(const Scene& scene, const std::vector<BodyPair>& pairs, NormalRule rule, double dt,
               double margin, std::vector<Contact>& out);
     /// The same contacts, to the last bit; pairs that cannot have come together since they were
-    /// last seen apart are not looked at.
+    /// last seen apart are not looked at, and of the others only spheres that can.
     /// @pre travel was updated with the present poses and dt
     void find(const Scene& scene, const std::vector<BodyPair>& pairs, const Travel& travel,
               NormalRule rule, double dt, double margin, std::vector<Contact>& out);
 
 private:
-    void find_awake(const Scene& scene, const std::vector<BodyPair>& pairs, NormalRule rule,
-                    double dt, double margin, std::vector<Contact>& out);
+    // The contacts of the first rows of per_pair_.
+    void join(std::size_t rows, std::vector<Contact>& out) const;
 
     // kept between steps: no allocation once warm
     std::vector<std::size_t> awake_;              // rows of the pairs that are looked at
     std::vector<std::vector<Contact>> per_pair_;  // of these
+    std::vector<std::vector<SpherePair>> found_;  // of these: what is newly known
+    std::vector<std::uint8_t> asked_;             // of these: is there anything new?
     DormantPairs dormant_;
 };
 

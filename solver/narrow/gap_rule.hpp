@@ -2,6 +2,8 @@
 /// Bounds of the rule of measure_gap_surface, for those who must agree on them.
 #pragma once
 
+#include "solver/narrow/measure_gap.hpp"
+
 namespace ice {
 
 /// Spreads closer than this (in cosine) count as equally flat: normals are stored as floats.
@@ -15,5 +17,12 @@ constexpr double kSlantOnFace = 0.95, kSlantOnEdge = 0.1;
 
 /// Edges closer to parallel than this (sine) have no normal across both.
 constexpr double kParallel = 0.05;
+
+/// Squared distance [m2] across n from the part of the surface that `s` stands for to a probe's
+/// point. An edge's sphere stands for the face from above its centre out to the corner, and for
+/// nothing beyond: there the other body's edge has nothing under it. Infinite beyond, by more than
+/// `slack` [m]. @param edges  both spheres are edges or corners
+double distance_across(const SphereSurface& s, const Vec3& n, const Vec3& probe, bool edges,
+                       double slack = 0.0);
 
 }  // namespace ice

@@ -35,15 +35,22 @@ double least_gap_across(const SphereSurface& a, const SphereSurface& b, const Ve
 }
 
 // Two edges or corners: the largest gap of all normals that may part them wins, so one normal that
-// will surely be among them is a bound; without one, the least of those that might be.
-double least_gap_of_edges(const SphereSurface& a, const SphereSurface& b, const Leeway& leeway) {
+// will surely be among them is a bound; without one, the least of those that might be. Where each
+// of these leaves the other's edge beyond what a sphere stands for there will be no gap.
+double least_gap_of_edges(const SphereSurface& a, const SphereSurface& b, double reach,
+                          const Leeway& leeway) {
     const Vec3 d = b.center - a.center;
-    const Vec3 between = support_point(b, -a.normal) - support_point(a, -b.normal);
+    const Vec3 pa = support_point(a, -b.normal), pb = support_point(b, -a.normal);
+    const Vec3 between = pb - pa;
+    const double far_sq = (reach + leeway.distance) * (reach + leeway.distance);
     double certain = -kInfinity, possible = kInfinity;
+    bool near = false;
     const auto attempt = [&](const Vec3& n, const Faces& other, const Vec3& outward) {
         const double along = n.dot(d), gap = n.dot(between);
         if (along <= -leeway.distance || !other.have(outward, kSlantOnEdge, leeway.angle)) return;
         possible = std::min(possible, gap);
+        near = near || distance_across(a, n, pb, true, leeway.distance) <= far_sq ||
+               distance_across(b, n, pa, true, leeway.distance) <= far_sq;
         if (along > leeway.distance && other.have(outward, kSlantOnEdge, -leeway.angle))
             certain = std::max(certain, gap);
     };
@@ -51,13 +58,14 @@ double least_gap_of_edges(const SphereSurface& a, const SphereSurface& b, const 
         attempt(a.faces.normal[k], b.faces, -a.faces.normal[k]);
     for (std::size_t k = 0; k < static_cast<std::size_t>(b.faces.count); ++k)
         attempt(-b.faces.normal[k], a.faces, -b.faces.normal[k]);
-    if (certain > -kInfinity) return certain;
+    double across = kInfinity;
     for (int ka = 0; ka < a.faces.edges(); ++ka)
         for (int kb = 0; kb < b.faces.edges(); ++kb)
-            possible =
-                std::min(possible, least_gap_across(a, b, a.faces.edge(ka).cross(b.faces.edge(kb)),
-                                                    d, between, leeway));
-    return possible;
+            across =
+                std::min(across, least_gap_across(a, b, a.faces.edge(ka).cross(b.faces.edge(kb)), d,
+                                                  between, leeway));
+    if (!near && across == kInfinity) return kInfinity;
+    return certain > -kInfinity ? certain : std::min(possible, across);
 }
 
 // May n still be, or come to be, an outward normal of the surface there?
@@ -70,7 +78,7 @@ bool may_belong(const SphereSurface& s, const Vec3& n, double angle) {
 
 double least_gap_surface(const SphereSurface& a, const SphereSurface& b, bool prefer_a,
                          double reach, const Leeway& leeway) {
-    if (a.faces.count > 0 && b.faces.count > 0) return least_gap_of_edges(a, b, leeway);
+    if (a.faces.count > 0 && b.faces.count > 0) return least_gap_of_edges(a, b, reach, leeway);
     const Vec3 d = b.center - a.center;
     const bool same = std::abs(a.spread_cos - b.spread_cos) <= kSameSpread;
     const bool a_is_surface = same || a.spread_cos > b.spread_cos;

@@ -87,22 +87,6 @@ Parting parting_normal(const SphereSurface& a, const SphereSurface& b, const Vec
     return best;
 }
 
-// Squared distance [m2] across n from the part of the surface that `s` stands for to a probe's
-// point. An edge's sphere stands for the face from above its centre out to the corner, and for
-// nothing beyond: there the other body's edge has nothing under it.
-double distance_across(const SphereSurface& s, const Vec3& n, const Vec3& probe, bool edges) {
-    const auto across = [&](const Vec3& v) { return Vec3(v - v.dot(n) * n); };
-    const Vec3 at = across(probe - s.center);
-    if (!edges) return at.squaredNorm();
-    const Vec3 out = across(s.faces.corner * s.normal);
-    const double reach = out.norm();
-    if (reach <= kBeyond * s.radius) return at.squaredNorm();
-    const double along = at.dot(out) / reach;
-    if (along > reach + kBeyond * s.radius) return std::numeric_limits<double>::infinity();
-    const double excess = along - std::clamp(along, 0.0, reach);
-    return std::max(at.squaredNorm() - along * along, 0.0) + excess * excess;
-}
-
 // Is one of s's faces less deep in all that the other sphere stands for than `gap`? Then that is
 // where the bodies meet, somewhere beside. A corner may lie deep behind one face's plane and yet
 // outside another's, which its body, turned a little, enters far from here.
@@ -123,6 +107,20 @@ Vec3 mean_normal(const Vec3& normal_a, const Vec3& normal_b) {
 }
 
 }  // namespace
+
+double distance_across(const SphereSurface& s, const Vec3& n, const Vec3& probe, bool edges,
+                       double slack) {
+    const auto across = [&](const Vec3& v) { return Vec3(v - v.dot(n) * n); };
+    const Vec3 at = across(probe - s.center);
+    if (!edges) return at.squaredNorm();
+    const Vec3 out = across(s.faces.corner * s.normal);
+    const double reach = out.norm();
+    if (reach <= kBeyond * s.radius) return at.squaredNorm();
+    const double along = at.dot(out) / reach;
+    if (along > reach + kBeyond * s.radius + slack) return std::numeric_limits<double>::infinity();
+    const double excess = along - std::clamp(along, 0.0, reach);
+    return std::max(at.squaredNorm() - along * along, 0.0) + excess * excess;
+}
 
 Vec3 support_point(const SphereSurface& s, const Vec3& n) {
     if (s.faces.count == 0) return s.center + s.radius * n;

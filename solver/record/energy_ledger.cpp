@@ -36,8 +36,13 @@ double EnergyLedger::residual(double potential_now) const {
 
 void StepBooks::open(const Bodies& bodies) {
     kinetic = kinetic_energy(bodies);
-    velocity = bodies.velocity;
-    angular_velocity = bodies.angular_velocity;
+    velocity.resize(bodies.size(), Vec3::Zero());  // of held floes
+    angular_velocity.resize(bodies.size(), Vec3::Zero());
+    velocity[kShip] = bodies.velocity[kShip];
+    for (const std::int32_t i : bodies.moving) {
+        velocity[i] = bodies.velocity[i];
+        angular_velocity[i] = bodies.angular_velocity[i];
+    }
 }
 
 void book_step(const Scene& scene, const Case& parameters,
@@ -48,8 +53,7 @@ void book_step(const Scene& scene, const Case& parameters,
         if (c.total_normal() > 0.0) book_contact(b, c, books, ledger);
     const double dt = parameters.time_step;
     const bool unrighted = parameters.buoyancy == BuoyancyModel::centre;
-    for (std::size_t i = 1; i < b.size(); ++i) {
-        if (b.held[i]) continue;
+    for (const std::int32_t i : b.moving) {
         const FloeLoad& load = loads[i];
         const Vec3 v = 0.5 * (books.velocity[i] + b.velocity[i]);
         const Vec3 w = 0.5 * (books.angular_velocity[i] + b.angular_velocity[i]);

@@ -68,8 +68,7 @@ StepRecord measure_step(const Scene& scene, const std::vector<Contact>& contacts
         add_region(out.regions, c.b, contacts[k].region, push + rub);
     }
     merge_regions(out.regions);
-    for (std::size_t i = 1; i < scene.bodies.size(); ++i)
-        out.moving_floes += scene.bodies.held[i] ? 0 : 1;
+    out.moving_floes = static_cast<std::int32_t>(scene.bodies.moving.size());
     out.kinetic_energy = kinetic_energy(scene.bodies);
     return out;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solver/scene/bodies.hpp"
 
+#include <algorithm>
+
 namespace ice {
 
 void update_derived(Bodies& bodies, std::size_t i) {
@@ -22,6 +24,15 @@ void update_derived(Bodies& bodies, std::size_t i) {
 void release(Bodies& bodies, std::size_t i) {
     bodies.held[i] = 0;
     update_derived(bodies, i);
+    const auto number = static_cast<std::int32_t>(i);
+    const auto place = std::lower_bound(bodies.moving.begin(), bodies.moving.end(), number);
+    if (place == bodies.moving.end() || *place != number) bodies.moving.insert(place, number);
+}
+
+void list_moving(Bodies& bodies) {
+    bodies.moving.clear();
+    for (std::size_t i = kShip + 1; i < bodies.size(); ++i)
+        if (!bodies.held[i]) bodies.moving.push_back(static_cast<std::int32_t>(i));
 }
 
 }  // namespace ice

@@ -33,6 +33,7 @@ struct Bodies {
     std::vector<Vec3> momentum;           ///< [kg m/s]
     std::vector<Vec3> angular_momentum;   ///< about the centre of mass, world axes [kg m2/s]
     std::vector<std::uint8_t> held;       ///< 1: immovable until released
+    std::vector<std::int32_t> moving;     ///< floes that are not held, ascending
 
     // derived by update_derived(), changed together by the contact solver
     std::vector<Mat3> rotation;               ///< of `orientation`
@@ -61,5 +62,8 @@ void update_derived(Bodies& bodies, std::size_t i);
 
 /// Lets a held floe move from now on.
 void release(Bodies& bodies, std::size_t i);
+
+/// Makes `moving` anew from `held`.
+void list_moving(Bodies& bodies);
 
 }  // namespace ice

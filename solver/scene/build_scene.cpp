@@ -177,6 +177,7 @@ std::size_t add_floe(Scene& scene, std::int32_t shape_row, double density, const
     b.inverse_mass.push_back(0.0);
     b.inverse_inertia_world.push_back(Mat3::Zero());
     update_derived(b, b.size() - 1);
+    if (!held) b.moving.push_back(static_cast<std::int32_t>(b.size() - 1));
     return b.size() - 1;
 }
 

@@ -16,7 +16,13 @@ struct CrushedIce {
     std::vector<std::int64_t> first;  ///< per body: its row of recess, -1 while whole
     std::vector<Vec3> recess;         ///< per surface sphere of crushed bodies, body axes [m]
     std::vector<double> deepest;      ///< per body, as far as `first`: its longest recess [m]
-    std::size_t changes = 0;          ///< how often crush() was called in this process
+
+    /// What the last step crushed: a body and how far one of its spheres went [m].
+    struct Dent {
+        std::int32_t body;
+        double depth;
+    };
+    std::vector<Dent> recent;
 
     bool is_whole(std::int32_t body) const {
         return static_cast<std::size_t>(body) >= first.size() ||
@@ -41,7 +47,7 @@ struct CrushedIce {
             row = static_cast<std::int64_t>(recess.size());
             recess.resize(recess.size() + spheres, Vec3::Zero());
         }
-        ++changes;
+        recent.push_back({body, move.norm()});
         Vec3& total = recess[static_cast<std::size_t>(row + sphere)];
         total += move;
         double& most = deepest[static_cast<std::size_t>(body)];

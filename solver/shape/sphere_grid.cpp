@@ -6,7 +6,8 @@
 
 namespace ice {
 
-SphereGrid::SphereGrid(std::span<const Vec3> points, double cell) {
+void SphereGrid::build(std::span<const Vec3> points, double cell) {
+    items_.clear();
     if (points.empty()) return;
     Eigen::AlignedBox3d box;
     for (const Vec3& p : points) box.extend(p);
@@ -30,12 +31,11 @@ SphereGrid::SphereGrid(std::span<const Vec3> points, double cell) {
         return (at[2] * count_[1] + at[1]) * count_[0] + at[0];
     };
     begin_.assign(static_cast<std::size_t>(count_[0]) * count_[1] * count_[2] + 1, 0);
-    for (const Vec3& p : points) ++begin_[cell_index(p) + 1];
+    for (const Vec3& p : points) ++begin_[cell_index(p)];
     for (std::size_t c = 1; c < begin_.size(); ++c) begin_[c] += begin_[c - 1];
     items_.resize(points.size());
-    std::vector<std::int32_t> next(begin_.begin(), begin_.end() - 1);
-    for (std::size_t k = 0; k < points.size(); ++k)
-        items_[next[cell_index(points[k])]++] = static_cast<std::int32_t>(k);
+    for (std::size_t k = points.size(); k-- > 0;)
+        items_[--begin_[cell_index(points[k])]] = static_cast<std::int32_t>(k);
 }
 
 }  // namespace ice

@@ -14,7 +14,7 @@ namespace ice {
 
 /// Points sorted into equal cells of a box, for "which spheres are near here?".
 ///
-/// Built once per shape in its body axes. Cells are stored row by row (x fastest) as ranges of
+/// Cells are stored row by row (x fastest) as ranges of
 /// `items`, so a query over neighbouring cells along x reads one run of memory.
 class SphereGrid {
 public:
@@ -22,7 +22,9 @@ public:
     /// @param points  sphere centres [m]; empty gives a grid that answers nothing
     /// @param cell    wanted edge of a cell [m], > 0; enlarged where the box would need more than
     ///                four cells per point
-    SphereGrid(std::span<const Vec3> points, double cell);
+    SphereGrid(std::span<const Vec3> points, double cell) { build(points, cell); }
+    /// Makes it anew, in the memory it has where that is enough.
+    void build(std::span<const Vec3> points, double cell);
 
     /// Calls visit(k) for every point k in the cells that the cube of half edge `range` [m] around
     /// `center` touches: all points within `range`, and some beyond. Ascending by cell, then k.

@@ -144,6 +144,7 @@ SavedRun read_checkpoint(const std::filesystem::path& path, World& world) {
     StateFields::carry(file, saved.progress);
     Bodies& b = world.scene.bodies;
     for (std::size_t i = 0; i < b.size(); ++i) update_derived(b, i);
+    list_moving(b);
     if (world.time > world.parameters.duration + 0.5 * world.parameters.time_step)
         throw bad_input("simulation.duration",
                         fmt::format("{:g} s end before the checkpoint, which is at {:g} s",

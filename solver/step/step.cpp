@@ -77,8 +77,8 @@ void step(World& w) {
     // overlap that the finite step left is taken out of the poses, not of the velocities; where the
     // ice crushes, out of the ice
     timed(w, Stage::contact, [&] {
-        separate_overlaps(bodies, w.constraints, law, w.nudges);
-        crush_ice(w.scene, w.contacts, w.constraints, dt);
+        w.overlaps.separate(bodies, w.constraints, law, w.nudges);
+        w.overlaps.crush(w.scene, w.contacts, w.constraints, dt);
     });
     timed(w, Stage::integrate, [&] {
         book_step(w.scene, w.parameters, w.constraints, w.loads, w.nudges, w.books, w.ledger);

@@ -7,6 +7,7 @@
 
 #include "solver/broad/find_pairs.hpp"
 #include "solver/case/case.hpp"
+#include "solver/contact/overlaps.hpp"
 #include "solver/contact/solve_contacts.hpp"
 #include "solver/integrate/integrate.hpp"
 #include "solver/narrow/find_contacts.hpp"
@@ -35,6 +36,7 @@ struct World {
     WarmStart warm_start;
     ContactFinder finder;
     ContactSolver solver;
+    Overlaps overlaps;
     StepBooks books;
     EnergyLedger ledger;
 

@@ -120,7 +120,7 @@ TEST_CASE("a gap between cusps is open water everywhere", "[field]") {
                       Catch::Contains("floes.gap: leaves nothing of a cusp"));
 }
 
-TEST_CASE("another seed, other cusps; the same seed, the same", "[field]") {
+TEST_CASE("another seed, other cusps, the same seed, the same", "[field]") {
     const auto corners = [](const std::string& seed) {
         return field_plan("seed = " + seed + "\n" + cusps("")).loose;
     };

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/contact/overlaps.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <tuple>
+
+namespace ice {
+
+namespace {
+
+// Overlap that is left alone [m]: contacts that just touch stay contacts.
+constexpr double kSlop = 1e-4;
+
+// Share of the overlap beyond kSlop removed in a step. 1 would overshoot where contacts share a
+// body; 0.2 is the usual value of split-impulse solvers.
+constexpr double kPushShare = 0.2;
+
+// Most a contact is pushed apart in a step [m], so that a deep overlap opens smoothly.
+constexpr double kMostPush = 0.005;
+
+constexpr int kSeparationIterations = 10;
+
+double gap_after(const Bodies& bodies, const Constraint& c, double dt) {
+    return c.gap + dt * relative_velocity(bodies, c).dot(c.normal);
+}
+
+}  // namespace
+
+void Overlaps::separate(const Bodies& bodies, const std::vector<Constraint>& constraints,
+                        const ContactLaw& law, Nudges& out) {
+    out.shift.resize(bodies.size(), Vec3::Zero());
+    out.turn.resize(bodies.size(), Vec3::Zero());
+    for (const std::int32_t i : bodies.moving) {
+        out.shift[i].setZero();
+        out.turn[i].setZero();
+    }
+    pushes_.clear();
+    for (std::size_t k = 0; k < constraints.size(); ++k) {
+        const Constraint& c = constraints[k];
+        const double gap = gap_after(bodies, c, law.dt);
+        if (gap < -kSlop && c.normal_mass > 0.0 && !c.crushed())
+            pushes_.push_back({k, std::min(kPushShare * (-gap - kSlop), kMostPush), 0.0});
+    }
+    for (int iteration = 0; iteration < kSeparationIterations; ++iteration)
+        for (Push& push : pushes_) {
+            const Constraint& c = constraints[push.constraint];
+            const Vec3 move = out.shift[c.b] + out.turn[c.b].cross(c.arm_b) - out.shift[c.a] -
+                              out.turn[c.a].cross(c.arm_a);
+            const double next =
+                std::max(push.done + (push.wanted - move.dot(c.normal)) * c.normal_mass, 0.0);
+            const double change = next - push.done;
+            push.done = next;
+            out.shift[c.a] -= change * bodies.inverse_mass[c.a] * c.normal;
+            out.shift[c.b] += change * bodies.inverse_mass[c.b] * c.normal;
+            out.turn[c.a] -= change * c.turn_a;
+            out.turn[c.b] += change * c.turn_b;
+        }
+}
+
+void Overlaps::crush(Scene& scene, const std::vector<Contact>& contacts,
+                     const std::vector<Constraint>& constraints, double dt) {
+    const Bodies& bodies = scene.bodies;
+    dents_.clear();
+    scene.crushed.recent.clear();
+    for (std::size_t k = 0; k < constraints.size(); ++k) {
+        const Constraint& c = constraints[k];
+        if (!c.crushed()) continue;
+        const double gap = gap_after(bodies, c, dt);
+        if (gap >= 0.0) continue;
+        const Contact& contact = contacts[k];
+        if (contact.crushes_a)
+            dents_.push_back({c.a, contact.sphere_a, k, gap, -c.normal});
+        else
+            dents_.push_back({c.b, contact.sphere_b, k, gap, c.normal});
+    }
+    std::sort(dents_.begin(), dents_.end(), [](const Dent& l, const Dent& r) {
+        return std::tie(l.body, l.sphere, l.constraint) < std::tie(r.body, r.sphere, r.constraint);
+    });
+    for (std::size_t k = 0; k < dents_.size();) {
+        const std::int32_t body = dents_[k].body, sphere = dents_[k].sphere;
+        // several hull spheres may press on one of the ice's: it gives way once
+        Vec3 move = Vec3::Zero();
+        for (; k < dents_.size() && dents_[k].body == body && dents_[k].sphere == sphere; ++k)
+            move += std::max(0.0, -dents_[k].gap - move.dot(dents_[k].inwards)) * dents_[k].inwards;
+        const Shape& shape = scene.shapes[static_cast<std::size_t>(bodies.shape[body])];
+        scene.crushed.crush(body, sphere, shape.center.size(),
+                            bodies.rotation[body].transpose() * move);
+    }
+}
+
+}  // namespace ice

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// What becomes of overlap that a step's velocities leave: bodies move apart, or ice is crushed.
+#pragma once
+
+#include <vector>
+
+#include "solver/contact/constraints.hpp"
+
+namespace ice {
+
+/// Small moves that shrink overlaps; they change poses, never velocities or reported forces.
+struct Nudges {
+    std::vector<Vec3> shift;  ///< per body [m]
+    std::vector<Vec3> turn;   ///< per body, rotation vector [rad]
+};
+
+/// Takes care of overlaps; keeps its memory between steps, and nothing else.
+class Overlaps {
+public:
+    /// Moves overlapping bodies apart by a part of the overlap that this step's velocities leave.
+    ///
+    /// The same inequality solver on displacements instead of velocities: n . (d_b - d_a) >= push.
+    /// Crushed contacts are left alone: that ice is gone.
+    void separate(const Bodies& bodies, const std::vector<Constraint>& constraints,
+                  const ContactLaw& law, Nudges& out);
+
+    /// Ice at its strength gives way: what overlap the step leaves at a crushed contact is taken
+    /// off the ice for good. @pre called before the poses advance, after resolve_rest
+    void crush(Scene& scene, const std::vector<Contact>& contacts,
+               const std::vector<Constraint>& constraints, double dt);
+
+private:
+    struct Push {
+        std::size_t constraint;
+        double wanted, done;  // [m]
+    };
+    struct Dent {
+        std::int32_t body, sphere;
+        std::size_t constraint;
+        double gap;    // at the end of the step [m]
+        Vec3 inwards;  // world axes
+    };
+    std::vector<Push> pushes_;
+    std::vector<Dent> dents_;
+};
+
+}  // namespace ice
