@@ -14,6 +14,7 @@
 #include "postprocess/report/draw_plot.hpp"
 #include "postprocess/report/pictures.hpp"
 #include "postprocess/report/write_report.hpp"
+#include "postprocess/sweep/write_sweep.hpp"
 
 namespace {
 
@@ -60,6 +61,16 @@ int compare_runs(const Options& o) {
     for (const std::string& run : o.runs)
         runs.emplace_back(run, ice::read_summary(ice::read::find_summary(run)));
     fmt::print("{}", o.csv ? ice::report::compare_csv(runs) : ice::report::compare_text(runs));
+    return 0;
+}
+
+int sweep(const Options& o) {
+    const auto runs = ice::sweep::read_sweep(o.run);
+    const auto file = o.out.empty() ? o.run / "sweep.html" : o.out;
+    ice::write_text_file(file, ice::sweep::make_sweep_page(runs, file));
+    if (const std::string faults = ice::sweep::list_faults(runs); !faults.empty())
+        ice::say_warning(faults);
+    ice::say(fmt::format("wrote {}", file.string()));
     return 0;
 }
 
@@ -113,6 +124,10 @@ int main(int argc, char** argv) {
     auto* table = app.add_subcommand("table", "compare runs, a line each")->fallthrough();
     table->add_option("RUN", o.runs, "run folders made by icesolve")->required();
     table->add_flag("--csv", o.csv, "comma-separated, all digits");
+    auto* curve =
+        app.add_subcommand("sweep", "write DIR/sweep.html, resistance curves of many runs");
+    curve->fallthrough()->add_option("DIR", o.run, "folder of run folders")->required();
+    curve->add_option("-o,--out", o.out, "another file");
     auto* export_files = command("paraview", "write PVD and VTP files for ParaView");
     export_files->add_option("-o,--out", o.out, "folder (default RUN/paraview)");
     export_files->add_option("--every", o.every, "keep each N-th frame")
@@ -133,6 +148,7 @@ int main(int argc, char** argv) {
         if (draw->parsed()) return view(o);
         if (plot_run->parsed()) return plot(o);
         if (table->parsed()) return compare_runs(o);
+        if (curve->parsed()) return sweep(o);
         return export_files->parsed() ? paraview(o) : check(o);
     });
 }

@@ -9,7 +9,7 @@ set(order_preprocess preprocess/load preprocess/clean preprocess/measure preproc
 set(order_solver solver/case solver/shape solver/water solver/scene solver/broad solver/narrow
   solver/contact solver/integrate solver/record solver/step solver)
 set(order_postprocess postprocess/read postprocess/views postprocess/statistics postprocess/report
-  postprocess/paraview postprocess/check postprocess)
+  postprocess/sweep postprocess/paraview postprocess/check postprocess)
 set(tools preprocess solver postprocess)
 
 # Third-party headers and the files that may include them: pairs of regular expressions. Tests may
@@ -18,9 +18,10 @@ set(tools preprocess solver postprocess)
 set(quarantine
   "<assimp/"         "^preprocess/load/"
   "<CGAL/"           "^preprocess/(clean|measure|repair|slice|field)/"
-  "<toml"            "^(common/toml|postprocess/check)/"
+  "<toml"            "^(common/toml|postprocess/(check|sweep))/"
   "<(hdf5|H5)"       "^common/formats/"
   "<nlohmann/"       "^(common/formats|preprocess/field|postprocess/report)/"
+  "<boost/"          "^postprocess/sweep/"
   "<hwy/"            "_simd\\.cpp$"
   "<omp\\.h>"        "^common/base/parallel\\.hpp$"
   "<spdlog/"         "^common/cli/"
@@ -41,7 +42,8 @@ set(many_lines 300) # listed, not refused
 function(find_sources out)
   set(found "")
   foreach(kind IN LISTS ARGN)
-    foreach(folder IN ITEMS cases common docs examples meshes postprocess preprocess solver tests)
+    foreach(folder IN ITEMS cases common docs examples meshes postprocess preprocess solver tests
+        workflow)
       file(GLOB_RECURSE part RELATIVE ${ROOT} ${ROOT}/${folder}/*.${kind})
       list(APPEND found ${part})
     endforeach()

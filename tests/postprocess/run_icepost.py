@@ -48,6 +48,8 @@ with tempfile.TemporaryDirectory() as folder:
     expect(run("plot", folder), 0)
     assert xml.parse(path("plot.svg")).getroot().tag.endswith("svg")
     expect(run("table", folder), 2, err="holds no summary.json")
+    expect(run("sweep", folder), 2, err="holds no runs")
+    expect(run("sweep", path("none")), 2, err="folder not found")
     expect(run("view", folder, "--time", "99", "--out", path("b.svg")), 0,
            err="frames from 0 to 4.4 s, none at 99 s")
     expect(run("paraview", folder, "--every", "20", "--out", path("pv")), 0)

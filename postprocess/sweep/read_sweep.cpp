@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "postprocess/sweep/read_sweep.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <set>
+
+#include "common/base/error.hpp"
+#include "postprocess/sweep/choose_axes.hpp"
+#include "postprocess/sweep/read_settings.hpp"
+
+namespace ice::sweep {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kRemedy = "give the folder whose subfolders icesolve wrote";
+
+bool is_run(const fs::path& folder) {
+    return fs::exists(folder / "summary.json") || fs::exists(folder / "case.resolved.cfg");
+}
+
+// Folders of runs below `folder`, which lie at any depth but not inside each other.
+std::vector<fs::path> find_runs(const fs::path& folder) {
+    std::vector<fs::path> found;
+    std::error_code error;
+    fs::recursive_directory_iterator it(folder, fs::directory_options::skip_permission_denied,
+                                        error),
+        end;
+    while (!error && it != end) {
+        if (it->is_directory(error) && is_run(it->path())) {
+            found.push_back(it->path());
+            it.disable_recursion_pending();
+        }
+        it.increment(error);
+    }
+    std::sort(found.begin(), found.end());
+    return found;
+}
+
+// The first complaint of a log, else its last line; "1 mistake" is only the heading of complaints.
+std::string first_error(const fs::path& log) {
+    std::ifstream in(log);
+    std::string last;
+    for (std::string line; std::getline(in, line);) {
+        if (line.empty()) continue;
+        last = line;
+        if (line.find("error:") != std::string::npos && !line.ends_with("mistake") &&
+            !line.ends_with("mistakes"))
+            break;
+    }
+    return last;
+}
+
+void read_outcome(const fs::path& log, SweepRun& run) {
+    const fs::path file = run.folder / "summary.json";
+    if (!fs::exists(file)) {
+        run.fault = first_error(log);
+        const bool begun = fs::exists(log) || fs::exists(run.folder / "case.resolved.cfg");
+        run.status = begun ? "failed" : "not run";
+        if (run.fault.empty())
+            run.fault = begun ? "no summary.json: the run did not end" : "not run yet";
+        return;
+    }
+    try {
+        Summary summary = read_summary(file);
+        run.status = summary.status;
+        if (run.status == "completed") {
+            run.summary = std::move(summary);
+        } else {
+            const bool said = run.status == "failed" && !summary.warnings.empty();
+            run.fault = said ? summary.warnings.back()
+                             : fmt::format("ended at {:g} s", summary.simulated_s);
+        }
+    } catch (const Error& error) {
+        run.status = "unreadable";
+        run.fault = error.what();
+    }
+    // a complaint's remedy is its second line: a row has one
+    run.fault = run.fault.substr(0, run.fault.find('\n'));
+}
+
+void read_planned(const fs::path& file, Sweep& sweep) {
+    const Plan plan = read_plan(file);
+    sweep.title = plan.title;
+    std::set<fs::path> planned;
+    for (const auto& [name, values] : plan.runs) {
+        SweepRun run{name, sweep.folder / "runs" / name, {}, "", "", std::nullopt};
+        run.settings = read_settings(run.folder / "case.resolved.cfg");
+        // the case has numbers in SI where the plan may have "2 kn"; the plan has mesh and field
+        for (const auto& entry : values) run.settings.insert(entry);
+        read_outcome(sweep.folder / "logs" / (name + ".log"), run);
+        planned.insert(run.folder.lexically_normal());
+        sweep.runs.push_back(std::move(run));
+    }
+    for (const fs::path& other : find_runs(sweep.folder))
+        if (!planned.contains(other.lexically_normal()))
+            sweep.warnings.push_back(fs::relative(other, sweep.folder).string() +
+                                     " is not in runs.toml: left out");
+    choose_axes(sweep, plan.axes);
+}
+
+}  // namespace
+
+bool is_seed(const std::string& key) { return key == kSeedKey || key == kFieldSeedKey; }
+
+bool operator<(const Setting& a, const Setting& b) {
+    if (a.number && b.number) return *a.number < *b.number;
+    if (a.number.has_value() != b.number.has_value()) return a.number.has_value();
+    return a.text < b.text;
+}
+
+std::string SweepRun::text(const std::string& key) const {
+    const auto found = settings.find(key);
+    return found == settings.end() ? "" : found->second.text;
+}
+
+Sweep read_sweep(const fs::path& folder) {
+    if (!fs::is_directory(folder)) throw bad_input(folder.string(), "folder not found", kRemedy);
+    Sweep sweep;
+    sweep.folder = folder;
+    if (fs::exists(folder / "runs.toml")) {
+        read_planned(folder / "runs.toml", sweep);
+    } else {
+        for (const fs::path& path : find_runs(folder)) {
+            SweepRun run{fs::relative(path, folder).string(),
+                         path,
+                         read_settings(path / "case.resolved.cfg"),
+                         "",
+                         "",
+                         std::nullopt};
+            read_outcome(path / "run.log", run);
+            sweep.runs.push_back(std::move(run));
+        }
+        if (sweep.runs.empty()) throw bad_input(folder.string(), "holds no runs", kRemedy);
+        choose_axes(sweep, {});
+    }
+    if (sweep.title.empty()) sweep.title = "Sweep " + fs::absolute(folder).filename().string();
+    return sweep;
+}
+
+}  // namespace ice::sweep

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "postprocess/sweep/sweep_charts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "postprocess/sweep/key_names.hpp"
+#include "postprocess/views/axis.hpp"
+#include "postprocess/views/chart.hpp"
+
+namespace ice::sweep {
+
+using views::Vec2;
+
+namespace {
+
+const std::vector<std::string> kColors{views::kBlue, views::kOrange, views::kGreen, views::kPurple,
+                                       views::kBlack};
+constexpr const char* kFormulaDash = "2 3";
+
+struct Style {
+    std::string name, color, dash;
+    double width = 1.8;
+};
+
+// Draws points of several curves into one chart, in the chart's unit.
+class Plotter {
+public:
+    Plotter(const Sweep& sweep, const std::vector<Curve>& curves, const report::ForceUnit& unit)
+        : sweep_(sweep), unit_(unit) {
+        double low = std::numeric_limits<double>::infinity(), high = -low;
+        for (const Curve& curve : curves)
+            for (const Point& point : curve.points) {
+                low = std::min(low, point.x(sweep));
+                high = std::max(high, point.x(sweep));
+            }
+        // half a cap: 0.8 % of the axis, which a single place does not have
+        cap_ = high > low ? 0.008 * (high - low) : 0.008 * std::max(std::abs(high), 1.0);
+        ends_ = {low, high};
+    }
+
+    // `value` gives the Estimate of a point
+    template <class Value>
+    void add(views::Chart& chart, const Curve& curve, const Style& style, const Value& value) {
+        views::Curve line{style.name, style.color, {}, style.width, style.dash, 1.0};
+        std::vector<views::Curve> marks;
+        for (const Point& point : curve.points) {
+            const Estimate estimate = value(point);
+            if (!std::isfinite(estimate.mean)) continue;
+            const double x = point.x(sweep_), y = estimate.mean / unit_.newtons;
+            line.points.emplace_back(x, y);
+            if (style.dash.empty())
+                marks.push_back({"",
+                                 style.color,
+                                 {Vec2(x - 0.6 * cap_, y), Vec2(x + 0.6 * cap_, y)},
+                                 6.0,
+                                 "",
+                                 1.0});
+            if (std::isfinite(estimate.half))
+                marks.push_back(interval(x, y, estimate.half / unit_.newtons, style.color));
+        }
+        if (line.points.empty()) return;
+        chart.curves.push_back(std::move(line));
+        chart.curves.insert(chart.curves.end(), marks.begin(), marks.end());
+    }
+
+    // invisible ends, so that all charts have the same axis
+    void add_ends(views::Chart& chart) const {
+        views::Curve ends{"", "none", {}, 0.0, "", 1.0};
+        ends.points = {Vec2(ends_.first - 2.0 * cap_, 0.0), Vec2(ends_.second + 2.0 * cap_, 0.0)};
+        chart.curves.push_back(ends);
+    }
+
+private:
+    // an I: lower cap, stem, upper cap as one line
+    views::Curve interval(double x, double y, double half, const std::string& color) const {
+        const double low = y - half, high = y + half;
+        return {"",
+                color,
+                {Vec2(x - cap_, low), Vec2(x + cap_, low), Vec2(x, low), Vec2(x, high),
+                 Vec2(x - cap_, high), Vec2(x + cap_, high)},
+                1.2,
+                "",
+                1.0};
+    }
+
+    const Sweep& sweep_;
+    const report::ForceUnit& unit_;
+    double cap_ = 0.0;
+    std::pair<double, double> ends_;
+};
+
+Estimate formula(const Point& p) { return {p.lindqvist, std::nan("")}; }
+
+bool has_formula(const std::vector<Curve>& curves) {
+    for (const Curve& curve : curves)
+        for (const Point& point : curve.points)
+            if (std::isfinite(point.lindqvist)) return true;
+    return false;
+}
+
+// What all charts show, so that they can be compared. Two seeds that disagree have an interval many
+// times the mean, which would flatten every curve: it is cut at one span of the means beyond them.
+std::pair<double, double> common_range(const std::vector<Curve>& curves,
+                                       const std::vector<Part>& parts,
+                                       const report::ForceUnit& unit) {
+    double low = 0.0, high = 0.0, low_bar = 0.0, high_bar = 0.0;
+    const auto add = [&](double mean, double half) {
+        if (!std::isfinite(mean)) return;
+        const double reach = std::isfinite(half) ? half : 0.0;
+        low = std::min(low, mean / unit.newtons);
+        high = std::max(high, mean / unit.newtons);
+        low_bar = std::min(low_bar, (mean - reach) / unit.newtons);
+        high_bar = std::max(high_bar, (mean + reach) / unit.newtons);
+    };
+    for (const Curve& curve : curves)
+        for (const Point& point : curve.points) {
+            for (const Part part : parts) add(point.part(part).mean, point.part(part).half);
+            add(point.lindqvist, std::nan(""));
+        }
+    const double span = high - low;
+    low = std::max(low_bar, low - span);
+    high = std::min(high_bar, high + span);
+    views::widen(low, high);
+    return {low, high};
+}
+
+// Names in the overview's legend: labels, or letters where these are too long for one row.
+std::vector<std::string> name_curves(const std::vector<Curve>& curves) {
+    constexpr std::size_t kMostLetters = 75;
+    std::vector<std::string> names;
+    std::size_t length = 0;
+    for (const Curve& curve : curves) length += curve.label.size() + 6;
+    for (std::size_t k = 0; k < curves.size(); ++k) {
+        const bool lettered = length > kMostLetters && curves.size() <= kColors.size();
+        names.push_back(lettered ? std::string(1, static_cast<char>('A' + k)) : curves[k].label);
+    }
+    return names;
+}
+
+}  // namespace
+
+report::ForceUnit choose_sweep_unit(const std::vector<Point>& points) {
+    double largest = 0.0;
+    for (const Point& point : points)
+        if (std::isfinite(point.part(Part::total).mean))
+            largest = std::max(largest, std::abs(point.part(Part::total).mean));
+    return report::choose_unit(largest, points.empty() ? 3 : points.front().dimension);
+}
+
+std::string draw_overview(const Sweep& sweep, const std::vector<Curve>& curves,
+                          const report::ForceUnit& unit) {
+    if (sweep.x.empty() || curves.empty() || curves.size() > kColors.size()) return "";
+    views::Chart chart;
+    chart.title = "Resistance";
+    chart.x_title = axis_title(sweep.x);
+    chart.y_title = "resistance [" + unit.name + "]";
+    chart.width = 860.0;
+    chart.height = 360.0;
+    chart.y_range = common_range(curves, {Part::total}, unit);
+    const std::vector<std::string> names = name_curves(curves);
+    Plotter plotter(sweep, curves, unit);
+    plotter.add_ends(chart);
+    for (std::size_t k = 0; k < curves.size(); ++k) {
+        const std::string name = names[k].empty() ? "computed" : names[k];
+        plotter.add(chart, curves[k], {name, kColors[k], "", 2.2},
+                    [](const Point& p) { return p.part(Part::total); });
+        plotter.add(chart, curves[k],
+                    {curves.size() == 1 ? "Lindqvist" : "", kColors[k], kFormulaDash, 1.8},
+                    formula);
+    }
+    if (curves.size() > 1 && has_formula(curves))
+        chart.curves.push_back({"Lindqvist", views::kBlack, {}, 1.8, kFormulaDash, 1.0});
+    return draw_chart(chart);
+}
+
+std::vector<std::string> draw_parts(const Sweep& sweep, const std::vector<Curve>& curves,
+                                    const report::ForceUnit& unit) {
+    static const std::vector<std::pair<Part, Style>> kStyles{
+        {Part::total, {"resistance", views::kBlack, "", 2.4}},
+        {Part::bow, {"bow", views::kBlue, "", 1.8}},
+        {Part::sides, {"sides", views::kGreen, "", 1.8}},
+        {Part::bottom, {"bottom", views::kOrange, "", 1.8}},
+        {Part::rest, {"rest", views::kPurple, "", 1.8}},
+        {Part::friction, {"friction", "#777777", "6 3", 1.8}}};
+    std::vector<std::string> charts;
+    if (sweep.x.empty()) return charts;
+    Plotter plotter(sweep, curves, unit);
+    std::vector<Part> parts;
+    for (const auto& [part, style] : kStyles) parts.push_back(part);
+    const std::vector<std::string> names = name_curves(curves);
+    for (std::size_t k = 0; k < curves.size(); ++k) {
+        const Curve& curve = curves[k];
+        views::Chart chart;
+        chart.title = curve.label.empty() ? "Parts of the resistance" : curve.label;
+        if (names[k] != curve.label) chart.title = names[k] + ": " + curve.label;
+        chart.x_title = axis_title(sweep.x);
+        chart.y_title = "resistance [" + unit.name + "]";
+        chart.height = 300.0;
+        chart.y_range = common_range(curves, parts, unit);
+        plotter.add_ends(chart);
+        for (const auto& [part, style] : kStyles)
+            plotter.add(chart, curve, style,
+                        [part = part](const Point& p) { return p.part(part); });
+        plotter.add(chart, curve, {"Lindqvist", views::kBlack, kFormulaDash, 1.8}, formula);
+        charts.push_back(draw_chart(chart));
+    }
+    return charts;
+}
+
+}  // namespace ice::sweep

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "postprocess/sweep/sweep_points.hpp"
+
+#include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "postprocess/sweep/key_names.hpp"
+
+namespace ice::sweep {
+
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+double part_value(const Summary& s, Part part) {
+    if (part == Part::total) return s.resistance.mean;
+    if (part == Part::contact) return s.resistance.contact_mean;
+    if (part == Part::friction) return s.resistance.friction_mean;
+    double sum = 0.0;
+    for (const auto& [name, region] : s.regions)
+        if (part_of_region(name) == part) sum -= region.mean[0];  // resistance is -f_x
+    return sum + 0.0;                                             // no -0
+}
+
+Point make_point(const Sweep& sweep, const std::map<std::string, Setting>& at,
+                 const std::vector<std::size_t>& rows) {
+    Point point{at, {}, kNaN, 3, rows};
+    const Summary& first = *sweep.runs[rows.front()].summary;
+    point.dimension = first.dimension;
+    for (std::size_t k = 0; k < kPartCount; ++k) {
+        std::vector<double> values;
+        for (const std::size_t row : rows)
+            values.push_back(part_value(*sweep.runs[row].summary, static_cast<Part>(k)));
+        point.parts[k] = estimate_mean(values);
+    }
+    if (rows.size() == 1) point.parts[0].half = first.resistance.ci95;
+    std::vector<double> lindqvist;
+    for (const std::size_t row : rows)
+        if (const auto& value = sweep.runs[row].summary->lindqvist_submersion)
+            lindqvist.push_back(*value);
+    point.lindqvist = estimate_mean(lindqvist).mean;
+    return point;
+}
+
+// Setting has no ==, which would ask whether "0.50" is 0.5: neither before the other is equal
+struct Before {
+    const std::vector<std::string>& axes;
+    bool operator()(const std::map<std::string, Setting>& a,
+                    const std::map<std::string, Setting>& b) const {
+        for (const std::string& axis : axes) {
+            if (a.at(axis) < b.at(axis)) return true;
+            if (b.at(axis) < a.at(axis)) return false;
+        }
+        return false;
+    }
+};
+
+bool contains_any(const std::string& text, std::initializer_list<const char*> words) {
+    return std::any_of(words.begin(), words.end(),
+                       [&](const char* word) { return text.find(word) != std::string::npos; });
+}
+
+}  // namespace
+
+const char* part_name(Part part) {
+    static constexpr const char* kNames[kPartCount]{"resistance", "bow",     "sides",   "bottom",
+                                                    "rest",       "contact", "friction"};
+    return kNames[static_cast<std::size_t>(part)];
+}
+
+Part part_of_region(const std::string& region) {
+    std::string name = region;
+    std::transform(name.begin(), name.end(), name.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (contains_any(name, {"bow", "stem", "forefoot"})) return Part::bow;
+    if (contains_any(name, {"side", "shoulder"})) return Part::sides;
+    if (contains_any(name, {"bottom", "bilge", "keel"})) return Part::bottom;
+    return Part::rest;
+}
+
+Estimate estimate_mean(const std::vector<double>& values) {
+    const auto n = static_cast<double>(values.size());
+    if (values.empty()) return {kNaN, kNaN};
+    const double mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
+    if (values.size() == 1 || !std::isfinite(mean)) return {mean, kNaN};
+    double square = 0.0;
+    for (const double value : values) square += (value - mean) * (value - mean);
+    const boost::math::students_t student(n - 1.0);
+    return {mean, quantile(complement(student, 0.025)) * std::sqrt(square / (n - 1.0) / n)};
+}
+
+std::vector<Point> make_points(const Sweep& sweep) {
+    std::map<std::map<std::string, Setting>, std::vector<std::size_t>, Before> groups(
+        Before{sweep.axes});
+    for (std::size_t row = 0; row < sweep.runs.size(); ++row) {
+        const SweepRun& run = sweep.runs[row];
+        if (!run.summary) continue;
+        std::map<std::string, Setting> at;
+        for (const std::string& axis : sweep.axes) {
+            const auto found = run.settings.find(axis);
+            at[axis] = found == run.settings.end() ? Setting{} : found->second;
+        }
+        groups[at].push_back(row);
+    }
+    std::vector<Point> points;
+    for (const auto& [at, rows] : groups) points.push_back(make_point(sweep, at, rows));
+    return points;
+}
+
+std::vector<Curve> make_curves(const Sweep& sweep, const std::vector<Point>& points) {
+    const auto label_of = [&](const Point& point, bool whole) {
+        std::string label;
+        for (const std::string& axis : sweep.axes) {
+            if (axis == sweep.x) continue;
+            label += (label.empty() ? "" : ", ") + name_value(axis, point.at.at(axis), whole);
+        }
+        return label;
+    };
+    std::map<std::string, std::size_t> row_of, count_of;
+    std::vector<Curve> curves;
+    for (const Point& point : points) {
+        if (!point.at.at(sweep.x).number) continue;
+        const auto [entry, added] = row_of.emplace(label_of(point, true), curves.size());
+        if (added) curves.push_back({label_of(point, false), {}});
+        if (added) ++count_of[curves.back().label];
+        curves[entry->second].points.push_back(point);
+    }
+    for (Curve& curve : curves) {
+        // files of one name in several folders need their folders
+        if (count_of[curve.label] > 1) curve.label = label_of(curve.points.front(), true);
+        std::stable_sort(curve.points.begin(), curve.points.end(),
+                         [&](const Point& a, const Point& b) { return a.x(sweep) < b.x(sweep); });
+    }
+    return curves;
+}
+
+}  // namespace ice::sweep

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Runs that differ in their seed only become one point with an interval.
+#pragma once
+
+#include <array>
+#include <map>
+
+#include "postprocess/sweep/read_sweep.hpp"
+
+namespace ice::sweep {
+
+/// Parts of the resistance.
+enum class Part { total, bow, sides, bottom, rest, contact, friction };
+inline constexpr std::size_t kPartCount = 7;
+/// "bow", "sides", ...
+const char* part_name(Part part);
+
+/// Which part a region of the hull belongs to, by its mesh group's name: bow, stem, forefoot ->
+/// bow; side, shoulder -> sides; bottom, bilge, keel -> bottom; everything else -> rest.
+Part part_of_region(const std::string& region);
+
+/// Mean and half width of its 95 % interval [N; 2D: N/m]; NaN where unknown.
+struct Estimate {
+    double mean, half;
+};
+
+/// Mean of independent values with Student's interval:
+///
+///     mean +- t_{0.975, n-1} s / sqrt(n)
+///
+/// One value has no interval (NaN), none has no mean either.
+/// Source: Student (1908), "The probable error of a mean", Biometrika 6.
+Estimate estimate_mean(const std::vector<double>& values);
+
+/// All completed runs of one combination of the axes' values.
+struct Point {
+    std::map<std::string, Setting> at;       ///< value of each axis
+    std::array<Estimate, kPartCount> parts;  ///< by Part
+    double lindqvist;  ///< mean of the runs' submersion resistance [N], or NaN
+    int dimension;
+    std::vector<std::size_t> runs;  ///< rows of Sweep::runs
+
+    const Estimate& part(Part p) const { return parts[static_cast<std::size_t>(p)]; }
+    /// Value of x. @pre the sweep has an x and the point a number there
+    double x(const Sweep& sweep) const { return *at.at(sweep.x).number; }
+};
+
+/// Points in the order of the axes' values, the first axis slowest.
+///
+/// Over several seeds intervals are Student's; of one run the resistance has the run's own interval
+/// from batch means, its parts have none.
+std::vector<Point> make_points(const Sweep& sweep);
+
+/// Points that differ along x only, x rising: a curve. Label: values of the other axes.
+struct Curve {
+    std::string label;
+    std::vector<Point> points;
+};
+std::vector<Curve> make_curves(const Sweep& sweep, const std::vector<Point>& points);
+
+}  // namespace ice::sweep

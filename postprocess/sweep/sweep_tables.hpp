@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+
+#include "postprocess/report/tables.hpp"
+#include "postprocess/sweep/sweep_points.hpp"
+
+namespace ice::sweep {
+
+/// HTML: a row per point with the axes' values, resistance with interval, parts and Lindqvist's
+/// formula, and the runs as links to their reports (their folders, where they have none), relative
+/// to the folder of `page`.
+std::string point_table(const Sweep& sweep, const std::vector<Point>& points,
+                        const report::ForceUnit& unit, const std::filesystem::path& page);
+
+/// HTML: a row per run with its status; runs without numbers say why.
+std::string run_table(const Sweep& sweep, const report::ForceUnit& unit,
+                      const std::filesystem::path& page);
+
+/// CSV (RFC 4180): points with all digits in newtons (2D: per metre), intervals as half widths;
+/// unknown values are empty.
+std::string point_csv(const Sweep& sweep, const std::vector<Point>& points);
+
+/// CSV: runs, also those that failed.
+std::string run_csv(const Sweep& sweep);
+
+/// Everything but letters, digits and -._~/ as %XX: a text as part of an address.
+std::string encode_address(const std::string& text);
+
+}  // namespace ice::sweep

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "postprocess/sweep/sweep_points.hpp"
+#include "postprocess/sweep/sweep_tables.hpp"
+#include "postprocess/sweep/write_sweep.hpp"
+#include "tests/postprocess/make_folder.hpp"
+
+using namespace ice;
+using namespace ice::test;
+using namespace ice::sweep;
+
+namespace {
+
+// A run folder at u with the resistance given, of which the bow has 60 %, the bottom 30 %.
+void write_run(const std::filesystem::path& folder, double speed, double mu, int seed,
+               double resistance, const std::string& more = "") {
+    std::filesystem::create_directories(folder);
+    Summary s = *make_folder().summary;
+    s.resistance = {resistance, 0.8 * resistance, 0.2 * resistance, 1.0, 2.0, 7.0};
+    s.lindqvist_submersion = 500.0 + 100.0 * speed;
+    s.regions.clear();
+    s.regions["bow"].mean = {-0.6 * resistance, 0.0, 1.0};
+    s.regions["Bottom_aft"].mean = {-0.3 * resistance, 0.0, 1.0};
+    s.regions["hull"].mean = {-0.1 * resistance, 0.0, 1.0};
+    write_bytes(folder / "summary.json", summary_text(s));
+    write_bytes(folder / "case.resolved.cfg",
+                fmt::format("title = \"t{}\"\n[simulation]\nseed = {}\n[hull]\nspeed = {}\n"
+                            "spheres = \"/a/b/hull.spheres.h5\"\n[contact]\n"
+                            "friction_ship_ice = {}\n{}[output]\naverage_from = {}\n",
+                            speed, seed, speed, mu, more, 10.0 * speed));
+}
+
+// Two speeds, two frictions, three seeds: resistance 1000 u + 100 mu + {-1, 0, 1}.
+void write_grid(const TempFolder& folder) {
+    for (const double speed : {0.5, 1.0})
+        for (const double mu : {0.1, 0.2})
+            for (const int seed : {1, 2, 3})
+                write_run(folder / fmt::format("runs/u{}m{}s{}", speed, mu, seed), speed, mu, seed,
+                          1000.0 * speed + 100.0 * mu + seed - 2.0);
+}
+
+}  // namespace
+
+TEST_CASE("the mean of 9, 10, 11 is 10 with a half width of 4.303 / sqrt(3)", "[sweep]") {
+    const Estimate three = estimate_mean({9.0, 10.0, 11.0});
+    CHECK(three.mean == Approx(10.0));
+    // t_{0.975, 2} = 4.30265 (tables), s = 1
+    CHECK(three.half == Approx(4.30265 / std::sqrt(3.0)).epsilon(1e-6));
+    // two values: t_{0.975, 1} = 12.7062, s / sqrt(2) is half their distance
+    CHECK(estimate_mean({1.0, 3.0}).half == Approx(12.7062).epsilon(1e-5));
+    CHECK(estimate_mean({5.0, 5.0, 5.0}).half == 0.0);
+    CHECK(std::isnan(estimate_mean({5.0}).half));
+    CHECK(std::isnan(estimate_mean({}).mean));
+    CHECK(std::isnan(estimate_mean({1.0, std::nan("")}).mean));
+}
+
+TEST_CASE("regions of the hull belong to bow, sides, bottom or the rest by their names",
+          "[sweep]") {
+    for (const char* bow : {"bow", "Bow_port", "forefoot", "stem"})
+        CHECK(part_of_region(bow) == Part::bow);
+    for (const char* side : {"side", "SIDE.001", "shoulder"})
+        CHECK(part_of_region(side) == Part::sides);
+    for (const char* bottom : {"bottom", "bilge", "keel"})
+        CHECK(part_of_region(bottom) == Part::bottom);
+    for (const char* rest : {"hull", "deck", "propeller", "stern", ""})
+        CHECK(part_of_region(rest) == Part::rest);
+}
+
+TEST_CASE("without a plan the resolved cases say what varies, and seeds become intervals",
+          "[sweep]") {
+    const TempFolder folder;
+    write_grid(folder);
+    const Sweep sweep = read_sweep(folder.path());
+    CHECK(sweep.runs.size() == 12);
+    CHECK(sweep.x == "hull.speed");
+    // average_from varies with the speed, but no force depends on [output]
+    CHECK(sweep.axes == std::vector<std::string>{"contact.friction_ship_ice", "hull.speed"});
+
+    const auto points = make_points(sweep);
+    REQUIRE(points.size() == 4);
+    const Point& p = points.front();  // mu = 0.1, u = 0.5
+    CHECK(p.runs.size() == 3);
+    CHECK(p.part(Part::total).mean == Approx(510.0));
+    CHECK(p.part(Part::total).half == Approx(4.30265 / std::sqrt(3.0)).epsilon(1e-6));
+    CHECK(p.part(Part::bow).mean == Approx(306.0));
+    CHECK(p.part(Part::bottom).mean == Approx(153.0));
+    CHECK(p.part(Part::sides).mean == 0.0);
+    CHECK(p.part(Part::rest).mean == Approx(51.0));
+    CHECK(p.part(Part::friction).mean == Approx(102.0));
+    CHECK(p.lindqvist == Approx(550.0));
+    for (const Point& point : points) {
+        double sum = 0.0;
+        for (const Part part : {Part::bow, Part::sides, Part::bottom, Part::rest})
+            sum += point.part(part).mean;
+        CHECK(sum == Approx(point.part(Part::total).mean));
+        CHECK(point.part(Part::contact).mean + point.part(Part::friction).mean ==
+              Approx(point.part(Part::total).mean));
+    }
+
+    const auto curves = make_curves(sweep, points);
+    REQUIRE(curves.size() == 2);
+    CHECK(curves[1].label == "friction ship-ice 0.2");
+    CHECK(curves[1].points.size() == 2);
+    CHECK(curves[1].points[1].part(Part::total).mean == Approx(1020.0));
+}
+
+TEST_CASE("a single run has its own interval, and keys that follow the speed are no axes",
+          "[sweep]") {
+    const TempFolder folder;
+    write_run(folder / "b", 1.0, 0.1, 0, 900.0, "restitution = 0.2\n");
+    write_run(folder / "a", 0.5, 0.1, 0, 600.0, "restitution = 0.1\n");
+    const Sweep sweep = read_sweep(folder.path());
+    CHECK(sweep.axes == std::vector<std::string>{"hull.speed"});
+    CHECK(sweep.tied == std::vector<std::string>{"contact.restitution"});
+    const auto points = make_points(sweep);
+    REQUIRE(points.size() == 2);
+    CHECK(points[0].part(Part::total).mean == 600.0);
+    CHECK(points[0].part(Part::total).half == 7.0);  // summary.json's ci95_N
+    CHECK(std::isnan(points[0].part(Part::bow).half));
+    CHECK_THAT(make_sweep_page(sweep, folder / "sweep.html"),
+               Catch::Contains("Varying with it: contact.restitution"));
+}
+
+TEST_CASE("runs that failed, never began or cannot be read become rows with a reason", "[sweep]") {
+    const TempFolder folder;
+    write_run(folder / "runs/u=0.5", 0.5, 0.1, 1, 500.0);
+    write_run(folder / "runs/u=1", 1.0, 0.1, 1, 700.0);
+    write_run(folder / "runs/old", 9.0, 0.1, 1, 1.0);
+    std::filesystem::create_directories(folder / "runs/bad");
+    write_bytes(folder / "runs/bad/summary.json", "{\"schema\": ");
+    Summary stopped = *make_folder().summary;
+    stopped.status = "interrupted";
+    std::filesystem::create_directories(folder / "runs/stopped");
+    write_bytes(folder / "runs/stopped/summary.json", summary_text(stopped));
+    std::filesystem::create_directories(folder / "logs");
+    write_bytes(folder / "logs/u=-1.log",
+                "icesolve: error: case.cfg: 1 mistake\n--set: error: hull.speed = -1 <low>\n");
+    std::string plan = "title = \"A & B\"\naxes = [\"hull.speed\", \"simulation.seed\"]\n";
+    for (const char* name : {"u=0.5", "u=1", "u=-1", "u=2", "bad", "stopped"})
+        plan += fmt::format("[[run]]\nname = \"{}\"\nvalues = {{\"hull.speed\" = 3}}\n", name);
+    write_bytes(folder / "runs.toml", plan);
+
+    const Sweep sweep = read_sweep(folder.path());
+    REQUIRE(sweep.runs.size() == 6);
+    CHECK(sweep.runs[0].summary);
+    CHECK(sweep.runs[0].text("hull.speed") == "0.5");  // the case's, not the plan's
+    CHECK(sweep.runs[2].status == "failed");
+    CHECK(sweep.runs[2].fault == "--set: error: hull.speed = -1 <low>");
+    CHECK(sweep.runs[3].status == "not run");
+    CHECK(sweep.runs[4].status == "unreadable");
+    CHECK_THAT(sweep.runs[4].fault, Catch::Contains("is not valid JSON"));
+    CHECK(sweep.runs[5].status == "interrupted");
+    REQUIRE(sweep.warnings.size() == 1);
+    CHECK_THAT(sweep.warnings[0], Catch::Contains("runs/old is not in runs.toml"));
+    CHECK(make_points(sweep).size() == 2);
+    CHECK_THAT(list_faults(sweep), Catch::StartsWith("4 of 6 runs have no result: u=-1; u=2; "));
+
+    const std::string page = make_sweep_page(sweep, folder / "sweep.html");
+    CHECK(tag_fault(page).empty());
+    CHECK_THAT(page, Catch::Contains("2 of 6 runs completed"));
+    CHECK_THAT(page, Catch::Contains("A &amp; B"));
+    CHECK_THAT(page, Catch::Contains("hull.speed = -1 &lt;low&gt;"));
+    CHECK_THAT(page, Catch::Contains("href=\"runs/u%3D0.5\""));
+    CHECK(page.find("src=") == std::string::npos);  // one file that loads nothing
+    CHECK(page.find("<script") == std::string::npos);
+}
+
+TEST_CASE("the page of a sweep has curves, small multiples, tables and CSV", "[sweep]") {
+    const TempFolder folder;
+    write_grid(folder);
+    write_bytes(folder / "runs/u0.5m0.1s1/report.html", "");
+    const Sweep sweep = read_sweep(folder.path());
+    const std::string page = make_sweep_page(sweep, folder / "pages/sweep.html");
+    CHECK(tag_fault(page).empty());
+    CHECK(count(page, "<svg xmlns") == 3);  // overview, two frictions
+    CHECK_THAT(page, Catch::Contains("Resistance against speed [m/s]"));
+    CHECK_THAT(page, Catch::Contains(">Lindqvist</text>"));
+    CHECK_THAT(page, Catch::Contains("../runs/u0.5m0.1s1/report.html"));
+    CHECK_THAT(page, Catch::Contains("rest: hull"));
+    CHECK_THAT(page, Catch::Contains("download=\"points.csv\""));
+
+    const std::string csv = point_csv(sweep, make_points(sweep));
+    CHECK(count(csv, "\r\n") == 5);
+    CHECK_THAT(csv, Catch::StartsWith("contact.friction_ship_ice,hull.speed,runs,resistance_N,"
+                                      "resistance_ci95_N,bow_N,"));
+    CHECK_THAT(csv, Catch::Contains("\r\n0.1,0.5,3,510,"));
+    CHECK(count(run_csv(sweep), "\r\n") == 13);
+    CHECK(encode_address("a b/c=1,2%\u00e4") == "a%20b/c%3D1%2C2%25%C3%A4");
+}
+
+TEST_CASE("sweeps over texts or nothing have tables without curves", "[sweep]") {
+    const TempFolder folder;
+    write_run(folder / "a", 0.5, 0.1, 1, 500.0, "normal = \"surface\"\n");
+    write_run(folder / "b", 0.5, 0.1, 1, 700.0, "normal = \"centres\"\n");
+    const Sweep sweep = read_sweep(folder.path());
+    CHECK(sweep.x.empty());
+    CHECK(sweep.axes == std::vector<std::string>{"contact.normal"});
+    const std::string page = make_sweep_page(sweep, folder / "sweep.html");
+    CHECK(tag_fault(page).empty());
+    CHECK_THAT(page, Catch::Contains("there is no curve to draw"));
+    CHECK_THAT(page, Catch::Contains("centres"));
+
+    std::filesystem::remove_all(folder / "b");
+    CHECK(tag_fault(make_sweep_page(read_sweep(folder.path()), folder / "s.html")).empty());
+    std::filesystem::remove(folder / "a/summary.json");
+    CHECK(tag_fault(make_sweep_page(read_sweep(folder.path()), folder / "s.html")).empty());
+}
+
+TEST_CASE("no folder, no runs and faulty plans are one clear error each", "[sweep]") {
+    const TempFolder folder;
+    const auto complaint = [&] { return error_text([&] { read_sweep(folder.path()); }); };
+    CHECK_THAT(error_text([&] { read_sweep(folder / "none"); }), Catch::Contains("not found"));
+    CHECK_THAT(complaint(), Catch::Contains("holds no runs"));
+    write_bytes(folder / "runs.toml", "axes = [");
+    CHECK_THAT(complaint(), Catch::Contains("runs.toml:1:"));
+    write_bytes(folder / "runs.toml", "title = \"x\"\n");
+    CHECK_THAT(complaint(), Catch::Contains("plans no [[run]]"));
+    write_bytes(folder / "runs.toml", "[[run]]\nvalues = {}\n");
+    CHECK_THAT(complaint(), Catch::Contains("a run has no name"));
+    write_bytes(folder / "runs.toml", "axes = [1]\n[[run]]\nname = \"a\"\n");
+    CHECK_THAT(complaint(), Catch::Contains("axes is no text"));
+}

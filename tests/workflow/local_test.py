@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""local_test.py SOURCE BIN: a sweep on one machine: failed runs, resuming, the page."""
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import xml.etree.ElementTree as xml
+
+from sweep_case import (SWEEP, make_case, read, run_snakemake, skip_without, snakemake_words,
+                        summaries, write)
+
+skip_without("snakemake")
+
+with tempfile.TemporaryDirectory() as folder:
+    make_case(folder)
+
+    # a run that fails (a speed out of range) is reported and does not stop the others
+    write(f"{folder}/sweep.toml", SWEEP.format(speeds="[0.5, -999.0, 1.0]", seeds=2))
+    code, text = run_snakemake(folder, "local", "--cores", "2")
+    assert code == 1, text
+    assert "2 of 6 runs have no result" in text, text
+    first = summaries(folder)
+    assert len(first) == 4, (first, text)
+    page = read(f"{folder}/out/sweep.html")
+    xml.fromstring(page.replace("<!DOCTYPE html>", ""))
+    assert "4 of 6 runs completed" in page
+    assert "Test &lt;sweep&gt;" in page
+    assert "hull.speed = -999" in page.split('id="faults"')[1]
+
+    # mended and longer: only what is missing is computed
+    write(f"{folder}/sweep.toml", SWEEP.format(speeds="[0.5, 0.8, 1.0]", seeds=2))
+    code, text = run_snakemake(folder, "local", "--cores", "2")
+    assert code == 0, text
+    second = summaries(folder)
+    assert len(second) == 6 and all(second[run] == when for run, when in first.items()), text
+    page = read(f"{folder}/out/sweep.html")
+    assert "6 of 6 runs completed" in page and 'id="faults"' not in page
+    code, text = run_snakemake(folder, "local", "--cores", "2")
+    assert code == 0 and "Nothing to be done" in text, text
+
+    # a changed setting is a different run
+    longer = SWEEP.format(speeds="[0.5, 0.8, 1.0]", seeds=2).replace("= 2.0", "= 40.0")
+    write(f"{folder}/sweep.toml", longer)
+    words = snakemake_words(folder, "local", "--cores", "1")
+    sweep = subprocess.Popen(words, cwd=folder, text=True, stdout=subprocess.PIPE,
+                             stderr=subprocess.STDOUT, start_new_session=True)
+    # ... stopped by Ctrl-C after the first of them has ended
+    fresh = lambda: [run for run, when in summaries(folder).items() if when > second[run]]
+    while not fresh() and sweep.poll() is None:
+        time.sleep(0.05)
+    assert sweep.poll() is None, "the sweep ended before it could be stopped"
+    os.killpg(sweep.pid, signal.SIGINT)
+    text, _ = sweep.communicate()
+    assert sweep.returncode != 0, text
+    done = {run: summaries(folder)[run] for run in fresh()}
+    assert 0 < len(done) < 6, (done, text)
+
+    # and resumed: finished runs are kept
+    code, text = run_snakemake(folder, "local", "--cores", "2")
+    assert code == 0, text
+    third = summaries(folder)
+    assert all(third[run] == when for run, when in done.items()), text
+    assert len(fresh()) == 6
+    assert "6 of 6 runs completed" in read(f"{folder}/out/sweep.html")
+
+    # mistakes end with one complaint and make nothing
+    write(f"{folder}/sweep.toml", SWEEP.format(speeds="[0.5]", seeds=1).replace('out"', 'new"')
+          .replace("hull.speed", "hull.sped"))
+    code, text = run_snakemake(folder, "local", "--cores", "1")
+    assert code == 1 and "did you mean 'hull.speed'?" in text, text
+    assert "Traceback" not in text, text
+    assert not os.path.exists(f"{folder}/new")
+    print("ok")
+    sys.exit(0)
