@@ -23,7 +23,14 @@ constexpr std::array<Target, 4> kTargets{
 
 constexpr std::int64_t kScalarBits = HWY_SCALAR | HWY_EMU128;
 
+// Highway's SupportedTargets() also makes the best of them the chosen one: whoever asks must choose
+// again afterwards.
 std::int64_t supported() { return hwy::SupportedTargets() | kScalarBits; }
+
+std::string_view& in_use() {
+    static std::string_view name = "";  // none chosen yet: the best
+    return name;
+}
 
 const Target& best_of(std::int64_t targets) {
     for (const Target& t : kTargets)
@@ -47,8 +54,12 @@ void set_instruction_set(std::string_view name) {
     // better targets have lower bits
     hwy::DisableTargets((wanted.bit - 1) & ~kScalarBits);
     hwy::GetChosenTarget().Update(supported());
+    in_use() = wanted.name;
 }
 
-std::string_view instruction_set() { return best_of(supported()).name; }
+std::string_view instruction_set() {
+    if (in_use().empty()) set_instruction_set("auto");
+    return in_use();
+}
 
 }  // namespace ice

@@ -163,19 +163,17 @@ void ContactRows::set(std::size_t slot, const Constraint& c, double normal, cons
 
 void ContactRows::end_stage(Bodies& bodies, std::vector<Constraint>& constraints,
                             double Constraint::*normal, Vec3 Constraint::*tangent) const {
-    for (std::size_t k = 0; k < bodies_.size(); ++k) {
-        const std::size_t body = static_cast<std::size_t>(bodies_[k]);
-        if (bodies.inverse_mass[body] == 0.0) continue;
-        const double* v = motion[k].v;
-        bodies.velocity[body] = Vec3(v[0], v[1], v[2]);
-        bodies.angular_velocity[body] = Vec3(v[3], v[4], v[5]);
-    }
     for (std::size_t k = 0; k < constraints.size(); ++k) {
         if (slot_[k] < 0) continue;
+        Constraint& c = constraints[k];
         const std::size_t slot = static_cast<std::size_t>(slot_[k]);
         const RowImpulses& impulse = rows[slot / kLanes].impulse;
-        constraints[k].*normal = impulse.normal.v[slot % kLanes];
-        constraints[k].*tangent = get(impulse.tangent, slot % kLanes);
+        const double normal_now = impulse.normal.v[slot % kLanes];
+        const Vec3 tangent_now = get(impulse.tangent, slot % kLanes);
+        // the rounding of hundreds of small changes stays in `motion`; momentum is balanced
+        apply_impulse(bodies, c, (normal_now - c.*normal) * c.normal + (tangent_now - c.*tangent));
+        c.*normal = normal_now;
+        c.*tangent = tangent_now;
     }
 }
 

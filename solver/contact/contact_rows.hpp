@@ -83,7 +83,7 @@ public:
                     constraints[k].*tangent, target_of(constraints[k]));
     }
 
-    /// Gives velocities back to the bodies and impulses to the constraints.
+    /// Gives impulses to the constraints, and their change since begin_stage to the bodies.
     void end_stage(Bodies& bodies, std::vector<Constraint>& constraints, double Constraint::*normal,
                    Vec3 Constraint::*tangent) const;
 

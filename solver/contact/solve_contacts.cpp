@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace ice {
 
@@ -114,6 +115,10 @@ SolveReport ContactSolver::resolve_impacts(Bodies& bodies, std::vector<Constrain
 
 SolveReport ContactSolver::resolve_rest(Bodies& bodies, std::vector<Constraint>& constraints,
                                         const ContactLaw& law) {
+    // the first guess moves copies: taken back from the bodies it would leave its rounding there
+    velocities_.clear();
+    for (const std::int32_t body : contacts_.bodies())
+        velocities_.emplace_back(bodies.velocity[body], bodies.angular_velocity[body]);
     for (Constraint& c : constraints) {
         if (c.normal_mass == 0.0) c.rest_normal = 0.0;
         if (c.rest_normal > 0.0)
@@ -126,6 +131,14 @@ SolveReport ContactSolver::resolve_rest(Bodies& bodies, std::vector<Constraint>&
         [&](const Constraint& c) -> ContactRows::Target {
             return {true, -std::max(c.gap, 0.0) / law.dt, c.strength - c.impact_normal};
         });
+    for (std::size_t k = 0; k < velocities_.size(); ++k) {
+        const std::int32_t body = contacts_.bodies()[k];
+        std::tie(bodies.velocity[body], bodies.angular_velocity[body]) = velocities_[k];
+    }
+    for (Constraint& c : constraints) {
+        c.rest_normal = 0.0;
+        c.rest_tangent.setZero();
+    }
     const SolveReport report = iterate(law);
     contacts_.end_stage(bodies, constraints, &Constraint::rest_normal, &Constraint::rest_tangent);
     return report;

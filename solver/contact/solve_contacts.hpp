@@ -2,6 +2,7 @@
 /// Many contacts at once: impulses that satisfy all contact conditions together.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "solver/contact/constraints.hpp"
@@ -57,6 +58,7 @@ private:
     ContactRows contacts_;
     Extrapolation extrapolation_;
     PassiveImpact passive_;
+    std::vector<std::pair<Vec3, Vec3>> velocities_;  // of the bodies with contacts
 };
 
 }  // namespace ice
