@@ -45,20 +45,20 @@ void split_into_panels(const Vec3 (&corner)[3], double longest, std::vector<Pane
         split_into_panels({middle, b, c}, longest, out);
         return;
     }
-    Panel panel;
-    for (int k = 0; k < 3; ++k) panel.corner[k] = corner[k];
-    panel.center = (corner[0] + corner[1] + corner[2]) / 3.0;
-    panel.area = 0.5 * (corner[1] - corner[0]).cross(corner[2] - corner[0]);
-    out.push_back(panel);
+    out.push_back(make_panel(corner[0], corner[1], corner[2]));
 }
 
 void build_panels(Shape& shape) {
     const double longest = kPanelShare * shape.box.sizes().maxCoeff();
+    std::vector<Panel> facets, panels;
     for (std::size_t t = 0; t < shape.mesh.triangles.size(); ++t) {
         const Vec3 corner[3] = {shape.mesh.corner(t, 0), shape.mesh.corner(t, 1),
                                 shape.mesh.corner(t, 2)};
-        split_into_panels(corner, longest, shape.panels);
+        facets.push_back(make_panel(corner[0], corner[1], corner[2]));
+        split_into_panels(corner, longest, panels);
     }
+    shape.facets = PanelBlocks(facets);
+    shape.panels = PanelBlocks(panels);
 }
 
 // Of the normals that meet at a sphere three at most: the two farthest apart and the one farthest

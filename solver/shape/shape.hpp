@@ -11,15 +11,9 @@
 #include "common/formats/sphere_set.hpp"
 #include "solver/shape/faces.hpp"
 #include "solver/shape/sphere_blocks.hpp"
+#include "solver/shape/surface_blocks.hpp"
 
 namespace ice {
-
-/// A piece of the surface small enough that the water's speed is even on it.
-struct Panel {
-    Vec3 corner[3];  ///< [m], body axes
-    Vec3 center;     ///< [m]
-    Vec3 area;       ///< outward normal x area [m2]
-};
 
 /// A form in its body axes: floes about the centre of mass, the hull in the ship frame.
 struct Shape {
@@ -41,7 +35,8 @@ struct Shape {
     double reach = 0.0;            ///< how far from its centre a sphere stands for the surface [m]
 
     TriangleMesh mesh;             ///< closed, body axes
-    std::vector<Panel> panels;     ///< the mesh in pieces, for drag
+    PanelBlocks facets;            ///< its triangles, for buoyancy
+    PanelBlocks panels;            ///< and these in pieces, for drag
     MassProperties solid;          ///< unit density; centroid in body axes (floes: zero)
     Eigen::AlignedBox3d box;       ///< of mesh and spheres
     double bounding_radius = 0.0;  ///< about the body origin [m]

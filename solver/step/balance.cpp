@@ -59,11 +59,13 @@ Sums all_together(const Momenta& before, const World& w, const std::vector<Sums>
         all.linear.add(gain);
         all.angular.add(spin);
         all.angular.add(before.position[i].cross(gain));
-        // the momenta whose difference this is were rounded themselves
+        // the momenta and loads whose difference this is were rounded themselves
         const double swing = before.position[i].norm();
-        all.linear.size += before.linear[i].norm() + contacts[i].linear.size;
+        const double linear =
+            before.linear[i].norm() + contacts[i].linear.size + dt * w.loads[i].force.norm();
+        all.linear.size += linear;
         all.angular.size += before.angular[i].norm() + contacts[i].angular.size +
-                            swing * (before.linear[i].norm() + contacts[i].linear.size);
+                            dt * w.loads[i].moment.norm() + swing * linear;
     }
     const StepRecord ship = measure_step(w.scene, w.contacts, w.constraints, dt);
     const Vec3 force = ship.contact_force + ship.friction_force;

@@ -19,7 +19,7 @@ using Direction = CheckpointFile::Direction;
 // What a checkpoint says about the run it belongs to.
 struct Identity {
     std::string resolved;               // the case, every key
-    std::vector<std::uint64_t> shapes;  // hash of the hull's form, then of each group's floe
+    std::vector<std::uint64_t> shapes;  // hash of the hull's form, then of each group's floes
 };
 
 std::uint64_t hash_of(const Shape& shape) {
@@ -52,11 +52,13 @@ Identity identity_of(const World& w) {
     const Bodies& b = w.scene.bodies;
     std::vector<std::uint64_t> of_row;
     for (const Shape& shape : w.scene.shapes) of_row.push_back(hash_of(shape));
-    Identity identity{w.parameters.resolved, {of_row[0]}};
-    identity.shapes.resize(1 + w.parameters.floes.size());
+    // the floes of a field have forms of their own
+    std::vector<StateHash> of_group(w.parameters.floes.size());
     for (std::size_t i = 1; i < b.size(); ++i)
-        identity.shapes[static_cast<std::size_t>(b.group[i]) + 1] =
-            of_row[static_cast<std::size_t>(b.shape[i])];
+        of_group[static_cast<std::size_t>(b.group[i])].add(
+            of_row[static_cast<std::size_t>(b.shape[i])]);
+    Identity identity{w.parameters.resolved, {of_row[0]}};
+    for (const StateHash& hash : of_group) identity.shapes.push_back(hash.value());
     return identity;
 }
 
@@ -92,7 +94,17 @@ std::map<std::string, std::string> keys_of(const std::string& resolved) {
                     "checkpoint's value with --set, or run the case anew without --restart");
 }
 
-void check_case(const std::filesystem::path& path, const Identity& then, const Identity& now) {
+// What holds another form than at the checkpoint: the hull, k = 0, or the k-th group of floes.
+std::string other_shapes(const Case& parameters, std::size_t k) {
+    constexpr auto other_set = "spheres: the file holds another sphere set than at the checkpoint";
+    if (k == 0) return fmt::format("hull.{}", other_set);
+    if (parameters.floes[k - 1].pattern == Pattern::file)
+        return fmt::format("floes.{}.file: the field holds other floes than at the checkpoint", k);
+    return fmt::format("floes.{}.{}", k, other_set);
+}
+
+void check_case(const std::filesystem::path& path, const Identity& then, const Identity& now,
+                const Case& parameters) {
     const auto old_keys = keys_of(then.resolved), new_keys = keys_of(now.resolved);
     const auto text = [](const auto& keys, const std::string& name) {
         const auto found = keys.find(name);
@@ -107,9 +119,7 @@ void check_case(const std::filesystem::path& path, const Identity& then, const I
                                        text(old_keys, name), text(new_keys, name));
     if (!differences.empty()) refuse(path, "is of another case:" + differences);
     for (std::size_t k = 0; k < std::min(then.shapes.size(), now.shapes.size()); ++k)
-        if (then.shapes[k] != now.shapes[k])
-            refuse(path, (k == 0 ? std::string("hull") : fmt::format("floes.{}", k)) +
-                             ".spheres: the file holds another sphere set than at the checkpoint");
+        if (then.shapes[k] != now.shapes[k]) refuse(path, other_shapes(parameters, k));
 }
 
 }  // namespace
@@ -131,7 +141,7 @@ SavedRun read_checkpoint(const std::filesystem::path& path, World& world) {
     CheckpointFile file(path, Direction::read);
     Identity then, now = identity_of(world);
     carry(file, then);
-    check_case(path, then, now);
+    check_case(path, then, now, world.parameters);
 
     SavedRun saved{Recorder(world.parameters, world.scene),
                    {},

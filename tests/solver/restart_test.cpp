@@ -233,3 +233,31 @@ TEST_CASE("a checkpoint of another case or sphere set is refused with the key's 
     CHECK_THAT(text_of(shorter, 0.05),
                Catch::Contains("simulation.duration") && Catch::Contains("which is at 0.2 s"));
 }
+
+TEST_CASE("a checkpoint is refused when any floe of a group has another form",
+          "[step][checkpoint][errors]") {
+    const TempFolder folder;
+    Case p = pressed_row(kSoft);
+    p.floes[0].pattern = GENERATE(Pattern::file, Pattern::grid);
+    // the last floe's form stays, as that of a field's last floe may
+    const auto make = [&](double radius) {
+        World w = make_world(p, radius);
+        const auto last = add_shape(w, make_box_set(Vec3(0.6, 0.4, 0.2), 0.05, 0.1));
+        add_floe(w.scene, last, 900.0, Vec3(20, 0, -0.1), Quaternion::Identity(), 0, true);
+        return w;
+    };
+    World w = make(0.05);
+    RunOptions options{folder / "r", "first"};
+    options.keep_going = [](double, const World& now) { return now.steps < 5; };
+    run(w, options);
+    const auto text_of = [&](double radius) {
+        return error_text([&] {
+            World again = make(radius);
+            read_checkpoint(folder / "r" / "checkpoint.h5", again);
+        });
+    };
+    CHECK(text_of(0.05).empty());
+    CHECK_THAT(text_of(0.04), Catch::Contains(p.floes[0].pattern == Pattern::file
+                                                  ? "floes.1.file: the field holds other floes"
+                                                  : "floes.1.spheres: the file holds another"));
+}
