@@ -13,3 +13,15 @@ icepost=${ICEPOST:-build/release/bin/icepost}
 chromium --headless=new --no-sandbox --use-angle=swiftshader --enable-unsafe-swiftshader \
     --hide-scrollbars --window-size=1100,1560 --virtual-time-budget=10000 \
     --screenshot="$PWD/docs/report.png" "file://$run/report.html#t=17&camera=keel&hull=load"
+
+# the sweep's own curve, where Snakemake is installed: 24 runs
+if command -v snakemake >/dev/null; then
+    snakemake -s workflow/Snakefile --profile workflow/local --cores "$(nproc)" \
+        --config sweep=workflow/paper-2d.toml
+    python3 - results/paper-2d/sweep.html docs/sweep-paper-2d.svg <<'END'
+import re
+import sys
+with open(sys.argv[1], encoding="utf-8") as page, open(sys.argv[2], "w", encoding="utf-8") as out:
+    out.write(re.search(r"<svg xmlns.*?</svg>\n</div>", page.read(), re.S)[0][:-len("</div>")])
+END
+fi

@@ -197,7 +197,8 @@ std::vector<std::string> draw_parts(const Sweep& sweep, const std::vector<Curve>
         if (names[k] != curve.label) chart.title = names[k] + ": " + curve.label;
         chart.x_title = axis_title(sweep.x);
         chart.y_title = "resistance [" + unit.name + "]";
-        chart.height = 300.0;
+        chart.width = 690.0;  // the legend in one row
+        chart.height = 340.0;
         chart.y_range = common_range(curves, parts, unit);
         plotter.add_ends(chart);
         for (const auto& [part, style] : kStyles)
