@@ -10,7 +10,7 @@ namespace {
 // A squeezed floe's impulse grows by the same step in every sweep: beta is 1 to rounding. Where the
 // ice crushes at last, the way must go on to there, and only beyond this have the sweeps turned
 // elsewhere. Between rigid bodies that cannot give way it would go on for ever.
-constexpr double kAfreshBounded = 1.1, kAfreshRigid = 0.98;
+constexpr double kAfreshBounded = 1.1, kAfreshRigid = 0.8;
 
 }  // namespace
 
