@@ -19,7 +19,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // Along the normal across two edges. It turns faster than they do: by an angle / sine.
 double least_gap_across(const SphereSurface& a, const SphereSurface& b, const Vec3& across,
-                        const Vec3& d, const Vec3& between, const Leeway& leeway) {
+                        const Vec3& d, const Vec3& between, double reach, const Leeway& leeway) {
     const double sine = across.norm();
     if (sine <= kParallel - leeway.angle) return kInfinity;
     if (sine <= 2.0 * leeway.angle) return -kInfinity;
@@ -28,7 +28,9 @@ double least_gap_across(const SphereSurface& a, const SphereSurface& b, const Ve
     for (const double sign : {-1.0, 1.0}) {
         const Vec3 n = sign / sine * across;
         if (n.dot(d) > -leeway.distance - turn * d.norm() && a.faces.have(n, kSlantOnEdge, turn) &&
-            b.faces.have(-n, kSlantOnEdge, turn))
+            b.faces.have(-n, kSlantOnEdge, turn) &&
+            (between - n.dot(between) * n).norm() <=
+                reach + leeway.distance + 2.0 * turn * between.norm())
             least = std::min(least, n.dot(between) - turn * between.norm());
     }
     return least;
@@ -63,7 +65,7 @@ double least_gap_of_edges(const SphereSurface& a, const SphereSurface& b, double
         for (int kb = 0; kb < b.faces.edges(); ++kb)
             across =
                 std::min(across, least_gap_across(a, b, a.faces.edge(ka).cross(b.faces.edge(kb)), d,
-                                                  between, leeway));
+                                                  between, reach, leeway));
     if (!near && across == kInfinity) return kInfinity;
     return certain > -kInfinity ? certain : std::min(possible, across);
 }
