@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "solver/broad/find_pairs.hpp"
-#include "solver/narrow/measure_gap.hpp"
+#include "solver/narrow/kind_bound.hpp"
 #include "solver/scene/bodies.hpp"
 
 namespace ice {
