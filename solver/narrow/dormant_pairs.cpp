@@ -10,7 +10,7 @@ namespace {
 
 // A pair is looked ahead for this turn [rad] and this share of its ice's radius: more keeps more
 // spheres, less has to be found anew sooner.
-constexpr double kLeewayAngle = 0.01, kLeewayShare = 0.6;
+constexpr double kLeewayAngle = 0.015, kLeewayShare = 0.6;
 
 // Up to so many entries gaps do not matter.
 constexpr std::size_t kFewest = 4096;

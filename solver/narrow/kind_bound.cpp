@@ -10,11 +10,14 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
+// More than any two directions differ by [rad]: every normal is possible, nothing is known.
+constexpr double kMostTurn = 4.0;
+
 }  // namespace
 
 KindBound::KindBound(const SphereSurface& a, const SphereSurface& b, bool prefer_a, double reach,
                      const Leeway& leeway)
-    : radius_a_(a.radius), radius_b_(b.radius), far_(reach + leeway.distance), leeway_(leeway) {
+    : a_(&a), b_(&b), far_(reach + leeway.distance), leeway_(leeway) {
     const KindMeeting meeting = find_meeting(a, b, prefer_a, leeway.angle);
     rule_ = meeting.rule;
     a_is_surface_ = meeting.a_is_surface;
@@ -22,13 +25,11 @@ KindBound::KindBound(const SphereSurface& a, const SphereSurface& b, bool prefer
     offset_a_ = support_offset(a, n);
     offset_b_ = support_offset(b, -n);
     if (rule_ == KindRule::direction) face_[0].normal = meeting.normal;
-    if (rule_ != KindRule::edges) return;
-    list_faces(a, b);
-    list_crossings(a.faces, b.faces);
-    if (rule_ == KindRule::edges && faces_ + crossings_ == 0) rule_ = KindRule::never;
+    if (rule_ == KindRule::edges) list_faces();
 }
 
-void KindBound::list_faces(const SphereSurface& a, const SphereSurface& b) {
+void KindBound::list_faces() {
+    const SphereSurface &a = *a_, &b = *b_;
     const auto add = [&](const Vec3& n, const Faces& other, const Vec3& outward) {
         if (!other.have(outward, kSlantOnEdge, leeway_.angle)) return;
         certain_[faces_] = other.have(outward, kSlantOnEdge, -leeway_.angle);
@@ -41,14 +42,18 @@ void KindBound::list_faces(const SphereSurface& a, const SphereSurface& b) {
 }
 
 // The normal across two edges turns by an angle / sine.
-void KindBound::list_crossings(const Faces& a, const Faces& b) {
+void KindBound::list_crossings() {
+    const Faces &a = a_->faces, &b = b_->faces;
+    const Edges edges_a(a), edges_b(b);
+    crossings_ = 0;
     for (int ka = 0; ka < a.edges(); ++ka)
         for (int kb = 0; kb < b.edges(); ++kb) {
-            const Vec3 across = a.edge(ka).cross(b.edge(kb));
+            const Vec3 across = edges_a.unit[ka].cross(edges_b.unit[kb]);
             const double sine = across.norm();
             if (sine <= kParallel - leeway_.angle) continue;
-            if (sine <= 2.0 * leeway_.angle) rule_ = KindRule::afresh;
-            const double turn = leeway_.angle / (sine - leeway_.angle);
+            // a turn without bound where it might become any
+            const double turn =
+                sine <= 2.0 * leeway_.angle ? kMostTurn : leeway_.angle / (sine - leeway_.angle);
             for (const double sign : {-1.0, 1.0}) {
                 const Vec3 n = sign / sine * across;
                 if (a.have(n, kSlantOnEdge, turn) && b.have(-n, kSlantOnEdge, turn))
@@ -57,7 +62,7 @@ void KindBound::list_crossings(const Faces& a, const Faces& b) {
         }
 }
 
-double KindBound::least(const Vec3& center_a, const Vec3& center_b) const {
+double KindBound::least(const Vec3& center_a, const Vec3& center_b) {
     if (rule_ == KindRule::edges) return least_of_edges(center_a, center_b);
     if (rule_ == KindRule::direction) return least_along(center_a, center_b);
     return rule_ == KindRule::never ? kInfinity : -kInfinity;
@@ -72,10 +77,11 @@ double KindBound::least_along(const Vec3& center_a, const Vec3& center_b) const 
     return at.squaredNorm() > far_ * far_ ? kInfinity : n.dot(point_b - point_a);
 }
 
-double KindBound::least_across(const Vec3& d, const Vec3& between) const {
+double KindBound::least_across(const Vec3& d, const Vec3& between) {
+    if (crossings_ < 0) list_crossings();
     double least = kInfinity;
     const double apart = d.norm(), length = between.norm();
-    for (std::uint8_t k = 0; k < crossings_; ++k) {
+    for (std::int8_t k = 0; k < crossings_; ++k) {
         const auto& [n, turn] = crossing_[k];
         if (n.dot(d) <= -leeway_.distance - turn * apart) continue;
         const double gap = n.dot(between);
@@ -89,7 +95,7 @@ double KindBound::least_across(const Vec3& d, const Vec3& between) const {
 // The largest gap of all normals that may part them wins, so one normal that will surely be among
 // them is a bound; without one, the least of those that might be. Where each of these leaves the
 // other's edge beyond what a sphere stands for there will be no gap.
-double KindBound::least_of_edges(const Vec3& center_a, const Vec3& center_b) const {
+double KindBound::least_of_edges(const Vec3& center_a, const Vec3& center_b) {
     const Vec3 d = center_b - center_a;
     const Vec3 point_a = center_a + offset_a_, point_b = center_b + offset_b_;
     const Vec3 between = point_b - point_a;
@@ -104,9 +110,10 @@ double KindBound::least_of_edges(const Vec3& center_a, const Vec3& center_b) con
         const auto is_near = [&](const Foothold& foot, double radius, const Vec3& v) {
             return distance_from(foot, radius, part_across(v, n), leeway_.distance) <= far_ * far_;
         };
-        near = near || is_near(under_a, radius_a_, point_b - center_a) ||
-               is_near(under_b, radius_b_, point_a - center_b);
+        near = near || is_near(under_a, a_->radius, point_b - center_a) ||
+               is_near(under_b, b_->radius, point_a - center_b);
     }
+    if (near && certain > -kInfinity) return certain;
     const double across = least_across(d, between);
     if (!near && across == kInfinity) return kInfinity;
     return certain > -kInfinity ? certain : std::min(possible, across);

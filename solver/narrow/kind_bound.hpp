@@ -23,12 +23,12 @@ struct Leeway {
 /// changes by no more than they move; only the normal across two edges turns faster than they do.
 class KindBound {
 public:
-    /// @param a, b  one sphere of each kind, whose centre does not matter
+    /// @param a, b  one sphere of each kind, whose centre does not matter; both outlive this
     KindBound(const SphereSurface& a, const SphereSurface& b, bool prefer_a, double reach,
               const Leeway& leeway);
 
     /// @param center_a, center_b  of the two spheres, in the axes of a and b [m]
-    double least(const Vec3& center_a, const Vec3& center_b) const;
+    double least(const Vec3& center_a, const Vec3& center_b);
 
 private:
     // A normal across two edges, from a to b.
@@ -37,18 +37,19 @@ private:
         double turn;  // by how much it may turn [rad]
     };
 
-    void list_faces(const SphereSurface& a, const SphereSurface& b);
-    void list_crossings(const Faces& a, const Faces& b);
+    void list_faces();
+    void list_crossings();
     double least_along(const Vec3& center_a, const Vec3& center_b) const;
-    double least_of_edges(const Vec3& center_a, const Vec3& center_b) const;
-    double least_across(const Vec3& d, const Vec3& between) const;
+    double least_of_edges(const Vec3& center_a, const Vec3& center_b);
+    double least_across(const Vec3& d, const Vec3& between);
 
-    double radius_a_, radius_b_;
+    const SphereSurface *a_, *b_;
     double far_;  // across a normal, beyond which there is nothing [m]
     Leeway leeway_;
     bool a_is_surface_;
     KindRule rule_;
-    std::uint8_t faces_ = 0, crossings_ = 0;
+    std::uint8_t faces_ = 0;
+    std::int8_t crossings_ = -1;         // -1: not listed yet, they are seldom asked for
     Vec3 offset_a_, offset_b_;           // from the centres to the foremost points [m]
     std::array<KindDirection, 6> face_;  // the first one is the only one of rule `direction`
     std::array<bool, 6> certain_;        // will the face's normal surely be one of both?

@@ -58,9 +58,11 @@ void KindPair::list_faces() {
 
 void KindPair::list_crossings() {
     const Faces &fa = a_->faces, &fb = b_->faces;
+    const Edges edges_a(fa), edges_b(fb);
     for (int ka = 0; ka < fa.edges(); ++ka)
         for (int kb = 0; kb < fb.edges(); ++kb) {
-            const Vec3 ea = fa.edge(ka), eb = fb.edge(kb), across = ea.cross(eb);
+            const Vec3 &ea = edges_a.unit[ka], &eb = edges_b.unit[kb];
+            const Vec3 across = ea.cross(eb);
             const double sine = across.norm();
             if (sine <= kParallel) continue;
             Crossing c;
@@ -69,12 +71,10 @@ void KindPair::list_crossings() {
             c.back = fa.have(-c.normal, kSlantOnEdge) && fb.have(c.normal, kSlantOnEdge);
             if (!c.forth && !c.back) continue;
             c.ends = fa.ends() || fb.ends();
-            if (c.ends) {
-                // between . (eb x across) / square is find_crossing's between x eb . across / square
-                const double square = across.squaredNorm();
-                c.along_a = eb.cross(across) / square;
-                c.along_b = ea.cross(across) / square;
-            }
+            // find_crossing's (between x eb) . across / square, turned round
+            const double square = across.squaredNorm();
+            c.along_a = eb.cross(across) / square;
+            c.along_b = ea.cross(across) / square;
             c.edge_a = static_cast<std::int8_t>(ka);
             c.edge_b = static_cast<std::int8_t>(kb);
             crossing_[crossings_++] = c;

@@ -28,6 +28,14 @@ struct KindDirection {
     Foothold under_a, under_b;  ///< what edges stand for there
 };
 
+/// All of Faces::edge.
+struct Edges {
+    Vec3 unit[3];  ///< as many as there are
+    explicit Edges(const Faces& faces) {
+        for (int k = 0; k < faces.edges(); ++k) unit[k] = faces.edge(k);
+    }
+};
+
 /// measure_gap_surface for two kinds, to the last bit (but for edges that meet, to rounding, at
 /// their very ends).
 class KindPair {

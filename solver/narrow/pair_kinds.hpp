@@ -46,9 +46,7 @@ public:
     Gap measure(std::int32_t i, std::int32_t j, const Place& a, const Place& b) {
         if (a.kind < 0 || b.kind < 0)
             return measure_gap_surface(view_->sphere_a(i), view_->sphere_b(j), prefer_a_);
-        return pairs_
-            .get(a.kind, b.kind,
-                 [&] { return KindPair(a_.surface(a.kind), b_.surface(b.kind), prefer_a_); })
+        return pairs_.get(a.kind, b.kind, a_.surface(a.kind), b_.surface(b.kind), prefer_a_)
             .measure(a.center, b.center);
     }
 
@@ -59,11 +57,7 @@ public:
             return KindBound(view_->sphere_a(i), view_->sphere_b(j), prefer_a_, reach, leeway)
                 .least(a.center, b.center);
         return bounds_
-            .get(a.kind, b.kind,
-                 [&] {
-                     return KindBound(a_.surface(a.kind), b_.surface(b.kind), prefer_a_, reach,
-                                      leeway);
-                 })
+            .get(a.kind, b.kind, a_.surface(a.kind), b_.surface(b.kind), prefer_a_, reach, leeway)
             .least(a.center, b.center);
     }
 
@@ -110,7 +104,7 @@ private:
         std::uint64_t pair_ = 0;
     };
 
-    // One T for each two kinds.
+    // One T for each two kinds, made from `arguments`.
     template <class T>
     class Table {
     public:
@@ -118,12 +112,12 @@ private:
             made_.clear();
             ++pair_;
         }
-        template <class Make>
-        const T& get(std::int8_t a, std::int8_t b, const Make& make) {
+        template <class... Arguments>
+        T& get(std::int8_t a, std::int8_t b, const Arguments&... arguments) {
             auto& at = at_[static_cast<std::size_t>(a)][static_cast<std::size_t>(b)];
             if (at.pair != pair_) {
                 at = {pair_, static_cast<std::uint32_t>(made_.size())};
-                made_.push_back(make());
+                made_.emplace_back(arguments...);
             }
             return made_[at.row];
         }
