@@ -175,9 +175,8 @@ void find_pair_contacts(const Scene& scene, BodyPair pair, NormalRule rule, doub
 
 // The spheres that may be candidates while the pair moves within `leeway`, and the least gap that
 // they may have, less that motion.
-double find_near(const Scene& scene, BodyPair pair, NormalRule rule, double margin,
-                 const Leeway& leeway, Workspace& work, std::vector<SpherePair>& out) {
-    const PairView view(scene, pair);
+double find_near(const PairView& view, NormalRule rule, double margin, const Leeway& leeway,
+                 Workspace& work, std::vector<SpherePair>& out) {
     work.kinds.begin(view, prefers_a(view));
     out.clear();
     const Range range(view, rule, margin + leeway.distance);
@@ -195,16 +194,6 @@ double find_near(const Scene& scene, BodyPair pair, NormalRule rule, double marg
             out.push_back({i, j});
         });
     return least;
-}
-
-// Upper bound of the speed at which surface points of the two bodies approach [m/s].
-double closing_speed(const Scene& scene, BodyPair pair) {
-    const Bodies& b = scene.bodies;
-    const auto turning = [&](std::int32_t i) {
-        return b.angular_velocity[i].norm() *
-               scene.shapes[static_cast<std::size_t>(b.shape[i])].bounding_radius;
-    };
-    return (b.velocity[pair.b] - b.velocity[pair.a]).norm() + turning(pair.a) + turning(pair.b);
 }
 
 }  // namespace
@@ -229,39 +218,41 @@ void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
                          std::vector<Contact>& out) {
     dormant_.match(pairs);
     awake_.clear();
-    for (std::size_t k = 0; k < pairs.size(); ++k)
-        if (dormant_.is_awake(k, pairs[k], travel)) awake_.push_back(k);
+    known_.clear();
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+        const auto state = dormant_.look(k, scene, pairs[k], travel, dt);
+        if (state == DormantPairs::State::asleep) continue;
+        awake_.push_back(k);
+        known_.push_back(state == DormantPairs::State::known);
+    }
     per_pair_.resize(std::max(per_pair_.size(), awake_.size()));
     found_.resize(std::max(found_.size(), awake_.size()));
-    asked_.resize(found_.size());
     parallel_for(awake_.size(), kSerialPairs, [&](std::size_t n) {
         thread_local Workspace work;
         const std::size_t k = awake_[n];
-        const BodyPair pair = pairs[k];
         per_pair_[n].clear();
-        found_[n].clear();
-        asked_[n] = 0;
         std::span<const SpherePair> near = dormant_.near(k);
-        if (!dormant_.is_known(k, pair, travel)) {
-            asked_[n] = 1;
-            const Leeway leeway = dormant_leeway(scene, pair);
-            const double least = find_near(scene, pair, rule, margin, leeway, work, found_[n]);
-            dormant_.settle(k, pair, travel, leeway, std::min(least - margin, leeway.distance));
-            if (!dormant_.is_awake(k, pair, travel)) return;
+        auto state = DormantPairs::State::known;
+        if (!known_[n]) {
+            const PairView view(scene, pairs[k]);
+            const Leeway leeway = dormant_leeway(scene, pairs[k]);
+            const double least = find_near(view, rule, margin, leeway, work, found_[n]);
+            dormant_.settle(k, view, travel, leeway, std::min(least - margin, leeway.distance));
+            state = dormant_.look(k, scene, pairs[k], travel, dt);
+            if (state == DormantPairs::State::asleep) return;
             near = found_[n];
         }
         // a pair too fast for what can be known in advance is searched afresh
-        const bool known = dormant_.is_known(k, pair, travel);
         find_pair_contacts(
-            scene, pair, rule, dt * closing_speed(scene, pair) + margin, work, per_pair_[n],
+            scene, pairs[k], rule, dt * closing_speed(scene, pairs[k]) + margin, work, per_pair_[n],
             [&](const PairView& view, const Range& range, const Measure& measure) {
-                if (!known)
+                if (state == DormantPairs::State::unknown)
                     return work.search.for_each_near(view, range.margin, range.reach, measure);
                 for (const SpherePair& spheres : near) measure(spheres.a, spheres.b);
             });
     });
     for (std::size_t n = 0; n < awake_.size(); ++n)
-        if (asked_[n] != 0) dormant_.keep(awake_[n], found_[n]);
+        if (!known_[n]) dormant_.keep(awake_[n], found_[n]);
     join(awake_.size(), out);
 }
 
