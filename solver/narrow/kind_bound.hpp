@@ -19,8 +19,8 @@ struct Leeway {
 /// within `reach` [m], the larger of both shapes'. Infinite, and minus infinite where nothing can
 /// be said.
 ///
-/// Every normal that the rule may choose is fixed in one of the two bodies, so that the gap along it
-/// changes by no more than they move; only the normal across two edges turns faster than they do.
+/// Every normal that the rule may choose is fixed in one of the two bodies, so that the gap along
+/// it changes by no more than they move; only the normal across two edges turns faster than that.
 class KindBound {
 public:
     /// @param a, b  one sphere of each kind, whose centre does not matter; both outlive this
