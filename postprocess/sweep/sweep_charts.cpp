@@ -179,10 +179,10 @@ std::vector<std::string> draw_parts(const Sweep& sweep, const std::vector<Curve>
                                     const report::ForceUnit& unit) {
     static const std::vector<std::pair<Part, Style>> kStyles{
         {Part::total, {"resistance", views::kBlack, "", 2.4}},
-        {Part::bow, {"bow", views::kBlue, "", 1.8}},
-        {Part::sides, {"sides", views::kGreen, "", 1.8}},
-        {Part::bottom, {"bottom", views::kOrange, "", 1.8}},
-        {Part::rest, {"rest", views::kPurple, "", 1.8}},
+        {Part::bow_contact, {"bow", views::kBlue, "", 1.8}},
+        {Part::sides_contact, {"sides", views::kGreen, "", 1.8}},
+        {Part::bottom_contact, {"bottom", views::kOrange, "", 1.8}},
+        {Part::rest_contact, {"rest", views::kPurple, "", 1.8}},
         {Part::friction, {"friction", "#777777", "6 3", 1.8}}};
     std::vector<std::string> charts;
     if (sweep.x.empty()) return charts;
