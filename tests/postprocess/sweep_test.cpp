@@ -235,6 +235,16 @@ TEST_CASE("the page of a sweep has curves, small multiples, tables and CSV", "[s
     CHECK(encode_address("a b/c=1,2%\u00e4") == "a%20b/c%3D1%2C2%25%C3%A4");
 }
 
+TEST_CASE("curves with long names are told apart by the values of the only other axis", "[sweep]") {
+    const TempFolder folder;
+    for (const double speed : {0.5, 1.0})
+        for (const double mu : {0.05, 0.1, 0.15, 0.2})
+            write_run(folder / fmt::format("u{}m{}", speed, mu), speed, mu, 1, 100.0 * speed + mu);
+    const std::string curve = make_sweep_curve(read_sweep(folder.path()));
+    CHECK_THAT(curve, Catch::Contains("Resistance by friction ship-ice"));
+    CHECK_THAT(curve, Catch::Contains(">0.15</text>"));
+}
+
 TEST_CASE("the ship's work is shared out per metre of travel", "[sweep]") {
     const TempFolder folder;
     write_grid(folder);
