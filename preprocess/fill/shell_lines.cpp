@@ -73,6 +73,12 @@ std::vector<Line> settle_line(const SurfaceTree& tree, const ShellOptions& o, co
     return out;
 }
 
+// Starts so far on the mirrored side that none settles on this one.
+bool is_image(const Line& starts, double radius) {
+    return std::all_of(starts.begin(), starts.end(),
+                       [&](const Vec3& p) { return p.y() < -0.5 * radius; });
+}
+
 class LineSeats {
 public:
     LineSeats(const SurfaceTree& tree, const ShellOptions& options)
@@ -110,10 +116,12 @@ std::vector<Seat> seat_lines(const SurfaceTree& tree, const ShellOptions& option
     const auto lines = options.dimension == 2 ? trace_section(tree, options.radius, step)
                                               : trace_sharp_edges(tree, options.radius, step);
     LineSeats seats(tree, options);
-    for (const Line& starts : lines)
+    for (const Line& starts : lines) {
+        if (options.mirror && is_image(starts, options.radius)) continue;
         for (const Line& line :
              settle_line(tree, options, options.by_ends ? drop_between(starts) : starts))
             seats.place(line);
+    }
     return seats.take();
 }
 
