@@ -278,11 +278,12 @@ TEST_CASE("the ship's work is shared out per metre of travel", "[sweep]") {
 
 TEST_CASE("sweeps over texts or nothing have tables without curves", "[sweep]") {
     const TempFolder folder;
-    write_run(folder / "a", 0.5, 0.1, 1, 500.0, "normal = \"surface\"\n");
-    write_run(folder / "b", 0.5, 0.1, 1, 700.0, "normal = \"centres\"\n");
+    write_run(folder / "a", 0.5, 0.1, 1, 500.0, "normal = \"surface\"\nlist = [0.49, 1]\n");
+    write_run(folder / "b", 0.5, 0.1, 1, 700.0, "normal = \"centres\"\nlist = [0.49, 1.0]\n");
     const Sweep sweep = read_sweep(folder.path());
     CHECK(sweep.x.empty());
     CHECK(sweep.axes == std::vector<std::string>{"contact.normal"});
+    CHECK(sweep.runs[0].text("contact.list") == "[0.49, 1]");
     const std::string page = make_sweep_page(sweep, folder / "sweep.html");
     CHECK(tag_fault(page).empty());
     CHECK_THAT(page, Catch::Contains("there is no curve to draw"));
