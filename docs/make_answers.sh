@@ -17,8 +17,7 @@ for name in "$@"; do
     [[ $run == no ]] || snakemake -s workflow/Snakefile --profile workflow/local \
         --cores "${CORES:-$(nproc)}" --config "sweep=workflow/answers/$name.toml"
     curve=()
-    # a sweep over texts has no curve
-    [[ $name == *-channel ]] || curve=(--svg "docs/answers/$name.svg")
+    grep -q "(answers/$name.svg)" docs/answers.md && curve=(--svg "docs/answers/$name.svg")
     "$icepost" sweep "results/answers/$name" -q --markdown "${curve[@]}" |
         python3 docs/insert_table.py docs/answers.md "$name"
 done
