@@ -3,9 +3,9 @@
 #include "common/formats/run_file.hpp"
 
 #include <algorithm>
-#include <system_error>
 
 #include "common/base/error.hpp"
+#include "common/base/part_file.hpp"
 #include "common/formats/run_buffers.hpp"
 #include "common/formats/run_parts.hpp"
 
@@ -250,12 +250,7 @@ void RunWriter::finish() {
     Buffers& b = *buffers_;
     b.write_all();
     b.file.close();
-    std::error_code error;
-    std::filesystem::rename(b.part_path, b.final_path, error);
-    if (error)
-        throw run_failed(b.final_path.string(),
-                         "cannot rename the finished file: " + error.message(),
-                         "check that the folder is writable");
+    keep_file(b.part_path, b.final_path);
     remove_saved_rows(b.final_path.parent_path());  // the finished file has them all
 }
 

@@ -163,14 +163,6 @@ TEST_CASE("an old run's files do not survive a new run into the same folder", "[
     CHECK_FALSE(fs::exists(w / "results/case/run.h5.part"));
 }
 
-TEST_CASE("floes that overlap at the start are named in the warnings", "[cli]") {
-    const Workshop w;
-    w.make_case();
-    const Result r = w.run("icesolve case.cfg --set hull.position=[-8,0,0]");
-    CHECK(r.code == 0);
-    CHECK_THAT(r.err, Catch::Contains("the hull and floe") && Catch::Contains("overlap by"));
-}
-
 TEST_CASE("the resolved case repeats the run to the same bits", "[cli][determinism]") {
     const Workshop w;
     w.make_case();
