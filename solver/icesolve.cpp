@@ -11,8 +11,10 @@
 #include "common/base/error.hpp"
 #include "common/base/instruction_set.hpp"
 #include "common/base/parallel.hpp"
+#include "common/base/units.hpp"
 #include "common/base/version.hpp"
 #include "common/cli/console.hpp"
+#include "common/cli/fault_handlers.hpp"
 #include "common/cli/progress.hpp"
 #include "common/cli/sibling_program.hpp"
 #include "solver/case/case_schema.hpp"
@@ -34,6 +36,14 @@ struct Options {
          verify = false, no_report = false, allow_overlap = false;
 };
 
+// CLI11's own check for positive numbers lets NaN pass.
+std::string positive_seconds(const std::string& text) {
+    const auto number = ice::parse_quantity(text, ice::Dimension::none);
+    return number && number->value > 0.0 && std::isfinite(number->value)
+               ? std::string()
+               : text + " is not a positive number of seconds (2.5, without a unit)";
+}
+
 void declare(CLI::App& app, Options& o) {
     app.set_version_flag("--version", fmt::format("icesolve {} ({}, {})", ice::version(),
                                                   ice::git_commit(), ice::compiler()));
@@ -49,7 +59,7 @@ void declare(CLI::App& app, Options& o) {
     app.add_option("--checkpoint-every", o.checkpoint_every,
                    "Write checkpoint.h5 in the run folder every T simulated seconds and at the end")
         ->type_name("T")
-        ->check(CLI::PositiveNumber);
+        ->check(positive_seconds);
     app.add_option("--restart", o.restart,
                    "Go on from a checkpoint, in its folder (or --out), to the same bits; only "
                    "simulation.duration may have changed")
@@ -136,6 +146,7 @@ std::filesystem::path run_folder(const Options& o) {
 
 int run_case(const Options& o, const std::string& command_line) {
     ice::set_thread_count(o.threads);
+    ice::start_threads();
     ice::set_instruction_set(o.simd);
     const ice::Case parameters = ice::read_case(o.case_file, o.overrides);
     ice::World world = ice::build_world(parameters);

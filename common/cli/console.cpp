@@ -87,6 +87,9 @@ int run_program(const std::string& name, const std::function<int()>& body) {
     } catch (const std::filesystem::filesystem_error& error) {
         complain(error.path1().string() + ": " + error.code().message() +
                  "\n  check the path and its permissions");
+    } catch (const std::ios_base::failure& error) {
+        complain(std::string("an input cannot be read: ") + error.what() +
+                 "\n  check that it is a file");
     } catch (const std::system_error& error) {
         if (error.code() == std::errc::resource_unavailable_try_again)  // a thread cannot start
             complain(kOutOfMemory);

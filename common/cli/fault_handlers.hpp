@@ -16,6 +16,11 @@ namespace ice {
 /// Names of outputs under way (PartFile) are removed. @param program  for the messages; is copied
 void install_fault_handlers(const std::string& program);
 
+/// Starts all threads that parallel loops will use (set_thread_count), which then wait for work:
+/// OpenMP itself ends a program in the middle of it where a thread cannot start.
+/// @throws std::system_error when there is no room for them
+void start_threads();
+
 /// What a program says when memory runs out.
 extern const char* const kOutOfMemory;
 

@@ -27,6 +27,7 @@ void leave_no_tidying() {
 
 Hdf5File::Hdf5File(const std::filesystem::path& path, Mode mode) : path_(path) {
     leave_no_tidying();
+    detail::require_memory();
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // our messages name the remedy, HDF5's do not
     const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
     H5Pset_libver_bounds(access, H5F_LIBVER_EARLIEST, H5F_LIBVER_V110);
@@ -62,6 +63,7 @@ void Hdf5File::close() {
 }
 
 void Hdf5File::flush() {
+    detail::require_memory();
     if (H5Fflush(id_, H5F_SCOPE_GLOBAL) < 0)
         throw run_failed(path_.string(), "cannot be written", "check that the disk is not full");
 }

@@ -74,6 +74,7 @@ TEST_CASE("options of all programs take no NaN and no infinity", "[cli][errors]"
     check_refused(w, {"icesolve case.cfg --set simulation.time_step=" + number, "time_step"});
     check_refused(w, {"icesolve case.cfg --set hull.speed='" + number + " kn'", "hull.speed"});
     check_refused(w, {"icesolve case.cfg --set hull.position=[0," + number + ",0]", "position"});
+    check_refused(w, {"icepost view results --from below -o x.svg --time " + number, "--time"});
     w.write("field.toml",
             "pattern = \"grid\"\n[ice]\nthickness = 0.3\n[floes]\nsize = [1, " + number + "]\n");
     check_refused(w, {"icefield field.toml", "field.toml:5:"});
