@@ -127,7 +127,7 @@ private:
                   const std::string& label, Values& values) {
         const Key* key = schema_.find(path);
         if (key == nullptr) {
-            // looking for what was meant takes time: not for thousands of keys, nor for very long ones
+            // what was meant is not looked for in thousands of keys, nor in very long ones
             const bool worth = !mistakes_.full() && path.size() < kMostShown;
             const std::string near = worth ? schema_.nearest(path) : "";
             complain(name.source(),

@@ -110,6 +110,13 @@ void remove_results(const std::filesystem::path& folder) {
     }
 }
 
+// Nothing half-written stays of a run that failed, unless a checkpoint can still make use of it.
+void remove_unfinished(const std::filesystem::path& folder) {
+    if (std::filesystem::exists(folder / kCheckpointName)) return;
+    remove_parts(folder);
+    remove_saved_rows(folder);
+}
+
 // A run on its way: what run() and its parts share.
 struct Job {
     World& world;
@@ -247,10 +254,11 @@ Summary run(World& world, const RunOptions& options) {
         try {
             write_summary(world, options, job.wall_seconds(), thickness, job.recorder, summary);
         } catch (const Error&) {
-            // nothing half-written stays, unless a checkpoint can still make use of it
-            if (!std::filesystem::exists(options.folder / kCheckpointName))
-                remove_parts(options.folder);
+            remove_unfinished(options.folder);
         }
+        throw;
+    } catch (...) {  // out of memory
+        remove_unfinished(options.folder);
         throw;
     }
     remove_parts(options.folder);  // of a program that was killed here before

@@ -135,7 +135,7 @@ TEST_CASE("meshes without area or volume are refused, whatever the repair", "[cl
     CHECK(w.files().size() == 4);
 }
 
-TEST_CASE("a case whose floes overlap names them and the depth; --allow-overlap goes on",
+TEST_CASE("a case whose floes overlap names them and the depth, and --allow-overlap goes on",
           "[cli][errors]") {
     const Workshop w;
     make_case_3d(w);

@@ -170,13 +170,20 @@ class Workshop:
         if name.endswith(".html"):  # holds the time of day
             return data.endswith(b"</html>\n") and abs(len(data) - len(good)) < 100
         if name == "run.h5":
-            return self.run(["icepost", "plot", os.path.dirname(path), "-o",
-                             os.path.join(self.folder, "try.svg")], self.folder).code == 0
+            return self.can_be_read(os.path.dirname(path))
         if name == "checkpoint.h5" or name.startswith("checkpoint-rows"):
             checkpoint = os.path.join(os.path.dirname(path), "checkpoint.h5")
-            return self.run(["icesolve", os.path.join(self.inputs, "case.cfg"), "--restart",
-                             checkpoint, "--check"], self.folder).code == 0
+            # rows that no checkpoint counts are of no use, and none is made of them
+            return not os.path.exists(checkpoint) or self.run(
+                ["icesolve", os.path.join(self.inputs, "case.cfg"), "--restart", checkpoint,
+                 "--check"], self.folder).code == 0
         return False
+
+    def can_be_read(self, run_folder):
+        """Can run.h5 or run.h5.part? One that holds no rows yet says so."""
+        done = self.run(["icepost", "plot", run_folder, "-o",
+                         os.path.join(self.folder, "try.svg")], self.folder)
+        return done.code == 0 or "it ended before its first samples" in done.message
 
 
 def is_json(data):

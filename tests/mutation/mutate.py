@@ -60,6 +60,7 @@ class Tree:
         self.source = os.path.join(work, "tree")
         self.build = os.path.join(self.source, "build", "release")
         self.jobs = jobs
+        self.ready = set()
         # a compiler cache may then know the objects of the tree that was copied
         self.env = dict(os.environ, CCACHE_BASEDIR=self.source, CCACHE_NOHASHDIR="1")
 
@@ -93,10 +94,18 @@ class Tree:
         if code != 0:
             raise Failure(f"cmake --preset release fails:\n{text}")
 
-    def make(self, targets):
+    def prepare(self, program, timeout):
+        """Builds a test program before its first use, and sees that it passes without a fault."""
+        if program in self.ready:
+            return
         code, text = run(["cmake", "--build", self.build, "-j", str(self.jobs), "--target",
-                          *targets], self.source, env=self.env)
-        return code == 0, text
+                          program], self.source, env=self.env)
+        if code != 0:
+            raise Failure("the tree with the mutants does not build:\n" + text[-3000:])
+        noticed = self.test(program, timeout)
+        if noticed:
+            raise Failure("with no mutant chosen a test fails: " + noticed)
+        self.ready.add(program)
 
     def test(self, program, timeout, mutant=0):
         """None when all of a program's tests pass, else what noticed: a test's name."""
@@ -137,6 +146,7 @@ class Mutant:
     def try_on(self, tree, timeout):
         """The test that notices, or None."""
         for suite in self.suites:
+            tree.prepare(suite, timeout)
             noticed = tree.test(suite, timeout, self.number)
             if noticed:
                 return noticed
@@ -158,16 +168,7 @@ def row(cells):
 
 
 def check(tree, mutants, timeout):
-    """Prints the table; how many are caught. Without a mutant all tests must pass first, or a catch
-    means nothing."""
-    suites = sorted({suite for mutant in mutants for suite in mutant.suites})
-    built, text = tree.make(suites)
-    if not built:
-        raise Failure("the tree with the mutants does not build:\n" + text[-3000:])
-    for suite in suites:
-        noticed = tree.test(suite, timeout)
-        if noticed:
-            raise Failure("with no mutant chosen a test fails: " + noticed)
+    """Prints the table; how many are caught."""
     print(row(["", "file", "kind", "from", "to", "noticed by"]))
     print(row(["---"] * 6), flush=True)
     caught = 0
