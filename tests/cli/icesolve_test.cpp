@@ -126,8 +126,9 @@ hold = "never"
     std::set<std::uint64_t> hashes;
     double contacts = 0.0;
     for (const int threads : {1, 2, 3}) {
-        REQUIRE(w.run("icesolve field.cfg -q --out r --threads " + std::to_string(threads)).code ==
-                0);
+        REQUIRE(w.run("icesolve field.cfg -q --allow-overlap --out r --threads " +
+                      std::to_string(threads))
+                    .code == 0);
         const Summary s = read_summary(w / "r/summary.json");
         hashes.insert(s.state_hash);
         contacts = s.contacts_max;
