@@ -16,13 +16,19 @@ import tomllib
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
-# The programs that may notice a fault in a folder, the most likely first.
+# The tests that may notice a fault in a folder, the quick and likely ones first: a program, or one
+# with a choice of its tests.
+SOLVER = ["solver_tests", "validation_tests"]
 SUITES = {
-    "solver": ["solver_tests", "validation_tests"],
-    "preprocess": ["preprocess_tests"],
-    "common": ["common_tests", "preprocess_tests"],
+    "solver/contact": ["solver_tests [sweep],[contact],[crushing]", *SOLVER],
+    "solver/integrate": ["solver_tests [integrate]", *SOLVER],
+    "solver/water": ["solver_tests [water]", *SOLVER],
+    "solver/narrow": ["solver_tests [patch]", *SOLVER],
+    "preprocess/fill": ["preprocess_tests [equivalence]", "preprocess_tests [analytic]",
+                        "preprocess_tests"],
+    "preprocess/measure": ["preprocess_tests [analytic]", "preprocess_tests"],
+    "common/geometry": ["common_tests", "preprocess_tests"],
 }
-
 
 # All faults are built in at once; one is chosen when a test runs ("mutant schemata").
 SWITCH = """// SPDX-License-Identifier: GPL-3.0-or-later
@@ -94,23 +100,24 @@ class Tree:
         if code != 0:
             raise Failure(f"cmake --preset release fails:\n{text}")
 
-    def prepare(self, program, timeout):
+    def prepare(self, suite, timeout):
         """Builds a test program before its first use, and sees that it passes without a fault."""
-        if program in self.ready:
+        if suite in self.ready:
             return
         code, text = run(["cmake", "--build", self.build, "-j", str(self.jobs), "--target",
-                          program], self.source, env=self.env)
+                          suite.split()[0]], self.source, env=self.env)
         if code != 0:
             raise Failure("the tree with the mutants does not build:\n" + text[-3000:])
-        noticed = self.test(program, timeout)
+        noticed = self.test(suite, timeout)
         if noticed:
             raise Failure("with no mutant chosen a test fails: " + noticed)
-        self.ready.add(program)
+        self.ready.add(suite)
 
-    def test(self, program, timeout, mutant=0):
-        """None when all of a program's tests pass, else what noticed: a test's name."""
-        code, text = run([os.path.join(self.build, "tests", program), "--abort", "-r", "xml"],
-                         self.build, timeout, dict(self.env, ICE_MUTANT=str(mutant)))
+    def test(self, suite, timeout, mutant=0):
+        """None when all tests pass, else what noticed: a test's name."""
+        program, *choice = suite.split()
+        code, text = run([os.path.join(self.build, "tests", program), *choice, "--abort", "-r",
+                          "xml"], self.build, timeout, dict(self.env, ICE_MUTANT=str(mutant)))
         if code == 0:
             return None
         names = re.findall(r'<TestCase name="([^"]*)"', text)
@@ -132,7 +139,7 @@ class Mutant:
     def __init__(self, number, entry):
         self.number, self.file, self.kind = number, entry["file"], entry["kind"]
         self.old, self.new, self.type = entry["old"], entry["new"], entry.get("type", "")
-        self.suites = SUITES[self.file.split("/", maxsplit=1)[0]]
+        self.suites = SUITES[os.path.dirname(self.file)]
 
     def plant(self, text):
         """A file's text with both expressions, of which ICE_MUTANT chooses."""
@@ -160,7 +167,7 @@ def read_mutants(path, only):
     for mutant in mutants:  # all places are looked at before the build
         with open(os.path.join(ROOT, mutant.file), encoding="utf-8") as file:
             mutant.plant(file.read())
-    return [mutant for mutant in mutants if not only or mutant.number in only]
+    return mutants, [mutant for mutant in mutants if not only or mutant.number in only]
 
 
 def row(cells):
@@ -191,12 +198,12 @@ def main():
     parser.add_argument("--check", action="store_true", help="only look for the places")
     options = parser.parse_args()
     try:
-        mutants = read_mutants(options.mutants, options.only)
+        every, mutants = read_mutants(options.mutants, options.only)
         if options.check:
-            print(f"all {len(mutants)} places are there")
+            print(f"all {len(every)} places are there")
             return 0
         tree = Tree(os.path.abspath(options.work), options.jobs)
-        tree.copy_sources(mutants)
+        tree.copy_sources(every)
         tree.configure()
         caught = check(tree, mutants, options.timeout)
     except Failure as failure:
