@@ -154,7 +154,7 @@ class Workshop:
             if name.endswith(".part"):
                 if job.name != "icesolve" or done.code == 0:
                     wrong.append(f"{name} is left behind")
-            elif name not in good or not self.is_whole(path, good[name], done.code):
+            elif not self.is_whole(path, good.get(name, b""), done.code):
                 wrong.append(f"{name} is not whole ({os.path.getsize(path)} bytes)")
         return wrong
 

@@ -195,6 +195,8 @@ def main():
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="of the build")
     parser.add_argument("--timeout", type=float, default=900.0,
                         help="seconds for one test program (%(default)s)")
+    parser.add_argument("--quick", action="store_true",
+                        help="ask the first choice of tests only: what it misses may be caught")
     parser.add_argument("--check", action="store_true", help="only look for the places")
     options = parser.parse_args()
     try:
@@ -202,6 +204,9 @@ def main():
         if options.check:
             print(f"all {len(every)} places are there")
             return 0
+        if options.quick:
+            for mutant in mutants:
+                mutant.suites = mutant.suites[:1]
         tree = Tree(os.path.abspath(options.work), options.jobs)
         tree.copy_sources(every)
         tree.configure()
