@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 
 #include "common/base/error.hpp"
 #include "common/base/part_file.hpp"
+#include "common/base/units.hpp"
 #include "common/base/version.hpp"
 #include "common/cli/console.hpp"
 #include "postprocess/check/check_run.hpp"
@@ -105,6 +107,13 @@ int check(const Options& o) {
     return ice::check::all_passed(verdicts) ? 0 : static_cast<int>(ice::ExitCode::failed);
 }
 
+// CLI11 takes NaN for a number.
+std::string finite_seconds(const std::string& text) {
+    const auto number = ice::parse_quantity(text, ice::Dimension::none);
+    return number && std::isfinite(number->value) ? std::string()
+                                                  : text + " is not a number of seconds";
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -125,7 +134,9 @@ int main(int argc, char** argv) {
         ->capture_default_str()
         ->check(CLI::Range(2, 1000000));
     auto* draw = command("view", "draw hull and ice at one instant as SVG");
-    draw->add_option("--time", o.time, "the frame nearest to this time [s]")->required();
+    draw->add_option("--time", o.time, "the frame nearest to this time [s]")
+        ->required()
+        ->check(finite_seconds);
     draw->add_option("--from", o.from, "below, top, side, front or quarter")
         ->check(CLI::IsMember({"below", "top", "side", "front", "quarter"}));
     draw->add_option("-o,--out", o.out, "the SVG file")->required();

@@ -11,6 +11,7 @@
 #include "common/base/timer.hpp"
 #include "common/base/version.hpp"
 #include "common/cli/console.hpp"
+#include "common/cli/fault_handlers.hpp"
 #include "common/formats/field_file.hpp"
 #include "preprocess/field/make_field.hpp"
 
@@ -89,6 +90,7 @@ int run_icefield(const Options& o, const std::string& command_line) {
     if (o.spec.empty())
         throw ice::bad_input("icefield", "no specification given", "icefield SPEC.toml -o FILE");
     ice::set_thread_count(o.threads);
+    ice::start_threads();
     std::vector<std::string> overrides = o.overrides;
     if (o.seed) overrides.push_back(fmt::format("seed={}", *o.seed));
     const ice::FieldSpec spec = ice::read_field_spec(o.spec, overrides);

@@ -16,6 +16,7 @@
 #include "common/base/units.hpp"
 #include "common/base/version.hpp"
 #include "common/cli/console.hpp"
+#include "common/cli/fault_handlers.hpp"
 #include "common/formats/spheres_file.hpp"
 #include "preprocess/fill/fill_spheres.hpp"
 #include "preprocess/load/cut_off.hpp"
@@ -213,6 +214,7 @@ ice::SphereSet fill_solid(const Options& o, const ice::TriangleMesh& mesh,
 int run_spherize(Options& o, const std::string& command_line) {
     const ice::Timer timer;
     ice::set_thread_count(o.threads);
+    ice::start_threads();
     o.read.mirror_y = o.mirror == "y";
     o.fill.surface_only = o.mode == "surface";
     o.fill.arrangement =

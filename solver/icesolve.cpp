@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <optional>
@@ -10,14 +11,17 @@
 #include "common/base/error.hpp"
 #include "common/base/instruction_set.hpp"
 #include "common/base/parallel.hpp"
+#include "common/base/units.hpp"
 #include "common/base/version.hpp"
 #include "common/cli/console.hpp"
+#include "common/cli/fault_handlers.hpp"
 #include "common/cli/progress.hpp"
 #include "common/cli/sibling_program.hpp"
 #include "solver/case/case_schema.hpp"
 #include "solver/case/read_case.hpp"
 #include "solver/record/energy_ledger.hpp"
 #include "solver/record/recorder.hpp"
+#include "solver/step/check_start.hpp"
 #include "solver/step/run.hpp"
 
 namespace {
@@ -29,8 +33,16 @@ struct Options {
     std::int64_t hash_every = 0;
     double checkpoint_every = 0.0;
     bool check = false, schema = false, defaults = false, json = false, quiet = false,
-         verify = false, no_report = false;
+         verify = false, no_report = false, allow_overlap = false;
 };
+
+// CLI11's own check for positive numbers lets NaN pass.
+std::string positive_seconds(const std::string& text) {
+    const auto number = ice::parse_quantity(text, ice::Dimension::none);
+    return number && number->value > 0.0 && std::isfinite(number->value)
+               ? std::string()
+               : text + " is not a positive number of seconds (2.5, without a unit)";
+}
 
 void declare(CLI::App& app, Options& o) {
     app.set_version_flag("--version", fmt::format("icesolve {} ({}, {})", ice::version(),
@@ -47,7 +59,7 @@ void declare(CLI::App& app, Options& o) {
     app.add_option("--checkpoint-every", o.checkpoint_every,
                    "Write checkpoint.h5 in the run folder every T simulated seconds and at the end")
         ->type_name("T")
-        ->check(CLI::PositiveNumber);
+        ->check(positive_seconds);
     app.add_option("--restart", o.restart,
                    "Go on from a checkpoint, in its folder (or --out), to the same bits; only "
                    "simulation.duration may have changed")
@@ -56,6 +68,8 @@ void declare(CLI::App& app, Options& o) {
         app.add_option("--hash-every", o.hash_every, "Print step and state hash every N steps")
             ->check(CLI::PositiveNumber);
     app.add_flag("--check", o.check, "Read and build everything, run nothing");
+    app.add_flag("--allow-overlap", o.allow_overlap,
+                 "Run a case whose bodies overlap at the start, with a warning");
     app.add_flag("--verify", o.verify,
                  "Stop at a step that loses momentum; the worst imbalance goes into the summary");
     app.add_option("--explain", o.explain, "Tell what a case key takes")->type_name("KEY");
@@ -81,7 +95,9 @@ std::string command_to_go_on(const Options& o, const std::filesystem::path& fold
     return line + " --restart " + ice::shell_word((folder / ice::kCheckpointName).string());
 }
 
-int report(const ice::Summary& s, const Options& o, const std::string& folder) {
+// `said`: warnings that the user has seen at the start
+int report(const ice::Summary& s, const Options& o, const std::string& folder,
+           const std::vector<std::string>& said) {
     if (o.json) fmt::print("{}", ice::summary_text(s));
     const char* unit = s.dimension == 2 ? "N/m" : "N";
     const std::string interval = std::isfinite(s.resistance.ci95)
@@ -96,7 +112,8 @@ int report(const ice::Summary& s, const Options& o, const std::string& folder) {
         ice::say(
             fmt::format("Lindqvist's submersion resistance: {:.1f} N", *s.lindqvist_submersion));
     if (const std::string line = ice::energy_line(s); !line.empty()) ice::say(line);
-    for (const std::string& warning : s.warnings) ice::say_warning(warning);
+    for (const std::string& warning : s.warnings)
+        if (std::find(said.begin(), said.end(), warning) == said.end()) ice::say_warning(warning);
     ice::say(fmt::format("{} s simulated in {:.1f} s ({:.1f}x real time); results in {}",
                          s.simulated_s, s.wall_s, s.simulated_s / s.wall_s, folder));
     if (s.status != "interrupted") return 0;
@@ -129,13 +146,20 @@ std::filesystem::path run_folder(const Options& o) {
 
 int run_case(const Options& o, const std::string& command_line) {
     ice::set_thread_count(o.threads);
+    ice::start_threads();
     ice::set_instruction_set(o.simd);
     const ice::Case parameters = ice::read_case(o.case_file, o.overrides);
     ice::World world = ice::build_world(parameters);
     std::optional<ice::SavedRun> saved;
     if (!o.restart.empty()) saved.emplace(ice::read_checkpoint(o.restart, world));
     ice::SavedRun* going_on = saved ? &*saved : nullptr;
+    std::vector<std::string> warnings;
+    if (!saved) warnings = ice::check_start(world, o.allow_overlap);
+    const auto say_warnings = [&] {
+        for (const std::string& warning : warnings) ice::say_warning(warning);
+    };
     if (o.check) {
+        say_warnings();
         ice::say(fmt::format("{}: good, {} floes", o.case_file, world.scene.bodies.size() - 1));
         return 0;
     }
@@ -143,6 +167,7 @@ int run_case(const Options& o, const std::string& command_line) {
     ice::make_run_folder(folder, going_on);
     ice::log_to_file(folder / "run.log", going_on != nullptr);
     ice::say(fmt::format("icesolve {} ({}): {}", ice::version(), ice::git_commit(), command_line));
+    say_warnings();
     ice::catch_interrupts();
     ice::Progress progress("icesolve", o.quiet);
     const ice::Timer timer;
@@ -153,10 +178,10 @@ int run_case(const Options& o, const std::string& command_line) {
             fmt::print("{} {:016x}\n", w.steps, ice::state_hash(w.scene, w.constraints));
         return !ice::interrupted();
     };
-    const ice::Summary summary =
-        ice::run(world, {folder, command_line, o.checkpoint_every, going_on, o.verify, watch});
+    const ice::Summary summary = ice::run(
+        world, {folder, command_line, o.checkpoint_every, going_on, warnings, o.verify, watch});
     progress.finish();
-    const int code = report(summary, o, folder.string());
+    const int code = report(summary, o, folder.string(), warnings);
     if (!o.no_report) write_report(folder);
     return code;
 }

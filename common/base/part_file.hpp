@@ -6,6 +6,17 @@
 
 namespace ice {
 
+/// Asks the system to bring a file's content, or a folder's names, to the disk now (fsync), so that
+/// a power cut cannot take them away. Some file systems cannot, which is no failure.
+/// @return false with errno when it fails
+bool bring_to_disk(const std::filesystem::path& path);
+
+/// Gives a finished file its final name so that neither a kill nor a power cut leaves less than the
+/// whole file under that name: what `part` holds is brought to the disk before the rename
+/// (fsync), the rename after it.
+/// @throws Error (exit code 1) naming `final_path` when one of them fails; `part` stays
+void keep_file(const std::filesystem::path& part, const std::filesystem::path& final_path);
+
 /// Name of an output while it is written: "x.part" beside the final "x".
 ///
 /// keep() renames it to its final name; otherwise the destructor removes it, so that a failed
@@ -18,13 +29,18 @@ public:
     PartFile& operator=(const PartFile&) = delete;
 
     const std::filesystem::path& path() const { return part_; }
-    /// @throws Error (exit code 1) when the rename fails.
+    /// keep_file(). @throws Error (exit code 1)
     void keep();
 
 private:
     std::filesystem::path final_, part_;
     bool kept_ = false;
+    int slot_ = -1;  // of the names that remove_part_files() knows
 };
+
+/// Removes the files of all PartFiles there are: for a program that ends without unwinding. Takes
+/// no memory and may be called from a signal handler. Knows 16 files at a time.
+void remove_part_files() noexcept;
 
 /// Writes a whole text file through a PartFile.
 /// @throws Error (exit code 1) naming the path when it cannot be written completely.

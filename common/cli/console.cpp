@@ -6,12 +6,19 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
+#include <array>
+#include <cerrno>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <exception>
+#include <memory>
 #include <new>
+#include <system_error>
 
 #include "common/base/error.hpp"
+#include "common/cli/fault_handlers.hpp"
 
 namespace ice {
 
@@ -57,16 +64,38 @@ void say(const std::string& text) { spdlog::info("{}", text); }
 void say_warning(const std::string& text) { spdlog::warn("warning: {}", text); }
 
 int run_program(const std::string& name, const std::function<int()>& body) {
+    install_fault_handlers(name);
     const auto complain = [&](const std::string& text) {
         spdlog::error("{}: error: {}", name, text);
     };
+    // given back when memory runs out, so that there is some for the message
+    auto reserve = std::make_unique<std::array<char, 1 << 18>>();
     try {
-        return body();
+        const int code = body();
+        // what a full disk did to the data on stdout shows only when the last of it is written
+        if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+            throw run_failed("standard output",
+                             std::string("cannot be written: ") + std::strerror(errno),
+                             "check that the disk is not full");
+        return code;
     } catch (const Error& error) {
         complain(error.what());
         return static_cast<int>(error.code());
     } catch (const std::bad_alloc&) {
-        complain("out of memory\n  use a larger radius or spacing, or a smaller case");
+        reserve.reset();
+        complain(kOutOfMemory);
+    } catch (const std::filesystem::filesystem_error& error) {
+        complain(error.path1().string() + ": " + error.code().message() +
+                 "\n  check the path and its permissions");
+    } catch (const std::ios_base::failure& error) {
+        complain(std::string("an input cannot be read: ") + error.what() +
+                 "\n  check that it is a file");
+    } catch (const std::system_error& error) {
+        if (error.code() == std::errc::resource_unavailable_try_again)  // a thread cannot start
+            complain(kOutOfMemory);
+        else  // of fmt::print
+            complain(std::string("standard output: ") + error.what() +
+                     "\n  check that the disk is not full");
     } catch (const std::exception& error) {
         complain(std::string(error.what()) +
                  "\n  this is a fault of the program: please report it");

@@ -164,8 +164,8 @@ private:
         for (std::size_t i = 0; i < 9; ++i)
             set.solid.inertia(static_cast<int>(i / 3), static_cast<int>(i % 3)) =
                 all_.inertia[9 * k + i];
-        check(set.solid.volume > 0 && set.solid.inertia.diagonal().minCoeff() > 0, "/shape",
-              "has a volume or inertia that no solid has");
+        const std::string fault = fault_of(set.solid);
+        check(fault.empty(), "/shape", "has " + fault);
         const auto vertices = static_cast<std::size_t>(all_.vertices[k]);
         const auto triangles = static_cast<std::size_t>(all_.triangles[k]);
         for (std::size_t i = 0; i < vertices; ++i, ++at_.vertex)

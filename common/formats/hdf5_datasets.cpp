@@ -17,6 +17,10 @@ using detail::to_hsize;
 
 namespace {
 
+// Compressed chunks wait in memory until the dataset is closed, where nobody would hear that the
+// disk is full.
+bool reaches_file(hid_t dataset) { return H5Dflush(dataset) >= 0; }
+
 template <class T>
 hid_t memory_type();
 template <>
@@ -62,7 +66,8 @@ void Hdf5File::write(const std::string& name, const T* data,
                          H5Dclose);
     const bool empty = product(shape) == 0;
     if (dataset < 0 ||
-        (!empty && H5Dwrite(dataset, memory_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0))
+        (!empty && H5Dwrite(dataset, memory_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0) ||
+        !reaches_file(dataset))
         throw run_failed(describe(name), "cannot be written", "check that the disk is not full");
 }
 
@@ -90,7 +95,7 @@ void Hdf5File::write_rows(const std::string& name, const T* rows,
         H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, block.data(), nullptr);
         good = H5Dwrite(dataset, memory_type<T>(), memory, space, H5P_DEFAULT, rows) >= 0;
     }
-    if (!good)
+    if (!good || !reaches_file(dataset))
         throw run_failed(describe(name), "cannot be written", "check that the disk is not full");
 }
 
@@ -110,7 +115,8 @@ void Hdf5File::write_strings(const std::string& name, const std::vector<std::str
     H5Pset_obj_track_times(properties, false);
     const Handle dataset(
         H5Dcreate2(id_, name.c_str(), type, space, H5P_DEFAULT, properties, H5P_DEFAULT), H5Dclose);
-    if (dataset < 0 || H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, packed.data()) < 0)
+    if (dataset < 0 || H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, packed.data()) < 0 ||
+        !reaches_file(dataset))
         throw run_failed(describe(name), "cannot be written", "check that the disk is not full");
 }
 
@@ -239,8 +245,10 @@ void Hdf5File::append(const std::string& name, const T* rows, std::uint64_t coun
     const Handle memory_space(
         H5Screate_simple(static_cast<int>(block.size()), block.data(), nullptr), H5Sclose);
     const bool empty = std::find(block.begin(), block.end(), hsize_t{0}) != block.end();
-    if (!grown || (!empty && H5Dwrite(dataset, memory_type<T>(), memory_space, file_space,
-                                      H5P_DEFAULT, rows) < 0))
+    if (!grown ||
+        (!empty &&
+         H5Dwrite(dataset, memory_type<T>(), memory_space, file_space, H5P_DEFAULT, rows) < 0) ||
+        !reaches_file(dataset))
         throw run_failed(describe(name), "cannot be written", "check that the disk is not full");
 }
 

@@ -14,7 +14,20 @@ std::string Hdf5File::describe(const std::string& object) const {
     return path_.string() + ": " + object;
 }
 
+namespace {
+
+// HDF5 tidies up when the program ends, and crashes where the disk was full: it tries to write what
+// it could not write before. All files are closed by then, so that there is nothing to tidy up.
+void leave_no_tidying() {
+    static const herr_t done = H5dont_atexit();  // before anything else is asked of the library
+    (void)done;
+}
+
+}  // namespace
+
 Hdf5File::Hdf5File(const std::filesystem::path& path, Mode mode) : path_(path) {
+    leave_no_tidying();
+    detail::require_memory();
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // our messages name the remedy, HDF5's do not
     const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
     H5Pset_libver_bounds(access, H5F_LIBVER_EARLIEST, H5F_LIBVER_V110);
@@ -50,6 +63,7 @@ void Hdf5File::close() {
 }
 
 void Hdf5File::flush() {
+    detail::require_memory();
     if (H5Fflush(id_, H5F_SCOPE_GLOBAL) < 0)
         throw run_failed(path_.string(), "cannot be written", "check that the disk is not full");
 }

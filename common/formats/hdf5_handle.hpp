@@ -5,9 +5,17 @@
 #include <hdf5.h>
 
 #include <cstdint>
+#include <new>
 #include <vector>
 
 namespace ice::detail {
+
+/// HDF5 does not survive that memory runs out: it writes beyond what it got. So there must be some,
+/// enough for a file's caches, before it is asked for much. @throws std::bad_alloc
+inline void require_memory() {
+    constexpr std::size_t kEnough = 6 << 20;
+    ::operator delete(::operator new(kEnough));
+}
 
 /// Closes an HDF5 handle when the scope ends.
 class Handle {

@@ -75,6 +75,7 @@ struct RunWriter::Buffers {
     std::uint64_t samples = 0, frames = 0, contact_rows = 0;  // buffered, not on disk yet
     RunPosition written;                                      // in `file`
     RunPosition saved;                                        // of these, in saved rows
+    bool torn = false;  // rows could not be written: the file is never whole again
 
     // history: time, forces and moment [S,3], pose [S,7], scalars, then one table per tracked floe
     Column<double> time, contact, friction, total, moment, pose;

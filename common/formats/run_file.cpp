@@ -3,9 +3,9 @@
 #include "common/formats/run_file.hpp"
 
 #include <algorithm>
-#include <system_error>
 
 #include "common/base/error.hpp"
+#include "common/base/part_file.hpp"
 #include "common/formats/run_buffers.hpp"
 #include "common/formats/run_parts.hpp"
 
@@ -155,6 +155,10 @@ void RunWriter::Buffers::write_all() { write_rows(true); }
 void RunWriter::Buffers::write_whole_chunks() { write_rows(false); }
 
 void RunWriter::Buffers::write_rows(bool all) {
+    if (torn)
+        throw run_failed(final_path.string(), "cannot be written",
+                         "check that the disk is not full");
+    torn = true;  // until all went well
     // of the buffered rows: all, or as many as complete the file's last chunk and whole ones
     const auto take = [all](std::uint64_t& buffered, std::int64_t& on_disk, std::uint64_t chunk) {
         const auto before = static_cast<std::uint64_t>(on_disk);
@@ -172,6 +176,7 @@ void RunWriter::Buffers::write_rows(bool all) {
     for_frames([&](auto& column) { column.append_to(file, f, old_frames); });
     for_contacts([&](auto& column) { column.append_to(file, c, old_contacts); });
     file.flush();
+    torn = false;
 }
 
 RunWriter::RunWriter(const std::filesystem::path& path, const RunHeader& header)
@@ -250,12 +255,7 @@ void RunWriter::finish() {
     Buffers& b = *buffers_;
     b.write_all();
     b.file.close();
-    std::error_code error;
-    std::filesystem::rename(b.part_path, b.final_path, error);
-    if (error)
-        throw run_failed(b.final_path.string(),
-                         "cannot rename the finished file: " + error.message(),
-                         "check that the folder is writable");
+    keep_file(b.part_path, b.final_path);
     remove_saved_rows(b.final_path.parent_path());  // the finished file has them all
 }
 

@@ -109,10 +109,8 @@ private:
         solid.centroid = Vec3(centroid[0], centroid[1], centroid[2]);
         for (int k = 0; k < 9; ++k)
             solid.inertia(k / 3, k % 3) = inertia[static_cast<std::size_t>(k)];
-        check(solid.volume > 0 && std::isfinite(solid.volume), "/solid volume", "is not positive");
-        check(solid.inertia.allFinite() && solid.inertia.diagonal().minCoeff() > 0 &&
-                  solid.centroid.allFinite(),
-              "/solid", "has an inertia that no solid has");
+        const std::string fault = fault_of(solid);
+        check(fault.empty(), "/solid", "has " + fault);
     }
 
     void read_mesh(TriangleMesh& mesh) const {

@@ -52,8 +52,10 @@ std::string dump(const Json& json) {
 }
 
 Json parse_file(const std::filesystem::path& path) {
+    std::error_code ignored;
     std::ifstream in(path, std::ios::binary);
-    if (!in) throw bad_input(path.string(), "file not found or not readable", "check the path");
+    if (!in || !std::filesystem::is_regular_file(path, ignored))
+        throw bad_input(path.string(), "file not found or not readable", "check the path");
     try {
         return Json::parse(in);
     } catch (const Json::exception& error) {

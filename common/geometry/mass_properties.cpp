@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "common/geometry/mass_properties.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Dense>
 #include <Eigen/Geometry>
+#include <cmath>
 
 namespace ice {
 
@@ -34,6 +37,28 @@ MassProperties measure_mass(const TriangleMesh& mesh) {
     out.centroid = reference + mean;
     out.inertia = central.trace() * Mat3::Identity() - central;
     return out;
+}
+
+std::string fault_of(const MassProperties& solid) {
+    constexpr double kRounding = 1e-9;  // of the trace
+    const auto positive = [](double x) { return x > 0.0 && std::isfinite(x); };
+    if (!positive(solid.volume)) return fmt::format("a volume of {:g} m3", solid.volume);
+    if (!positive(solid.area)) return fmt::format("a surface of {:g} m2", solid.area);
+    if (!solid.centroid.allFinite()) return "a centroid that is no number";
+    if (!solid.inertia.allFinite()) return "an inertia that is no number";
+    const Mat3& inertia = solid.inertia;
+    const double size = inertia.cwiseAbs().maxCoeff();
+    if ((inertia - inertia.transpose()).cwiseAbs().maxCoeff() > kRounding * size)
+        return "an inertia that is not symmetric";
+    const Vec3 m = Eigen::SelfAdjointEigenSolver<Mat3>(inertia, Eigen::EigenvaluesOnly)
+                       .eigenvalues();  // ascending
+    if (!(m[0] > 0.0)) return fmt::format("a moment of inertia of {:g} m5", m[0]);
+    if (m[2] > m[0] + m[1] + kRounding * m.sum())
+        return fmt::format(
+            "moments of inertia {:g}, {:g} and {:g} m5: one is above the sum of the "
+            "others",
+            m[0], m[1], m[2]);
+    return {};
 }
 
 }  // namespace ice

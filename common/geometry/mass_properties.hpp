@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <string>
+
 #include "common/geometry/triangle_mesh.hpp"
 
 namespace ice {
@@ -25,5 +27,10 @@ struct MassProperties {
 /// Degenerate triangles add nothing; an empty mesh gives zeros. An open mesh gives numbers without
 /// meaning: check it first. Cost O(T).
 MassProperties measure_mass(const TriangleMesh& mesh);
+
+/// What no solid can have, in words, or nothing: a volume, area or moment of inertia that is not
+/// positive or no number, an inertia that is not symmetric, or one principal moment above the sum
+/// of the other two (I_1 + I_2 - I_3 = 2 int x_3^2 dV >= 0).
+std::string fault_of(const MassProperties& solid);
 
 }  // namespace ice

@@ -30,10 +30,11 @@ std::string read_input_text(const std::filesystem::path& file, const std::string
 
 void throw_mistakes(const Mistakes& mistakes, const std::filesystem::path& file,
                     const std::string& remedy) {
-    const std::size_t count = mistakes.texts.size();
+    const std::size_t count = mistakes.texts.size() + mistakes.more;
     if (count == 0) return;
     std::string all = fmt::format("{} mistake{}", count, count == 1 ? "" : "s");
     for (const std::string& text : mistakes.texts) all += "\n" + text;
+    if (mistakes.more > 0) all += fmt::format("\nand {} more", mistakes.more);
     throw bad_input(file.string(), all, remedy);
 }
 

@@ -16,6 +16,9 @@ namespace ice {
 
 namespace {
 
+constexpr std::size_t kMostShown = 120;     // characters of a line in a message
+constexpr std::size_t kMostTables = 10000;  // [[floes]]
+
 class Document {
 public:
     Document(const std::string& text, std::string name, const Schema& schema, Mistakes& mistakes)
@@ -40,12 +43,24 @@ public:
 private:
     void complain(const toml::source_region& where, const std::string& what, std::size_t width) {
         const auto line = where.begin.line, column = where.begin.column;
-        std::string text = fmt::format("{}:{}:{}: error: {}", name_, line, column, what);
+        std::string text = fmt::format("{}:{}:{}: error: {}", name_, line, column, shorten(what));
         if (line >= 1 && line <= lines_.size())
-            text += fmt::format("\n{:5} | {}\n      | {}{}", line, lines_[line - 1],
-                                std::string(column > 0 ? column - 1 : 0, ' '),
-                                std::string(std::max<std::size_t>(width, 1), '^'));
-        mistakes_.texts.push_back(text);
+            text += show(line, column > 0 ? column - 1 : 0, std::max<std::size_t>(width, 1));
+        mistakes_.add(text);
+    }
+
+    // the line with carets under `width` characters from `at` on; of a long line what is around
+    std::string show(std::size_t line, std::size_t at, std::size_t width) const {
+        const std::string& all = lines_[line - 1];
+        const std::size_t first = at > kMostShown / 2 ? at - kMostShown / 2 : 0;
+        std::string part = all.substr(std::min(first, all.size()), kMostShown);
+        if (first + kMostShown < all.size()) part += "...";
+        return fmt::format("\n{:5} | {}\n      | {}{}", line, part, std::string(at - first, ' '),
+                           std::string(std::min(width, kMostShown), '^'));
+    }
+
+    static std::string shorten(const std::string& what) {
+        return what.size() <= 3 * kMostShown ? what : what.substr(0, 3 * kMostShown) + "...";
     }
 
     // `path` is the schema's name of a table, `label` the one with the group's number
@@ -82,6 +97,14 @@ private:
     void walk_repeated(const toml::array& rows, Values& values, std::size_t& groups) {
         const std::string& name = schema_.repeated_table;
         for (const toml::node& row : rows) {
+            if (groups >= kMostTables) {
+                complain(row.source(),
+                         fmt::format("more than {} [[{}]] tables; describe many floes by count, or "
+                                     "make a field of them with icefield",
+                                     kMostTables, name),
+                         1);
+                return;
+            }
             if (const auto* table = row.as_table())
                 walk(*table, name, name + "." + std::to_string(groups), values, groups);
             else
@@ -104,7 +127,9 @@ private:
                   const std::string& label, Values& values) {
         const Key* key = schema_.find(path);
         if (key == nullptr) {
-            const std::string near = schema_.nearest(path);
+            // what was meant is not looked for in thousands of keys, nor in very long ones
+            const bool worth = !mistakes_.full() && path.size() < kMostShown;
+            const std::string near = worth ? schema_.nearest(path) : "";
             complain(name.source(),
                      "unknown key '" + path + "'" +
                          (near.empty() ? "; " + schema_.program + " --print-defaults lists all keys"
@@ -290,7 +315,7 @@ Values read_override(const std::string& text, const Schema& schema, std::size_t 
                      Mistakes& mistakes) {
     const auto equals = text.find('=');
     if (equals == std::string::npos || equals == 0) {
-        mistakes.texts.push_back("--set " + text + ": error: write it as key=value");
+        mistakes.add("--set " + text + ": error: write it as key=value");
         return {};
     }
     const std::string key = text.substr(0, equals), value = text.substr(equals + 1);

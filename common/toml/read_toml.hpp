@@ -12,10 +12,22 @@
 namespace ice {
 
 /// Mistakes found so far, each "file:line:column: error: ..." with the line and a caret under it.
+/// Of a file full of them the first are kept, the others counted.
 struct Mistakes {
+    static constexpr std::size_t kMost = 20;
+
     std::vector<std::string> texts;
+    std::size_t more = 0;            ///< not kept
     std::set<std::string> bad_keys;  ///< keys given with a bad value: not missing as well
     std::map<std::string, std::string> places;  ///< "file:line:column" of each key given
+
+    bool full() const { return texts.size() >= kMost; }
+    void add(const std::string& text) {
+        if (full())
+            ++more;
+        else
+            texts.push_back(text);
+    }
 };
 
 /// Values of the keys given, checked against the schema. Keys of the repeated table carry its

@@ -28,9 +28,8 @@ public:
 private:
     void complain_at(std::string_view key, const std::string& what) {
         const auto place = mistakes_.places.find(std::string(key));
-        mistakes_.texts.push_back(
-            (place == mistakes_.places.end() ? file_.string() : place->second) +
-            ": error: " + what);
+        mistakes_.add((place == mistakes_.places.end() ? file_.string() : place->second) +
+                      ": error: " + what);
     }
 
     bool given(std::string_view key) const {
@@ -38,9 +37,8 @@ private:
     }
 
     void missing(std::string_view key, const std::string& who) {
-        mistakes_.texts.push_back(fmt::format("{}: error: required key '{}' is missing{} ({})",
-                                              file_.string(), key, who,
-                                              field_schema().find(key)->doc));
+        mistakes_.add(fmt::format("{}: error: required key '{}' is missing{} ({})", file_.string(),
+                                  key, who, field_schema().find(key)->doc));
     }
 
     void take(const FieldKey& key, FieldSpec& spec) {

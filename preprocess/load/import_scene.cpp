@@ -14,6 +14,7 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <new>
 #include <string_view>
 
 #include "common/base/error.hpp"
@@ -241,6 +242,9 @@ ImportedMesh import_scene(const std::filesystem::path& file) {
         check_faces(file, *scene);
         scene = importer.ApplyPostProcessing(aiProcess_Triangulate | aiProcess_SortByPType);
     }
+    // assimp catches what is none of its business
+    if (scene == nullptr && std::string_view(importer.GetErrorString()).ends_with("bad_alloc"))
+        throw std::bad_alloc();
     if (scene == nullptr || scene->mRootNode == nullptr)
         throw bad_input(file.string(),
                         fmt::format("cannot be read as a mesh ({})", importer.GetErrorString()),

@@ -21,6 +21,16 @@ void check_finite(const TriangleMesh& mesh, const std::filesystem::path& file) {
                             "repair or export the mesh again");
 }
 
+void check_area(const TriangleMesh& mesh, const std::filesystem::path& file) {
+    double area = 0.0;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) area += mesh.area_vector(t).norm();
+    if (area == 0.0)
+        throw bad_input(
+            file.string(),
+            fmt::format("has no area: its {} triangles are points or lines", mesh.triangles.size()),
+            "export the surface of a body as a mesh");
+}
+
 // Half a hull may reach a little beyond its centre plane (a shaft, a rudder), a whole one does so
 // by half its breadth.
 bool lies_on_both_sides(const TriangleMesh& mesh) {
@@ -57,6 +67,7 @@ TriangleMesh read_mesh(const std::filesystem::path& file, const ReadOptions& opt
     check_finite(mesh, file);
     if (mesh.triangles.empty())
         throw bad_input(file.string(), "holds no triangles", "export the hull's surface as a mesh");
+    check_area(mesh, file);
     ReadNotes unread;
     ReadNotes& noted = notes != nullptr ? *notes : unread;
     const Mat3 turn = choose_frame(mesh, said, options, noted).matrix();

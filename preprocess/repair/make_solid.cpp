@@ -211,6 +211,8 @@ private:
     TriangleMesh wrap(TriangleMesh mesh) {
         Repairs tried;  // on a copy, to learn the openings and which side is out
         const ClosedSurface closed = close_surface(mesh, options_, tried);
+        if (closed.open.triangles.empty())
+            throw refusal("the volume is zero", "export the surface of a body, not a flat sheet");
         const double alpha = std::max(diagonal(mesh) / 100.0, 0.75 * closed.widest);
         TriangleMesh wrapped = wrap_solid(closed.open, alpha, diagonal(mesh) / kWrapOffset);
         const SolidProof proof = verify_solid(wrapped);

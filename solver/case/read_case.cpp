@@ -97,16 +97,13 @@ public:
     }
 
 private:
-    void complain(const std::string& what) {
-        mistakes_.texts.push_back(file_.string() + ": error: " + what);
-    }
+    void complain(const std::string& what) { mistakes_.add(file_.string() + ": error: " + what); }
 
     // ... about a key that was given, at its place
     void complain_at(const std::string& label, const std::string& what) {
         const auto place = mistakes_.places.find(label);
-        mistakes_.texts.push_back(
-            (place == mistakes_.places.end() ? file_.string() : place->second) +
-            ": error: " + what);
+        mistakes_.add((place == mistakes_.places.end() ? file_.string() : place->second) +
+                      ": error: " + what);
     }
 
     // "floes.0.gap" as people count: floes.1.gap
@@ -278,12 +275,12 @@ void spread_to_groups(Values& values, std::size_t groups) {
 
 double Case::ship_speed(double time) const {
     if (time <= speed_table.front().first) return speed_table.front().second;
-    for (std::size_t k = 1; k < speed_table.size(); ++k) {
-        const auto& [t0, u0] = speed_table[k - 1];
-        const auto& [t1, u1] = speed_table[k];
-        if (time <= t1) return u0 + (u1 - u0) * (time - t0) / (t1 - t0);
-    }
-    return speed_table.back().second;
+    if (time > speed_table.back().first) return speed_table.back().second;
+    const auto after = std::lower_bound(speed_table.begin(), speed_table.end(), time,
+                                        [](const auto& row, double t) { return row.first < t; });
+    const auto& [t0, u0] = *(after - 1);
+    const auto& [t1, u1] = *after;
+    return u0 + (u1 - u0) * (time - t0) / (t1 - t0);
 }
 
 Case read_case(const std::filesystem::path& file, const std::vector<std::string>& overrides) {

@@ -62,6 +62,7 @@ std::int64_t CsvFile::flush() {
     out_.flush();
     if (!out_)
         throw run_failed(path_.string(), "cannot be written", "check that the disk is not full");
+    bring_to_disk(part_of(path_));
     return out_.tellp();
 }
 
@@ -75,10 +76,9 @@ void CsvFile::add(const std::vector<double>& row) {
 
 void CsvFile::finish() {
     out_.close();
-    std::error_code error;
-    std::filesystem::rename(part_of(path_), path_, error);
-    if (!out_ || error)
+    if (!out_)
         throw run_failed(path_.string(), "cannot be completed", "check that the disk is not full");
+    keep_file(part_of(path_), path_);
 }
 
 std::vector<double> csv_row(const HistoryRow& row) {

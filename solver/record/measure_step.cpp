@@ -52,6 +52,11 @@ StepRecord measure_step(const Scene& scene, const std::vector<Contact>& contacts
         const Constraint& c = constraints[k];
         const double normal = c.total_normal();
         out.max_overlap = std::max(out.max_overlap, -c.gap);
+        if (-c.approach > out.closing_speed) {
+            out.closing_speed = -c.approach;
+            out.closing_a = c.a;
+            out.closing_b = c.b;
+        }
         const bool ship = c.a == static_cast<std::int32_t>(kShip);
         if (ship) find_jam(scene, c, dt, out);
         if (normal <= 0.0) continue;

@@ -32,6 +32,9 @@ struct StepRecord {
     int jammed_contacts = 0;
     std::int32_t jammed_floe = 0;
     Vec3 jam_point = Vec3::Zero();
+
+    double closing_speed = 0.0;                 ///< largest at a contact before impact [m/s]
+    std::int32_t closing_a = 0, closing_b = 0;  ///< the bodies that met with it
 };
 
 /// Forces on one floe in a step.

@@ -9,6 +9,7 @@
 
 #include "common/base/state_hash.hpp"
 #include "common/base/version.hpp"
+#include "solver/scene/tunnelling_speed.hpp"
 
 namespace ice {
 
@@ -90,7 +91,8 @@ Recorder::Recorder(const Case& parameters, const Scene& scene)
     : parameters_(parameters),
       dt_(parameters.time_step),
       tally_({scene.shapes[0].region_names, parameters.average_from,
-              std::isinf(parameters.crushing_pressure), worrying_overlap(scene)}),
+              std::isinf(parameters.crushing_pressure), worrying_overlap(scene),
+              tunnelling_speed(scene, parameters.time_step)}),
       floe_forces_(scene.bodies.size()),
       tracked_sum_(parameters.track.size()),
       frame_impulse_(scene.bodies.size(), Vec3::Zero()) {}

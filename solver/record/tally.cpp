@@ -58,6 +58,12 @@ void Tally::add(const StepRecord& record, double time, double dt, bool converged
         max_overlap_ = record.max_overlap;
         deepest_time_ = time;
     }
+    if (record.closing_speed > closing_speed_) {
+        closing_speed_ = record.closing_speed;
+        closing_time_ = time;
+        closing_a_ = record.closing_a;
+        closing_b_ = record.closing_b;
+    }
     kinetic_ = record.kinetic_energy;
     kinetic_max_ = std::max(kinetic_max_, kinetic_);
     add_jam(record, time);
@@ -151,8 +157,18 @@ void Tally::warn(Summary& summary) const {
             "overlap reached {:.1f} mm at t = {:.2f} s: bodies were pushed through each other; "
             "lower time_step, raise contact.iterations or contact.crushing_pressure",
             1e3 * max_overlap_, deepest_time_));
+    warn_of_tunnelling(summary);
     if (contacts_max_ == 0.0)
         summary.warnings.push_back("nothing touched anything: is the hull on its way to the ice?");
+}
+
+void Tally::warn_of_tunnelling(Summary& summary) const {
+    if (closing_speed_ <= options_.tunnelling_speed) return;
+    summary.warnings.push_back(fmt::format(
+        "{} and floe {} met at {:.3g} m/s at t = {:.2f} s; above {:.3g} m/s, a contact sphere's "
+        "diameter per step, bodies may pass through each other: lower simulation.time_step",
+        closing_a_ == 0 ? std::string("the hull") : fmt::format("floe {}", closing_a_), closing_b_,
+        closing_speed_, closing_time_, options_.tunnelling_speed));
 }
 
 }  // namespace ice

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <limits>
 #include <set>
 #include <string>
 #include <utility>
@@ -18,6 +19,7 @@ struct TallyOptions {
     double average_from = 0.0;              ///< [s]; means use steps that end at or after it
     bool rigid = true;                      ///< contact.crushing_pressure is inf
     double worrying_overlap = 0.0;          ///< [m]; deeper ones are worth a warning
+    double tunnelling_speed = std::numeric_limits<double>::infinity();  ///< [m/s]; faster ones, too
 };
 
 /// Collects what summary.json states, step by step.
@@ -45,6 +47,7 @@ private:
     void add_jam(const StepRecord& record, double time);
 
     void warn(Summary& summary) const;
+    void warn_of_tunnelling(Summary& summary) const;
 
     TallyOptions options_;
     double averaged_time_ = 0.0;
@@ -54,8 +57,8 @@ private:
     std::int64_t steps_ = 0, unconverged_ = 0, jammed_steps_ = 0;
     double contacts_ = 0.0, contacts_max_ = 0.0, max_overlap_ = 0.0;
     double kinetic_ = 0.0, kinetic_max_ = 0.0;
-    double first_jam_time_ = 0.0, deepest_time_ = 0.0;
-    std::int32_t first_jam_floe_ = 0;
+    double first_jam_time_ = 0.0, deepest_time_ = 0.0, closing_speed_ = 0.0, closing_time_ = 0.0;
+    std::int32_t first_jam_floe_ = 0, closing_a_ = 0, closing_b_ = 0;
     Vec3 first_jam_point_ = Vec3::Zero();
 };
 

@@ -122,6 +122,17 @@ void check_case(const std::filesystem::path& path, const Identity& then, const I
         if (then.shapes[k] != now.shapes[k]) refuse(path, other_shapes(parameters, k));
 }
 
+// A seal is no proof of sense: what a faulty program sealed must not go on.
+void check_numbers(const std::filesystem::path& path, const Bodies& b) {
+    for (std::size_t i = 0; i < b.size(); ++i)
+        if (!b.position[i].allFinite() || !b.orientation[i].coeffs().allFinite() ||
+            !b.momentum[i].allFinite() || !b.angular_momentum[i].allFinite())
+            throw bad_input(path.string(),
+                            fmt::format("holds a NaN or infinity for {}",
+                                        i == kShip ? "the ship" : fmt::format("floe {}", i)),
+                            "restart from an earlier checkpoint, or run the case anew");
+}
+
 }  // namespace
 
 void write_checkpoint(const std::filesystem::path& path, World& world, Recorder& recorder,
@@ -153,6 +164,7 @@ SavedRun read_checkpoint(const std::filesystem::path& path, World& world) {
     StateFields::carry(file, saved.position);
     StateFields::carry(file, saved.progress);
     Bodies& b = world.scene.bodies;
+    check_numbers(path, b);
     for (std::size_t i = 0; i < b.size(); ++i) update_derived(b, i);
     list_moving(b);
     if (world.time > world.parameters.duration + 0.5 * world.parameters.time_step)

@@ -85,30 +85,6 @@ void fill_run(const World& w, double wall_seconds, Summary& s) {
         s.stage_seconds[kStageNames[k]] = w.stage_seconds[k];
 }
 
-// What two floes, or a floe and the hull, overlap at the start is pushed out with large forces that
-// say nothing about the ice: worth a warning that names the place.
-constexpr double kInitialOverlap = 1e-3;  // [m]
-
-std::optional<std::string> initial_overlap(const World& w) {
-    std::vector<BodyPair> pairs;
-    std::vector<Contact> contacts;
-    ContactFinder finder;
-    find_pairs(w.scene, 0.0, pairs);
-    finder.find(w.scene, pairs, w.parameters.normal, 0.0, 0.0, contacts);
-    const auto deepest =
-        std::min_element(contacts.begin(), contacts.end(),
-                         [](const Contact& l, const Contact& r) { return l.gap < r.gap; });
-    if (deepest == contacts.end() || deepest->gap > -kInitialOverlap) return std::nullopt;
-    const auto name = [](std::int32_t body) {
-        return body == 0 ? std::string("the hull") : fmt::format("floe {}", body);
-    };
-    return fmt::format(
-        "{} and {} overlap by {:.3g} m at the start, at x = {:.2f}, y = {:.2f}, z = {:.2f} m; move "
-        "the hull or widen floes.gap",
-        name(deepest->a), name(deepest->b), -deepest->gap, deepest->point.x(), deepest->point.y(),
-        deepest->point.z());
-}
-
 void write_summary(const World& w, const RunOptions& options, double wall_seconds, double thickness,
                    Recorder& recorder, Summary& summary) {
     recorder.finish(view_of(w), summary);
@@ -134,6 +110,13 @@ void remove_results(const std::filesystem::path& folder) {
     }
 }
 
+// Nothing half-written stays of a run that failed, unless a checkpoint can still make use of it.
+void remove_unfinished(const std::filesystem::path& folder) {
+    if (std::filesystem::exists(folder / kCheckpointName)) return;
+    remove_parts(folder);
+    remove_saved_rows(folder);
+}
+
 // A run on its way: what run() and its parts share.
 struct Job {
     World& world;
@@ -150,9 +133,9 @@ struct Job {
 };
 
 void start(Job& job) {
-    const World& w = job.world;
-    job.recorder.open(job.options.folder, job.options.command_line, w.scene);
-    if (const auto warning = initial_overlap(w)) job.progress.warnings = *warning + '\n';
+    job.recorder.open(job.options.folder, job.options.command_line, job.world.scene);
+    for (const std::string& warning : job.options.start_warnings)
+        job.progress.warnings += warning + '\n';
 }
 
 void go_on(Job& job, const SavedRun& saved) {
@@ -271,10 +254,11 @@ Summary run(World& world, const RunOptions& options) {
         try {
             write_summary(world, options, job.wall_seconds(), thickness, job.recorder, summary);
         } catch (const Error&) {
-            // nothing half-written stays, unless a checkpoint can still make use of it
-            if (!std::filesystem::exists(options.folder / kCheckpointName))
-                remove_parts(options.folder);
+            remove_unfinished(options.folder);
         }
+        throw;
+    } catch (...) {  // out of memory
+        remove_unfinished(options.folder);
         throw;
     }
     remove_parts(options.folder);  // of a program that was killed here before

@@ -18,6 +18,8 @@ struct RunOptions {
     std::string command_line;
     double checkpoint_every = 0.0;  ///< simulated seconds; 0: only when interrupted
     SavedRun* saved = nullptr;      ///< go on with this run; its recorder is taken over
+    std::vector<std::string> start_warnings =
+        {};               ///< of check_start(), for the summary; a line each
     bool verify = false;  ///< every step must balance (balance.hpp); the worst is in the summary
     /// Called after every step with (fraction done, world); false ends the run as "interrupted",
     /// with a checkpoint.

@@ -114,6 +114,10 @@ void StateFields::carry(CheckpointFile& file, Tally& t) {
     file.carry("tally.kinetic_max", t.kinetic_max_);
     file.carry("tally.first_jam_time", t.first_jam_time_);
     file.carry("tally.deepest_time", t.deepest_time_);
+    file.carry("tally.closing_speed", t.closing_speed_);
+    file.carry("tally.closing_time", t.closing_time_);
+    file.carry("tally.closing_a", t.closing_a_);
+    file.carry("tally.closing_b", t.closing_b_);
     file.carry("tally.first_jam_floe", t.first_jam_floe_);
     file.carry("tally.first_jam_point", t.first_jam_point_);
 }

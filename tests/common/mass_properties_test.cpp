@@ -67,3 +67,31 @@ TEST_CASE("an empty mesh and a flat one give zero volume without a division by i
     CHECK(mass.area == Approx(1.0));
     CHECK(mass.centroid.allFinite());
 }
+
+TEST_CASE("fault_of finds nothing wrong with solids, thin or far away, and names what none has",
+          "[geometry]") {
+    const auto box = [](double x, double y, double z) {
+        MassProperties solid;
+        solid.volume = x * y * z;
+        solid.area = 2.0 * (x * y + y * z + z * x);
+        solid.inertia =
+            solid.volume / 12.0 *
+            Vec3(y * y + z * z, x * x + z * z, x * x + y * y).asDiagonal().toDenseMatrix();
+        return solid;
+    };
+    CHECK(fault_of(box(1, 2, 3)).empty());
+    CHECK(fault_of(box(100, 1, 1e-4)).empty());  // a plate: I_3 = I_1 + I_2 to 1e-12
+    MassProperties bad = box(1, 2, 3);
+    bad.volume = 0.0;
+    CHECK(fault_of(bad) == "a volume of 0 m3");
+    bad = box(1, 2, 3);
+    bad.inertia(0, 0) = -1.0;
+    CHECK_THAT(fault_of(bad), Catch::Contains("a moment of inertia of -1 m5"));
+    // positive on the diagonal, yet not positive definite
+    bad = box(1, 1, 1);
+    bad.inertia(0, 1) = bad.inertia(1, 0) = 1.0;
+    CHECK_THAT(fault_of(bad), Catch::Contains("a moment of inertia of -"));
+    bad = box(1, 1, 1);
+    bad.inertia(2, 2) *= 2.1;
+    CHECK_THAT(fault_of(bad), Catch::Contains("one is above the sum of the others"));
+}

@@ -50,3 +50,28 @@ TEST_CASE("writing a text into a folder that does not exist is an error naming t
     write_text_file(folder / "x.csv", "1\n");
     CHECK(read_bytes(folder / "x.csv") == "1\n");
 }
+
+TEST_CASE("a program that ends without unwinding removes what is not finished, nothing else",
+          "[base]") {
+    const TempFolder folder;
+    PartFile unfinished(folder / "a.csv"), finished(folder / "b.csv");
+    write_bytes(unfinished.path(), "half");
+    write_bytes(finished.path(), "whole");
+    finished.keep();
+    write_bytes(finished.path(), "of somebody else");  // the name is no longer this program's
+    { const PartFile gone(folder / "c.csv"); }
+    write_bytes(folder / "c.csv.part", "of somebody else");
+    remove_part_files();
+    CHECK_FALSE(std::filesystem::exists(unfinished.path()));
+    CHECK(read_bytes(folder / "b.csv") == "whole");
+    CHECK(folder.file_count() == 3);
+}
+
+TEST_CASE("a file that cannot be brought to the disk keeps its .part name", "[base]") {
+    const TempFolder folder;
+    CHECK(bring_to_disk(folder.path()));
+    CHECK_FALSE(bring_to_disk(folder / "none"));
+    const std::string text = error_text([&] { keep_file(folder / "none.part", folder / "none"); });
+    CHECK_THAT(text, Catch::Contains("none: cannot be brought to the disk: No such file"));
+    CHECK_FALSE(std::filesystem::exists(folder / "none"));
+}

@@ -122,9 +122,21 @@ TEST_CASE("wrong lengths, radii, normals and indices are each named", "[formats]
     CHECK_THAT(spoiled([](SphereSet& s) { s.mesh.region.pop_back(); }),
                Catch::Contains("/mesh/region: has another length"));
     CHECK_THAT(spoiled([](SphereSet& s) { s.solid.volume = -1.0; }),
-               Catch::Contains("/solid volume: is not positive"));
+               Catch::Contains("/solid: has a volume of -1 m3"));
     CHECK_THAT(spoiled([](SphereSet& s) { s.solid.inertia.setZero(); }),
-               Catch::Contains("/solid: has an inertia that no solid has"));
+               Catch::Contains("/solid: has a moment of inertia of 0 m5"));
+    CHECK_THAT(spoiled([](SphereSet& s) { s.solid.inertia *= -1.0; }),
+               Catch::Contains("/solid: has a moment of inertia of -"));
+    CHECK_THAT(spoiled([](SphereSet& s) { s.solid.inertia(1, 1) *= 10.0; }),
+               Catch::Contains("one is above the sum of the others"));
+    CHECK_THAT(spoiled([](SphereSet& s) { s.solid.inertia(0, 1) += 1e-3; }),
+               Catch::Contains("/solid: has an inertia that is not symmetric"));
+    CHECK_THAT(spoiled([](SphereSet& s) { s.solid.inertia(0, 0) = kNan; }),
+               Catch::Contains("/solid: has an inertia that is no number"));
+    CHECK_THAT(spoiled([](SphereSet& s) { s.solid.centroid.x() = kNan; }),
+               Catch::Contains("/solid: has a centroid that is no number"));
+    CHECK_THAT(spoiled([](SphereSet& s) { s.solid.area = kNan; }),
+               Catch::Contains("/solid: has a surface of nan m2"));
     CHECK_THAT(spoiled([](SphereSet& s) { s.dimension = 4; }),
                Catch::Contains("dimension: is neither 2 nor 3"));
     CHECK_THAT(spoiled([](SphereSet& s) { s.radius = kNan; }),

@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "common/base/error.hpp"
+#include "common/toml/read_toml.hpp"
 #include "solver/case/case_schema.hpp"
 #include "solver/case/read_case.hpp"
 
@@ -218,4 +219,81 @@ TEST_CASE("pattern file takes a field, and its unbroken ice is a group of its ow
     CHECK(contains(
         complaint(with("spheres = \"floe.spheres.h5\"", "file = \"lost.h5\"\npattern = \"file\"")),
         "make it with icefield"));
+}
+
+TEST_CASE("every number of a case refuses NaN and, but for the crushing pressure, infinity",
+          "[case][errors]") {
+    int tried = 0;
+    for (const Key& key : case_schema().keys) {
+        for (const std::string number : {"nan", "+inf", "-inf"}) {
+            std::string value;
+            if (key.kind == Kind::number || key.kind == Kind::integer)
+                value = number;
+            else if (key.kind == Kind::vector || key.kind == Kind::place)
+                for (std::size_t k = 0; k < key.length; ++k)
+                    value += (k == 0 ? "[" : ", ") + number + (k + 1 == key.length ? "]" : "");
+            else if (key.kind == Kind::integer_list || key.kind == Kind::counts)
+                value = "[" + number + ", " + number + "]";
+            else if (key.kind == Kind::pair_list)
+                value = "[[0.0, " + number + "]]";
+            else
+                continue;
+            if (key.path == "contact.crushing_pressure" && number == "+inf") continue;
+            CAPTURE(key.path, value);
+            ++tried;
+            Mistakes mistakes;
+            const Values values =
+                read_override(std::string(key.path) + "=" + value, case_schema(), 1, mistakes);
+            CHECK(values.empty());
+            REQUIRE_FALSE(mistakes.texts.empty());
+            CHECK_THAT(mistakes.texts[0], Catch::Contains(std::string(key.path)));
+        }
+    }
+    CHECK(tried > 80);
+}
+
+TEST_CASE("of a file full of mistakes the first twenty are shown, the others counted",
+          "[case][errors]") {
+    std::string text;
+    for (int k = 0; k < 50; ++k) text += "wrong_" + std::to_string(k) + " = 1\n";
+    const CaseFolder folder(text + kGood);
+    try {
+        read_case(folder.file());
+        FAIL("accepted");
+    } catch (const Error& error) {
+        const std::string what = error.what();
+        CHECK_THAT(what, Catch::Contains("50 mistakes") && Catch::Contains("and 30 more"));
+        std::size_t shown = 0;
+        for (std::size_t at = 0; (at = what.find("unknown key", at)) != std::string::npos; ++at)
+            ++shown;
+        CHECK(shown == 20);
+    }
+}
+
+TEST_CASE("of a long line a message shows what is around the mistake", "[case][errors]") {
+    const CaseFolder folder(kGood + "[drag]\n" + std::string(5000, ' ') + "coefficient = 700 # " +
+                            std::string(5000, 'x') + "\n");
+    try {
+        read_case(folder.file());
+        FAIL("accepted");
+    } catch (const Error& error) {
+        const std::string what = error.what();
+        CHECK(what.size() < 800);
+        const auto value = what.find("700 # xxx"), caret = what.find('^');
+        REQUIRE(value != std::string::npos);
+        // the caret stands under the value
+        CHECK(caret - what.rfind('\n', caret) == value - what.rfind('\n', value));
+    }
+}
+
+TEST_CASE("the ship's speed between, on and beyond the rows of its table", "[case]") {
+    Case p;
+    p.speed_table = {{1.0, 2.0}, {2.0, 4.0}, {4.0, 0.0}};
+    CHECK(p.ship_speed(0.0) == 2.0);
+    CHECK(p.ship_speed(1.0) == 2.0);
+    CHECK(p.ship_speed(1.5) == 3.0);
+    CHECK(p.ship_speed(2.0) == 4.0);
+    CHECK(p.ship_speed(3.0) == 2.0);
+    CHECK(p.ship_speed(4.0) == 0.0);
+    CHECK(p.ship_speed(9.0) == 0.0);
 }

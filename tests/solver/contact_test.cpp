@@ -2,10 +2,13 @@
 // Impulses of single contacts against their closed forms.
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <limits>
 
+#include "solver/contact/overlaps.hpp"
 #include "solver/contact/solve_contacts.hpp"
 #include "solver/scene/build_scene.hpp"
 #include "tests/support/make_sphere_sets.hpp"
+#include "tests/support/make_worlds.hpp"
 
 using namespace ice;
 
@@ -177,4 +180,42 @@ TEST_CASE("a contact that can stop but not throw back its body leaves it at rest
     law.crushing_pressure = 0.9 * free.impulse.norm() / (0.01 * 0.01);
     const Outcome o = collide(again, contact, Vec3(1, 0, 0), Vec3(-1, 0, 0), law);
     CHECK(o.velocity_after.dot(contact.normal) == Approx(0.0).margin(kRounding));
+}
+
+TEST_CASE("a warm start's tangent lies in the new tangent plane and in its cone", "[contact]") {
+    std::vector<Contact> contacts(1);
+    contacts[0].b = 1;
+    contacts[0].key = 5;
+    std::vector<Constraint> last(1), now(1);
+    last[0].rest_normal = 2.0;
+    last[0].rest_tangent = Vec3(0.5, 0, 0);
+    WarmStart warm;
+    warm.remember(contacts, last);
+    now[0].normal = Vec3(1, 0, 1).normalized();
+    now[0].strength = std::numeric_limits<double>::infinity();
+    now[0].friction = 0.1;
+    warm.recall(contacts, now);
+    CHECK(now[0].rest_normal == 2.0);
+    // (1/2, 0, 0) less its part along the normal is (1/4, 0, -1/4), longer than 0.1 x 2 N s
+    CHECK((now[0].rest_tangent - 0.2 * Vec3(1, 0, -1).normalized()).norm() < 1e-15);
+}
+
+TEST_CASE("ice that two hull spheres crush in one place gives way once", "[contact][crushing]") {
+    World w = test::plate_world(test::empty_space(0.01), Vec3(4, 4, 0.4), 0.1, 0.2, 0.0);
+    const auto box = test::add_shape(w, test::make_box_set(Vec3(1, 1, 0.4), 0.05, 0.1));
+    add_floe(w.scene, box, 900.0, Vec3(0, 0, -0.19), Quaternion::Identity(), 0, false);
+    std::vector<Contact> contacts(2);
+    std::vector<Constraint> constraints(2);
+    for (std::size_t k = 0; k < 2; ++k) {
+        contacts[k].crushes_a = false;
+        contacts[k].sphere_b = 7;
+        constraints[k].a = 0;
+        constraints[k].b = 1;
+        constraints[k].normal = -Vec3::UnitZ();
+        constraints[k].arm_a = constraints[k].arm_b = Vec3::Zero();
+        constraints[k].gap = -0.01;
+        constraints[k].strength = constraints[k].impact_normal = 1.0;
+    }
+    Overlaps().crush(w.scene, contacts, constraints, 0.01);
+    CHECK((w.scene.crushed.recess_of(1, 7) - Vec3(0, 0, -0.01)).norm() < 1e-15);
 }

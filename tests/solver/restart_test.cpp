@@ -119,6 +119,65 @@ TEST_CASE("ice is crushed before the runs above are stopped and goes on being cr
     CHECK(crushed() > before);
 }
 
+namespace {
+
+// A plate squeezes a floe against unbroken ice, after another floe has flown into it at 12 m/s.
+World jam_world(const Case& parameters) {
+    World w = plate_world(parameters, Vec3(3, 2, 2), 0.1, 0.2, -1.0);
+    const auto box = add_shape(w, make_box_set(Vec3(0.5, 0.4, 0.2), 0.05, 0.1));
+    add_floe(w.scene, box, 900.0, Vec3(1.755, 0, 0), Quaternion::Identity(), 0, false);
+    add_floe(w.scene, box, 900.0, Vec3(2.262, 0, 0), Quaternion::Identity(), 1, true);
+    const std::size_t thrown =
+        add_floe(w.scene, box, 900.0, Vec3(0, 3, 0), Quaternion::Identity(), 0, false);
+    w.scene.bodies.momentum[thrown] = w.scene.bodies.mass[thrown] * Vec3(0, -12, 0);
+    update_derived(w.scene.bodies, thrown);
+    return w;
+}
+
+Case jam_case() {
+    Case p = empty_space(0.01);
+    p.duration = 0.4;
+    p.speed_table = {{0.0, 0.5}};
+    p.iterations = 50;
+    p.restitution = 0.0;
+    p.floes.push_back(p.floes[0]);
+    p.floes[1].hold = Hold::always;
+    p.resolved = "\n[simulation]\nduration = 0.4\n";
+    return p;
+}
+
+}  // namespace
+
+TEST_CASE("a run stopped in the middle of a jam has the summary of the whole run",
+          "[step][checkpoint]") {
+    const TempFolder folder;
+    const Case p = jam_case();
+    World whole = jam_world(p);
+    const Summary expected = run(whole, {folder / "whole", "first"});
+    const auto warned = [&](const char* words) {
+        return std::any_of(
+            expected.warnings.begin(), expected.warnings.end(),
+            [&](const std::string& text) { return text.find(words) != std::string::npos; });
+    };
+    // all that the tally remembers of a jam is there to be compared, and of bodies too fast
+    CHECK(warned("jam: in "));
+    CHECK(warned("first floe 1 at t = 0.0"));
+    CHECK(warned("mm at t = "));
+    CHECK(warned("the hull and floe 3 met at 12 m/s at t = "));
+
+    World w = jam_world(p);
+    RunOptions options{folder / "parts", "first"};
+    options.keep_going = [](double, const World& now) { return now.steps < 20; };
+    const Summary half = run(w, options);
+    REQUIRE(half.status == "interrupted");
+    World again = jam_world(p);
+    SavedRun saved = read_checkpoint(folder / "parts" / "checkpoint.h5", again);
+    RunOptions rest{folder / "parts", "first"};
+    rest.saved = &saved;
+    run(again, rest);
+    check_same_runs(folder / "whole", folder / "parts", {});
+}
+
 TEST_CASE("a run stopped three times, once in each folder, is still the same run",
           "[step][checkpoint]") {
     const TempFolder folder;
@@ -232,6 +291,23 @@ TEST_CASE("a checkpoint of another case or sphere set is refused with the key's 
     shorter.duration = 0.1;
     CHECK_THAT(text_of(shorter, 0.05),
                Catch::Contains("simulation.duration") && Catch::Contains("which is at 0.2 s"));
+}
+
+TEST_CASE("a checkpoint that holds a NaN is refused with the floe's number",
+          "[step][checkpoint][errors]") {
+    const TempFolder folder;
+    const Case p = pressed_row(kSoft);
+    World w = make_world(p);
+    Recorder recorder(p, w.scene);
+    recorder.open(folder.path(), "first", w.scene);
+    RunProgress progress;
+    w.scene.bodies.angular_momentum[2].y() = std::numeric_limits<double>::quiet_NaN();
+    write_checkpoint(folder / "checkpoint.h5", w, recorder, progress);
+    CHECK_THAT(error_text([&] {
+                   World again = make_world(p);
+                   read_checkpoint(folder / "checkpoint.h5", again);
+               }),
+               Catch::Contains("checkpoint.h5: holds a NaN or infinity for floe 2"));
 }
 
 TEST_CASE("a checkpoint is refused when any floe of a group has another form",

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Handlers may run at any moment: they take no memory and no locks.
+#include "common/cli/fault_handlers.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstring>
+#include <exception>
+#include <latch>
+#include <new>
+#include <thread>
+#include <vector>
+
+#include "common/base/error.hpp"
+#include "common/base/parallel.hpp"
+#include "common/base/part_file.hpp"
+
+namespace ice {
+
+const char* const kOutOfMemory =
+    "out of memory\n  use a larger radius or spacing, a smaller case or fewer --threads, or give "
+    "the program more memory (ulimit -v, the batch system's limit)";
+
+namespace {
+
+char program_name[64] = "";
+
+void write_text(const char* text) {
+    if (::write(STDERR_FILENO, text, std::strlen(text)) < 0) return;  // nobody is left to be told
+}
+
+[[noreturn]] void end(const char* text, ExitCode code) {
+    write_text(program_name);
+    write_text(": error: ");
+    write_text(text);
+    write_text("\n");
+    remove_part_files();
+    _exit(static_cast<int>(code));
+}
+
+[[noreturn]] void on_terminate() {
+    try {
+        if (std::current_exception()) std::rethrow_exception(std::current_exception());
+    } catch (const std::bad_alloc&) {
+        end(kOutOfMemory, ExitCode::failed);
+    } catch (const Error& error) {
+        end(error.what(), error.code());
+    } catch (const std::exception& error) {
+        write_text(error.what());
+        write_text("\n");
+    } catch (...) {
+    }
+    end("this is a fault of the program: please report it", ExitCode::failed);
+}
+
+void on_signal(int) { end("interrupted", ExitCode::interrupted); }
+
+}  // namespace
+
+void start_threads() {
+    const int others = thread_count() - 1;
+    std::vector<std::thread> trial;
+    const auto join = [&] {
+        for (std::thread& thread : trial) thread.join();
+    };
+    std::latch all_there(1);  // they must live at the same time
+    try {
+        for (int k = 0; k < others; ++k) trial.emplace_back([&] { all_there.wait(); });
+    } catch (...) {
+        all_there.count_down();
+        join();
+        throw;
+    }
+    all_there.count_down();
+    join();
+    parallel_tasks(static_cast<std::size_t>(thread_count()), true, [](std::size_t) {});
+}
+
+void install_fault_handlers(const std::string& program) {
+    const std::size_t length = std::min(program.size(), sizeof(program_name) - 1);
+    program.copy(program_name, length);
+    program_name[length] = '\0';
+    std::set_terminate(on_terminate);
+    std::signal(SIGINT, on_signal);
+    std::signal(SIGTERM, on_signal);
+    std::signal(SIGXFSZ, SIG_IGN);
+}
+
+}  // namespace ice

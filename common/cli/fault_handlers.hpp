@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+namespace ice {
+
+/// From now on a program ends with one message, the contract's exit code and no file half-written
+/// also where no exception reaches its main function:
+///
+/// - an exception in a thread or where none may leave (memory ran out in a parallel loop): 1;
+/// - SIGTERM and Ctrl-C, until the program catches them itself (catch_interrupts): 130;
+/// - files at the size limit of the shell or the batch system (SIGXFSZ, which would kill it) are
+///   written like those on a full disk, whose errors are checked.
+///
+/// Names of outputs under way (PartFile) are removed. @param program  for the messages; is copied
+void install_fault_handlers(const std::string& program);
+
+/// Starts all threads that parallel loops will use (set_thread_count), which then wait for work:
+/// OpenMP itself ends a program in the middle of it where a thread cannot start.
+/// @throws std::system_error when there is no room for them
+void start_threads();
+
+/// What a program says when memory runs out.
+extern const char* const kOutOfMemory;
+
+}  // namespace ice

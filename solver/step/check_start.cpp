@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/step/check_start.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "common/base/error.hpp"
+#include "common/base/parallel.hpp"
+#include "solver/scene/tunnelling_speed.hpp"
+#include "solver/shape/inside_solid.hpp"
+
+namespace ice {
+
+namespace {
+
+constexpr std::size_t kMostNamed = 5;      // pairs in a message
+constexpr std::size_t kMostMeasured = 64;  // points inside another body whose depth is taken
+
+const Shape& shape_of(const Scene& scene, std::int32_t body) {
+    return scene.shapes[static_cast<std::size_t>(scene.bodies.shape[body])];
+}
+
+double smallest_radius(const Shape& shape) {
+    return *std::min_element(shape.radius.begin(), shape.radius.end());
+}
+
+// All pairs whose bounds meet, held floes among them, but not unbroken ice with unbroken ice.
+std::vector<BodyPair> pairs_at_start(Scene& scene, const Case& parameters) {
+    Bodies& b = scene.bodies;
+    std::vector<BodyPair> pairs;
+    std::vector<std::uint8_t> all_free(b.size(), 0);
+    b.held.swap(all_free);  // or two held floes would be no pair
+    find_pairs(scene, 0.0, pairs);
+    b.held.swap(all_free);
+    const auto stays = [&](std::int32_t i) {
+        return i > 0 && parameters.floes[static_cast<std::size_t>(b.group[i])].hold == Hold::always;
+    };
+    std::erase_if(pairs, [&](const BodyPair& p) { return stays(p.a) && stays(p.b); });
+    return pairs;
+}
+
+// Where floes lie in heaps, some of the heap's overlaps are enough: floes that do not overlap have
+// some 30 others within their bounds at most.
+std::size_t most_worth_a_look(const Scene& scene) { return 1000 + 100 * scene.bodies.size(); }
+
+// A point of a body's axes in another one's.
+Vec3 carry_over(const Bodies& b, std::int32_t from, std::int32_t to, const Vec3& p) {
+    return b.rotation[to].transpose() * (b.position[from] + b.rotation[from] * p - b.position[to]);
+}
+
+// Can a sphere's centre of `body` lie inside `other`? Boxes only.
+bool may_reach(const Scene& scene, std::int32_t body, std::int32_t other) {
+    const Shape &shape = shape_of(scene, body), &solid = shape_of(scene, other);
+    Eigen::AlignedBox3d box;
+    for (int k = 0; k < 8; ++k)
+        box.extend(carry_over(scene.bodies, body, other,
+                              shape.box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(k))));
+    return solid.box.intersects(box) &&
+           solid.box.intersection(box).sizes().minCoeff() > 0.5 * smallest_radius(shape);
+}
+
+// How far below the surface a point inside a body lies, from the places that its spheres touch.
+double depth_below(const Shape& shape, const Vec3& p) {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < shape.center.size(); ++k)
+        least = std::min(least,
+                         (shape.center[k] + shape.radius[k] * shape.normal[k] - p).squaredNorm());
+    return std::sqrt(least);
+}
+
+// Spheres of `body` whose centres lie inside `other`: found deepest where they are.
+void find_spheres_inside(const Scene& scene, std::int32_t body, std::int32_t other,
+                         const InsideSolid& solid, StartOverlap& found) {
+    if (!may_reach(scene, body, other)) return;
+    const Shape& shape = shape_of(scene, body);
+    std::vector<std::size_t> inside;
+    for (std::size_t k = 0; k < shape.center.size(); ++k)
+        if (solid.contains(carry_over(scene.bodies, body, other, shape.center[k])))
+            inside.push_back(k);
+    if (inside.size() == shape.center.size()) found.inside = body;
+    const std::size_t stride = inside.size() / kMostMeasured + 1;
+    for (std::size_t n = 0; n < inside.size(); n += stride) {
+        const std::size_t k = inside[n];
+        const Vec3 p = carry_over(scene.bodies, body, other, shape.center[k]);
+        const double depth = depth_below(shape_of(scene, other), p) + shape.radius[k];
+        if (depth <= found.depth) continue;
+        found.depth = depth;
+        found.point = scene.bodies.position[other] + scene.bodies.rotation[other] * p;
+    }
+}
+
+std::string name_of(std::int32_t body) {
+    return body == 0 ? std::string("the hull") : fmt::format("floe {}", body);
+}
+
+std::string describe(const StartOverlap& o) {
+    const std::string who = o.inside < 0
+                                ? fmt::format("{} and {}", name_of(o.a), name_of(o.b))
+                                : fmt::format("{} lies wholly inside {}: they", name_of(o.inside),
+                                              name_of(o.inside == o.a ? o.b : o.a));
+    return fmt::format(
+        "{} overlap by {:.3g} m at the start, at x = {:.2f}, y = {:.2f}, z = {:.2f} m", who,
+        o.depth, o.point.x(), o.point.y(), o.point.z());
+}
+
+std::string describe(const std::vector<StartOverlap>& overlaps, const char* separator) {
+    std::string text;
+    for (std::size_t k = 0; k < std::min(overlaps.size(), kMostNamed); ++k)
+        text += (k > 0 ? separator : "") + describe(overlaps[k]);
+    if (overlaps.size() > kMostNamed)
+        text += fmt::format("{}and {} pairs more", separator, overlaps.size() - kMostNamed);
+    return text;
+}
+
+void warn_of_speed(const World& w, std::vector<std::string>& warnings) {
+    const Case& p = w.parameters;
+    const double limit = tunnelling_speed(w.scene, p.time_step);
+    // rows of the table beyond the end are never reached: the end itself counts instead
+    double ship = std::abs(p.ship_speed(p.duration));
+    for (const auto& [time, speed] : p.speed_table)
+        if (time <= p.duration) ship = std::max(ship, std::abs(speed));
+    double fastest = ship;
+    std::int32_t who = 0;
+    const Bodies& b = w.scene.bodies;
+    for (std::size_t i = 1; i < b.size(); ++i) {
+        const double speed = (b.velocity[i] - b.velocity[kShip]).norm();
+        if (speed <= fastest) continue;
+        fastest = speed;
+        who = static_cast<std::int32_t>(i);
+    }
+    if (fastest <= limit) return;
+    warnings.push_back(fmt::format(
+        "{} goes {:.3g} m/s, but bodies may pass through each other above {:.3g} m/s, where they "
+        "go a contact sphere's diameter within a step: lower simulation.time_step to {:.2g} s",
+        who == 0 ? "the ship" : name_of(who) + ", seen from the ship,", fastest, limit,
+        p.time_step * limit / fastest));
+}
+
+}  // namespace
+
+std::vector<StartOverlap> find_start_overlaps(Scene& scene, const Case& parameters) {
+    std::vector<BodyPair> pairs = pairs_at_start(scene, parameters);
+    std::vector<InsideSolid> solids;
+    for (const Shape& shape : scene.shapes) solids.emplace_back(shape.mesh);
+    pairs.resize(std::min(pairs.size(), most_worth_a_look(scene)));
+    std::vector<StartOverlap> found(pairs.size());
+    const auto solid_of = [&](std::int32_t i) -> const InsideSolid& {
+        return solids[static_cast<std::size_t>(scene.bodies.shape[i])];
+    };
+    parallel_for(pairs.size(), 2, [&](std::size_t k) {
+        const auto [a, b] = pairs[k];
+        found[k] = {a, b, 0.0, Vec3::Zero()};
+        find_spheres_inside(scene, a, b, solid_of(b), found[k]);
+        find_spheres_inside(scene, b, a, solid_of(a), found[k]);
+    });
+
+    std::vector<Contact> contacts;
+    ContactFinder().find(scene, pairs, parameters.normal, 0.0, 0.0, contacts);
+    std::size_t k = 0;
+    for (const Contact& c : contacts) {
+        while (found[k].a != c.a || found[k].b != c.b) ++k;  // both in the order of the pairs
+        // planes of faces go on beyond the corner where faces end: there a gap below zero is none
+        const auto holds = [&](std::int32_t i) {
+            return solid_of(i).contains(scene.bodies.rotation[i].transpose() *
+                                        (c.point - scene.bodies.position[i]));
+        };
+        if (-c.gap <= found[k].depth || !holds(c.a) || !holds(c.b)) continue;
+        found[k].depth = -c.gap;
+        found[k].point = c.point;
+    }
+    std::erase_if(found, [&](const StartOverlap& o) {
+        return o.depth <= kToleratedOverlap * std::min(smallest_radius(shape_of(scene, o.a)),
+                                                       smallest_radius(shape_of(scene, o.b)));
+    });
+    std::stable_sort(found.begin(), found.end(),
+                     [](const auto& l, const auto& r) { return l.depth > r.depth; });
+    return found;
+}
+
+std::vector<std::string> check_start(World& world, bool allow_overlap) {
+    std::vector<std::string> warnings;
+    const auto overlaps = find_start_overlaps(world.scene, world.parameters);
+    if (!overlaps.empty() && !allow_overlap)
+        throw bad_input(world.parameters.file.string(), describe(overlaps, "\n  "),
+                        "move the hull (hull.position), widen floes.gap or lower "
+                        "simulation.jitter; --allow-overlap goes on all the same");
+    if (!overlaps.empty()) warnings.push_back(describe(overlaps, "; "));
+    warn_of_speed(world, warnings);
+    return warnings;
+}
+
+}  // namespace ice

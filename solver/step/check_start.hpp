@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// What is wrong with a case before its first step: bodies in each other, steps too long.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "solver/step/step.hpp"
+
+namespace ice {
+
+/// Two bodies that share room at the start; a < b, so the hull is a = 0.
+struct StartOverlap {
+    std::int32_t a, b;
+    double depth;              ///< of one below the surface of the other, about [m]
+    Vec3 point;                ///< where it is deepest, world axes [m]
+    std::int32_t inside = -1;  ///< the body that lies wholly inside the other one; -1: neither
+};
+
+/// Overlap that a case may begin with, as a share of the smallest contact sphere's radius: what
+/// places rounded to a millimetre and normals rounded to floats make of floes that touch. The first
+/// steps move so little apart without a force worth speaking of. The spheres add nothing to it:
+/// they stay within their solid to 1e-6 of the radius.
+constexpr double kToleratedOverlap = 0.02;
+
+/// All pairs of bodies that overlap by more than is tolerated, the deepest first.
+///
+/// Surfaces are compared as in a step, and, since a body deep inside another one meets no surface
+/// there, spheres of each body with the other one's solid. Floes that are held count, too; unbroken
+/// ice (hold "always") may overlap unbroken ice.
+/// @param scene  unchanged at the end
+std::vector<StartOverlap> find_start_overlaps(Scene& scene, const Case& parameters);
+
+/// Looks at a world that was just built.
+/// @return warnings: the ship or a floe is faster than tunnelling_speed; overlaps, where allowed
+/// @throws Error (exit code 2) naming the bodies that overlap, how deep and where, unless
+///         `allow_overlap`
+std::vector<std::string> check_start(World& world, bool allow_overlap);
+
+}  // namespace ice

@@ -1,0 +1,257 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Makes the world around the four programs fail; exit code 1 if one does not end as it should.
+
+    python3 tests/faults/faults.py --bin build/release/bin [--fault NAME]... [--repetitions 100]
+
+README.md says what is done and what must come of it.
+"""
+import argparse
+import os
+import resource
+import shutil
+import signal
+import stat
+import subprocess
+import sys
+import tempfile
+
+from jobs import JOBS, MESHES, Workshop, has_remedy
+from kills import sigkill, sigterm
+
+NOBODY = 65534
+SKIPPED = 77  # ctest's SKIP_RETURN_CODE
+FAULTS = {}
+
+
+class Skip(Exception):
+    """The machine does not let this fault be made."""
+
+
+def fault(function):
+    FAULTS[function.__name__.replace("_", "-")] = function
+    return function
+
+
+def as_nobody():
+    """Root may read and write everything: the programs run as somebody else then."""
+    if os.getuid() == 0:
+        os.setgroups([])
+        os.setgid(NOBODY)
+        os.setuid(NOBODY)
+
+
+def limit(kind, amount):
+    """For preexec_fn: a limit of the process, as a shell's or a batch system's ulimit sets it."""
+    def apply():
+        resource.setrlimit(kind, (amount, amount))
+    return apply
+
+
+@fault
+def file_size_limit(shop, _):
+    """Every output stops growing at a limit, from nothing to the size of the largest one."""
+    wrong = []
+    for job in JOBS:
+        largest = max(len(data) for data in shop.good[job.name].values())
+        limits = sorted({0, 1, 100, 700, 2048, 4096, 10000} |
+                        {largest * k // 8 for k in range(1, 8)})
+        for amount in [n for n in limits if n < largest] + [8 * largest + (1 << 20)]:
+            folder = shop.new_folder()
+            done = shop.run(job.words, folder, preexec_fn=limit(resource.RLIMIT_FSIZE, amount))
+            found = shop.faults(job, folder, done)
+            if amount < largest and done.code == 0:
+                found.append("exit code 0 though not all can have been written")
+            if amount > largest and done.code != 0:
+                found.append(f"exit code {done.code} though there was room: {done.message}")
+            wrong += [f"{job.name} with {amount} bytes a file: {text}" for text in found]
+    return wrong
+
+
+@fault
+def disk_full(shop, _):
+    """A file system of a few pages: no room, room for some of the outputs, room for all."""
+    wrong = []
+    for job in JOBS:
+        total = sum(len(data) for data in shop.good[job.name].values())
+        for share in (0.05, 0.3, 0.6, 0.9, 20.0):
+            folder = shop.new_folder()
+            size = max(int(share * total) // 4096, 2) * 4096 + (1 << 21 if share > 1 else 0)
+            mount = subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={size}", "tmpfs", folder],
+                                   capture_output=True, check=False)
+            if mount.returncode != 0:
+                raise Skip("mount: " + mount.stderr.decode("utf-8", "replace").strip())
+            try:
+                done = shop.run(job.words, folder)
+                found = shop.faults(job, folder, done)
+            finally:
+                subprocess.run(["umount", folder], check=True)
+            if share > 1 and done.code != 0:
+                found.append(f"exit code {done.code} though there was room: {done.message}")
+            if size < total and done.code == 0:
+                found.append("exit code 0 though not all can have been written")
+            wrong += [f"{job.name} on {size} bytes: {text}" for text in found]
+    return wrong
+
+
+@fault
+def stdout_full(shop, _):
+    """Data on standard output that cannot be written are no success."""
+    wrong = []
+    for words in (["spherize", "../in/floe.obj", "-o", "x.h5"],
+                  ["spherize", "../in/floe.obj", "--check"],
+                  ["icefield", "--print-defaults"], ["icefield", "../in/field.toml", "-o", "y.h5"],
+                  ["icesolve", "--print-schema"], ["icesolve", "--explain", "hull.speed"],
+                  ["icesolve", "../in/case.cfg", "--json", "-q", "--out", "r", "--no-report"],
+                  ["icepost", "check", "../in/run", "../in/expected.toml"],
+                  ["icepost", "table", "../in/run"]):
+        with open("/dev/full", "wb") as full:
+            done = shop.run(words, shop.new_folder(), stdout=full)
+        if done.code != 1 or "standard output" not in done.message:
+            wrong.append(f"{' '.join(words)}: exit code {done.code}, {done.message!r}")
+    return wrong
+
+
+@fault
+def read_only_folder(shop, _):
+    """Nothing can be created in the folder of the outputs, or what should be a folder is a file."""
+    wrong = []
+    for job in JOBS:
+        folder = shop.new_folder()
+        os.chmod(folder, 0o555)
+        done = shop.run(job.words, folder, preexec_fn=as_nobody)
+        found = shop.faults(job, folder, done)
+        if done.code != 1:
+            found.append(f"exit code {done.code}, not 1")
+        wrong += [f"{job.name} in a read-only folder: {text}" for text in found]
+    for words, option in ((["spherize", "../in/floe.obj"], "-o"),
+                          (["icefield", "../in/field.toml"], "-o"),
+                          (["icesolve", "../in/case.cfg"], "--out"),
+                          (["icepost", "plot", "../in/run"], "-o"),
+                          (["icepost", "paraview", "../in/run"], "-o")):
+        for target in ("../in/floe.obj/x", "missing/x/y.h5", "/proc/x"):
+            if option == "--out" and target.startswith("missing"):
+                continue  # icesolve makes its folder
+            if words[1] == "paraview" and target.startswith("missing"):
+                continue  # and so does this
+            folder = shop.new_folder()
+            done = shop.run([*words, option, target], folder)
+            name = os.path.basename(target)
+            if done.code != 1 or not has_remedy(done.message) or name not in done.message:
+                wrong.append(f"{words} {option} {target}: exit code {done.code}, {done.message!r}")
+    return wrong
+
+
+@fault
+def unreadable_file(shop, _):
+    """An input without permission, a folder in its place, or nothing."""
+    wrong = []
+    for job in JOBS:
+        for name in job.inputs:
+            path = os.path.join(shop.inputs, name)
+            kept = path + ".kept"
+            for way in ("no permission", "a folder", "missing"):
+                os.rename(path, kept)
+                try:
+                    if way == "no permission":
+                        shutil.copy(kept, path)
+                        os.chmod(path, 0)
+                    elif way == "a folder":
+                        os.mkdir(path)
+                    folder = shop.new_folder()
+                    os.chmod(folder, 0o777)
+                    done = shop.run(job.words, folder, preexec_fn=as_nobody)
+                finally:
+                    if os.path.isdir(path):
+                        os.rmdir(path)
+                    elif os.path.exists(path):
+                        os.remove(path)
+                    os.rename(kept, path)
+                if name == "run/summary.json" and job.name == "icepost report" and done.code == 0:
+                    continue  # of a killed run there is none: the report says so
+                found = shop.faults(job, folder, done)
+                if done.code not in (1, 2) or os.path.basename(name) not in done.message:
+                    found.append(f"exit code {done.code} without the file's name: {done.message!r}")
+                wrong += [f"{job.name}, {name}: {way}: {text}" for text in found]
+    return wrong
+
+
+def starts(shop, words, folder, amount):
+    done = shop.run([words[0], "--version"], folder, preexec_fn=limit(resource.RLIMIT_AS, amount))
+    return done.code == 0
+
+
+@fault
+def out_of_memory(shop, _):
+    """Address space from what the program needs to start at all to what its job needs."""
+    wrong = []
+    for job in JOBS:
+        words = job.words
+        folder = shop.new_folder()
+        low = 8 << 20
+        while not starts(shop, words, folder, low):
+            low += 2 << 20
+        ended, amount = False, low
+        while not ended:
+            amount += max(1 << 20, (amount - low) // 6)
+            folder = shop.new_folder()
+            done = shop.run(words, folder, preexec_fn=limit(resource.RLIMIT_AS, amount))
+            ended = done.code == 0
+            found = shop.faults(job, folder, done)
+            if not ended and "memory" not in done.message:
+                found.append(f"exit code {done.code} without a word of memory: {done.message!r}")
+            wrong += [f"{job.name} with {amount >> 20} MB: {text}" for text in found]
+            if amount > 64 << 30:
+                return wrong + [f"{job.name} never succeeds"]
+    return wrong
+
+
+FAULTS["sigterm"] = sigterm
+FAULTS["sigkill"] = sigkill
+
+
+def private_binaries(source, folder):
+    """Copies that somebody else may run, wherever the build lies."""
+    target = os.path.join(folder, "bin")
+    os.mkdir(target)
+    for name in ("spherize", "icefield", "icesolve", "icepost"):
+        shutil.copy(os.path.join(source, name), target)
+        os.chmod(os.path.join(target, name), stat.S_IRWXU | 0o055)
+    return target
+
+
+def main():
+    parser = argparse.ArgumentParser(description="Makes the world around the programs fail.")
+    parser.add_argument("--bin", required=True, metavar="DIR", help="where the programs lie")
+    parser.add_argument("--fault", action="append", choices=sorted(FAULTS), default=[],
+                        help="only this one; repeatable")
+    parser.add_argument("--repetitions", type=int, default=100, help="of sigkill (%(default)s)")
+    parser.add_argument("--seed", type=int, default=1, help="of the times (%(default)s)")
+    parser.add_argument("--examples", type=int, default=10, help="shown per fault (%(default)s)")
+    options = parser.parse_args()
+    os.environ.update(OMP_NUM_THREADS="2", LC_ALL="C")
+    signal.signal(signal.SIGXFSZ, signal.SIG_DFL)  # Python's own setting is no user's
+    sound, skipped = True, False
+    with tempfile.TemporaryDirectory() as folder:
+        os.chmod(folder, 0o755)
+        shop = Workshop(folder, private_binaries(options.bin, folder))
+        for name in options.fault or FAULTS:
+            try:
+                wrong = FAULTS[name](shop, options)
+            except Skip as reason:
+                print(f"{name}: skipped, {reason}")
+                skipped = True
+                continue
+            print(f"{name}: {'all good' if not wrong else f'{len(wrong)} wrong'}")
+            for text in wrong[:options.examples]:
+                print("    " + text)
+            sys.stdout.flush()
+            sound = sound and not wrong
+    if not sound:
+        return 1
+    return SKIPPED if skipped and options.fault else 0
+
+
+if __name__ == "__main__":
+    assert os.path.isdir(MESHES)
+    sys.exit(main())

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What is said of a case before its first step: bodies in each other, steps too long.
+#include <catch2/catch.hpp>
+#include <random>
+
+#include "solver/scene/tunnelling_speed.hpp"
+#include "solver/shape/inside_solid.hpp"
+#include "solver/step/check_start.hpp"
+#include "tests/common/fixtures.hpp"
+#include "tests/support/make_worlds.hpp"
+
+using namespace ice;
+using namespace ice::test;
+
+namespace {
+
+constexpr double kRadius = 0.05, kSpacing = 0.1;  // of all floes here [m]
+
+// A hull of 4 x 2 x 1 m with its bottom at z = 0, and floes of 1 x 1 x 0.4 m where they are wanted.
+World world_of(const std::vector<Vec3>& places, bool held = false) {
+    Case p = empty_space(0.01);
+    p.file = "case.cfg";
+    World w = plate_world(p, Vec3(4, 2, 1), 0.1, 0.2, 0.0);
+    const auto row = add_shape(w, make_box_set(Vec3(1, 1, 0.4), kRadius, kSpacing));
+    for (const Vec3& place : places)
+        add_floe(w.scene, row, 900.0, place, Quaternion::Identity(), 0, held);
+    return w;
+}
+
+std::vector<StartOverlap> overlaps_of(World& w) {
+    return find_start_overlaps(w.scene, w.parameters);
+}
+
+}  // namespace
+
+TEST_CASE("a point is inside a box exactly where its coordinates say so", "[shape]") {
+    const TriangleMesh mesh = make_box_mesh(Vec3(2, 1, 0.5));
+    const InsideSolid solid(mesh);
+    std::mt19937 draw(7);
+    std::uniform_real_distribution<double> at(-1.2, 1.2);
+    int inside = 0;
+    for (int k = 0; k < 10000; ++k) {
+        const Vec3 p(at(draw), at(draw), at(draw));
+        const bool expected =
+            std::abs(p.x()) < 1 && std::abs(p.y()) < 0.5 && std::abs(p.z()) < 0.25;
+        REQUIRE(solid.contains(p) == expected);
+        inside += expected;
+    }
+    CHECK(inside > 200);
+    // lines through edges, corners and the diagonals of faces
+    for (const double x : {-0.5, 0.0, 0.5})
+        for (const double y : {-0.25, 0.0, 0.25}) {
+            CAPTURE(x, y);
+            CHECK(solid.contains(Vec3(x, y, 0.1)));
+            CHECK_FALSE(solid.contains(Vec3(2.0 * x + 0.001, y, 0.3)));
+        }
+    CHECK_FALSE(InsideSolid(TriangleMesh{}).contains(Vec3::Zero()));
+}
+
+TEST_CASE("in an open mesh nothing is inside", "[shape][errors]") {
+    TriangleMesh mesh = make_box_mesh(Vec3(2, 1, 0.5));
+    std::erase_if(mesh.triangles, [&](const auto& t) {  // the bottom
+        return std::all_of(t.begin(), t.end(), [&](int v) { return mesh.vertices[v].z() < 0; });
+    });
+    const InsideSolid solid(mesh);
+    CHECK_FALSE(solid.contains(Vec3(0.1, 0.2, 0.05)));
+}
+
+TEST_CASE("floes that touch or stand apart do not overlap at the start", "[step]") {
+    const double apart = GENERATE(0.0, 1e-9, 0.3);
+    const bool held = GENERATE(false, true);
+    World w = world_of({Vec3(0, 0, -0.2 - apart), Vec3(1 + apart, 0, -0.2 - apart),
+                        Vec3(0, -1 - apart, -0.2 - apart)},
+                       held);
+    CHECK(overlaps_of(w).empty());
+    CHECK(check_start(w, false).empty());
+}
+
+TEST_CASE("a floe that reaches into its neighbour is named with the depth", "[step][errors]") {
+    // from just above the tolerance, 0.02 x 0.05 m, to deeper than the spheres
+    const double depth = GENERATE(0.0011, 0.003, 0.03, 0.2, 0.35);
+    const bool held = GENERATE(false, true);
+    CAPTURE(depth, held);
+    World w = world_of({Vec3(0, 0, -1), Vec3(1 - depth, 0, -1), Vec3(0, 3, -1)}, held);
+    const auto found = overlaps_of(w);
+    REQUIRE(found.size() == 1);
+    CHECK(found[0].a == 1);
+    CHECK(found[0].b == 2);
+    // below the nearest face, which may be the upper one: the floes are 0.4 m thick; from places
+    // that spheres touch, half a spacing aside at worst
+    CHECK(found[0].depth ==
+          Approx(std::min(depth, 0.2)).margin(depth < kRadius ? 1e-6 : 0.5 * kSpacing));
+    const std::string text = error_text([&] { check_start(w, false); });
+    CHECK_THAT(text, Catch::StartsWith("case.cfg: floe 1 and floe 2 overlap by") &&
+                         Catch::Contains("at the start, at x = ") && Catch::Contains("floes.gap") &&
+                         Catch::Contains("--allow-overlap"));
+    const auto warnings = check_start(w, true);
+    REQUIRE(warnings.size() == 1);
+    CHECK_THAT(warnings[0], Catch::StartsWith("floe 1 and floe 2 overlap by"));
+}
+
+TEST_CASE("overlap up to a fiftieth of the spheres' radius is tolerated", "[step]") {
+    World w = world_of({Vec3(0, 0, -1), Vec3(1 - 0.0009, 0, -1)});
+    CHECK(overlaps_of(w).empty());
+}
+
+TEST_CASE("a floe wholly inside the hull, where no surfaces meet, is named", "[step][errors]") {
+    World w = world_of({Vec3(5, 0, -1), Vec3(0.3, 0.1, 0.5)});
+    const auto found = overlaps_of(w);
+    REQUIRE(found.size() == 1);
+    CHECK(found[0].a == 0);
+    CHECK(found[0].b == 2);
+    CHECK(found[0].inside == 2);
+    CHECK_THAT(error_text([&] { check_start(w, false); }),
+               Catch::Contains("floe 2 lies wholly inside the hull: they overlap by"));
+}
+
+TEST_CASE("a floe inside another one, and two in the same place, are named", "[step][errors]") {
+    World w = world_of({Vec3(0, 3, -1), Vec3(0, 3, -1), Vec3(5, 0, -1)}, true);
+    const auto big = add_shape(w, make_box_set(Vec3(3, 3, 2), 0.1, 0.2));
+    add_floe(w.scene, big, 900.0, Vec3(5, 0, -1), Quaternion::Identity(), 0, true);
+    const auto found = overlaps_of(w);
+    REQUIRE(found.size() == 2);
+    CHECK(found[0].a == 3);
+    CHECK(found[0].b == 4);
+    CHECK(found[0].inside == 3);
+    CHECK(found[1].a == 1);
+    CHECK(found[1].b == 2);
+    CHECK(found[1].inside >= 1);
+}
+
+TEST_CASE("unbroken ice may overlap unbroken ice, but no floe", "[step]") {
+    World w = world_of({Vec3(0, 3, -1), Vec3(0.5, 3, -1)}, true);
+    w.parameters.floes[0].hold = Hold::always;
+    CHECK(overlaps_of(w).empty());
+    w.parameters.floes.push_back(w.parameters.floes[0]);
+    w.parameters.floes[1].hold = Hold::never;
+    w.scene.bodies.group[2] = 1;
+    CHECK(overlaps_of(w).size() == 1);
+}
+
+TEST_CASE("looking for overlaps changes nothing", "[step]") {
+    World w = world_of({Vec3(0, 0, -0.1), Vec3(0.9, 0, -1)}, true);
+    const auto held = w.scene.bodies.held;
+    CHECK_FALSE(overlaps_of(w).empty());
+    CHECK(w.scene.bodies.held == held);
+    CHECK(w.scene.bodies.moving.empty());
+}
+
+TEST_CASE("many overlaps are counted, the deepest five are named", "[step][errors]") {
+    std::vector<Vec3> places;
+    for (int k = 0; k < 8; ++k) places.emplace_back(0.9 * k, 5.0, -1.0);
+    World w = world_of(places);
+    const std::string text = error_text([&] { check_start(w, false); });
+    CHECK(std::count(text.begin(), text.end(), '\n') == 6);
+    CHECK_THAT(text, Catch::Contains("and 2 pairs more"));
+}
+
+TEST_CASE("a ship or floe that goes a sphere's diameter in a step is warned of, with the limit",
+          "[step]") {
+    World w = world_of({Vec3(0, 5, -1)});
+    CHECK(tunnelling_speed(w.scene, 0.01) == Approx(10.0));  // 2 x 0.05 m / 0.01 s
+    w.parameters.speed_table = {{0.0, 9.9}};
+    CHECK(check_start(w, false).empty());
+    w.parameters.duration = 10.0;
+    w.parameters.speed_table = {{0.0, 1.0}, {10.0, -20.0}, {20.0, 49.0}};
+    auto warnings = check_start(w, false);
+    REQUIRE(warnings.size() == 1);
+    CHECK_THAT(warnings[0], Catch::Contains("the ship goes 20 m/s") &&
+                                Catch::Contains("above 10 m/s") &&
+                                Catch::Contains("simulation.time_step to 0.005 s"));
+    w.parameters.speed_table = {{0.0, 1.0}};
+    w.scene.bodies.velocity[1] = Vec3(0, 0, 12.0);
+    warnings = check_start(w, false);
+    REQUIRE(warnings.size() == 1);
+    CHECK_THAT(warnings[0], Catch::Contains("floe 1, seen from the ship, goes 12 m/s"));
+}
