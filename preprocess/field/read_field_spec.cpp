@@ -72,7 +72,8 @@ private:
         };
         for (const std::string_view key : mine->required)
             if (!given(key)) missing(key, fmt::format(" for pattern \"{}\"", name));
-        for (const auto& [key, value] : values_) {
+        for (const auto& entry : values_) {
+            const std::string& key = entry.first;
             const bool others = std::any_of(all.begin(), all.end(),
                                             [&](const PatternKeys& p) { return lists(p, key); });
             if (others && !lists(*mine, key))
