@@ -16,6 +16,8 @@ namespace ice {
 
 namespace {
 
+constexpr std::size_t kMostGroups = 10000;  // repeated tables
+
 class Document {
 public:
     Document(const std::string& text, std::string name, const Schema& schema, Mistakes& mistakes)
@@ -39,13 +41,19 @@ public:
 
 private:
     void complain(const toml::source_region& where, const std::string& what, std::size_t width) {
+        constexpr std::size_t kShown = 160;  // columns of a longer line, those about the mistake
         const auto line = where.begin.line, column = where.begin.column;
         std::string text = fmt::format("{}:{}:{}: error: {}", name_, line, column, what);
-        if (line >= 1 && line <= lines_.size())
-            text += fmt::format("\n{:5} | {}\n      | {}{}", line, lines_[line - 1],
-                                std::string(column > 0 ? column - 1 : 0, ' '),
-                                std::string(std::max<std::size_t>(width, 1), '^'));
-        mistakes_.texts.push_back(text);
+        if (line >= 1 && line <= lines_.size()) {
+            const std::string& all = lines_[line - 1];
+            const std::size_t at = column > 0 ? column - 1 : 0;
+            const std::size_t first = all.size() > kShown && at > kShown / 2 ? at - kShown / 2 : 0;
+            text += fmt::format("\n{:5} | {}\n      | {}{}", line,
+                                all.substr(std::min(first, all.size()), kShown),
+                                std::string(at - first, ' '),
+                                std::string(std::clamp<std::size_t>(width, 1, kShown), '^'));
+        }
+        mistakes_.add(std::move(text));
     }
 
     // `path` is the schema's name of a table, `label` the one with the group's number
@@ -82,6 +90,9 @@ private:
     void walk_repeated(const toml::array& rows, Values& values, std::size_t& groups) {
         const std::string& name = schema_.repeated_table;
         for (const toml::node& row : rows) {
+            if (groups == kMostGroups)
+                return complain(row.source(),
+                                fmt::format("there are more than {} [[{}]]", kMostGroups, name), 1);
             if (const auto* table = row.as_table())
                 walk(*table, name, name + "." + std::to_string(groups), values, groups);
             else
@@ -290,7 +301,7 @@ Values read_override(const std::string& text, const Schema& schema, std::size_t 
                      Mistakes& mistakes) {
     const auto equals = text.find('=');
     if (equals == std::string::npos || equals == 0) {
-        mistakes.texts.push_back("--set " + text + ": error: write it as key=value");
+        mistakes.add("--set " + text + ": error: write it as key=value");
         return {};
     }
     const std::string key = text.substr(0, equals), value = text.substr(equals + 1);

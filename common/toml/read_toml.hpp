@@ -13,7 +13,14 @@ namespace ice {
 
 /// Mistakes found so far, each "file:line:column: error: ..." with the line and a caret under it.
 struct Mistakes {
+    static constexpr std::size_t kMost = 100;  ///< texts that are kept; further ones only counted
+
+    void add(std::string text) {
+        if (++count <= kMost) texts.push_back(std::move(text));
+    }
+
     std::vector<std::string> texts;
+    std::size_t count = 0;           ///< of all mistakes
     std::set<std::string> bad_keys;  ///< keys given with a bad value: not missing as well
     std::map<std::string, std::string> places;  ///< "file:line:column" of each key given
 };

@@ -28,9 +28,8 @@ public:
 private:
     void complain_at(std::string_view key, const std::string& what) {
         const auto place = mistakes_.places.find(std::string(key));
-        mistakes_.texts.push_back(
-            (place == mistakes_.places.end() ? file_.string() : place->second) +
-            ": error: " + what);
+        mistakes_.add((place == mistakes_.places.end() ? file_.string() : place->second) +
+                      ": error: " + what);
     }
 
     bool given(std::string_view key) const {
@@ -38,9 +37,8 @@ private:
     }
 
     void missing(std::string_view key, const std::string& who) {
-        mistakes_.texts.push_back(fmt::format("{}: error: required key '{}' is missing{} ({})",
-                                              file_.string(), key, who,
-                                              field_schema().find(key)->doc));
+        mistakes_.add(fmt::format("{}: error: required key '{}' is missing{} ({})", file_.string(),
+                                  key, who, field_schema().find(key)->doc));
     }
 
     void take(const FieldKey& key, FieldSpec& spec) {
@@ -117,10 +115,7 @@ private:
     Mistakes& mistakes_;
 };
 
-}  // namespace
-
-FieldSpec read_field_spec(const std::filesystem::path& file,
-                          const std::vector<std::string>& overrides) {
+FieldSpec read_once(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
     Mistakes mistakes;
     std::size_t unused = 0;
     std::string text = read_input_text(file, "field specification");
@@ -137,6 +132,14 @@ FieldSpec read_field_spec(const std::filesystem::path& file,
     throw_mistakes(mistakes, file, "icefield --explain KEY tells what a key takes");
     spec.text = text;
     return spec;
+}
+
+}  // namespace
+
+FieldSpec read_field_spec(const std::filesystem::path& file,
+                          const std::vector<std::string>& overrides) {
+    rehearse_input(file, [&] { read_once(file, overrides); });
+    return read_once(file, overrides);
 }
 
 }  // namespace ice

@@ -97,16 +97,13 @@ public:
     }
 
 private:
-    void complain(const std::string& what) {
-        mistakes_.texts.push_back(file_.string() + ": error: " + what);
-    }
+    void complain(const std::string& what) { mistakes_.add(file_.string() + ": error: " + what); }
 
     // ... about a key that was given, at its place
     void complain_at(const std::string& label, const std::string& what) {
         const auto place = mistakes_.places.find(label);
-        mistakes_.texts.push_back(
-            (place == mistakes_.places.end() ? file_.string() : place->second) +
-            ": error: " + what);
+        mistakes_.add((place == mistakes_.places.end() ? file_.string() : place->second) +
+                      ": error: " + what);
     }
 
     // "floes.0.gap" as people count: floes.1.gap
@@ -286,7 +283,9 @@ double Case::ship_speed(double time) const {
     return speed_table.back().second;
 }
 
-Case read_case(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+namespace {
+
+Case read_once(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
     Mistakes mistakes;
     std::size_t groups = 0;
     Values values = read_toml(read_input_text(file, "case file"), file.string(), case_schema(),
@@ -305,6 +304,13 @@ Case read_case(const std::filesystem::path& file, const std::vector<std::string>
     if (!unreadable) result = Builder(file, std::move(values), groups, mistakes).build();
     throw_mistakes(mistakes, file, "icesolve --explain KEY tells what a key takes");
     return result;
+}
+
+}  // namespace
+
+Case read_case(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+    rehearse_input(file, [&] { read_once(file, overrides); });
+    return read_once(file, overrides);
 }
 
 }  // namespace ice

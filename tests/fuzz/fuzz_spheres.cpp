@@ -4,6 +4,7 @@
 #include "common/formats/field_file.hpp"
 #include "common/formats/spheres_file.hpp"
 #include "tests/fuzz/input_folder.hpp"
+#include "tests/fuzz/library_faults.hpp"
 
 using namespace ice;
 
@@ -26,10 +27,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::string_view bytes(reinterpret_cast<const char*>(data), size);
     const std::filesystem::path file = folder.write("input.h5", bytes);
     SphereSet set;
-    if (!accepted([&] { set = read_spheres(file); })) {
-        (void)accepted([&] { read_field(file); });
-        return 0;
-    }
+    const bool spheres = accepted([&] { set = read_spheres(file); });
+    if (!spheres) (void)accepted([&] { read_field(file); });
+    fuzz::check_child_faults();
+    if (!spheres) return 0;
     const std::filesystem::path copy = folder.write("copy.h5", "");
     write_spheres(copy, set, {});
     if (read_spheres(copy).size() != set.size())
