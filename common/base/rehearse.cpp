@@ -91,7 +91,7 @@ std::string what_happened(int status, const ReadBounds& bounds) {
 ReadBounds ReadBounds::for_size(std::uint64_t size) {
     ReadBounds bounds;
 #ifdef ICE_FUZZ
-    bounds.seconds = 2.0;  // a fuzzer meets too many endless files to wait longer
+    bounds.seconds = 1.0;  // a fuzzer meets too many endless files to wait longer
 #endif
     bounds.seconds += 5e-6 * static_cast<double>(size);
     bounds.bytes += 64 * size;

@@ -171,7 +171,7 @@ bool Hdf5File::has(const std::string& name) const {
 }
 
 void Hdf5File::limit_reading(std::uint64_t times) const {
-    constexpr std::uint64_t kFree = 64u << 20;
+    constexpr std::uint64_t kFree = 128u << 20;
     left_ = kFree + times * std::filesystem::file_size(path_);
 }
 

@@ -78,7 +78,7 @@ public:
     /// Closes now and reports failure (the destructor cannot).
     void close();
 
-    /// From now on no more is read than 64 MiB and `times` the file's size; what claims more is
+    /// From now on no more is read than 128 MiB and `times` the file's size; what claims more is
     /// refused before memory is taken for it. 2000 unless set: twice what compression can do.
     void limit_reading(std::uint64_t times) const;
 

@@ -190,9 +190,11 @@ std::string format_name(const std::filesystem::path& file) {
     std::transform(name.begin(), name.end(), name.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     if (!name.empty()) name.erase(0, 1);
+    if (name.empty() && is_gzip_name(file))
+        throw bad_input(file.string(), "does not say the format inside",
+                        "name it like hull.stl.gz");
     if (name.empty())
-        throw bad_input(file.string(), "does not say its format",
-                        is_gzip_name(file) ? "name it like hull.stl.gz" : "name it like hull.stl");
+        throw bad_input(file.string(), "does not say its format", "name it like hull.stl");
     if (std::find(kFormats.begin(), kFormats.end(), name) == kFormats.end())
         throw bad_input(file.string(), "is of a format that is not read (." + name + ")", kRemedy);
     return name;

@@ -54,10 +54,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (std::find(kEndings.begin(), kEndings.end(), ending) == kEndings.end()) return -1;
     const std::filesystem::path file = folder.write(
         "mesh." + std::string(ending), all.substr(std::min(all.size(), ending.size() + 1)));
+    int verdict = 0;
     try {
         read_and_clean(file);
-    } catch (const Error&) {
+    } catch (const Error& refusal) {
+        verdict = fuzz::verdict(refusal);
     }
     fuzz::check_child_faults();
-    return 0;
+    return verdict;
 }

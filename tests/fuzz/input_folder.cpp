@@ -11,14 +11,15 @@ namespace ice::fuzz {
 
 namespace fs = std::filesystem;
 
-InputFolder::InputFolder() {
+InputFolder::InputFolder() : owner_(::getpid()) {
     const fs::path memory = "/dev/shm";
     const fs::path parent = fs::is_directory(memory) ? memory : fs::temp_directory_path();
-    path_ = parent / ("ice-fuzz-" + std::to_string(::getpid()));
+    path_ = parent / ("ice-fuzz-" + std::to_string(owner_));
     fs::create_directories(path_);
 }
 
 InputFolder::~InputFolder() {
+    if (::getpid() != owner_) return;  // a child that a library made exit
     std::error_code ignored;
     fs::remove_all(path_, ignored);
 }

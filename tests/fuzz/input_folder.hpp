@@ -24,6 +24,7 @@ public:
     std::filesystem::path write(const std::string& name, std::string_view bytes) const;
 
 private:
+    int owner_;  // process
     std::filesystem::path path_;
 };
 

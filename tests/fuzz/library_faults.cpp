@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "tests/fuzz/input_folder.hpp"
+#include "tests/fuzz/library_faults.hpp"
 
 namespace {
 
@@ -25,6 +26,7 @@ Report& shared() {
 }
 
 bool in_library(std::string_view report) {
+    report.remove_prefix(std::min(report.find("ERROR: AddressSanitizer"), report.size()));
     const std::string_view stack = report.substr(0, report.find("\n\n"));
     return stack.find("/libassimp.so") != stack.npos || stack.find("/libhdf5") != stack.npos ||
            stack.find("/libz.so") != stack.npos;
@@ -69,6 +71,11 @@ namespace ice::fuzz {
 
 void check_child_faults() {
     if (shared().text[0] != '\0') report_finding(shared().text);
+}
+
+int verdict(const Error& refusal) {
+    return std::string_view(refusal.what()).find("processor time") == std::string_view::npos ? 0
+                                                                                             : -1;
 }
 
 }  // namespace ice::fuzz
