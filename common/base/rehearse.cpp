@@ -7,6 +7,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cmath>
 #include <csignal>
@@ -29,7 +31,48 @@ namespace ice {
 
 namespace {
 
-constexpr int kSurvived = 0, kOutOfMemory = 3;  // exit codes of the child
+// Exit codes of the child; after kRefused its pipe has the Error's code and text.
+constexpr int kSurvived = 0, kOutOfMemory = 3, kRefused = 4;
+
+// A pipe's two ends, closed at the end of the scope.
+class Pipe {
+public:
+    Pipe() : good_(pipe(ends_.data()) == 0) {}
+    ~Pipe() {
+        close_end(0);
+        close_end(1);
+    }
+    Pipe(const Pipe&) = delete;
+    Pipe& operator=(const Pipe&) = delete;
+
+    bool good() const { return good_; }
+    void close_end(std::size_t end) {
+        if (good_ && ends_[end] >= 0) close(ends_[end]);
+        ends_[end] = -1;
+    }
+    void write(const std::string& text) const {
+        for (std::size_t done = 0; done < text.size();) {
+            const ssize_t count = ::write(ends_[1], text.data() + done, text.size() - done);
+            if (count <= 0) return;
+            done += static_cast<std::size_t>(count);
+        }
+    }
+    // Until the other side closes its end.
+    std::string read() const {
+        std::string all(4096, '\0');
+        for (std::size_t filled = 0;;) {
+            const ssize_t count = ::read(ends_[0], all.data() + filled, all.size() - filled);
+            if (count < 0 && errno == EINTR) continue;
+            if (count <= 0) return all.substr(0, filled);
+            filled += static_cast<std::size_t>(count);
+            if (filled == all.size()) all.resize(2 * filled);
+        }
+    }
+
+private:
+    std::array<int, 2> ends_{-1, -1};
+    bool good_;
+};
 
 void limit(int resource, rlim_t soft, rlim_t hard) {
     rlimit both{};
@@ -59,18 +102,23 @@ void keep_within(const ReadBounds& bounds) {
 #endif
 }
 
-[[noreturn]] void do_in_child(const ReadBounds& bounds, const std::function<void()>& read) {
+[[noreturn]] void do_in_child(const ReadBounds& bounds, const std::function<void()>& read,
+                              const Pipe& messages) {
     for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGXCPU, SIGINT, SIGTERM})
         std::signal(signal, SIG_DFL);
 #if !defined(ICE_SANITIZED) || defined(ICE_FUZZ)
     if (const int nowhere = open("/dev/null", O_WRONLY); nowhere >= 0) dup2(nowhere, 2);
 #endif
     keep_within(bounds);
+    std::set_new_handler([] { _exit(kOutOfMemory); });  // libraries catch what new throws
     try {
         read();
+    } catch (const Error& error) {
+        messages.write(static_cast<char>(error.code()) + std::string(error.what()));
+        _exit(kRefused);
     } catch (const std::bad_alloc&) {
         _exit(kOutOfMemory);
-    } catch (...) {  // the caller meets it again
+    } catch (...) {  // a fault of ours: the caller meets it again
     }
     _exit(kSurvived);
 }
@@ -100,17 +148,22 @@ ReadBounds ReadBounds::for_size(std::uint64_t size) {
 
 void rehearse(const std::filesystem::path& file, const ReadBounds& bounds,
               const std::function<void()>& read) {
-    const pid_t child = fork();
-    if (child == 0) do_in_child(bounds, read);
+    Pipe messages;
+    const pid_t child = messages.good() ? fork() : -1;
+    if (child == 0) do_in_child(bounds, read, messages);
     if (child < 0)
         throw run_failed(
             file.string(),
             std::string("cannot be read: no process for it (") + std::strerror(errno) + ")",
-            "end other programs, or raise the limit (ulimit -u)");
+            "end other programs, or raise the limits (ulimit -u, -n)");
+    messages.close_end(1);
+    const std::string message = messages.read();
     int status = 0;
     while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
     }
     if (WIFEXITED(status) && WEXITSTATUS(status) == kSurvived) return;
+    if (WIFEXITED(status) && WEXITSTATUS(status) == kRefused && !message.empty())
+        throw Error(static_cast<ExitCode>(message[0]), message.substr(1));
     throw bad_input(file.string(), what_happened(status, bounds),
                     "the file is damaged or not what its name says: make or export it again");
 }
