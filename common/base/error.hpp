@@ -18,8 +18,6 @@ class Error : public std::runtime_error {
 public:
     Error(ExitCode code, const std::string& where, const std::string& what_happened,
           const std::string& remedy);
-    /// One that was thrown elsewhere, from its what().
-    Error(ExitCode code, const std::string& text) : std::runtime_error(text), code_(code) {}
 
     /// Exit code the program should end with.
     ExitCode code() const { return code_; }

@@ -163,7 +163,7 @@ void rehearse(const std::filesystem::path& file, const ReadBounds& bounds,
     }
     if (WIFEXITED(status) && WEXITSTATUS(status) == kSurvived) return;
     if (WIFEXITED(status) && WEXITSTATUS(status) == kRefused && !message.empty())
-        throw Error(static_cast<ExitCode>(message[0]), message.substr(1));
+        throw Error(static_cast<ExitCode>(message[0]), "", message.substr(1), "");
     throw bad_input(file.string(), what_happened(status, bounds),
                     "the file is damaged or not what its name says: make or export it again");
 }

@@ -4,7 +4,9 @@
 
 #include <catch2/catch.hpp>
 
+#include "common/formats/field_file.hpp"
 #include "common/formats/hdf5_file.hpp"
+#include "common/formats/spheres_file.hpp"
 #include "tests/common/fixtures.hpp"
 
 using namespace ice;
@@ -98,4 +100,15 @@ TEST_CASE("what is read from a file in total is bounded", "[formats][security]")
     CHECK(file.read<double>("/x").size() == 10'000'000);
     CHECK_THAT(error_text([&] { file.read<double>("/x"); }),
                Catch::Contains("claims more values than the file holds"));
+}
+
+TEST_CASE("files on which HDF5 crashes or never ends are refused", "[formats][security]") {
+    const std::filesystem::path corpus = ICE_SOURCE_DIR "/tests/fuzz/corpus/spheres";
+    for (const char* name : {"hdf5-abort", "hdf5-crash", "hdf5-endless"}) {
+        CAPTURE(name);
+        CHECK_THAT(error_text([&] { read_spheres(corpus / name); }), Catch::Contains(name));
+    }
+    for (const char* name : {"conforming", "lattice", "section"})
+        CHECK(read_spheres(corpus / name).size() > 0);
+    CHECK(read_field(corpus / "field").floes.size() > 2);
 }

@@ -5,6 +5,7 @@
 #include "common/base/error.hpp"
 #include "preprocess/load/cut_off.hpp"
 #include "preprocess/load/read_mesh.hpp"
+#include "preprocess/repair/make_solid.hpp"
 #include "tests/common/fixtures.hpp"
 #include "tests/support/mesh_texts.hpp"
 
@@ -113,4 +114,34 @@ TEST_CASE("headers that promise what no file can hold are refused before memory 
     append_bytes(stl, std::uint32_t{0xffffffff});
     write_bytes(folder / "d.stl", stl + std::string(50, '\0'));
     CHECK_THAT(refusal(folder / "d.stl"), Catch::Contains("d.stl"));
+}
+
+TEST_CASE("a mesh on which assimp crashes is refused", "[load][security]") {
+    const TempFolder folder;
+    write_bytes(folder / "a.off", "OFF\n1 1 2 3 0 0\n13 0 3 2\nA1 1 2 3");
+    CHECK_THAT(refusal(folder / "a.off"),
+               Catch::Contains("a.off") && Catch::Contains("the library that reads it"));
+}
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // memory is bounded
+TEST_CASE("a mesh on which assimp never ends is refused", "[load][security]") {
+    const TempFolder folder;
+    std::string text = dae_text(1, "");
+    text.insert(text.find("<p>") + 5,
+                "\x1b[");  // no digit: it reads the same place again and again
+    write_bytes(folder / "a.dae", text);
+    CHECK_THAT(refusal(folder / "a.dae"),
+               Catch::Contains("MB of memory to read") || Catch::Contains("s of processor time"));
+}
+#endif
+
+TEST_CASE("a mesh of triangles without area is refused, not wrapped", "[load][repair][security]") {
+    const TempFolder folder;
+    write_bytes(folder / "a.obj",
+                "v 0 0 0\nv 1 0 0\nv 0 \nv 2 0 0\nv 1 0 0\nv 0 2 0\nv 0 0 3\nf 1 3 2\n"
+                "f 1 2 1 2 4\nf 1 4 3\nf 2 3 4\nv 0 0 3\nf 1 3 2\nf 1\nf 2 3 4\n");
+    Repairs repairs;
+    CHECK_THAT(
+        error_text([&] { make_solid(read_mesh(folder / "a.obj", {}), "a.obj", {}, repairs); }),
+        Catch::Contains("a.obj"));
 }
