@@ -13,7 +13,7 @@ namespace {
 
 constexpr const char* kRegion = "ice";
 
-// All that is read over what is stored: 3 where most spheres are inside and have no rows of their own
+// All that is read over what is stored: 3 where most spheres are inside, without rows of their own
 constexpr std::uint64_t kMostTimes = 16;
 
 // Reads one file, with every complaint naming the file and the dataset.

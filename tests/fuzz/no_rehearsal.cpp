@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Takes the place of common/base/rehearse.cpp in targets whose library needs no child process at the
-// lengths tried here: without one the fuzzer tries ten times as many inputs.
+// Takes the place of common/base/rehearse.cpp in targets whose library needs no child process at
+// the lengths tried here: without one the fuzzer tries ten times as many inputs.
 #include "common/base/rehearse.hpp"
 
 namespace ice {
