@@ -44,17 +44,17 @@ TEST_CASE("formats that nobody asked for are refused by name", "[load][security]
 TEST_CASE("a glTF buffer is read from the mesh's own folder and nowhere else", "[load][security]") {
     const TempFolder folder;
     std::filesystem::create_directories(folder / "mesh/parts");
-    for (const char* place : {"buffer.bin", "mesh/buffer.bin", "mesh/parts/buffer.bin"})
+    for (const char* place : {"outer.bin", "mesh/buffer.bin", "mesh/parts/buffer.bin"})
         write_bytes(folder / place, gltf_buffer(1));
-    std::filesystem::create_symlink("../buffer.bin", folder / "mesh/link.bin");
+    std::filesystem::create_symlink("../outer.bin", folder / "mesh/link.bin");
     const auto with = [&](const std::string& uri) {
         write_bytes(folder / "mesh/hull.gltf", gltf_beside(uri));
         return refusal(folder / "mesh/hull.gltf");
     };
     CHECK(with("buffer.bin").empty());
     CHECK(with("parts/buffer.bin").empty());
-    CHECK_THAT(with("../buffer.bin"), Catch::Contains("cannot be read as a mesh"));
-    CHECK_THAT(with((folder / "buffer.bin").string()), Catch::Contains("cannot be read as a mesh"));
+    CHECK_THAT(with("../outer.bin"), Catch::Contains("cannot be read as a mesh"));
+    CHECK_THAT(with((folder / "outer.bin").string()), Catch::Contains("cannot be read as a mesh"));
     CHECK_THAT(with("link.bin"), Catch::Contains("cannot be read as a mesh"));
 }
 
