@@ -20,8 +20,8 @@ struct ReadBounds {
 
 /// Does `read` once in a child process and throws where that throws an Error, crashes, never ends
 /// or fills the memory: assimp 5.2 and HDF5 1.10 do so on some damaged files
-/// (tests/fuzz/README.md). What went well there the caller does again, itself. The child can grow no
-/// file, leaves no core and its stderr is thrown away.
+/// (tests/fuzz/README.md). What went well there the caller does again, itself. The child can grow
+/// no file, leaves no core and its stderr is thrown away.
 ///
 /// A crash becomes a message. This is no sandbox: a file that takes over the library in the child
 /// would act with the user's rights.
