@@ -8,9 +8,9 @@ readonly packages=(
     libeigen3-dev libboost-dev libcgal-dev libassimp-dev catch2 libhwy-dev libtomlplusplus-dev libcli11-dev
     libmeshoptimizer-dev libfmt-dev libspdlog-dev libhdf5-dev libssl-dev nlohmann-json3-dev zlib1g-dev python3 python3-h5py)
 
-# only the tests use these: the report in a browser, its page built again, run.h5 in xarray
+# only the tests use these: the report in a browser, its page built again, run.h5 in xarray, fuzzing
 readonly test_packages=(chromium chromium-driver python3-selenium python3-pil python3-xarray
-    python3-h5netcdf)
+    python3-h5netcdf clang-14 libclang-rt-14-dev libomp-14-dev)
 
 usage() {
     cat <<'END'

@@ -4,8 +4,9 @@
 #
 # Each line of CASE_DIR/spheres.txt is the arguments of one spherize call, "MESH [option]... -o FILE",
 # or of one icefield call, "SPECIFICATION.toml [option]... -o FILE", with paths relative to the case
-# folder; "#" starts a comment line. An output newer than its input, spheres.txt and the program is
-# kept. SPHERIZE and ICEFIELD name other programs than those in build/release/bin.
+# folder, which all outputs stay in; "#" starts a comment line. An output newer than its input,
+# spheres.txt and the program is kept. SPHERIZE and ICEFIELD name other programs than those in
+# build/release/bin.
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -31,6 +32,10 @@ for line in "${lines[@]}"; do
     output=
     for ((k = 1; k + 1 < ${#arguments[@]}; ++k)); do
         [[ ${arguments[k]} == -o ]] && output=${arguments[k + 1]}
+    done
+    # a case from a stranger shall write into its own folder only
+    for argument in "${arguments[@]:1}"; do
+        [[ $argument != */* ]] || fail "$1/spheres.txt: '$argument' leads out of the case folder"
     done
     [[ -n $output ]] || fail "$1/spheres.txt: '${arguments[*]}' names no output; add -o FILE"
     [[ -f $input ]] || fail "$1/spheres.txt: no $kind $input; paths are relative to $1"

@@ -5,6 +5,7 @@
 add_library(ice_flags INTERFACE)
 target_compile_options(ice_flags INTERFACE
   -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
+  $<$<CXX_COMPILER_ID:Clang>:-Wno-missing-braces>
   $<$<BOOL:${ICE_WARNINGS_AS_ERRORS}>:-Werror>)
 target_include_directories(ice_flags INTERFACE ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR}/generated)
 target_link_libraries(ice_flags INTERFACE Eigen3::Eigen fmt::fmt)

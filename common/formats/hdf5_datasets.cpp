@@ -3,8 +3,7 @@
 #include <hdf5_hl.h>
 
 #include <algorithm>
-#include <functional>
-#include <numeric>
+#include <limits>
 
 #include "common/base/error.hpp"
 #include "common/formats/hdf5_file.hpp"
@@ -44,14 +43,38 @@ hid_t memory_type<std::uint8_t>() {
     return H5T_NATIVE_UINT8;
 }
 
-// Sizes read from a file are not trusted: no dataset of the project comes near this many values.
-constexpr std::uint64_t kLargestDataset = 1ull << 33;
-
+// Sizes read from a file are not trusted: a product that does not fit is the largest number.
 std::uint64_t product(const std::vector<std::uint64_t>& shape) {
-    return std::accumulate(shape.begin(), shape.end(), std::uint64_t{1}, std::multiplies<>());
+    std::uint64_t all = 1;
+    for (const std::uint64_t n : shape)
+        if (__builtin_mul_overflow(all, n, &all)) return std::numeric_limits<std::uint64_t>::max();
+    return all;
 }
 
+constexpr const char* kRemake = "make the file again with the tool that wrote it";
+
 }  // namespace
+
+void Hdf5File::take_from_limit(const std::string& name, std::uint64_t count,
+                               std::uint64_t width) const {
+    std::uint64_t bytes = 0;
+    if (__builtin_mul_overflow(count, width, &bytes) || bytes > left_)
+        throw bad_input(describe(name), "claims more values than the file holds", kRemake);
+    left_ -= bytes;
+}
+
+std::int64_t Hdf5File::open_dataset(const std::string& name) const {
+    if (!has(name)) throw bad_input(describe(name), "is missing", kRemake);
+    const hid_t dataset = H5Dopen2(id_, name.c_str(), H5P_DEFAULT);
+    if (dataset < 0) throw bad_input(describe(name), "is not a dataset", kRemake);
+    const Handle properties(H5Dget_create_plist(dataset), H5Pclose);
+    if (properties < 0 || H5Pget_external_count(properties) != 0 ||
+        H5Pget_layout(properties) == H5D_VIRTUAL) {
+        H5Dclose(dataset);
+        throw bad_input(describe(name), "has its values in another file", kRemake);
+    }
+    return dataset;
+}
 
 template <class T>
 void Hdf5File::write(const std::string& name, const T* data,
@@ -121,15 +144,10 @@ void Hdf5File::write_strings(const std::string& name, const std::vector<std::str
 }
 
 std::vector<std::uint64_t> Hdf5File::shape(const std::string& name) const {
-    if (!has(name))
-        throw bad_input(describe(name), "is missing",
-                        "make the file again with the tool that wrote it");
-    const Handle dataset(H5Dopen2(id_, name.c_str(), H5P_DEFAULT), H5Dclose);
-    const Handle space(dataset < 0 ? -1 : H5Dget_space(dataset), H5Sclose);
+    const Handle dataset(open_dataset(name), H5Dclose);
+    const Handle space(H5Dget_space(dataset), H5Sclose);
     const int rank = space < 0 ? -1 : H5Sget_simple_extent_ndims(space);
-    if (rank < 0)
-        throw bad_input(describe(name), "is not a dataset",
-                        "make the file again with the tool that wrote it");
+    if (rank < 0) throw bad_input(describe(name), "is not a dataset", kRemake);
     std::vector<hsize_t> dims(static_cast<std::size_t>(rank));
     H5Sget_simple_extent_dims(space, dims.data(), nullptr);
     return {dims.begin(), dims.end()};
@@ -138,29 +156,15 @@ std::vector<std::uint64_t> Hdf5File::shape(const std::string& name) const {
 template <class T>
 std::vector<T> Hdf5File::read(const std::string& name) const {
     const std::uint64_t count = product(shape(name));
-    if (count > kLargestDataset)
-        throw bad_input(describe(name), "claims more values than any file of this format has",
-                        "make the file again with the tool that wrote it");
-    const Handle dataset(H5Dopen2(id_, name.c_str(), H5P_DEFAULT), H5Dclose);
+    take_from_limit(name, count, sizeof(T));
+    const Handle dataset(open_dataset(name), H5Dclose);
     const Handle type(H5Dget_type(dataset), H5Tclose);
     const H5T_class_t kind = H5Tget_class(type);
-    // an array that was never stored takes no room in the file: do not believe its size
-    // but where the fill value was chosen: then rows that equal it are not stored
-    constexpr std::uint64_t kUnfilled = 1u << 26, kFilled = 1u << 30, kBestCompression = 2000;
-    const Handle properties(H5Dget_create_plist(dataset), H5Pclose);
-    H5D_fill_value_t fill = H5D_FILL_VALUE_UNDEFINED;
-    H5Pfill_value_defined(properties, &fill);
-    const std::uint64_t harmless = fill == H5D_FILL_VALUE_USER_DEFINED ? kFilled : kUnfilled;
-    if (count * sizeof(T) > harmless &&
-        H5Dget_storage_size(dataset) < count * sizeof(T) / kBestCompression)
-        throw bad_input(describe(name), "claims more values than the file holds",
-                        "make the file again with the tool that wrote it");
     std::vector<T> values(count);
     const bool numeric = kind == H5T_INTEGER || kind == H5T_FLOAT;
     if (!numeric || (count > 0 && H5Dread(dataset, memory_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT,
                                           values.data()) < 0))
-        throw bad_input(describe(name), "cannot be read as numbers",
-                        "make the file again with the tool that wrote it");
+        throw bad_input(describe(name), "cannot be read as numbers", kRemake);
     return values;
 }
 
@@ -170,7 +174,7 @@ std::vector<T> Hdf5File::read_rows(const std::string& name, std::uint64_t first,
     std::vector<hsize_t> block = to_hsize(shape(name)), start(block.size(), 0);
     start.at(0) = first;
     block[0] = count;
-    const Handle dataset(H5Dopen2(id_, name.c_str(), H5P_DEFAULT), H5Dclose);
+    const Handle dataset(open_dataset(name), H5Dclose);
     const Handle file_space(H5Dget_space(dataset), H5Sclose);
     const Handle memory(H5Screate_simple(static_cast<int>(block.size()), block.data(), nullptr),
                         H5Sclose);
@@ -179,23 +183,20 @@ std::vector<T> Hdf5File::read_rows(const std::string& name, std::uint64_t first,
         (H5Sselect_hyperslab(file_space, H5S_SELECT_SET, start.data(), nullptr, block.data(),
                              nullptr) < 0 ||
          H5Dread(dataset, memory_type<T>(), memory, file_space, H5P_DEFAULT, values.data()) < 0))
-        throw bad_input(describe(name), "cannot be read as numbers",
-                        "make the file again with the tool that wrote it");
+        throw bad_input(describe(name), "cannot be read as numbers", kRemake);
     return values;
 }
 
 std::vector<std::string> Hdf5File::read_strings(const std::string& name) const {
     const std::uint64_t count = product(shape(name));
-    const Handle dataset(H5Dopen2(id_, name.c_str(), H5P_DEFAULT), H5Dclose);
+    const Handle dataset(open_dataset(name), H5Dclose);
     const Handle type(H5Dget_type(dataset), H5Tclose);
     const std::size_t width = H5Tget_size(type);
-    const auto fail = [&] {
-        return bad_input(describe(name), "is not a list of texts",
-                         "make the file again with the tool that wrote it");
-    };
+    const auto fail = [&] { return bad_input(describe(name), "is not a list of texts", kRemake); };
     if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) > 0 || width == 0 ||
         count > 100000 || width > 10000)
         throw fail();
+    take_from_limit(name, count, width);
     std::vector<char> packed(count * width);
     if (H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, packed.data()) < 0) throw fail();
     std::vector<std::string> texts(count);

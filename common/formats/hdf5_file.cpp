@@ -2,6 +2,8 @@
 // The file, its groups and attributes; hdf5_datasets.cpp has the datasets.
 #include "common/formats/hdf5_file.hpp"
 
+#include <algorithm>
+
 #include "common/base/error.hpp"
 #include "common/formats/hdf5_handle.hpp"
 
@@ -29,6 +31,7 @@ Hdf5File::Hdf5File(const std::filesystem::path& path, Mode mode) : path_(path) {
     leave_no_tidying();
     detail::require_memory();
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // our messages name the remedy, HDF5's do not
+    H5PLset_loading_state(0);                     // a file may not ask for code to be loaded
     const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
     H5Pset_libver_bounds(access, H5F_LIBVER_EARLIEST, H5F_LIBVER_V110);
     // without locks a run can be looked at while it goes on, and file systems without locks work
@@ -43,6 +46,7 @@ Hdf5File::Hdf5File(const std::filesystem::path& path, Mode mode) : path_(path) {
         if (id_ < 0)
             throw bad_input(path.string(), "is not an HDF5 file, or is truncated",
                             "make it again with the tool that wrote it");
+        limit_reading(2000);
         return;
     }
     id_ = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
@@ -133,7 +137,10 @@ std::string Hdf5File::read_text_attribute(const std::string& object,
         H5free_memory(text);
         return result;
     }
-    std::string text(H5Tget_size(type), '\0');
+    constexpr std::size_t kLongestText = 16u << 20;
+    const std::size_t width = H5Tget_size(type);
+    if (width > kLongestText) throw fail();
+    std::string text(width, '\0');
     if (H5Aread(attribute, type, text.data()) < 0) throw fail();
     return text.substr(0, text.find('\0'));
 }
@@ -162,8 +169,24 @@ void Hdf5File::create_group(const std::string& name) {
         throw run_failed(describe(name), "cannot be created", "check that the disk is not full");
 }
 
+// Every step of the way must be a group or dataset of this file, no link to another place or file.
 bool Hdf5File::has(const std::string& name) const {
-    return name == "/" || H5Lexists(id_, name.c_str(), H5P_DEFAULT) > 0;
+    for (std::size_t end = 0; end < name.size();) {
+        end = std::min(name.find('/', end + 1), name.size());
+        const std::string part = name.substr(0, end);
+        if (part == "/") continue;
+        H5L_info_t link;
+        if (H5Lexists(id_, part.c_str(), H5P_DEFAULT) <= 0) return false;
+        if (H5Lget_info(id_, part.c_str(), &link, H5P_DEFAULT) < 0 || link.type != H5L_TYPE_HARD)
+            throw bad_input(describe(part), "is a link to somewhere else",
+                            "make the file again with the tool that wrote it");
+    }
+    return true;
+}
+
+void Hdf5File::limit_reading(std::uint64_t times) const {
+    constexpr std::uint64_t kFree = 128u << 20;
+    left_ = kFree + times * std::filesystem::file_size(path_);
 }
 
 }  // namespace ice

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -13,7 +14,8 @@ namespace ice {
 ///
 /// Element types T: double, float, std::int64_t, std::int32_t, std::uint8_t. Shapes are row-major;
 /// the first dimension of an appendable dataset grows. Files use library bounds (earliest, v1.10)
-/// so that a file flushed before a crash can be opened.
+/// so that a file flushed before a crash can be opened. Links, data in other files and filters from
+/// plugins are refused: a file speaks for itself alone.
 class Hdf5File {
 public:
     /// create_growing: for rows that are appended while a program runs, which may be killed; up to
@@ -76,10 +78,17 @@ public:
     /// Closes now and reports failure (the destructor cannot).
     void close();
 
+    /// From now on no more is read than 128 MiB and `times` the file's size; what claims more is
+    /// refused before memory is taken for it. 2000 unless set: twice what compression can do.
+    void limit_reading(std::uint64_t times) const;
+
 private:
     std::string describe(const std::string& object) const;
+    void take_from_limit(const std::string& name, std::uint64_t count, std::uint64_t width) const;
+    std::int64_t open_dataset(const std::string& name) const;
     std::filesystem::path path_;
     std::int64_t id_ = -1;
+    mutable std::uint64_t left_ = std::numeric_limits<std::uint64_t>::max();  // bytes to read
 };
 
 }  // namespace ice

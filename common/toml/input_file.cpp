@@ -7,25 +7,28 @@
 #include <iterator>
 
 #include "common/base/error.hpp"
+#include "common/base/rehearse.hpp"
 
 namespace ice {
 
-namespace {
-
-constexpr std::uintmax_t kLargestInput = 64u << 20;  // 64 MB: a million lines fit many times
-
-}  // namespace
-
-std::string read_input_text(const std::filesystem::path& file, const std::string& what) {
+std::string read_input_text(const std::filesystem::path& file, const std::string& what,
+                            std::uintmax_t largest) {
     std::error_code error;
     if (!std::filesystem::is_regular_file(file, error))
         throw bad_input(file.string(), what + " not found", "check the path");
-    if (std::filesystem::file_size(file, error) > kLargestInput)
-        throw bad_input(file.string(), "is too large for a " + what + " (64 MB)",
+    if (std::filesystem::file_size(file, error) > largest)
+        throw bad_input(file.string(),
+                        fmt::format("is too large for a {} ({} MB)", what, largest >> 20),
                         "is this the right file?");
     std::ifstream in(file, std::ios::binary);
     if (!in) throw bad_input(file.string(), "cannot be read", "check its permissions");
     return {std::istreambuf_iterator<char>(in), {}};
+}
+
+void rehearse_input(const std::filesystem::path& file, const std::function<void()>& read) {
+    std::error_code missing;  // is what reading it complains of
+    const std::uintmax_t size = std::filesystem::file_size(file, missing);
+    if (!missing && size <= kLargestInput) rehearse(file, ReadBounds::for_size(size), read);
 }
 
 void throw_mistakes(const Mistakes& mistakes, const std::filesystem::path& file,

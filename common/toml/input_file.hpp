@@ -2,17 +2,28 @@
 /// A TOML input as a whole: its text, and all mistakes in it as one complaint.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 
 #include "common/toml/read_toml.hpp"
 
 namespace ice {
 
+/// The largest case file or specification [bytes]; a hundred times any sensible one.
+inline constexpr std::uintmax_t kLargestInput = 4u << 20;
+
 /// Text of a whole input file.
 /// @param what  "case file", for messages
-/// @throws Error (exit code 2) when it is missing, unreadable or larger than 64 MB.
-std::string read_input_text(const std::filesystem::path& file, const std::string& what);
+/// @param largest  size that is read [bytes]
+/// @throws Error (exit code 2) when it is missing, unreadable or larger.
+std::string read_input_text(const std::filesystem::path& file, const std::string& what,
+                            std::uintmax_t largest = kLargestInput);
+
+/// rehearse() for reading a TOML file: keys nested 100 000 deep exhaust toml++'s stack. Nothing
+/// happens for a file that is missing or too large, of which reading complains by itself.
+void rehearse_input(const std::filesystem::path& file, const std::function<void()>& read);
 
 /// Throws all mistakes as one Error (exit code 2); nothing happens without any.
 void throw_mistakes(const Mistakes& mistakes, const std::filesystem::path& file,

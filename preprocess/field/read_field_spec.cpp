@@ -70,7 +70,8 @@ private:
         };
         for (const std::string_view key : mine->required)
             if (!given(key)) missing(key, fmt::format(" for pattern \"{}\"", name));
-        for (const auto& [key, value] : values_) {
+        for (const auto& entry : values_) {
+            const std::string& key = entry.first;
             const bool others = std::any_of(all.begin(), all.end(),
                                             [&](const PatternKeys& p) { return lists(p, key); });
             if (others && !lists(*mine, key))
@@ -114,10 +115,7 @@ private:
     Mistakes& mistakes_;
 };
 
-}  // namespace
-
-FieldSpec read_field_spec(const std::filesystem::path& file,
-                          const std::vector<std::string>& overrides) {
+FieldSpec read_once(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
     Mistakes mistakes;
     std::size_t unused = 0;
     std::string text = read_input_text(file, "field specification");
@@ -134,6 +132,14 @@ FieldSpec read_field_spec(const std::filesystem::path& file,
     throw_mistakes(mistakes, file, "icefield --explain KEY tells what a key takes");
     spec.text = text;
     return spec;
+}
+
+}  // namespace
+
+FieldSpec read_field_spec(const std::filesystem::path& file,
+                          const std::vector<std::string>& overrides) {
+    rehearse_input(file, [&] { read_once(file, overrides); });
+    return read_once(file, overrides);
 }
 
 }  // namespace ice

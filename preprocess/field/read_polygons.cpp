@@ -17,7 +17,8 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr int kDeepest = 20;  // collections within collections
+constexpr std::uintmax_t kLargestPolygons = 64u << 20;  // a million corners fit
+constexpr int kDeepest = 20;                            // collections within collections
 
 class GeoJsonReader {
 public:
@@ -102,7 +103,7 @@ std::vector<NamedOutline> read_csv(const std::filesystem::path& file, const std:
 }  // namespace
 
 std::vector<NamedOutline> read_polygons(const std::filesystem::path& file, std::size_t& holes) {
-    const std::string text = read_input_text(file, "file of polygons");
+    const std::string text = read_input_text(file, "file of polygons", kLargestPolygons);
     std::vector<NamedOutline> out =
         file.extension() == ".csv" ? read_csv(file, text) : GeoJsonReader(file, holes).read(text);
     if (out.empty())

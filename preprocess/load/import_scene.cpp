@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "preprocess/load/import_scene.hpp"
 
+#include <assimp/BaseImporter.h>
+#include <assimp/DefaultIOSystem.h>
 #include <assimp/commonMetaData.h>
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
@@ -11,13 +13,17 @@
 #include <algorithm>
 #include <array>
 #include <assimp/Importer.hpp>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <fstream>
 #include <new>
+#include <iterator>
+#include <sstream>
 #include <string_view>
 
 #include "common/base/error.hpp"
+#include "common/base/rehearse.hpp"
 #include "preprocess/load/gunzip.hpp"
 
 namespace ice {
@@ -25,6 +31,11 @@ namespace ice {
 namespace {
 
 using Mat4 = Eigen::Matrix4d;
+
+constexpr std::array<std::string_view, 8> kFormats{"obj", "stl",  "ply", "off",
+                                                   "dae", "gltf", "glb", "fbx"};
+constexpr const char* kRemedy =
+    "formats are OBJ, STL, PLY, OFF, DAE, glTF, FBX, each also with .gz";
 
 // assimp keeps numbers as floats: "0.3" comes back as 0.300000012. Models are drawn in round
 // numbers, so the shortest decimal that gives the same float is what the file said.
@@ -173,13 +184,21 @@ FileFrame frame_of(const aiScene& scene) {
     return frame;
 }
 
-// "stl" of "hull.stl.gz": assimp is told the format, since it has no file name to look at.
-std::string inner_format(const std::filesystem::path& file) {
-    const std::string inner = file.stem().extension().string();
-    if (inner.size() < 2)
+// "stl" of "hull.STL" and "hull.stl.gz"; one of those that spherize reads.
+std::string format_name(const std::filesystem::path& file) {
+    const std::filesystem::path inner = is_gzip_name(file) ? file.stem() : file;
+    std::string name = inner.extension().string();
+    std::transform(name.begin(), name.end(), name.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (!name.empty()) name.erase(0, 1);
+    if (name.empty() && is_gzip_name(file))
         throw bad_input(file.string(), "does not say the format inside",
                         "name it like hull.stl.gz");
-    return inner.substr(1);
+    if (name.empty())
+        throw bad_input(file.string(), "does not say its format", "name it like hull.stl");
+    if (std::find(kFormats.begin(), kFormats.end(), name) == kFormats.end())
+        throw bad_input(file.string(), "is of a format that is not read (." + name + ")", kRemedy);
+    return name;
 }
 
 // assimp 5.2.5 reads on for ever in a PLY file that ends within its header.
@@ -190,6 +209,40 @@ void check_ply_header(const std::filesystem::path& file, std::string_view head) 
         throw bad_input(file.string(), "cannot be read as a mesh (its PLY header has no end)",
                         "copy or export it again");
 }
+
+// assimp reads fifty formats; those that nobody asked for are only ways to go wrong.
+void keep_formats(Assimp::Importer& importer) {
+    for (std::size_t k = importer.GetImporterCount(); k-- > 0;) {
+        std::istringstream extensions(importer.GetImporterInfo(k)->mFileExtensions);
+        const bool known = std::any_of(
+            std::istream_iterator<std::string>(extensions), {}, [](const std::string& name) {
+                return std::find(kFormats.begin(), kFormats.end(), name) != kFormats.end();
+            });
+        if (known) continue;
+        Assimp::BaseImporter* const loader = importer.GetImporter(k);
+        importer.UnregisterLoader(loader);
+        delete loader;  // it is ours from then on
+    }
+}
+
+// A mesh may have parts in files beside it (glTF's buffers), but none elsewhere.
+class FilesBeside : public Assimp::DefaultIOSystem {
+public:
+    explicit FilesBeside(const std::filesystem::path& mesh)
+        : folder_(std::filesystem::canonical(mesh).parent_path()) {}
+
+    Assimp::IOStream* Open(const char* file, const char* mode) override {
+        std::error_code error;
+        const auto path = std::filesystem::weakly_canonical(file, error);
+        const auto [end, unused] =
+            std::mismatch(folder_.begin(), folder_.end(), path.begin(), path.end());
+        if (error || end != folder_.end() || *mode != 'r') return nullptr;
+        return DefaultIOSystem::Open(file, mode);
+    }
+
+private:
+    std::filesystem::path folder_;
+};
 
 std::string first_bytes(const std::filesystem::path& file) {
     std::string head(1 << 20, '\0');
@@ -218,10 +271,13 @@ void check_faces(const std::filesystem::path& file, const aiScene& scene) {
     }
 }
 
-const aiScene* read_scene(Assimp::Importer& importer, const std::filesystem::path& file) {
+// @param bytes  of an unpacked file; empty to read the file itself
+const aiScene* read_scene(Assimp::Importer& importer, const std::filesystem::path& file,
+                          const std::vector<char>& bytes) {
+    const std::string format = format_name(file);
+    keep_formats(importer);
+    importer.SetIOHandler(new FilesBeside(file));  // which owns it
     if (is_gzip_name(file)) {
-        const std::string format = inner_format(file);
-        const std::vector<char> bytes = gunzip(file);
         check_ply_header(file, {bytes.data(), bytes.size()});
         return importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, format.c_str());
     }
@@ -229,15 +285,13 @@ const aiScene* read_scene(Assimp::Importer& importer, const std::filesystem::pat
     return importer.ReadFile(file.string(), 0);
 }
 
-}  // namespace
-
-ImportedMesh import_scene(const std::filesystem::path& file) {
+ImportedMesh import_once(const std::filesystem::path& file, const std::vector<char>& bytes) {
     Assimp::Importer importer;
     // a file of joints without surfaces would get surfaces for display
     importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
     importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,
                                 aiPrimitiveType_POINT | aiPrimitiveType_LINE);
-    const aiScene* scene = read_scene(importer, file);
+    const aiScene* scene = read_scene(importer, file, bytes);
     if (scene != nullptr) {
         check_faces(file, *scene);
         scene = importer.ApplyPostProcessing(aiProcess_Triangulate | aiProcess_SortByPType);
@@ -248,8 +302,17 @@ ImportedMesh import_scene(const std::filesystem::path& file) {
     if (scene == nullptr || scene->mRootNode == nullptr)
         throw bad_input(file.string(),
                         fmt::format("cannot be read as a mesh ({})", importer.GetErrorString()),
-                        "formats are OBJ, STL, PLY, OFF, DAE, glTF, FBX, each also with .gz");
+                        kRemedy);
     return {Collector(*scene).collect(), frame_of(*scene)};
+}
+
+}  // namespace
+
+ImportedMesh import_scene(const std::filesystem::path& file) {
+    const std::vector<char> bytes = is_gzip_name(file) ? gunzip(file) : std::vector<char>();
+    const std::uint64_t size = bytes.size() + std::filesystem::file_size(file);
+    rehearse(file, ReadBounds::for_size(size), [&] { import_once(file, bytes); });
+    return import_once(file, bytes);
 }
 
 }  // namespace ice

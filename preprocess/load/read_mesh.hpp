@@ -10,8 +10,8 @@
 
 namespace ice {
 
-/// Reads any format assimp knows (OBJ, STL, PLY, OFF, DAE, glTF, FBX, ...), with the parts' names,
-/// also compressed (hull.stl.gz).
+/// Reads OBJ, STL, PLY, OFF, DAE, glTF, GLB and FBX, with the parts' names, also compressed
+/// (hull.stl.gz).
 ///
 /// assimp keeps coordinates as floats; the shortest decimal of the float is taken, which is what
 /// the file said where it said it in seven digits or fewer.

@@ -26,6 +26,7 @@ struct Element {
     long count = 0;
     std::vector<Property> properties;
 };
+constexpr long kMostRows = 1L << 48;  // of an element: their sum must not overflow
 struct PlyHeader {
     bool text = false, swapped = false;
     std::vector<Element> elements;
@@ -54,6 +55,7 @@ PlyHeader read_header(std::ifstream& in) {
         } else if (word == "element") {
             Element element;
             words >> element.name >> element.count;
+            element.count = std::clamp(element.count, 0L, kMostRows);
             header.elements.push_back(element);
         } else if (word == "property" && !header.elements.empty()) {
             Property property;
@@ -72,6 +74,7 @@ PlyHeader read_header(std::ifstream& in) {
 
 // Rows of an element that are whole in the bytes from `at` on, which moves behind them.
 long whole_rows(const Element& element, bool swapped, const std::string& bytes, std::size_t& at) {
+    if (element.properties.empty()) return element.count;
     for (long row = 0; row < element.count; ++row) {
         std::size_t end = at;
         for (const Property& property : element.properties) {
@@ -155,7 +158,9 @@ void check_off(const std::filesystem::path& file, std::ifstream& in) {
     while (counts.find_first_of("0123456789") == std::string::npos && std::getline(in, counts))
         if (counts.find('#') != std::string::npos) counts.clear();
     long vertices = 0, faces = 0;
-    if (std::istringstream(counts) >> vertices >> faces) check_text(file, in, vertices + faces);
+    if (std::istringstream(counts) >> vertices >> faces)
+        check_text(file, in,
+                   std::clamp(vertices, 0L, kMostRows) + std::clamp(faces, 0L, kMostRows));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/alpha_wrap_3.h>
 
+#include <algorithm>
 #include <exception>
 
 #include "preprocess/repair/wrap_solid.hpp"
@@ -16,6 +17,11 @@ TriangleMesh alpha_wrap(const TriangleMesh& mesh, double alpha, double offset) {
     std::vector<std::vector<std::size_t>> faces;
     for (const Vec3& v : mesh.vertices) points.emplace_back(v.x(), v.y(), v.z());
     for (const auto& t : mesh.triangles) faces.emplace_back(t.begin(), t.end());
+    // CGAL 5.5 leaves triangles without area out, and crashes when none is left
+    if (std::all_of(faces.begin(), faces.end(), [&](const std::vector<std::size_t>& f) {
+            return CGAL::collinear(points[f[0]], points[f[1]], points[f[2]]);
+        }))
+        return {};
     TriangleMesh out;
     try {
         Surface wrap;

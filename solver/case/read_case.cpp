@@ -283,7 +283,9 @@ double Case::ship_speed(double time) const {
     return u0 + (u1 - u0) * (time - t0) / (t1 - t0);
 }
 
-Case read_case(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+namespace {
+
+Case read_once(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
     Mistakes mistakes;
     std::size_t groups = 0;
     Values values = read_toml(read_input_text(file, "case file"), file.string(), case_schema(),
@@ -302,6 +304,13 @@ Case read_case(const std::filesystem::path& file, const std::vector<std::string>
     if (!unreadable) result = Builder(file, std::move(values), groups, mistakes).build();
     throw_mistakes(mistakes, file, "icesolve --explain KEY tells what a key takes");
     return result;
+}
+
+}  // namespace
+
+Case read_case(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+    rehearse_input(file, [&] { read_once(file, overrides); });
+    return read_once(file, overrides);
 }
 
 }  // namespace ice

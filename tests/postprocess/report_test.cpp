@@ -115,6 +115,22 @@ TEST_CASE("markers in a title are text like any other", "[report]") {
     CHECK(tag_fault(markup_of(html)).empty());
 }
 
+TEST_CASE("names that a mesh or case brings along are text, whatever they look like",
+          "[report][security]") {
+    const std::string name = "<script>alert(1)</script><img src=x onerror='alert(2)'>";
+    read::RunFolder folder = make_folder();
+    folder.data.header.title = folder.summary->title = name;
+    folder.summary->regions[name] = {1, 2.0, {3.0, 4.0, 5.0}};
+    folder.summary->warnings = {name};
+    for (auto& shape : folder.data.header.shapes)
+        for (std::string& region : shape.mesh.region_names) region = name;
+    const std::string html = make_report(folder);
+    CHECK(count(html, "<script>alert") == 0);
+    CHECK(count(html, "<img src=x") == 0);
+    CHECK(count(html, "&lt;script&gt;alert(1)") >= 3);  // title, region, warning
+    CHECK(tag_fault(markup_of(html)).empty());
+}
+
 TEST_CASE("the report is well-formed and its ids are unique", "[report]") {
     const std::string html = make_report(make_folder({.dimension = GENERATE(2, 3)}));
     CHECK(tag_fault(markup_of(html)).empty());

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Reading strangers' files with libraries that were not made for them.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+
+namespace ice {
+
+/// What reading a file may take; far more than any sound file needs.
+struct ReadBounds {
+    double seconds = 10.0;                         ///< of processor time
+    std::uint64_t bytes = std::uint64_t{1} << 30;  ///< of memory, beyond what is in use already
+
+    /// 10 s and 5 s per MB; 1 GiB and 64 bytes per byte.
+    /// @param size  of the file, unpacked [bytes]
+    static ReadBounds for_size(std::uint64_t size);
+};
+
+/// Does `read` once in a child process and throws where that throws an Error, crashes, never ends
+/// or fills the memory: assimp 5.2 and HDF5 1.10 do so on some damaged files
+/// (tests/fuzz/README.md). What went well there the caller does again, itself. The child can grow
+/// no file, leaves no core and its stderr is thrown away.
+///
+/// A crash becomes a message. This is no sandbox: a file that takes over the library in the child
+/// would act with the user's rights.
+///
+/// @param file  for the message
+/// @param read  must start no threads; what it changes is lost
+/// @throws Error that `read` threw; (exit code 2) when reading does not end by itself or is out of
+///         bounds; (exit code 1) when the system gives no process
+void rehearse(const std::filesystem::path& file, const ReadBounds& bounds,
+              const std::function<void()>& read);
+
+}  // namespace ice
