@@ -7,9 +7,11 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <new>
+#include <stdexcept>
 
 #include "common/base/error.hpp"
 
@@ -56,9 +58,17 @@ void say(const std::string& text) { spdlog::info("{}", text); }
 
 void say_warning(const std::string& text) { spdlog::warn("warning: {}", text); }
 
-int run_program(const std::string& name, const std::function<int()>& body) {
+int run_program(const std::string& name, const std::function<int()>& body,
+                const std::string& to_save_memory) {
     const auto complain = [&](const std::string& text) {
         spdlog::error("{}: error: {}", name, text);
+    };
+    const auto out_of_memory = [&] {
+        try {
+            complain("out of memory\n  " + to_save_memory + ", or a machine with more memory");
+        } catch (const std::exception&) {  // not even enough for these words
+            std::fputs("error: out of memory\n", stderr);
+        }
     };
     try {
         return body();
@@ -66,7 +76,9 @@ int run_program(const std::string& name, const std::function<int()>& body) {
         complain(error.what());
         return static_cast<int>(error.code());
     } catch (const std::bad_alloc&) {
-        complain("out of memory\n  use a larger radius or spacing, or a smaller case");
+        out_of_memory();
+    } catch (const std::length_error&) {  // more elements than any memory could hold
+        out_of_memory();
     } catch (const std::exception& error) {
         complain(std::string(error.what()) +
                  "\n  this is a fault of the program: please report it");
