@@ -34,7 +34,7 @@ within bash -euc '
     cp -r /usr/share/icesolve/. /tmp/trial
     cd /tmp/trial
     cases/prepare.sh cases/paper-2d-u0.5
-    icesolve cases/paper-2d-u0.5/case.cfg --out run -q --set simulation.duration=5
+    icesolve cases/paper-2d-u0.5/case.cfg --out run -q --set simulation.duration=5 --set output.average_from=2
     icepost table run
     test -s run/report.html'
 if [[ -z ${ICE_WITHOUT_LIBRARY:-} ]]; then

@@ -19,7 +19,7 @@ constexpr double kDraught = 0.8, kFreeboard = 1.2;        // [m]
 constexpr double kShipStart = 0.5;                        // x of its stern at t = 0 [m]
 constexpr double kSpeed = 0.1, kTurn = 6.0;               // [m/s], half a turn [s]
 const Vec3 kFloeSize(1.0, 0.8, kThickness);               // [m]
-constexpr double kFloeRadius = 0.1;                       // of their spheres [m]
+constexpr double kFloeRadius = 0.05;                     // of their spheres [m]
 constexpr double kPitchX = 1.08, kPitchY = 0.88;          // of their places at t = 0 [m]
 
 // A flared box: sloped ends and sides push floes down and let them slip out again. Keel at

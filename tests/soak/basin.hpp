@@ -7,10 +7,10 @@
 namespace ice::soak {
 
 constexpr int kFloes = 400;
-constexpr double kThickness = 0.4;  ///< of the floes [m]
+constexpr double kThickness = 0.3;  ///< of the floes [m]
 constexpr double kPeriod = 360.0;   ///< of the ship's motion [s]
 
-/// A basin of 29.5 x 15 m between four held walls, 400 floes of 1 x 0.8 x 0.4 m, and a ship of
+/// A basin of 29.5 x 15 m between four held walls, 400 floes of 1 x 0.8 x 0.3 m, and a ship of
 /// 10 x 6 m, flared all round from a keel of 6 x 1 m, that goes to and fro along it at 0.1 m/s.
 ///
 /// The floes cannot leave, and beside the ship's way, 3 m broad at the waterline, there is no room
