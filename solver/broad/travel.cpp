@@ -29,6 +29,7 @@ void Travel::update(const Scene& scene, double dt) {
     way_.resize(b.size(), 0.0);
     soon_.resize(b.size(), 0.0);
     turn_.resize(b.size(), 0.0);
+    crushed_.resize(b.size(), 0.0);
     position_.resize(b.size());
     orientation_.resize(b.size());
     const auto look = [&](std::size_t i) {
@@ -45,8 +46,8 @@ void Travel::update(const Scene& scene, double dt) {
     for (std::size_t i = known; i < b.size(); ++i) look(i);
     if (known < b.size()) return update(scene, dt);  // `soon` of those just met
     for (const CrushedIce::Dent& dent : scene.crushed.recent) {
-        way_[static_cast<std::size_t>(dent.body)] += dent.depth;
-        soon_[static_cast<std::size_t>(dent.body)] += dent.depth;
+        for (auto* sum : {&way_, &soon_, &crushed_})
+            (*sum)[static_cast<std::size_t>(dent.body)] += dent.depth;
     }
     look(kShip);
     for (const std::int32_t i : b.moving) look(static_cast<std::size_t>(i));

@@ -26,13 +26,15 @@ public:
     double soon(std::int32_t body) const { return soon_[static_cast<std::size_t>(body)]; }
     /// Angle through which it has turned since the first look [rad].
     double turn(std::int32_t body) const { return turn_[static_cast<std::size_t>(body)]; }
+    /// How far it has been crushed since then, part of its way [m].
+    double crushed(std::int32_t body) const { return crushed_[static_cast<std::size_t>(body)]; }
     std::size_t size() const { return way_.size(); }
 
     /// R + 0.5 m of a shape: what a turn by an angle of 1 counts as [m].
     static double arm(const Shape& shape) { return shape.bounding_radius + 0.5; }
 
 private:
-    std::vector<double> way_, soon_, turn_;
+    std::vector<double> way_, soon_, turn_, crushed_;
     std::vector<Vec3> position_;  // at the last look
     std::vector<Quaternion> orientation_;
 };

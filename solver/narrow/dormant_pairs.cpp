@@ -2,6 +2,7 @@
 #include "solver/narrow/dormant_pairs.hpp"
 
 #include <algorithm>
+#include <numbers>
 #include <utility>
 
 namespace ice {
@@ -10,7 +11,7 @@ namespace {
 
 // A pair is looked ahead for this turn [rad] and this share of its ice's radius: more keeps more
 // spheres, less has to be found anew sooner.
-constexpr double kLeewayAngle = 0.01, kLeewayShare = 0.6;
+constexpr double kLeewayAngle = 0.015, kLeewayShare = 0.6;
 
 // Up to so many entries gaps do not matter.
 constexpr std::size_t kFewest = 4096;
@@ -51,13 +52,44 @@ void DormantPairs::close_gaps() {
     near_.swap(moved_near_);
 }
 
-void DormantPairs::settle(std::size_t k, BodyPair pair, const Travel& travel, const Leeway& leeway,
-                          double free) {
+void DormantPairs::settle(std::size_t k, const PairView& view, const Travel& travel,
+                          const Leeway& leeway, double free) {
     Row& row = rows_[k];
-    const double gone = travel.way(pair.a) + travel.way(pair.b);
-    row.wake = gone + free;
-    row.way = gone + leeway.distance;
-    row.turn = travel.turn(pair.a) + travel.turn(pair.b) + leeway.angle;
+    row.turn = view.turn;
+    row.shift = view.shift;
+    row.crushed = travel.crushed(view.pair.a) + travel.crushed(view.pair.b);
+    row.free = free;
+    row.leeway = leeway;
+    remind(row, view.pair, travel, 0.0, 0.0);
+}
+
+// Since it was settled the bodies have gone and turned so much relative to each other; what is left
+// they may go separately before that has to be looked at again.
+void DormantPairs::remind(Row& row, BodyPair pair, const Travel& travel, double gone,
+                          double turned) {
+    const double now = travel.way(pair.a) + travel.way(pair.b);
+    row.soon_wake = now + row.free - gone;
+    row.soon_unknown = now + row.leeway.distance - gone;
+    row.turn_unknown = travel.turn(pair.a) + travel.turn(pair.b) + row.leeway.angle - turned;
+}
+
+DormantPairs::State DormantPairs::look(std::size_t k, const Scene& scene, BodyPair pair,
+                                       const Travel& travel, double dt) {
+    Row& row = rows_[k];
+    const double soon = travel.soon(pair.a) + travel.soon(pair.b);
+    if (soon < std::min(row.soon_wake, row.soon_unknown) &&
+        travel.turn(pair.a) + travel.turn(pair.b) < row.turn_unknown)
+        return State::asleep;
+    if (row.leeway.distance < 0.0) return State::unknown;  // never settled
+    const PairView view(scene, pair);
+    // |R - R0| is sqrt(8) sin(angle / 2), below half a radian at least 0.99 sqrt(2) angle
+    const double turned = (view.turn - row.turn).norm() / (0.99 * std::numbers::sqrt2);
+    const double gone = (view.shift - row.shift).norm() + Travel::arm(view.shape_b) * turned +
+                        travel.crushed(pair.a) + travel.crushed(pair.b) - row.crushed;
+    const double then = gone + dt * closing_speed(scene, pair);
+    if (then >= row.leeway.distance || turned >= row.leeway.angle) return State::unknown;
+    remind(row, pair, travel, gone, turned);
+    return then >= row.free ? State::known : State::asleep;
 }
 
 Leeway dormant_leeway(const Scene& scene, BodyPair pair) {

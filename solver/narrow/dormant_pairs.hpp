@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "solver/broad/find_pairs.hpp"
-#include "solver/narrow/measure_gap.hpp"
+#include "solver/narrow/kind_bound.hpp"
+#include "solver/narrow/pair_view.hpp"
 #include "solver/scene/bodies.hpp"
 
 namespace ice {
@@ -24,16 +25,14 @@ public:
     /// Takes what is known of pairs over to a new list; both sorted.
     void match(const std::vector<BodyPair>& pairs);
 
-    /// May row k's bodies touch within the coming step, as far as is known?
-    bool is_awake(std::size_t k, BodyPair pair, const Travel& travel) const {
-        return !is_known(k, pair, travel) ||
-               travel.soon(pair.a) + travel.soon(pair.b) >= rows_[k].wake;
-    }
-    /// Is what is known of row k still true at the end of the coming step?
-    bool is_known(std::size_t k, BodyPair pair, const Travel& travel) const {
-        return travel.soon(pair.a) + travel.soon(pair.b) < rows_[k].way &&
-               travel.turn(pair.a) + travel.turn(pair.b) < rows_[k].turn;
-    }
+    /// What row k's bodies may do within the coming step, as far as is known.
+    enum class State {
+        asleep,  ///< they cannot touch
+        known,   ///< they may, with the spheres of near(k)
+        unknown  ///< they have gone too far
+    };
+    /// @pre travel was updated with the present poses and dt
+    State look(std::size_t k, const Scene& scene, BodyPair pair, const Travel& travel, double dt);
 
     /// Spheres of row k that may touch while it is known; good until the next keep() or match().
     std::span<const SpherePair> near(std::size_t k) const {
@@ -41,8 +40,8 @@ public:
     }
 
     /// From now on row k is known as far as `leeway`, and cannot touch before its bodies have gone
-    /// `free` [m] together. Rows may be settled at the same time.
-    void settle(std::size_t k, BodyPair pair, const Travel& travel, const Leeway& leeway,
+    /// `free` [m] relative to each other. Rows may be settled at the same time.
+    void settle(std::size_t k, const PairView& view, const Travel& travel, const Leeway& leeway,
                 double free);
 
     /// Keeps the spheres of row k that may touch while it is known.
@@ -50,10 +49,18 @@ public:
 
 private:
     struct Row {
-        double wake = 0.0;                 // sum of the bodies' ways at which they may touch [m]
-        double way = 0.0, turn = 0.0;      // sums at which nothing is known any more [m], [rad]
+        // where b was in a's axes when the row was settled
+        Mat3 turn = Mat3::Zero();
+        Vec3 shift = Vec3::Zero();
+        double crushed = 0.0;       // of both bodies then [m]
+        double free = 0.0;          // how far they may go until they touch, and until nothing is
+        Leeway leeway{-1.0, -1.0};  // known any more
+        // sums of the bodies' soon() and turn() at which to look at the poses again: going the same
+        // way they come no nearer to each other
+        double soon_wake = 0.0, soon_unknown = 0.0, turn_unknown = 0.0;
         std::size_t first = 0, count = 0;  // of near_
     };
+    static void remind(Row& row, BodyPair pair, const Travel& travel, double gone, double turned);
     void close_gaps();
 
     std::vector<BodyPair> pairs_;

@@ -8,7 +8,7 @@
 
 #include "common/base/parallel.hpp"
 #include "solver/narrow/emit_contacts.hpp"
-#include "solver/narrow/pair_surfaces.hpp"
+#include "solver/narrow/pair_kinds.hpp"
 #include "solver/narrow/search_pair.hpp"
 
 namespace ice {
@@ -36,34 +36,37 @@ struct Range {
         const double along = corner_a + corner_b + margin, across = reach + aside_a + aside_b;
         return along * along + across * across;
     }
-    bool holds(const SphereSurface& a, const SphereSurface& b) const {
-        return (a.center - b.center).squaredNorm() <=
-               squared(a.faces.corner, a.faces.aside, b.faces.corner, b.faces.aside);
+    bool holds(const Vec3& center_a, const Faces& a, const Vec3& center_b, const Faces& b) const {
+        return (center_a - center_b).squaredNorm() <= squared(a.corner, a.aside, b.corner, b.aside);
     }
 };
+
+// Keeps what is near enough to matter. Under the rule "surface" a face farther than the margin
+// matters too: it may show that the probe is outside.
+void keep_candidate(const PairView& view, NormalRule rule, const Range& range, std::int32_t i,
+                    std::int32_t j, const Gap& gap, std::vector<Candidate>& out) {
+    const double reach = gap.a_is_surface ? view.shape_a.reach : view.shape_b.reach;
+    const bool near =
+        rule == NormalRule::centres ? gap.gap <= range.margin : gap.lateral_sq <= reach * reach;
+    if (gap.valid && near) out.push_back({i, j, gap});
+}
 
 // Measures the candidates of a pair.
 struct Measure {
     const PairView& view;
-    PairSurfaces& surfaces;
+    PairKinds& kinds;
     NormalRule rule;
     Range range;
     std::vector<Candidate>& out;
 
-    // Keeps spheres i and j when they are near enough to matter. Under the rule "surface" a face
-    // farther than the margin matters too: it may show that the probe is outside.
     void operator()(std::int32_t i, std::int32_t j) const {
-        const PairSurfaces::Entry &a = surfaces.a(view, i), &b = surfaces.b(view, j);
-        if (!range.holds(a.surface, b.surface) || a.gone || b.gone) return;
-        if (rule == NormalRule::centres) {
-            const Gap gap = measure_gap_centres(a.surface, b.surface);
-            if (gap.valid && gap.gap <= range.margin) out.push_back({i, j, gap});
-            return;
-        }
-        const bool ship = view.pair.a == static_cast<std::int32_t>(kShip);
-        const Gap gap = measure_gap_surface(a.surface, b.surface, ship);
-        const double reach = gap.a_is_surface ? view.shape_a.reach : view.shape_b.reach;
-        if (gap.valid && gap.lateral_sq <= reach * reach) out.push_back({i, j, gap});
+        const PairKinds::Place &a = kinds.a(i), &b = kinds.b(j);
+        const Faces &faces_a = view.shape_a.faces[i], &faces_b = view.shape_b.faces[j];
+        if (!range.holds(a.center, faces_a, b.center, faces_b) || a.gone || b.gone) return;
+        const Gap gap = rule == NormalRule::centres
+                            ? measure_gap_centres(view.sphere_a(i), view.sphere_b(j))
+                            : kinds.measure(i, j, a, b);
+        keep_candidate(view, rule, range, i, j, gap, out);
     }
 };
 
@@ -147,9 +150,11 @@ void finish_pair(const PairView& view, NormalRule rule, double margin,
 // What the search of a pair needs; kept between pairs.
 struct Workspace {
     PairSearch search;
-    PairSurfaces surfaces;
+    PairKinds kinds;
     std::vector<Candidate> candidates;
 };
+
+bool prefers_a(const PairView& view) { return view.pair.a == static_cast<std::int32_t>(kShip); }
 
 // Measures the spheres that visit_pairs(view, range, measure) names, and makes contacts of them.
 template <class VisitPairs>
@@ -157,9 +162,9 @@ void find_pair_contacts(const Scene& scene, BodyPair pair, NormalRule rule, doub
                         Workspace& work, std::vector<Contact>& out, const VisitPairs& visit_pairs) {
     const PairView view(scene, pair);
     work.candidates.clear();
-    work.surfaces.begin(view);
+    work.kinds.begin(view, prefers_a(view));
     const Range range(view, rule, margin);
-    visit_pairs(view, range, Measure{view, work.surfaces, rule, range, work.candidates});
+    visit_pairs(view, range, Measure{view, work.kinds, rule, range, work.candidates});
     // the order of the search differs between poses: ascending, the answer is the pair's alone
     std::sort(work.candidates.begin(), work.candidates.end(),
               [](const Candidate& l, const Candidate& r) {
@@ -170,38 +175,25 @@ void find_pair_contacts(const Scene& scene, BodyPair pair, NormalRule rule, doub
 
 // The spheres that may be candidates while the pair moves within `leeway`, and the least gap that
 // they may have, less that motion.
-double find_near(const Scene& scene, BodyPair pair, NormalRule rule, double margin,
-                 const Leeway& leeway, Workspace& work, std::vector<SpherePair>& out) {
-    const PairView view(scene, pair);
-    work.surfaces.begin(view);
+double find_near(const PairView& view, NormalRule rule, double margin, const Leeway& leeway,
+                 Workspace& work, std::vector<SpherePair>& out) {
+    work.kinds.begin(view, prefers_a(view));
     out.clear();
     const Range range(view, rule, margin + leeway.distance);
-    const bool ship = pair.a == static_cast<std::int32_t>(kShip);
     double least = std::numeric_limits<double>::infinity();
     work.search.for_each_near(
         view, range.margin, range.reach + leeway.distance, [&](std::int32_t i, std::int32_t j) {
-            const PairSurfaces::Entry &a = work.surfaces.a(view, i), &b = work.surfaces.b(view, j);
+            const PairKinds::Place &a = work.kinds.a(i), &b = work.kinds.b(j);
             if (a.gone || b.gone) return;
-            const double gap =
-                rule == NormalRule::centres
-                    ? (a.surface.center - b.surface.center).norm() -
-                          (a.surface.radius + b.surface.radius)
-                    : least_gap_surface(a.surface, b.surface, ship, range.reach, leeway);
+            const double gap = rule == NormalRule::centres
+                                   ? (a.center - b.center).norm() -
+                                         (view.shape_a.radius[i] + view.shape_b.radius[j])
+                                   : work.kinds.bound(i, j, a, b, range.reach, leeway);
             if (gap == std::numeric_limits<double>::infinity()) return;
             least = std::min(least, gap);
             out.push_back({i, j});
         });
     return least;
-}
-
-// Upper bound of the speed at which surface points of the two bodies approach [m/s].
-double closing_speed(const Scene& scene, BodyPair pair) {
-    const Bodies& b = scene.bodies;
-    const auto turning = [&](std::int32_t i) {
-        return b.angular_velocity[i].norm() *
-               scene.shapes[static_cast<std::size_t>(b.shape[i])].bounding_radius;
-    };
-    return (b.velocity[pair.b] - b.velocity[pair.a]).norm() + turning(pair.a) + turning(pair.b);
 }
 
 }  // namespace
@@ -226,39 +218,41 @@ void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
                          std::vector<Contact>& out) {
     dormant_.match(pairs);
     awake_.clear();
-    for (std::size_t k = 0; k < pairs.size(); ++k)
-        if (dormant_.is_awake(k, pairs[k], travel)) awake_.push_back(k);
+    known_.clear();
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+        const auto state = dormant_.look(k, scene, pairs[k], travel, dt);
+        if (state == DormantPairs::State::asleep) continue;
+        awake_.push_back(k);
+        known_.push_back(state == DormantPairs::State::known);
+    }
     per_pair_.resize(std::max(per_pair_.size(), awake_.size()));
     found_.resize(std::max(found_.size(), awake_.size()));
-    asked_.resize(found_.size());
     parallel_for(awake_.size(), kSerialPairs, [&](std::size_t n) {
         thread_local Workspace work;
         const std::size_t k = awake_[n];
-        const BodyPair pair = pairs[k];
         per_pair_[n].clear();
-        found_[n].clear();
-        asked_[n] = 0;
         std::span<const SpherePair> near = dormant_.near(k);
-        if (!dormant_.is_known(k, pair, travel)) {
-            asked_[n] = 1;
-            const Leeway leeway = dormant_leeway(scene, pair);
-            const double least = find_near(scene, pair, rule, margin, leeway, work, found_[n]);
-            dormant_.settle(k, pair, travel, leeway, std::min(least - margin, leeway.distance));
-            if (!dormant_.is_awake(k, pair, travel)) return;
+        auto state = DormantPairs::State::known;
+        if (!known_[n]) {
+            const PairView view(scene, pairs[k]);
+            const Leeway leeway = dormant_leeway(scene, pairs[k]);
+            const double least = find_near(view, rule, margin, leeway, work, found_[n]);
+            dormant_.settle(k, view, travel, leeway, std::min(least - margin, leeway.distance));
+            state = dormant_.look(k, scene, pairs[k], travel, dt);
+            if (state == DormantPairs::State::asleep) return;
             near = found_[n];
         }
         // a pair too fast for what can be known in advance is searched afresh
-        const bool known = dormant_.is_known(k, pair, travel);
         find_pair_contacts(
-            scene, pair, rule, dt * closing_speed(scene, pair) + margin, work, per_pair_[n],
+            scene, pairs[k], rule, dt * closing_speed(scene, pairs[k]) + margin, work, per_pair_[n],
             [&](const PairView& view, const Range& range, const Measure& measure) {
-                if (!known)
+                if (state == DormantPairs::State::unknown)
                     return work.search.for_each_near(view, range.margin, range.reach, measure);
                 for (const SpherePair& spheres : near) measure(spheres.a, spheres.b);
             });
     });
     for (std::size_t n = 0; n < awake_.size(); ++n)
-        if (asked_[n] != 0) dormant_.keep(awake_[n], found_[n]);
+        if (!known_[n]) dormant_.keep(awake_[n], found_[n]);
     join(awake_.size(), out);
 }
 
@@ -273,13 +267,19 @@ namespace reference {
 void find_contacts(const Scene& scene, BodyPair pair, NormalRule rule, double margin,
                    std::vector<Contact>& out) {
     const PairView view(scene, pair);
-    PairSurfaces surfaces;
-    surfaces.begin(view);
+    const Range range(view, rule, margin);
     std::vector<Candidate> candidates;
-    const Measure measure{view, surfaces, rule, Range(view, rule, margin), candidates};
     for (std::int32_t i = 0; i < static_cast<std::int32_t>(view.shape_a.center.size()); ++i)
-        for (std::int32_t j = 0; j < static_cast<std::int32_t>(view.shape_b.center.size()); ++j)
-            measure(i, j);
+        for (std::int32_t j = 0; j < static_cast<std::int32_t>(view.shape_b.center.size()); ++j) {
+            const SphereSurface a = view.sphere_a(i), b = view.sphere_b(j);
+            if (!range.holds(a.center, a.faces, b.center, b.faces) || view.is_gone_a(i) ||
+                view.is_gone_b(j))
+                continue;
+            const Gap gap = rule == NormalRule::centres
+                                ? measure_gap_centres(a, b)
+                                : measure_gap_surface(a, b, prefers_a(view));
+            keep_candidate(view, rule, range, i, j, gap, candidates);
+        }
     finish_pair(view, rule, margin, candidates, out);
 }
 

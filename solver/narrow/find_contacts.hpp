@@ -61,7 +61,7 @@ private:
     std::vector<std::size_t> awake_;              // rows of the pairs that are looked at
     std::vector<std::vector<Contact>> per_pair_;  // of these
     std::vector<std::vector<SpherePair>> found_;  // of these: what is newly known
-    std::vector<std::uint8_t> asked_;             // of these: is there anything new?
+    std::vector<std::uint8_t> known_;             // of these: is near() all that may touch?
     DormantPairs dormant_;
 };
 

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Bounds of the rule of measure_gap_surface, for those who must agree on them.
+/// Pieces of the rule of measure_gap_surface, for those who must agree on them.
 #pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "solver/narrow/measure_gap.hpp"
 
@@ -18,11 +22,58 @@ constexpr double kSlantOnFace = 0.95, kSlantOnEdge = 0.1;
 /// Edges closer to parallel than this (sine) have no normal across both.
 constexpr double kParallel = 0.05;
 
-/// Squared distance [m2] across n from the part of the surface that `s` stands for to a probe's
-/// point. An edge's sphere stands for the face from above its centre out to the corner, and for
-/// nothing beyond: there the other body's edge has nothing under it. Infinite beyond, by more than
-/// `slack` [m]. @param edges  both spheres are edges or corners
-double distance_across(const SphereSurface& s, const Vec3& n, const Vec3& probe, bool edges,
-                       double slack = 0.0);
+/// A corner is over a face as long as it is not this many radii beyond the face's edge.
+constexpr double kBeyond = 0.01;
+
+/// An edge's or corner's sphere stands for its body as far as this many radii around.
+constexpr double kAround = 2.0;
+
+/// Squared distances (in radii) that count as equal.
+constexpr double kFlush = 1e-3;
+
+/// v without its part along the unit vector n.
+inline Vec3 part_across(const Vec3& v, const Vec3& n) { return v - v.dot(n) * n; }
+
+/// What an edge's or corner's sphere stands for of a face: from above its centre out to the corner.
+struct Foothold {
+    Vec3 out;      ///< that way, across the face's normal [m]
+    double reach;  ///< its length [m]
+};
+inline Foothold foothold(const SphereSurface& s, const Vec3& n) {
+    const Vec3 out = part_across(s.faces.corner * s.normal, n);
+    return {out, out.norm()};
+}
+
+/// Squared distance [m2] of a point, `at` from the centre across the normal [m], from a foothold of
+/// a sphere of this radius. There is nothing beyond the corner, where the other body's edge has
+/// nothing under it: infinite there, by more than `slack` [m].
+inline double distance_from(const Foothold& foot, double radius, const Vec3& at, double slack) {
+    if (foot.reach <= kBeyond * radius) return at.squaredNorm();
+    const double along = at.dot(foot.out) / foot.reach;
+    if (along > foot.reach + kBeyond * radius + slack)
+        return std::numeric_limits<double>::infinity();
+    const double excess = along - std::clamp(along, 0.0, foot.reach);
+    return std::max(at.squaredNorm() - along * along, 0.0) + excess * excess;
+}
+
+/// Is n an outward normal of the surface there? No face that stands all but upright: its edges are
+/// before it. @param slack  bounds are wider by this [rad]
+inline bool belongs(const SphereSurface& s, const Vec3& n, double slack = 0.0) {
+    if (s.faces.count > 0) return s.faces.have(n, kSlantOnFace, slack);
+    return s.normal.dot(n) >= std::min(kLeaning, s.spread_cos) - slack;
+}
+
+/// From the centre to the foremost point along n [m]: support_point less the centre.
+inline Vec3 support_offset(const SphereSurface& s, const Vec3& n) {
+    if (s.faces.count == 0) return s.radius * n;
+    return s.faces.corner * s.normal;
+}
+
+/// Is one of s's faces less deep in all that the other sphere stands for than `gap`? Then that is
+/// where the bodies meet, somewhere beside. A corner may lie deep behind one face's plane and yet
+/// outside another's, which its body, turned a little, enters far from here.
+/// @param apart  from s's corner to the other one's [m]
+bool is_less_deep(const SphereSurface& s, const SphereSurface& other, const Vec3& apart,
+                  double gap);
 
 }  // namespace ice

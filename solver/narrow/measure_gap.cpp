@@ -12,15 +12,6 @@ namespace ice {
 
 namespace {
 
-// A corner is over a face as long as it is not this many radii beyond the face's edge.
-constexpr double kBeyond = 0.01;
-
-// An edge's or corner's sphere stands for its body as far as this many radii around.
-constexpr double kAround = 2.0;
-
-// Squared distances (in radii) that count as equal.
-constexpr double kFlush = 1e-3;
-
 // The direction of d itself inside the cone of normals, else the cone's nearest to it.
 Vec3 nearest_normal(const SphereSurface& s, const Vec3& d) {
     if (s.spread_cos == 1.0) return s.normal;
@@ -33,13 +24,6 @@ Vec3 nearest_normal(const SphereSurface& s, const Vec3& d) {
     const double length = across.norm();
     if (length == 0.0) return s.normal;  // u points straight inwards: the pair will be invalid
     return s.spread_cos * s.normal + (s.spread_sin / length) * across;
-}
-
-// Is n an outward normal of the surface there? No face that stands all but upright: its edges are
-// before it.
-bool belongs(const SphereSurface& s, const Vec3& n, double most_along) {
-    if (s.faces.count > 0) return s.faces.have(n, most_along);
-    return s.normal.dot(n) >= std::min(kLeaning, s.spread_cos);
 }
 
 // Of the directions that may part two local solids the one with the largest gap.
@@ -87,16 +71,10 @@ Parting parting_normal(const SphereSurface& a, const SphereSurface& b, const Vec
     return best;
 }
 
-// Is one of s's faces less deep in all that the other sphere stands for than `gap`? Then that is
-// where the bodies meet, somewhere beside. A corner may lie deep behind one face's plane and yet
-// outside another's, which its body, turned a little, enters far from here.
-bool is_less_deep(const SphereSurface& s, const SphereSurface& other, double gap) {
-    const Vec3 apart = support_point(other, other.normal) - support_point(s, s.normal);
-    const auto first = s.faces.normal.begin();
-    return std::any_of(first, first + s.faces.count, [&](const Vec3& n) {
-        return n.dot(apart) + other.faces.least_along(n, kAround * other.radius) >
-               gap + kBeyond * s.radius;
-    });
+// Squared distance across n from the part of the surface that `s` stands for to a probe's point.
+double distance_across(const SphereSurface& s, const Vec3& n, const Vec3& probe, bool edges) {
+    const Vec3 at = part_across(probe - s.center, n);
+    return edges ? distance_from(foothold(s, n), s.radius, at, 0.0) : at.squaredNorm();
 }
 
 // Midway between two faces' normals; zero where they face away, over 120 degrees apart.
@@ -108,23 +86,17 @@ Vec3 mean_normal(const Vec3& normal_a, const Vec3& normal_b) {
 
 }  // namespace
 
-double distance_across(const SphereSurface& s, const Vec3& n, const Vec3& probe, bool edges,
-                       double slack) {
-    const auto across = [&](const Vec3& v) { return Vec3(v - v.dot(n) * n); };
-    const Vec3 at = across(probe - s.center);
-    if (!edges) return at.squaredNorm();
-    const Vec3 out = across(s.faces.corner * s.normal);
-    const double reach = out.norm();
-    if (reach <= kBeyond * s.radius) return at.squaredNorm();
-    const double along = at.dot(out) / reach;
-    if (along > reach + kBeyond * s.radius + slack) return std::numeric_limits<double>::infinity();
-    const double excess = along - std::clamp(along, 0.0, reach);
-    return std::max(at.squaredNorm() - along * along, 0.0) + excess * excess;
+bool is_less_deep(const SphereSurface& s, const SphereSurface& other, const Vec3& apart,
+                  double gap) {
+    const auto first = s.faces.normal.begin();
+    return std::any_of(first, first + s.faces.count, [&](const Vec3& n) {
+        return n.dot(apart) + other.faces.least_along(n, kAround * other.radius) >
+               gap + kBeyond * s.radius;
+    });
 }
 
 Vec3 support_point(const SphereSurface& s, const Vec3& n) {
-    if (s.faces.count == 0) return s.center + s.radius * n;
-    return s.center + s.faces.corner * s.normal;
+    return s.center + support_offset(s, n);
 }
 
 Crossing find_crossing(const Vec3& pa, const Vec3& ea, const Vec3& pb, const Vec3& eb) {
@@ -156,14 +128,15 @@ Gap measure_gap_surface(const SphereSurface& a, const SphereSurface& b, bool pre
     else
         n = a_is_surface ? nearest_normal(a, d) : Vec3(-nearest_normal(b, -d));
     if (n.isZero(0.0) || n.dot(d) <= 0.0) return none;
-    if (!edges && (!belongs(a, n, kSlantOnFace) || !belongs(b, -n, kSlantOnFace))) return none;
+    if (!edges && (!belongs(a, n) || !belongs(b, -n))) return none;
     const Vec3 point_a = support_point(a, n), point_b = support_point(b, -n);
     const double gap = n.dot(point_b - point_a);
-    if (edges && gap < 0.0 && (is_less_deep(a, b, gap) || is_less_deep(b, a, gap))) return none;
+    const Vec3 apart = point_b - point_a;
+    if (edges && gap < 0.0 && (is_less_deep(a, b, apart, gap) || is_less_deep(b, a, -apart, gap)))
+        return none;
     if (parting.edge_a >= 0) {
-        const double apart = (point_b - point_a).squaredNorm() - gap * gap;
-        return {n,    gap,  std::max(apart, 0.0), a_is_surface,
-                true, true, parting.edge_a,       parting.edge_b};
+        const double beside_sq = std::max(apart.squaredNorm() - gap * gap, 0.0);
+        return {n, gap, beside_sq, a_is_surface, true, true, parting.edge_a, parting.edge_b};
     }
     const double under_a = distance_across(a, n, point_b, edges);
     const double under_b = distance_across(b, n, point_a, edges);

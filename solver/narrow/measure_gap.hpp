@@ -69,17 +69,4 @@ Gap measure_gap_centres(const SphereSurface& a, const SphereSurface& b);
 /// n . (c_b - c_a) <= 0.
 Gap measure_gap_surface(const SphereSurface& a, const SphereSurface& b, bool prefer_a);
 
-/// How two spheres may move before they are measured again.
-struct Leeway {
-    double distance;  ///< of any of their points in the other one's axes [m]
-    double angle;     ///< of the turn between them [rad]
-};
-
-/// A bound on later gaps: as long as b has moved by at most s <= leeway.distance relative to a and
-/// turned by at most leeway.angle, measure_gap_surface gives a gap of at least this less s, or none
-/// within `reach` [m], the larger of both shapes'. Infinite, and minus infinite where nothing can
-/// be said.
-double least_gap_surface(const SphereSurface& a, const SphereSurface& b, bool prefer_a,
-                         double reach, const Leeway& leeway);
-
 }  // namespace ice

@@ -53,6 +53,16 @@ struct PairView {
     }
 };
 
+/// Upper bound of the speed at which surface points of the two bodies approach [m/s].
+inline double closing_speed(const Scene& scene, BodyPair pair) {
+    const Bodies& b = scene.bodies;
+    const auto turning = [&](std::int32_t i) {
+        return b.angular_velocity[i].norm() *
+               scene.shapes[static_cast<std::size_t>(b.shape[i])].bounding_radius;
+    };
+    return (b.velocity[pair.b] - b.velocity[pair.a]).norm() + turning(pair.a) + turning(pair.b);
+}
+
 /// Two spheres that may touch.
 struct Candidate {
     std::int32_t i, j;  // spheres of a and b

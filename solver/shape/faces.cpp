@@ -7,13 +7,6 @@
 
 namespace ice {
 
-namespace {
-
-// A part this negative is still no normal of another place: 3 degrees where faces are square.
-constexpr double kBelongs = -0.05;
-
-}  // namespace
-
 Faces Faces::meeting(std::span<const Vec3> normals) {
     Faces out;
     out.count = static_cast<int>(normals.size());
@@ -39,13 +32,6 @@ Faces Faces::turned(const Mat3& turn) const {
         out.normal[k] = turn * normal[k];
     for (std::size_t k = 0; k < 3; ++k) out.part[k] = turn * part[k];
     return out;
-}
-
-bool Faces::have(const Vec3& n, double most_along, double slack) const {
-    const double least = kBelongs * size - slack;  // no `part` is longer than 1
-    if (n.dot(part[0]) < least || n.dot(part[1]) < least) return false;
-    const double last = n.dot(part[2]);
-    return count == 2 ? std::abs(last) <= most_along + slack : last >= least;
 }
 
 double Faces::least_along(const Vec3& n, double around) const {

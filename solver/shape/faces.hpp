@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <array>
+#include <cmath>
 #include <span>
 
 #include "common/geometry/triangle_mesh.hpp"
@@ -27,7 +28,12 @@ struct Faces {
     /// sphere's is. Nor is it where n runs along the edge, by more than `most_along` (cosine).
     /// @param slack  all bounds are wider by this [rad]; negative: narrower
     /// @pre count > 0
-    bool have(const Vec3& n, double most_along, double slack = 0.0) const;
+    bool have(const Vec3& n, double most_along, double slack = 0.0) const {
+        const double least = kBelongs * size - slack;  // no `part` is longer than 1
+        if (n.dot(part[0]) < least || n.dot(part[1]) < least) return false;
+        const double last = n.dot(part[2]);
+        return count == 2 ? std::abs(last) <= most_along + slack : last >= least;
+    }
 
     /// Least of n . (p - corner) [m] for the points p of the solid that the faces bound, going from
     /// the corner, or along the edge either way, not further than `around` [m] along any edge or
@@ -44,6 +50,9 @@ struct Faces {
     bool ends() const { return count == 3; }
 
 private:
+    // a part this negative is still no normal of another place: 3 degrees where faces are square
+    static constexpr double kBelongs = -0.05;
+
     // n . part[k] is n's part along normal[k], times `size` (positive); of two faces part[2] is the
     // edge's direction
     std::array<Vec3, 3> part{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};

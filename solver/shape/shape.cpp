@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "common/base/error.hpp"
 #include "solver/shape/sphere_grid.hpp"
@@ -120,6 +121,23 @@ void copy_surface_spheres(const SphereSet& set, const Vec3& origin, Shape& shape
     }
 }
 
+// Numbers the kinds by their first spheres.
+void find_kinds(Shape& shape) {
+    std::map<std::array<double, 18>, std::int32_t> known;
+    for (std::size_t k = 0; k < shape.center.size(); ++k) {
+        const Faces& faces = shape.faces[k];
+        std::array<double, 18> key{shape.radius[k], shape.spread_cos[k], faces.corner, faces.aside,
+                                   static_cast<double>(faces.count)};
+        auto to = key.begin() + 5;
+        for (int d = 0; d < 3; ++d) *to++ = shape.normal[k][d];
+        for (const Vec3& n : faces.normal)
+            for (int d = 0; d < 3; ++d) *to++ = n[d];
+        const auto next = static_cast<std::int32_t>(known.size());
+        shape.kind.push_back(known.try_emplace(key, next).first->second);
+    }
+    shape.kinds = known.size();
+}
+
 // The largest distance from a surface sphere to its nearest neighbour is the set's real spacing s.
 // A square lattice leaves points s / sqrt(2) from every sphere, a hexagonal one s / sqrt(3).
 double measure_reach(const Shape& shape, double nominal_spacing) {
@@ -146,6 +164,7 @@ Shape build_shape(const SphereSet& set, bool about_centre_of_mass) {
     shape.sphere_count = set.size();
     shape.region_names = set.mesh.region_names;
     copy_surface_spheres(set, origin, shape);
+    find_kinds(shape);
     if (shape.center.empty())
         throw bad_input(set.source_mesh, "the sphere set has no surface spheres",
                         "make it again with spherize");

@@ -20,12 +20,14 @@ struct Shape {
     int dimension = 3;
 
     // the surface spheres, N each; interior spheres never touch anything first
-    std::vector<Vec3> center;          ///< [m]
-    std::vector<double> radius;        ///< [m]
-    std::vector<Vec3> normal;          ///< outward, unit
-    std::vector<double> spread_cos;    ///< of the half-angle between `normal` and the surface
-    std::vector<double> spread_sin;    ///<   normals met there: 1 and 0 on a face
-    std::vector<Faces> faces;          ///< that meet at the sphere; none on a face
+    std::vector<Vec3> center;        ///< [m]
+    std::vector<double> radius;      ///< [m]
+    std::vector<Vec3> normal;        ///< outward, unit
+    std::vector<double> spread_cos;  ///< of the half-angle between `normal` and the surface
+    std::vector<double> spread_sin;  ///<   normals met there: 1 and 0 on a face
+    std::vector<Faces> faces;        ///< that meet at the sphere; none on a face
+    std::vector<std::int32_t> kind;  ///< spheres of one kind differ by place, area and region only
+    std::size_t kinds = 0;
     std::vector<double> area;          ///< share of the surface [m2]
     std::vector<std::int32_t> region;  ///< row of region_names
     std::vector<std::string> region_names;

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/narrow/kind_bound.hpp"
+
+#include <Eigen/Geometry>
+#include <limits>
+
+namespace ice {
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// More than any two directions differ by [rad]: every normal is possible, nothing is known.
+constexpr double kMostTurn = 4.0;
+
+}  // namespace
+
+KindBound::KindBound(const SphereSurface& a, const SphereSurface& b, bool prefer_a, double reach,
+                     const Leeway& leeway)
+    : a_(&a), b_(&b), far_(reach + leeway.distance), leeway_(leeway) {
+    const KindMeeting meeting = find_meeting(a, b, prefer_a, leeway.angle);
+    rule_ = meeting.rule;
+    a_is_surface_ = meeting.a_is_surface;
+    const Vec3 n = rule_ == KindRule::edges ? Vec3(-b.normal) : meeting.normal;
+    offset_a_ = support_offset(a, n);
+    offset_b_ = support_offset(b, -n);
+    if (rule_ == KindRule::direction) face_[0].normal = meeting.normal;
+    if (rule_ == KindRule::edges) list_faces();
+}
+
+void KindBound::list_faces() {
+    const SphereSurface &a = *a_, &b = *b_;
+    const auto add = [&](const Vec3& n, const Faces& other, const Vec3& outward) {
+        if (!other.have(outward, kSlantOnEdge, leeway_.angle)) return;
+        certain_[faces_] = other.have(outward, kSlantOnEdge, -leeway_.angle);
+        face_[faces_++] = {n, foothold(a, n), foothold(b, n)};
+    };
+    for (std::size_t k = 0; k < static_cast<std::size_t>(a.faces.count); ++k)
+        add(a.faces.normal[k], b.faces, -a.faces.normal[k]);
+    for (std::size_t k = 0; k < static_cast<std::size_t>(b.faces.count); ++k)
+        add(-b.faces.normal[k], a.faces, -b.faces.normal[k]);
+}
+
+// The normal across two edges turns by an angle / sine.
+void KindBound::list_crossings() {
+    const Faces &a = a_->faces, &b = b_->faces;
+    const Edges edges_a(a), edges_b(b);
+    crossings_ = 0;
+    for (int ka = 0; ka < a.edges(); ++ka)
+        for (int kb = 0; kb < b.edges(); ++kb) {
+            const Vec3 across = edges_a.unit[ka].cross(edges_b.unit[kb]);
+            const double sine = across.norm();
+            if (sine <= kParallel - leeway_.angle) continue;
+            // a turn without bound where it might become any
+            const double turn =
+                sine <= 2.0 * leeway_.angle ? kMostTurn : leeway_.angle / (sine - leeway_.angle);
+            for (const double sign : {-1.0, 1.0}) {
+                const Vec3 n = sign / sine * across;
+                if (a.have(n, kSlantOnEdge, turn) && b.have(-n, kSlantOnEdge, turn))
+                    crossing_[crossings_++] = {n, turn};
+            }
+        }
+}
+
+double KindBound::least(const Vec3& center_a, const Vec3& center_b) {
+    if (rule_ == KindRule::edges) return least_of_edges(center_a, center_b);
+    if (rule_ == KindRule::direction) return least_along(center_a, center_b);
+    return rule_ == KindRule::never ? kInfinity : -kInfinity;
+}
+
+double KindBound::least_along(const Vec3& center_a, const Vec3& center_b) const {
+    const Vec3& n = face_[0].normal;
+    if (n.dot(center_b - center_a) <= -leeway_.distance) return kInfinity;
+    const Vec3 point_a = center_a + offset_a_, point_b = center_b + offset_b_;
+    const Vec3 at =
+        part_across(a_is_surface_ ? Vec3(point_b - center_a) : Vec3(point_a - center_b), n);
+    return at.squaredNorm() > far_ * far_ ? kInfinity : n.dot(point_b - point_a);
+}
+
+double KindBound::least_across(const Vec3& d, const Vec3& between) {
+    if (crossings_ < 0) list_crossings();
+    double least = kInfinity;
+    const double apart = d.norm(), length = between.norm();
+    for (std::int8_t k = 0; k < crossings_; ++k) {
+        const auto& [n, turn] = crossing_[k];
+        if (n.dot(d) <= -leeway_.distance - turn * apart) continue;
+        const double gap = n.dot(between);
+        const double beside = far_ + 2.0 * turn * length;
+        if (length * length - gap * gap > beside * beside) continue;
+        least = std::min(least, gap - turn * length);
+    }
+    return least;
+}
+
+// The largest gap of all normals that may part them wins, so one normal that will surely be among
+// them is a bound; without one, the least of those that might be. Where each of these leaves the
+// other's edge beyond what a sphere stands for there will be no gap.
+double KindBound::least_of_edges(const Vec3& center_a, const Vec3& center_b) {
+    const Vec3 d = center_b - center_a;
+    const Vec3 point_a = center_a + offset_a_, point_b = center_b + offset_b_;
+    const Vec3 between = point_b - point_a;
+    double certain = -kInfinity, possible = kInfinity;
+    bool near = false;
+    for (std::uint8_t k = 0; k < faces_; ++k) {
+        const auto& [n, under_a, under_b] = face_[k];
+        const double along = n.dot(d), gap = n.dot(between);
+        if (along <= -leeway_.distance) continue;
+        possible = std::min(possible, gap);
+        if (along > leeway_.distance && certain_[k]) certain = std::max(certain, gap);
+        const auto is_near = [&](const Foothold& foot, double radius, const Vec3& v) {
+            return distance_from(foot, radius, part_across(v, n), leeway_.distance) <= far_ * far_;
+        };
+        near = near || is_near(under_a, a_->radius, point_b - center_a) ||
+               is_near(under_b, b_->radius, point_a - center_b);
+    }
+    if (near && certain > -kInfinity) return certain;
+    const double across = least_across(d, between);
+    if (!near && across == kInfinity) return kInfinity;
+    return certain > -kInfinity ? certain : std::min(possible, across);
+}
+
+}  // namespace ice

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/narrow/kind_pair.hpp"
+
+#include <Eigen/Geometry>
+
+namespace ice {
+
+KindMeeting find_meeting(const SphereSurface& a, const SphereSurface& b, bool prefer_a,
+                         double slack) {
+    const bool same = std::abs(a.spread_cos - b.spread_cos) <= kSameSpread;
+    KindMeeting out{KindRule::never, same || a.spread_cos > b.spread_cos, Vec3::Zero()};
+    if (a.faces.count > 0 && b.faces.count > 0) {
+        out.rule = KindRule::edges;
+        return out;
+    }
+    const bool mean = same && !prefer_a;
+    out.rule = KindRule::afresh;
+    if ((out.a_is_surface ? a : b).spread_cos != 1.0 || (mean && b.spread_cos != 1.0)) return out;
+    out.rule = KindRule::never;
+    out.normal = out.a_is_surface ? a.normal : Vec3(-b.normal);
+    if (mean) {
+        out.normal = a.normal - b.normal;
+        const double length = out.normal.norm();
+        if (length < 1.0 - slack) return out;  // the faces look away
+        out.normal /= length;
+    }
+    if (belongs(a, out.normal, slack) && belongs(b, -out.normal, slack))
+        out.rule = KindRule::direction;
+    return out;
+}
+
+KindPair::KindPair(const SphereSurface& a, const SphereSurface& b, bool prefer_a)
+    : a_(&a), b_(&b), prefer_a_(prefer_a) {
+    const KindMeeting meeting = find_meeting(a, b, prefer_a);
+    rule_ = meeting.rule;
+    a_is_surface_ = meeting.a_is_surface;
+    const Vec3 n = rule_ == KindRule::edges ? Vec3(-b.normal) : meeting.normal;
+    offset_a_ = support_offset(a, n);
+    offset_b_ = support_offset(b, -n);
+    if (rule_ == KindRule::direction) face_[0].normal = meeting.normal;
+    if (rule_ != KindRule::edges) return;
+    list_faces();
+    list_crossings();
+    if (faces_ + crossings_ == 0) rule_ = KindRule::never;
+}
+
+// A face's normal is one of its own edge's or corner's.
+void KindPair::list_faces() {
+    const auto add = [&](const Vec3& n, const Faces& other, const Vec3& outward) {
+        if (!other.have(outward, kSlantOnEdge)) return;
+        face_[faces_++] = {n, foothold(*a_, n), foothold(*b_, n)};
+    };
+    for (std::size_t k = 0; k < static_cast<std::size_t>(a_->faces.count); ++k)
+        add(a_->faces.normal[k], b_->faces, -a_->faces.normal[k]);
+    for (std::size_t k = 0; k < static_cast<std::size_t>(b_->faces.count); ++k)
+        add(-b_->faces.normal[k], a_->faces, -b_->faces.normal[k]);
+}
+
+void KindPair::list_crossings() {
+    const Faces &fa = a_->faces, &fb = b_->faces;
+    const Edges edges_a(fa), edges_b(fb);
+    for (int ka = 0; ka < fa.edges(); ++ka)
+        for (int kb = 0; kb < fb.edges(); ++kb) {
+            const Vec3 &ea = edges_a.unit[ka], &eb = edges_b.unit[kb];
+            const Vec3 across = ea.cross(eb);
+            const double sine = across.norm();
+            if (sine <= kParallel) continue;
+            Crossing c;
+            c.normal = 1.0 / sine * across;
+            c.forth = fa.have(c.normal, kSlantOnEdge) && fb.have(-c.normal, kSlantOnEdge);
+            c.back = fa.have(-c.normal, kSlantOnEdge) && fb.have(c.normal, kSlantOnEdge);
+            if (!c.forth && !c.back) continue;
+            c.ends = fa.ends() || fb.ends();
+            // find_crossing's (between x eb) . across / square, turned round
+            const double square = across.squaredNorm();
+            c.along_a = eb.cross(across) / square;
+            c.along_b = ea.cross(across) / square;
+            c.edge_a = static_cast<std::int8_t>(ka);
+            c.edge_b = static_cast<std::int8_t>(kb);
+            crossing_[crossings_++] = c;
+        }
+}
+
+Gap KindPair::measure_direction(const Vec3& center_a, const Vec3& center_b) const {
+    const Vec3& n = face_[0].normal;
+    if (n.dot(center_b - center_a) <= 0.0) return kNone;
+    const Vec3 point_a = center_a + offset_a_, point_b = center_b + offset_b_;
+    const double gap = n.dot(point_b - point_a);
+    const Vec3 at =
+        part_across(a_is_surface_ ? Vec3(point_b - center_a) : Vec3(point_a - center_b), n);
+    return {n, gap, at.squaredNorm(), a_is_surface_, true};
+}
+
+// Do the edges meet on what there is of them?
+bool KindPair::meet(const Crossing& c, const Vec3& between) const {
+    if (!c.ends) return true;
+    return !(a_->faces.ends() && c.along_a.dot(between) < -kBeyond * a_->radius) &&
+           !(b_->faces.ends() && c.along_b.dot(between) < -kBeyond * b_->radius);
+}
+
+Gap KindPair::measure_edges(const Vec3& center_a, const Vec3& center_b) const {
+    const Vec3 d = center_b - center_a;
+    const Vec3 point_a = center_a + offset_a_, point_b = center_b + offset_b_;
+    const Vec3 between = point_b - point_a;
+    const KindDirection* face = nullptr;
+    const Crossing* crossing = nullptr;
+    double sign = 1.0, gap = -std::numeric_limits<double>::infinity();
+    for (std::uint8_t k = 0; k < faces_; ++k) {
+        const double now = face_[k].normal.dot(between);
+        if (now <= gap || face_[k].normal.dot(d) <= 0.0) continue;
+        face = &face_[k];
+        gap = now;
+    }
+    for (std::uint8_t k = 0; k < crossings_; ++k) {
+        const Crossing& c = crossing_[k];
+        const double along = c.normal.dot(d), way = along < 0.0 ? -1.0 : 1.0;
+        const double now = way * c.normal.dot(between);
+        if (now <= gap || along == 0.0 || !(along < 0.0 ? c.back : c.forth) || !meet(c, between))
+            continue;
+        crossing = &c;
+        sign = way;
+        gap = now;
+    }
+    if (!face && !crossing) return kNone;
+    if (gap < 0.0 &&
+        (is_less_deep(*a_, *b_, between, gap) || is_less_deep(*b_, *a_, -between, gap)))
+        return kNone;
+    if (crossing) {
+        const double beside_sq = std::max(between.squaredNorm() - gap * gap, 0.0);
+        return {
+            sign * crossing->normal, gap, beside_sq, a_is_surface_, true, true, crossing->edge_a,
+            crossing->edge_b};
+    }
+    const Vec3& n = face->normal;
+    const double under_a =
+        distance_from(face->under_a, a_->radius, part_across(point_b - center_a, n), 0.0);
+    const double under_b =
+        distance_from(face->under_b, b_->radius, part_across(point_a - center_b, n), 0.0);
+    // flush edges differ by rounding only: then a, step after step
+    const bool on_a = under_a <= under_b + kFlush * a_->radius * a_->radius;
+    return {n, gap, on_a ? under_a : under_b, on_a, true};
+}
+
+Gap KindPair::measure_afresh(const Vec3& center_a, const Vec3& center_b) const {
+    SphereSurface a = *a_, b = *b_;
+    a.center = center_a;
+    b.center = center_b;
+    return measure_gap_surface(a, b, prefer_a_);
+}
+
+}  // namespace ice
