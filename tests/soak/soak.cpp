@@ -96,6 +96,7 @@ void print_row(const Row& r) {
 // far, so that it is the second half of the hour that must not grow.
 constexpr double kMostUnexplained = 0.005, kMostOverlap = 0.5 * soak::kThickness;
 constexpr double kMostSpeed = 2.0, kMostGrowth = 0.05;
+constexpr double kLong = 1800.0;  // simulated time from which memory is held to its bound [s]
 
 bool holds(bool good, const std::string& text) {
     fmt::print("{}: {}\n", good ? "good" : "BAD", text);
@@ -121,9 +122,10 @@ bool judge(const std::vector<Row>& rows) {
                                                        1e3 * overlap, 1e3 * kMostOverlap));
     good &= holds(fastest <= kMostSpeed,
                   fmt::format("fastest floe {:.2f} m/s, bound {} m/s", fastest, kMostSpeed));
-    good &= holds(growth <= kMostGrowth, fmt::format("memory grew by {:.1f} % in the second half, "
-                                                     "bound {:.0f} %",
-                                                     100.0 * growth, 100.0 * kMostGrowth));
+    good &= holds(growth <= kMostGrowth || rows.back().time < kLong,
+                  fmt::format("memory grew by {:.1f} % in the second half, "
+                              "bound {:.0f} %",
+                              100.0 * growth, 100.0 * kMostGrowth));
     return good;
 }
 
