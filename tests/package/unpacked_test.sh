@@ -92,5 +92,5 @@ while read -r name; do # "a/b.hpp, c.hpp": the second lies beside the first
     echo "#include \"$folder/${name##*/}\"" >>headers/all.cpp
     [[ -f $root/usr/include/icesolve/$folder/${name##*/} ]] || fail "no header $folder/$name"
 done <names
-g++ -std=c++20 -fsyntax-only -Wall -Wextra -I "$root/usr/include/icesolve" \
+g++ -std=c++20 -fopenmp -fsyntax-only -Wall -Wextra -I "$root/usr/include/icesolve" \
     -isystem /usr/include/eigen3 headers/all.cpp || fail "the headers do not compile"
