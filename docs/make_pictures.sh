@@ -18,10 +18,5 @@ chromium --headless=new --no-sandbox --use-angle=swiftshader --enable-unsafe-swi
 if command -v snakemake >/dev/null; then
     snakemake -s workflow/Snakefile --profile workflow/local --cores "$(nproc)" \
         --config sweep=workflow/paper-2d.toml
-    python3 - results/paper-2d/sweep.html docs/sweep-paper-2d.svg <<'END'
-import re
-import sys
-with open(sys.argv[1], encoding="utf-8") as page, open(sys.argv[2], "w", encoding="utf-8") as out:
-    out.write(re.search(r"<svg xmlns.*?</svg>\n</div>", page.read(), re.S)[0][:-len("</div>")])
-END
+    "$icepost" sweep results/paper-2d --svg docs/sweep-paper-2d.svg
 fi

@@ -25,7 +25,7 @@ CHORD_TOLERANCE = 3e-3    # relative; what 8000 chord triangles may lack of a cu
 ANGLE_TOLERANCE_DEG = 0.1
 LONGEST_ASPECT = 12.0     # longest edge / height over it
 ICEBREAKER = "icebreaker-100m"
-SYMMETRIC = {"paper-hull-3d", ICEBREAKER}
+SYMMETRIC = {"paper-hull-3d", "hull-stem-25", "hull-stem-50", ICEBREAKER}
 
 
 def hull_profile_area(length, depth, stem_deg, bottom_end, heights):
@@ -39,13 +39,16 @@ def hull_profile_area(length, depth, stem_deg, bottom_end, heights):
 def closed_forms():
     """Volumes from the dimensions alone, without the meshes."""
     profile_2d = hull_profile_area(10.0, 1.5, 35.0, 2.4, [0.4, 0.5, 1.5, 1.5, 0.0])
-    profile_3d = hull_profile_area(10.0, 1.8, 35.0, 2.4, [0.66, 0.86, 1.8, 1.8, 0.0])
+    profile_3d = {stem: hull_profile_area(10.0, 1.8, stem, 2.4, [0.66, 0.86, 1.8, 1.8, 0.0])
+                  for stem in (25.0, 35.0, 50.0)}
     # the wedge takes from the full breadth two triangles of 1 by 1 / tan 70 deg at every height
     wedge = 1.8 * 1.0 / math.tan(math.radians(70.0))
     return {
         ICEBREAKER: form.volume_below(form.DECK),
         "paper-hull-2d": profile_2d,
-        "paper-hull-3d": 2.0 * profile_3d - wedge,
+        "paper-hull-3d": 2.0 * profile_3d[35.0] - wedge,
+        "hull-stem-25": 2.0 * profile_3d[25.0] - wedge,
+        "hull-stem-50": 2.0 * profile_3d[50.0] - wedge,
         "paper-floe-2d": 1.0 * 1.0 * 0.4,
         "paper-floe-3d": 1.0 * 0.8 * 0.3,
     }

@@ -69,6 +69,8 @@ def hull_profile(length, depth, draught, stem_deg, bottom_end, slope_end, counte
 MESHES = {
     "paper-hull-2d": hull_2d,
     "paper-hull-3d": hull_3d,
+    "hull-stem-25": lambda: hull_3d(stem_deg=25.0),  # the paper's hull with two other bows
+    "hull-stem-50": lambda: hull_3d(stem_deg=50.0),
     "paper-floe-2d": lambda: floe(1.0, 1.0, 0.4),
     "paper-floe-3d": lambda: floe(1.0, 0.8, 0.3),
 }

@@ -14,17 +14,18 @@
 #include "postprocess/report/draw_plot.hpp"
 #include "postprocess/report/pictures.hpp"
 #include "postprocess/report/write_report.hpp"
+#include "postprocess/sweep/sweep_markdown.hpp"
 #include "postprocess/sweep/write_sweep.hpp"
 
 namespace {
 
 struct Options {
-    std::filesystem::path run, out, expected, junit;
+    std::filesystem::path run, out, expected, junit, svg;
     std::size_t every = 1, frames = ice::report::kReportFrames;
     double time = 0.0;
     std::string from = "below";
     std::vector<std::string> runs;
-    bool points_only = false, csv = false;
+    bool points_only = false, csv = false, markdown = false;
     ice::MessageOptions messages;
 };
 
@@ -72,6 +73,15 @@ int sweep(const Options& o) {
     if (const std::string faults = ice::sweep::list_faults(runs); !faults.empty())
         ice::say_warning(faults);
     ice::say(fmt::format("wrote {}", file.string()));
+    if (!o.svg.empty()) {
+        const std::string curve = ice::sweep::make_sweep_curve(runs);
+        if (curve.empty())
+            throw ice::bad_input(o.run.string(), "has no curve to draw: " + o.svg.string(),
+                                 "leave out --svg, or let one or two numbers vary");
+        ice::write_text_file(o.svg, curve);
+        ice::say(fmt::format("wrote {}", o.svg.string()));
+    }
+    if (o.markdown) fmt::print("{}", ice::sweep::sweep_markdown(runs));
     return 0;
 }
 
@@ -129,6 +139,8 @@ int main(int argc, char** argv) {
         app.add_subcommand("sweep", "write DIR/sweep.html, resistance curves of many runs");
     curve->fallthrough()->add_option("DIR", o.run, "folder of run folders")->required();
     curve->add_option("-o,--out", o.out, "another file");
+    curve->add_option("--svg", o.svg, "also write the first chart, resistance against speed");
+    curve->add_flag("--markdown", o.markdown, "also print the points as tables in Markdown");
     auto* export_files = command("paraview", "write PVD and VTP files for ParaView");
     export_files->add_option("-o,--out", o.out, "folder (default RUN/paraview)");
     export_files->add_option("--every", o.every, "keep each N-th frame")

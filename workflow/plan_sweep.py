@@ -17,6 +17,7 @@ from sweep_inputs import (Input, SweepError, find_programs, flatten, read_recipe
                           set_text, toml_text)
 
 SEED = "simulation.seed"
+SPECIFICATION = "field.specification"  # files; the other field.* keys change what is in them
 LONGEST_NAME = 150  # of a run's folder; file systems take 255 bytes
 KEYS = ("title", "case", "out", "inputs", "threads", "report", "memory_mb", "runtime_min", "set",
         "axes", "tied", "spherize")
@@ -104,7 +105,7 @@ class Planner:
 
     def explain(self, key):
         """Refuses a key that the program would not take, before anything runs."""
-        if key.endswith(".mesh") and re.fullmatch(r"hull|floes(\.\d+)?", key[:-5]):
+        if re.fullmatch(r"(hull|floes(\.\d+)?)\.mesh", key) or key == SPECIFICATION:
             return
         program, name = ("icefield", key[6:]) if key.startswith("field.") else ("icesolve", key)
         name = re.sub(r"^floes\.\d+\.", "floes.", name)
@@ -174,10 +175,14 @@ class Planner:
         if recipe is None:
             self.fail("field.* keys need an ice field, and the case's spheres.txt makes none",
                       "add a line 'SPECIFICATION.toml -o FILE' there")
-        options = list(recipe.options)
+        source, label, options = recipe.source, "field", list(recipe.options)
         for key, value in values.items():
-            options += ["--set", f"{key[6:]}={set_text(value)}"]
-        return f"floes.file={self.make('icefield', recipe.source, options, 'field')}"
+            if key == SPECIFICATION:
+                source = self.beside(str(value))
+                label = safe(os.path.basename(source).split(".")[0])
+            else:
+                options += ["--set", f"{key[6:]}={set_text(value)}"]
+        return f"floes.file={self.make('icefield', source, options, label)}"
 
     def plan_run(self, name, values, constant):
         """Overrides and inputs of one combination."""
@@ -252,9 +257,10 @@ class Planner:
 
 
 def run_name(values):
-    """hull.speed=0.5__simulation.seed=1; of a mesh the file's name."""
+    """hull.speed=0.5__simulation.seed=1; of a mesh or specification the file's name."""
     # no commas: Snakemake splits the wildcards of a cluster's job there
-    text = lambda key, value: os.path.basename(value) if key.endswith(".mesh") else set_text(value)
+    is_file = lambda key: key.endswith(".mesh") or key == SPECIFICATION
+    text = lambda key, value: os.path.basename(value) if is_file(key) else set_text(value)
     return "__".join(f"{key}={safe(text(key, value))}" for key, value in values.items())
 
 

@@ -3,6 +3,8 @@
 /// run_rows.cpp only.
 #pragma once
 
+#include <algorithm>
+
 #include "common/formats/run_column.hpp"
 #include "common/formats/run_file.hpp"
 
@@ -13,9 +15,16 @@ namespace run_parts {
 // length and place; a kill in between leaves a file of which the last chunk cannot be read (1 of 6
 // kills of a run that flushes ten times a second). Hence only whole chunks are written while the
 // run goes on.
-constexpr std::uint64_t kFramesPerFlush = 20;
+constexpr std::uint64_t kMostFrames = 20;
 constexpr std::uint64_t kHistoryChunk = 64;
 constexpr std::uint64_t kContactChunk = 64;
+
+// Frames per chunk of a run with so many floes: of a million floes 20 frames would take 1.4 GB.
+inline std::uint64_t frames_per_chunk(std::uint64_t floes) {
+    constexpr std::uint64_t kBytes = 32 << 20, kFrameBytes = 68;  // per floe: 16 floats and a state
+    return std::clamp<std::uint64_t>(kBytes / (kFrameBytes * std::max<std::uint64_t>(floes, 1)), 1,
+                                     kMostFrames);
+}
 }  // namespace run_parts
 
 struct RunWriter::Buffers {

@@ -16,8 +16,8 @@ namespace {
 constexpr std::uint64_t kHistoryPerFlush = 16384;  // runs that store few frames lose no more rows
 
 using run_parts::Column;
+using run_parts::frames_per_chunk;
 using run_parts::kContactChunk;
-using run_parts::kFramesPerFlush;
 using run_parts::kHistoryChunk;
 using Shape = std::vector<std::uint64_t>;
 using Scales = std::vector<std::string>;
@@ -110,7 +110,7 @@ void RunWriter::Buffers::create_frames(const RunHeader& header) {
                                      const std::string& unit, Scales scales) {
         column.name = "/frames/" + name;
         if (name != "frame_time") scales.insert(scales.begin(), "/frames/frame_time");
-        create_column<T>(file, column.name, row, kFramesPerFlush, unit, scales);
+        create_column<T>(file, column.name, row, frames_per_chunk(bodies), unit, scales);
     };
     file.create_group("/frames");
     run_parts::write_bodies(file, header);
@@ -166,7 +166,7 @@ void RunWriter::Buffers::write_rows(bool all) {
     };
     const std::uint64_t old_samples = samples, old_frames = frames, old_contacts = contact_rows;
     const std::uint64_t s = take(samples, written.samples, kHistoryChunk);
-    const std::uint64_t f = take(frames, written.frames, kFramesPerFlush);
+    const std::uint64_t f = take(frames, written.frames, frames_per_chunk(bodies));
     const std::uint64_t c = take(contact_rows, written.contacts, kContactChunk);
     for_history([&](auto& column) { column.append_to(file, s, old_samples); });
     for_frames([&](auto& column) { column.append_to(file, f, old_frames); });
@@ -243,7 +243,7 @@ void RunWriter::add(const RunFrame& frame) {
         b.orientation.add(wxyz(q));
         last[k] = q;
     }
-    if (++b.frames >= kFramesPerFlush) b.write_whole_chunks();
+    if (++b.frames >= frames_per_chunk(b.bodies)) b.write_whole_chunks();
 }
 
 void RunWriter::finish() {

@@ -14,8 +14,8 @@
 
 namespace ice {
 
+using run_parts::frames_per_chunk;
 using run_parts::kContactChunk;
-using run_parts::kFramesPerFlush;
 using run_parts::kHistoryChunk;
 
 namespace {
@@ -54,7 +54,7 @@ void RunWriter::Buffers::copy_rows(const std::filesystem::path& earlier, const R
     if (history + poses == 0)
         throw bad_input(earlier.string(), "has none of the rows", "this is not that run's file");
     for_history([&](auto& c) { c.copy(from, 0, history, file, kHistoryChunk); });
-    for_frames([&](auto& c) { c.copy(from, 0, poses, file, kFramesPerFlush); });
+    for_frames([&](auto& c) { c.copy(from, 0, poses, file, frames_per_chunk(bodies)); });
     for_contacts([&](auto& c) { c.copy(from, 0, touches, file, kContactChunk); });
     written.samples += static_cast<std::int64_t>(history);
     written.frames += static_cast<std::int64_t>(poses);
@@ -78,7 +78,7 @@ void RunWriter::Buffers::save_rows() {
                     static_cast<std::uint64_t>(end - first), to, chunk);
     };
     for_history([&](auto& c) { save(c, saved.samples, written.samples, kHistoryChunk); });
-    for_frames([&](auto& c) { save(c, saved.frames, written.frames, kFramesPerFlush); });
+    for_frames([&](auto& c) { save(c, saved.frames, written.frames, frames_per_chunk(bodies)); });
     for_contacts([&](auto& c) { save(c, saved.contacts, written.contacts, kContactChunk); });
     to.close();
     part.keep();

@@ -32,8 +32,11 @@ Json force_json(const ForceStatistics& force) {
 Json regions_json(const std::map<std::string, RegionStatistics>& regions) {
     Json out = Json::object();
     for (const auto& [name, region] : regions)
-        out[name] = {
-            {"hits", region.hits}, {"max_impulse_Ns", region.max_impulse}, {"mean_N", region.mean}};
+        out[name] = {{"hits", region.hits},
+                     {"max_impulse_Ns", region.max_impulse},
+                     {"mean_N", region.mean},
+                     {"contact_mean_N", region.contact_mean},
+                     {"friction_mean_N", region.friction_mean}};
     return out;
 }
 
@@ -93,9 +96,11 @@ public:
             RegionStatistics& row = out[name];
             row.hits = convert<std::int64_t>(child(region, "hits", key), key);
             row.max_impulse = value_or_nan(child(region, "max_impulse_Ns", key), key);
-            const Json& mean = child(region, "mean_N", key);
-            if (mean.size() != 3) throw fault(key + ".mean_N", "has not 3 elements");
-            for (std::size_t k = 0; k < 3; ++k) row.mean[k] = value_or_nan(mean[k], key);
+            row.mean = vector(child(region, "mean_N", key), key + ".mean_N");
+            // files from before the split have the sum alone
+            const Json unknown = Json::array({nullptr, nullptr, nullptr});
+            row.contact_mean = vector(region.value("contact_mean_N", unknown), key);
+            row.friction_mean = vector(region.value("friction_mean_N", unknown), key);
         }
         return out;
     }
@@ -118,6 +123,13 @@ private:
     const Json& child(const Json& parent, const std::string& name, const std::string& key) const {
         if (!parent.is_object() || !parent.contains(name)) throw fault(key, "is missing");
         return parent[name];
+    }
+
+    std::array<double, 3> vector(const Json& json, const std::string& key) const {
+        if (json.size() != 3) throw fault(key, "has not 3 elements");
+        std::array<double, 3> out{};
+        for (std::size_t k = 0; k < 3; ++k) out[k] = value_or_nan(json[k], key);
+        return out;
     }
 
     double value_or_nan(const Json& json, const std::string& key) const {

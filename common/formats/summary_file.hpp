@@ -21,9 +21,11 @@ struct ForceStatistics {
 
 /// What one region of the hull felt.
 struct RegionStatistics {
-    std::int64_t hits = 0;         ///< times a floe began to touch the region
-    double max_impulse = 0.0;      ///< largest impulse of one floe in one step [N s]
-    std::array<double, 3> mean{};  ///< mean force of the ice on the region, world axes [N]
+    std::int64_t hits = 0;                  ///< times a floe began to touch the region
+    double max_impulse = 0.0;               ///< largest impulse of one floe in one step [N s]
+    std::array<double, 3> mean{};           ///< mean force of the ice on the region, world axes [N]
+    std::array<double, 3> contact_mean{};   ///< of it normal forces; NaN in files without them
+    std::array<double, 3> friction_mean{};  ///< of it friction; likewise
 };
 
 /// Content of summary.json (schema icesolve-summary/1, CONTRACT.md section 5).

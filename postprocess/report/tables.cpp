@@ -121,9 +121,9 @@ std::string region_table(const Summary& s) {
         if (name == "hull" && r.hits == 0)
             continue;  // parts without a name, of which there are none
         rows.push_back({name, std::to_string(r.hits), readable(r.max_impulse), unit.text(r.mean[0]),
-                        unit.text(r.mean[1]), unit.text(r.mean[2])});
+                        unit.text(r.friction_mean[0]), unit.text(r.mean[1]), unit.text(r.mean[2])});
     }
-    return table({"Region", "Hits", impulse, "Mean x [" + unit.name + "]",
+    return table({"Region", "Hits", impulse, "Mean x [" + unit.name + "]", "Of it friction",
                   "Mean y [" + unit.name + "]", "Mean z [" + unit.name + "]"},
                  rows);
 }

@@ -26,7 +26,9 @@ KeyName find_name(const std::string& key) {
         {"hull.spheres", {"hull", ""}},
         {"floes.mesh", {"floes", ""}},
         {"floes.spheres", {"floes", ""}},
+        {"field.specification", {"ice field", ""}},
         {"field.ice.thickness", {"ice thickness", "m"}},
+        {"field.floes.size", {"size of pieces", "m"}},
         {"field.floes.mean_size", {"mean size of floes", "m"}},
         {"field.floes.concentration", {"concentration", ""}}};
     const auto found = kNames.find(key);

@@ -13,13 +13,23 @@ namespace ice::sweep {
 
 namespace {
 
-Setting make_setting(const toml::node& node) {
-    if (const auto text = node.value_exact<std::string>()) return {*text, std::nullopt};
+// Numbers as "0.1", not with all digits, also in lists; 1 and 1.0 agree.
+std::string text_of(const toml::node& node) {
+    if (const auto text = node.value_exact<std::string>()) return *text;
     if (const auto number = node.value<double>(); node.is_number() && number)
-        return {fmt::format("{}", *number), *number};  // "0.1", not all digits; 1 and 1.0 agree
+        return fmt::format("{}", *number);
+    if (const toml::array* list = node.as_array()) {
+        std::string text;
+        for (const toml::node& item : *list) text += (text.empty() ? "" : ", ") + text_of(item);
+        return "[" + text + "]";
+    }
     std::ostringstream text;
     node.visit([&](const auto& n) { text << n; });
-    return {text.str(), std::nullopt};
+    return text.str();
+}
+
+Setting make_setting(const toml::node& node) {
+    return {text_of(node), node.is_number() ? node.value<double>() : std::nullopt};
 }
 
 void flatten(const toml::table& table, const std::string& prefix,

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "postprocess/sweep/key_names.hpp"
 #include "postprocess/views/axis.hpp"
@@ -126,12 +127,31 @@ std::pair<double, double> common_range(const std::vector<Curve>& curves,
     return {low, high};
 }
 
-// Names in the overview's legend: labels, or letters where these are too long for one row.
-std::vector<std::string> name_curves(const std::vector<Curve>& curves) {
+// The only axis beside x; "" when there are none or several.
+std::string other_axis(const Sweep& sweep) {
+    if (sweep.axes.size() != 2) return "";
+    return sweep.axes[0] == sweep.x ? sweep.axes[1] : sweep.axes[0];
+}
+
+// Names in the overview's legend: labels, or what is shorter where these are too long for one row:
+// the values of the only other axis, whose name goes into the title, or letters.
+std::vector<std::string> name_curves(const Sweep& sweep, const std::vector<Curve>& curves,
+                                     bool& valued) {
     constexpr std::size_t kMostLetters = 75;
     std::vector<std::string> names;
     std::size_t length = 0;
     for (const Curve& curve : curves) length += curve.label.size() + 6;
+    const std::string axis = other_axis(sweep);
+    std::set<std::string> values;
+    if (!axis.empty() && length > kMostLetters)
+        for (const Curve& curve : curves)
+            values.insert(short_text(curve.points.front().at.at(axis)));
+    valued = !curves.empty() && values.size() == curves.size();  // files may share a name
+    if (valued) {
+        for (const Curve& curve : curves)
+            names.push_back(short_text(curve.points.front().at.at(axis)));
+        return names;
+    }
     for (std::size_t k = 0; k < curves.size(); ++k) {
         const bool lettered = length > kMostLetters && curves.size() <= kColors.size();
         names.push_back(lettered ? std::string(1, static_cast<char>('A' + k)) : curves[k].label);
@@ -159,7 +179,9 @@ std::string draw_overview(const Sweep& sweep, const std::vector<Curve>& curves,
     chart.width = 860.0;
     chart.height = 360.0;
     chart.y_range = common_range(curves, {Part::total}, unit);
-    const std::vector<std::string> names = name_curves(curves);
+    bool valued = false;
+    const std::vector<std::string> names = name_curves(sweep, curves, valued);
+    if (valued) chart.title = "Resistance by " + axis_title(other_axis(sweep));
     Plotter plotter(sweep, curves, unit);
     plotter.add_ends(chart);
     for (std::size_t k = 0; k < curves.size(); ++k) {
@@ -179,22 +201,23 @@ std::vector<std::string> draw_parts(const Sweep& sweep, const std::vector<Curve>
                                     const report::ForceUnit& unit) {
     static const std::vector<std::pair<Part, Style>> kStyles{
         {Part::total, {"resistance", views::kBlack, "", 2.4}},
-        {Part::bow, {"bow", views::kBlue, "", 1.8}},
-        {Part::sides, {"sides", views::kGreen, "", 1.8}},
-        {Part::bottom, {"bottom", views::kOrange, "", 1.8}},
-        {Part::rest, {"rest", views::kPurple, "", 1.8}},
+        {Part::bow_contact, {"bow", views::kBlue, "", 1.8}},
+        {Part::sides_contact, {"sides", views::kGreen, "", 1.8}},
+        {Part::bottom_contact, {"bottom", views::kOrange, "", 1.8}},
+        {Part::rest_contact, {"rest", views::kPurple, "", 1.8}},
         {Part::friction, {"friction", "#777777", "6 3", 1.8}}};
     std::vector<std::string> charts;
     if (sweep.x.empty()) return charts;
     Plotter plotter(sweep, curves, unit);
     std::vector<Part> parts;
     for (const auto& [part, style] : kStyles) parts.push_back(part);
-    const std::vector<std::string> names = name_curves(curves);
+    bool valued = false;
+    const std::vector<std::string> names = name_curves(sweep, curves, valued);
     for (std::size_t k = 0; k < curves.size(); ++k) {
         const Curve& curve = curves[k];
         views::Chart chart;
         chart.title = curve.label.empty() ? "Parts of the resistance" : curve.label;
-        if (names[k] != curve.label) chart.title = names[k] + ": " + curve.label;
+        if (!valued && names[k] != curve.label) chart.title = names[k] + ": " + curve.label;
         chart.x_title = axis_title(sweep.x);
         chart.y_title = "resistance [" + unit.name + "]";
         chart.width = 690.0;  // the legend in one row

@@ -15,8 +15,8 @@ report::ForceUnit choose_sweep_unit(const std::vector<Point>& points);
 std::string draw_overview(const Sweep& sweep, const std::vector<Curve>& curves,
                           const report::ForceUnit& unit);
 
-/// One chart per curve, all on the same axes: resistance with intervals, its parts on bow, sides,
-/// bottom and the rest (their friction included), friction in all, Lindqvist's formula.
+/// One chart per curve, all on the same axes: resistance with intervals, normal forces on bow,
+/// sides, bottom and the rest, and friction in all, which add up to it, Lindqvist's formula.
 std::vector<std::string> draw_parts(const Sweep& sweep, const std::vector<Curve>& curves,
                                     const report::ForceUnit& unit);
 

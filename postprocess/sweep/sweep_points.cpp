@@ -15,14 +15,46 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
+using Share = std::array<double, 3> RegionStatistics::*;
+
+// Where on the hull a part acts and what of the force there it is; Part::total is everywhere.
+struct PartRow {
+    const char* name;
+    Part place;
+    Share share;
+};
+
+constexpr Share kAll = &RegionStatistics::mean, kContact = &RegionStatistics::contact_mean,
+                kFriction = &RegionStatistics::friction_mean;
+
+// in the order of Part
+constexpr PartRow kPartRows[kPartCount]{{"resistance", Part::total, kAll},
+                                        {"bow", Part::bow, kAll},
+                                        {"sides", Part::sides, kAll},
+                                        {"bottom", Part::bottom, kAll},
+                                        {"rest", Part::rest, kAll},
+                                        {"contact", Part::total, kContact},
+                                        {"friction", Part::total, kFriction},
+                                        {"bow_contact", Part::bow, kContact},
+                                        {"sides_contact", Part::sides, kContact},
+                                        {"bottom_contact", Part::bottom, kContact},
+                                        {"rest_contact", Part::rest, kContact},
+                                        {"bow_friction", Part::bow, kFriction},
+                                        {"sides_friction", Part::sides, kFriction},
+                                        {"bottom_friction", Part::bottom, kFriction},
+                                        {"rest_friction", Part::rest, kFriction}};
+
+const PartRow& row_of(Part part) { return kPartRows[static_cast<std::size_t>(part)]; }
+
 double part_value(const Summary& s, Part part) {
     if (part == Part::total) return s.resistance.mean;
     if (part == Part::contact) return s.resistance.contact_mean;
     if (part == Part::friction) return s.resistance.friction_mean;
+    const auto [name, place, share] = row_of(part);
     double sum = 0.0;
-    for (const auto& [name, region] : s.regions)
-        if (part_of_region(name) == part) sum -= region.mean[0];  // resistance is -f_x
-    return sum + 0.0;                                             // no -0
+    for (const auto& [region, force] : s.regions)
+        if (part_of_region(region) == place) sum -= (force.*share)[0];  // resistance is -f_x
+    return sum + 0.0;                                                   // no -0
 }
 
 Point make_point(const Sweep& sweep, const std::map<std::string, Setting>& at,
@@ -65,11 +97,7 @@ bool contains_any(const std::string& text, std::initializer_list<const char*> wo
 
 }  // namespace
 
-const char* part_name(Part part) {
-    static constexpr const char* kNames[kPartCount]{"resistance", "bow",     "sides",   "bottom",
-                                                    "rest",       "contact", "friction"};
-    return kNames[static_cast<std::size_t>(part)];
-}
+const char* part_name(Part part) { return row_of(part).name; }
 
 Part part_of_region(const std::string& region) {
     std::string name = region;

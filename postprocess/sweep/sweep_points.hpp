@@ -9,10 +9,27 @@
 
 namespace ice::sweep {
 
-/// Parts of the resistance.
-enum class Part { total, bow, sides, bottom, rest, contact, friction };
-inline constexpr std::size_t kPartCount = 7;
-/// "bow", "sides", ...
+/// Parts of the resistance. Bow, sides, bottom and rest add up to it, so do contact (normal forces)
+/// and friction, and each place's contact and friction to that place.
+enum class Part {
+    total,
+    bow,
+    sides,
+    bottom,
+    rest,
+    contact,
+    friction,
+    bow_contact,
+    sides_contact,
+    bottom_contact,
+    rest_contact,
+    bow_friction,
+    sides_friction,
+    bottom_friction,
+    rest_friction
+};
+inline constexpr std::size_t kPartCount = 15;
+/// "resistance", "bow", "sides", ..., "bow_contact", ...
 const char* part_name(Part part);
 
 /// Which part a region of the hull belongs to, by its mesh group's name: bow, stem, forefoot ->
@@ -48,7 +65,8 @@ struct Point {
 /// Points in the order of the axes' values, the first axis slowest.
 ///
 /// Over several seeds intervals are Student's; of one run the resistance has the run's own interval
-/// from batch means, its parts have none.
+/// from batch means, its parts have none. Runs from before summary.json split regions into contact
+/// and friction have NaN for these parts.
 std::vector<Point> make_points(const Sweep& sweep);
 
 /// Points that differ along x only, x rising: a curve. Label: values of the other axes.

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "postprocess/sweep/key_names.hpp"
+#include "postprocess/sweep/share_work.hpp"
 #include "postprocess/views/svg.hpp"
 
 namespace ice::sweep {
@@ -16,8 +17,21 @@ using views::readable;
 
 namespace {
 
-constexpr Part kParts[] = {Part::total, Part::bow,     Part::sides,   Part::bottom,
-                           Part::rest,  Part::contact, Part::friction};
+// columns of the CSV; the page leaves out the places' contact, which is the rest of their friction
+constexpr Part kParts[] = {Part::total,          Part::bow,
+                           Part::sides,          Part::bottom,
+                           Part::rest,           Part::contact,
+                           Part::friction,       Part::bow_contact,
+                           Part::sides_contact,  Part::bottom_contact,
+                           Part::rest_contact,   Part::bow_friction,
+                           Part::sides_friction, Part::bottom_friction,
+                           Part::rest_friction};
+constexpr std::pair<Part, const char*> kColumns[] = {
+    {Part::bow, "Bow"},         {Part::bow_friction, "Of it friction"},
+    {Part::sides, "Sides"},     {Part::sides_friction, "Of it friction"},
+    {Part::bottom, "Bottom"},   {Part::bottom_friction, "Of it friction"},
+    {Part::rest, "Rest"},       {Part::rest_friction, "Of it friction"},
+    {Part::contact, "Contact"}, {Part::friction, "Friction"}};
 
 std::string head(const std::vector<std::string>& names) {
     std::string out = "<div class=\"wide\"><table>\n<thead><tr>";
@@ -39,11 +53,6 @@ std::string link(const SweepRun& run, const std::string& text, const std::filesy
     return "<a href=\"" + encode_address(address) + "\">" + escape(text) + "</a>";
 }
 
-std::string with_interval(const report::ForceUnit& unit, const Estimate& e) {
-    if (!std::isfinite(e.half)) return unit.text(e.mean);
-    return unit.text(e.mean) + " \u00b1 " + unit.text(e.half);
-}
-
 std::string csv_text(const std::string& text) {
     if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
     std::string out = "\"";
@@ -55,29 +64,47 @@ std::string csv_number(double value) {
     return std::isfinite(value) ? fmt::format("{}", value) : std::string();
 }
 
-std::string value_text(const Point& point, const std::string& axis) {
-    return short_text(point.at.at(axis));
-}
-
 }  // namespace
+
+std::string with_interval(const report::ForceUnit& unit, const Estimate& e) {
+    if (!std::isfinite(e.half)) return unit.text(e.mean);
+    return unit.text(e.mean) + " \u00b1 " + unit.text(e.half);
+}
 
 std::string point_table(const Sweep& sweep, const std::vector<Point>& points,
                         const report::ForceUnit& unit, const std::filesystem::path& page) {
     std::vector<std::string> names;
     for (const std::string& axis : sweep.axes) names.push_back(axis_title(axis));
-    names.insert(names.end(), {"Runs", "Resistance \u00b1 95 % [" + unit.name + "]", "Bow", "Sides",
-                               "Bottom", "Rest", "Contact", "Friction", "Lindqvist"});
+    names.insert(names.end(), {"Runs", "Resistance \u00b1 95 % [" + unit.name + "]"});
+    for (const auto& [part, title] : kColumns) names.push_back(title);
+    names.push_back("Lindqvist");
     std::string out = head(names);
     for (const Point& point : points) {
         out += "<tr>";
-        for (const std::string& axis : sweep.axes) out += cell(value_text(point, axis));
+        for (const std::string& axis : sweep.axes) out += cell(short_text(point.at.at(axis)));
         out += "<td>";
         for (std::size_t k = 0; k < point.runs.size(); ++k)
             out +=
                 (k > 0 ? " " : "") + link(sweep.runs[point.runs[k]], std::to_string(k + 1), page);
-        out += "</td>";
-        for (const Part part : kParts) out += cell(with_interval(unit, point.part(part)));
+        out += "</td>" + cell(with_interval(unit, point.part(Part::total)));
+        for (const auto& [part, title] : kColumns)
+            out += cell(with_interval(unit, point.part(part)));
         out += cell(std::isfinite(point.lindqvist) ? unit.text(point.lindqvist) : "-") + "</tr>\n";
+    }
+    return out + "</tbody></table></div>\n";
+}
+
+std::string work_table(const Sweep& sweep, const std::vector<Point>& points,
+                       const report::ForceUnit& unit) {
+    std::vector<std::string> names;
+    for (const std::string& axis : sweep.axes) names.push_back(axis_title(axis));
+    for (const auto& [title, force] : share_work(sweep, points.front())) names.push_back(title);
+    std::string out = head(names);
+    for (const Point& point : points) {
+        out += "<tr>";
+        for (const std::string& axis : sweep.axes) out += cell(short_text(point.at.at(axis)));
+        for (const auto& [title, force] : share_work(sweep, point)) out += cell(unit.text(force));
+        out += "</tr>\n";
     }
     return out + "</tbody></table></div>\n";
 }

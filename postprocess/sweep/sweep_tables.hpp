@@ -8,11 +8,19 @@
 
 namespace ice::sweep {
 
+/// "1284 \u00b1 83" in the unit, without the interval where there is none.
+std::string with_interval(const report::ForceUnit& unit, const Estimate& estimate);
+
 /// HTML: a row per point with the axes' values, resistance with interval, parts and Lindqvist's
 /// formula, and the runs as links to their reports (their folders, where they have none), relative
 /// to the folder of `page`.
 std::string point_table(const Sweep& sweep, const std::vector<Point>& points,
                         const report::ForceUnit& unit, const std::filesystem::path& page);
+
+/// HTML: a row per point with what became of the ship's work, per metre of travel (share_work.hpp).
+/// @pre there are points
+std::string work_table(const Sweep& sweep, const std::vector<Point>& points,
+                       const report::ForceUnit& unit);
 
 /// HTML: a row per run with its status; runs without numbers say why.
 std::string run_table(const Sweep& sweep, const report::ForceUnit& unit,

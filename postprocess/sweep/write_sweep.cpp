@@ -75,8 +75,9 @@ std::string parts_section(const Sweep& sweep, const std::vector<Curve>& curves,
     std::vector<Curve> drawn = curves;
     if (drawn.size() > kMostPanels) drawn.resize(kMostPanels);
     std::string intro =
-        "Bow, sides, bottom and rest add up to the resistance; each has its own friction in it. "
-        "Dashed: the friction of all of them. " +
+        "Normal forces on bow, sides, bottom and rest, and (dashed) the friction on all of them, "
+        "add "
+        "up to the resistance. The table below has the friction of each. " +
         region_note(sweep);
     if (drawn.size() < curves.size())
         intro += fmt::format(" The first {} of {} combinations are drawn; the table has all.",
@@ -140,6 +141,13 @@ std::string list_faults(const Sweep& sweep) {
                        fmt::join(names, "; "));
 }
 
+std::string make_sweep_curve(const Sweep& sweep) {
+    const auto points = make_points(sweep);
+    return sweep.x.empty() || points.empty()
+               ? ""
+               : draw_overview(sweep, make_curves(sweep, points), choose_sweep_unit(points));
+}
+
 std::string make_sweep_page(const Sweep& sweep, const std::filesystem::path& page) {
     const auto points = make_points(sweep);
     const report::ForceUnit unit = choose_sweep_unit(points);
@@ -156,6 +164,12 @@ std::string make_sweep_page(const Sweep& sweep, const std::filesystem::path& pag
                        "of level ice; it is not fitted to these runs.",
                        point_table(sweep, points, unit, page) +
                            download("points.csv", point_csv(sweep, points)));
+    if (!points.empty())
+        out += section("work", "Where the ship's work went",
+                       "Energy per metre of the ship's travel [" + unit.name +
+                           "], over the whole run with its start; the first column is the sum of "
+                           "the others.",
+                       work_table(sweep, points, unit));
     out += section("runs", "All runs", "",
                    run_table(sweep, unit, page) + download("runs.csv", run_csv(sweep)));
     return out + "</main>\n<footer><div class=\"inner\">Made by icepost " + escape(version()) +

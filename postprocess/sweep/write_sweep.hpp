@@ -14,6 +14,10 @@ namespace ice::sweep {
 /// @param page where it will lie: links to the runs are relative to it
 std::string make_sweep_page(const Sweep& sweep, const std::filesystem::path& page);
 
+/// The page's first chart as an SVG file's text: resistance against x, a curve for each combination
+/// of the other axes' values. "" where there is none: no number varies, or too many combinations.
+std::string make_sweep_curve(const Sweep& sweep);
+
 /// Names of the runs without numbers: "2 of 8 runs have no result: a, b"; "" when all completed.
 std::string list_faults(const Sweep& sweep);
 

@@ -61,23 +61,49 @@ bool is_mirror_symmetric(const Outline& outline) {
     });
 }
 
+// Turns about x by a quarter: the middle plane of a prism, z = 0, becomes y = 0, and back.
+Vec3 turned(const Vec3& p) { return {p.x(), -p.z() + 0.0, p.y()}; }
+Vec3 turned_back(const Vec3& p) { return {p.x(), p.z(), -p.y() + 0.0}; }
+
+// How a floe lies while it is filled.
+//
+// The fill makes half of what is symmetric about y = 0 and mirrors it, which takes half the time. A
+// prism is symmetric about its middle plane: it is turned so that this one is y = 0, and back. One
+// that is symmetric about y = 0 as it lies stays so, and its port and starboard spheres are alike.
+//
 // The shell is made in tiles of 32 spacings, and their corner is the origin. A floe about its
-// centroid would lie in eight of them; it is moved into one and back. What is symmetric about y = 0
-// stays there, so that its spheres are symmetric, too.
+// centroid would lie in eight of them; it is moved into one.
+class FillPose {
+public:
+    FillPose(const Outline& outline, double spacing)
+        : turn_(!is_mirror_symmetric(outline)), move_(16.0 * spacing, 0.0, 16.0 * spacing) {}
+
+    bool turns() const { return turn_; }
+    Vec3 to(const Vec3& p) const { return (turn_ ? turned(p) : p) + move_; }
+    Vec3 from(const Vec3& p) const { return turn_ ? turned_back(p - move_) : Vec3(p - move_); }
+    Vec3 direction_from(const Vec3& d) const { return turn_ ? turned_back(d) : d; }
+
+private:
+    bool turn_;
+    Vec3 move_;
+};
+
 SphereSet fill_form(const FieldSpec& spec, const Outline& outline) {
     FillOptions options;
     options.radius = spec.radius;
     options.spacing = spec.spacing;
     options.surface_only = spec.surface_only;
     options.quick = true;
-    const double half_tile = 16.0 * spec.spacing;
-    const Vec3 move(half_tile, is_mirror_symmetric(outline) ? 0.0 : half_tile, half_tile);
+    const FillPose pose(outline, spec.spacing);
+    options.edges_by_ends = pose.turns();  // the others are those of grids: a few for all floes
     TriangleMesh prism = make_prism(outline, spec.thickness, spec.chamfer);
-    for (Vec3& vertex : prism.vertices) vertex += move;
+    for (Vec3& vertex : prism.vertices) vertex = pose.to(vertex);
     SpheresReport unused;
     SphereSet set = fill_spheres(prism, options, unused);
-    for (Vec3& vertex : set.mesh.vertices) vertex -= move;
-    for (Vec3& center : set.centers) center -= move;
+    for (Vec3& vertex : set.mesh.vertices) vertex = pose.from(vertex);
+    for (Vec3& center : set.centers) center = pose.from(center);
+    for (Vec3& normal : set.normals) normal = pose.direction_from(normal);
+    for (CreaseNormal& crease : set.creases) crease.normal = pose.direction_from(crease.normal);
     set.solid = measure_mass(set.mesh);
     return set;
 }

@@ -17,6 +17,7 @@ struct FillOptions {
     /// For flat-faced solids by the thousand: no certificate, shares from samples a third of the
     /// spacing apart, edges followed by fewer points.
     bool quick = false;
+    bool edges_by_ends = false;  ///< settle two points at each end of a straight edge, none between
 };
 
 /// Fills a closed solid with contact spheres of one radius: surface spheres first, then interior.

@@ -29,12 +29,18 @@ struct Condition {
     double need;
 };
 
+// The nearest first, equals by triangle.
+void sort_by_distance(std::vector<Foot>& feet) {
+    std::sort(feet.begin(), feet.end(), [](const Foot& l, const Foot& r) {
+        return l.distance < r.distance || (l.distance == r.distance && l.triangle < r.triangle);
+    });
+}
+
 // Conditions of all faces nearer than the radius, the worst first, equal directions once.
 void collect(const SurfaceTree& tree, const Vec3& c, double radius, std::vector<Foot>& feet,
              std::vector<Condition>& out) {
     tree.within(c, radius, feet);
-    std::stable_sort(feet.begin(), feet.end(),
-                     [](const Foot& l, const Foot& r) { return l.distance < r.distance; });
+    sort_by_distance(feet);
     out.clear();
     for (const Foot& foot : feet) {
         // a centre on the surface itself has no direction but the face's
@@ -96,8 +102,7 @@ std::vector<Vec3> near_directions(const SurfaceTree& tree, const Vec3& center, d
     std::vector<Foot> feet;
     tree.within(center, range, feet);
     // the nearest first: the other triangles of a face have their feet a little aside
-    std::stable_sort(feet.begin(), feet.end(),
-                     [](const Foot& l, const Foot& r) { return l.distance < r.distance; });
+    sort_by_distance(feet);
     std::vector<Vec3> directions;
     for (const Foot& foot : feet) {
         if (!(foot.distance > 1e-12 * range)) continue;

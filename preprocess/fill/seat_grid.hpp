@@ -37,8 +37,8 @@ public:
 
     const std::vector<Seat>& seats() const { return seats_; }
 
-    /// Calls visit(index, squared distance) for the seats within `range` of p, in no order that
-    /// matters: callers sort or take minima.
+    /// Calls visit(index, squared distance) for the seats within `range` of p until it returns
+    /// true, in no order that matters: callers sort or take minima.
     template <class Visit>
     void visit(const Vec3& p, double range, const Visit& visit) const {
         int from[3], to[3];
@@ -54,7 +54,7 @@ public:
                          k = next_[static_cast<std::size_t>(k)]) {
                         const double sq =
                             (seats_[static_cast<std::size_t>(k)].center - p).squaredNorm();
-                        if (sq < range_sq) visit(k, sq);
+                        if (sq < range_sq && visit(k, sq)) return;
                     }
     }
 
@@ -63,7 +63,7 @@ public:
     bool any_within(const Vec3& p, double range, const Normal& normal) const {
         bool found = false;
         visit(p, range, [&](std::int32_t k, double) {
-            found = found || seats_[static_cast<std::size_t>(k)].agrees(normal);
+            return found = seats_[static_cast<std::size_t>(k)].agrees(normal);
         });
         return found;
     }

@@ -92,18 +92,19 @@ std::vector<ShellTile::Plane> ShellTile::planes_at(const Seat& seat) const {
 void ShellTile::neighbours_in(const Plane& plane, double range) {
     neighbours_.clear();
     grid_.visit(plane.centre, range, [&](std::int32_t k, double sq) {
-        if (sq < 1e-12 * range * range) return;  // itself
+        if (sq < 1e-12 * range * range) return false;  // itself
         const Seat& other = grid_.seats()[static_cast<std::size_t>(k)];
-        if (!other.agrees(plane.normal)) return;
+        if (!other.agrees(plane.normal)) return false;
         const Vec3 d = other.center - plane.centre;
-        const double u = d.dot(plane.e1), v = d.dot(plane.e2);
-        neighbours_.push_back({u, v, std::sqrt(sq), std::atan2(v, u)});
+        neighbours_.push_back({d.dot(plane.e1), d.dot(plane.e2), std::sqrt(sq), 0.0});
+        return false;
     });
 }
 
 void ShellTile::surround_in(const Plane& plane, std::int32_t hint) {
     const double s = kStretch * o_.spacing;
     neighbours_in(plane, kReach * s);
+    for (Neighbour& n : neighbours_) n.angle = std::atan2(n.v, n.u);
     std::sort(neighbours_.begin(), neighbours_.end(), [](const Neighbour& l, const Neighbour& r) {
         return l.angle < r.angle || (l.angle == r.angle && l.distance < r.distance);
     });

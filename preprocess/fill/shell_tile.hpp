@@ -42,8 +42,9 @@ public:
 
 private:
     struct Neighbour {
-        double u, v;  // in the tangent plane [m]
-        double distance, angle;
+        double u, v;      // in the tangent plane [m]
+        double distance;  // in space [m]
+        double angle;     // in the plane; set where a front asks for it
     };
     struct Plane {
         Vec3 centre, normal, e1, e2;

@@ -186,11 +186,20 @@ void SurfaceTree::visit_leaves(const Vec3& p, const Skip& skip, const Visit& vis
     }
 }
 
+// No point of the triangle is within the range, because its plane is not: a few multiplications
+// instead of the foot. The grain covers rounding.
+bool SurfaceTree::beyond_plane(const Vec3& p, std::int32_t t, const Corners& corner,
+                               double range_sq) const {
+    const double height = std::abs((p - corner[0]).dot(normal(t))) - grain_;
+    return height > 0.0 && height * height > range_sq;
+}
+
 Foot SurfaceTree::closest(const Vec3& p, std::int32_t hint) const {
     Foot best;
     double best_sq = std::numeric_limits<double>::infinity();
     int feature = 6;
     const auto look = [&](std::int32_t t, const Corners& corner) {
+        if (beyond_plane(p, t, corner, best_sq)) return;
         const TrianglePoint q = closest_on_triangle(p, corner[0], corner[1], corner[2]);
         const double sq = (p - q.point).squaredNorm();
         if (sq > best_sq || (sq == best_sq && t > best.triangle)) return;
@@ -214,6 +223,7 @@ void SurfaceTree::within(const Vec3& p, double range, std::vector<Foot>& out) co
     visit_leaves(
         p, [&](double sq) { return sq > range * range; },
         [&](std::int32_t t, const Corners& corner) {
+            if (beyond_plane(p, t, corner, range * range)) return;
             const TrianglePoint q = closest_on_triangle(p, corner[0], corner[1], corner[2]);
             const double distance = (p - q.point).norm();
             if (distance <= range) out.push_back({q.point, distance, false, t});
@@ -226,7 +236,8 @@ bool SurfaceTree::is_clear(const Vec3& p, double range) const {
     bool clear = true;
     visit_leaves(
         p, [&](double sq) { return !clear || sq >= range * range; },
-        [&](std::int32_t, const Corners& corner) {
+        [&](std::int32_t t, const Corners& corner) {
+            if (beyond_plane(p, t, corner, range * range)) return;
             const TrianglePoint q = closest_on_triangle(p, corner[0], corner[1], corner[2]);
             if ((p - q.point).squaredNorm() < range * range) clear = false;
         });

@@ -60,6 +60,7 @@ private:
     std::int32_t split(std::int32_t first, std::int32_t count);
     void set_box(Node& node, int k, std::int32_t first, std::int32_t count) const;
     void build_normals();
+    bool beyond_plane(const Vec3& p, std::int32_t t, const Corners& corner, double range_sq) const;
     bool is_inside(const Vec3& p, const Foot& foot, int feature) const;
 
     const TriangleMesh& mesh_;

@@ -15,11 +15,6 @@ namespace {
 // above any tolerance in use and far below a ship's speed.
 constexpr double kJamSpeed = 0.01;
 
-void add_region(std::vector<RegionImpulse>& regions, std::int32_t floe, std::int32_t region,
-                const Vec3& impulse) {
-    regions.push_back({floe, region, impulse});
-}
-
 // Contacts of one floe and region become one entry.
 void merge_regions(std::vector<RegionImpulse>& regions) {
     const auto key = [](const RegionImpulse& r) { return std::tuple(r.floe, r.region); };
@@ -27,10 +22,12 @@ void merge_regions(std::vector<RegionImpulse>& regions) {
                      [&](const auto& l, const auto& r) { return key(l) < key(r); });
     std::size_t kept = 0;
     for (const RegionImpulse& r : regions) {
-        if (kept > 0 && key(regions[kept - 1]) == key(r))
+        if (kept > 0 && key(regions[kept - 1]) == key(r)) {
             regions[kept - 1].impulse += r.impulse;
-        else
+            regions[kept - 1].friction += r.friction;
+        } else {
             regions[kept++] = r;
+        }
     }
     regions.resize(kept);
 }
@@ -65,7 +62,7 @@ StepRecord measure_step(const Scene& scene, const std::vector<Contact>& contacts
         out.contact_force += push / dt;
         out.friction_force += rub / dt;
         out.moment += c.arm_a.cross(Vec3(push + rub)) / dt;
-        add_region(out.regions, c.b, contacts[k].region, push + rub);
+        out.regions.push_back({c.b, contacts[k].region, push + rub, rub});
     }
     merge_regions(out.regions);
     out.moving_floes = static_cast<std::int32_t>(scene.bodies.moving.size());

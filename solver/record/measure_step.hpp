@@ -13,7 +13,8 @@ namespace ice {
 /// Impulse of one floe on one region of the hull in a step [N s].
 struct RegionImpulse {
     std::int32_t floe, region;
-    Vec3 impulse;
+    Vec3 impulse;                  ///< normal and tangential parts
+    Vec3 friction = Vec3::Zero();  ///< the tangential part of it
 };
 
 struct StepRecord {

@@ -80,7 +80,9 @@ void Tally::add_regions(const StepRecord& record, bool averaged) {
         now.emplace(r.floe, r.region);
         if (!touching_.contains({r.floe, r.region})) ++region.hits;
         region.max_impulse = std::max(region.max_impulse, r.impulse.norm());
-        if (averaged) region.impulse += r.impulse;
+        if (!averaged) continue;
+        region.impulse += r.impulse;
+        region.friction += r.friction;
     }
     touching_.swap(now);
 }
@@ -103,9 +105,14 @@ void Tally::fill(Summary& summary) const {
         RegionStatistics& out = summary.regions[options_.region_names[r]];
         out.hits = regions_[r].hits;
         out.max_impulse = regions_[r].max_impulse;
-        for (int d = 0; d < 3; ++d)
-            out.mean[static_cast<std::size_t>(d)] =
-                averaged_time_ > 0.0 ? regions_[r].impulse[d] / averaged_time_ : 0.0;
+        if (averaged_time_ <= 0.0) continue;
+        const Vec3 friction = regions_[r].friction, contact = regions_[r].impulse - friction;
+        for (int d = 0; d < 3; ++d) {
+            const auto k = static_cast<std::size_t>(d);
+            out.mean[k] = regions_[r].impulse[d] / averaged_time_;
+            out.contact_mean[k] = contact[d] / averaged_time_;
+            out.friction_mean[k] = friction[d] / averaged_time_;
+        }
     }
     const double steps = std::max<double>(1.0, static_cast<double>(steps_));
     summary.contacts_mean = contacts_ / steps;

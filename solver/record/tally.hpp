@@ -37,7 +37,8 @@ private:
     struct Region {
         std::int64_t hits = 0;
         double max_impulse = 0.0;
-        Vec3 impulse = Vec3::Zero();  ///< sum over the averaged time [N s]
+        Vec3 impulse = Vec3::Zero();   ///< sum over the averaged time [N s]
+        Vec3 friction = Vec3::Zero();  ///< the part of friction in it
     };
 
     void add_regions(const StepRecord& record, bool averaged);

@@ -95,6 +95,7 @@ void StateFields::carry(CheckpointFile& file, Tally& t) {
     file.column("tally.region_hits", t.regions_, &Tally::Region::hits);
     file.column("tally.region_max_impulse", t.regions_, &Tally::Region::max_impulse);
     file.column("tally.region_impulse", t.regions_, &Tally::Region::impulse);
+    file.column("tally.region_friction", t.regions_, &Tally::Region::friction);
 
     // a set goes as a table
     std::vector<std::pair<std::int32_t, std::int32_t>> touching(t.touching_.begin(),

@@ -13,6 +13,7 @@
 #include "common/base/version.hpp"
 #include "common/cli/console.hpp"
 #include "common/cli/progress.hpp"
+#include "tests/bench/icebench_kernels.hpp"
 #include "tests/bench/icebench_peer.hpp"
 #include "tests/bench/icebench_table.hpp"
 #include "tests/bench/machine.hpp"
@@ -27,7 +28,7 @@ struct Options {
     std::vector<int> floes, threads{1, 2};
     int steps = 1000;
     double patience = 150.0;
-    bool peers = false, quiet = false;
+    bool peers = false, kernels = false, quiet = false;
     std::string csv, water = "distributed", normal = "surface";
     Models models;
 };
@@ -55,6 +56,9 @@ void declare(CLI::App& app, Options& o) {
     app.add_flag("--peers", o.peers,
                  "Also Bullet (libbullet-dev) and ODE (libode-dev) on loose and packed, as far as "
                  "they were there when this was built; one thread");
+    app.add_flag("--kernels", o.kernels,
+                 "Instead of steps: what a unit of work costs in each kernel, in the state after "
+                 "--steps steps of each scene; one thread");
     app.add_option("--patience", o.patience,
                    "Wall time after which a peer does not begin another step [s] (default 150)")
         ->check(CLI::PositiveNumber);
@@ -106,8 +110,10 @@ public:
     }
 
     int run() {
-        fmt::print("{}, {}, icesolve {} ({})\n\n{}", test::machine_name(), compiler(), version(),
-                   git_commit(), table_head());
+        fmt::print("{}, {}, icesolve {} ({})\n\n", test::machine_name(), compiler(), version(),
+                   git_commit());
+        if (o_.kernels) return run_kernels();
+        fmt::print("{}", table_head());
         for (const std::string& name : o_.scenes)
             for (const int floes : numbers_of(name))
                 if (!interrupted()) measure_scene(name, floes);
@@ -122,6 +128,23 @@ public:
     }
 
 private:
+    int run_kernels() {
+        set_thread_count(1);
+        for (const std::string& name : o_.scenes)
+            for (const int floes : numbers_of(name)) {
+                const BenchScene scene = make_bench_scene(name, floes, o_.models);
+                fmt::print("{}, {} floes, {} steps\n\n{}", name, floes, o_.steps, kernel_head());
+                for (const std::string& simd : o_.simd) {
+                    if (interrupted()) return static_cast<int>(ExitCode::interrupted);
+                    set_instruction_set(simd);
+                    fmt::print("{}", kernel_line(measure_kernels(scene, o_.steps)));
+                    std::fflush(stdout);
+                }
+                fmt::print("\n");
+            }
+        return 0;
+    }
+
     std::vector<int> numbers_of(const std::string& scene) const {
         std::vector<int> usual = usual_floes(scene);
         if (o_.floes.empty()) return usual;

@@ -11,7 +11,7 @@ import tempfile
 COLUMNS = ("engine,scene,floes,threads,simd,ms_min,ms_median,contacts,max_overlap_mm,energy_J,"
            "state_hash")
 OPTIONS = ("--scene", "--floes", "--threads", "--simd", "--steps", "--peers", "--patience",
-           "--water", "--normal", "--iterations", "--csv", "--quiet", "--version")
+           "--water", "--normal", "--iterations", "--csv", "--kernels", "--quiet", "--version")
 
 
 def run(program, *arguments):
@@ -48,6 +48,16 @@ def check_table(program, folder):
     check(any(float(row["contacts"]) > 0.0 for row in rows), "no scene has contacts")
 
 
+def check_kernels(program):
+    result = run(program, "--kernels", "--scene", "packed", "--floes", "16", "--steps", "60",
+                 "--simd", "all")
+    check(result.returncode == 0, f"--kernels: exit code {result.returncode}: {result.stderr}")
+    rows = [line.split("|")[1:-1] for line in result.stdout.splitlines() if line.startswith("| ")]
+    check(len(rows) >= 2, f"--kernels: {result.stdout}")
+    for row in rows[1:]:
+        check(all(float(value) > 0.0 for value in row[1:]), f"--kernels: {row}")
+
+
 def check_refusals(program, folder):
     path = folder / "none.csv"
     for arguments in (["--scene", "lose"], ["--floes", "0"], ["--threads", "0"],
@@ -68,6 +78,7 @@ def main():
         check(option in help_text, f"--help lacks {option}")
     with tempfile.TemporaryDirectory() as folder:
         check_table(program, pathlib.Path(folder))
+        check_kernels(program)
         check_refusals(program, pathlib.Path(folder))
 
 

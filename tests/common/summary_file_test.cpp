@@ -30,7 +30,8 @@ Summary make_summary() {
     s.resistance = {1100.5, 1000.25, 100.25, 220.0, 3100.0, 12.5};
     s.lateral = {1.0, 2.0, 3.0, 4.0, 5.0, 6.0};
     s.vertical = {0.1, 0.2, 0.3, 0.4, 0.5, 1.0 / 3.0};
-    s.regions["bow"] = {17, 42.5, {-900.0, 1.0, 200.0}};
+    s.regions["bow"] = {
+        17, 42.5, {-900.0, 1.0, 200.0}, {-800.0, 0.75, 250.0}, {-100.0, 0.25, -50.0}};
     s.contacts_mean = 12.5;
     s.contacts_max = 40.0;
     s.max_overlap = 0.001;
@@ -65,6 +66,8 @@ TEST_CASE("a summary comes back with all digits", "[formats]") {
     CHECK(back.vertical.ci95 == 1.0 / 3.0);
     CHECK(back.regions.at("bow").hits == 17);
     CHECK(back.regions.at("bow").mean == s.regions.at("bow").mean);
+    CHECK(back.regions.at("bow").contact_mean == s.regions.at("bow").contact_mean);
+    CHECK(back.regions.at("bow").friction_mean == s.regions.at("bow").friction_mean);
     CHECK(back.unconverged_steps == 3);
     CHECK(back.energy == s.energy);
     CHECK(back.stage_seconds == s.stage_seconds);
@@ -107,6 +110,8 @@ TEST_CASE("summary.json holds the contract's keys in the contract's order", "[fo
                             "hits",
                             "max_impulse_Ns",
                             "mean_N",
+                            "contact_mean_N",
+                            "friction_mean_N",
                             "contacts",
                             "mean",
                             "max",

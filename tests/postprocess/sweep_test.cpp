@@ -4,6 +4,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "postprocess/sweep/share_work.hpp"
+#include "postprocess/sweep/sweep_markdown.hpp"
 #include "postprocess/sweep/sweep_points.hpp"
 #include "postprocess/sweep/sweep_tables.hpp"
 #include "postprocess/sweep/write_sweep.hpp"
@@ -15,7 +17,8 @@ using namespace ice::sweep;
 
 namespace {
 
-// A run folder at u with the resistance given, of which the bow has 60 %, the bottom 30 %.
+// A run folder at u with the resistance given, of which the bow has 60 %, the bottom 30 %; 10 % are
+// friction on each.
 void write_run(const std::filesystem::path& folder, double speed, double mu, int seed,
                double resistance, const std::string& more = "") {
     std::filesystem::create_directories(folder);
@@ -23,9 +26,15 @@ void write_run(const std::filesystem::path& folder, double speed, double mu, int
     s.resistance = {resistance, 0.8 * resistance, 0.2 * resistance, 1.0, 2.0, 7.0};
     s.lindqvist_submersion = 500.0 + 100.0 * speed;
     s.regions.clear();
-    s.regions["bow"].mean = {-0.6 * resistance, 0.0, 1.0};
-    s.regions["Bottom_aft"].mean = {-0.3 * resistance, 0.0, 1.0};
-    s.regions["hull"].mean = {-0.1 * resistance, 0.0, 1.0};
+    const auto add = [&](const char* region, double contact, double friction) {
+        const auto force = [&](double share) {
+            return std::array<double, 3>{-share * resistance, 0.0, 1.0};
+        };
+        s.regions[region] = {1, 1.0, force(contact + friction), force(contact), force(friction)};
+    };
+    add("bow", 0.5, 0.1);
+    add("Bottom_aft", 0.2, 0.1);
+    add("hull", 0.1, 0.0);
     write_bytes(folder / "summary.json", summary_text(s));
     write_bytes(folder / "case.resolved.cfg",
                 fmt::format("title = \"t{}\"\n[simulation]\nseed = {}\n[hull]\nspeed = {}\n"
@@ -91,12 +100,22 @@ TEST_CASE("without a plan the resolved cases say what varies, and seeds become i
     CHECK(p.part(Part::sides).mean == 0.0);
     CHECK(p.part(Part::rest).mean == Approx(51.0));
     CHECK(p.part(Part::friction).mean == Approx(102.0));
+    CHECK(p.part(Part::bottom_contact).mean == Approx(102.0));
+    CHECK(p.part(Part::bottom_friction).mean == Approx(51.0));
+    CHECK(p.part(Part::rest_friction).mean == 0.0);
     CHECK(p.lindqvist == Approx(550.0));
     for (const Point& point : points) {
         double sum = 0.0;
         for (const Part part : {Part::bow, Part::sides, Part::bottom, Part::rest})
             sum += point.part(part).mean;
         CHECK(sum == Approx(point.part(Part::total).mean));
+        sum = point.part(Part::friction).mean;
+        for (const Part part :
+             {Part::bow_contact, Part::sides_contact, Part::bottom_contact, Part::rest_contact})
+            sum += point.part(part).mean;
+        CHECK(sum == Approx(point.part(Part::total).mean));
+        CHECK(point.part(Part::bow_contact).mean + point.part(Part::bow_friction).mean ==
+              Approx(point.part(Part::bow).mean));
         CHECK(point.part(Part::contact).mean + point.part(Part::friction).mean ==
               Approx(point.part(Part::total).mean));
     }
@@ -123,6 +142,30 @@ TEST_CASE("a single run has its own interval, and keys that follow the speed are
     CHECK(std::isnan(points[0].part(Part::bow).half));
     CHECK_THAT(make_sweep_page(sweep, folder / "sweep.html"),
                Catch::Contains("Varying with it: contact.restitution"));
+}
+
+TEST_CASE("summaries from before the split have parts without contact and friction", "[sweep]") {
+    const TempFolder folder;
+    for (const double speed : {0.5, 1.0}) {
+        const auto run = folder / fmt::format("u{}", speed);
+        write_run(run, speed, 0.1, 1, 500.0);
+        std::string text = summary_text(read_summary(run / "summary.json"));
+        const std::size_t regions = text.find("\"regions\"");
+        for (const std::string key : {"\"contact_mean_N\"", "\"friction_mean_N\""})
+            for (std::size_t at = text.find(key, regions); at != std::string::npos;
+                 at = text.find(key, at))
+                text.replace(at, key.size(), "\"unknown\"");
+        write_bytes(run / "summary.json", text);
+    }
+    const Sweep sweep = read_sweep(folder.path());
+    const auto points = make_points(sweep);
+    REQUIRE(points.size() == 2);
+    CHECK(points[0].part(Part::bow).mean == Approx(300.0));
+    CHECK(std::isnan(points[0].part(Part::bow_friction).mean));
+    const std::string page = make_sweep_page(sweep, folder / "sweep.html");
+    CHECK(tag_fault(page).empty());
+    CHECK_THAT(page, Catch::Contains("<td>n/a</td>"));
+    CHECK_THAT(point_csv(sweep, points), !Catch::Contains("nan"));
 }
 
 TEST_CASE("runs that failed, never began or cannot be read become rows with a reason", "[sweep]") {
@@ -192,13 +235,55 @@ TEST_CASE("the page of a sweep has curves, small multiples, tables and CSV", "[s
     CHECK(encode_address("a b/c=1,2%\u00e4") == "a%20b/c%3D1%2C2%25%C3%A4");
 }
 
+TEST_CASE("curves with long names are told apart by the values of the only other axis", "[sweep]") {
+    const TempFolder folder;
+    for (const double speed : {0.5, 1.0})
+        for (const double mu : {0.05, 0.1, 0.15, 0.2})
+            write_run(folder / fmt::format("u{}m{}", speed, mu), speed, mu, 1, 100.0 * speed + mu);
+    const std::string curve = make_sweep_curve(read_sweep(folder.path()));
+    CHECK_THAT(curve, Catch::Contains("Resistance by friction ship-ice"));
+    CHECK_THAT(curve, Catch::Contains(">0.15</text>"));
+}
+
+TEST_CASE("the ship's work is shared out per metre of travel", "[sweep]") {
+    const TempFolder folder;
+    write_grid(folder);
+    Sweep sweep = read_sweep(folder.path());
+    for (SweepRun& run : sweep.runs) {
+        run.summary->simulated_s = 20.0;
+        run.summary->energy = {
+            {"ship_work_J", 5000.0}, {"potential_J", 3000.0},    {"kinetic_change_J", 0.0},
+            {"friction_J", 1500.0},  {"restitution_J", 400.0},   {"crushing_J", 0.0},
+            {"drag_J", 200.0},       {"buoyancy_moment_J", 0.0}, {"separation_J", 100.0}};
+    }
+    const auto points = make_points(sweep);
+    const auto shares = share_work(sweep, points.front());  // 0.5 m/s: 10 m
+    CHECK(shares.front().force == Approx(500.0));
+    double sum = 0.0;
+    for (const WorkShare& share : shares) sum += share.force;
+    CHECK(sum == Approx(1000.0));  // the work and what became of it
+
+    const std::string text = sweep_markdown(sweep);
+    CHECK_THAT(text, Catch::StartsWith("| friction ship-ice | speed [m/s] | runs | resistance [N] |"
+                                       " bow | bottom | rest | friction | Lindqvist |\n|---|"));
+    CHECK_THAT(
+        text, Catch::Contains("\n| 0.1 | 0.5 | 3 | 510 \u00b1 2 | 255 | 102 | 51 | 102 | 550 |\n"));
+    CHECK_THAT(text, Catch::Contains("\n| 0.1 | 0.5 | 500 | 300 | 150 | 40 | 20 | -10 |\n"));
+    CHECK_THAT(make_sweep_curve(sweep), Catch::StartsWith("<svg xmlns"));
+
+    // a speed that changes leaves the travel unknown
+    for (SweepRun& run : sweep.runs) run.settings.erase(kSpeedKey);
+    CHECK(std::isnan(share_work(sweep, points.front()).front().force));
+}
+
 TEST_CASE("sweeps over texts or nothing have tables without curves", "[sweep]") {
     const TempFolder folder;
-    write_run(folder / "a", 0.5, 0.1, 1, 500.0, "normal = \"surface\"\n");
-    write_run(folder / "b", 0.5, 0.1, 1, 700.0, "normal = \"centres\"\n");
+    write_run(folder / "a", 0.5, 0.1, 1, 500.0, "normal = \"surface\"\nlist = [0.49, 1]\n");
+    write_run(folder / "b", 0.5, 0.1, 1, 700.0, "normal = \"centres\"\nlist = [0.49, 1.0]\n");
     const Sweep sweep = read_sweep(folder.path());
     CHECK(sweep.x.empty());
     CHECK(sweep.axes == std::vector<std::string>{"contact.normal"});
+    CHECK(sweep.runs[0].text("contact.list") == "[0.49, 1]");
     const std::string page = make_sweep_page(sweep, folder / "sweep.html");
     CHECK(tag_fault(page).empty());
     CHECK_THAT(page, Catch::Contains("there is no curve to draw"));

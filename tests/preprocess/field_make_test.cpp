@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // From specification to field: keys, shared shapes, spheres, equal bytes.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <fstream>
@@ -138,6 +139,32 @@ TEST_CASE("floes are covered as spherize covers solids, by its own certificate",
                     certificate);
             REQUIRE(certificate.covering_radius < 0.75 * field.spacing);
             REQUIRE(certificate.protrusion_max < 1e-9);
+        }
+    }
+}
+
+TEST_CASE("a floe's top and bottom have the same spheres, and its creases normals of its faces",
+          "[field][property]") {
+    FieldReport report;
+    for (const SphereSet& shape : make(kVoronoi, report).shapes) {
+        for (std::size_t k = 0; k < shape.surface_count; ++k) {
+            const Vec3 flip(1.0, 1.0, -1.0);
+            const Vec3 image = shape.centers[k].cwiseProduct(flip);
+            const auto twin =
+                std::find_if(shape.centers.begin(), shape.centers.end(),
+                             [&](const Vec3& c) { return (c - image).norm() < 1e-12; });
+            REQUIRE(twin != shape.centers.end());
+            const auto t = static_cast<std::size_t>(twin - shape.centers.begin());
+            REQUIRE(shape.areas[t] == shape.areas[k]);
+            REQUIRE((shape.normals[t] - shape.normals[k].cwiseProduct(flip)).norm() < 1e-9);
+        }
+        REQUIRE(!shape.creases.empty());
+        for (const CreaseNormal& crease : shape.creases) {
+            double nearest = 0.0;  // cosine between the crease's normal and a face's
+            for (std::size_t t = 0; t < shape.mesh.triangles.size(); ++t)
+                nearest =
+                    std::max(nearest, crease.normal.dot(shape.mesh.area_vector(t).normalized()));
+            REQUIRE(nearest > 1.0 - 1e-9);
         }
     }
 }

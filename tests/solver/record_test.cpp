@@ -120,6 +120,8 @@ TEST_CASE("forces are the opposite of what the floe feels, split into normal and
     CHECK(r.friction_force.norm() <= 0.1 * r.contact_force.norm() * (1 + 1e-9));
     REQUIRE(r.regions.size() == 1);
     CHECK(r.regions[0].floe == 1);
+    CHECK((r.regions[0].impulse / 0.01 - r.contact_force - r.friction_force).norm() < 1e-9);
+    CHECK((r.regions[0].friction / 0.01 - r.friction_force).norm() < 1e-9);
 
     std::vector<FloeForces> forces(2);
     measure_floe_forces(w.constraints, 0.01, forces);
@@ -164,7 +166,7 @@ TEST_CASE("hull contacts between two frames add up to the forces of their steps"
 TEST_CASE("a touch that lasts is one hit, a second touch another", "[record]") {
     Tally tally({{"hull", "bow"}, 0.0, true, 0.01});
     StepRecord touching, apart;
-    touching.regions = {{3, 1, Vec3(-2, 0, 0)}};
+    touching.regions = {{3, 1, Vec3(-2, 0, 0), Vec3(-0.5, 0, 0)}};
     for (const StepRecord* r : {&touching, &touching, &apart, &touching})
         tally.add(*r, 0.1, 0.1, true);
     Summary summary;
@@ -172,5 +174,7 @@ TEST_CASE("a touch that lasts is one hit, a second touch another", "[record]") {
     CHECK(summary.regions["bow"].hits == 2);
     CHECK(summary.regions["bow"].max_impulse == 2.0);
     CHECK(summary.regions["bow"].mean[0] == Approx(-6.0 / 0.4));
+    CHECK(summary.regions["bow"].contact_mean[0] == Approx(-4.5 / 0.4));
+    CHECK(summary.regions["bow"].friction_mean[0] == Approx(-1.5 / 0.4));
     CHECK(summary.regions["hull"].hits == 0);
 }

@@ -81,6 +81,17 @@ with tempfile.TemporaryDirectory() as folder:
     assert len(fields) == 4 and fields[3].options[-3:] == ["ice.thickness=0.7", "--set", "seed=2"]
     assert p.out == os.path.abspath("results/field")
 
+    # specifications as an axis: other keys and seeds change each
+    write(f"{folder}/brick.toml", 'pattern = "brick"\n')
+    p = plan('case = "case/case.cfg"\n' + FIELD.replace('"field.seed" = [1, 2]', (
+        '"field.specification" = ["case/field.toml", "brick.toml"]\nseeds = 2\n'
+        '[tied."simulation.seed"]\n"field.seed" = [7, 8]')), "kinds.toml")
+    fields = [i for i in p.inputs if i.program == "icefield"]
+    assert len(p.runs) == 8 and len(fields) == 8, fields
+    assert fields[-1].source == f"{folder}/brick.toml" and "seed=8" in fields[-1].options
+    assert fields[-1].output.endswith("8-brick.h5"), fields[-1].output
+    assert "field.ice.thickness=0.7__field.specification=brick.toml__simulation.seed=2" in p.runs
+
     expect_fault(good + 'ax = 1\n', "no key of a case is called 'ax'")
     expect_fault("treads = 2\n" + good, "unknown key 'treads'", "did you mean 'threads'?")
     expect_fault("threads = 0\n" + good, "'threads' is wrong", "whole number")

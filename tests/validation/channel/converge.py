@@ -46,6 +46,12 @@ def make_sets(options, radius):
     return folder
 
 
+def is_done(out):
+    """Did a run come to its end? One that was stopped leaves a summary, too."""
+    summary = out / "summary.json"
+    return summary.exists() and json.loads(summary.read_text())["status"] == "completed"
+
+
 def run(options, pressure, name, seed):
     """One run's summary."""
     keys = dict(VARIATIONS[name])
@@ -54,7 +60,7 @@ def run(options, pressure, name, seed):
     keys |= {"simulation.seed": seed, "contact.crushing_pressure": f'"{pressure}"'}
     if options.duration:
         keys |= {"simulation.duration": options.duration, "output.average_from": 0.0}
-    if not (out / "summary.json").exists():
+    if not is_done(out):
         command = [options.bin / "icesolve", folder / "case.cfg", "--out", out, "--threads", "1",
                    "-q", *(part for k, v in keys.items() for part in ("--set", f"{k}={v}"))]
         subprocess.run(command, check=True)

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "postprocess/sweep/share_work.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace ice::sweep {
+
+namespace {
+
+struct Account {
+    const char *title, *key;
+    double sign;
+};
+
+constexpr Account kAccounts[]{{"Work per metre", "ship_work_J", 1.0},
+                              {"Potential", "potential_J", 1.0},
+                              {"Kinetic", "kinetic_change_J", 1.0},
+                              {"Friction", "friction_J", 1.0},
+                              {"Impacts", "restitution_J", 1.0},
+                              {"Crushing", "crushing_J", 1.0},
+                              {"Drag", "drag_J", 1.0},
+                              {"Left-out moment", "buoyancy_moment_J", 1.0},
+                              {"Opened overlap", "separation_J", -1.0}};
+
+// [m], NaN when the speed is not one number
+double travel(const SweepRun& run) {
+    const auto speed = run.settings.find(kSpeedKey);
+    if (speed == run.settings.end() || !speed->second.number)
+        return std::numeric_limits<double>::quiet_NaN();
+    return *speed->second.number * run.summary->simulated_s;
+}
+
+}  // namespace
+
+std::vector<WorkShare> share_work(const Sweep& sweep, const Point& point) {
+    std::vector<WorkShare> shares;
+    for (const auto& [title, key, sign] : kAccounts) {
+        double sum = 0.0;
+        for (const std::size_t row : point.runs) {
+            const SweepRun& run = sweep.runs[row];
+            const auto energy = run.summary->energy.find(key);
+            sum += energy == run.summary->energy.end() ? std::numeric_limits<double>::quiet_NaN()
+                                                       : energy->second / travel(run);
+        }
+        shares.push_back({title, sign * sum / static_cast<double>(point.runs.size())});
+    }
+    return shares;
+}
+
+}  // namespace ice::sweep

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include "postprocess/sweep/sweep_points.hpp"
+
+namespace ice::sweep {
+
+/// Two tables in Markdown, a row per point each: resistance with interval, normal forces on the
+/// parts of the hull and friction, which add up to it, and Lindqvist's formula; and what became of
+/// the ship's work. Columns of which nothing is known, or all is zero, are left out. "" without
+/// points.
+std::string sweep_markdown(const Sweep& sweep);
+
+}  // namespace ice::sweep
