@@ -19,7 +19,9 @@ if [[ -z $root ]]; then
     debootstrap --variant=minbase bookworm "$root" >"$build/debootstrap.log" ||
         { echo "skipped: debootstrap failed, $build/debootstrap.log says why" >&2; exit 0; }
 fi
-trap '[[ -z $made ]] || rm -rf --one-file-system "$made"' EXIT
+# the programs find each other by /proc
+mount -t proc proc "$root/proc" || { echo "skipped: /proc cannot be mounted in $root" >&2; exit 0; }
+trap 'umount "$root/proc"; [[ -z $made ]] || rm -rf --one-file-system "$made"' EXIT
 
 cpack --config "$build/CPackConfig.cmake" -G DEB -B "$build/packages" >/dev/null
 cp "$build"/packages/icesolve_*.deb "$root/tmp/icesolve.deb"
