@@ -5,13 +5,18 @@
 # Each line of CASE_DIR/spheres.txt is the arguments of one spherize call, "MESH [option]... -o FILE",
 # or of one icefield call, "SPECIFICATION.toml [option]... -o FILE", with paths relative to the case
 # folder, which all outputs stay in; "#" starts a comment line. An output newer than its input,
-# spheres.txt and the program is kept. SPHERIZE and ICEFIELD name other programs than those in
-# build/release/bin.
+# spheres.txt and the program is kept. The programs are SPHERIZE and ICEFIELD where set, else those in build/release/bin, else the
+# installed ones.
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
-spherize=$(realpath -m "${SPHERIZE:-$root/build/release/bin/spherize}")
-icefield=$(realpath -m "${ICEFIELD:-$root/build/release/bin/icefield}")
+find_program() { # NAME, what its variable says
+    local built=$root/build/release/bin/$1
+    [[ -n $2 || -x $built ]] || built=$(command -v "$1" || echo "$built")
+    realpath -m "${2:-$built}"
+}
+spherize=$(find_program spherize "${SPHERIZE:-}")
+icefield=$(find_program icefield "${ICEFIELD:-}")
 
 fail() {
     echo "prepare.sh: $*" >&2

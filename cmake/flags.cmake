@@ -3,11 +3,15 @@
 # -ffp-contract=off: without it g++ fuses a*b + c where the machine can, so that results would differ
 # between instruction sets. CGAL's own -frounding-math stays with the targets that link CGAL.
 add_library(ice_flags INTERFACE)
-target_compile_options(ice_flags INTERFACE
-  -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
-  $<$<CXX_COMPILER_ID:Clang>:-Wno-missing-braces>
+# Programs that use the installed libraries choose their own warnings.
+set(own_options -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow -Wconversion
+  -Wno-sign-conversion $<$<CXX_COMPILER_ID:Clang>:-Wno-missing-braces>
   $<$<BOOL:${ICE_WARNINGS_AS_ERRORS}>:-Werror>)
-target_include_directories(ice_flags INTERFACE ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR}/generated)
+target_compile_options(ice_flags INTERFACE "$<BUILD_INTERFACE:${own_options}>")
+target_compile_features(ice_flags INTERFACE cxx_std_20)
+target_include_directories(ice_flags INTERFACE
+  $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/generated>
+  $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/icesolve>)
 target_link_libraries(ice_flags INTERFACE Eigen3::Eigen fmt::fmt)
 
 # Header-only third parties reach us as system headers: their warnings are not ours.

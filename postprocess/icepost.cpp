@@ -9,6 +9,7 @@
 #include "common/base/part_file.hpp"
 #include "common/base/units.hpp"
 #include "common/base/version.hpp"
+#include "common/cli/command_line.hpp"
 #include "common/cli/console.hpp"
 #include "postprocess/check/check_run.hpp"
 #include "postprocess/paraview/write_paraview.hpp"
@@ -27,7 +28,8 @@ struct Options {
     double time = 0.0;
     std::string from = "below";
     std::vector<std::string> runs;
-    bool quiet = false, points_only = false, csv = false, markdown = false;
+    bool points_only = false, csv = false, markdown = false;
+    ice::MessageOptions messages;
 };
 
 int report(const Options& o) {
@@ -118,11 +120,11 @@ std::string finite_seconds(const std::string& text) {
 
 int main(int argc, char** argv) {
     Options o;
-    CLI::App app{"icepost: reports, pictures and checks of icesolve's run folders"};
-    app.set_version_flag("--version", fmt::format("{} ({})", ice::version(), ice::git_commit()));
+    CLI::App app("Reports, pictures and checks of icesolve's run folders.", "icepost");
+    ice::declare_version(app);
     app.footer("Exit codes: 0 ok, 1 the check failed or a file cannot be written, 2 bad input.");
     app.require_subcommand(1);
-    app.add_flag("-q,--quiet", o.quiet, "only errors");
+    app.add_flag("-q,--quiet", o.messages.quiet, "only errors");
     const auto command = [&](const char* name, const char* text) {
         auto* sub = app.add_subcommand(name, text)->fallthrough();
         sub->add_option("RUN", o.run, "run folder made by icesolve")->required();
@@ -160,18 +162,15 @@ int main(int argc, char** argv) {
     auto* compare = command("check", "compare summary.json with expected numbers");
     compare->add_option("EXPECTED", o.expected, "TOML file with [[expect]] entries")->required();
     compare->add_option("--junit", o.junit, "also write the verdicts as JUnit XML");
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : static_cast<int>(ice::ExitCode::bad_input);
-    }
-    ice::start_messages(ice::Colour::automatic, o.quiet);
-    return ice::run_program("icepost", [&] {
+    const auto run_icepost = [&](const std::string&) {
         if (make_report->parsed()) return report(o);
         if (draw->parsed()) return view(o);
         if (plot_run->parsed()) return plot(o);
         if (table->parsed()) return compare_runs(o);
         if (curve->parsed()) return sweep(o);
         return export_files->parsed() ? paraview(o) : check(o);
-    });
+    };
+    return ice::run_command_line(app, argc, argv, o.messages,
+                                 "use fewer frames (report --frames, paraview --every)",
+                                 run_icepost);
 }

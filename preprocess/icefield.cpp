@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // icefield: specification in, ice field out. Command line only; the work is in field/.
 #include <fmt/format.h>
-#include <malloc.h>
 
 #include <CLI/CLI.hpp>
 
@@ -10,6 +9,7 @@
 #include "common/base/part_file.hpp"
 #include "common/base/timer.hpp"
 #include "common/base/version.hpp"
+#include "common/cli/command_line.hpp"
 #include "common/cli/console.hpp"
 #include "common/cli/fault_handlers.hpp"
 #include "common/formats/field_file.hpp"
@@ -22,12 +22,12 @@ struct Options {
     std::vector<std::string> overrides;
     std::optional<std::int64_t> seed;
     int threads = 0;
-    bool defaults = false, schema = false, quiet = false;
+    bool defaults = false, schema = false;
+    ice::MessageOptions messages;
 };
 
 void declare(CLI::App& app, Options& o) {
-    app.set_version_flag("--version", fmt::format("icefield {} ({}, {})", ice::version(),
-                                                  ice::git_commit(), ice::compiler()));
+    ice::declare_version(app);
     app.add_option("specification", o.spec, "What the field should be (TOML)");
     app.add_option("-o,--output", o.out, "Field file (default <specification stem>.h5)");
     app.add_option("--set", o.overrides, "key=value, replaces a key; repeatable")
@@ -41,7 +41,7 @@ void declare(CLI::App& app, Options& o) {
     app.add_flag("--print-schema", o.schema, "Print the JSON schema of the specification");
     app.add_option("--threads", o.threads, "Threads (default: all cores)")
         ->check(CLI::Range(1, 4096));
-    app.add_flag("-q,--quiet", o.quiet, "No messages but errors");
+    app.add_flag("-q,--quiet", o.messages.quiet, "No messages but errors");
     app.footer("Exit codes: 0 ok; 1 failed; 2 bad command line or specification.");
 }
 
@@ -109,7 +109,7 @@ int run_icefield(const Options& o, const std::string& command_line) {
     field.command_line = command_line;
     ice::write_field(out, field);
     if (!o.json.empty()) ice::write_text_file(o.json, ice::field_report_text(report));
-    if (!o.quiet) fmt::print("{}", report_text(report, field, out));
+    if (!o.messages.quiet) fmt::print("{}", report_text(report, field, out));
     for (const std::string& warning : report.warnings) ice::say_warning(warning);
     return 0;
 }
@@ -117,18 +117,11 @@ int run_icefield(const Options& o, const std::string& command_line) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    // large arrays come and go: keep their pages instead of having the kernel clear new ones
-    mallopt(M_MMAP_THRESHOLD, 1 << 30);
-    mallopt(M_TRIM_THRESHOLD, 1 << 30);
+    ice::keep_pages();
     CLI::App app("Makes an ice field: specification in, floes as contact spheres out.", "icefield");
     Options o;
     declare(app, o);
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : static_cast<int>(ice::ExitCode::bad_input);
-    }
-    ice::start_messages(ice::Colour::automatic, o.quiet);
-    return ice::run_program("icefield",
-                            [&] { return run_icefield(o, ice::command_line(argc, argv)); });
+    return ice::run_command_line(
+        app, argc, argv, o.messages, "use larger spheres, fewer floes",
+        [&](const std::string& command_line) { return run_icefield(o, command_line); });
 }

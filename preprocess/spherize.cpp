@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // spherize: mesh in, sphere set out. Command line only; each step is a folder.
 #include <fmt/format.h>
-#include <malloc.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -15,6 +14,7 @@
 #include "common/base/timer.hpp"
 #include "common/base/units.hpp"
 #include "common/base/version.hpp"
+#include "common/cli/command_line.hpp"
 #include "common/cli/console.hpp"
 #include "common/cli/fault_handlers.hpp"
 #include "common/formats/spheres_file.hpp"
@@ -40,7 +40,8 @@ struct Options {
     ice::ReadOptions read;
     ice::FillOptions fill;
     int threads = 0;
-    bool check = false, quiet = false;
+    bool check = false;
+    ice::MessageOptions messages;
 };
 
 // CLI11's own check for positive numbers answers with the largest double, in digits.
@@ -57,8 +58,7 @@ std::string positive_density(const std::string& text) {
 }
 
 void declare(CLI::App& app, Options& o) {
-    app.set_version_flag("--version", fmt::format("spherize {} ({}, {})", ice::version(),
-                                                  ice::git_commit(), ice::compiler()));
+    ice::declare_version(app);
     app.add_option("mesh", o.mesh, "Surface mesh: OBJ, STL, PLY, OFF, DAE, glTF, FBX, also .gz")
         ->required();
     app.add_option("-o,--output", o.out, "Sphere file (default <mesh stem>.spheres.h5)");
@@ -98,7 +98,7 @@ void declare(CLI::App& app, Options& o) {
     app.add_option("--json", o.json, "Write the certificate as JSON");
     app.add_option("--threads", o.threads, "Threads (default: all cores)")
         ->check(CLI::Range(1, 4096));
-    app.add_flag("-q,--quiet", o.quiet, "No messages but errors");
+    app.add_flag("-q,--quiet", o.messages.quiet, "No messages but errors");
     app.footer("Exit codes: 0 ok; 1 failed; 2 bad command line or mesh.");
 }
 
@@ -252,8 +252,8 @@ int run_spherize(Options& o, const std::string& command_line) {
     report.seconds["total"] = timer.seconds();
     if (!o.json.empty()) ice::write_text_file(o.json, ice::spheres_report_text(report));
     const auto exported = ice::write_exports(set, o.exports, density, export_base);
-    if (!o.quiet) fmt::print("{}", ice::report_text(report, out));
-    if (!o.quiet)
+    if (!o.messages.quiet) fmt::print("{}", ice::report_text(report, out));
+    if (!o.messages.quiet)
         for (const auto& path : exported) fmt::print("  {:<18}{}\n", "exported", path.string());
     for (const std::string& warning : report.warnings) ice::say_warning(warning);
     return 0;
@@ -262,18 +262,11 @@ int run_spherize(Options& o, const std::string& command_line) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    // large arrays come and go: keep their pages instead of having the kernel clear new ones
-    mallopt(M_MMAP_THRESHOLD, 1 << 30);
-    mallopt(M_TRIM_THRESHOLD, 1 << 30);
+    ice::keep_pages();
     CLI::App app("Fills a closed mesh with contact spheres: mesh in, sphere set out.", "spherize");
     Options o;
     declare(app, o);
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : static_cast<int>(ice::ExitCode::bad_input);
-    }
-    ice::start_messages(ice::Colour::automatic, o.quiet);
-    return ice::run_program("spherize",
-                            [&] { return run_spherize(o, ice::command_line(argc, argv)); });
+    return ice::run_command_line(
+        app, argc, argv, o.messages, "use a larger radius or spacing, --mode surface",
+        [&](const std::string& command_line) { return run_spherize(o, command_line); });
 }

@@ -13,6 +13,7 @@
 #include "common/base/parallel.hpp"
 #include "common/base/units.hpp"
 #include "common/base/version.hpp"
+#include "common/cli/command_line.hpp"
 #include "common/cli/console.hpp"
 #include "common/cli/fault_handlers.hpp"
 #include "common/cli/progress.hpp"
@@ -27,13 +28,14 @@
 namespace {
 
 struct Options {
-    std::string case_file, out, explain, restart, simd = "auto", colour = "auto";
+    std::string case_file, out, explain, restart, simd = "auto";
     std::vector<std::string> overrides;
     int threads = 0;
     std::int64_t hash_every = 0;
     double checkpoint_every = 0.0;
-    bool check = false, schema = false, defaults = false, json = false, quiet = false,
-         verify = false, no_report = false, allow_overlap = false;
+    bool check = false, schema = false, defaults = false, json = false, verify = false,
+         no_report = false;
+    ice::MessageOptions messages;
 };
 
 // CLI11's own check for positive numbers lets NaN pass.
@@ -45,8 +47,7 @@ std::string positive_seconds(const std::string& text) {
 }
 
 void declare(CLI::App& app, Options& o) {
-    app.set_version_flag("--version", fmt::format("icesolve {} ({}, {})", ice::version(),
-                                                  ice::git_commit(), ice::compiler()));
+    ice::declare_version(app);
     app.add_option("case", o.case_file, "Case file (TOML)");
     app.add_option("--out", o.out, "Run folder (default results/<case stem>)");
     app.add_option("--set", o.overrides, "key=value, replaces a key of the case; repeatable")
@@ -78,8 +79,8 @@ void declare(CLI::App& app, Options& o) {
     app.add_flag("--no-report", o.no_report,
                  "Do not write report.html at the end; icepost report writes it later");
     app.add_flag("--json", o.json, "Print the summary as JSON on stdout")->excludes(hashes);
-    app.add_flag("-q,--quiet", o.quiet, "No progress, no messages but errors");
-    app.add_option("--color", o.colour, "Colour of messages")
+    app.add_flag("-q,--quiet", o.messages.quiet, "No progress, no messages but errors");
+    app.add_option("--color", o.messages.colour, "Colour of messages")
         ->check(CLI::IsMember({"auto", "always", "never"}));
     app.footer(
         "Exit codes: 0 ok; 1 the run failed; 2 bad command line or case; 130 interrupted,\n"
@@ -169,7 +170,7 @@ int run_case(const Options& o, const std::string& command_line) {
     ice::say(fmt::format("icesolve {} ({}): {}", ice::version(), ice::git_commit(), command_line));
     say_warnings();
     ice::catch_interrupts();
-    ice::Progress progress("icesolve", o.quiet);
+    ice::Progress progress("icesolve", o.messages.quiet);
     const ice::Timer timer;
     const double begun = world.time;
     const auto watch = [&](double done, const ice::World& w) {
@@ -209,16 +210,7 @@ int main(int argc, char** argv) {
         "icesolve");
     Options o;
     declare(app, o);
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        // CLI11's own codes start at 100; help and version end with 0
-        return app.exit(error) == 0 ? 0 : static_cast<int>(ice::ExitCode::bad_input);
-    }
-    const auto colour = o.colour == "always"  ? ice::Colour::always
-                        : o.colour == "never" ? ice::Colour::never
-                                              : ice::Colour::automatic;
-    ice::start_messages(colour, o.quiet);
-    return ice::run_program("icesolve",
-                            [&] { return run_icesolve(o, ice::command_line(argc, argv)); });
+    return ice::run_command_line(
+        app, argc, argv, o.messages, "use fewer floes or larger spheres",
+        [&](const std::string& command_line) { return run_icesolve(o, command_line); });
 }

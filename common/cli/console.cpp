@@ -16,6 +16,7 @@
 #include <memory>
 #include <new>
 #include <system_error>
+#include <stdexcept>
 
 #include "common/base/error.hpp"
 #include "common/cli/fault_handlers.hpp"
@@ -63,13 +64,22 @@ void say(const std::string& text) { spdlog::info("{}", text); }
 
 void say_warning(const std::string& text) { spdlog::warn("warning: {}", text); }
 
-int run_program(const std::string& name, const std::function<int()>& body) {
+int run_program(const std::string& name, const std::function<int()>& body,
+                const std::string& to_save_memory) {
     install_fault_handlers(name);
     const auto complain = [&](const std::string& text) {
         spdlog::error("{}: error: {}", name, text);
     };
     // given back when memory runs out, so that there is some for the message
     auto reserve = std::make_unique<std::array<char, 1 << 18>>();
+    const auto out_of_memory = [&] {
+        reserve.reset();
+        try {
+            complain("out of memory\n  " + to_save_memory + ", or a machine with more memory");
+        } catch (const std::exception&) {  // not even enough for these words
+            std::fputs("error: out of memory\n", stderr);
+        }
+    };
     try {
         const int code = body();
         // what a full disk did to the data on stdout shows only when the last of it is written
@@ -82,8 +92,9 @@ int run_program(const std::string& name, const std::function<int()>& body) {
         complain(error.what());
         return static_cast<int>(error.code());
     } catch (const std::bad_alloc&) {
-        reserve.reset();
-        complain(kOutOfMemory);
+        out_of_memory();
+    } catch (const std::length_error&) {  // more elements than any memory could hold
+        out_of_memory();
     } catch (const std::filesystem::filesystem_error& error) {
         complain(error.path1().string() + ": " + error.code().message() +
                  "\n  check the path and its permissions");
@@ -92,7 +103,7 @@ int run_program(const std::string& name, const std::function<int()>& body) {
                  "\n  check that it is a file");
     } catch (const std::system_error& error) {
         if (error.code() == std::errc::resource_unavailable_try_again)  // a thread cannot start
-            complain(kOutOfMemory);
+            out_of_memory();
         else  // of fmt::print
             complain(std::string("standard output: ") + error.what() +
                      "\n  check that the disk is not full");

@@ -23,7 +23,9 @@ void say(const std::string& text);          ///< information
 void say_warning(const std::string& text);  ///< something the user should know
 
 /// Runs a program's body and turns exceptions into one message and the contract's exit code.
-int run_program(const std::string& name, const std::function<int()>& body);
+/// @param to_save_memory  what the user can do when there is not enough: "use ..."
+int run_program(const std::string& name, const std::function<int()>& body,
+                const std::string& to_save_memory = "use a smaller case");
 
 /// From now on Ctrl-C and SIGTERM only set a flag; a second one ends the program at once (130).
 void catch_interrupts();

@@ -42,7 +42,7 @@ set(many_lines 300) # listed, not refused
 function(find_sources out)
   set(found "")
   foreach(kind IN LISTS ARGN)
-    foreach(folder IN ITEMS cases common docs examples meshes postprocess preprocess solver tests
+    foreach(folder IN ITEMS cases common docs examples meshes packaging postprocess preprocess solver tests
         workflow)
       file(GLOB_RECURSE part RELATIVE ${ROOT} ${ROOT}/${folder}/*.${kind})
       list(APPEND found ${part})

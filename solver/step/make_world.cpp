@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/step/make_world.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/base/error.hpp"
+#include "solver/scene/build_scene.hpp"
+#include "solver/water/hydrostatics.hpp"
+
+namespace ice {
+
+namespace {
+
+void require_positive(const char* name, double value) {
+    if (!(value > 0.0) || !std::isfinite(value))
+        throw bad_input(fmt::format("Case::{}", name), fmt::format("is {}", value),
+                        "give a positive number");
+}
+
+void require_rising_times(const Case& p) {
+    for (std::size_t k = 1; k < p.speed_table.size(); ++k)
+        if (!(p.speed_table[k].first > p.speed_table[k - 1].first))
+            throw bad_input("Case::speed_table", fmt::format("row {}: time does not rise", k + 1),
+                            "order the rows by time, each time once");
+}
+
+void require_dimension(const SphereSet& set, int dimension, const char* what) {
+    if (set.dimension != dimension)
+        throw bad_input(
+            what, fmt::format("is a {}D set in a world of {} dimensions", set.dimension, dimension),
+            "fill hull and floes by the same function, and set Case::dimension");
+}
+
+// Row of the floes that are held this way; groups are how a case tells its floes apart.
+std::int32_t group_of(Case& parameters, Hold hold) {
+    auto& groups = parameters.floes;
+    const auto known = std::find_if(groups.begin(), groups.end(),
+                                    [&](const FloeGroup& g) { return g.hold == hold; });
+    const auto row = static_cast<std::int32_t>(known - groups.begin());
+    if (known == groups.end()) {
+        groups.emplace_back();
+        groups.back().pattern = Pattern::single;
+        groups.back().hold = hold;
+    }
+    return row;
+}
+
+}  // namespace
+
+World make_world(const Case& parameters, const SphereSet& hull) {
+    require_positive("time_step", parameters.time_step);
+    require_positive("ice_density", parameters.ice_density);
+    require_positive("water_density", parameters.water_density);
+    require_rising_times(parameters);
+    require_dimension(hull, parameters.dimension, "the hull");
+    World world;
+    world.parameters = parameters;
+    world.parameters.floes.clear();
+    if (world.parameters.speed_table.empty()) world.parameters.speed_table = {{0.0, 0.0}};
+    world.scene = make_scene(build_shape(hull, false), parameters.hull_position,
+                             Vec3(world.parameters.ship_speed(0.0), 0.0, 0.0));
+    return world;
+}
+
+std::int32_t add_form(World& world, const SphereSet& floe) {
+    require_dimension(floe, world.parameters.dimension, "the floe");
+    world.scene.shapes.push_back(build_shape(floe, true));
+    return static_cast<std::int32_t>(world.scene.shapes.size()) - 1;
+}
+
+std::size_t add_floe(World& world, std::int32_t form, const FloeStart& start) {
+    Case& p = world.parameters;
+    const auto& shapes = world.scene.shapes;
+    if (form < 1 || form >= static_cast<std::int32_t>(shapes.size()))
+        throw bad_input("add_floe", fmt::format("no form has the number {}", form),
+                        "give a number that add_form() returned");
+    const Quaternion orientation = start.orientation.normalized();
+    Vec3 position = start.position;
+    if (std::isnan(position.z())) {
+        const double fraction = p.ice_density / p.water_density;
+        if (fraction >= 1.0)
+            throw bad_input("add_floe", "ice as dense as water has no floating equilibrium",
+                            "give z, or lower Case::ice_density");
+        position.z() = floating_height(shapes[static_cast<std::size_t>(form)],
+                                       orientation.toRotationMatrix(), fraction);
+    }
+    Bodies& b = world.scene.bodies;
+    const std::size_t i = add_floe(world.scene, form, p.ice_density, position, orientation,
+                                   group_of(p, start.hold), start.hold != Hold::never);
+    const Mat3 rotation = orientation.toRotationMatrix();
+    b.momentum[i] = b.mass[i] * start.velocity;
+    b.angular_momentum[i] = rotation * b.inertia[i] * rotation.transpose() * start.angular_velocity;
+    update_derived(b, i);
+    return i;
+}
+
+StepRecord measure_step(const World& world) {
+    return measure_step(world.scene, world.contacts, world.constraints, world.parameters.time_step);
+}
+
+}  // namespace ice
