@@ -34,7 +34,7 @@ struct Options {
     std::int64_t hash_every = 0;
     double checkpoint_every = 0.0;
     bool check = false, schema = false, defaults = false, json = false, verify = false,
-         no_report = false;
+         no_report = false, allow_overlap = false;
     ice::MessageOptions messages;
 };
 

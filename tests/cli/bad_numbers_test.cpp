@@ -155,8 +155,8 @@ TEST_CASE("a case whose floes overlap names them and the depth, and --allow-over
     REQUIRE(at != std::string::npos);
     CHECK(r.err.find(words, at + 1) == std::string::npos);
     const auto warnings = read_summary(w / "r/summary.json").warnings;
-    CHECK(std::any_of(warnings.begin(), warnings.end(), [&](const std::string& text) {
-        return text.find(words) != std::string::npos;
+    CHECK(std::any_of(warnings.begin(), warnings.end(), [&](const std::string& warning) {
+        return warning.find(words) != std::string::npos;
     }));
     CHECK_THAT(slurp(w / "r/run.log"), Catch::Contains(words));
 }
