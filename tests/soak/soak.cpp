@@ -49,7 +49,8 @@ struct Row {
     std::int64_t steps = 0, idle_steps = 0;  // idle: no contact pressed
     int escaped = 0;
 
-    double share() const { return dissipated > 0.0 ? residual / dissipated : 0.0; }
+    // of a share of nothing rounding makes anything: before the first contact that is 1e-30 J
+    double share() const { return dissipated > 1.0 ? residual / dissipated : 0.0; }
 };
 
 void add_step(Row& row, const World& w) {

@@ -33,17 +33,17 @@ TEST_CASE("keys nested 300 000 deep are refused: they exhaust the TOML library's
     CHECK_THAT(refusal("a = " + repeated("[", 100'000)), Catch::Contains("nested value depth"));
 }
 
-TEST_CASE("a case file of more than 4 MB is refused", "[case][security]") {
-    CHECK_THAT(refusal(std::string((4u << 20) + 1, '#')),
-               Catch::Contains("is too large for a case file (4 MB)"));
+TEST_CASE("a case file of more than 64 MB is refused", "[case][security]") {
+    CHECK_THAT(refusal(std::string((64u << 20) + 1, '#')),
+               Catch::Contains("is too large for a case file (64 MB)"));
 }
 
-TEST_CASE("of many mistakes a hundred are shown, of a long line 160 columns", "[case][security]") {
+TEST_CASE("of many mistakes twenty are shown, of a long line 120 columns", "[case][security]") {
     std::string keys;
     for (int k = 0; k < 1000; ++k) keys += (k > 0 ? "," : "") + ("bad" + std::to_string(k)) + "=1";
     const std::string text = refusal("simulation = {" + keys + "}\n");
     CHECK_THAT(text, Catch::Contains("unknown key 'simulation.bad0'"));
-    CHECK_THAT(text, Catch::Contains(" mistakes\n") && Catch::Contains("\n... and 9"));
+    CHECK_THAT(text, Catch::Contains(" mistakes\n") && Catch::Contains("\nand 9"));
     CHECK(text.size() < 100'000);  // the line alone has 9000 characters
     std::size_t longest = 0;
     for (std::size_t at = 0; at < text.size();) {
