@@ -7,8 +7,8 @@
 #include <numbers>
 #include <optional>
 
+#include "common/geometry/winding_number.hpp"
 #include "preprocess/clean/find_parts.hpp"
-#include "preprocess/measure/winding_number.hpp"
 
 namespace ice {
 

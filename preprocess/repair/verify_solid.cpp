@@ -8,9 +8,9 @@
 
 #include "common/base/parallel.hpp"
 #include "common/geometry/mass_properties.hpp"
+#include "common/geometry/winding_number.hpp"
 #include "preprocess/clean/edge_table.hpp"
 #include "preprocess/measure/row_volumes.hpp"
-#include "preprocess/measure/winding_number.hpp"
 
 namespace ice {
 

@@ -8,8 +8,8 @@
 
 #include "common/base/error.hpp"
 #include "common/base/parallel.hpp"
+#include "common/geometry/winding_number.hpp"
 #include "solver/scene/tunnelling_speed.hpp"
-#include "solver/shape/inside_solid.hpp"
 
 namespace ice {
 
@@ -61,6 +61,18 @@ bool may_reach(const Scene& scene, std::int32_t body, std::int32_t other) {
            solid.box.intersection(box).sizes().minCoeff() > 0.5 * smallest_radius(shape);
 }
 
+// Tells whether points lie inside a body; of most the box tells.
+class Inside {
+public:
+    explicit Inside(const Shape& shape) : box_(shape.box), winding_(shape.mesh) {}
+    // @param p in the body's axes
+    bool contains(const Vec3& p) const { return box_.contains(p) && winding_.at(p) > 0.5; }
+
+private:
+    Eigen::AlignedBox3d box_;
+    WindingNumber winding_;
+};
+
 // How far below the surface a point inside a body lies, from the places that its spheres touch.
 double depth_below(const Shape& shape, const Vec3& p) {
     double least = std::numeric_limits<double>::infinity();
@@ -72,7 +84,7 @@ double depth_below(const Shape& shape, const Vec3& p) {
 
 // Spheres of `body` whose centres lie inside `other`: found deepest where they are.
 void find_spheres_inside(const Scene& scene, std::int32_t body, std::int32_t other,
-                         const InsideSolid& solid, StartOverlap& found) {
+                         const Inside& solid, StartOverlap& found) {
     if (!may_reach(scene, body, other)) return;
     const Shape& shape = shape_of(scene, body);
     std::vector<std::size_t> inside;
@@ -142,11 +154,11 @@ void warn_of_speed(const World& w, std::vector<std::string>& warnings) {
 
 std::vector<StartOverlap> find_start_overlaps(Scene& scene, const Case& parameters) {
     std::vector<BodyPair> pairs = pairs_at_start(scene, parameters);
-    std::vector<InsideSolid> solids;
-    for (const Shape& shape : scene.shapes) solids.emplace_back(shape.mesh);
+    std::vector<Inside> solids;
+    for (const Shape& shape : scene.shapes) solids.emplace_back(shape);
     pairs.resize(std::min(pairs.size(), most_worth_a_look(scene)));
     std::vector<StartOverlap> found(pairs.size());
-    const auto solid_of = [&](std::int32_t i) -> const InsideSolid& {
+    const auto solid_of = [&](std::int32_t i) -> const Inside& {
         return solids[static_cast<std::size_t>(scene.bodies.shape[i])];
     };
     parallel_for(pairs.size(), 2, [&](std::size_t k) {

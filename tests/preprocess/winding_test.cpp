@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Inside tests that do not need a closed surface, and the proof made of them.
+// Volumes by rows, and the proofs made of them and of winding numbers.
 #include <catch2/catch.hpp>
-#include <random>
 
 #include "common/geometry/mass_properties.hpp"
 #include "preprocess/measure/row_volumes.hpp"
-#include "preprocess/measure/winding_number.hpp"
 #include "preprocess/repair/verify_solid.hpp"
 #include "tests/support/make_meshes.hpp"
 
@@ -46,20 +44,6 @@ TEST_CASE("rows of a globe agree with its exact volume", "[measure]") {
     const double volume = measure_mass(globe).volume;
     for (const RowVolume& axis : measure_rows(globe, 100))
         CHECK(axis.by_sign == Approx(volume).epsilon(0.002));
-}
-
-TEST_CASE("winding numbers: 1 inside, 0 outside, a half in the middle of a missing half",
-          "[measure][analytic]") {
-    const WindingNumber whole(test::make_globe(1, 30));
-    std::mt19937 random(2);
-    std::uniform_real_distribution<double> unit(-1.5, 1.5);
-    for (int k = 0; k < 500; ++k) {
-        const Vec3 p(unit(random), unit(random), unit(random));
-        if (std::abs(p.norm() - 1.0) < 0.05) continue;
-        CHECK(whole.at(p) == Approx(p.norm() < 1.0 ? 1.0 : 0.0).margin(0.05));
-    }
-    const WindingNumber half(half_globe(30));
-    CHECK(half.at(Vec3::Zero()) == Approx(0.5).margin(0.05));
 }
 
 TEST_CASE("a proof fails on a hole, on the wrong side out and on volume counted twice",

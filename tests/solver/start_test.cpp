@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What is said of a case before its first step: bodies in each other, steps too long.
 #include <catch2/catch.hpp>
-#include <random>
 
 #include "solver/scene/tunnelling_speed.hpp"
-#include "solver/shape/inside_solid.hpp"
 #include "solver/step/check_start.hpp"
 #include "tests/common/fixtures.hpp"
 #include "tests/support/make_worlds.hpp"
@@ -32,39 +30,6 @@ std::vector<StartOverlap> overlaps_of(World& w) {
 }
 
 }  // namespace
-
-TEST_CASE("a point is inside a box exactly where its coordinates say so", "[shape]") {
-    const TriangleMesh mesh = make_box_mesh(Vec3(2, 1, 0.5));
-    const InsideSolid solid(mesh);
-    std::mt19937 draw(7);
-    std::uniform_real_distribution<double> at(-1.2, 1.2);
-    int inside = 0;
-    for (int k = 0; k < 10000; ++k) {
-        const Vec3 p(at(draw), at(draw), at(draw));
-        const bool expected =
-            std::abs(p.x()) < 1 && std::abs(p.y()) < 0.5 && std::abs(p.z()) < 0.25;
-        REQUIRE(solid.contains(p) == expected);
-        inside += expected;
-    }
-    CHECK(inside > 200);
-    // lines through edges, corners and the diagonals of faces
-    for (const double x : {-0.5, 0.0, 0.5})
-        for (const double y : {-0.25, 0.0, 0.25}) {
-            CAPTURE(x, y);
-            CHECK(solid.contains(Vec3(x, y, 0.1)));
-            CHECK_FALSE(solid.contains(Vec3(2.0 * x + 0.001, y, 0.3)));
-        }
-    CHECK_FALSE(InsideSolid(TriangleMesh{}).contains(Vec3::Zero()));
-}
-
-TEST_CASE("in an open mesh nothing is inside", "[shape][errors]") {
-    TriangleMesh mesh = make_box_mesh(Vec3(2, 1, 0.5));
-    std::erase_if(mesh.triangles, [&](const auto& t) {  // the bottom
-        return std::all_of(t.begin(), t.end(), [&](int v) { return mesh.vertices[v].z() < 0; });
-    });
-    const InsideSolid solid(mesh);
-    CHECK_FALSE(solid.contains(Vec3(0.1, 0.2, 0.05)));
-}
 
 TEST_CASE("floes that touch or stand apart do not overlap at the start", "[step]") {
     const double apart = GENERATE(0.0, 1e-9, 0.3);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "preprocess/measure/winding_number.hpp"
+#include "common/geometry/winding_number.hpp"
 
 #include <algorithm>
 #include <cmath>
