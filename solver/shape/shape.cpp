@@ -185,11 +185,17 @@ Shape build_shape(const SphereSet& set, bool about_centre_of_mass) {
         shape.box.max().y() = shape.largest_radius;
     }
     shape.bounding_radius = shape.box.min().cwiseAbs().cwiseMax(shape.box.max().cwiseAbs()).norm();
+    std::vector<BoundedSphere> bounded;
+    for (std::size_t k = 0; k < shape.center.size(); ++k)
+        bounded.push_back({shape.center[k], shape.radius[k]});
+    shape.bounds = ConvexBounds(shape.mesh, bounded);
+    shape.reach = measure_reach(shape, set.spacing);
     std::vector<SearchSphere> spheres;
+    for (Faces& faces : shape.faces)  // an edge's sphere stands for that much of it either way
+        if (faces.count > 0) faces.aside += 0.5 * shape.reach;
     for (std::size_t k = 0; k < shape.center.size(); ++k)
         spheres.push_back({shape.center[k], shape.faces[k].corner, shape.faces[k].aside});
     shape.blocks = SphereBlocks(spheres);
-    shape.reach = measure_reach(shape, set.spacing);
     build_panels(shape);
     return shape;
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/formats/sphere_set.hpp"
+#include "solver/shape/convex_bounds.hpp"
 #include "solver/shape/face_regions.hpp"
 #include "solver/shape/faces.hpp"
 #include "solver/shape/sphere_blocks.hpp"
@@ -33,6 +34,7 @@ struct Shape {
     FaceRegions region;        ///< rows of region_names
     std::vector<std::string> region_names;
     std::size_t sphere_count = 0;  ///< of the whole set, interior included
+    ConvexBounds bounds;           ///< of mesh and spheres
     SphereBlocks blocks;           ///< of `center`, for the search
     double largest_radius = 0.0;   ///< [m]
     double reach = 0.0;            ///< how far from its centre a sphere stands for the surface [m]
