@@ -116,7 +116,6 @@ void copy_surface_spheres(const SphereSet& set, const Vec3& origin, Shape& shape
         shape.spread_cos.push_back(cosine);
         shape.spread_sin.push_back(std::sqrt(1.0 - cosine * cosine));
         shape.area.push_back(set.areas[k]);
-        shape.region.push_back(set.regions[k]);
         shape.largest_radius = std::max(shape.largest_radius, set.radii[k]);
     }
 }
@@ -162,6 +161,7 @@ Shape build_shape(const SphereSet& set, bool about_centre_of_mass) {
     const Vec3 origin = about_centre_of_mass ? set.solid.centroid : Vec3::Zero();
     shape.dimension = set.dimension;
     shape.sphere_count = set.size();
+    shape.region = FaceRegions(set);
     shape.region_names = set.mesh.region_names;
     copy_surface_spheres(set, origin, shape);
     find_kinds(shape);
