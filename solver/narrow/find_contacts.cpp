@@ -149,7 +149,8 @@ void finish_pair(const PairView& view, NormalRule rule, double margin,
     // the solver takes contacts in this order, and its answer depends on it
     const auto order = [&](const Contact& c) {
         return std::tuple(mirrored_place(view.shape_a, c.sphere_a),
-                          mirrored_place(view.shape_b, c.sphere_b), c.gap, c.key);
+                          mirrored_place(view.shape_b, c.sphere_b), c.gap, c.point.x(), c.point.z(),
+                          c.key);
     };
     std::sort(out.begin() + before, out.end(),
               [&](const Contact& l, const Contact& r) { return order(l) < order(r); });

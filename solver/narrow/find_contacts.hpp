@@ -28,8 +28,8 @@ struct Contact {
 
 /// Finds the contacts of all pairs, in pair order; threads share the pairs, not a pair.
 ///
-/// Within a pair they are ordered by where their spheres lie, y and -y alike, then by gap: the
-/// order that the solver takes them in is the same for a mirror image (about y = 0).
+/// Within a pair they are ordered by where their spheres lie, y and -y alike, then by gap and
+/// place: the order that the solver takes them in is the same for a mirror image (about y = 0).
 ///
 /// Rule "centres" (the paper): every two spheres with gap <= margin are a contact.
 /// Rule "surface": every probe sphere (measure_gap_surface) has one contact per face of the other
