@@ -36,7 +36,10 @@ std::optional<Seat> on_centre_plane(const SurfaceTree& tree, const Seat& seat, d
 }  // namespace
 
 std::optional<Seat> mirror_seat(const SurfaceTree& tree, Seat seat, double radius, double gap) {
-    if (std::abs(seat.center.y()) < 1e-6 * radius) seat.center.y() = 0.0;
+    if (std::abs(seat.center.y()) < 1e-6 * radius) {
+        if (seat.center.y() != 0.0) seat.touches = 0;
+        seat.center.y() = 0.0;
+    }
     if (seat.center.y() < 0.0) seat = image_of(seat);
     if (seat.center.y() > 0.0 && seat.center.y() < gap) return on_centre_plane(tree, seat, radius);
     return seat;
@@ -46,6 +49,7 @@ Seat image_of(const Seat& seat) {
     Seat image = seat;
     image.center.y() = -image.center.y();
     image.normal.y() = -image.normal.y();
+    image.touches = 0;
     return image;
 }
 

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/geometry/closest_on_triangle.hpp"
 #include "preprocess/fill/lattice_range.hpp"
 #include "preprocess/fill/triangle_distances.hpp"
-#include "preprocess/measure/closest_on_triangle.hpp"
 
 namespace ice::detail {
 

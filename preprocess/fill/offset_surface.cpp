@@ -97,13 +97,17 @@ Vec3 smallest_move(const std::vector<Condition>& conditions) {
 }
 
 // Directions of the feet nearer than a range, those that are one counted once.
-std::vector<Vec3> near_directions(const SurfaceTree& tree, const Vec3& center, double range) {
+// @param nearest  becomes the nearest foot's triangle where there is one
+std::vector<Vec3> near_directions(const SurfaceTree& tree, const Vec3& center, double range,
+                                  std::int32_t& nearest) {
     constexpr double kSameTouch = 0.99995;  // cosine of 0.01 rad
-    std::vector<Foot> feet;
+    thread_local std::vector<Foot> feet;    // keep their memory
     tree.within(center, range, feet);
     // the nearest first: the other triangles of a face have their feet a little aside
     sort_by_distance(feet);
+    if (!feet.empty()) nearest = feet.front().triangle;
     std::vector<Vec3> directions;
+    directions.reserve(4);
     for (const Foot& foot : feet) {
         if (!(foot.distance > 1e-12 * range)) continue;
         const Vec3 u = (foot.point - center) / foot.distance;
@@ -119,8 +123,8 @@ std::vector<Vec3> near_directions(const SurfaceTree& tree, const Vec3& center, d
 std::optional<Seat> settle_from(const SurfaceTree& tree, const Vec3& start, double radius,
                                 std::int32_t hint, int smooth_steps) {
     Vec3 c = start;
-    std::vector<Foot> feet;
-    std::vector<Condition> conditions;
+    thread_local std::vector<Foot> feet;  // keep their memory
+    thread_local std::vector<Condition> conditions;
     for (int step = 0; step < kMostSteps; ++step) {
         const Foot foot = tree.closest(c, hint);
         hint = foot.triangle;
@@ -158,25 +162,33 @@ std::optional<Seat> settle(const SurfaceTree& tree, const Vec3& start, double ra
 std::optional<Seat> settle_in_crease(const SurfaceTree& tree, const Vec3& start, double radius) {
     // pushed a little towards the edge, so that all faces that meet there are conditions
     Vec3 pushed = start, sum = Vec3::Zero();
-    for (const Vec3& direction : near_directions(tree, start, radius * (1.0 + kNearCrease)))
+    std::int32_t nearest = -1;
+    for (const Vec3& direction :
+         near_directions(tree, start, radius * (1.0 + kNearCrease), nearest))
         sum += direction;
     if (sum.norm() > 1e-6) pushed += kNearCrease * radius * sum.normalized();
-    return settle_from(tree, pushed, radius, -1, -1);
+    return settle_from(tree, pushed, radius, nearest, -1);
 }
 
 std::vector<Vec3> touch_directions(const SurfaceTree& tree, const Vec3& center, double radius) {
-    return near_directions(tree, center, radius * (1.0 + kTouch));
+    std::int32_t unused = -1;
+    return near_directions(tree, center, radius * (1.0 + kTouch), unused);
 }
 
-std::vector<Vec3> normals_at(const SurfaceTree& tree, double radius, const Seat& seat) {
-    if (!seat.in_crease) return {seat.normal};
-    return touch_directions(tree, seat.center, radius);
+std::span<const Vec3> normals_at(const SurfaceTree& tree, double radius, const Seat& seat,
+                                 std::vector<Vec3>& found) {
+    if (!seat.in_crease) return {&seat.normal, 1};
+    if (seat.touches > 0) return {seat.touch.data(), static_cast<std::size_t>(seat.touches)};
+    found = touch_directions(tree, seat.center, radius);
+    return found;
 }
 
 void find_crease(const SurfaceTree& tree, double radius, Seat& seat) {
     const std::vector<Vec3> directions = touch_directions(tree, seat.center, radius);
     seat.in_crease = directions.size() > 1;
     if (!seat.in_crease) return;
+    seat.touches = directions.size() > seat.touch.size() ? 0 : static_cast<int>(directions.size());
+    std::copy_n(directions.begin(), seat.touches, seat.touch.begin());
     const Cone cone = narrowest_cone(directions);
     seat.normal = cone.axis;
     seat.agree = std::cos(std::min(cone.half_angle + kFaceTurn, std::numbers::pi));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <span>
 #include <vector>
@@ -22,6 +23,8 @@ struct Seat {
     bool in_crease = false;  ///< it touches several faces; `normal` is the axis of the cone round
                              ///< their normals
     double agree = 0.4226;   ///< cosine of kFaceTurn plus the cone's half angle
+    int touches = 0;         ///< in a crease: how many of `touch` are known; 0: they are not
+    std::array<Vec3, 3> touch{};  ///< touch_directions(), not to be looked for at every question
 
     /// The seat stands for a surface with this normal, as far as that goes.
     bool agrees(const Vec3& surface_normal) const { return normal.dot(surface_normal) >= agree; }
@@ -53,10 +56,12 @@ std::optional<Seat> settle(const SurfaceTree& tree, const Vec3& start, double ra
 /// touches all faces met there: it ends up touching them all.
 std::optional<Seat> settle_in_crease(const SurfaceTree& tree, const Vec3& start, double radius);
 
-/// The surface normals that a seat stands for: its own, or all that meet in its crease.
-std::vector<Vec3> normals_at(const SurfaceTree& tree, double radius, const Seat& seat);
+/// The surface normals that a seat stands for: its own, or all that meet in its crease. They are
+/// in the seat or in `found`, whatever that held.
+std::span<const Vec3> normals_at(const SurfaceTree& tree, double radius, const Seat& seat,
+                                 std::vector<Vec3>& found);
 
-/// Sets normal, in_crease and agree of a seat that may touch several faces.
+/// Sets normal, in_crease, agree and touches of a seat that may touch several faces.
 void find_crease(const SurfaceTree& tree, double radius, Seat& seat);
 
 /// The directions, from a settled centre, of the places where its sphere touches the surface;

@@ -5,12 +5,47 @@
 
 namespace ice {
 
-PointCells::PointCells(std::span<const Vec3> points, double cell) : cell_(cell) {
+namespace {
+
+constexpr double kMostCubes = 2.0;  // of the points: where there are more, they are hashed
+
+}  // namespace
+
+PointCells::PointCells(std::span<const Vec3> points, double cell)
+    : cell_(cell), per_metre_(2.0 / cell) {
     low_ = high_ = points.front();
     for (const Vec3& p : points) {
         low_ = low_.cwiseMin(p);
         high_ = high_.cwiseMax(p);
     }
+    const Vec3 cubes = ((high_ - low_) * per_metre_).array().floor() + 1.0;
+    if (cubes.prod() <= kMostCubes * static_cast<double>(points.size())) {
+        for (int d = 0; d < 3; ++d)
+            count_[static_cast<std::size_t>(d)] = static_cast<std::int32_t>(cubes[d]);
+        number_cubes(points);
+    } else {
+        hash_cubes(points);
+    }
+}
+
+// Counts, then places: points of a cube end up side by side, in their own order.
+void PointCells::number_cubes(std::span<const Vec3> points) {
+    std::vector<std::size_t> cube;
+    begin_.assign(static_cast<std::size_t>(count_[0] * count_[1] * count_[2]) + 1, 0);
+    for (const Vec3& p : points) {
+        const std::int32_t row = number_along(p.x(), 0) * count_[1] + number_along(p.y(), 1);
+        cube.push_back(static_cast<std::size_t>(row * count_[2] + number_along(p.z(), 2)));
+        ++begin_[cube.back() + 1];
+    }
+    for (std::size_t k = 1; k < begin_.size(); ++k) begin_[k] += begin_[k - 1];
+    std::vector<std::int32_t> next(begin_.begin(), begin_.end() - 1);
+    points_.resize(points.size());
+    for (std::size_t k = 0; k < points.size(); ++k)
+        points_[static_cast<std::size_t>(next[cube[k]]++)] = {points[k],
+                                                              static_cast<std::int32_t>(k)};
+}
+
+void PointCells::hash_cubes(std::span<const Vec3> points) {
     // count, place, fill: points of a cube end up side by side, in their own order
     std::vector<std::size_t> slot(points.size());
     const auto insert = [&](std::size_t k) {
@@ -54,6 +89,30 @@ PointCells::Cell PointCells::cell_of(const Vec3& p) const {
 }
 
 PointCells::Nearest PointCells::nearest(const Vec3& p, Nearest known) const {
+    return begin_.empty() ? nearest_hashed(p, known) : nearest_numbered(p, known);
+}
+
+PointCells::Nearest PointCells::nearest_numbered(const Vec3& p, Nearest known) const {
+    // hairs above, as in nearest_hashed: the known point and its equals are found again
+    double best_sq = known.distance * known.distance * (1.0 + 1e-15);
+    std::int32_t best = -1;
+    const auto look_at = [&](const Point& point) {
+        const double sq = (point.at - p).squaredNorm();
+        if (sq > best_sq || (sq == best_sq && point.index > best)) return;
+        best_sq = sq;
+        best = point.index;
+    };
+    const double most = (p - low_).cwiseMax(high_ - p).norm();  // no point is farther away
+    double range = known.distance;
+    if (!std::isfinite(range)) range = cell_ + (p - high_).cwiseMax(low_ - p).maxCoeff();
+    for (;; range *= 2.0) {
+        for_each_near(p, range * (1.0 + 1e-12), look_at);
+        if (best_sq <= range * range * (1.0 + 1e-12) || range > most) break;
+    }
+    return best < 0 ? known : Nearest{best, std::sqrt(best_sq)};
+}
+
+PointCells::Nearest PointCells::nearest_hashed(const Vec3& p, Nearest known) const {
     // a hair above: the known point is found again with its own squared distance
     double best_sq = known.distance * known.distance * (1.0 + 1e-15);
     std::int32_t best = -1;

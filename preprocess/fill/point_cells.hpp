@@ -15,11 +15,13 @@
 namespace ice {
 
 /// "Which point is nearest?" for points that no longer change (PointGrid is for growing ones):
-/// points sorted into cubes, cubes found by hashing. Thread-safe once built.
+/// points sorted into cubes, cubes found by their number where they fill their box, as those of a
+/// floe do, and by hashing elsewhere. Thread-safe once built.
 class PointCells {
 public:
     /// @param points  copied; not empty
-    /// @param cell    edge of a cube [m]: about the distance between neighbouring points
+    /// @param cell    edge of a hashed cube [m], about the distance between neighbouring points;
+    ///                numbered ones cost less to look into and are half as wide
     PointCells(std::span<const Vec3> points, double cell);
 
     struct Nearest {
@@ -61,7 +63,33 @@ private:
     static constexpr double kFar = std::numeric_limits<double>::infinity();
     static constexpr int kMostRings = 12;  ///< farther away, blocks are searched
 
+    void number_cubes(std::span<const Vec3> points);
+    void hash_cubes(std::span<const Vec3> points);
+    Nearest nearest_numbered(const Vec3& p, Nearest known) const;
+    Nearest nearest_hashed(const Vec3& p, Nearest known) const;
     Cell cell_of(const Vec3& p) const;
+    // By number: the cube along an axis that a coordinate lies in or, outside the box, is next to.
+    std::int32_t number_along(double x, int d) const {
+        const double at = std::min((x - low_[d]) * per_metre_, count_[d] - 1.0);
+        return static_cast<std::int32_t>(std::max(at, 0.0));  // cut off: not below any number
+    }
+    // By number: calls look_at(point) for all points in the cubes around p as far as `range`.
+    template <class LookAt>
+    void for_each_near(const Vec3& p, double range, const LookAt& look_at) const {
+        std::int32_t from[3], to[3];
+        for (int d = 0; d < 3; ++d) {
+            from[d] = number_along(p[d] - range, d);
+            to[d] = number_along(p[d] + range, d);
+        }
+        for (std::int32_t x = from[0]; x <= to[0]; ++x)
+            for (std::int32_t y = from[1]; y <= to[1]; ++y) {
+                // cubes side by side along z hold their points side by side
+                const std::int32_t row = (x * count_[1] + y) * count_[2];
+                const auto last = begin_[static_cast<std::size_t>(row + to[2] + 1)];
+                for (auto k = begin_[static_cast<std::size_t>(row + from[2])]; k < last; ++k)
+                    look_at(points_[static_cast<std::size_t>(k)]);
+            }
+    }
     // The slot of a cube, or the empty one where it would be.
     std::size_t slot_of(const Cell& cell) const {
         std::uint64_t hash = 0;
@@ -74,7 +102,10 @@ private:
 
     double cell_;
     Vec3 low_ = Vec3::Zero(), high_ = Vec3::Zero();
-    std::vector<Slot> slots_;  ///< open addressing, a power of two
+    double per_metre_ = 0.0;               ///< cubes
+    std::array<std::int32_t, 3> count_{};  ///< of cubes by number
+    std::vector<std::int32_t> begin_;      ///< of points_ by cube's number, and the end; or empty
+    std::vector<Slot> slots_;              ///< open addressing, a power of two; or empty
     std::vector<Point> points_;
     std::vector<Block> blocks_;
 };
@@ -85,6 +116,7 @@ void PointCells::visit(const Vec3& p, double range, const Visit& visit) const {
         const double distance = (point.at - p).norm();
         if (distance <= range) visit(point.index, distance);
     };
+    if (!begin_.empty()) return for_each_near(p, range, look_at);
     if (range > kMostRings * cell_) {
         for (const Block& block : blocks_)
             if (block.box.squaredExteriorDistance(p) <= range * range * (1.0 + 1e-12))

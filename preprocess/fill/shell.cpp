@@ -33,7 +33,7 @@ struct Tile {
 class ShellMaker {
 public:
     ShellMaker(const SurfaceTree& tree, const ShellOptions& options)
-        : tree_(tree), o_(options), width_(kTile * options.spacing) {}
+        : tree_(tree), solid_(tree), o_(options), width_(kTile * options.spacing) {}
 
     std::vector<Vec3> make() {
         lines_ = seat_lines(tree_, o_);
@@ -93,7 +93,7 @@ private:
             std::vector<std::vector<Seat>> placed(now.size());
             parallel_tasks(now.size(), is_large(), [&](std::size_t n) {
                 const Tile& tile = tiles_[now[n]];
-                ShellTile work(tree_, o_, box_of(tile));
+                ShellTile work(solid_, o_, box_of(tile));
                 know_neighbours(tile, work);
                 fill(work, tile);
                 placed[n] = work.placed();
@@ -157,6 +157,7 @@ private:
     }
 
     const SurfaceTree& tree_;
+    ShellSolid solid_;
     ShellOptions o_;
     double width_;
     std::size_t seed_count_ = 0;

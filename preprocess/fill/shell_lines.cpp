@@ -91,7 +91,7 @@ public:
             if (seat && o_.mirror)
                 seat = mirror_seat(tree_, *seat, o_.radius, kMirrorGap * o_.spacing);
             if (!seat) continue;
-            const std::vector<Vec3> normals = normals_at(tree_, o_.radius, *seat);
+            const std::span<const Vec3> normals = normals_at(tree_, o_.radius, *seat, found_);
             if (placed_.any_within(seat->center, kSeparation * o_.spacing, [&](std::int32_t k) {
                     return seats_[static_cast<std::size_t>(k)].agrees(normals);
                 }))
@@ -107,6 +107,7 @@ private:
     ShellOptions o_;
     PointGrid placed_;
     std::vector<Seat> seats_;
+    std::vector<Vec3> found_;  // scratch
 };
 
 }  // namespace

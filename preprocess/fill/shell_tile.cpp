@@ -29,16 +29,38 @@ constexpr double kCovered = 0.62;         // a seed farther from all seats gets 
 constexpr double kCoverSeparation = 0.4;  // where it had to move into the centre plane
 constexpr double kCellReach = 1.75;       // neighbours that bound a Voronoi cell
 constexpr double kCellSize = 0.9;         // half the edge of the square a cell starts as
+constexpr double kOutside = 0.02;         // beyond a plane: not settled in a convex solid
+
+constexpr std::size_t kMostConvexTests = 10000;
+constexpr double kFlat = 1e-9;  // of the largest extent: faces of one plane
+
+Eigen::AlignedBox3d around(const Eigen::AlignedBox3d& box, double halo) {
+    return {box.min() - Vec3::Constant(halo), box.max() + Vec3::Constant(halo)};
+}
 
 }  // namespace
 
-ShellTile::ShellTile(const SurfaceTree& tree, const ShellOptions& options,
+ShellSolid::ShellSolid(const SurfaceTree& whole) : tree(whole), convex(true) {
+    const TriangleMesh& mesh = tree.mesh();
+    for (const Vec3& v : mesh.vertices) box.extend(v);
+    if (mesh.triangles.size() * mesh.vertices.size() > kMostConvexTests) convex = false;
+    const double flat = kFlat * box.sizes().maxCoeff();
+    for (std::size_t t = 0; convex && t < mesh.triangles.size(); ++t) {
+        const Vec3& normal = tree.normal(static_cast<std::int32_t>(t));
+        const double height = normal.dot(mesh.corner(t, 0)) + flat;
+        convex = std::all_of(mesh.vertices.begin(), mesh.vertices.end(),
+                             [&](const Vec3& v) { return normal.dot(v) <= height; });
+    }
+}
+
+ShellTile::ShellTile(const ShellSolid& solid, const ShellOptions& options,
                      const Eigen::AlignedBox3d& box)
-    : tree_(tree),
+    : tree_(solid.tree),
+      convex_(solid.convex),
       o_(options),
       box_(box),
-      grid_(box.min() - Vec3::Constant(kHalo * options.spacing),
-            box.sizes().maxCoeff() + 2.0 * kHalo * options.spacing, kCellReach * options.spacing) {}
+      grid_(around(box, kHalo * options.spacing).intersection(solid.box),
+            kCellReach * options.spacing) {}
 
 void ShellTile::know(const Seat& seat) {
     const double halo = kHalo * o_.spacing;
@@ -65,26 +87,37 @@ bool ShellTile::place(const Vec3& start, std::int32_t hint, double separation, d
     if (outside_too ? box_.exteriorDistance(seat->center) >= kBeyond * s
                     : !box_.contains(seat->center))
         return false;
-    const bool taken =
-        seat->in_crease
-            ? grid_.any_within(seat->center, separation * s, normals_at(tree_, o_.radius, *seat))
-            : grid_.any_within(seat->center, separation * s, seat->normal);
+    const bool taken = seat->in_crease
+                           ? grid_.any_within(seat->center, separation * s,
+                                              normals_at(tree_, o_.radius, *seat, found_))
+                           : grid_.any_within(seat->center, separation * s, seat->normal);
     if (taken) return false;
     add(*seat);
     return true;
 }
 
 // The planes in which a seat has neighbours: one, or one for each face met in a crease.
-std::vector<ShellTile::Plane> ShellTile::planes_at(const Seat& seat) const {
+const std::vector<ShellTile::Plane>& ShellTile::planes_at(const Seat& seat) {
     const auto plane = [&](const Vec3& normal) {
         // fronts that start apart on one flat face get rows along the same direction
         const Vec3 axis = std::abs(normal.x()) < 0.9 ? Vec3::UnitX() : Vec3::UnitZ();
         const Vec3 e1 = (axis - axis.dot(normal) * normal).normalized();
         return Plane{seat.center, normal, e1, normal.cross(e1)};
     };
-    std::vector<Plane> out;
-    for (const Vec3& normal : normals_at(tree_, o_.radius, seat)) out.push_back(plane(normal));
-    return out;
+    planes_.clear();
+    for (const Vec3& normal : normals_at(tree_, o_.radius, seat, found_))
+        planes_.push_back(plane(normal));
+    return planes_;
+}
+
+// Is a start beside the seat of planes_ beyond one of the faces that it touches? In a convex solid
+// that is outside, where nothing settles. The touches may lean by sqrt(2e-5) from the faces'
+// normals (two distances within 1e-5 count as touches), a hundredth of a spacing at a start.
+bool ShellTile::is_outside(const Vec3& start) const {
+    const double most = o_.radius + kOutside * o_.spacing;
+    return convex_ && std::any_of(planes_.begin(), planes_.end(), [&](const Plane& plane) {
+               return plane.normal.dot(start - plane.centre) > most;
+           });
 }
 
 // The seats that stand for the same face, so that those of the other side of a thin part neither
@@ -111,7 +144,7 @@ void ShellTile::surround_in(const Plane& plane, std::int32_t hint) {
     const auto try_at = [&](double angle) {
         const Vec3 start = plane.at(s * std::cos(angle), s * std::sin(angle));
         // where it will end is not far: most places that are taken are seen before settling
-        if (grid_.any_within(start, 0.6 * o_.spacing, plane.normal)) return;
+        if (is_outside(start) || grid_.any_within(start, 0.6 * o_.spacing, plane.normal)) return;
         place(start, hint, kSeparation, kMirrorGap, false);
     };
     if (neighbours_.empty()) {
@@ -160,11 +193,16 @@ void ShellTile::close_gaps_in(const Plane& plane, std::int32_t hint) {
     const double s = o_.spacing;
     neighbours_in(plane, kCellReach * s);
     std::sort(neighbours_.begin(), neighbours_.end(), [](const Neighbour& l, const Neighbour& r) {
-        return std::array{l.distance, l.u, l.v} < std::array{r.distance, r.u, r.v};
+        if (l.distance != r.distance) return l.distance < r.distance;
+        return l.u < r.u || (l.u == r.u && l.v < r.v);
     });
     const double half = kCellSize * s;
     cell_ = {{half, half}, {-half, half}, {-half, -half}, {half, -half}};
+    double far_sq = 2.0 * half * half;  // of the cell's farthest corner from the centre
     for (const Neighbour& n : neighbours_) {
+        // the line half way to a neighbour is at least half its distance away: it and those after
+        // it cut nothing off (the hair is for rounding)
+        if (0.25 * n.distance * n.distance > far_sq * (1.0 + 1e-9)) break;
         // keep what is nearer to the centre than to n, wherever that lies: x . n <= |n|^2 / 2
         const double length = std::hypot(n.u, n.v);
         if (length < 1e-3 * n.distance) continue;  // straight above or below
@@ -182,11 +220,13 @@ void ShellTile::close_gaps_in(const Plane& plane, std::int32_t hint) {
             clipped_.push_back({p[0] + t * (q[0] - p[0]), p[1] + t * (q[1] - p[1])});
         }
         std::swap(cell_, clipped_);
+        far_sq = 0.0;
+        for (const auto& p : cell_) far_sq = std::max(far_sq, p[0] * p[0] + p[1] * p[1]);
     }
     for (const auto& corner : cell_) {
         if (std::hypot(corner[0], corner[1]) <= kGap * s) continue;
         const Vec3 start = plane.at(corner[0], corner[1]);
-        if (grid_.any_within(start, 0.5 * s, plane.normal)) continue;
+        if (is_outside(start) || grid_.any_within(start, 0.5 * s, plane.normal)) continue;
         place(start, hint, kGapSeparation, kGapMirror, true);
     }
 }
@@ -205,7 +245,8 @@ void ShellTile::cover(const std::vector<Seed>& seeds) {
     for (const Seed& seed : seeds) {
         if (grid_.any_within(seed.seat, range, tree_.normal(seed.triangle))) continue;
         const auto seat = settle(tree_, seed.seat, o_.radius, seed.triangle);
-        if (!seat || grid_.any_within(seat->center, range, normals_at(tree_, o_.radius, *seat)))
+        if (!seat ||
+            grid_.any_within(seat->center, range, normals_at(tree_, o_.radius, *seat, found_)))
             continue;
         place(seat->center, seat->triangle, kCoverSeparation, kGapMirror, true);
     }

@@ -17,10 +17,21 @@ struct Seed {
     std::int32_t triangle;
 };
 
+/// The solid as a whole, seen once for all tiles.
+struct ShellSolid {
+    /// @param tree  kept by reference
+    explicit ShellSolid(const SurfaceTree& tree);
+
+    const SurfaceTree& tree;
+    Eigen::AlignedBox3d box;  ///< of its vertices [m]
+    bool convex;              ///< all vertices lie behind all faces; not looked at in large meshes
+};
+
 /// Seats are placed in `box` (by the front) or up to 1.2 spacings around it (to close gaps).
 class ShellTile {
 public:
-    ShellTile(const SurfaceTree& tree, const ShellOptions& options, const Eigen::AlignedBox3d& box);
+    /// @param solid  its tree is kept by reference
+    ShellTile(const ShellSolid& solid, const ShellOptions& options, const Eigen::AlignedBox3d& box);
 
     /// Takes a seat that already is there, if it is near enough to matter.
     void know(const Seat& seat);
@@ -54,17 +65,21 @@ private:
     void add(const Seat& seat);
     bool place(const Vec3& start, std::int32_t hint, double separation, double mirror_gap,
                bool outside_too);
-    std::vector<Plane> planes_at(const Seat& seat) const;
+    const std::vector<Plane>& planes_at(const Seat& seat);
+    bool is_outside(const Vec3& start) const;
     void neighbours_in(const Plane& plane, double range);
     void surround(const Seat& seat);
     void surround_in(const Plane& plane, std::int32_t hint);
     void close_gaps_in(const Plane& plane, std::int32_t hint);
 
     const SurfaceTree& tree_;
+    bool convex_;
     ShellOptions o_;
     Eigen::AlignedBox3d box_;
     SeatGrid grid_;
     std::vector<Seat> placed_;
+    std::vector<Vec3> found_;                            // scratch: normals
+    std::vector<Plane> planes_;                          // of the seat whose places are tried
     std::vector<Neighbour> neighbours_;                  // scratch
     std::vector<std::array<double, 2>> cell_, clipped_;  // scratch: a Voronoi cell's corners
 };

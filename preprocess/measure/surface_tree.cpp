@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "common/geometry/closest_on_triangle.hpp"
 #include "preprocess/clean/edge_table.hpp"
-#include "preprocess/measure/closest_on_triangle.hpp"
 
 namespace ice {
 

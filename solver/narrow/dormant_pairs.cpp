@@ -2,8 +2,11 @@
 #include "solver/narrow/dormant_pairs.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <numbers>
 #include <utility>
+
+#include "solver/narrow/separation.hpp"
 
 namespace ice {
 
@@ -74,19 +77,25 @@ void DormantPairs::remind(Row& row, BodyPair pair, const Travel& travel, double 
 }
 
 DormantPairs::State DormantPairs::look(std::size_t k, const Scene& scene, BodyPair pair,
-                                       const Travel& travel, double dt) {
+                                       const Travel& travel, double dt, double margin) {
     Row& row = rows_[k];
     const double soon = travel.soon(pair.a) + travel.soon(pair.b);
     if (soon < std::min(row.soon_wake, row.soon_unknown) &&
         travel.turn(pair.a) + travel.turn(pair.b) < row.turn_unknown)
         return State::asleep;
-    if (row.leeway.distance < 0.0) return State::unknown;  // never settled
     const PairView view(scene, pair);
+    const double apart = separation(view) - margin, closing = dt * closing_speed(scene, pair);
+    if (apart > closing) {
+        row.soon_wake = travel.way(pair.a) + travel.way(pair.b) + apart / separation_share(view);
+        row.soon_unknown = row.turn_unknown = std::numeric_limits<double>::infinity();
+        return State::asleep;
+    }
+    if (row.leeway.distance < 0.0) return State::unknown;  // never settled
     // |R - R0| is sqrt(8) sin(angle / 2), below half a radian at least 0.99 sqrt(2) angle
     const double turned = (view.turn - row.turn).norm() / (0.99 * std::numbers::sqrt2);
     const double gone = (view.shift - row.shift).norm() + Travel::arm(view.shape_b) * turned +
                         travel.crushed(pair.a) + travel.crushed(pair.b) - row.crushed;
-    const double then = gone + dt * closing_speed(scene, pair);
+    const double then = gone + closing;
     if (then >= row.leeway.distance || turned >= row.leeway.angle) return State::unknown;
     remind(row, pair, travel, gone, turned);
     return then >= row.free ? State::known : State::asleep;

@@ -31,8 +31,10 @@ public:
         known,   ///< they may, with the spheres of near(k)
         unknown  ///< they have gone too far
     };
+    /// @param margin  [m] bodies that are further apart at the end of the step have no contact
     /// @pre travel was updated with the present poses and dt
-    State look(std::size_t k, const Scene& scene, BodyPair pair, const Travel& travel, double dt);
+    State look(std::size_t k, const Scene& scene, BodyPair pair, const Travel& travel, double dt,
+               double margin);
 
     /// Spheres of row k that may touch while it is known; good until the next keep() or match().
     std::span<const SpherePair> near(std::size_t k) const {

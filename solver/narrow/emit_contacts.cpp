@@ -98,7 +98,7 @@ void emit_all(const PairView& view, NormalRule rule, const std::vector<Candidate
         contact.point = rotation * local + bodies.position[view.pair.a];
         contact.crushes_a = !ship && !c.gap.a_is_surface;
         contact.patch = probe_patch(view, c);
-        contact.region = ship ? view.shape_a.region[c.i] : -1;
+        contact.region = ship ? view.shape_a.region.at(c.i, c.gap.normal) : -1;
         // a probe slides over many surface spheres: the probe and its face's rank are what lasts
         const std::int32_t probe = (c.probe() << 1) | (c.gap.a_is_surface ? 1 : 0);
         face = probe == last_probe ? face + 1 : 0;

@@ -10,6 +10,7 @@
 #include "solver/narrow/emit_contacts.hpp"
 #include "solver/narrow/pair_kinds.hpp"
 #include "solver/narrow/search_pair.hpp"
+#include "solver/narrow/separation.hpp"
 
 namespace ice {
 
@@ -23,14 +24,19 @@ constexpr double kSameFaceCos = 0.866;
 constexpr std::size_t kSerialPairs = 256;
 
 // Within what distance two spheres are compared: their supports and the margin along the normal,
-// the reach and the corners' offsets across it [m].
+// the reach and the corners' offsets across it [m]. Of edges that run side by side and cross, each
+// sphere may be its shape's reach from there: Faces::aside has half of it for each, and this what
+// the larger one needs beyond.
 struct Range {
     double margin, reach;
 
     Range(const PairView& view, NormalRule rule, double m)
-        : margin(m),
-          reach(rule == NormalRule::centres ? 0.0
-                                            : std::max(view.shape_a.reach, view.shape_b.reach)) {}
+        : margin(m), reach(rule == NormalRule::centres ? 0.0 : reach_of(view)) {}
+
+    static double reach_of(const PairView& view) {
+        const double a = view.shape_a.reach, b = view.shape_b.reach;
+        return std::max(a, b) + 0.5 * std::abs(a - b);
+    }
 
     double squared(double corner_a, double aside_a, double corner_b, double aside_b) const {
         const double along = corner_a + corner_b + margin, across = reach + aside_a + aside_b;
@@ -45,9 +51,11 @@ struct Range {
 // matters too: it may show that the probe is outside.
 void keep_candidate(const PairView& view, NormalRule rule, const Range& range, std::int32_t i,
                     std::int32_t j, const Gap& gap, std::vector<Candidate>& out) {
-    const double reach = gap.a_is_surface ? view.shape_a.reach : view.shape_b.reach;
-    const bool near =
-        rule == NormalRule::centres ? gap.gap <= range.margin : gap.lateral_sq <= reach * reach;
+    const double a = view.shape_a.reach, b = view.shape_b.reach;
+    const double reach = gap.a_is_surface ? a : b, of_probe = gap.a_is_surface ? b : a;
+    const bool near = rule == NormalRule::centres
+                          ? gap.gap <= range.margin
+                          : gap.lateral_sq <= reach * reach && gap.probe_sq <= of_probe * of_probe;
     if (gap.valid && near) out.push_back({i, j, gap});
 }
 
@@ -161,6 +169,7 @@ template <class VisitPairs>
 void find_pair_contacts(const Scene& scene, BodyPair pair, NormalRule rule, double margin,
                         Workspace& work, std::vector<Contact>& out, const VisitPairs& visit_pairs) {
     const PairView view(scene, pair);
+    if (separation(view) > margin) return;
     work.candidates.clear();
     work.kinds.begin(view, prefers_a(view));
     const Range range(view, rule, margin);
@@ -220,7 +229,7 @@ void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
     awake_.clear();
     known_.clear();
     for (std::size_t k = 0; k < pairs.size(); ++k) {
-        const auto state = dormant_.look(k, scene, pairs[k], travel, dt);
+        const auto state = dormant_.look(k, scene, pairs[k], travel, dt, margin);
         if (state == DormantPairs::State::asleep) continue;
         awake_.push_back(k);
         known_.push_back(state == DormantPairs::State::known);
@@ -238,7 +247,7 @@ void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
             const Leeway leeway = dormant_leeway(scene, pairs[k]);
             const double least = find_near(view, rule, margin, leeway, work, found_[n]);
             dormant_.settle(k, view, travel, leeway, std::min(least - margin, leeway.distance));
-            state = dormant_.look(k, scene, pairs[k], travel, dt);
+            state = dormant_.look(k, scene, pairs[k], travel, dt, margin);
             if (state == DormantPairs::State::asleep) return;
             near = found_[n];
         }
@@ -267,6 +276,7 @@ namespace reference {
 void find_contacts(const Scene& scene, BodyPair pair, NormalRule rule, double margin,
                    std::vector<Contact>& out) {
     const PairView view(scene, pair);
+    if (separation(view) > margin) return;
     const Range range(view, rule, margin);
     std::vector<Candidate> candidates;
     for (std::int32_t i = 0; i < static_cast<std::int32_t>(view.shape_a.center.size()); ++i)

@@ -37,6 +37,8 @@ struct Contact {
 /// the shape's `reach`; of faces that meet in an outward edge only the one less deep. So a face's
 /// contacts are as many as its probes, not probes times spheres.
 ///
+/// Bodies that are apart (separation) by more than the margin have none.
+///
 /// Crushed spheres stand where the crushing left them; driven out of their body they are gone. A
 /// contact's patch is its probe's; under the rule "centres" it is the ice sphere's share, split
 /// among the contacts the sphere has with that body, the smaller one between two floes, and counts

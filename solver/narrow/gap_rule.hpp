@@ -17,10 +17,10 @@ constexpr double kSameSpread = 1e-6;
 constexpr double kLeaning = 0.2;
 
 /// A face cuts into an edge that slants towards it all along; two edges meet where they cross.
-constexpr double kSlantOnFace = 0.95, kSlantOnEdge = 0.1;
+constexpr double kSlantOnFace = 0.95, kSlantOnEdge = 0.022;
 
 /// Edges closer to parallel than this (sine) have no normal across both.
-constexpr double kParallel = 0.05;
+constexpr double kParallel = 0.02;
 
 /// A corner is over a face as long as it is not this many radii beyond the face's edge.
 constexpr double kBeyond = 0.01;
@@ -67,6 +67,21 @@ inline bool belongs(const SphereSurface& s, const Vec3& n, double slack = 0.0) {
 inline Vec3 support_offset(const SphereSurface& s, const Vec3& n) {
     if (s.faces.count == 0) return s.radius * n;
     return s.faces.corner * s.normal;
+}
+
+/// The gap across two edges.
+inline Gap crossing_gap(const Vec3& n, double gap, const Crossing& at, bool a_is_surface,
+                        std::int8_t edge_a, std::int8_t edge_b) {
+    const double a_sq = at.along_a * at.along_a, b_sq = at.along_b * at.along_b;
+    return {.normal = n,
+            .gap = gap,
+            .lateral_sq = a_is_surface ? a_sq : b_sq,
+            .a_is_surface = a_is_surface,
+            .valid = true,
+            .crossing = true,
+            .edge_a = edge_a,
+            .edge_b = edge_b,
+            .probe_sq = a_is_surface ? b_sq : a_sq};
 }
 
 /// Is one of s's faces less deep in all that the other sphere stands for than `gap`? Then that is

@@ -54,10 +54,13 @@ void KindBound::list_crossings() {
             // a turn without bound where it might become any
             const double turn =
                 sine <= 2.0 * leeway_.angle ? kMostTurn : leeway_.angle / (sine - leeway_.angle);
+            // each as far from where they cross: apart by the sum of two vectors at their angle
+            const double cosine = std::abs(edges_a.unit[ka].dot(edges_b.unit[kb]));
+            const double skew = std::sqrt(2.0 + 2.0 * std::min(1.0, cosine + leeway_.angle));
             for (const double sign : {-1.0, 1.0}) {
                 const Vec3 n = sign / sine * across;
                 if (a.have(n, kSlantOnEdge, turn) && b.have(-n, kSlantOnEdge, turn))
-                    crossing_[crossings_++] = {n, turn};
+                    crossing_[crossings_++] = {n, turn, skew, edges_a.unit[ka]};
             }
         }
 }
@@ -82,10 +85,12 @@ double KindBound::least_across(const Vec3& d, const Vec3& between) {
     double least = kInfinity;
     const double apart = d.norm(), length = between.norm();
     for (std::int8_t k = 0; k < crossings_; ++k) {
-        const auto& [n, turn] = crossing_[k];
+        const auto& [n, turn, skew, edge] = crossing_[k];
         if (n.dot(d) <= -leeway_.distance - turn * apart) continue;
         const double gap = n.dot(between);
-        const double beside = far_ + 2.0 * turn * length;
+        // nearly parallel edges may part the bodies any way across them, but not far along them
+        if (turn == kMostTurn && std::abs(edge.dot(between)) > 2.0 * far_) continue;
+        const double beside = skew * far_ + 2.0 * turn * length;
         if (length * length - gap * gap > beside * beside) continue;
         least = std::min(least, gap - turn * length);
     }

@@ -35,6 +35,8 @@ private:
     struct Crossing {
         Vec3 normal;
         double turn;  // by how much it may turn [rad]
+        double skew;  // how far apart their corners may be, in reaches of one
+        Vec3 edge;    // a's
     };
 
     void list_faces();

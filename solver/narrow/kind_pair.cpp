@@ -126,10 +126,9 @@ Gap KindPair::measure_edges(const Vec3& center_a, const Vec3& center_b) const {
         (is_less_deep(*a_, *b_, between, gap) || is_less_deep(*b_, *a_, -between, gap)))
         return kNone;
     if (crossing) {
-        const double beside_sq = std::max(between.squaredNorm() - gap * gap, 0.0);
-        return {
-            sign * crossing->normal, gap, beside_sq, a_is_surface_, true, true, crossing->edge_a,
-            crossing->edge_b};
+        const ice::Crossing at{crossing->along_a.dot(between), crossing->along_b.dot(between)};
+        return crossing_gap(sign * crossing->normal, gap, at, a_is_surface_, crossing->edge_a,
+                            crossing->edge_b);
     }
     const Vec3& n = face->normal;
     const double under_a =

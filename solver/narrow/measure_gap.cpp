@@ -102,7 +102,8 @@ Vec3 support_point(const SphereSurface& s, const Vec3& n) {
 Crossing find_crossing(const Vec3& pa, const Vec3& ea, const Vec3& pb, const Vec3& eb) {
     const Vec3 between = pb - pa, across = ea.cross(eb);
     const double square = across.squaredNorm();
-    return {between.cross(eb).dot(across) / square, between.cross(ea).dot(across) / square};
+    const Vec3 a = eb.cross(across) / square, b = ea.cross(across) / square;
+    return {a.dot(between), b.dot(between)};
 }
 
 Gap measure_gap_centres(const SphereSurface& a, const SphereSurface& b) {
@@ -135,8 +136,9 @@ Gap measure_gap_surface(const SphereSurface& a, const SphereSurface& b, bool pre
     if (edges && gap < 0.0 && (is_less_deep(a, b, apart, gap) || is_less_deep(b, a, -apart, gap)))
         return none;
     if (parting.edge_a >= 0) {
-        const double beside_sq = std::max(apart.squaredNorm() - gap * gap, 0.0);
-        return {n, gap, beside_sq, a_is_surface, true, true, parting.edge_a, parting.edge_b};
+        const Crossing at = find_crossing(point_a, a.faces.edge(parting.edge_a), point_b,
+                                          b.faces.edge(parting.edge_b));
+        return crossing_gap(n, gap, at, a_is_surface, parting.edge_a, parting.edge_b);
     }
     const double under_a = distance_across(a, n, point_b, edges);
     const double under_b = distance_across(b, n, point_a, edges);

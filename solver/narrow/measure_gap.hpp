@@ -28,6 +28,9 @@ struct Gap {
     bool valid;         ///< false where the spheres do not face each other
     bool crossing = false;  ///< two edges meet across each other, neither on the other's face
     std::int8_t edge_a = -1, edge_b = -1;  ///< which of the spheres' Faces::edge these are
+    /// Where they cross, lateral_sq is measured along the surface's edge and this along the probe's,
+    /// each from its own sphere's corner: a sphere stands for its edge half way to the next one.
+    double probe_sq = 0.0;
 };
 
 /// Where two edges, through pa along unit ea and through pb along unit eb, are nearest: how far

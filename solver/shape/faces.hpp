@@ -15,7 +15,7 @@ struct Faces {
     int count = 0;
     std::array<Vec3, 3> normal{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
     double corner = 0.0;  ///< from the sphere's centre along its normal to where they meet [m]
-    double aside = 0.0;   ///< from there to the points where the sphere touches the faces [m]
+    double aside = 0.0;   ///< how far across a contact's normal what it stands for may be [m]
 
     /// None, or the 2 or 3 faces with these unit normals; `corner` and `aside` are left 0.
     static Faces meeting(std::span<const Vec3> normals);
@@ -51,7 +51,7 @@ struct Faces {
 
 private:
     // a part this negative is still no normal of another place: 3 degrees where faces are square
-    static constexpr double kBelongs = -0.05;
+    static constexpr double kBelongs = -0.005;
 
     // n . part[k] is n's part along normal[k], times `size` (positive); of two faces part[2] is the
     // edge's direction

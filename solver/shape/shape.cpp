@@ -116,7 +116,6 @@ void copy_surface_spheres(const SphereSet& set, const Vec3& origin, Shape& shape
         shape.spread_cos.push_back(cosine);
         shape.spread_sin.push_back(std::sqrt(1.0 - cosine * cosine));
         shape.area.push_back(set.areas[k]);
-        shape.region.push_back(set.regions[k]);
         shape.largest_radius = std::max(shape.largest_radius, set.radii[k]);
     }
 }
@@ -163,6 +162,7 @@ Shape build_shape(const SphereSet& set, bool about_centre_of_mass) {
     const Vec3 origin = about_centre_of_mass ? set.solid.centroid : Vec3::Zero();
     shape.dimension = set.dimension;
     shape.sphere_count = set.size();
+    shape.region = FaceRegions(set);
     shape.region_names = set.mesh.region_names;
     copy_surface_spheres(set, origin, shape);
     find_kinds(shape);
@@ -186,12 +186,18 @@ Shape build_shape(const SphereSet& set, bool about_centre_of_mass) {
         shape.box.max().y() = shape.largest_radius;
     }
     shape.bounding_radius = shape.box.min().cwiseAbs().cwiseMax(shape.box.max().cwiseAbs()).norm();
+    std::vector<BoundedSphere> bounded;
+    for (std::size_t k = 0; k < shape.center.size(); ++k)
+        bounded.push_back({shape.center[k], shape.radius[k]});
+    shape.bounds = ConvexBounds(shape.mesh, bounded);
+    shape.spacing = set.spacing;
+    shape.reach = measure_reach(shape, set.spacing);
     std::vector<SearchSphere> spheres;
+    for (Faces& faces : shape.faces)  // an edge's sphere stands for that much of it either way
+        if (faces.count > 0) faces.aside += 0.5 * shape.reach;
     for (std::size_t k = 0; k < shape.center.size(); ++k)
         spheres.push_back({shape.center[k], shape.faces[k].corner, shape.faces[k].aside});
     shape.blocks = SphereBlocks(spheres);
-    shape.spacing = set.spacing;
-    shape.reach = measure_reach(shape, set.spacing);
     build_panels(shape);
     return shape;
 }

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "common/formats/sphere_set.hpp"
+#include "solver/shape/convex_bounds.hpp"
+#include "solver/shape/face_regions.hpp"
 #include "solver/shape/faces.hpp"
 #include "solver/shape/sphere_blocks.hpp"
 #include "solver/shape/surface_blocks.hpp"
@@ -28,10 +30,11 @@ struct Shape {
     std::vector<Faces> faces;        ///< that meet at the sphere; none on a face
     std::vector<std::int32_t> kind;  ///< spheres of one kind differ by place, area and region only
     std::size_t kinds = 0;
-    std::vector<double> area;          ///< share of the surface [m2]
-    std::vector<std::int32_t> region;  ///< row of region_names
+    std::vector<double> area;  ///< share of the surface [m2]
+    FaceRegions region;        ///< rows of region_names
     std::vector<std::string> region_names;
     std::size_t sphere_count = 0;  ///< of the whole set, interior included
+    ConvexBounds bounds;           ///< of mesh and spheres
     SphereBlocks blocks;           ///< of `center`, for the search
     double largest_radius = 0.0;   ///< [m]
     double spacing = 0.0;          ///< nominal distance of the surface spheres [m]

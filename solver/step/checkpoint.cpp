@@ -40,7 +40,8 @@ std::uint64_t hash_of(const Shape& shape) {
         for (const Vec3& n : faces.normal)
             for (int d = 0; d < 3; ++d) hash.add(n[d]);
     }
-    for (const std::int32_t region : shape.region) hash.add(static_cast<std::uint64_t>(region));
+    for (const std::int32_t region : shape.region.of_spheres())
+        hash.add(static_cast<std::uint64_t>(region));
     for (const std::string& name : shape.region_names)
         for (const char c : name + '\n') hash.add(static_cast<std::uint64_t>(c));
     for (const auto& triangle : shape.mesh.triangles)

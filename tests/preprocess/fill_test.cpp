@@ -7,6 +7,7 @@
 #include "common/base/parallel.hpp"
 #include "preprocess/fill/fill_spheres.hpp"
 #include "preprocess/fill/lattice.hpp"
+#include "preprocess/fill/shell_tile.hpp"
 #include "preprocess/fill/surface_samples.hpp"
 #include "tests/preprocess/check_shares.hpp"
 #include "tests/preprocess/fill_options.hpp"
@@ -243,6 +244,21 @@ TEST_CASE("discs of a hull's section have the guarantees of spheres, per metre o
         REQUIRE(nearest >= set.radius * (1 - 1e-6));
         if (set.on_surface(k)) REQUIRE(nearest <= set.radius * (1 + 1e-6));
     }
+}
+
+TEST_CASE("a solid is convex when no vertex lies before a face", "[fill][analytic]") {
+    const auto is_convex = [](const TriangleMesh& mesh) {
+        return ShellSolid(SurfaceTree(mesh)).convex;
+    };
+    TriangleMesh box = test::make_box_mesh(Vec3(4, 2, 1));
+    CHECK(is_convex(box));
+    // one corner, where three faces meet, moved in: the diagonals of the upper face and the two
+    // sides beside it fold inwards
+    box.vertices[7] -= Vec3(1.5, 0.9, 0.4);
+    CHECK_FALSE(is_convex(box));
+    // a globe is, by its facets, but large meshes are not looked at
+    CHECK(is_convex(test::make_globe(1, 4)));
+    CHECK_FALSE(is_convex(test::make_globe(1, 60)));
 }
 
 TEST_CASE("an absurd number of spheres is refused with the unit as the likely cause",

@@ -150,7 +150,7 @@ TEST_CASE("the nearest point is the one a search of all finds, the first of equa
     std::vector<Vec3> points;
     for (int k = 0; k < 700; ++k)  // a coarse grid visited in a scattered order, with repeats
         points.emplace_back(k * 37 % 9, k * 53 % 7, k * 71 % 5);
-    const PointCells tree(points, 0.7);
+    const PointCells tree(points, GENERATE(0.7, 3.0));  // hashed; numbered
     for (int k = 0; k < 2000; ++k) {
         const Vec3 p(0.5 * (k * 31 % 23) - 1, 0.5 * (k * 17 % 19) - 1, 0.5 * (k * 13 % 17) - 1);
         std::size_t best = 0;
@@ -159,6 +159,9 @@ TEST_CASE("the nearest point is the one a search of all finds, the first of equa
         const auto found = tree.nearest(p);
         REQUIRE(found.index == static_cast<std::int32_t>(best));
         REQUIRE(found.distance == (points[best] - p).norm());
+        const auto k0 = static_cast<std::int32_t>(k % 700);
+        const double known = (points[static_cast<std::size_t>(k0)] - p).norm();
+        REQUIRE(tree.nearest(p, {k0, known}).index == found.index);
     }
 }
 

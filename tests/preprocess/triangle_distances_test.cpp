@@ -8,7 +8,7 @@
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "preprocess/measure/closest_on_triangle.hpp"
+#include "common/geometry/closest_on_triangle.hpp"
 
 using namespace ice;
 

@@ -69,7 +69,8 @@ void check_gap(const SphereSurface& a, const SphereSurface& b, const Vec3& norma
             CHECK((back.normal + turn * normal).norm() < kRounding);
             CHECK(forth.gap == Approx(gap).margin(kRounding));
             CHECK(back.gap == Approx(gap).margin(kRounding));
-            CHECK(forth.lateral_sq == Approx(back.lateral_sq).margin(kRounding));
+            const auto beside_sq = [](const Gap& g) { return std::max(g.lateral_sq, g.probe_sq); };
+            CHECK(beside_sq(forth) == Approx(beside_sq(back)).margin(kRounding));
         }
 }
 
@@ -143,7 +144,11 @@ TEST_CASE("a corner's edges cross another body's edge as any edge does",
         CHECK(found.crossing);
         CHECK((found.normal - n).norm() < kRounding);
         CHECK(found.gap == Approx(gap).margin(kRounding));
-        CHECK(found.lateral_sq == Approx(0.03 * 0.03 + beside * beside).epsilon(1e-12));
+        // the corner's edge to where they cross, and the ridge's
+        const double corner_sq = found.a_is_surface ? found.lateral_sq : found.probe_sq;
+        const double ridge_sq = found.a_is_surface ? found.probe_sq : found.lateral_sq;
+        CHECK(corner_sq == Approx(beside * beside).epsilon(1e-12));
+        CHECK(ridge_sq == Approx(0.03 * 0.03).epsilon(1e-12));
     } else {
         // beyond the corner there is no edge to cross
         CHECK_FALSE((found.valid && found.crossing));
@@ -188,8 +193,10 @@ TEST_CASE("crossed edges meet across both, with the distance of the two lines",
     check_gap(ridge, keel, kZ, gap);
     const Gap found = measure_gap_surface(ridge, keel, false);
     CHECK(found.crossing);
-    const double apart_sq = (along_b * line - along_a * kY).squaredNorm();
-    CHECK(found.lateral_sq == Approx(apart_sq).margin(kRounding));
+    const double a_sq = found.a_is_surface ? found.lateral_sq : found.probe_sq;
+    const double b_sq = found.a_is_surface ? found.probe_sq : found.lateral_sq;
+    CHECK(a_sq == Approx(along_a * along_a).margin(kRounding));
+    CHECK(b_sq == Approx(along_b * along_b).margin(kRounding));
 }
 
 TEST_CASE("crossed edges that both slope meet along the common perpendicular of their lines",

@@ -77,6 +77,7 @@ TEST_CASE("two spheres have the gap that their kinds give, bit for bit", "[narro
             REQUIRE(fast.gap == gap.gap);
             REQUIRE(fast.lateral_sq == gap.lateral_sq);
             REQUIRE(fast.a_is_surface == gap.a_is_surface);
+            REQUIRE(fast.probe_sq == gap.probe_sq);
             REQUIRE(fast.crossing == gap.crossing);
             REQUIRE(fast.edge_a == gap.edge_a);
             REQUIRE(fast.edge_b == gap.edge_b);
@@ -108,7 +109,7 @@ TEST_CASE("no gap comes below its kinds' bound while the bodies keep to the leew
         later.faces = b.faces.turned(turn);
         const double gone = (later.center - b.center).norm() + arm;
         const Gap gap = measure_gap_surface(a, later, prefer_a);
-        if (!gap.valid || gap.lateral_sq > reach * reach) continue;
+        if (!gap.valid || std::max(gap.lateral_sq, gap.probe_sq) > reach * reach) continue;
         ++compared;
         CAPTURE(k, least, gap.gap, gone, gap.crossing);
         // lengths of a tenth of a metre, rounded to 1e-17

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "solver/narrow/pair_view.hpp"
+
+namespace ice {
+
+/// How far two bodies are apart at least [m]: the widest gap between them along any normal of
+/// either one's ConvexBounds (separating axes); negative where none parts them, minus infinity
+/// where the bounds of a body are not known. Crushed ice only makes the true distance larger.
+///
+/// Bodies this far apart have no contact, whatever their spheres say one by one: a sphere stands
+/// for its surface as far as its shape's reach, which near an edge is beyond the body.
+double separation(const PairView& view);
+
+/// The separation is less by at most this times the way that both bodies go (Travel::way).
+double separation_share(const PairView& view);
+
+}  // namespace ice

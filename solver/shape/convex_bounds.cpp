@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/shape/convex_bounds.hpp"
+
+#include <algorithm>
+
+namespace ice {
+
+namespace {
+
+// Normals whose cosine is above this are one: facets of a flat face differ by rounding.
+constexpr double kSameNormal = 1.0 - 1e-12;
+
+// Keeps v where the list has none that is the same; false where the list is full.
+template <class Same>
+bool keep(std::vector<Vec3>& list, const Vec3& v, const Same& same) {
+    if (std::any_of(list.begin(), list.end(), [&](const Vec3& u) { return same(u, v); }))
+        return true;
+    if (list.size() == ConvexBounds::kMost) return false;
+    list.push_back(v);
+    return true;
+}
+
+bool list_corners(const TriangleMesh& mesh, std::vector<Vec3>& out) {
+    return std::all_of(mesh.vertices.begin(), mesh.vertices.end(), [&](const Vec3& v) {
+        return keep(out, v, [](const Vec3& l, const Vec3& r) { return l == r; });
+    });
+}
+
+bool list_normals(const TriangleMesh& mesh, std::vector<Vec3>& out) {
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const Vec3 across =
+            (mesh.corner(t, 1) - mesh.corner(t, 0)).cross(mesh.corner(t, 2) - mesh.corner(t, 0));
+        const double length = across.norm();
+        if (length == 0.0) continue;
+        const auto same = [](const Vec3& l, const Vec3& r) { return l.dot(r) > kSameNormal; };
+        if (!keep(out, across / length, same)) return false;
+    }
+    return !out.empty();
+}
+
+}  // namespace
+
+ConvexBounds::ConvexBounds(const TriangleMesh& mesh, std::span<const BoundedSphere> spheres) {
+    if (!list_corners(mesh, corners) || !list_normals(mesh, normals)) {
+        corners.clear();
+        normals.clear();
+        return;
+    }
+    for (const Vec3& n : normals) {
+        double foremost = n.dot(corners.front());
+        for (const Vec3& v : corners) foremost = std::max(foremost, n.dot(v));
+        offset.push_back(foremost);
+        for (const BoundedSphere& s : spheres)
+            excess = std::max(excess, n.dot(s.center) + s.radius - foremost);
+    }
+}
+
+}  // namespace ice

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "common/geometry/triangle_mesh.hpp"
+
+namespace ice {
+
+/// A sphere as a bound sees it: nothing of it is farther than this from its centre.
+struct BoundedSphere {
+    Vec3 center;    ///< [m]
+    double radius;  ///< [m]
+};
+
+/// Points whose convex hull a body lies in, and planes that it lies behind; body axes.
+///
+/// Taken from the mesh: its vertices, and a plane through the foremost of them along each facet's
+/// normal. A form of more than kMost different normals or vertices (a hull of thousands of
+/// triangles) has none: asking them would cost more than it saves.
+struct ConvexBounds {
+    static constexpr std::size_t kMost = 40;
+
+    std::vector<Vec3> corners;   ///< [m]
+    std::vector<Vec3> normals;   ///< outward, unit
+    std::vector<double> offset;  ///< normal . x of the foremost corner [m]
+    double excess = 0.0;         ///< how far a sphere reaches out of the planes at most [m]
+
+    bool known() const { return !corners.empty(); }
+
+    ConvexBounds() = default;
+    ConvexBounds(const TriangleMesh& mesh, std::span<const BoundedSphere> spheres);
+};
+
+}  // namespace ice
