@@ -18,6 +18,7 @@
 #include "common/cli/console.hpp"
 #include "common/cli/fault_handlers.hpp"
 #include "common/formats/spheres_file.hpp"
+#include "common/formats/widest_spacing.hpp"
 #include "preprocess/fill/fill_spheres.hpp"
 #include "preprocess/load/cut_off.hpp"
 #include "preprocess/load/gunzip.hpp"
@@ -211,6 +212,19 @@ ice::SphereSet fill_solid(const Options& o, const ice::TriangleMesh& mesh,
     }
 }
 
+// Where the spheres leave the solid open.
+void warn_of_gaps(const ice::SphereSet& set, ice::SpheresReport& report) {
+    if (!report.thin_features.empty())
+        report.warnings.push_back(fmt::format("parts too thin for a sphere of radius {:g} m: {}",
+                                              set.radius, report.thin_features.size()));
+    const double widest = ice::kWidestSpacing * set.radius;
+    if (set.spacing > widest * (1.0 + ice::kSpacingRounding))
+        report.warnings.push_back(fmt::format(
+            "the surface spheres are {:g} m apart: bodies may pass between them above {:g} radii; "
+            "use --spacing {:g} or less",
+            set.spacing, ice::kWidestSpacing, widest));
+}
+
 int run_spherize(Options& o, const std::string& command_line) {
     const ice::Timer timer;
     ice::set_thread_count(o.threads);
@@ -238,9 +252,7 @@ int run_spherize(Options& o, const std::string& command_line) {
     set.source_sha256 = ice::file_sha256(source);
     set.created_by = fmt::format("spherize {} ({})", ice::version(), ice::git_commit());
     set.command_line = report.command_line = command_line;
-    if (!report.thin_features.empty())
-        report.warnings.push_back(fmt::format("parts too thin for a sphere of radius {:g} m: {}",
-                                              o.fill.radius, report.thin_features.size()));
+    warn_of_gaps(set, report);
     const auto export_base = std::filesystem::path(out).replace_extension();
     ice::check_exports(set, o.exports, export_base);
     const double density = o.density.value_or(kIceDensity);

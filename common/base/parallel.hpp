@@ -5,6 +5,8 @@
 #include <omp.h>
 
 #include <cstddef>
+#include <exception>
+#include <mutex>
 
 namespace ice {
 
@@ -15,20 +17,48 @@ inline void set_thread_count(int threads) {
 
 inline int thread_count() { return omp_get_max_threads(); }
 
+/// Takes exceptions out of a parallel region, which none may leave by itself: of those thrown the
+/// one with the lowest index, so that the caller sees the same whatever the number of threads.
+class FirstException {
+public:
+    template <class Body>
+    void call(const Body& body, std::size_t k) noexcept {
+        try {
+            body(k);
+        } catch (...) {
+            const std::lock_guard<std::mutex> lock(mutex_);
+            if (thrown_ && index_ <= k) return;
+            thrown_ = std::current_exception();
+            index_ = k;
+        }
+    }
+    void rethrow() const {
+        if (thrown_) std::rethrow_exception(thrown_);
+    }
+
+private:
+    std::mutex mutex_;
+    std::exception_ptr thrown_;
+    std::size_t index_ = 0;
+};
+
 /// Calls body(k) for k in [0, count), in chunks shared among the threads.
 ///
 /// body(k) may write only what belongs to k: then the result has the same bits for any thread
 /// count. Below `serial_below` items it runs on the calling thread, because waking threads costs
-/// more than the work (about 5 us). body must not throw.
+/// more than the work (about 5 us).
+/// @throws what body throws, of several items what the first of them throws; others may have run
 template <class Body>
 void parallel_for(std::size_t count, std::size_t serial_below, const Body& body) {
     if (count < serial_below || omp_get_max_threads() == 1) {
         for (std::size_t k = 0; k < count; ++k) body(k);
         return;
     }
+    FirstException first;
 #pragma omp parallel for schedule(dynamic, 16)
     for (std::ptrdiff_t k = 0; k < static_cast<std::ptrdiff_t>(count); ++k)
-        body(static_cast<std::size_t>(k));
+        first.call(body, static_cast<std::size_t>(k));
+    first.rethrow();
 }
 
 /// Calls body(k) for k in [0, count) for few, long tasks, handed out one by one; on the calling
@@ -39,9 +69,11 @@ void parallel_tasks(std::size_t count, bool worth, const Body& body) {
         for (std::size_t k = 0; k < count; ++k) body(k);
         return;
     }
+    FirstException first;
 #pragma omp parallel for schedule(dynamic, 1)
     for (std::ptrdiff_t k = 0; k < static_cast<std::ptrdiff_t>(count); ++k)
-        body(static_cast<std::size_t>(k));
+        first.call(body, static_cast<std::size_t>(k));
+    first.rethrow();
 }
 
 }  // namespace ice

@@ -8,7 +8,7 @@ namespace ice {
 /// From now on a program ends with one message, the contract's exit code and no file half-written
 /// also where no exception reaches its main function:
 ///
-/// - an exception in a thread or where none may leave (memory ran out in a parallel loop): 1;
+/// - an exception in a thread or where none may leave: 1;
 /// - SIGTERM and Ctrl-C, until the program catches them itself (catch_interrupts): 130;
 /// - files at the size limit of the shell or the batch system (SIGXFSZ, which would kill it) are
 ///   written like those on a full disk, whose errors are checked.

@@ -138,7 +138,8 @@ void find_kinds(Shape& shape) {
 }
 
 // The largest distance from a surface sphere to its nearest neighbour is the set's real spacing s.
-// A square lattice leaves points s / sqrt(2) from every sphere, a hexagonal one s / sqrt(3).
+// A square lattice leaves points s / sqrt(2) from every sphere, a hexagonal one s / sqrt(3). On a
+// thin plate the nearest is across the thickness: along the edges they are the nominal apart.
 double measure_reach(const Shape& shape, double nominal_spacing) {
     const double limit = 3.0 * std::max(nominal_spacing, 2.0 * shape.largest_radius);
     const SphereGrid grid(shape.center, 2.0 * shape.largest_radius);
@@ -151,7 +152,7 @@ double measure_reach(const Shape& shape, double nominal_spacing) {
         });
         if (nearest < limit) spacing = std::max(spacing, nearest);
     }
-    return 0.75 * (spacing > 0.0 ? spacing : nominal_spacing);
+    return 0.75 * std::max(spacing, nominal_spacing);
 }
 
 }  // namespace
@@ -189,6 +190,7 @@ Shape build_shape(const SphereSet& set, bool about_centre_of_mass) {
     for (std::size_t k = 0; k < shape.center.size(); ++k)
         bounded.push_back({shape.center[k], shape.radius[k]});
     shape.bounds = ConvexBounds(shape.mesh, bounded);
+    shape.spacing = set.spacing;
     shape.reach = measure_reach(shape, set.spacing);
     std::vector<SearchSphere> spheres;
     for (Faces& faces : shape.faces)  // an edge's sphere stands for that much of it either way

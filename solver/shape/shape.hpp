@@ -37,6 +37,7 @@ struct Shape {
     ConvexBounds bounds;           ///< of mesh and spheres
     SphereBlocks blocks;           ///< of `center`, for the search
     double largest_radius = 0.0;   ///< [m]
+    double spacing = 0.0;          ///< nominal distance of the surface spheres [m]
     double reach = 0.0;            ///< how far from its centre a sphere stands for the surface [m]
 
     TriangleMesh mesh;             ///< closed, body axes

@@ -8,6 +8,7 @@
 
 #include "common/base/error.hpp"
 #include "common/base/parallel.hpp"
+#include "common/formats/widest_spacing.hpp"
 #include "common/geometry/winding_number.hpp"
 #include "solver/scene/tunnelling_speed.hpp"
 
@@ -126,6 +127,26 @@ std::string describe(const std::vector<StartOverlap>& overlaps, const char* sepa
     return text;
 }
 
+// The set with the widest spacing, if spheres of other bodies pass between its own.
+void warn_of_spacing(const World& w, std::vector<std::string>& warnings) {
+    const bool centres = w.parameters.normal == NormalRule::centres;
+    const double limit = centres ? 2.0 : kWidestSpacing;
+    std::vector<double> in_radii;
+    for (const Shape& shape : w.scene.shapes)
+        in_radii.push_back(shape.spacing / smallest_radius(shape));
+    const auto& row = w.scene.bodies.shape;
+    const auto widest = std::max_element(row.begin(), row.end(), [&](auto l, auto r) {
+        return in_radii[static_cast<std::size_t>(l)] < in_radii[static_cast<std::size_t>(r)];
+    });
+    if (in_radii[static_cast<std::size_t>(*widest)] <= limit * (1.0 + kSpacingRounding)) return;
+    const Shape& shape = w.scene.shapes[static_cast<std::size_t>(*widest)];
+    warnings.push_back(fmt::format(
+        "the surface spheres of {} are {:.3g} m apart, but bodies may pass between them above "
+        "{:g} radii{}: make its set with a spacing of {:.3g} m",
+        name_of(static_cast<std::int32_t>(widest - row.begin())), shape.spacing, limit,
+        centres ? " (contact.normal = \"centres\")" : "", limit * smallest_radius(shape)));
+}
+
 void warn_of_speed(const World& w, std::vector<std::string>& warnings) {
     const Case& p = w.parameters;
     const double limit = tunnelling_speed(w.scene, p.time_step);
@@ -200,6 +221,7 @@ std::vector<std::string> check_start(World& world, bool allow_overlap) {
                         "simulation.jitter; --allow-overlap goes on all the same");
     if (!overlaps.empty()) warnings.push_back(describe(overlaps, "; "));
     warn_of_speed(world, warnings);
+    warn_of_spacing(world, warnings);
     return warnings;
 }
 

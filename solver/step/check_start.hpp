@@ -32,7 +32,8 @@ constexpr double kToleratedOverlap = 0.02;
 std::vector<StartOverlap> find_start_overlaps(Scene& scene, const Case& parameters);
 
 /// Looks at a world that was just built.
-/// @return warnings: the ship or a floe is faster than tunnelling_speed; overlaps, where allowed
+/// @return warnings: the ship or a floe is faster than tunnelling_speed; spheres farther apart than
+///         kWidestSpacing, with the rule "centres" than they are wide; overlaps, where allowed
 /// @throws Error (exit code 2) naming the bodies that overlap, how deep and where, unless
 ///         `allow_overlap`
 std::vector<std::string> check_start(World& world, bool allow_overlap);

@@ -161,6 +161,15 @@ TEST_CASE("a case whose floes overlap names them and the depth, and --allow-over
     CHECK_THAT(slurp(w / "r/run.log"), Catch::Contains(words));
 }
 
+TEST_CASE("more floes than the limit are refused before memory is taken for them",
+          "[cli][errors]") {
+    const Workshop w;
+    make_case_3d(w);
+    for (const char* count : {"[100000,100000]", "[100000,100]"})
+        check_refused(w, {std::string("icesolve case.cfg --check --set floes.count=") + count,
+                          "floes.1.count: asks for more than 10 million floes"});
+}
+
 TEST_CASE("a floe inside the hull at the start is named", "[cli][errors]") {
     const Workshop w;
     make_case_3d(w);

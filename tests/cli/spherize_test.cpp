@@ -204,3 +204,14 @@ TEST_CASE("spherize into a folder that does not exist fails with exit code 1", "
     CHECK(r.code == 1);
     CHECK_THAT(r.err, Catch::Contains("none/set.h5"));
 }
+
+TEST_CASE("a spacing that leaves the surface open is warned of", "[cli]") {
+    const Workshop w;
+    const std::string floe = "spherize " ICE_MESHES "/paper-floe-3d.obj -r 0.05 -o x.h5 -s ";
+    const Result closed = w.run(floe + "0.15"), open = w.run(floe + "0.2");
+    CHECK(closed.code == 0);
+    CHECK(closed.err == "");
+    CHECK(open.code == 0);
+    CHECK_THAT(open.err, Catch::Contains("warning: the surface spheres are 0.2 m apart") &&
+                             Catch::Contains("use --spacing 0.15 or less"));
+}

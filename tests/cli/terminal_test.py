@@ -1,29 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""terminal_test.py SPHERIZE ICESOLVE MESHES: what a run shows on a terminal and elsewhere."""
+"""terminal_test.py SPHERIZE ICESOLVE SOURCE: what a run shows on a terminal and elsewhere."""
 import os
 import pty
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
 
-spherize, icesolve, meshes = sys.argv[1:4]
-CASE = """title = "terminal"
-[simulation]
-dimension = 2
-duration = 3.0
-time_step = 0.005
-[hull]
-spheres = "hull.h5"
-position = [-9.6, 0, 0]
-speed = 1.0
-[[floes]]
-spheres = "floe.h5"
-count = [5, 1]
-origin = [0.05, 0]
-[contact]
-iterations = 1
-"""  # one iteration: steps that do not converge are worth a warning, which has a colour
+spherize, icesolve, source = sys.argv[1:4]
+# one iteration: steps that do not converge are worth a warning, which has a colour
+ONE_ITERATION = "[contact]\niterations = 1\n"
 
 
 def environment(**more):
@@ -58,10 +45,11 @@ def elsewhere(*words, **more):
 with tempfile.TemporaryDirectory() as folder:
     os.chdir(folder)
     for name in ("hull", "floe"):
-        subprocess.run([spherize, os.path.join(meshes, f"paper-{name}-2d.obj"), "--slice", "y=0",
-                        "-o", f"{name}.h5", "-q"], check=True)
-    with open("case.cfg", "w", encoding="utf-8") as file:
-        file.write(CASE)
+        mesh = os.path.join(source, f"meshes/paper-{name}-2d.obj")
+        subprocess.run([spherize, mesh, "--slice", "y=0", "-o", f"{name}.h5", "-q"], check=True)
+    shutil.copy(os.path.join(source, "tests/support/short_case.cfg"), "case.cfg")
+    with open("case.cfg", "a", encoding="utf-8") as file:
+        file.write(ONE_ITERATION)
 
     bar = re.compile(r"\ricesolve \[#*\.*\] +\d+ %, \d+ s left, [\d.]+x real time")
     shown = on_terminal()

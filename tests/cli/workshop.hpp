@@ -58,26 +58,13 @@ public:
         std::ofstream(folder_ / name) << text;
     }
 
-    // hull and floe sets of the paper's 2D case and a short case
+    // hull and floe sets of the paper's 2D case and a short case; `extra` goes on in [output]
     void make_case(const std::string& extra = "") const {
         REQUIRE(run("spherize " ICE_MESHES "/paper-hull-2d.obj --slice y=0 -o hull.h5 -q").code ==
                 0);
         REQUIRE(run("spherize " ICE_MESHES "/paper-floe-2d.obj --slice y=0 -o floe.h5 -q").code ==
                 0);
-        write("case.cfg", R"(title = "short"
-[simulation]
-dimension = 2
-duration = 3.0
-time_step = 0.005
-[hull]
-spheres = "hull.h5"
-position = [-9.6, 0, 0]
-speed = 1.0
-[[floes]]
-spheres = "floe.h5"
-count = [5, 1]
-origin = [0.05, 0]
-[output]
+        write("case.cfg", slurp(ICE_SHORT_CASE) + R"([output]
 track = [1]
 average_from = 1.0
 )" + extra);

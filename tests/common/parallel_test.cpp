@@ -3,6 +3,9 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <new>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 using namespace ice;
@@ -37,4 +40,23 @@ TEST_CASE("a thread count of 0 changes nothing", "[base]") {
     const int before = thread_count();
     set_thread_count(0);
     CHECK(thread_count() == before);
+}
+
+TEST_CASE("of items that throw the first one's exception reaches the caller, with 1 to 4 threads",
+          "[base]") {
+    const int threads = GENERATE(1, 2, 4);
+    const int before = thread_count();
+    set_thread_count(threads);
+    const auto fail = [](std::size_t k) {
+        if (k % 100 == 37) throw std::runtime_error("item " + std::to_string(k));
+    };
+    CHECK_THROWS_WITH(parallel_for(1000, 0, fail), "item 37");
+    CHECK_THROWS_WITH(parallel_tasks(1000, true, fail), "item 37");
+    CHECK_THROWS_AS(parallel_for(1000, 0, [](std::size_t) { throw std::bad_alloc(); }),
+                    std::bad_alloc);
+    // and the next region runs as if nothing had been
+    std::vector<int> calls(1000, 0);
+    parallel_for(calls.size(), 0, [&](std::size_t k) { ++calls[k]; });
+    CHECK(calls == std::vector<int>(1000, 1));
+    set_thread_count(before);
 }

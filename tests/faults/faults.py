@@ -48,6 +48,16 @@ def limit(kind, amount):
     return apply
 
 
+def faults_of_room(shop, job, folder, done, too_little, enough):
+    """What is wrong with the end of a job that had too little room for its outputs, or enough."""
+    found = shop.faults(job, folder, done)
+    if too_little and done.code == 0:
+        found.append("exit code 0 though not all can have been written")
+    if enough and done.code != 0:
+        found.append(f"exit code {done.code} though there was room: {done.message}")
+    return found
+
+
 @fault
 def file_size_limit(shop, _):
     """Every output stops growing at a limit, from nothing to the size of the largest one."""
@@ -59,11 +69,7 @@ def file_size_limit(shop, _):
         for amount in [n for n in limits if n < largest] + [8 * largest + (1 << 20)]:
             folder = shop.new_folder()
             done = shop.run(job.words, folder, preexec_fn=limit(resource.RLIMIT_FSIZE, amount))
-            found = shop.faults(job, folder, done)
-            if amount < largest and done.code == 0:
-                found.append("exit code 0 though not all can have been written")
-            if amount > largest and done.code != 0:
-                found.append(f"exit code {done.code} though there was room: {done.message}")
+            found = faults_of_room(shop, job, folder, done, amount < largest, amount > largest)
             wrong += [f"{job.name} with {amount} bytes a file: {text}" for text in found]
     return wrong
 
@@ -83,13 +89,9 @@ def disk_full(shop, _):
                 raise Skip("mount: " + mount.stderr.decode("utf-8", "replace").strip())
             try:
                 done = shop.run(job.words, folder)
-                found = shop.faults(job, folder, done)
+                found = faults_of_room(shop, job, folder, done, size < total, share > 1)
             finally:
                 subprocess.run(["umount", folder], check=True)
-            if share > 1 and done.code != 0:
-                found.append(f"exit code {done.code} though there was room: {done.message}")
-            if size < total and done.code == 0:
-                found.append("exit code 0 though not all can have been written")
             wrong += [f"{job.name} on {size} bytes: {text}" for text in found]
     return wrong
 

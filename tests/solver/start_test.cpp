@@ -2,6 +2,7 @@
 // What is said of a case before its first step: bodies in each other, steps too long.
 #include <catch2/catch.hpp>
 
+#include "common/formats/widest_spacing.hpp"
 #include "solver/scene/tunnelling_speed.hpp"
 #include "solver/step/check_start.hpp"
 #include "tests/common/fixtures.hpp"
@@ -139,4 +140,31 @@ TEST_CASE("a ship or floe that goes a sphere's diameter in a step is warned of, 
     warnings = check_start(w, false);
     REQUIRE(warnings.size() == 1);
     CHECK_THAT(warnings[0], Catch::Contains("floe 1, seen from the ship, goes 12 m/s"));
+}
+
+TEST_CASE("spheres too far apart to keep others out are warned of, with the limit of the rule",
+          "[step]") {
+    World w = world_of({});
+    const auto add = [&](double radii) {
+        const auto row = add_shape(w, make_box_set(Vec3(1, 1, 0.4), kRadius, radii * kRadius));
+        const double x = 2.0 * static_cast<double>(w.scene.bodies.size());
+        add_floe(w.scene, row, 900.0, Vec3(x, 5, -1), Quaternion::Identity(), 0, false);
+    };
+    add(2.0);
+    w.parameters.normal = NormalRule::centres;
+    CHECK(check_start(w, false).empty());
+    add(kWidestSpacing);
+    auto warnings = check_start(w, false);
+    REQUIRE(warnings.size() == 1);
+    CHECK_THAT(warnings[0], Catch::Contains("spheres of floe 2 are 0.15 m apart") &&
+                                Catch::Contains("above 2 radii (contact.normal = \"centres\")") &&
+                                Catch::Contains("a spacing of 0.1 m"));
+    w.parameters.normal = NormalRule::surface;
+    CHECK(check_start(w, false).empty());
+    add(kWidestSpacing + 0.1);
+    warnings = check_start(w, false);
+    REQUIRE(warnings.size() == 1);
+    CHECK_THAT(warnings[0], Catch::Contains("spheres of floe 3 are 0.155 m apart") &&
+                                Catch::Contains("above 3 radii:") &&
+                                Catch::Contains("a spacing of 0.15 m"));
 }

@@ -5,9 +5,11 @@
 #include <Eigen/Geometry>
 #include <bit>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <cstring>
 #include <random>
 
+#include "solver/contact/extrapolation.hpp"
 #include "tests/support/every_instruction_set.hpp"
 
 using namespace ice;
@@ -216,4 +218,34 @@ TEST_CASE("every instruction set sweeps to the bits of the reference", "[sweep][
         CHECK(same_bits(impulses_of(contacts), expected_impulses));
         CHECK(same_bits(contacts.motion, expected_motion));
     });
+}
+
+TEST_CASE(
+    "extrapolation goes on along steady sweeps where ice can crush, and begins afresh where "
+    "nothing gives way",
+    "[sweep][analytic]") {
+    const bool bounded = GENERATE(true, false);
+    const double ratio = GENERATE(0.5, 0.75, 0.9, 1.0, 1.04, 1.3);  // |g|^2 over the last one
+    CAPTURE(bounded, ratio);
+    ContactRows contacts;
+    contacts.rows.resize(1);
+    ContactRow& row = contacts.rows[0];
+    row.normal_response.v[3] = 1e-3;
+    double& impulse = row.impulse.normal.v[3];
+    Extrapolation extrapolation;
+    extrapolation.begin(contacts, bounded);
+    impulse += 1.0;
+    extrapolation.advance(contacts);
+    CHECK(impulse == 1.0);  // there is no way to go on along yet
+    const double second = std::sqrt(ratio);
+    impulse += second;
+    extrapolation.advance(contacts);
+    // the limits lie between 0.75 and 0.9 for rigid bodies, 1.04 and 1.3 for ice that crushes
+    const bool goes_on = bounded ? ratio < 1.1 : ratio < 0.8;
+    const double beta = goes_on ? std::min(ratio, 1.0) : 0.0;
+    CHECK(impulse == Approx(1.0 + second + beta).epsilon(1e-12));
+    impulse += 0.1;  // a small step follows: what remains of the way is beta p + g
+    extrapolation.advance(contacts);
+    const double next = 0.01 / ratio;
+    CHECK(impulse == Approx(1.1 + second + beta + next * (beta + second)).epsilon(1e-12));
 }

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+namespace ice {
+
+/// Surface spheres farther apart than this, in radii, leave holes that other bodies' corners pass:
+/// along an edge the solver takes a sphere for two radii either way, a corner's for one.
+constexpr double kWidestSpacing = 3.0;
+constexpr double kSpacingRounding = 1e-9;  ///< spacings that differ by this share are equal
+
+}  // namespace ice
