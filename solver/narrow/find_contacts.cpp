@@ -16,6 +16,9 @@ namespace ice {
 
 namespace {
 
+// What is compared before its root is taken is not lost to rounding.
+constexpr double kRoundedUp = 1.0 + 1e-12;
+
 // Normals closer than 30 degrees belong to the same face of a probe's neighbourhood.
 constexpr double kSameFaceCos = 0.866;
 
@@ -68,13 +71,22 @@ struct Measure {
     std::vector<Candidate>& out;
 
     void operator()(std::int32_t i, std::int32_t j) const {
+        rule == NormalRule::centres ? by_centres(i, j) : by_surface(i, j);
+    }
+    void by_centres(std::int32_t i, std::int32_t j) const {
+        const Vec3 center_a = view.center_a(i), center_b = view.center_b(j);
+        const double radius_a = view.shape_a.radius[i], radius_b = view.shape_b.radius[j];
+        const double most = (radius_a + radius_b + range.margin) * kRoundedUp;
+        if ((center_b - center_a).squaredNorm() > most * most) return;
+        if (view.is_gone_a(i) || view.is_gone_b(j)) return;
+        keep_candidate(view, rule, range, i, j,
+                       measure_gap_centres(center_a, radius_a, center_b, radius_b), out);
+    }
+    void by_surface(std::int32_t i, std::int32_t j) const {
         const PairKinds::Place &a = kinds.a(i), &b = kinds.b(j);
         const Faces &faces_a = view.shape_a.faces[i], &faces_b = view.shape_b.faces[j];
         if (!range.holds(a.center, faces_a, b.center, faces_b) || a.gone || b.gone) return;
-        const Gap gap = rule == NormalRule::centres
-                            ? measure_gap_centres(view.sphere_a(i), view.sphere_b(j))
-                            : kinds.measure(i, j, a, b);
-        keep_candidate(view, rule, range, i, j, gap, out);
+        keep_candidate(view, rule, range, i, j, kinds.measure(i, j, a, b), out);
     }
 };
 
@@ -183,6 +195,21 @@ void find_pair_contacts(const Scene& scene, BodyPair pair, NormalRule rule, doub
     finish_pair(view, rule, margin, work.candidates, out);
 }
 
+// The least gap that two spheres may have while the pair moves within `leeway`, less that motion;
+// infinite where they will be no candidates.
+double least_gap(const PairView& view, NormalRule rule, const Range& range, const Leeway& leeway,
+                 PairKinds& kinds, std::int32_t i, std::int32_t j) {
+    constexpr double kNever = std::numeric_limits<double>::infinity();
+    if (rule == NormalRule::centres) {
+        if (view.is_gone_a(i) || view.is_gone_b(j)) return kNever;
+        const double gap = (view.center_a(i) - view.center_b(j)).norm() -
+                           (view.shape_a.radius[i] + view.shape_b.radius[j]);
+        return gap > range.margin ? kNever : gap;
+    }
+    const PairKinds::Place &a = kinds.a(i), &b = kinds.b(j);
+    return a.gone || b.gone ? kNever : kinds.bound(i, j, a, b, range.reach, leeway);
+}
+
 // The spheres that may be candidates while the pair moves within `leeway`, and the least gap that
 // they may have, less that motion.
 double find_near(const PairView& view, NormalRule rule, double margin, const Leeway& leeway,
@@ -193,12 +220,7 @@ double find_near(const PairView& view, NormalRule rule, double margin, const Lee
     double least = std::numeric_limits<double>::infinity();
     work.search.for_each_near(
         view, range.margin, range.reach + leeway.distance, [&](std::int32_t i, std::int32_t j) {
-            const PairKinds::Place &a = work.kinds.a(i), &b = work.kinds.b(j);
-            if (a.gone || b.gone) return;
-            const double gap = rule == NormalRule::centres
-                                   ? (a.center - b.center).norm() -
-                                         (view.shape_a.radius[i] + view.shape_b.radius[j])
-                                   : work.kinds.bound(i, j, a, b, range.reach, leeway);
+            const double gap = least_gap(view, rule, range, leeway, work.kinds, i, j);
             if (gap == std::numeric_limits<double>::infinity()) return;
             least = std::min(least, gap);
             out.push_back({i, j});
@@ -287,7 +309,7 @@ void find_contacts(const Scene& scene, BodyPair pair, NormalRule rule, double ma
                 view.is_gone_b(j))
                 continue;
             const Gap gap = rule == NormalRule::centres
-                                ? measure_gap_centres(a, b)
+                                ? measure_gap_centres(a.center, a.radius, b.center, b.radius)
                                 : measure_gap_surface(a, b, prefers_a(view));
             keep_candidate(view, rule, range, i, j, gap, candidates);
         }

@@ -51,7 +51,8 @@ Vec3 support_point(const SphereSurface& s, const Vec3& n);
 /// The paper's rule (Figure 1): normal from centre to centre, gap |d| - (r_a + r_b).
 ///
 /// Coincident centres have no direction and give an invalid gap.
-Gap measure_gap_centres(const SphereSurface& a, const SphereSurface& b);
+Gap measure_gap_centres(const Vec3& center_a, double radius_a, const Vec3& center_b,
+                        double radius_b);
 
 /// Our rule: a sphere touches its surface from inside, so the surface near it is the sphere's cap
 /// over the normals that meet there: a plane on a face, an arc on an edge.

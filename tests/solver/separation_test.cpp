@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Bodies apart, and bodies whose edges cross each other.
+#include "solver/narrow/separation.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <random>
+
+#include "solver/broad/travel.hpp"
+#include "solver/narrow/find_contacts.hpp"
+#include "tests/support/make_worlds.hpp"
+
+using namespace ice;
+using namespace ice::test;
+
+namespace {
+
+const Vec3 kSize(1.0, 0.8, 0.3);  // [m]
+
+// Two boxes, bodies 1 and 2, far below a hull.
+World two_boxes() {
+    World w = plate_world(empty_space(0.01), Vec3(4, 2, 1), 0.1, 0.2, 10.0);
+    const auto row = add_shape(w, make_box_set(kSize, 0.05, 0.1));
+    for (int k = 0; k < 2; ++k)
+        add_floe(w.scene, row, 900.0, Vec3(5.0 * k, 0, 0), Quaternion::Identity(), 0, false);
+    return w;
+}
+
+void place(World& w, std::size_t body, const Vec3& position, const Quaternion& orientation) {
+    w.scene.bodies.position[body] = position;
+    w.scene.bodies.orientation[body] = orientation;
+    update_derived(w.scene.bodies, body);
+}
+
+double separation_now(const World& w) { return separation(PairView(w.scene, {1, 2})); }
+
+struct Dice {
+    std::mt19937 engine;
+    double operator()() { return std::uniform_real_distribution<double>(-1.0, 1.0)(engine); }
+    Vec3 vector() { return Vec3((*this)(), (*this)(), (*this)()); }
+    Quaternion turn(double angle) {
+        return Quaternion(Eigen::AngleAxisd(angle * (*this)(), vector().normalized()));
+    }
+};
+
+// Least distance of points on the second box, 5 cm apart, from the first one.
+double distance_of_points(const World& w) {
+    const PairView view(w.scene, {1, 2});
+    double least = std::numeric_limits<double>::infinity();
+    for (double x = -0.5; x < 0.51; x += 0.05)
+        for (double y = -0.4; y < 0.41; y += 0.05)
+            for (double z = -0.15; z < 0.16; z += 0.05) {
+                const Vec3 at = view.turn * Vec3(x, y, z) + view.shift;
+                const Vec3 beyond = (at.cwiseAbs() - 0.5 * kSize).cwiseMax(0.0);
+                least = std::min(least, beyond.norm());
+            }
+    return least;
+}
+
+}  // namespace
+
+TEST_CASE("boxes face to face, edge to face and corner to face are apart by the gap",
+          "[narrow][analytic]") {
+    World w = two_boxes();
+    const double gap = GENERATE(0.2, 0.003, 0.0, -0.01);
+    const double heading = GENERATE(0.0, 0.3, 0.25 * std::numbers::pi);
+    const double tilt = GENERATE(0.0, 0.4);
+    const Mat3 turn =
+        (Eigen::AngleAxisd(tilt, Vec3::UnitY()) * Eigen::AngleAxisd(heading, Vec3::UnitZ()))
+            .toRotationMatrix();
+    const double half = turn.row(0).cwiseAbs().dot(0.5 * kSize);  // the box's extent along x
+    place(w, 2, Vec3(0.5 + gap + half, 0.01, 0.02), Quaternion(turn));
+    // lengths of a metre
+    CHECK(separation_now(w) == Approx(gap).margin(1e-15));
+}
+
+TEST_CASE("no body is nearer than its separation says, wherever it is", "[narrow][property]") {
+    World w = two_boxes();
+    Dice dice{std::mt19937(4)};
+    int apart = 0;
+    for (int k = 0; k < 300; ++k) {
+        place(w, 1, Vec3::Zero(), Quaternion::Identity());
+        place(w, 2, 1.2 * dice.vector(), dice.turn(3.0));
+        const double separated = separation_now(w);
+        apart += separated > 0.0;
+        REQUIRE(distance_of_points(w) >= separated - 1e-12);
+    }
+    CHECK(apart > 50);
+}
+
+TEST_CASE("a separation shrinks by no more than its share of the way that bodies go",
+          "[narrow][property]") {
+    World w = two_boxes();
+    Dice dice{std::mt19937(5)};
+    for (int k = 0; k < 300; ++k) {
+        place(w, 1, 0.1 * dice.vector(), dice.turn(3.0));
+        place(w, 2, 1.5 * dice.vector().normalized(), dice.turn(3.0));
+        const double before = separation_now(w);
+        const double share = separation_share(PairView(w.scene, {1, 2}));
+        double way = 0.0;
+        for (const std::size_t body : {1u, 2u}) {
+            const Vec3 go = 0.05 * dice.vector();
+            const double angle = 0.05 * dice();
+            const Quaternion turn(Eigen::AngleAxisd(angle, dice.vector().normalized()));
+            way += go.norm() + std::abs(angle) * Travel::arm(w.scene.shapes[1]);
+            place(w, body, w.scene.bodies.position[body] + go,
+                  turn * w.scene.bodies.orientation[body]);
+        }
+        REQUIRE(separation_now(w) >= before - share * way - 1e-12);
+    }
+}
+
+TEST_CASE("of a form without bounds nothing is known", "[narrow][degenerate]") {
+    World w = two_boxes();
+    w.scene.shapes[1].bounds = ConvexBounds();
+    CHECK(separation_now(w) == -std::numeric_limits<double>::infinity());
+}
+
+TEST_CASE("edges that cross have a contact wherever between their spheres they do",
+          "[narrow][edges][analytic]") {
+    constexpr double kDepth = 0.004;  // [m]
+    World w = two_boxes();
+    // the first box's upper edge along y, seen along the mean of its faces' normals, and an upright
+    // edge of the second one that crosses it at an angle
+    const Vec3 n = Vec3(1, 0, 1).normalized(), edge = Vec3::UnitY();
+    const double angle = GENERATE(0.3, 0.8, 0.5) * std::numbers::pi;
+    const Vec3 line = std::cos(angle) * edge + std::sin(angle) * edge.cross(n);
+    const Vec3 across = line.cross(n);
+    Mat3 turn;
+    turn.col(0) = (-n - across).normalized();  // of the faces x and y that meet in its edge
+    turn.col(1) = (-n + across).normalized();
+    turn.col(2) = turn.col(0).cross(turn.col(1));
+    std::vector<Contact> contacts;
+    for (double along = -0.38; along < 0.385; along += 0.02)
+        for (double height = -0.13; height < 0.135; height += 0.02) {
+            const Vec3 meet = Vec3(0.5, along, 0.15) - kDepth * n;
+            place(w, 2, meet - turn * Vec3(0.5, 0.4, height), Quaternion(turn));
+            ContactFinder().find(w.scene, {{1, 2}}, NormalRule::surface, 0.0, 0.0, contacts);
+            CAPTURE(angle, along, height);
+            REQUIRE_FALSE(contacts.empty());
+            const auto deepest =
+                std::min_element(contacts.begin(), contacts.end(),
+                                 [](const Contact& l, const Contact& r) { return l.gap < r.gap; });
+            CHECK(deepest->gap == Approx(-kDepth).margin(1e-9));
+            CHECK((deepest->normal - n).norm() < 1e-6);  // creases' normals are floats
+        }
+}
