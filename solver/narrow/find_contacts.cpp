@@ -2,6 +2,7 @@
 #include "solver/narrow/find_contacts.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <tuple>
@@ -15,7 +16,31 @@
 
 namespace ice {
 
+struct FoundBatch {
+    std::uint64_t call = 0;
+    std::vector<Contact> contacts;
+    std::vector<SpherePair> spheres;
+};
+
 namespace {
+
+// Each call of find() has its own number, so that a thread knows what it has to forget.
+std::uint64_t next_call() {
+    static std::atomic<std::uint64_t> calls{0};
+    return ++calls;
+}
+
+// The calling thread's. By thread, not by pair: a pair's row changes from step to step, so lists by
+// row would all grow to what the largest pair ever needed.
+FoundBatch& batch_of(std::uint64_t call) {
+    thread_local FoundBatch batch;
+    if (batch.call != call) {
+        batch.contacts.clear();
+        batch.spheres.clear();
+        batch.call = call;
+    }
+    return batch;
+}
 
 // What is compared before its root is taken is not lost to rounding.
 constexpr double kRoundedUp = 1.0 + 1e-12;
@@ -148,11 +173,10 @@ double least_gap(const PairView& view, NormalRule rule, const Range& range, cons
 }
 
 // The spheres that may be candidates while the pair moves within `leeway`, and the least gap that
-// they may have, less that motion.
+// they may have, less that motion; appends them.
 double find_near(const PairView& view, NormalRule rule, double margin, const Leeway& leeway,
                  Workspace& work, std::vector<SpherePair>& out) {
     work.kinds.begin(view, prefers_a(view));
-    out.clear();
     const Range range(view, rule, margin + leeway.distance);
     double least = std::numeric_limits<double>::infinity();
     work.search.for_each_near(
@@ -169,17 +193,20 @@ double find_near(const PairView& view, NormalRule rule, double margin, const Lee
 
 void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs, NormalRule rule,
                          double dt, double margin, std::vector<Contact>& out) {
-    per_pair_.resize(std::max(per_pair_.size(), pairs.size()));
+    found_.assign(pairs.size(), Found{});
+    const std::uint64_t call = next_call();
     parallel_for(pairs.size(), kSerialPairs, [&](std::size_t k) {
         thread_local Workspace work;  // keeps its memory between pairs
-        per_pair_[k].clear();
+        FoundBatch& batch = batch_of(call);
+        const std::size_t first = batch.contacts.size();
         find_pair_contacts(scene, pairs[k], rule, dt * closing_speed(scene, pairs[k]) + margin,
-                           work, per_pair_[k],
+                           work, batch.contacts,
                            [&](const PairView& view, const Range& range, const Measure& measure) {
                                work.search.for_each_near(view, range.margin, range.reach, measure);
                            });
+        found_[k] = {&batch, first, batch.contacts.size() - first, 0, 0};
     });
-    join(pairs.size(), out);
+    join(out);
 }
 
 void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
@@ -194,41 +221,52 @@ void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
         awake_.push_back(k);
         known_.push_back(state == DormantPairs::State::known);
     }
-    per_pair_.resize(std::max(per_pair_.size(), awake_.size()));
-    found_.resize(std::max(found_.size(), awake_.size()));
+    found_.assign(awake_.size(), Found{});
+    const std::uint64_t call = next_call();
     parallel_for(awake_.size(), kSerialPairs, [&](std::size_t n) {
         thread_local Workspace work;
         const std::size_t k = awake_[n];
-        per_pair_[n].clear();
+        FoundBatch& batch = batch_of(call);
+        Found& found = found_[n];
+        found = {&batch, batch.contacts.size(), 0, batch.spheres.size(), 0};
         std::span<const SpherePair> near = dormant_.near(k);
         auto state = DormantPairs::State::known;
         if (!known_[n]) {
             const PairView view(scene, pairs[k]);
             const Leeway leeway = dormant_leeway(scene, pairs[k]);
-            const double least = find_near(view, rule, margin, leeway, work, found_[n]);
+            const double least = find_near(view, rule, margin, leeway, work, batch.spheres);
+            near = std::span(batch.spheres).subspan(found.sphere);
+            found.spheres = near.size();
             dormant_.settle(k, view, travel, leeway, std::min(least - margin, leeway.distance));
             state = dormant_.look(k, scene, pairs[k], travel, dt, margin);
             if (state == DormantPairs::State::asleep) return;
-            near = found_[n];
         }
         // a pair too fast for what can be known in advance is searched afresh
         find_pair_contacts(
-            scene, pairs[k], rule, dt * closing_speed(scene, pairs[k]) + margin, work, per_pair_[n],
-            [&](const PairView& view, const Range& range, const Measure& measure) {
+            scene, pairs[k], rule, dt * closing_speed(scene, pairs[k]) + margin, work,
+            batch.contacts, [&](const PairView& view, const Range& range, const Measure& measure) {
                 if (state == DormantPairs::State::unknown)
                     return work.search.for_each_near(view, range.margin, range.reach, measure);
                 for (const SpherePair& spheres : near) measure(spheres.a, spheres.b);
             });
+        found.contacts = batch.contacts.size() - found.contact;
     });
-    for (std::size_t n = 0; n < awake_.size(); ++n)
-        if (!known_[n]) dormant_.keep(awake_[n], found_[n]);
-    join(awake_.size(), out);
+    for (std::size_t n = 0; n < awake_.size(); ++n) {
+        const Found& found = found_[n];
+        if (!known_[n])
+            dormant_.keep(awake_[n],
+                          std::span(found.batch->spheres).subspan(found.sphere, found.spheres));
+    }
+    join(out);
 }
 
-void ContactFinder::join(std::size_t rows, std::vector<Contact>& out) const {
+void ContactFinder::join(std::vector<Contact>& out) const {
     out.clear();
-    for (std::size_t n = 0; n < rows; ++n)
-        out.insert(out.end(), per_pair_[n].begin(), per_pair_[n].end());
+    for (const Found& found : found_) {
+        const auto first =
+            found.batch->contacts.begin() + static_cast<std::ptrdiff_t>(found.contact);
+        out.insert(out.end(), first, first + static_cast<std::ptrdiff_t>(found.contacts));
+    }
 }
 
 namespace reference {

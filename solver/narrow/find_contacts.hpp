@@ -26,6 +26,9 @@ struct Contact {
     bool crushes_a;                   ///< the ice that gives way is sphere_a's; else sphere_b's
 };
 
+/// What one thread finds of its pairs, one after the other; of use within find() only.
+struct FoundBatch;
+
 /// Finds the contacts of all pairs, in pair order; threads share the pairs, not a pair.
 ///
 /// Within a pair they are ordered by where their spheres lie, y and -y alike, then by gap and
@@ -56,14 +59,19 @@ public:
               NormalRule rule, double dt, double margin, std::vector<Contact>& out);
 
 private:
-    // The contacts of the first rows of per_pair_.
-    void join(std::size_t rows, std::vector<Contact>& out) const;
+    // What was found of a pair: pieces of what one thread found.
+    struct Found {
+        const FoundBatch* batch = nullptr;
+        std::size_t contact = 0, contacts = 0;  // first and number
+        std::size_t sphere = 0, spheres = 0;    // what is newly known
+    };
+    // The contacts of all rows of found_.
+    void join(std::vector<Contact>& out) const;
 
     // kept between steps: no allocation once warm
-    std::vector<std::size_t> awake_;              // rows of the pairs that are looked at
-    std::vector<std::vector<Contact>> per_pair_;  // of these
-    std::vector<std::vector<SpherePair>> found_;  // of these: what is newly known
-    std::vector<std::uint8_t> known_;             // of these: is near() all that may touch?
+    std::vector<std::size_t> awake_;   // rows of the pairs that are looked at
+    std::vector<Found> found_;         // of these
+    std::vector<std::uint8_t> known_;  // of these: is near() all that may touch?
     DormantPairs dormant_;
 };
 
