@@ -44,7 +44,9 @@ def check_table(program, folder):
         check(0.0 < float(row["ms_min"]) <= float(row["ms_median"]), f"times of {row}")
         check(float(row["contacts"]) >= 0.0 and float(row["energy_J"]) > 0.0, f"sums of {row}")
         check(row["simd"] != "" or row["engine"] != "icesolve", f"instruction set of {row}")
-        check(f"{float(row['ms_min']):.4f}" in result.stdout, f"{row} is not in the table")
+        # both round the same time, the table to fewer digits: a tie may go either way
+        shown = {f"{float(row['ms_min']) + off:.4f}" for off in (-1e-6, 0.0, 1e-6)}
+        check(any(text in result.stdout for text in shown), f"{row} is not in the table")
     check(any(float(row["contacts"]) > 0.0 for row in rows), "no scene has contacts")
 
 
