@@ -4,6 +4,7 @@
 
 #include <omp.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <exception>
 #include <mutex>
@@ -54,8 +55,11 @@ void parallel_for(std::size_t count, std::size_t serial_below, const Body& body)
         for (std::size_t k = 0; k < count; ++k) body(k);
         return;
     }
+    // several pieces for each thread, as items may differ, but not so many that handing out counts
+    const int piece = static_cast<int>(
+        std::clamp<std::size_t>(count / (16 * std::size_t(omp_get_max_threads())), 16, 256));
     FirstException first;
-#pragma omp parallel for schedule(dynamic, 16)
+#pragma omp parallel for schedule(dynamic, piece)
     for (std::ptrdiff_t k = 0; k < static_cast<std::ptrdiff_t>(count); ++k)
         first.call(body, static_cast<std::size_t>(k));
     first.rethrow();

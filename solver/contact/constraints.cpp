@@ -87,17 +87,26 @@ void build_constraints(const Bodies& bodies, const std::vector<Contact>& contact
     });
 }
 
+bool WarmStart::less(const Entry& l, const Entry& r) {
+    return std::tie(l.a, l.b, l.key) < std::tie(r.a, r.b, r.key);
+}
+
+// Is it of an earlier pair?
+bool WarmStart::precedes(const Entry& e, const Contact& c) {
+    return std::tie(e.a, e.b) < std::tie(c.a, c.b);
+}
+
 void WarmStart::recall(const std::vector<Contact>& contacts,
                        std::vector<Constraint>& constraints) const {
-    const auto before = [](const Entry& e, const Contact& c) {
-        return std::tie(e.a, e.b, e.key) < std::tie(c.a, c.b, c.key);
-    };
+    auto first = entries_.begin(), last = entries_.begin();  // of the contact's pair
     for (std::size_t k = 0; k < contacts.size(); ++k) {
         const Contact& contact = contacts[k];
-        const auto found = std::lower_bound(entries_.begin(), entries_.end(), contact, before);
-        if (found == entries_.end() || found->a != contact.a || found->b != contact.b ||
-            found->key != contact.key)
-            continue;
+        while (first != entries_.end() && precedes(*first, contact)) last = ++first;
+        while (last != entries_.end() && last->a == contact.a && last->b == contact.b) ++last;
+        const auto found =
+            std::lower_bound(first, last, contact.key,
+                             [](const Entry& e, std::uint64_t key) { return e.key < key; });
+        if (found == last || found->key != contact.key) continue;
         Constraint& c = constraints[k];
         c.rest_normal = std::min(found->normal, std::max(c.strength - c.impact_normal, 0.0));
         c.rest_tangent = found->tangent - found->tangent.dot(c.normal) * c.normal;
@@ -109,13 +118,17 @@ void WarmStart::recall(const std::vector<Contact>& contacts,
 void WarmStart::remember(const std::vector<Contact>& contacts,
                          const std::vector<Constraint>& constraints) {
     entries_.clear();
-    for (std::size_t k = 0; k < contacts.size(); ++k)
-        if (constraints[k].rest_normal > 0.0)
-            entries_.push_back({contacts[k].a, contacts[k].b, contacts[k].key,
-                                constraints[k].rest_normal, constraints[k].rest_tangent});
-    std::sort(entries_.begin(), entries_.end(), [](const Entry& l, const Entry& r) {
-        return std::tie(l.a, l.b, l.key) < std::tie(r.a, r.b, r.key);
-    });
+    std::size_t first = 0;  // of the pair's entries
+    for (std::size_t k = 0; k < contacts.size(); ++k) {
+        if (constraints[k].rest_normal <= 0.0) continue;
+        if (entries_.size() > first && precedes(entries_[first], contacts[k])) {
+            std::sort(entries_.begin() + static_cast<std::ptrdiff_t>(first), entries_.end(), less);
+            first = entries_.size();
+        }
+        entries_.push_back({contacts[k].a, contacts[k].b, contacts[k].key,
+                            constraints[k].rest_normal, constraints[k].rest_tangent});
+    }
+    std::sort(entries_.begin() + static_cast<std::ptrdiff_t>(first), entries_.end(), less);
 }
 
 }  // namespace ice

@@ -63,8 +63,9 @@ class WarmStart {
 public:
     /// Sets rest_normal and rest_tangent of the contacts known from the last step. The tangential
     /// part is projected on the new tangent plane and the new cone.
-    void recall(const std::vector<Contact>& contacts, std::vector<Constraint>& constraints) const;
     /// @pre contacts ordered by (a, b), as ContactFinder gives them
+    void recall(const std::vector<Contact>& contacts, std::vector<Constraint>& constraints) const;
+    /// @pre as of recall
     void remember(const std::vector<Contact>& contacts, const std::vector<Constraint>& constraints);
 
 private:
@@ -76,6 +77,9 @@ private:
         double normal;
         Vec3 tangent;
     };
+    static bool precedes(const Entry& e, const Contact& c);
+    static bool less(const Entry& l, const Entry& r);
+
     std::vector<Entry> entries_;  ///< sorted by (a, b, key)
 };
 

@@ -82,17 +82,12 @@ void ContactRows::colour_pairs(const Bodies& bodies) {
 }
 
 void ContactRows::fill_block(const Bodies& bodies, const std::vector<Constraint>& constraints,
-                             std::size_t first_pair, std::size_t last_pair) {
-    PairBlock block;
-    block.first_row = static_cast<std::int32_t>(rows.size());
-    block.rows = pairs_[first_pair].count;  // the first has the most
-    block.colour = pairs_[first_pair].colour;
-    block.a.fill(-1);
-    block.b.fill(-1);
-    rows.resize(rows.size() + static_cast<std::size_t>(block.rows), ContactRow{});
-    for (std::size_t p = first_pair; p < last_pair; ++p) {
+                             std::size_t number) {
+    PairBlock& block = blocks[number];
+    std::fill_n(rows.begin() + block.first_row, block.rows, ContactRow{});
+    for (std::size_t p = first_pair_[number]; p < first_pair_[number + 1]; ++p) {
         const Pair& pair = pairs_[p];
-        const std::size_t lane = p - first_pair;
+        const std::size_t lane = p - first_pair_[number];
         const auto body = [&](std::int32_t l) {
             return static_cast<std::size_t>(bodies_[static_cast<std::size_t>(l)]);
         };
@@ -120,23 +115,35 @@ void ContactRows::fill_block(const Bodies& bodies, const std::vector<Constraint>
                 static_cast<std::int32_t>(kLanes) * (block.first_row + k) + static_cast<int>(lane);
         }
     }
-    blocks.push_back(block);
 }
 
 void ContactRows::build(const Bodies& bodies, const std::vector<Constraint>& constraints) {
-    blocks.clear();
-    rows.clear();
     slot_.assign(constraints.size(), -1);
     find_pairs(bodies, constraints);
     colour_pairs(bodies);
+    blocks.clear();
+    first_pair_.clear();
+    std::int32_t row = 0;
     for (std::size_t first = 0; first < pairs_.size();) {
         std::size_t last = first + 1;
         while (last < pairs_.size() && last < first + kLanes &&
                pairs_[last].colour == pairs_[first].colour)
             ++last;
-        fill_block(bodies, constraints, first, last);
+        PairBlock block;
+        block.first_row = row;
+        block.rows = pairs_[first].count;  // the first has the most
+        block.colour = pairs_[first].colour;
+        block.a.fill(-1);
+        block.b.fill(-1);
+        row += block.rows;
+        blocks.push_back(block);
+        first_pair_.push_back(first);
         first = last;
     }
+    first_pair_.push_back(pairs_.size());
+    rows.resize(static_cast<std::size_t>(row));
+    parallel_for(blocks.size(), kSerialContacts / (8 * kLanes),
+                 [&](std::size_t k) { fill_block(bodies, constraints, k); });
 }
 
 void ContactRows::load_motions(const Bodies& bodies) {
@@ -152,23 +159,24 @@ void ContactRows::set(std::size_t slot, const Constraint& c, double normal, cons
                       const Target& target) {
     ContactRow& row = rows[slot / kLanes];
     const std::size_t lane = slot % kLanes;
-    row.normal_mass.v[lane] = target.takes_part ? c.normal_mass : 0.0;
-    row.tangent_mass.v[lane] = target.takes_part ? c.tangent_mass : 0.0;
-    row.wanted.v[lane] = target.takes_part ? target.wanted : 0.0;
-    // what takes no part keeps what it has
-    row.bound.v[lane] = target.takes_part ? std::max(target.bound, 0.0) : normal;
+    row.normal_mass.v[lane] = c.normal_mass;
+    row.tangent_mass.v[lane] = c.tangent_mass;
+    row.wanted.v[lane] = target.wanted;
+    row.bound.v[lane] = std::max(target.bound, 0.0);
     row.impulse.normal.v[lane] = normal;
     put(row.impulse.tangent, lane, tangent);
 }
 
 void ContactRows::end_stage(Bodies& bodies, std::vector<Constraint>& constraints,
                             double Constraint::*normal, Vec3 Constraint::*tangent) const {
-    for (std::size_t k = 0; k < constraints.size(); ++k) {
+    for (const std::int32_t k : part_) {
         if (slot_[k] < 0) continue;
         Constraint& c = constraints[k];
         const std::size_t slot = static_cast<std::size_t>(slot_[k]);
         const RowImpulses& impulse = rows[slot / kLanes].impulse;
         const double normal_now = impulse.normal.v[slot % kLanes];
+        // most contacts are near ones that carry nothing; without a normal impulse no friction
+        if (normal_now == 0.0 && c.*normal == 0.0) continue;
         const Vec3 tangent_now = get(impulse.tangent, slot % kLanes);
         // the rounding of hundreds of small changes stays in `motion`; momentum is balanced
         apply_impulse(bodies, c, (normal_now - c.*normal) * c.normal + (tangent_now - c.*tangent));

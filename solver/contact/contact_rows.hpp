@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "common/base/parallel.hpp"
 #include "solver/contact/constraints.hpp"
 
 namespace ice {
@@ -66,21 +67,25 @@ public:
 
     /// What a stage asks of a contact.
     struct Target {
-        bool takes_part;
         double wanted;  ///< [m/s]
         double bound;   ///< [N s]; negative counts as 0
     };
 
     /// Takes velocities from the bodies, impulses and targets from the constraints.
+    /// @param which  constraints that take part, ascending; all that did since build() must. Those
+    ///               that can move nothing are passed over
     template <class TargetOf>
     void begin_stage(const Bodies& bodies, const std::vector<Constraint>& constraints,
-                     double Constraint::*normal, Vec3 Constraint::*tangent,
-                     const TargetOf& target_of) {
+                     const std::vector<std::int32_t>& which, double Constraint::*normal,
+                     Vec3 Constraint::*tangent, const TargetOf& target_of) {
         load_motions(bodies);
-        for (std::size_t k = 0; k < constraints.size(); ++k)
+        part_ = which;
+        parallel_for(part_.size(), kSerialContacts, [&](std::size_t n) {
+            const auto k = static_cast<std::size_t>(part_[n]);
             if (slot_[k] >= 0)
                 set(static_cast<std::size_t>(slot_[k]), constraints[k], constraints[k].*normal,
                     constraints[k].*tangent, target_of(constraints[k]));
+        });
     }
 
     /// Gives impulses to the constraints, and their change since begin_stage to the bodies.
@@ -105,13 +110,18 @@ private:
     void find_pairs(const Bodies& bodies, const std::vector<Constraint>& constraints);
     void colour_pairs(const Bodies& bodies);
     void fill_block(const Bodies& bodies, const std::vector<Constraint>& constraints,
-                    std::size_t first_pair, std::size_t last_pair);
+                    std::size_t block);
     std::int32_t local(std::int32_t body);
     void load_motions(const Bodies& bodies);
     void set(std::size_t slot, const Constraint& c, double normal, const Vec3& tangent,
              const Target& target);
 
+    // Fewer contacts than this [1] take less time than waking threads.
+    static constexpr std::size_t kSerialContacts = 1024;
+
     std::vector<Pair> pairs_;
+    std::vector<std::size_t> first_pair_;      // by block, and behind the last one
+    std::vector<std::int32_t> part_;           // constraints that take part in the stage
     std::vector<std::int32_t> bodies_;         // by local number
     std::vector<std::int32_t> local_;          // by body; -1 for those without contacts
     std::vector<std::uint64_t> used_colours_;  // by local number

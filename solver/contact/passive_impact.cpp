@@ -30,7 +30,7 @@ void mix(const std::vector<T>& a, const std::vector<T>& b, std::vector<T>& out) 
 }  // namespace
 
 void PassiveImpact::save(const Bodies& bodies, const ContactRows& contacts,
-                         const std::vector<Constraint>& constraints, State& out) {
+                         const std::vector<Constraint>& constraints, State& out) const {
     out.velocity.clear();
     out.angular_velocity.clear();
     out.normal.clear();
@@ -39,9 +39,9 @@ void PassiveImpact::save(const Bodies& bodies, const ContactRows& contacts,
         out.velocity.push_back(bodies.velocity[body]);
         out.angular_velocity.push_back(bodies.angular_velocity[body]);
     }
-    for (const Constraint& c : constraints) {
-        out.normal.push_back(c.impact_normal);
-        out.tangent.push_back(c.impact_tangent);
+    for (const std::int32_t k : which_) {
+        out.normal.push_back(constraints[k].impact_normal);
+        out.tangent.push_back(constraints[k].impact_tangent);
     }
 }
 
@@ -72,21 +72,23 @@ void PassiveImpact::measure_gains(const Bodies& bodies, const ContactRows& conta
                                   const std::vector<Constraint>& constraints, const State& end,
                                   std::vector<double>& out) const {
     out.assign(contacts.bodies().size(), 0.0);
-    for (std::size_t k = 0; k < constraints.size(); ++k) {
-        const Constraint& c = constraints[k];
+    for (std::size_t n = 0; n < which_.size(); ++n) {
+        const Constraint& c = constraints[which_[n]];
         if (c.normal_mass == 0.0) continue;
         const std::int32_t a = contacts.local_of(c.a), b = contacts.local_of(c.b);
         const auto relative = [&](const State& s) -> Vec3 {
             return s.velocity[b] + s.angular_velocity[b].cross(c.arm_b) - s.velocity[a] -
                    s.angular_velocity[a].cross(c.arm_a);
         };
-        const Vec3 j = end.normal[k] * c.normal + end.tangent[k];
+        const Vec3 j = end.normal[n] * c.normal + end.tangent[n];
         out[island_of(bodies, contacts, c)] += 0.5 * j.dot(relative(start_) + relative(end));
     }
 }
 
 void PassiveImpact::begin(const Bodies& bodies, const ContactRows& contacts,
-                          const std::vector<Constraint>& constraints) {
+                          const std::vector<Constraint>& constraints,
+                          const std::vector<std::int32_t>& which) {
+    which_ = which;
     save(bodies, contacts, constraints, start_);
 }
 
@@ -106,9 +108,9 @@ void PassiveImpact::set_aside(Bodies& bodies, const ContactRows& contacts,
         bodies.velocity[body] = start_.velocity[k];
         bodies.angular_velocity[body] = start_.angular_velocity[k];
     }
-    for (std::size_t k = 0; k < constraints.size(); ++k) {
-        constraints[k].impact_normal = start_.normal[k];
-        constraints[k].impact_tangent = start_.tangent[k];
+    for (std::size_t n = 0; n < which_.size(); ++n) {
+        constraints[which_[n]].impact_normal = start_.normal[n];
+        constraints[which_[n]].impact_tangent = start_.tangent[n];
     }
 }
 
@@ -138,13 +140,13 @@ void PassiveImpact::limit_rebound(Bodies& bodies, const ContactRows& contacts,
         bodies.velocity[body] = rebound_.velocity[k];
         bodies.angular_velocity[body] = rebound_.angular_velocity[k];
     }
-    for (std::size_t k = 0; k < constraints.size(); ++k) {
-        Constraint& c = constraints[k];
+    for (std::size_t n = 0; n < which_.size(); ++n) {
+        Constraint& c = constraints[which_[n]];
         const double s = c.normal_mass > 0.0 ? share(island_of(bodies, contacts, c)) : 1.0;
-        between(plastic_.normal[k], rebound_.normal[k], s);
-        between(plastic_.tangent[k], rebound_.tangent[k], s);
-        c.impact_normal = rebound_.normal[k];
-        c.impact_tangent = rebound_.tangent[k];
+        between(plastic_.normal[n], rebound_.normal[n], s);
+        between(plastic_.tangent[n], rebound_.tangent[n], s);
+        c.impact_normal = rebound_.normal[n];
+        c.impact_tangent = rebound_.tangent[n];
     }
 }
 

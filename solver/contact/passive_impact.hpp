@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "solver/contact/contact_rows.hpp"
@@ -10,9 +11,9 @@ namespace ice {
 /// Looks after the energy of the impact stage; keeps its memory between steps.
 class PassiveImpact {
 public:
-    /// Before the impacts.
+    /// Before the impacts. @param which  constraints that take part; the others have no impulse
     void begin(const Bodies& bodies, const ContactRows& contacts,
-               const std::vector<Constraint>& constraints);
+               const std::vector<Constraint>& constraints, const std::vector<std::int32_t>& which);
 
     /// Energy [J] that the impacts put into the floes beyond the ship's work, largest of all
     /// islands (floes connected by contacts); at most 0 for impacts that only lose energy.
@@ -40,13 +41,13 @@ public:
                        std::vector<Constraint>& constraints);
 
 private:
-    /// Velocities of the touched bodies, by local number, and impulses of the constraints.
+    /// Velocities of the touched bodies, by local number, and impulses of which_.
     struct State {
         std::vector<Vec3> velocity, angular_velocity, tangent;
         std::vector<double> normal;
     };
-    static void save(const Bodies& bodies, const ContactRows& contacts,
-                     const std::vector<Constraint>& constraints, State& out);
+    void save(const Bodies& bodies, const ContactRows& contacts,
+              const std::vector<Constraint>& constraints, State& out) const;
     void find_islands(const Bodies& bodies, const ContactRows& contacts,
                       const std::vector<Constraint>& constraints);
     std::int32_t island_of(const Bodies& bodies, const ContactRows& contacts,
@@ -56,6 +57,7 @@ private:
                        const std::vector<Constraint>& constraints, const State& end,
                        std::vector<double>& out) const;
 
+    std::vector<std::int32_t> which_;
     State start_, rebound_, plastic_, now_;
     std::vector<std::int32_t> islands_;  // per touched body: the smallest local number in it
     std::vector<double> gains_, at_zero_, at_half_, at_one_;  // per touched body

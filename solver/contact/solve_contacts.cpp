@@ -59,11 +59,10 @@ SolveReport ContactSolver::iterate(const ContactLaw& law) {
 
 SolveReport ContactSolver::solve_impacts(Bodies& bodies, std::vector<Constraint>& constraints,
                                          const ContactLaw& law, double restitution) {
-    contacts_.begin_stage(bodies, constraints, &Constraint::impact_normal,
+    contacts_.begin_stage(bodies, constraints, meeting_, &Constraint::impact_normal,
                           &Constraint::impact_tangent,
                           [&](const Constraint& c) -> ContactRows::Target {
-                              return {meets_within_step(c, law.dt),
-                                      c.rebounds ? -restitution * c.approach : 0.0, c.strength};
+                              return {c.rebounds ? -restitution * c.approach : 0.0, c.strength};
                           });
     const SolveReport report = iterate(law);
     contacts_.end_stage(bodies, constraints, &Constraint::impact_normal,
@@ -81,11 +80,12 @@ SolveReport ContactSolver::rebound(Bodies& bodies, std::vector<Constraint>& cons
     SolveReport report = solve_impacts(bodies, constraints, law, 0.0);
     for (int pass = 0; pass < kRebounds; ++pass) {
         int fresh = 0;
-        for (Constraint& c : constraints)
-            if (c.rebounds && c.impact_normal >= c.strength) {
-                c.rebounds = false;
-                ++fresh;
-            }
+        for (const std::int32_t k : meeting_) {
+            Constraint& c = constraints[k];
+            if (!c.rebounds || c.impact_normal < c.strength) continue;
+            c.rebounds = false;
+            ++fresh;
+        }
         if (pass > 0 && fresh == 0) break;
         add(solve_impacts(bodies, constraints, law, law.restitution), report);
     }
@@ -95,15 +95,18 @@ SolveReport ContactSolver::rebound(Bodies& bodies, std::vector<Constraint>& cons
 SolveReport ContactSolver::resolve_impacts(Bodies& bodies, std::vector<Constraint>& constraints,
                                            const ContactLaw& law) {
     contacts_.build(bodies, constraints);
-    for (Constraint& c : constraints)
-        if (c.normal_mass == 0.0 && !std::isinf(c.strength) && c.approach < 0.0 &&
-            meets_within_step(c, law.dt))
+    meeting_.clear();
+    bool approaching = false;
+    for (std::size_t k = 0; k < constraints.size(); ++k) {
+        Constraint& c = constraints[k];
+        if (!meets_within_step(c, law.dt)) continue;
+        meeting_.push_back(static_cast<std::int32_t>(k));
+        approaching = approaching || c.approach < 0.0;
+        if (c.normal_mass == 0.0 && !std::isinf(c.strength) && c.approach < 0.0)
             drive_through(bodies, c);
-    const bool approaching = std::any_of(
-        constraints.begin(), constraints.end(),
-        [&](const Constraint& c) { return c.approach < 0.0 && meets_within_step(c, law.dt); });
+    }
     if (!approaching) return {};
-    passive_.begin(bodies, contacts_, constraints);
+    passive_.begin(bodies, contacts_, constraints, meeting_);
     SolveReport report = rebound(bodies, constraints, law);
     if (law.restitution == 0.0 || passive_.energy_gain(bodies, contacts_, constraints) <= 0.0)
         return report;
@@ -119,25 +122,31 @@ SolveReport ContactSolver::resolve_rest(Bodies& bodies, std::vector<Constraint>&
     velocities_.clear();
     for (const std::int32_t body : contacts_.bodies())
         velocities_.emplace_back(bodies.velocity[body], bodies.angular_velocity[body]);
-    for (Constraint& c : constraints) {
+    guessed_.clear();
+    all_.resize(constraints.size());
+    for (std::size_t k = 0; k < constraints.size(); ++k) {
+        Constraint& c = constraints[k];
+        all_[k] = static_cast<std::int32_t>(k);
         if (c.normal_mass == 0.0) c.rest_normal = 0.0;
-        if (c.rest_normal > 0.0)
+        if (c.rest_normal > 0.0) {
             apply_impulse(bodies, c, c.rest_normal * c.normal + c.rest_tangent);
-        else
+            guessed_.push_back(all_[k]);
+        } else {
             c.rest_tangent.setZero();
+        }
     }
-    contacts_.begin_stage(
-        bodies, constraints, &Constraint::rest_normal, &Constraint::rest_tangent,
-        [&](const Constraint& c) -> ContactRows::Target {
-            return {true, -std::max(c.gap, 0.0) / law.dt, c.strength - c.impact_normal};
-        });
+    contacts_.begin_stage(bodies, constraints, all_, &Constraint::rest_normal,
+                          &Constraint::rest_tangent,
+                          [&](const Constraint& c) -> ContactRows::Target {
+                              return {-std::max(c.gap, 0.0) / law.dt, c.strength - c.impact_normal};
+                          });
     for (std::size_t k = 0; k < velocities_.size(); ++k) {
         const std::int32_t body = contacts_.bodies()[k];
         std::tie(bodies.velocity[body], bodies.angular_velocity[body]) = velocities_[k];
     }
-    for (Constraint& c : constraints) {
-        c.rest_normal = 0.0;
-        c.rest_tangent.setZero();
+    for (const std::int32_t k : guessed_) {
+        constraints[k].rest_normal = 0.0;
+        constraints[k].rest_tangent.setZero();
     }
     const SolveReport report = iterate(law);
     contacts_.end_stage(bodies, constraints, &Constraint::rest_normal, &Constraint::rest_tangent);

@@ -2,6 +2,7 @@
 /// Many contacts at once: impulses that satisfy all contact conditions together.
 #pragma once
 
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -58,7 +59,8 @@ private:
     ContactRows contacts_;
     Extrapolation extrapolation_;
     PassiveImpact passive_;
-    std::vector<std::pair<Vec3, Vec3>> velocities_;  // of the bodies with contacts
+    std::vector<std::pair<Vec3, Vec3>> velocities_;      // of the bodies with contacts
+    std::vector<std::int32_t> meeting_, guessed_, all_;  // constraints
 };
 
 }  // namespace ice

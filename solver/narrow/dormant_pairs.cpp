@@ -12,9 +12,11 @@ namespace ice {
 
 namespace {
 
-// A pair is looked ahead for this turn [rad] and this share of its ice's radius: more keeps more
+// A pair is looked ahead as far as it goes in so many steps, within these bounds: more keeps more
 // spheres, less has to be found anew sooner.
-constexpr double kLeewayAngle = 0.015, kLeewayShare = 0.6;
+constexpr double kLookAhead = 5.0;
+constexpr double kLeastAngle = 0.0075, kMostAngle = 0.015;  // [rad]
+constexpr double kLeastShare = 0.3, kMostShare = 0.6;       // of the ice's radius
 
 // Up to so many entries gaps do not matter.
 constexpr std::size_t kFewest = 4096;
@@ -101,10 +103,14 @@ DormantPairs::State DormantPairs::look(std::size_t k, const Scene& scene, BodyPa
     return then >= row.free ? State::known : State::asleep;
 }
 
-Leeway dormant_leeway(const Scene& scene, BodyPair pair) {
-    const auto shape = scene.bodies.shape[static_cast<std::size_t>(pair.b)];
-    return {kLeewayShare * scene.shapes[static_cast<std::size_t>(shape)].largest_radius,
-            kLeewayAngle};
+Leeway dormant_leeway(const Scene& scene, BodyPair pair, double dt) {
+    const Bodies& b = scene.bodies;
+    const auto shape = static_cast<std::size_t>(b.shape[static_cast<std::size_t>(pair.b)]);
+    const double radius = scene.shapes[shape].largest_radius, ahead = kLookAhead * dt;
+    const Vec3 turning = b.angular_velocity[pair.b] - b.angular_velocity[pair.a];
+    return {
+        std::clamp(ahead * closing_speed(scene, pair), kLeastShare * radius, kMostShare * radius),
+        std::clamp(ahead * turning.norm(), kLeastAngle, kMostAngle)};
 }
 
 }  // namespace ice

@@ -71,7 +71,7 @@ private:
     std::size_t kept_ = 0;  // entries of near_ that rows use
 };
 
-/// How far a pair is looked ahead.
-Leeway dormant_leeway(const Scene& scene, BodyPair pair);
+/// How far a pair is looked ahead. @param dt  the step [s]
+Leeway dormant_leeway(const Scene& scene, BodyPair pair, double dt);
 
 }  // namespace ice

@@ -5,11 +5,9 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
-#include <tuple>
 
 #include "common/base/parallel.hpp"
-#include "solver/narrow/emit_contacts.hpp"
-#include "solver/narrow/one_per_face.hpp"
+#include "solver/narrow/finish_pair.hpp"
 #include "solver/narrow/pair_kinds.hpp"
 #include "solver/narrow/search_pair.hpp"
 #include "solver/narrow/separation.hpp"
@@ -113,23 +111,6 @@ struct Measure {
     }
 };
 
-void finish_pair(const PairView& view, NormalRule rule, double margin,
-                 std::vector<Candidate>& candidates, std::vector<Contact>& out) {
-    const auto touches = [&](const Candidate& c) { return c.gap.gap <= margin; };
-    if (std::none_of(candidates.begin(), candidates.end(), touches)) return;
-    const auto before = static_cast<std::ptrdiff_t>(out.size());
-    if (rule == NormalRule::surface) keep_one_per_face(view, margin, candidates);
-    emit_contacts(view, rule, candidates, out);
-    // the solver takes contacts in this order, and its answer depends on it
-    const auto order = [&](const Contact& c) {
-        return std::tuple(mirrored_place(view.shape_a, c.sphere_a),
-                          mirrored_place(view.shape_b, c.sphere_b), c.gap, c.point.x(), c.point.z(),
-                          c.key);
-    };
-    std::sort(out.begin() + before, out.end(),
-              [&](const Contact& l, const Contact& r) { return order(l) < order(r); });
-}
-
 // What the search of a pair needs; kept between pairs.
 struct Workspace {
     PairSearch search;
@@ -149,11 +130,6 @@ void find_pair_contacts(const Scene& scene, BodyPair pair, NormalRule rule, doub
     work.kinds.begin(view, prefers_a(view));
     const Range range(view, rule, margin);
     visit_pairs(view, range, Measure{view, work.kinds, rule, range, work.candidates});
-    // the order of the search differs between poses: ascending, the answer is the pair's alone
-    std::sort(work.candidates.begin(), work.candidates.end(),
-              [](const Candidate& l, const Candidate& r) {
-                  return std::pair(l.i, l.j) < std::pair(r.i, r.j);
-              });
     finish_pair(view, rule, margin, work.candidates, out);
 }
 
@@ -233,7 +209,7 @@ void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
         auto state = DormantPairs::State::known;
         if (!known_[n]) {
             const PairView view(scene, pairs[k]);
-            const Leeway leeway = dormant_leeway(scene, pairs[k]);
+            const Leeway leeway = dormant_leeway(scene, pairs[k], dt);
             const double least = find_near(view, rule, margin, leeway, work, batch.spheres);
             near = std::span(batch.spheres).subspan(found.sphere);
             found.spheres = near.size();

@@ -29,7 +29,7 @@ KindMeeting find_meeting(const SphereSurface& a, const SphereSurface& b, bool pr
     return out;
 }
 
-KindPair::KindPair(const SphereSurface& a, const SphereSurface& b, bool prefer_a)
+KindPair::KindPair(const KindSurface& a, const KindSurface& b, bool prefer_a)
     : a_(&a), b_(&b), prefer_a_(prefer_a) {
     const KindMeeting meeting = find_meeting(a, b, prefer_a);
     rule_ = meeting.rule;
@@ -58,17 +58,19 @@ void KindPair::list_faces() {
 
 void KindPair::list_crossings() {
     const Faces &fa = a_->faces, &fb = b_->faces;
-    const Edges edges_a(fa), edges_b(fb);
     for (int ka = 0; ka < fa.edges(); ++ka)
         for (int kb = 0; kb < fb.edges(); ++kb) {
-            const Vec3 &ea = edges_a.unit[ka], &eb = edges_b.unit[kb];
+            const Vec3 &ea = a_->edge[ka], &eb = b_->edge[kb];
             const Vec3 across = ea.cross(eb);
             const double sine = across.norm();
             if (sine <= kParallel) continue;
             Crossing c;
             c.normal = 1.0 / sine * across;
-            c.forth = fa.have(c.normal, kSlantOnEdge) && fb.have(-c.normal, kSlantOnEdge);
-            c.back = fa.have(-c.normal, kSlantOnEdge) && fb.have(c.normal, kSlantOnEdge);
+            const Faces::Ways of_a = fa.have_either(c.normal, kSlantOnEdge);
+            if (!of_a.forth && !of_a.back) continue;
+            const Faces::Ways of_b = fb.have_either(c.normal, kSlantOnEdge);
+            c.forth = of_a.forth && of_b.back;
+            c.back = of_a.back && of_b.forth;
             if (!c.forth && !c.back) continue;
             c.ends = fa.ends() || fb.ends();
             // find_crossing's (between x eb) . across / square, turned round

@@ -28,11 +28,11 @@ struct KindDirection {
     Foothold under_a, under_b;  ///< what edges stand for there
 };
 
-/// All of Faces::edge.
-struct Edges {
-    Vec3 unit[3];  ///< as many as there are
-    explicit Edges(const Faces& faces) {
-        for (int k = 0; k < faces.edges(); ++k) unit[k] = faces.edge(k);
+/// A sphere's surface, and what its kind needs of that for each kind that it meets.
+struct KindSurface : SphereSurface {
+    Vec3 edge[3];  ///< all of Faces::edge, as many as there are
+    explicit KindSurface(const SphereSurface& s) : SphereSurface(s) {
+        for (int k = 0; k < faces.edges(); ++k) edge[k] = faces.edge(k);
     }
 };
 
@@ -41,7 +41,7 @@ struct Edges {
 class KindPair {
 public:
     /// @param a, b  one sphere of each kind, whose centre does not matter; both outlive this
-    KindPair(const SphereSurface& a, const SphereSurface& b, bool prefer_a);
+    KindPair(const KindSurface& a, const KindSurface& b, bool prefer_a);
 
     /// @param center_a, center_b  of the two spheres, in the axes of a and b [m]
     Gap measure(const Vec3& center_a, const Vec3& center_b) const {
@@ -53,9 +53,9 @@ public:
 private:
     // The normal across two edges.
     struct Crossing {
-        Vec3 normal;            // one way or the other
-        bool forth, back;       // is it a normal of both, from a to b and from b to a?
-        bool ends;              // does one of them end there?
+        Vec3 normal;                       // one way or the other
+        bool forth = false, back = false;  // is it a normal of both, from a to b, from b to a?
+        bool ends = false;                 // does one of them end there?
         Vec3 along_a, along_b;  // how far from there they are nearest: this . (corner to corner)
         std::int8_t edge_a, edge_b;
     };
@@ -68,7 +68,7 @@ private:
     Gap measure_afresh(const Vec3& center_a, const Vec3& center_b) const;
     bool meet(const Crossing& c, const Vec3& between) const;
 
-    const SphereSurface *a_, *b_;
+    const KindSurface *a_, *b_;
     bool prefer_a_, a_is_surface_;
     KindRule rule_;
     std::uint8_t faces_ = 0, crossings_ = 0;  // that may part them

@@ -32,30 +32,43 @@ bool same_probe(const Candidate& l, const Candidate& r) {
     return l.gap.a_is_surface == r.gap.a_is_surface && l.probe() == r.probe();
 }
 
-// Ascending by probe; of a probe by distance, ties by what mirror images have in common.
-void sort_by_probe(const PairView& view, std::vector<Candidate>& candidates) {
-    std::sort(candidates.begin(), candidates.end(), [&](const Candidate& l, const Candidate& r) {
-        const auto first = [](const Candidate& c) {
-            return std::tuple(c.gap.a_is_surface, c.probe(), c.gap.lateral_sq);
-        };
-        if (first(l) != first(r)) return first(l) < first(r);
+// A candidate's place in the order: by probe, of a probe by distance, ties by what mirror images
+// have in common. Candidates are large, these are moved instead.
+struct Row {
+    std::int64_t probe;
+    double lateral_sq;
+    const Candidate* candidate;
+};
+
+void sort_by_probe(const PairView& view, const std::vector<Candidate>& candidates,
+                   std::vector<Row>& out) {
+    out.clear();
+    for (const Candidate& c : candidates)
+        out.push_back(
+            {2 * std::int64_t{c.probe()} + (c.gap.a_is_surface ? 1 : 0), c.gap.lateral_sq, &c});
+    std::sort(out.begin(), out.end(), [&](const Row& l, const Row& r) {
+        if (l.probe != r.probe) return l.probe < r.probe;
+        if (l.lateral_sq != r.lateral_sq) return l.lateral_sq < r.lateral_sq;
         const auto tie = [&](const Candidate& c) {
-            return std::tuple(mirrored_place(view.shape_a, c.i), mirrored_place(view.shape_b, c.j),
-                              c.i, c.j);
+            return std::tuple(view.shape_a.mirror_rank[c.i], view.shape_b.mirror_rank[c.j], c.i,
+                              c.j);
         };
-        return tie(l) < tie(r);
+        return tie(*l.candidate) < tie(*r.candidate);
     });
 }
 
 }  // namespace
 
 void keep_one_per_face(const PairView& view, double margin, std::vector<Candidate>& candidates) {
-    sort_by_probe(view, candidates);
-    std::size_t kept = 0, group = 0;  // [group, kept) are the kept ones of the present probe
-    for (const Candidate& now : candidates) {
-        if (kept > group && !same_probe(candidates[group], now)) group = kept;
-        const auto first = candidates.begin() + static_cast<std::ptrdiff_t>(group);
-        const auto last = candidates.begin() + static_cast<std::ptrdiff_t>(kept);
+    thread_local std::vector<Row> rows;  // keep their memory
+    thread_local std::vector<Candidate> kept;
+    sort_by_probe(view, candidates, rows);
+    kept.clear();
+    std::size_t group = 0;  // [group, kept.size()) are the kept ones of the present probe
+    for (const Row& row : rows) {
+        const Candidate& now = *row.candidate;
+        if (kept.size() > group && !same_probe(kept[group], now)) group = kept.size();
+        const auto first = kept.begin() + static_cast<std::ptrdiff_t>(group), last = kept.end();
         if (std::any_of(first, last, [&](const Candidate& other) {
                 return other.gap.normal.dot(now.gap.normal) > kSameFaceCos;
             }))
@@ -64,12 +77,13 @@ void keep_one_per_face(const PairView& view, double margin, std::vector<Candidat
             return meet_outwards(face_of(view, other), face_of(view, now));
         });
         if (edge == last)
-            candidates[kept++] = now;
+            kept.push_back(now);
         else if (now.gap.gap > edge->gap.gap)
             *edge = now;
     }
-    candidates.resize(kept);
-    std::erase_if(candidates, [&](const Candidate& c) { return c.gap.gap > margin; });
+    candidates.clear();
+    for (const Candidate& c : kept)
+        if (c.gap.gap <= margin) candidates.push_back(c);
 }
 
 }  // namespace ice

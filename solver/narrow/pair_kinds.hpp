@@ -54,7 +54,8 @@ public:
     double bound(std::int32_t i, std::int32_t j, const Place& a, const Place& b, double reach,
                  const Leeway& leeway) {
         if (a.kind < 0 || b.kind < 0)
-            return KindBound(view_->sphere_a(i), view_->sphere_b(j), prefer_a_, reach, leeway)
+            return KindBound(KindSurface(view_->sphere_a(i)), KindSurface(view_->sphere_b(j)),
+                             prefer_a_, reach, leeway)
                 .least(a.center, b.center);
         return bounds_
             .get(a.kind, b.kind, a_.surface(a.kind), b_.surface(b.kind), prefer_a_, reach, leeway)
@@ -85,11 +86,11 @@ private:
             if (at.pair != pair_) {
                 if (surfaces_.size() == kMost) return -1;
                 at = {pair_, static_cast<std::int32_t>(surfaces_.size())};
-                surfaces_.push_back(make());
+                surfaces_.emplace_back(make());
             }
             return static_cast<std::int8_t>(at.row);
         }
-        const SphereSurface& surface(std::int8_t kind) const {
+        const KindSurface& surface(std::int8_t kind) const {
             return surfaces_[static_cast<std::size_t>(kind)];
         }
 
@@ -99,7 +100,7 @@ private:
             std::int32_t row = 0;
         };
         std::vector<Place> places_;
-        std::vector<SphereSurface> surfaces_;  // never moves: it holds kMost
+        std::vector<KindSurface> surfaces_;  // never moves: it holds kMost
         std::vector<Stamp> place_at_, kind_at_;
         std::uint64_t pair_ = 0;
     };

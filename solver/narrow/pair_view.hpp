@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <cmath>
-#include <tuple>
-
 #include "solver/broad/find_pairs.hpp"
 #include "solver/narrow/measure_gap.hpp"
 #include "solver/scene/bodies.hpp"
@@ -69,13 +66,5 @@ struct Candidate {
     Gap gap;
     std::int32_t probe() const { return gap.a_is_surface ? j : i; }
 };
-
-/// What a sphere has in common with its mirror image about y = 0 in the body's axes. Decisions and
-/// orders that look at this before any index make mirror-image states go on as mirror images, bit
-/// for bit.
-inline std::tuple<double, double, double> mirrored_place(const Shape& shape, std::int32_t k) {
-    const Vec3& c = shape.center[static_cast<std::size_t>(k)];
-    return {c.x(), std::abs(c.y()), c.z()};
-}
 
 }  // namespace ice

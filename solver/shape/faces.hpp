@@ -29,10 +29,21 @@ struct Faces {
     /// @param slack  all bounds are wider by this [rad]; negative: narrower
     /// @pre count > 0
     bool have(const Vec3& n, double most_along, double slack = 0.0) const {
+        return have_either(n, most_along, slack).forth;
+    }
+    /// Is n, and is -n?
+    struct Ways {
+        bool forth, back;
+    };
+    Ways have_either(const Vec3& n, double most_along, double slack = 0.0) const {
         const double least = kBelongs * size - slack;  // no `part` is longer than 1
-        if (n.dot(part[0]) < least || n.dot(part[1]) < least) return false;
-        const double last = n.dot(part[2]);
-        return count == 2 ? std::abs(last) <= most_along + slack : last >= least;
+        const double first = n.dot(part[0]), second = n.dot(part[1]), last = n.dot(part[2]);
+        Ways out{first >= least && second >= least, -first >= least && -second >= least};
+        if (count == 2) {
+            const bool across = std::abs(last) <= most_along + slack;
+            return {out.forth && across, out.back && across};
+        }
+        return {out.forth && last >= least, out.back && -last >= least};
     }
 
     /// Least of n . (p - corner) [m] for the points p of the solid that the faces bound, going from

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
+#include <tuple>
 
 #include "common/base/error.hpp"
 #include "solver/shape/sphere_grid.hpp"
@@ -137,6 +139,21 @@ void find_kinds(Shape& shape) {
     shape.kinds = known.size();
 }
 
+void rank_places(Shape& shape) {
+    const std::vector<Vec3>& at = shape.center;
+    const auto place = [&](std::int32_t k) {
+        return std::tuple(at[k].x(), std::abs(at[k].y()), at[k].z());
+    };
+    std::vector<std::int32_t> order(at.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::sort(order.begin(), order.end(),
+              [&](std::int32_t l, std::int32_t r) { return place(l) < place(r); });
+    shape.mirror_rank.assign(at.size(), 0);
+    for (std::size_t k = 1; k < order.size(); ++k)
+        shape.mirror_rank[order[k]] =
+            shape.mirror_rank[order[k - 1]] + (place(order[k - 1]) < place(order[k]) ? 1 : 0);
+}
+
 // The largest distance from a surface sphere to its nearest neighbour is the set's real spacing s.
 // A square lattice leaves points s / sqrt(2) from every sphere, a hexagonal one s / sqrt(3). On a
 // thin plate the nearest is across the thickness: along the edges they are the nominal apart.
@@ -166,6 +183,7 @@ Shape build_shape(const SphereSet& set, bool about_centre_of_mass) {
     shape.region_names = set.mesh.region_names;
     copy_surface_spheres(set, origin, shape);
     find_kinds(shape);
+    rank_places(shape);
     if (shape.center.empty())
         throw bad_input(set.source_mesh, "the sphere set has no surface spheres",
                         "make it again with spherize");

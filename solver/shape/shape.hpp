@@ -30,6 +30,9 @@ struct Shape {
     std::vector<Faces> faces;        ///< that meet at the sphere; none on a face
     std::vector<std::int32_t> kind;  ///< spheres of one kind differ by place, area and region only
     std::size_t kinds = 0;
+    /// Rank by place, mirror images about y = 0 alike. Decisions and orders that look at this
+    /// before any index make mirror-image states go on as mirror images, bit for bit.
+    std::vector<std::int32_t> mirror_rank;
     std::vector<double> area;  ///< share of the surface [m2]
     FaceRegions region;        ///< rows of region_names
     std::vector<std::string> region_names;

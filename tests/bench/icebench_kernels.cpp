@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <functional>
 #include <limits>
+#include <numeric>
 
 #include "common/base/instruction_set.hpp"
 #include "common/base/timer.hpp"
@@ -91,9 +92,11 @@ double time_sweep(const World& w) {
     std::vector<Constraint> constraints = w.constraints;
     ContactRows rows;
     rows.build(w.scene.bodies, constraints);
-    rows.begin_stage(w.scene.bodies, constraints, &Constraint::rest_normal,
+    std::vector<std::int32_t> all(constraints.size());
+    std::iota(all.begin(), all.end(), 0);
+    rows.begin_stage(w.scene.bodies, constraints, all, &Constraint::rest_normal,
                      &Constraint::rest_tangent, [&](const Constraint& c) -> ContactRows::Target {
-                         return {true, -std::max(c.gap, 0.0) / w.parameters.time_step, c.strength};
+                         return {-std::max(c.gap, 0.0) / w.parameters.time_step, c.strength};
                      });
     return least_ns(20, static_cast<double>(constraints.size()),
                     [&] { sweep(rows.blocks, rows.rows, rows.motion); });
