@@ -142,8 +142,8 @@ void ContactRows::build(const Bodies& bodies, const std::vector<Constraint>& con
     }
     first_pair_.push_back(pairs_.size());
     rows.resize(static_cast<std::size_t>(row));
-    parallel_for(blocks.size(), kSerialContacts / (8 * kLanes),
-                 [&](std::size_t k) { fill_block(bodies, constraints, k); });
+    // by this thread: it sweeps the rows, and takes longer to fetch them from another core
+    for (std::size_t k = 0; k < blocks.size(); ++k) fill_block(bodies, constraints, k);
 }
 
 void ContactRows::load_motions(const Bodies& bodies) {

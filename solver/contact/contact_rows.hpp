@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "common/base/parallel.hpp"
 #include "solver/contact/constraints.hpp"
 
 namespace ice {
@@ -80,12 +79,10 @@ public:
                      Vec3 Constraint::*tangent, const TargetOf& target_of) {
         load_motions(bodies);
         part_ = which;
-        parallel_for(part_.size(), kSerialContacts, [&](std::size_t n) {
-            const auto k = static_cast<std::size_t>(part_[n]);
+        for (const std::int32_t k : part_)
             if (slot_[k] >= 0)
                 set(static_cast<std::size_t>(slot_[k]), constraints[k], constraints[k].*normal,
                     constraints[k].*tangent, target_of(constraints[k]));
-        });
     }
 
     /// Gives impulses to the constraints, and their change since begin_stage to the bodies.
@@ -115,9 +112,6 @@ private:
     void load_motions(const Bodies& bodies);
     void set(std::size_t slot, const Constraint& c, double normal, const Vec3& tangent,
              const Target& target);
-
-    // Fewer contacts than this [1] take less time than waking threads.
-    static constexpr std::size_t kSerialContacts = 1024;
 
     std::vector<Pair> pairs_;
     std::vector<std::size_t> first_pair_;      // by block, and behind the last one

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <tuple>
 
-#include "common/base/parallel.hpp"
-
 namespace ice {
 
 namespace {
@@ -23,9 +21,6 @@ constexpr double kMostPush = 0.005;
 
 constexpr int kSeparationIterations = 10;
 
-// Fewer contacts take less time than waking threads.
-constexpr std::size_t kSerialContacts = 1024;
-
 double gap_after(const Bodies& bodies, const Constraint& c, double dt) {
     return c.gap + dt * relative_velocity(bodies, c).dot(c.normal);
 }
@@ -40,15 +35,11 @@ void Overlaps::separate(const Bodies& bodies, const std::vector<Constraint>& con
         out.shift[i].setZero();
         out.turn[i].setZero();
     }
-    gaps_.resize(constraints.size());
-    parallel_for(constraints.size(), kSerialContacts,
-                 [&](std::size_t k) { gaps_[k] = gap_after(bodies, constraints[k], law.dt); });
     pushes_.clear();
     for (std::size_t k = 0; k < constraints.size(); ++k) {
-        const double gap = gaps_[k];
-        if (gap >= -kSlop) continue;
         const Constraint& c = constraints[k];
-        if (c.normal_mass > 0.0 && !c.crushed())
+        const double gap = gap_after(bodies, c, law.dt);
+        if (gap < -kSlop && c.normal_mass > 0.0 && !c.crushed())
             pushes_.push_back({k, std::min(kPushShare * (-gap - kSlop), kMostPush), 0.0});
     }
     for (int iteration = 0; iteration < kSeparationIterations; ++iteration)

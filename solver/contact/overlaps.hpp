@@ -40,7 +40,6 @@ private:
         double gap;    // at the end of the step [m]
         Vec3 inwards;  // world axes
     };
-    std::vector<double> gaps_;  // by constraint, at the end of the step [m]
     std::vector<Push> pushes_;
     std::vector<Dent> dents_;
 };
