@@ -25,7 +25,7 @@ void limit_drag(const Bodies& b, std::size_t i, double dt, WaterLoad& drag) {
     const double stop = b.mass[i] * b.velocity[i].norm(), push = dt * drag.force.norm();
     if (push > stop) drag.force *= stop / push;
     const Mat3& r = b.rotation[i];
-    const double halt = (r * (b.inertia[i] * (r.transpose() * b.angular_velocity[i]))).norm();
+    const double halt = (r * (b.inertia(i) * (r.transpose() * b.angular_velocity[i]))).norm();
     const double twist = dt * drag.moment.norm();
     if (twist > halt) drag.moment *= halt / twist;
 }
@@ -64,8 +64,7 @@ FloeLoad load_of(const Scene& scene, const Case& p, std::size_t i) {
 
 void measure_loads(const Scene& scene, const Case& parameters, std::vector<FloeLoad>& out) {
     out.resize(scene.bodies.size());
-    for_each_moving(scene.bodies,
-                    [&](std::size_t i) { out[i] = load_of(scene, parameters, i); });
+    for_each_moving(scene.bodies, [&](std::size_t i) { out[i] = load_of(scene, parameters, i); });
 }
 
 void apply_loads(Bodies& bodies, const std::vector<FloeLoad>& loads, double dt) {
@@ -81,7 +80,7 @@ void store_momenta(Bodies& bodies, const std::vector<Vec3>& angular_velocity_sta
         const Vec3 change = bodies.angular_velocity[i] - angular_velocity_start[i];
         bodies.momentum[i] = bodies.mass[i] * bodies.velocity[i];
         if (!change.isZero(0.0))
-            bodies.angular_momentum[i] += r * (bodies.inertia[i] * (r.transpose() * change));
+            bodies.angular_momentum[i] += r * (bodies.inertia(i) * (r.transpose() * change));
     });
 }
 
@@ -91,7 +90,7 @@ void advance_poses(Scene& scene, const Nudges& nudges, double dt) {
     for_each_moving(b, [&](std::size_t i) {
         b.position[i] += dt * b.velocity[i] + nudges.shift[i];
         b.orientation[i] =
-            advance_orientation(b.orientation[i], b.inverse_inertia[i], b.angular_momentum[i], dt);
+            advance_orientation(b.orientation[i], b.inverse_inertia(i), b.angular_momentum[i], dt);
         if (!nudges.turn[i].isZero(0.0))
             b.orientation[i] = (exponential_map(nudges.turn[i]) * b.orientation[i]).normalized();
         update_derived(b, i);

@@ -30,7 +30,7 @@ RunHeader make_header(const Case& parameters, const Scene& scene, const std::str
         header.body_shape.push_back(b.shape[i]);
         header.body_group.push_back(b.group[i]);
         header.body_mass.push_back(b.mass[i]);
-        header.body_inertia.push_back(b.inertia[i].diagonal());
+        header.body_inertia.push_back(b.inertia(i).diagonal());
     }
     header.tracked.assign(parameters.track.begin(), parameters.track.end());
     return header;

@@ -16,7 +16,7 @@ void update_derived(Bodies& bodies, std::size_t i) {
     }
     const Mat3& r = bodies.rotation[i];
     bodies.inverse_mass[i] = 1.0 / bodies.mass[i];
-    bodies.inverse_inertia_world[i] = r * bodies.inverse_inertia[i] * r.transpose();
+    bodies.inverse_inertia_world[i] = r * bodies.inverse_inertia(i) * r.transpose();
     bodies.velocity[i] = bodies.momentum[i] / bodies.mass[i];
     bodies.angular_velocity[i] = bodies.inverse_inertia_world[i] * bodies.angular_momentum[i];
 }

@@ -14,18 +14,26 @@ namespace ice {
 
 using Quaternion = Eigen::Quaterniond;
 
-/// Structure of arrays, one entry per body.
+/// Moments of inertia in body axes, about the centre of mass.
+struct Inertia {
+    double density;  ///< for which they hold [kg/m3]
+    Mat3 body;       ///< [kg m2]
+    Mat3 inverse;    ///< of `body`; 2D: about y only
+};
+
+/// Structure of arrays, one entry per body but for those of inertias.
 ///
 /// Momentum and angular momentum are the state (CONTRACT.md, section 6); velocities and world
 /// inverse inertias are derived from them at known points of a step. A held floe and the ship have
 /// inverse mass and inertia zero: no impulse moves them.
 struct Bodies {
     // set by build_scene, constant
-    std::vector<std::int32_t> shape;    ///< row of Scene::shapes
-    std::vector<std::int32_t> group;    ///< row of Case::floes; -1 for the ship
-    std::vector<double> mass;           ///< [kg], 2D per metre of breadth; 0 for the ship
-    std::vector<Mat3> inertia;          ///< body axes, about the centre of mass [kg m2]
-    std::vector<Mat3> inverse_inertia;  ///< of `inertia`; 2D: about y only
+    std::vector<std::int32_t> shape;             ///< row of Scene::shapes
+    std::vector<std::int32_t> group;             ///< row of Case::floes; -1 for the ship
+    std::vector<double> mass;                    ///< [kg], 2D per metre of breadth; 0 for the ship
+    std::vector<std::int32_t> inertia_row;       ///< row of inertias
+    std::vector<Inertia> inertias;               ///< bodies of one shape and density share them
+    std::vector<std::int32_t> inertia_of_shape;  ///< by shape: its newest row; -1 for none
 
     // the state, advanced by integrate/
     std::vector<Vec3> position;           ///< centre of mass; ship: mesh origin [m]
@@ -43,6 +51,12 @@ struct Bodies {
     std::vector<Mat3> inverse_inertia_world;  ///< R I^-1 R^T; 0 while held
 
     std::size_t size() const { return shape.size(); }
+    const Mat3& inertia(std::size_t i) const {
+        return inertias[static_cast<std::size_t>(inertia_row[i])].body;
+    }
+    const Mat3& inverse_inertia(std::size_t i) const {
+        return inertias[static_cast<std::size_t>(inertia_row[i])].inverse;
+    }
 };
 
 /// Everything a step needs of the bodies.

@@ -75,7 +75,7 @@ void add_group(Scene& scene, const Case& parameters, std::size_t g, std::int32_t
                      static_cast<std::int32_t>(g), group.hold != Hold::never);
         if (group.pattern != Pattern::single) continue;
         Bodies& b = scene.bodies;
-        const Mat3 inertia_world = rotation * b.inertia[i] * rotation.transpose();
+        const Mat3 inertia_world = rotation * b.inertia(i) * rotation.transpose();
         b.momentum[i] = b.mass[i] * group.velocity;
         b.angular_momentum[i] = inertia_world * group.angular_velocity;
         update_derived(b, i);
@@ -125,6 +125,23 @@ void add_field_group(Scene& scene, const Case& parameters, std::size_t g, ShapeR
     }
 }
 
+// The row of a shape's moments of inertia, made where no body of it has this density yet.
+std::int32_t share_inertia(Scene& scene, std::int32_t shape_row, double density) {
+    Bodies& b = scene.bodies;
+    b.inertia_of_shape.resize(scene.shapes.size(), -1);
+    std::int32_t& row = b.inertia_of_shape[static_cast<std::size_t>(shape_row)];
+    if (row >= 0 && b.inertias[static_cast<std::size_t>(row)].density == density) return row;
+    const Mat3& solid = scene.shapes[static_cast<std::size_t>(shape_row)].solid.inertia;
+    Inertia inertia{density, density * solid, Mat3::Zero()};
+    if (scene.dimension == 2)
+        inertia.inverse(1, 1) = 1.0 / inertia.body(1, 1);
+    else
+        inertia.inverse = inertia.body.inverse();
+    row = static_cast<std::int32_t>(b.inertias.size());
+    b.inertias.push_back(inertia);
+    return row;
+}
+
 }  // namespace
 
 Scene make_scene(Shape hull, const Vec3& position, const Vec3& velocity) {
@@ -136,8 +153,8 @@ Scene make_scene(Shape hull, const Vec3& position, const Vec3& velocity) {
     b.shape.push_back(0);
     b.group.push_back(-1);
     b.mass.push_back(0.0);
-    b.inertia.push_back(Mat3::Zero());
-    b.inverse_inertia.push_back(Mat3::Zero());
+    b.inertias.push_back({0.0, Mat3::Zero(), Mat3::Zero()});
+    b.inertia_row.push_back(0);
     b.position.push_back(position);
     b.orientation.push_back(Quaternion::Identity());
     b.momentum.push_back(Vec3::Zero());
@@ -155,17 +172,10 @@ std::size_t add_floe(Scene& scene, std::int32_t shape_row, double density, const
                      const Quaternion& orientation, std::int32_t group, bool held) {
     const Shape& shape = scene.shapes[static_cast<std::size_t>(shape_row)];
     Bodies& b = scene.bodies;
-    const Mat3 inertia = density * shape.solid.inertia;
-    Mat3 inverse = Mat3::Zero();
-    if (scene.dimension == 2)
-        inverse(1, 1) = 1.0 / inertia(1, 1);
-    else
-        inverse = inertia.inverse();
     b.shape.push_back(shape_row);
     b.group.push_back(group);
     b.mass.push_back(density * shape.solid.volume);
-    b.inertia.push_back(inertia);
-    b.inverse_inertia.push_back(inverse);
+    b.inertia_row.push_back(share_inertia(scene, shape_row, density));
     b.position.push_back(position);
     b.orientation.push_back(orientation);
     b.momentum.push_back(Vec3::Zero());

@@ -92,7 +92,7 @@ std::size_t add_floe(World& world, std::int32_t form, const FloeStart& start) {
                                    group_of(p, start.hold), start.hold != Hold::never);
     const Mat3 rotation = orientation.toRotationMatrix();
     b.momentum[i] = b.mass[i] * start.velocity;
-    b.angular_momentum[i] = rotation * b.inertia[i] * rotation.transpose() * start.angular_velocity;
+    b.angular_momentum[i] = rotation * b.inertia(i) * rotation.transpose() * start.angular_velocity;
     update_derived(b, i);
     return i;
 }

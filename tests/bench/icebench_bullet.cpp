@@ -111,7 +111,7 @@ private:
         btVector3 inertia(0, 0, 0);
         if (!ship) {
             mass_ = b.mass[i];
-            inertia_ = b.inertia[i].diagonal();  // of a box, in its axes
+            inertia_ = b.inertia(i).diagonal();  // of a box, in its axes
             inertia = to_bullet(inertia_);
         }
         btRigidBody::btRigidBodyConstructionInfo info(static_cast<btScalar>(b.mass[i]), nullptr,

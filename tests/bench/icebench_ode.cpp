@@ -86,7 +86,7 @@ private:
             dBodySetKinematic(body);
         } else {
             mass_ = b.mass[i];
-            inertia_ = b.inertia[i].diagonal();  // of a box, in its axes
+            inertia_ = b.inertia(i).diagonal();  // of a box, in its axes
             dMass mass;
             dMassSetParameters(&mass, mass_, 0, 0, 0, inertia_.x(), inertia_.y(), inertia_.z(), 0,
                                0, 0);

@@ -86,7 +86,7 @@ private:
     void set_mass(std::size_t i) {
         b2MassData mass;
         mass.mass = static_cast<float>(world_.scene.bodies.mass[i]);
-        mass.I = static_cast<float>(world_.scene.bodies.inertia[i](1, 1));
+        mass.I = static_cast<float>(world_.scene.bodies.inertia(i)(1, 1));
         mass.center.SetZero();
         bodies_[i]->SetMassData(&mass);
     }

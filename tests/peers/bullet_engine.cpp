@@ -103,7 +103,7 @@ private:
 
     void make_free(std::size_t i) {
         btRigidBody& body = *bodies_[i];
-        const double inertia = world_.scene.bodies.inertia[i](1, 1);
+        const double inertia = world_.scene.bodies.inertia(i)(1, 1);
         body.setMassProps(world_.scene.bodies.mass[i], btVector3(inertia, inertia, inertia));
         body.updateInertiaTensor();
         body.setLinearFactor(btVector3(1, 1, 0));

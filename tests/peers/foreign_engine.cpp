@@ -76,7 +76,7 @@ void ForeignEngine::take_over(std::size_t i) {
     b.position[i] = Vec3(s.position.x(), 0.0, s.position.y());
     b.orientation[i] = Quaternion(Eigen::AngleAxisd(-s.angle, Vec3::UnitY()));
     b.momentum[i] = b.mass[i] * Vec3(s.velocity.x(), 0.0, s.velocity.y());
-    b.angular_momentum[i] = Vec3(0.0, -b.inertia[i](1, 1) * s.turn, 0.0);
+    b.angular_momentum[i] = Vec3(0.0, -b.inertia(i)(1, 1) * s.turn, 0.0);
     update_derived(b, i);
 }
 

@@ -51,7 +51,7 @@ Mat3 response(const Bodies& b, const Vec3& point) {
     for (const std::size_t i : {std::size_t{1}, std::size_t{2}}) {
         const Mat3 r = cross_matrix(point - b.position[i]);
         const Mat3 turn = b.orientation[i].toRotationMatrix();
-        const Mat3 inertia = turn * b.inertia[i] * turn.transpose();
+        const Mat3 inertia = turn * b.inertia(i) * turn.transpose();
         k += Mat3::Identity() / b.mass[i] - r * inertia.inverse() * r;
     }
     return k;
@@ -142,7 +142,7 @@ TEST_CASE("a contact gives b what it takes from a: momentum and angular momentum
             const Mat3 r = b.rotation[i];
             linear += b.mass[i] * b.velocity[i];
             angular += b.mass[i] * b.position[i].cross(b.velocity[i]) +
-                       r * b.inertia[i] * r.transpose() * b.angular_velocity[i];
+                       r * b.inertia(i) * r.transpose() * b.angular_velocity[i];
         }
         return std::pair(linear, angular);
     };

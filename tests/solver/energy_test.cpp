@@ -196,7 +196,7 @@ TEST_CASE("buoyancy at the centre of gravity has no potential: the ledger says w
     p.buoyancy = BuoyancyModel::centre;
     World w = free_floe(p, Vec3(0, 0, -0.1), Quaternion::Identity());
     Bodies& b = w.scene.bodies;
-    b.angular_momentum[1] = b.inertia[1] * Vec3(0.3, 2.0, 0.1);
+    b.angular_momentum[1] = b.inertia(1) * Vec3(0.3, 2.0, 0.1);
     update_derived(b, 1);
     for (int k = 0; k < 1000; ++k) step(w);  // more than half a turn
     const double exchanged = std::abs(w.ledger.buoyancy_moment);

@@ -62,7 +62,7 @@ void add_moving(World& w, const Vec3& position, const Quaternion& turn, const Ve
     Bodies& b = w.scene.bodies;
     const std::size_t i = add_floe(w.scene, 1, 900.0, position, turn, group, false);
     b.momentum[i] = b.mass[i] * velocity;
-    b.angular_momentum[i] = turn * (b.inertia[i] * (turn.conjugate() * spin));
+    b.angular_momentum[i] = turn * (b.inertia(i) * (turn.conjugate() * spin));
     update_derived(b, i);
 }
 
