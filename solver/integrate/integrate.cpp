@@ -12,11 +12,11 @@ namespace {
 // Below this many bodies waking threads costs more than they save.
 constexpr std::size_t kSerialBodies = 512;
 
-// Calls body(i) for every floe that is not held.
+// Calls body(i, k) for every floe i that is not held, the k-th of them.
 template <class Body>
 void for_each_moving(const Bodies& b, const Body& body) {
     parallel_for(b.moving.size(), kSerialBodies,
-                 [&](std::size_t k) { body(static_cast<std::size_t>(b.moving[k])); });
+                 [&](std::size_t k) { body(static_cast<std::size_t>(b.moving[k]), k); });
 }
 
 // Drag slows down, it never turns a motion round: in a step longer than it takes to stop, the
@@ -63,19 +63,26 @@ FloeLoad load_of(const Scene& scene, const Case& p, std::size_t i) {
 }  // namespace
 
 void measure_loads(const Scene& scene, const Case& parameters, std::vector<FloeLoad>& out) {
-    out.resize(scene.bodies.size());
-    for_each_moving(scene.bodies, [&](std::size_t i) { out[i] = load_of(scene, parameters, i); });
+    out.resize(scene.bodies.moving.size());
+    for_each_moving(scene.bodies,
+                    [&](std::size_t i, std::size_t k) { out[k] = load_of(scene, parameters, i); });
+}
+
+std::vector<FloeLoad> loads_by_body(const Bodies& bodies, const std::vector<FloeLoad>& loads) {
+    std::vector<FloeLoad> out(bodies.size());
+    for (std::size_t k = 0; k < loads.size(); ++k) out[bodies.moving[k]] = loads[k];
+    return out;
 }
 
 void apply_loads(Bodies& bodies, const std::vector<FloeLoad>& loads, double dt) {
-    for_each_moving(bodies, [&](std::size_t i) {
-        bodies.velocity[i] += dt * bodies.inverse_mass[i] * loads[i].force;
-        bodies.angular_velocity[i] += dt * (bodies.inverse_inertia_world[i] * loads[i].moment);
+    for_each_moving(bodies, [&](std::size_t i, std::size_t k) {
+        bodies.velocity[i] += dt * bodies.inverse_mass[i] * loads[k].force;
+        bodies.angular_velocity[i] += dt * (bodies.inverse_inertia_world[i] * loads[k].moment);
     });
 }
 
 void store_momenta(Bodies& bodies, const std::vector<Vec3>& angular_velocity_start) {
-    for_each_moving(bodies, [&](std::size_t i) {
+    for_each_moving(bodies, [&](std::size_t i, std::size_t) {
         const Mat3& r = bodies.rotation[i];
         const Vec3 change = bodies.angular_velocity[i] - angular_velocity_start[i];
         bodies.momentum[i] = bodies.mass[i] * bodies.velocity[i];
@@ -87,7 +94,7 @@ void store_momenta(Bodies& bodies, const std::vector<Vec3>& angular_velocity_sta
 void advance_poses(Scene& scene, const Nudges& nudges, double dt) {
     Bodies& b = scene.bodies;
     b.position[kShip] += dt * b.velocity[kShip];
-    for_each_moving(b, [&](std::size_t i) {
+    for_each_moving(b, [&](std::size_t i, std::size_t) {
         b.position[i] += dt * b.velocity[i] + nudges.shift[i];
         b.orientation[i] =
             advance_orientation(b.orientation[i], b.inverse_inertia(i), b.angular_momentum[i], dt);

@@ -17,9 +17,12 @@ struct FloeLoad : WaterLoad {
     Vec3 righting = Vec3::Zero();  ///< moment of the buoyancy, also where the model leaves it out
 };
 
-/// Gravity, buoyancy and drag on every free floe, force and moment about the centre of mass.
-/// Entries of held floes and the ship are zero. In 2D only x, z and the moment about y act.
+/// Gravity, buoyancy and drag on every free floe, force and moment about the centre of mass, in the
+/// order of Bodies::moving. In 2D only x, z and the moment about y act.
 void measure_loads(const Scene& scene, const Case& parameters, std::vector<FloeLoad>& out);
+
+/// The same by body: zero for held floes and the ship.
+std::vector<FloeLoad> loads_by_body(const Bodies& bodies, const std::vector<FloeLoad>& loads);
 
 /// Velocities after the loads act for dt: v += F dt / m, w += I^-1 T dt.
 void apply_loads(Bodies& bodies, const std::vector<FloeLoad>& loads, double dt);

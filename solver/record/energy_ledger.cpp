@@ -53,8 +53,9 @@ void book_step(const Scene& scene, const Case& parameters,
         if (c.total_normal() > 0.0) book_contact(b, c, books, ledger);
     const double dt = parameters.time_step;
     const bool unrighted = parameters.buoyancy == BuoyancyModel::centre;
-    for (const std::int32_t i : b.moving) {
-        const FloeLoad& load = loads[i];
+    for (std::size_t k = 0; k < b.moving.size(); ++k) {
+        const auto i = static_cast<std::size_t>(b.moving[k]);
+        const FloeLoad& load = loads[k];
         const Vec3 v = 0.5 * (books.velocity[i] + b.velocity[i]);
         const Vec3 w = 0.5 * (books.angular_velocity[i] + b.angular_velocity[i]);
         ledger.drag -= dt * (load.drag.force.dot(v) + load.drag.moment.dot(w));

@@ -47,25 +47,25 @@ void add_contacts(const std::vector<Constraint>& constraints, std::vector<Sums>&
 Sums all_together(const Momenta& before, const World& w, const std::vector<Sums>& contacts) {
     const Bodies& b = w.scene.bodies;
     const double dt = w.parameters.time_step;
+    const std::vector<FloeLoad> loads = loads_by_body(b, w.loads);
     Sums all;
     for (std::size_t i = 1; i < b.size(); ++i) {
         // a held floe takes its impulses into the ice around it
-        const Vec3 gain = b.held[i]
-                              ? Vec3(-contacts[i].linear.value)
-                              : Vec3(b.momentum[i] - before.linear[i] - dt * w.loads[i].force);
+        const Vec3 gain = b.held[i] ? Vec3(-contacts[i].linear.value)
+                                    : Vec3(b.momentum[i] - before.linear[i] - dt * loads[i].force);
         const Vec3 spin =
             b.held[i] ? Vec3(-contacts[i].angular.value)
-                      : Vec3(b.angular_momentum[i] - before.angular[i] - dt * w.loads[i].moment);
+                      : Vec3(b.angular_momentum[i] - before.angular[i] - dt * loads[i].moment);
         all.linear.add(gain);
         all.angular.add(spin);
         all.angular.add(before.position[i].cross(gain));
         // the momenta and loads whose difference this is were rounded themselves
         const double swing = before.position[i].norm();
         const double linear =
-            before.linear[i].norm() + contacts[i].linear.size + dt * w.loads[i].force.norm();
+            before.linear[i].norm() + contacts[i].linear.size + dt * loads[i].force.norm();
         all.linear.size += linear;
         all.angular.size += before.angular[i].norm() + contacts[i].angular.size +
-                            dt * w.loads[i].moment.norm() + swing * linear;
+                            dt * loads[i].moment.norm() + swing * linear;
     }
     const StepRecord ship = measure_step(w.scene, w.contacts, w.constraints, dt);
     const Vec3 force = ship.contact_force + ship.friction_force;
@@ -96,15 +96,16 @@ Imbalance measure_imbalance(const Momenta& before, const World& w) {
     const Sums all = all_together(before, w, sums);
     out.together = std::max(all.linear.share(axes), all.angular.share(turns));
 
+    const std::vector<FloeLoad> loads = loads_by_body(b, w.loads);
     for (std::size_t i = 1; i < b.size(); ++i) {
         if (b.held[i]) continue;
         Sums& s = sums[i];
         s.linear.add(b.momentum[i]);
         s.linear.add(-before.linear[i]);
-        s.linear.add(-dt * w.loads[i].force);
+        s.linear.add(-dt * loads[i].force);
         s.angular.add(b.angular_momentum[i]);
         s.angular.add(-before.angular[i]);
-        s.angular.add(-dt * w.loads[i].moment);
+        s.angular.add(-dt * loads[i].moment);
         // a not-a-number must not pass for balance
         const double linear = s.linear.share(axes), angular = s.angular.share(turns);
         if (!(linear <= out.linear)) out.linear = linear, out.linear_floe = int(i);

@@ -90,10 +90,10 @@ Vec3 ForeignEngine::step() {
 
     measure_loads(w.scene, w.parameters, w.loads);
     Vec2 unexplained = Vec2::Zero();  // load and contact impulses less the change of momentum
-    for (std::size_t i = 1; i < b.size(); ++i) {
-        if (b.held[i]) continue;
-        const Vec2 force(w.loads[i].force.x(), w.loads[i].force.z());
-        push(i, force, -w.loads[i].moment.y());
+    for (std::size_t k = 0; k < b.moving.size(); ++k) {
+        const auto i = static_cast<std::size_t>(b.moving[k]);
+        const Vec2 force(w.loads[k].force.x(), w.loads[k].force.z());
+        push(i, force, -w.loads[k].moment.y());
         unexplained += dt * force + Vec2(b.momentum[i].x(), b.momentum[i].z());
     }
     const Impulses impulses = solve(dt);

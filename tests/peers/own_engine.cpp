@@ -16,8 +16,7 @@ public:
         const double dt = world_.parameters.time_step;
         Vec3 unexplained = momentum_of_free();  // held floes have none
         ice::step(world_);
-        for (std::size_t i = 1; i < b.size(); ++i)
-            if (!b.held[i]) unexplained += dt * world_.loads[i].force;
+        for (const FloeLoad& load : world_.loads) unexplained += dt * load.force;
         Vec3 on_ship = Vec3::Zero();
         for (const Constraint& c : world_.constraints) {
             const Vec3 impulse = c.total_normal() * c.normal + c.total_tangent();

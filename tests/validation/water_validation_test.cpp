@@ -56,7 +56,7 @@ double metacentric_height(double breadth) {
 WaterLoad load_on(World& w) {
     update_derived(w.scene.bodies, 1);
     measure_loads(w.scene, w.parameters, w.loads);
-    return w.loads[1];
+    return w.loads[0];
 }
 
 // Largest horizontal section of the turned box: it cannot be larger than one pair of faces seen
