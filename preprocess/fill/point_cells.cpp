@@ -88,46 +88,60 @@ PointCells::Cell PointCells::cell_of(const Vec3& p) const {
     return out;
 }
 
+namespace {
+
+// The nearest of the points looked at, of equally near ones the lowest index.
+struct Closest {
+    PointCells::Nearest known;
+    double best_sq;
+    std::int32_t best = -1;
+
+    // a hair above: the known point and its equals are found again with their own squared distance
+    explicit Closest(PointCells::Nearest k)
+        : known(k), best_sq(k.distance * k.distance * (1.0 + 1e-15)) {}
+    void look_at(double sq, std::int32_t index) {
+        if (sq > best_sq || (sq == best_sq && index > best)) return;
+        best_sq = sq;
+        best = index;
+    }
+    PointCells::Nearest found() const {
+        return best < 0 ? known : PointCells::Nearest{best, std::sqrt(best_sq)};
+    }
+};
+
+}  // namespace
+
 PointCells::Nearest PointCells::nearest(const Vec3& p, Nearest known) const {
     return begin_.empty() ? nearest_hashed(p, known) : nearest_numbered(p, known);
 }
 
 PointCells::Nearest PointCells::nearest_numbered(const Vec3& p, Nearest known) const {
-    // hairs above, as in nearest_hashed: the known point and its equals are found again
-    double best_sq = known.distance * known.distance * (1.0 + 1e-15);
-    std::int32_t best = -1;
+    Closest closest(known);
     const auto look_at = [&](const Point& point) {
-        const double sq = (point.at - p).squaredNorm();
-        if (sq > best_sq || (sq == best_sq && point.index > best)) return;
-        best_sq = sq;
-        best = point.index;
+        closest.look_at((point.at - p).squaredNorm(), point.index);
     };
     const double most = (p - low_).cwiseMax(high_ - p).norm();  // no point is farther away
     double range = known.distance;
     if (!std::isfinite(range)) range = cell_ + (p - high_).cwiseMax(low_ - p).maxCoeff();
     for (;; range *= 2.0) {
         for_each_near(p, range * (1.0 + 1e-12), look_at);
-        if (best_sq <= range * range * (1.0 + 1e-12) || range > most) break;
+        if (closest.best_sq <= range * range * (1.0 + 1e-12) || range > most) break;
     }
-    return best < 0 ? known : Nearest{best, std::sqrt(best_sq)};
+    return closest.found();
 }
 
 PointCells::Nearest PointCells::nearest_hashed(const Vec3& p, Nearest known) const {
-    // a hair above: the known point is found again with its own squared distance
-    double best_sq = known.distance * known.distance * (1.0 + 1e-15);
-    std::int32_t best = -1;
+    Closest closest(known);
+    const double& best_sq = closest.best_sq;
     const auto look_at = [&](const Point& point) {
-        const double sq = (point.at - p).squaredNorm();
-        if (sq > best_sq || (sq == best_sq && point.index > best)) return;
-        best_sq = sq;
-        best = point.index;
+        closest.look_at((point.at - p).squaredNorm(), point.index);
     };
     const auto look_at_blocks = [&] {
         for (const Block& block : blocks_)
             // a hair below: of equally near points the lowest index may be in any block
             if (block.box.squaredExteriorDistance(p) * (1.0 - 1e-12) <= best_sq)
                 for (std::size_t k = block.first; k < block.last; ++k) look_at(points_[k]);
-        return best < 0 ? known : Nearest{best, std::sqrt(best_sq)};
+        return closest.found();
     };
     // beyond, the cubes are more than the points, and their numbers may not fit
     const Vec3 past = (p - high_).cwiseMax(low_ - p);
@@ -162,7 +176,7 @@ PointCells::Nearest PointCells::nearest_hashed(const Vec3& p, Nearest known) con
                 }
             }
     }
-    return best < 0 ? known : Nearest{best, std::sqrt(best_sq)};
+    return closest.found();
 }
 
 }  // namespace ice

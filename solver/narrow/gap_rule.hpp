@@ -17,10 +17,12 @@ constexpr double kSameSpread = 1e-6;
 constexpr double kLeaning = 0.2;
 
 /// A face cuts into an edge that slants towards it all along; two edges meet where they cross.
+/// kSlantOnEdge is more than kParallel: an edge always has a face's normal or one across both.
 constexpr double kSlantOnFace = 0.95, kSlantOnEdge = 0.022;
 
 /// Edges closer to parallel than this (sine) have no normal across both.
 constexpr double kParallel = 0.02;
+static_assert(kSlantOnEdge > kParallel);
 
 /// A corner is over a face as long as it is not this many radii beyond the face's edge.
 constexpr double kBeyond = 0.01;
