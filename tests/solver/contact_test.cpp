@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Impulses of single contacts against their closed forms.
+#include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
@@ -198,6 +200,44 @@ TEST_CASE("a warm start's tangent lies in the new tangent plane and in its cone"
     CHECK(now[0].rest_normal == 2.0);
     // (1/2, 0, 0) less its part along the normal is (1/4, 0, -1/4), longer than 0.1 x 2 N s
     CHECK((now[0].rest_tangent - 0.2 * Vec3(1, 0, -1).normalized()).norm() < 1e-15);
+}
+
+TEST_CASE("a warm start finds each contact's own impulse by bodies and key", "[contact]") {
+    // pairs in order, keys in any: what a contact had tells who it was
+    const std::vector<std::array<int, 3>> then = {{0, 2, 9}, {0, 2, 1}, {0, 2, 5},
+                                                  {1, 2, 5}, {1, 3, 7}, {1, 3, 2}};
+    const std::vector<std::array<int, 3>> now = {{0, 1, 5}, {0, 2, 1}, {0, 2, 3}, {0, 2, 9},
+                                                 {1, 2, 1}, {1, 3, 2}, {2, 3, 5}};
+    const auto impulse_of = [](const std::array<int, 3>& c) {
+        return 100.0 * c[0] + 10.0 * c[1] + c[2];
+    };
+    const auto contacts_of = [](const std::vector<std::array<int, 3>>& rows) {
+        std::vector<Contact> out(rows.size());
+        for (std::size_t k = 0; k < rows.size(); ++k) {
+            out[k].a = rows[k][0];
+            out[k].b = rows[k][1];
+            out[k].key = static_cast<std::uint64_t>(rows[k][2]);
+        }
+        return out;
+    };
+    std::vector<Constraint> last(then.size()), next(now.size());
+    for (std::size_t k = 0; k < then.size(); ++k) {
+        last[k].rest_normal = impulse_of(then[k]);
+        last[k].rest_tangent.setZero();
+    }
+    for (Constraint& c : next) {
+        c.normal = Vec3::UnitZ();
+        c.strength = std::numeric_limits<double>::infinity();
+        c.friction = 0.1;
+    }
+    WarmStart warm;
+    warm.remember(contacts_of(then), last);
+    warm.recall(contacts_of(now), next);
+    for (std::size_t k = 0; k < now.size(); ++k) {
+        CAPTURE(k);
+        const bool known = std::find(then.begin(), then.end(), now[k]) != then.end();
+        CHECK(next[k].rest_normal == (known ? impulse_of(now[k]) : 0.0));
+    }
 }
 
 TEST_CASE("ice that two hull spheres crush in one place gives way once", "[contact][crushing]") {

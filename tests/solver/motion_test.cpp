@@ -145,6 +145,50 @@ TEST_CASE("collisions never add energy: head-on, offset with spin, against a pla
     CHECK(energy < 0.95 * start);  // they did meet
 }
 
+TEST_CASE("floes of one form and density share their moments of inertia, others have their own",
+          "[scene]") {
+    World w = test::plate_world(test::empty_space(0.01), Vec3(4, 4, 0.4), 0.1, 0.2, 5.0);
+    const auto box = test::add_shape(w, test::make_box_set(Vec3(1, 0.8, 0.3), 0.05, 0.1));
+    const auto cube = test::add_shape(w, test::make_box_set(Vec3(0.5, 0.5, 0.5), 0.05, 0.1));
+    const std::pair<std::int32_t, double> made[] = {{box, 900.0}, {cube, 900.0}, {box, 900.0},
+                                                    {box, 800.0}, {cube, 900.0}, {box, 900.0}};
+    double x = 0.0;
+    for (const auto& [shape, density] : made)
+        add_floe(w.scene, shape, density, Vec3(x += 3.0, 0, 0), Quaternion::Identity(), 0, false);
+    const Bodies& b = w.scene.bodies;
+    CHECK(b.inertia_row[1] == b.inertia_row[3]);
+    CHECK(b.inertia_row[2] == b.inertia_row[5]);
+    for (std::size_t i = 1; i <= std::size(made); ++i) {
+        CAPTURE(i);
+        const auto& [shape, density] = made[i - 1];
+        const Mat3 expected =
+            density * w.scene.shapes[static_cast<std::size_t>(shape)].solid.inertia;
+        CHECK(b.inertia(i) == expected);
+        // of 3 x 3 numbers, each rounded a few times
+        CHECK((b.inverse_inertia(i) * expected - Mat3::Identity()).norm() < 1e-14);
+    }
+}
+
+TEST_CASE("loads are those of the floes that move, each its own", "[integrate]") {
+    Case p = test::empty_space(0.01);
+    p.gravity = 9.81;
+    World w = test::plate_world(p, Vec3(4, 4, 0.4), 0.1, 0.2, 5.0);
+    const auto box = test::add_shape(w, test::make_box_set(Vec3(1, 0.8, 0.3), 0.05, 0.1));
+    for (int k = 0; k < 5; ++k)
+        add_floe(w.scene, box, 800.0 + 10.0 * k, Vec3(3.0 * k, 0, 0), Quaternion::Identity(), 0,
+                 k % 2 == 1);
+    std::vector<FloeLoad> loads;
+    measure_loads(w.scene, p, loads);
+    CHECK(loads.size() == 3);
+    const std::vector<FloeLoad> all = loads_by_body(w.scene.bodies, loads);
+    REQUIRE(all.size() == 6);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        CAPTURE(i);
+        const bool moves = i % 2 == 1;
+        CHECK(all[i].force.z() == (moves ? -w.scene.bodies.mass[i] * p.gravity : 0.0));
+    }
+}
+
 TEST_CASE("a held floe stays until the ship touches it, and 'always' stays for good",
           "[step][hold]") {
     const Hold hold = GENERATE(Hold::until_hull_contact, Hold::always);
