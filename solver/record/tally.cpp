@@ -30,14 +30,16 @@ double share_of_largest(std::vector<double> force) {
     return all > 0.0 ? std::accumulate(force.begin(), few, 0.0) / all : 0.0;
 }
 
-ForceStatistics statistics(const std::vector<double>& total, const std::vector<double>& contact,
-                           const std::vector<double>& friction, double sign) {
+// @param contact, friction  sums of its parts over the same steps
+ForceStatistics statistics(const std::vector<double>& total, double contact, double friction,
+                           double sign) {
     ForceStatistics out;
     const MeanInterval interval = batch_means(total);
     out.mean = sign * interval.mean + 0.0;  // no -0
     out.ci95 = interval.half_width;
-    out.contact_mean = sign * batch_means(contact).mean + 0.0;
-    out.friction_mean = sign * batch_means(friction).mean + 0.0;
+    const auto steps = static_cast<double>(total.size());  // of none the means are no number
+    out.contact_mean = sign * (contact / steps) + 0.0;
+    out.friction_mean = sign * (friction / steps) + 0.0;
     out.std = standard_deviation(total);
     for (const double force : total)
         if (std::abs(force) > std::abs(out.max)) out.max = sign * force;
@@ -72,11 +74,10 @@ void Tally::add(const StepRecord& record, double time, double dt, bool converged
     add_regions(record, averaged);
     if (!averaged) return;
     averaged_time_ += dt;
-    for (int d = 0; d < 3; ++d) {
-        contact_[d].push_back(record.contact_force[d]);
-        friction_[d].push_back(record.friction_force[d]);
+    contact_ += record.contact_force;
+    friction_ += record.friction_force;
+    for (int d = 0; d < 3; ++d)
         total_[d].push_back(record.contact_force[d] + record.friction_force[d]);
-    }
 }
 
 void Tally::add_regions(const StepRecord& record, bool averaged) {
@@ -104,9 +105,9 @@ void Tally::add_jam(const StepRecord& record, double time) {
 void Tally::fill(Summary& summary) const {
     summary.average_from = options_.average_from;
     // resistance is positive when it slows the ship
-    summary.resistance = statistics(total_[0], contact_[0], friction_[0], -1.0);
-    summary.lateral = statistics(total_[1], contact_[1], friction_[1], 1.0);
-    summary.vertical = statistics(total_[2], contact_[2], friction_[2], 1.0);
+    summary.resistance = statistics(total_[0], contact_.x(), friction_.x(), -1.0);
+    summary.lateral = statistics(total_[1], contact_.y(), friction_.y(), 1.0);
+    summary.vertical = statistics(total_[2], contact_.z(), friction_.z(), 1.0);
     for (std::size_t r = 0; r < regions_.size(); ++r) {
         RegionStatistics& out = summary.regions[options_.region_names[r]];
         out.hits = regions_[r].hits;

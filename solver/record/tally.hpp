@@ -51,7 +51,8 @@ private:
 
     TallyOptions options_;
     double averaged_time_ = 0.0;
-    std::vector<double> total_[3], contact_[3], friction_[3];  ///< per averaged step, per axis [N]
+    std::vector<double> total_[3];  ///< per averaged step, per axis [N]: the interval needs all
+    Vec3 contact_ = Vec3::Zero(), friction_ = Vec3::Zero();  ///< sums of its parts [N]
     std::vector<Region> regions_;
     std::set<std::pair<std::int32_t, std::int32_t>> touching_;  ///< (floe, region) of the last step
     std::int64_t steps_ = 0, unconverged_ = 0, jammed_steps_ = 0;

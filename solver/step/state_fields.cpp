@@ -88,9 +88,9 @@ void StateFields::carry(CheckpointFile& file, HullContacts& h) {
 void StateFields::carry(CheckpointFile& file, Tally& t) {
     for (std::size_t d = 0; d < 3; ++d) {
         file.carry(fmt::format("tally.total.{}", d), t.total_[d]);
-        file.carry(fmt::format("tally.contact.{}", d), t.contact_[d]);
-        file.carry(fmt::format("tally.friction.{}", d), t.friction_[d]);
     }
+    file.carry("tally.contact", t.contact_);
+    file.carry("tally.friction", t.friction_);
     file.carry("tally.averaged_time", t.averaged_time_);
     file.column("tally.region_hits", t.regions_, &Tally::Region::hits);
     file.column("tally.region_max_impulse", t.regions_, &Tally::Region::max_impulse);
