@@ -82,12 +82,17 @@ void ContactRows::colour_pairs(const Bodies& bodies) {
 }
 
 void ContactRows::fill_block(const Bodies& bodies, const std::vector<Constraint>& constraints,
-                             std::size_t number) {
-    PairBlock& block = blocks[number];
-    std::fill_n(rows.begin() + block.first_row, block.rows, ContactRow{});
-    for (std::size_t p = first_pair_[number]; p < first_pair_[number + 1]; ++p) {
+                             std::size_t first_pair, std::size_t last_pair) {
+    PairBlock block;
+    block.first_row = static_cast<std::int32_t>(rows.size());
+    block.rows = pairs_[first_pair].count;  // the first has the most
+    block.colour = pairs_[first_pair].colour;
+    block.a.fill(-1);
+    block.b.fill(-1);
+    rows.resize(rows.size() + static_cast<std::size_t>(block.rows), ContactRow{});
+    for (std::size_t p = first_pair; p < last_pair; ++p) {
         const Pair& pair = pairs_[p];
-        const std::size_t lane = p - first_pair_[number];
+        const std::size_t lane = p - first_pair;
         const auto body = [&](std::int32_t l) {
             return static_cast<std::size_t>(bodies_[static_cast<std::size_t>(l)]);
         };
@@ -115,35 +120,24 @@ void ContactRows::fill_block(const Bodies& bodies, const std::vector<Constraint>
                 static_cast<std::int32_t>(kLanes) * (block.first_row + k) + static_cast<int>(lane);
         }
     }
+    blocks.push_back(block);
 }
 
 void ContactRows::build(const Bodies& bodies, const std::vector<Constraint>& constraints) {
+    blocks.clear();
+    rows.clear();
     slot_.assign(constraints.size(), -1);
     find_pairs(bodies, constraints);
     colour_pairs(bodies);
-    blocks.clear();
-    first_pair_.clear();
-    std::int32_t row = 0;
+    // by this thread alone: it sweeps the rows, and takes longer to fetch them from another core
     for (std::size_t first = 0; first < pairs_.size();) {
         std::size_t last = first + 1;
         while (last < pairs_.size() && last < first + kLanes &&
                pairs_[last].colour == pairs_[first].colour)
             ++last;
-        PairBlock block;
-        block.first_row = row;
-        block.rows = pairs_[first].count;  // the first has the most
-        block.colour = pairs_[first].colour;
-        block.a.fill(-1);
-        block.b.fill(-1);
-        row += block.rows;
-        blocks.push_back(block);
-        first_pair_.push_back(first);
+        fill_block(bodies, constraints, first, last);
         first = last;
     }
-    first_pair_.push_back(pairs_.size());
-    rows.resize(static_cast<std::size_t>(row));
-    // by this thread: it sweeps the rows, and takes longer to fetch them from another core
-    for (std::size_t k = 0; k < blocks.size(); ++k) fill_block(bodies, constraints, k);
 }
 
 void ContactRows::load_motions(const Bodies& bodies) {

@@ -107,14 +107,13 @@ private:
     void find_pairs(const Bodies& bodies, const std::vector<Constraint>& constraints);
     void colour_pairs(const Bodies& bodies);
     void fill_block(const Bodies& bodies, const std::vector<Constraint>& constraints,
-                    std::size_t block);
+                    std::size_t first_pair, std::size_t last_pair);
     std::int32_t local(std::int32_t body);
     void load_motions(const Bodies& bodies);
     void set(std::size_t slot, const Constraint& c, double normal, const Vec3& tangent,
              const Target& target);
 
     std::vector<Pair> pairs_;
-    std::vector<std::size_t> first_pair_;      // by block, and behind the last one
     std::vector<std::int32_t> part_;           // constraints that take part in the stage
     std::vector<std::int32_t> bodies_;         // by local number
     std::vector<std::int32_t> local_;          // by body; -1 for those without contacts

@@ -22,6 +22,7 @@ struct FloeLoad : WaterLoad {
 void measure_loads(const Scene& scene, const Case& parameters, std::vector<FloeLoad>& out);
 
 /// The same by body: zero for held floes and the ship.
+/// @pre no floe was released since measure_loads; so for all that take its answer
 std::vector<FloeLoad> loads_by_body(const Bodies& bodies, const std::vector<FloeLoad>& loads);
 
 /// Velocities after the loads act for dt: v += F dt / m, w += I^-1 T dt.

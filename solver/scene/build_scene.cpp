@@ -125,7 +125,7 @@ void add_field_group(Scene& scene, const Case& parameters, std::size_t g, ShapeR
     }
 }
 
-// The row of a shape's moments of inertia, made where no body of it has this density yet.
+// The row of a shape's moments of inertia, made where its newest is of another density.
 std::int32_t share_inertia(Scene& scene, std::int32_t shape_row, double density) {
     Bodies& b = scene.bodies;
     b.inertia_of_shape.resize(scene.shapes.size(), -1);

@@ -44,10 +44,10 @@ void add_contacts(const std::vector<Constraint>& constraints, std::vector<Sums>&
 }
 
 // The floes' changes less the loads, and the impulses on everything that cannot move.
-Sums all_together(const Momenta& before, const World& w, const std::vector<Sums>& contacts) {
+Sums all_together(const Momenta& before, const World& w, const std::vector<FloeLoad>& loads,
+                  const std::vector<Sums>& contacts) {
     const Bodies& b = w.scene.bodies;
     const double dt = w.parameters.time_step;
-    const std::vector<FloeLoad> loads = loads_by_body(b, w.loads);
     Sums all;
     for (std::size_t i = 1; i < b.size(); ++i) {
         // a held floe takes its impulses into the ice around it
@@ -93,10 +93,10 @@ Imbalance measure_imbalance(const Momenta& before, const World& w) {
     std::vector<Sums> sums(b.size());
     add_contacts(w.constraints, sums);
     Imbalance out;
-    const Sums all = all_together(before, w, sums);
+    const std::vector<FloeLoad> loads = loads_by_body(b, w.loads);
+    const Sums all = all_together(before, w, loads, sums);
     out.together = std::max(all.linear.share(axes), all.angular.share(turns));
 
-    const std::vector<FloeLoad> loads = loads_by_body(b, w.loads);
     for (std::size_t i = 1; i < b.size(); ++i) {
         if (b.held[i]) continue;
         Sums& s = sums[i];

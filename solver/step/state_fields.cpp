@@ -86,9 +86,7 @@ void StateFields::carry(CheckpointFile& file, HullContacts& h) {
 }
 
 void StateFields::carry(CheckpointFile& file, Tally& t) {
-    for (std::size_t d = 0; d < 3; ++d) {
-        file.carry(fmt::format("tally.total.{}", d), t.total_[d]);
-    }
+    for (std::size_t d = 0; d < 3; ++d) file.carry(fmt::format("tally.total.{}", d), t.total_[d]);
     file.carry("tally.contact", t.contact_);
     file.carry("tally.friction", t.friction_);
     file.carry("tally.averaged_time", t.averaged_time_);

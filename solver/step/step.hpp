@@ -31,7 +31,7 @@ struct World {
     PairList pairs;
     std::vector<Contact> contacts;
     std::vector<Constraint> constraints;
-    std::vector<FloeLoad> loads;
+    std::vector<FloeLoad> loads;  ///< in the order of Bodies::moving
     Nudges nudges;
     WarmStart warm_start;
     ContactFinder finder;

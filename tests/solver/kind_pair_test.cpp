@@ -92,7 +92,7 @@ TEST_CASE("no gap comes below its kinds' bound while the bodies keep to the leew
     const int form_a = GENERATE(0, 1, 2), form_b = GENERATE(0, 1, 2);
     const bool prefer_a = GENERATE(false, true);
     Dice dice(static_cast<unsigned>(100 + 10 * form_a + form_b));
-    const Leeway leeway{0.03, 0.015};
+    const Leeway leeway = GENERATE(Leeway{0.03, 0.015}, Leeway{0.015, 0.0075});
     const double reach = 0.075;
     int compared = 0;
     for (int k = 0; k < 3000; ++k) {
@@ -103,7 +103,7 @@ TEST_CASE("no gap comes below its kinds' bound while the bodies keep to the leew
         const double least =
             KindBound(kind_a, kind_b, prefer_a, reach, leeway).least(a.center, b.center);
         // turned about its centre, as far as its points within 0.2 m allow, and moved by the rest
-        const double angle = 0.0149 * dice();
+        const double angle = 0.99 * leeway.angle * dice();
         const Mat3 turn = Eigen::AngleAxisd(angle, dice.vector().normalized()).matrix();
         const double arm = 0.2 * std::abs(angle);
         SphereSurface later = b;
