@@ -16,7 +16,7 @@ Outline rectangle(double x, double y, double length, double breadth) {
 
 FieldPlan plan_grid(const FieldSpec& s) {
     const auto [columns, rows] = s.count;
-    const auto [length, breadth] = s.floe_size;
+    const double length = s.floe_size[0], breadth = s.floe_size[1];
     if (static_cast<double>(columns) * rows > kMostFloes)
         throw bad_input("floes.count", "asks for more than a million floes", "use fewer");
     const double whole = rows * breadth + (rows - 1) * s.gap[1];

@@ -106,7 +106,7 @@ double KindBound::least_of_edges(const Vec3& center_a, const Vec3& center_b) {
     double certain = -kInfinity, possible = kInfinity;
     bool near = false;
     for (std::uint8_t k = 0; k < faces_; ++k) {
-        const auto& [n, under_a, under_b] = face_[k];
+        const Vec3& n = face_[k].normal;
         const double along = n.dot(d), gap = n.dot(between);
         if (along <= -leeway_.distance) continue;
         possible = std::min(possible, gap);
@@ -114,8 +114,8 @@ double KindBound::least_of_edges(const Vec3& center_a, const Vec3& center_b) {
         const auto is_near = [&](const Foothold& foot, double radius, const Vec3& v) {
             return distance_from(foot, radius, part_across(v, n), leeway_.distance) <= far_ * far_;
         };
-        near = near || is_near(under_a, a_->radius, point_b - center_a) ||
-               is_near(under_b, b_->radius, point_a - center_b);
+        near = near || is_near(face_[k].under_a, a_->radius, point_b - center_a) ||
+               is_near(face_[k].under_b, b_->radius, point_a - center_b);
     }
     if (near && certain > -kInfinity) return certain;
     const double across = least_across(d, between);
