@@ -122,7 +122,8 @@ PointCells::Nearest PointCells::nearest_numbered(const Vec3& p, Nearest known) c
     };
     const double most = (p - low_).cwiseMax(high_ - p).norm();  // no point is farther away
     double range = known.distance;
-    if (!std::isfinite(range)) range = cell_ + (p - high_).cwiseMax(low_ - p).maxCoeff();
+    if (!std::isfinite(range))
+        range = cell_ + std::max((p - high_).cwiseMax(low_ - p).maxCoeff(), 0.0);
     for (;; range *= 2.0) {
         for_each_near(p, range * (1.0 + 1e-12), look_at);
         if (closest.best_sq <= range * range * (1.0 + 1e-12) || range > most) break;

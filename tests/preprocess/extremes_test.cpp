@@ -14,11 +14,13 @@ using namespace ice;
 using test::check_shares;
 using test::options;
 
-TEST_CASE("the nearest of points far away is found, the first of equals", "[fill][equivalence]") {
+TEST_CASE("the nearest of points far away or deep among them is found, the first of equals",
+          "[fill][equivalence]") {
     std::vector<Vec3> points;
     for (int k = 0; k < 500; ++k) points.emplace_back(k * 37 % 9, k * 53 % 7, k * 71 % 5);
-    const PointCells cells(points, GENERATE(0.7, 3.0));  // hashed; numbered
-    for (const Vec3& p : {Vec3(1000, 3, 2), Vec3(-1e12, 0, 0), Vec3(4, 20, 2), Vec3(4, 3, -9)}) {
+    const PointCells cells(points, GENERATE(0.7, 1.5, 3.0));  // hashed; numbered, twice
+    for (const Vec3& p : {Vec3(1000, 3, 2), Vec3(-1e12, 0, 0), Vec3(4, 20, 2), Vec3(4, 3, -9),
+                          Vec3(4.2, 3.3, 2.1)}) {
         std::size_t best = 0, within = 0;
         for (std::size_t i = 1; i < points.size(); ++i)
             if ((points[i] - p).squaredNorm() < (points[best] - p).squaredNorm()) best = i;
