@@ -108,7 +108,8 @@ TEST_CASE("one piece before the bow or under the bottom: 3D one metre broad equa
           "[validation][2d]") {
     // not chaotic; the piece under the bottom settles on 200 spheres instead of 10. Under the ship
     // of its own breadth the piece's edges lie on the ship's, where either may be the one to touch
-    const auto [breadth, percent] = GENERATE(std::pair(1.0, 5.0), std::pair(1.6, 0.1));
+    const auto row = GENERATE(std::pair(1.0, 5.0), std::pair(1.6, 0.1));
+    const double breadth = row.first, percent = row.second;
     const Vec3 afloat(0.5, 0, -0.16), below(-3.0, 0, -1.42);
     const auto met = [&](const char* how) {
         return fmt::format("piece 1 m broad {} of a ship {:g} m broad", how, breadth);
