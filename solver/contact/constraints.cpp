@@ -70,13 +70,7 @@ void build_constraints(const Bodies& bodies, const std::vector<Contact>& contact
         c.normal = contact.normal;
         c.arm_a = contact.point - bodies.position[c.a];
         c.arm_b = contact.point - bodies.position[c.b];
-        c.turn_a = bodies.inverse_inertia_world[c.a] * c.arm_a.cross(c.normal);
-        c.turn_b = bodies.inverse_inertia_world[c.b] * c.arm_b.cross(c.normal);
-        const Mat3 response_matrix = response(bodies, c);
-        const double normal_response = c.normal.dot(response_matrix * c.normal);
-        const double tangent_response = largest_tangent_response(response_matrix, c.normal);
-        c.normal_mass = normal_response > 0.0 ? 1.0 / normal_response : 0.0;
-        c.tangent_mass = tangent_response > 0.0 ? 1.0 / tangent_response : 0.0;
+        c.can_move = bodies.inverse_mass[c.a] + bodies.inverse_mass[c.b] > 0.0;
         c.friction =
             c.a == static_cast<std::int32_t>(kShip) ? law.friction_ship_ice : law.friction_ice_ice;
         c.gap = contact.gap;
@@ -85,6 +79,15 @@ void build_constraints(const Bodies& bodies, const std::vector<Contact>& contact
         c.rebounds = true;
         out[k] = c;
     });
+}
+
+void measure_response(const Bodies& bodies, Constraint& c) {
+    if (c.normal_mass > 0.0) return;
+    c.turn_a = bodies.inverse_inertia_world[c.a] * c.arm_a.cross(c.normal);
+    c.turn_b = bodies.inverse_inertia_world[c.b] * c.arm_b.cross(c.normal);
+    const Mat3 k = response(bodies, c);
+    c.normal_mass = 1.0 / c.normal.dot(k * c.normal);
+    c.tangent_mass = 1.0 / largest_tangent_response(k, c.normal);
 }
 
 bool WarmStart::less(const Entry& l, const Entry& r) {

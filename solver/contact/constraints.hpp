@@ -23,12 +23,14 @@ struct ContactLaw {
 /// One contact in the solver; impulses act on b, their opposites on a.
 struct Constraint {
     std::int32_t a, b;
-    Vec3 normal;                 ///< from a to b
-    Vec3 arm_a, arm_b;           ///< r = p - x [m]
-    Vec3 turn_a, turn_b;         ///< I^-1 (r x n), world [rad/s per N s]
-    double normal_mass;          ///< 1 / k(n) [kg]; 0 where neither body can move
-    double tangent_mass;         ///< 1 / largest k(d) over tangents d [kg]
-    double friction;             ///< Coulomb's coefficient
+    Vec3 normal;        ///< from a to b
+    Vec3 arm_a, arm_b;  ///< r = p - x [m]
+    bool can_move;      ///< can either body?
+    // measure_response sets these, for the contacts that are asked
+    Vec3 turn_a = Vec3::Zero(), turn_b = Vec3::Zero();  ///< I^-1 (r x n), world [rad/s per N s]
+    double normal_mass = 0.0;                           ///< 1 / k(n) [kg]
+    double tangent_mass = 0.0;                          ///< 1 / largest k(d) over tangents d [kg]
+    double friction;                                    ///< Coulomb's coefficient
     double strength;             ///< largest normal impulse per step: p A dt [N s]
     bool rebounds;               ///< false once the contact has crushed in this step's impacts
     double gap;                  ///< at the start of the step [m]
@@ -48,9 +50,13 @@ struct Constraint {
 ///     v_r  = (v_b + w_b x r_b) - (v_a + w_a x r_a)
 ///     k(d) = 1/m_a + 1/m_b + d . [ (I_a^-1 (r_a x d)) x r_a + (I_b^-1 (r_b x d)) x r_b ]
 ///
-/// One constraint per contact, same order.
+/// One constraint per contact, same order; masses are left to measure_response.
 void build_constraints(const Bodies& bodies, const std::vector<Contact>& contacts,
                        const ContactLaw& law, std::vector<Constraint>& out);
+
+/// Sets turn_a, turn_b and the masses, unless they are known: most contacts are near ones that are
+/// never asked. @pre c.can_move
+void measure_response(const Bodies& bodies, Constraint& c);
 
 /// v_r at a constraint from the bodies' present velocities [m/s].
 Vec3 relative_velocity(const Bodies& bodies, const Constraint& c);

@@ -36,19 +36,22 @@ std::int32_t ContactRows::local(std::int32_t body) {
     return number;
 }
 
-void ContactRows::find_pairs(const Bodies& bodies, const std::vector<Constraint>& constraints) {
+void ContactRows::find_pairs(const Bodies& bodies, std::vector<Constraint>& constraints) {
     for (const std::int32_t body : bodies_) local_[static_cast<std::size_t>(body)] = -1;
     local_.resize(bodies.size(), -1);
     bodies_.clear();
     pairs_.clear();
-    for (std::size_t k = 0; k < constraints.size();) {
-        const Constraint& c = constraints[k];
-        std::size_t end = k;
-        while (end < constraints.size() && constraints[end].a == c.a && constraints[end].b == c.b)
+    for (std::size_t k = 0; k < which_.size();) {
+        const Constraint& c = constraints[which_[k]];
+        std::size_t end = k + 1;
+        while (end < which_.size() && constraints[which_[end]].a == c.a &&
+               constraints[which_[end]].b == c.b)
             ++end;
-        if (c.normal_mass > 0.0)
+        if (c.can_move) {
             pairs_.push_back({local(c.a), local(c.b), static_cast<std::int32_t>(k),
                               static_cast<std::int32_t>(end - k), 0});
+            for (std::size_t n = k; n < end; ++n) measure_response(bodies, constraints[which_[n]]);
+        }
         k = end;
     }
 }
@@ -104,8 +107,8 @@ void ContactRows::fill_block(const Bodies& bodies, const std::vector<Constraint>
         put(block.inverse_inertia_a, lane, bodies.inverse_inertia_world[a]);
         put(block.inverse_inertia_b, lane, bodies.inverse_inertia_world[b]);
         for (std::int32_t k = 0; k < pair.count; ++k) {
-            const std::size_t contact = static_cast<std::size_t>(pair.first + k);
-            const Constraint& c = constraints[contact];
+            const std::size_t n = static_cast<std::size_t>(pair.first + k);
+            const Constraint& c = constraints[which_[n]];
             ContactRow& row = rows[static_cast<std::size_t>(block.first_row + k)];
             put(row.normal, lane, c.normal);
             put(row.arm_a, lane, c.arm_a);
@@ -116,17 +119,19 @@ void ContactRows::fill_block(const Bodies& bodies, const std::vector<Constraint>
             row.normal_response.v[lane] = 1.0 / c.normal_mass;
             row.tangent_response.v[lane] = 1.0 / c.tangent_mass;
             row.friction.v[lane] = c.friction;
-            slot_[contact] =
+            slot_[n] =
                 static_cast<std::int32_t>(kLanes) * (block.first_row + k) + static_cast<int>(lane);
         }
     }
     blocks.push_back(block);
 }
 
-void ContactRows::build(const Bodies& bodies, const std::vector<Constraint>& constraints) {
+void ContactRows::build(const Bodies& bodies, std::vector<Constraint>& constraints,
+                        const std::vector<std::int32_t>& which) {
     blocks.clear();
     rows.clear();
-    slot_.assign(constraints.size(), -1);
+    which_ = which;
+    slot_.assign(which_.size(), -1);
     find_pairs(bodies, constraints);
     colour_pairs(bodies);
     // by this thread alone: it sweeps the rows, and takes longer to fetch them from another core
@@ -163,10 +168,10 @@ void ContactRows::set(std::size_t slot, const Constraint& c, double normal, cons
 
 void ContactRows::end_stage(Bodies& bodies, std::vector<Constraint>& constraints,
                             double Constraint::*normal, Vec3 Constraint::*tangent) const {
-    for (const std::int32_t k : part_) {
-        if (slot_[k] < 0) continue;
-        Constraint& c = constraints[k];
-        const std::size_t slot = static_cast<std::size_t>(slot_[k]);
+    for (std::size_t n = 0; n < which_.size(); ++n) {
+        if (slot_[n] < 0) continue;
+        Constraint& c = constraints[which_[n]];
+        const std::size_t slot = static_cast<std::size_t>(slot_[n]);
         const RowImpulses& impulse = rows[slot / kLanes].impulse;
         const double normal_now = impulse.normal.v[slot % kLanes];
         // most contacts are near ones that carry nothing; without a normal impulse no friction

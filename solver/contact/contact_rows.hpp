@@ -61,8 +61,12 @@ struct alignas(64) BodyMotion {
 /// the sweeps depends on which bodies touch at how many points, and on nothing else.
 class ContactRows {
 public:
+    /// Measures the response of those that take part.
     /// @pre constraints ordered by (a, b), as ContactFinder gives them
-    void build(const Bodies& bodies, const std::vector<Constraint>& constraints);
+    /// @param which  constraints that take part, ascending; those that can move nothing are passed
+    ///               over
+    void build(const Bodies& bodies, std::vector<Constraint>& constraints,
+               const std::vector<std::int32_t>& which);
 
     /// What a stage asks of a contact.
     struct Target {
@@ -71,18 +75,16 @@ public:
     };
 
     /// Takes velocities from the bodies, impulses and targets from the constraints.
-    /// @param which  constraints that take part, ascending; all that did since build() must. Those
-    ///               that can move nothing are passed over
     template <class TargetOf>
     void begin_stage(const Bodies& bodies, const std::vector<Constraint>& constraints,
-                     const std::vector<std::int32_t>& which, double Constraint::*normal,
-                     Vec3 Constraint::*tangent, const TargetOf& target_of) {
+                     double Constraint::*normal, Vec3 Constraint::*tangent,
+                     const TargetOf& target_of) {
         load_motions(bodies);
-        part_ = which;
-        for (const std::int32_t k : part_)
-            if (slot_[k] >= 0)
-                set(static_cast<std::size_t>(slot_[k]), constraints[k], constraints[k].*normal,
-                    constraints[k].*tangent, target_of(constraints[k]));
+        for (std::size_t n = 0; n < which_.size(); ++n) {
+            const Constraint& c = constraints[which_[n]];
+            if (slot_[n] >= 0)
+                set(static_cast<std::size_t>(slot_[n]), c, c.*normal, c.*tangent, target_of(c));
+        }
     }
 
     /// Gives impulses to the constraints, and their change since begin_stage to the bodies.
@@ -102,9 +104,9 @@ public:
 
 private:
     struct Pair {
-        std::int32_t a, b, first, count, colour;  // local bodies, constraints
+        std::int32_t a, b, first, count, colour;  // local bodies, rows of which_
     };
-    void find_pairs(const Bodies& bodies, const std::vector<Constraint>& constraints);
+    void find_pairs(const Bodies& bodies, std::vector<Constraint>& constraints);
     void colour_pairs(const Bodies& bodies);
     void fill_block(const Bodies& bodies, const std::vector<Constraint>& constraints,
                     std::size_t first_pair, std::size_t last_pair);
@@ -114,11 +116,11 @@ private:
              const Target& target);
 
     std::vector<Pair> pairs_;
-    std::vector<std::int32_t> part_;           // constraints that take part in the stage
+    std::vector<std::int32_t> which_;          // constraints that take part
     std::vector<std::int32_t> bodies_;         // by local number
     std::vector<std::int32_t> local_;          // by body; -1 for those without contacts
     std::vector<std::uint64_t> used_colours_;  // by local number
-    std::vector<std::int32_t> slot_;           // by constraint: kLanes row + lane, or -1
+    std::vector<std::int32_t> slot_;           // by row of which_: kLanes row + lane, or -1
 };
 
 }  // namespace ice

@@ -27,7 +27,7 @@ double gap_after(const Bodies& bodies, const Constraint& c, double dt) {
 
 }  // namespace
 
-void Overlaps::separate(const Bodies& bodies, const std::vector<Constraint>& constraints,
+void Overlaps::separate(const Bodies& bodies, std::vector<Constraint>& constraints,
                         const ContactLaw& law, Nudges& out) {
     out.shift.resize(bodies.size(), Vec3::Zero());
     out.turn.resize(bodies.size(), Vec3::Zero());
@@ -37,10 +37,11 @@ void Overlaps::separate(const Bodies& bodies, const std::vector<Constraint>& con
     }
     pushes_.clear();
     for (std::size_t k = 0; k < constraints.size(); ++k) {
-        const Constraint& c = constraints[k];
+        Constraint& c = constraints[k];
         const double gap = gap_after(bodies, c, law.dt);
-        if (gap < -kSlop && c.normal_mass > 0.0 && !c.crushed())
-            pushes_.push_back({k, std::min(kPushShare * (-gap - kSlop), kMostPush), 0.0});
+        if (gap >= -kSlop || !c.can_move || c.crushed()) continue;
+        measure_response(bodies, c);
+        pushes_.push_back({k, std::min(kPushShare * (-gap - kSlop), kMostPush), 0.0});
     }
     for (int iteration = 0; iteration < kSeparationIterations; ++iteration)
         for (Push& push : pushes_) {

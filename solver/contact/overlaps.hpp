@@ -21,8 +21,8 @@ public:
     ///
     /// The same inequality solver on displacements instead of velocities: n . (d_b - d_a) >= push.
     /// Crushed contacts are left alone: that ice is gone.
-    void separate(const Bodies& bodies, const std::vector<Constraint>& constraints,
-                  const ContactLaw& law, Nudges& out);
+    void separate(const Bodies& bodies, std::vector<Constraint>& constraints, const ContactLaw& law,
+                  Nudges& out);
 
     /// Ice at its strength gives way: what overlap the step leaves at a crushed contact is taken
     /// off the ice for good. @pre called before the poses advance, after resolve_rest

@@ -54,7 +54,8 @@ void PassiveImpact::find_islands(const Bodies& bodies, const ContactRows& contac
         while (islands_[i] != i) i = islands_[i] = islands_[islands_[i]];
         return i;
     };
-    for (const Constraint& c : constraints) {
+    for (const std::int32_t k : which_) {
+        const Constraint& c = constraints[k];
         if (bodies.inverse_mass[c.a] == 0.0 || bodies.inverse_mass[c.b] == 0.0) continue;
         const std::int32_t a = root(contacts.local_of(c.a)), b = root(contacts.local_of(c.b));
         islands_[std::max(a, b)] = std::min(a, b);
@@ -74,7 +75,7 @@ void PassiveImpact::measure_gains(const Bodies& bodies, const ContactRows& conta
     out.assign(contacts.bodies().size(), 0.0);
     for (std::size_t n = 0; n < which_.size(); ++n) {
         const Constraint& c = constraints[which_[n]];
-        if (c.normal_mass == 0.0) continue;
+        if (!c.can_move) continue;
         const std::int32_t a = contacts.local_of(c.a), b = contacts.local_of(c.b);
         const auto relative = [&](const State& s) -> Vec3 {
             return s.velocity[b] + s.angular_velocity[b].cross(c.arm_b) - s.velocity[a] -
@@ -142,7 +143,7 @@ void PassiveImpact::limit_rebound(Bodies& bodies, const ContactRows& contacts,
     }
     for (std::size_t n = 0; n < which_.size(); ++n) {
         Constraint& c = constraints[which_[n]];
-        const double s = c.normal_mass > 0.0 ? share(island_of(bodies, contacts, c)) : 1.0;
+        const double s = c.can_move ? share(island_of(bodies, contacts, c)) : 1.0;
         between(plastic_.normal[n], rebound_.normal[n], s);
         between(plastic_.tangent[n], rebound_.tangent[n], s);
         c.impact_normal = rebound_.normal[n];

@@ -22,6 +22,12 @@ constexpr int kRebounds = 2;
 // extrapolated ones go round it.
 constexpr int kPlainShare = 3;
 
+// Contacts take part in the resting stage when the loads bring them this near to closing [m]: most
+// are near ones that carry nothing. Those that its solution closes all the same then take part too;
+// what is left after so many solutions is an overlap in the next step.
+constexpr double kNear = 1e-4;
+constexpr int kRestSolutions = 5;
+
 bool meets_within_step(const Constraint& c, double dt) {
     return c.gap + dt * std::min(c.approach, 0.0) <= 0.0;
 }
@@ -33,6 +39,12 @@ void drive_through(const Bodies& bodies, Constraint& c) {
     const double speed = sliding.norm();
     c.impact_normal = c.strength;
     if (speed > 0.0) c.impact_tangent = -(c.friction * c.strength / speed) * sliding;
+}
+
+// How much nearer than its gap a contact will be at the end of the step [m]; negative while it
+// stays apart.
+double closes_by(const Bodies& bodies, const Constraint& c, double dt) {
+    return -dt * relative_velocity(bodies, c).dot(c.normal) - std::max(c.gap, 0.0);
 }
 
 // A stage of several solutions is as good as the worst of them.
@@ -59,7 +71,7 @@ SolveReport ContactSolver::iterate(const ContactLaw& law) {
 
 SolveReport ContactSolver::solve_impacts(Bodies& bodies, std::vector<Constraint>& constraints,
                                          const ContactLaw& law, double restitution) {
-    contacts_.begin_stage(bodies, constraints, meeting_, &Constraint::impact_normal,
+    contacts_.begin_stage(bodies, constraints, &Constraint::impact_normal,
                           &Constraint::impact_tangent,
                           [&](const Constraint& c) -> ContactRows::Target {
                               return {c.rebounds ? -restitution * c.approach : 0.0, c.strength};
@@ -94,7 +106,6 @@ SolveReport ContactSolver::rebound(Bodies& bodies, std::vector<Constraint>& cons
 
 SolveReport ContactSolver::resolve_impacts(Bodies& bodies, std::vector<Constraint>& constraints,
                                            const ContactLaw& law) {
-    contacts_.build(bodies, constraints);
     meeting_.clear();
     bool approaching = false;
     for (std::size_t k = 0; k < constraints.size(); ++k) {
@@ -102,10 +113,10 @@ SolveReport ContactSolver::resolve_impacts(Bodies& bodies, std::vector<Constrain
         if (!meets_within_step(c, law.dt)) continue;
         meeting_.push_back(static_cast<std::int32_t>(k));
         approaching = approaching || c.approach < 0.0;
-        if (c.normal_mass == 0.0 && !std::isinf(c.strength) && c.approach < 0.0)
-            drive_through(bodies, c);
+        if (!c.can_move && !std::isinf(c.strength) && c.approach < 0.0) drive_through(bodies, c);
     }
     if (!approaching) return {};
+    contacts_.build(bodies, constraints, meeting_);
     passive_.begin(bodies, contacts_, constraints, meeting_);
     SolveReport report = rebound(bodies, constraints, law);
     if (law.restitution == 0.0 || passive_.energy_gain(bodies, contacts_, constraints) <= 0.0)
@@ -116,40 +127,77 @@ SolveReport ContactSolver::resolve_impacts(Bodies& bodies, std::vector<Constrain
     return report;
 }
 
-SolveReport ContactSolver::resolve_rest(Bodies& bodies, std::vector<Constraint>& constraints,
-                                        const ContactLaw& law) {
-    // the first guess moves copies: taken back from the bodies it would leave its rounding there
-    velocities_.clear();
-    for (const std::int32_t body : contacts_.bodies())
-        velocities_.emplace_back(bodies.velocity[body], bodies.angular_velocity[body]);
-    guessed_.clear();
-    all_.resize(constraints.size());
+bool ContactSolver::enlist(const Bodies& bodies, const std::vector<Constraint>& constraints,
+                           const ContactLaw& law) {
+    const std::size_t before = active_.size();
+    double most = 0.0;
     for (std::size_t k = 0; k < constraints.size(); ++k) {
-        Constraint& c = constraints[k];
-        all_[k] = static_cast<std::int32_t>(k);
-        if (c.normal_mass == 0.0) c.rest_normal = 0.0;
-        if (c.rest_normal > 0.0) {
-            apply_impulse(bodies, c, c.rest_normal * c.normal + c.rest_tangent);
-            guessed_.push_back(all_[k]);
-        } else {
-            c.rest_tangent.setZero();
-        }
+        const Constraint& c = constraints[k];
+        if (is_active_[k] || !c.can_move) continue;
+        const double closes = closes_by(bodies, c, law.dt);
+        most = std::max(most, closes);
+        if (closes >= -kNear || c.rest_normal > 0.0)
+            active_.push_back(static_cast<std::int32_t>(k));
     }
-    contacts_.begin_stage(bodies, constraints, all_, &Constraint::rest_normal,
-                          &Constraint::rest_tangent,
+    if (before > 0 && most <= law.tolerance * law.dt) {
+        active_.resize(before);
+        return false;
+    }
+    for (std::size_t k = before; k < active_.size(); ++k) is_active_[active_[k]] = 1;
+    std::sort(active_.begin(), active_.end());
+    return active_.size() > before;
+}
+
+void ContactSolver::begin_rest(const Bodies& bodies, const std::vector<Constraint>& constraints,
+                               const ContactLaw& law) {
+    contacts_.begin_stage(bodies, constraints, &Constraint::rest_normal, &Constraint::rest_tangent,
                           [&](const Constraint& c) -> ContactRows::Target {
                               return {-std::max(c.gap, 0.0) / law.dt, c.strength - c.impact_normal};
                           });
+}
+
+// The first guess moves copies: taken back from the bodies it would leave its rounding there.
+void ContactSolver::begin_rest_with_guess(Bodies& bodies, std::vector<Constraint>& constraints,
+                                          const ContactLaw& law) {
+    velocities_.clear();
+    for (const std::int32_t body : contacts_.bodies())
+        velocities_.emplace_back(bodies.velocity[body], bodies.angular_velocity[body]);
+    for (const std::int32_t k : active_) {
+        const Constraint& c = constraints[k];
+        if (c.rest_normal > 0.0)
+            apply_impulse(bodies, c, c.rest_normal * c.normal + c.rest_tangent);
+    }
+    begin_rest(bodies, constraints, law);
     for (std::size_t k = 0; k < velocities_.size(); ++k) {
         const std::int32_t body = contacts_.bodies()[k];
         std::tie(bodies.velocity[body], bodies.angular_velocity[body]) = velocities_[k];
     }
-    for (const std::int32_t k : guessed_) {
+    for (const std::int32_t k : active_) {
         constraints[k].rest_normal = 0.0;
         constraints[k].rest_tangent.setZero();
     }
-    const SolveReport report = iterate(law);
-    contacts_.end_stage(bodies, constraints, &Constraint::rest_normal, &Constraint::rest_tangent);
+}
+
+SolveReport ContactSolver::resolve_rest(Bodies& bodies, std::vector<Constraint>& constraints,
+                                        const ContactLaw& law) {
+    for (Constraint& c : constraints) {
+        if (!c.can_move) c.rest_normal = 0.0;
+        if (c.rest_normal <= 0.0) c.rest_tangent.setZero();
+    }
+    active_.clear();
+    is_active_.assign(constraints.size(), 0);
+    SolveReport report;
+    for (int solution = 0; solution < kRestSolutions; ++solution) {
+        if (!enlist(bodies, constraints, law)) break;
+        contacts_.build(bodies, constraints, active_);
+        solution == 0 ? begin_rest_with_guess(bodies, constraints, law)
+                      : begin_rest(bodies, constraints, law);
+        const int before = report.iterations;
+        report = iterate(law);
+        report.iterations += before;
+        contacts_.end_stage(bodies, constraints, &Constraint::rest_normal,
+                            &Constraint::rest_tangent);
+    }
     return report;
 }
 

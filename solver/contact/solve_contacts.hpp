@@ -44,6 +44,10 @@ public:
     /// Resting stage, after the loads: no contact closes further than its gap,
     /// v_r . n >= -max(gap, 0) / dt, with what strength the impact stage left. Starts from
     /// rest_normal and rest_tangent as given.
+    ///
+    /// Solved for the contacts that the loads close or nearly close, then again with those that
+    /// this solution would close, until there are none: a contact that stays apart carries nothing,
+    /// so the others' conditions are the same without it. `residual` is the last solution's.
     /// @pre resolve_impacts was called with the same constraints
     SolveReport resolve_rest(Bodies& bodies, std::vector<Constraint>& constraints,
                              const ContactLaw& law);
@@ -56,11 +60,21 @@ private:
     SolveReport rebound(Bodies& bodies, std::vector<Constraint>& constraints,
                         const ContactLaw& law);
 
+    // Adds the contacts to active_ that have to take part in the resting stage; are there any new
+    // ones? Once there are some, only a contact that closes brings others.
+    bool enlist(const Bodies& bodies, const std::vector<Constraint>& constraints,
+                const ContactLaw& law);
+    void begin_rest(const Bodies& bodies, const std::vector<Constraint>& constraints,
+                    const ContactLaw& law);
+    void begin_rest_with_guess(Bodies& bodies, std::vector<Constraint>& constraints,
+                               const ContactLaw& law);
+
     ContactRows contacts_;
     Extrapolation extrapolation_;
     PassiveImpact passive_;
-    std::vector<std::pair<Vec3, Vec3>> velocities_;      // of the bodies with contacts
-    std::vector<std::int32_t> meeting_, guessed_, all_;  // constraints
+    std::vector<std::pair<Vec3, Vec3>> velocities_;  // of the bodies with contacts
+    std::vector<std::int32_t> meeting_, active_;     // constraints: of the impacts, of the rest
+    std::vector<std::uint8_t> is_active_;            // by constraint
 };
 
 }  // namespace ice

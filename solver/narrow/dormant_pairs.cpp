@@ -100,6 +100,7 @@ DormantPairs::State DormantPairs::look(std::size_t k, const Scene& scene, BodyPa
     const double then = gone + closing;
     if (then >= row.leeway.distance || turned >= row.leeway.angle) return State::unknown;
     remind(row, pair, travel, gone, turned);
+    row.gone = gone;
     return then >= row.free ? State::known : State::asleep;
 }
 

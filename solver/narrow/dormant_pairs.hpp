@@ -16,6 +16,7 @@ namespace ice {
 /// Two spheres that may touch before their bodies have gone too far.
 struct SpherePair {
     std::int32_t a, b;
+    float least;  ///< [m] their gap is at least this less the way that the bodies have gone
 };
 
 /// What is known of pairs of bodies until they have gone too far: how far they may go before they
@@ -41,6 +42,9 @@ public:
         return {near_.data() + rows_[k].first, rows_[k].count};
     }
 
+    /// How far row k's bodies have gone [m] since it was settled. @pre look() found it known
+    double gone(std::size_t k) const { return rows_[k].gone; }
+
     /// From now on row k is known as far as `leeway`, and cannot touch before its bodies have gone
     /// `free` [m] relative to each other. Rows may be settled at the same time.
     void settle(std::size_t k, const PairView& view, const Travel& travel, const Leeway& leeway,
@@ -55,6 +59,7 @@ private:
         Mat3 turn = Mat3::Zero();
         Vec3 shift = Vec3::Zero();
         double crushed = 0.0;       // of both bodies then [m]
+        double gone = 0.0;          // since then, when last looked at [m]
         double free = 0.0;          // how far they may go until they touch, and until nothing is
         Leeway leeway{-1.0, -1.0};  // known any more
         // sums of the bodies' soon() and turn() at which to look at the poses again: going the same

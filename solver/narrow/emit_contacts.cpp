@@ -74,9 +74,12 @@ Vec3 meeting_point(const PairView& view, NormalRule rule, const Candidate& c) {
     if (c.gap.crossing) return crossing_point(view.sphere_a(c.i), view.sphere_b(c.j), c.gap);
     const double sign = c.gap.a_is_surface ? -1.0 : 1.0;
     const Vec3 outward = sign * c.gap.normal;
-    const SphereSurface probe = c.gap.a_is_surface ? view.sphere_b(c.j) : view.sphere_a(c.i);
-    const Vec3 surface = rule == NormalRule::centres ? Vec3(probe.center + probe.radius * outward)
-                                                     : support_point(probe, outward);
+    const bool of_b = c.gap.a_is_surface;
+    const Vec3 surface =
+        rule == NormalRule::centres
+            ? (of_b ? Vec3(view.center_b(c.j) + view.shape_b.radius[c.j] * outward)
+                    : Vec3(view.center_a(c.i) + view.shape_a.radius[c.i] * outward))
+            : (of_b ? view.support_b(c.j, outward) : view.support_a(c.i, outward));
     return surface + 0.5 * c.gap.gap * outward;
 }
 

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "common/base/parallel.hpp"
+#include "solver/narrow/decisive_spheres.hpp"
 #include "solver/narrow/finish_pair.hpp"
 #include "solver/narrow/pair_kinds.hpp"
 #include "solver/narrow/search_pair.hpp"
@@ -115,17 +116,18 @@ struct Measure {
 struct Workspace {
     PairSearch search;
     PairKinds kinds;
+    DecisiveSpheres decisive;
     std::vector<Candidate> candidates;
 };
 
 bool prefers_a(const PairView& view) { return view.pair.a == static_cast<std::int32_t>(kShip); }
 
 // Measures the spheres that visit_pairs(view, range, measure) names, and makes contacts of them.
+// @pre the bodies are apart (separation) by no more than the margin
 template <class VisitPairs>
 void find_pair_contacts(const Scene& scene, BodyPair pair, NormalRule rule, double margin,
                         Workspace& work, std::vector<Contact>& out, const VisitPairs& visit_pairs) {
     const PairView view(scene, pair);
-    if (separation(view) > margin) return;
     work.candidates.clear();
     work.kinds.begin(view, prefers_a(view));
     const Range range(view, rule, margin);
@@ -148,6 +150,10 @@ double least_gap(const PairView& view, NormalRule rule, const Range& range, cons
     return a.gone || b.gone ? kNever : kinds.bound(i, j, a, b, range.reach, leeway);
 }
 
+float rounded_down(double value) {
+    return std::nextafter(static_cast<float>(value), -std::numeric_limits<float>::infinity());
+}
+
 // The spheres that may be candidates while the pair moves within `leeway`, and the least gap that
 // they may have, less that motion; appends them.
 double find_near(const PairView& view, NormalRule rule, double margin, const Leeway& leeway,
@@ -160,7 +166,7 @@ double find_near(const PairView& view, NormalRule rule, double margin, const Lee
             const double gap = least_gap(view, rule, range, leeway, work.kinds, i, j);
             if (gap == std::numeric_limits<double>::infinity()) return;
             least = std::min(least, gap);
-            out.push_back({i, j});
+            out.push_back({i, j, rounded_down(gap)});
         });
     return least;
 }
@@ -175,11 +181,13 @@ void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
         thread_local Workspace work;  // keeps its memory between pairs
         FoundBatch& batch = batch_of(call);
         const std::size_t first = batch.contacts.size();
-        find_pair_contacts(scene, pairs[k], rule, dt * closing_speed(scene, pairs[k]) + margin,
-                           work, batch.contacts,
-                           [&](const PairView& view, const Range& range, const Measure& measure) {
-                               work.search.for_each_near(view, range.margin, range.reach, measure);
-                           });
+        const double most = dt * closing_speed(scene, pairs[k]) + margin;
+        if (separation(PairView(scene, pairs[k])) <= most)
+            find_pair_contacts(
+                scene, pairs[k], rule, most, work, batch.contacts,
+                [&](const PairView& view, const Range& range, const Measure& measure) {
+                    work.search.for_each_near(view, range.margin, range.reach, measure);
+                });
         found_[k] = {&batch, first, batch.contacts.size() - first, 0, 0};
     });
     join(out);
@@ -223,7 +231,7 @@ void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
             batch.contacts, [&](const PairView& view, const Range& range, const Measure& measure) {
                 if (state == DormantPairs::State::unknown)
                     return work.search.for_each_near(view, range.margin, range.reach, measure);
-                for (const SpherePair& spheres : near) measure(spheres.a, spheres.b);
+                work.decisive.for_each(near, dormant_.gone(k), range.margin, measure);
             });
         found.contacts = batch.contacts.size() - found.contact;
     });

@@ -15,7 +15,7 @@ constexpr double kMostTurn = 4.0;
 
 }  // namespace
 
-KindBound::KindBound(const KindSurface& a, const KindSurface& b, bool prefer_a, double reach,
+KindBound::KindBound(const SphereSurface& a, const SphereSurface& b, bool prefer_a, double reach,
                      const Leeway& leeway)
     : a_(&a), b_(&b), far_(reach + leeway.distance), leeway_(leeway) {
     const KindMeeting meeting = find_meeting(a, b, prefer_a, leeway.angle);
@@ -47,20 +47,20 @@ void KindBound::list_crossings() {
     crossings_ = 0;
     for (int ka = 0; ka < a.edges(); ++ka)
         for (int kb = 0; kb < b.edges(); ++kb) {
-            const Vec3 across = a_->edge[ka].cross(b_->edge[kb]);
+            const Vec3 ea = a.edge(ka), eb = b.edge(kb), across = ea.cross(eb);
             const double sine = across.norm();
             if (sine <= kParallel - leeway_.angle) continue;
             // a turn without bound where it might become any
             const double turn =
                 sine <= 2.0 * leeway_.angle ? kMostTurn : leeway_.angle / (sine - leeway_.angle);
             // each as far from where they cross: apart by the sum of two vectors at their angle
-            const double cosine = std::abs(a_->edge[ka].dot(b_->edge[kb]));
+            const double cosine = std::abs(ea.dot(eb));
             const double skew = std::sqrt(2.0 + 2.0 * std::min(1.0, cosine + leeway_.angle));
             const Vec3 n = 1.0 / sine * across;
             const Faces::Ways of_a = a.have_either(n, kSlantOnEdge, turn);
             const Faces::Ways of_b = b.have_either(n, kSlantOnEdge, turn);
-            if (of_a.back && of_b.forth) crossing_[crossings_++] = {-n, turn, skew, a_->edge[ka]};
-            if (of_a.forth && of_b.back) crossing_[crossings_++] = {n, turn, skew, a_->edge[ka]};
+            if (of_a.back && of_b.forth) crossing_[crossings_++] = {-n, turn, skew, ea};
+            if (of_a.forth && of_b.back) crossing_[crossings_++] = {n, turn, skew, ea};
         }
 }
 

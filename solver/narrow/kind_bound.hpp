@@ -24,7 +24,7 @@ struct Leeway {
 class KindBound {
 public:
     /// @param a, b  one sphere of each kind, whose centre does not matter; both outlive this
-    KindBound(const KindSurface& a, const KindSurface& b, bool prefer_a, double reach,
+    KindBound(const SphereSurface& a, const SphereSurface& b, bool prefer_a, double reach,
               const Leeway& leeway);
 
     /// @param center_a, center_b  of the two spheres, in the axes of a and b [m]
@@ -45,7 +45,7 @@ private:
     double least_of_edges(const Vec3& center_a, const Vec3& center_b);
     double least_across(const Vec3& d, const Vec3& between);
 
-    const KindSurface *a_, *b_;
+    const SphereSurface *a_, *b_;
     double far_;  // across a normal, beyond which there is nothing [m]
     Leeway leeway_;
     bool a_is_surface_;

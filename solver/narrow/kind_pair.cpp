@@ -29,7 +29,7 @@ KindMeeting find_meeting(const SphereSurface& a, const SphereSurface& b, bool pr
     return out;
 }
 
-KindPair::KindPair(const KindSurface& a, const KindSurface& b, bool prefer_a)
+KindPair::KindPair(const SphereSurface& a, const SphereSurface& b, bool prefer_a)
     : a_(&a), b_(&b), prefer_a_(prefer_a) {
     const KindMeeting meeting = find_meeting(a, b, prefer_a);
     rule_ = meeting.rule;
@@ -60,7 +60,7 @@ void KindPair::list_crossings() {
     const Faces &fa = a_->faces, &fb = b_->faces;
     for (int ka = 0; ka < fa.edges(); ++ka)
         for (int kb = 0; kb < fb.edges(); ++kb) {
-            const Vec3 &ea = a_->edge[ka], &eb = b_->edge[kb];
+            const Vec3 ea = fa.edge(ka), eb = fb.edge(kb);
             const Vec3 across = ea.cross(eb);
             const double sine = across.norm();
             if (sine <= kParallel) continue;

@@ -28,20 +28,12 @@ struct KindDirection {
     Foothold under_a, under_b;  ///< what edges stand for there
 };
 
-/// A sphere's surface, and what its kind needs of that for each kind that it meets.
-struct KindSurface : SphereSurface {
-    Vec3 edge[3];  ///< all of Faces::edge, as many as there are
-    explicit KindSurface(const SphereSurface& s) : SphereSurface(s) {
-        for (int k = 0; k < faces.edges(); ++k) edge[k] = faces.edge(k);
-    }
-};
-
 /// measure_gap_surface for two kinds, to the last bit (but for edges that meet, to rounding, at
 /// their very ends).
 class KindPair {
 public:
     /// @param a, b  one sphere of each kind, whose centre does not matter; both outlive this
-    KindPair(const KindSurface& a, const KindSurface& b, bool prefer_a);
+    KindPair(const SphereSurface& a, const SphereSurface& b, bool prefer_a);
 
     /// @param center_a, center_b  of the two spheres, in the axes of a and b [m]
     Gap measure(const Vec3& center_a, const Vec3& center_b) const {
@@ -68,7 +60,7 @@ private:
     Gap measure_afresh(const Vec3& center_a, const Vec3& center_b) const;
     bool meet(const Crossing& c, const Vec3& between) const;
 
-    const KindSurface *a_, *b_;
+    const SphereSurface *a_, *b_;
     bool prefer_a_, a_is_surface_;
     KindRule rule_;
     std::uint8_t faces_ = 0, crossings_ = 0;  // that may part them

@@ -18,7 +18,7 @@ struct Face {
 
 Face face_of(const PairView& view, const Candidate& c) {
     const Vec3 outward = c.gap.a_is_surface ? c.gap.normal : Vec3(-c.gap.normal);
-    return {support_point(c.gap.a_is_surface ? view.sphere_a(c.i) : view.sphere_b(c.j), outward),
+    return {c.gap.a_is_surface ? view.support_a(c.i, outward) : view.support_b(c.j, outward),
             outward};
 }
 

@@ -54,8 +54,7 @@ public:
     double bound(std::int32_t i, std::int32_t j, const Place& a, const Place& b, double reach,
                  const Leeway& leeway) {
         if (a.kind < 0 || b.kind < 0)
-            return KindBound(KindSurface(view_->sphere_a(i)), KindSurface(view_->sphere_b(j)),
-                             prefer_a_, reach, leeway)
+            return KindBound(view_->sphere_a(i), view_->sphere_b(j), prefer_a_, reach, leeway)
                 .least(a.center, b.center);
         return bounds_
             .get(a.kind, b.kind, a_.surface(a.kind), b_.surface(b.kind), prefer_a_, reach, leeway)
@@ -90,7 +89,7 @@ private:
             }
             return static_cast<std::int8_t>(at.row);
         }
-        const KindSurface& surface(std::int8_t kind) const {
+        const SphereSurface& surface(std::int8_t kind) const {
             return surfaces_[static_cast<std::size_t>(kind)];
         }
 
@@ -100,7 +99,7 @@ private:
             std::int32_t row = 0;
         };
         std::vector<Place> places_;
-        std::vector<KindSurface> surfaces_;  // never moves: it holds kMost
+        std::vector<SphereSurface> surfaces_;  // never moves: it holds kMost
         std::vector<Stamp> place_at_, kind_at_;
         std::uint64_t pair_ = 0;
     };

@@ -36,7 +36,7 @@ void find_jam(const Scene& scene, const Constraint& c, double dt, StepRecord& ou
     const double closing =
         relative_velocity(scene.bodies, c).dot(c.normal) + std::max(c.gap, 0.0) / dt;
     // a floe that no impulse reached is no jam, unless it cannot move at all
-    const bool pressed = c.total_normal() > 0.0 || c.normal_mass == 0.0;
+    const bool pressed = c.total_normal() > 0.0 || !c.can_move;
     if (!pressed || c.crushed() || closing > -kJamSpeed) return;
     if (out.jammed_contacts++ > 0) return;
     out.jammed_floe = c.b;

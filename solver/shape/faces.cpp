@@ -22,6 +22,8 @@ Faces Faces::meeting(std::span<const Vec3> normals) {
         out.part = {sign * g.cross(h), sign * h.cross(f), sign * f.cross(g)};
         out.size = std::abs(volume);
     }
+    if (out.count > 1)
+        for (std::size_t k = 0; k < 3; ++k) out.per_length[k] = 1.0 / out.part[k].norm();
     return out;
 }
 
@@ -36,10 +38,10 @@ Faces Faces::turned(const Mat3& turn) const {
 
 double Faces::least_along(const Vec3& n, double around) const {
     // into the solid it goes against the parts: along each of a corner's edges, or within each of
-    // an edge's faces and along the edge
-    double least = count == 2 ? -std::abs(n.dot(part[2])) : -n.dot(part[2]) / part[2].norm();
-    for (std::size_t k = 0; k < 2; ++k) least = std::min(least, -n.dot(part[k]) / part[k].norm());
-    return around * std::min(least, 0.0);
+    // an edge's faces and along the edge; a face's or the solid's points go so far along several
+    const auto along = [&](std::size_t k) { return n.dot(part[k]) * per_length[k]; };
+    const double last = count == 2 ? std::abs(n.dot(part[2])) : along(2);
+    return -around * (std::max(along(0), 0.0) + std::max(along(1), 0.0) + std::max(last, 0.0));
 }
 
 }  // namespace ice

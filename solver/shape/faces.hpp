@@ -46,16 +46,17 @@ struct Faces {
         return {out.forth && last >= least, out.back && -last >= least};
     }
 
-    /// Least of n . (p - corner) [m] for the points p of the solid that the faces bound, going from
-    /// the corner, or along the edge either way, not further than `around` [m] along any edge or
-    /// face; at most 0. @pre count > 0
+    /// Least of n . (p - corner) [m] for the points p of the solid that the faces bound: at a
+    /// corner those within the parallelepiped of its edges, each `around` [m] long; at an edge
+    /// those so far along it either way and into both faces. At most 0. @pre count > 0
     double least_along(const Vec3& n, double around) const;
 
     /// Edges that end or pass there: 3 of a corner, 1 of two faces, else none.
     int edges() const { return count == 3 ? 3 : count / 2; }
     /// Unit vector along edge k: of a corner from there into the solid, else either way.
     Vec3 edge(int k) const {
-        return count == 2 ? part[2] : Vec3(-part[static_cast<std::size_t>(k)].normalized());
+        const auto n = static_cast<std::size_t>(k);
+        return count == 2 ? part[2] : Vec3(-per_length[n] * part[n]);
     }
     /// Does edge k end there? Then it goes one way only.
     bool ends() const { return count == 3; }
@@ -67,6 +68,7 @@ private:
     // n . part[k] is n's part along normal[k], times `size` (positive); of two faces part[2] is the
     // edge's direction
     std::array<Vec3, 3> part{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+    std::array<double, 3> per_length{};  // 1 / |part[k]|
     double size = 0.0;
 };
 

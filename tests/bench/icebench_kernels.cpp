@@ -91,10 +91,10 @@ double time_fresh_pairs(const World& w) {
 double time_sweep(const World& w) {
     std::vector<Constraint> constraints = w.constraints;
     ContactRows rows;
-    rows.build(w.scene.bodies, constraints);
     std::vector<std::int32_t> all(constraints.size());
     std::iota(all.begin(), all.end(), 0);
-    rows.begin_stage(w.scene.bodies, constraints, all, &Constraint::rest_normal,
+    rows.build(w.scene.bodies, constraints, all);
+    rows.begin_stage(w.scene.bodies, constraints, &Constraint::rest_normal,
                      &Constraint::rest_tangent, [&](const Constraint& c) -> ContactRows::Target {
                          return {-std::max(c.gap, 0.0) / w.parameters.time_step, c.strength};
                      });

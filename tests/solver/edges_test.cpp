@@ -85,6 +85,27 @@ void check_refused(const SphereSurface& a, const SphereSurface& b) {
 
 }  // namespace
 
+TEST_CASE("a corner inside a face is as deep as it is, however near the face's own corner",
+          "[narrow][edges][analytic]") {
+    // all of a's face within 0.1 m of its corner is behind b's leaning face somewhere, though a's
+    // corner and its edges are before it
+    const double depth = 0.004;
+    const double y = GENERATE(0.02, 0.05, 0.061, 0.075), z = GENERATE(0.02, 0.049, 0.075);
+    CAPTURE(y, z);
+    const Mat3 lean = (Eigen::AngleAxisd(11.0 * kDeg, kY) * Eigen::AngleAxisd(-10.0 * kDeg, kZ))
+                          .toRotationMatrix();
+    const SphereSurface a = tip_sphere(Vec3::Zero(), {kX, kY, kZ});
+    SphereSurface b = turned(tip_sphere(Vec3::Zero(), {-kX, -kY, -kZ}), lean);
+    b.center += Vec3(-depth, -y, -z);
+    for (const bool prefer_a : {false, true}) {
+        const Gap found = measure_gap_surface(a, b, prefer_a);
+        REQUIRE(found.valid);
+        CHECK((found.normal - kX).norm() < kRounding);
+        CHECK(found.gap == Approx(-depth).margin(kRounding));
+        CHECK(measure_gap_surface(b, a, prefer_a).gap == Approx(-depth).margin(kRounding));
+    }
+}
+
 TEST_CASE("edges of boxes side by side have the faces' normal and distance at any height",
           "[narrow][edges][analytic]") {
     const double gap = GENERATE(0.004, 0.0, -0.004);

@@ -64,7 +64,7 @@ TEST_CASE("two spheres have the gap that their kinds give, bit for bit", "[narro
     for (int k = 0; k < 400; ++k) {
         SphereSurface a = some_sphere(form_a, dice.turn(), 0.05);
         SphereSurface b = facing_sphere(form_b, a, dice);
-        const KindSurface kind_a(a), kind_b(b);
+        const SphereSurface kind_a = a, kind_b = b;
         const KindPair kinds(kind_a, kind_b, prefer_a);
         for (int place = 0; place < 10; ++place) {
             a.center = dice.vector();
@@ -99,7 +99,7 @@ TEST_CASE("no gap comes below its kinds' bound while the bodies keep to the leew
         SphereSurface a = some_sphere(form_a, dice.turn(), 0.05);
         SphereSurface b = facing_sphere(form_b, a, dice);
         b.center = 0.09 * a.normal + 0.1 * dice.vector();
-        const KindSurface kind_a(a), kind_b(b);
+        const SphereSurface kind_a = a, kind_b = b;
         const double least =
             KindBound(kind_a, kind_b, prefer_a, reach, leeway).least(a.center, b.center);
         // turned about its centre, as far as its points within 0.2 m allow, and moved by the rest

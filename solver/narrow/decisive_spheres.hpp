@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "solver/narrow/dormant_pairs.hpp"
+
+namespace ice {
+
+/// Of the spheres that may touch before their bodies have gone too far, picks those that decide
+/// about the contacts of this step. Keeps its memory between pairs.
+class DecisiveSpheres {
+public:
+    /// Calls visit(i, j) for those of `near` whose gap may be at most `gap` [m] after their bodies
+    /// have gone `gone` [m], and for all that share a sphere with one of them: a face that is
+    /// farther away may still show that the sphere is outside (keep_one_per_face). No other ones
+    /// have a contact of that gap, or change one.
+    template <class Visit>
+    void for_each(std::span<const SpherePair> near, double gone, double gap, const Visit& visit) {
+        ++call_;
+        const double most = gone + gap;
+        for (const SpherePair& s : near) {
+            if (s.least > most) continue;
+            mark(of_a_, s.a);
+            mark(of_b_, s.b);
+        }
+        for (const SpherePair& s : near)
+            if (is_marked(of_a_, s.a) || is_marked(of_b_, s.b)) visit(s.a, s.b);
+    }
+
+private:
+    using Marks = std::vector<std::uint64_t>;  // by sphere: the last call that marked it
+    void mark(Marks& marks, std::int32_t sphere) const {
+        const auto k = static_cast<std::size_t>(sphere);
+        if (k >= marks.size()) marks.resize(k + 1, 0);
+        marks[k] = call_;
+    }
+    bool is_marked(const Marks& marks, std::int32_t sphere) const {
+        const auto k = static_cast<std::size_t>(sphere);
+        return k < marks.size() && marks[k] == call_;
+    }
+
+    Marks of_a_, of_b_;
+    std::uint64_t call_ = 0;
+};
+
+}  // namespace ice
