@@ -157,7 +157,7 @@ std::vector<CaseKey> model_keys() {
          "ice so crushed is gone; inf is rigid.",
          [](Case& c, G&, const Value& v) { c.crushing_pressure = number(v); }},
         {"contact.iterations", Kind::integer, D::none, "30", 1, 100000, 0, "",
-         "Upper bound of the contact solver's iterations in a stage of a step.",
+         "Upper bound of the contact solver's iterations for a solution; a step takes a few.",
          [](Case& c, G&, const Value& v) { c.iterations = integer(v); }},
         {"contact.tolerance", Kind::number, D::speed, "1e-4", 0, 10, 0, "",
          "The solver stops when no contact's velocity changes by more than this in an iteration.",

@@ -15,7 +15,7 @@ struct ContactLaw {
     double friction_ship_ice = 0.1;
     double friction_ice_ice = 0.3;
     double crushing_pressure = 0.0;  ///< [Pa]; inf for rigid
-    int iterations = 30;             ///< upper bound per stage
+    int iterations = 30;             ///< upper bound per solution; a stage takes up to 5
     double tolerance = 1e-4;         ///< [m/s]
     double dt = 0.0;                 ///< [s]
 };

@@ -33,7 +33,7 @@ struct ContactRow {
     LaneValues normal_response;        ///< k(n) [1/kg]
     LaneValues tangent_response;       ///< largest k(t) [1/kg]
     LaneValues friction;               ///< Coulomb's coefficient
-    // of the stage; all 0 where the contact takes no part
+    // of the stage; all 0 where there is no contact
     LaneValues normal_mass, tangent_mass;  ///< 1 / the responses [kg]
     LaneValues wanted;                     ///< least v_r . n [m/s]
     LaneValues bound;                      ///< largest normal impulse, >= 0 [N s]
@@ -54,7 +54,7 @@ struct alignas(64) BodyMotion {
     double v[8];
 };
 
-/// All contacts of a step that can move something, in blocks.
+/// The contacts that take part in a stage and can move something, in blocks.
 ///
 /// Pairs are coloured greedily in their order: each gets the first colour that none of its free
 /// bodies has yet, and the blocks of a colour hold pairs of about as many contacts. So the order of
@@ -118,7 +118,7 @@ private:
     std::vector<Pair> pairs_;
     std::vector<std::int32_t> which_;          // constraints that take part
     std::vector<std::int32_t> bodies_;         // by local number
-    std::vector<std::int32_t> local_;          // by body; -1 for those without contacts
+    std::vector<std::int32_t> local_;          // by body; -1 for those that take no part
     std::vector<std::uint64_t> used_colours_;  // by local number
     std::vector<std::int32_t> slot_;           // by row of which_: kLanes row + lane, or -1
 };

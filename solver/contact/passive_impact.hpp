@@ -12,11 +12,12 @@ namespace ice {
 class PassiveImpact {
 public:
     /// Before the impacts. @param which  constraints that take part; the others have no impulse
+    /// @pre contacts was built for these
     void begin(const Bodies& bodies, const ContactRows& contacts,
                const std::vector<Constraint>& constraints, const std::vector<std::int32_t>& which);
 
     /// Energy [J] that the impacts put into the floes beyond the ship's work, largest of all
-    /// islands (floes connected by contacts); at most 0 for impacts that only lose energy.
+    /// islands (floes connected by such contacts); at most 0 for impacts that only lose energy.
     ///
     /// With v_r at the constraints at the beginning and now, the sum of
     /// J . (v_r before + v_r now) / 2 over an island's constraints.

@@ -188,7 +188,7 @@ SolveReport ContactSolver::resolve_rest(Bodies& bodies, std::vector<Constraint>&
     is_active_.assign(constraints.size(), 0);
     SolveReport report;
     for (int solution = 0; solution < kRestSolutions; ++solution) {
-        if (!enlist(bodies, constraints, law)) break;
+        if (!enlist(bodies, constraints, law)) return report;
         contacts_.build(bodies, constraints, active_);
         solution == 0 ? begin_rest_with_guess(bodies, constraints, law)
                       : begin_rest(bodies, constraints, law);
@@ -198,6 +198,7 @@ SolveReport ContactSolver::resolve_rest(Bodies& bodies, std::vector<Constraint>&
         contacts_.end_stage(bodies, constraints, &Constraint::rest_normal,
                             &Constraint::rest_tangent);
     }
+    report.converged = report.converged && !enlist(bodies, constraints, law);
     return report;
 }
 

@@ -45,10 +45,11 @@ public:
     /// v_r . n >= -max(gap, 0) / dt, with what strength the impact stage left. Starts from
     /// rest_normal and rest_tangent as given.
     ///
-    /// Solved for the contacts that the loads close or nearly close, then again with those that
-    /// this solution would close, until there are none: a contact that stays apart carries nothing,
-    /// so the others' conditions are the same without it. `residual` is the last solution's.
-    /// @pre resolve_impacts was called with the same constraints
+    /// Solved for the contacts that the loads close or nearly close; while a solution closes
+    /// others, again with them and those it nearly closes. A contact that stays apart carries
+    /// nothing, so the conditions of the rest are the same without it. `residual` is the last
+    /// solution's; not converged where contacts still close after five.
+    /// @pre impact_normal is the impact stage's; constraints ordered by (a, b)
     SolveReport resolve_rest(Bodies& bodies, std::vector<Constraint>& constraints,
                              const ContactLaw& law);
 
@@ -72,7 +73,7 @@ private:
     ContactRows contacts_;
     Extrapolation extrapolation_;
     PassiveImpact passive_;
-    std::vector<std::pair<Vec3, Vec3>> velocities_;  // of the bodies with contacts
+    std::vector<std::pair<Vec3, Vec3>> velocities_;  // of the bodies that take part
     std::vector<std::int32_t> meeting_, active_;     // constraints: of the impacts, of the rest
     std::vector<std::uint8_t> is_active_;            // by constraint
 };

@@ -7,7 +7,7 @@ namespace ice {
 
 namespace {
 
-// What a term of the series is divided by to give the next one's factor, inverted.
+// Ratios of successive terms of the series over x^2: 1 / (2k (2k + 1)) and 1 / ((2k - 1) 2k).
 struct Terms {
     std::array<double, 8> of_sinc{}, of_cosine{};
 };

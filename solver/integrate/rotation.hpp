@@ -10,7 +10,7 @@ namespace ice {
 /// Unit quaternion of a rotation vector [rad]: (cos |a|/2, sin(|a|/2) a/|a|).
 ///
 /// Sine and cosine by their Taylor series, so that the bits do not depend on the system's libm;
-/// angles beyond 1 rad are halved first and the result squared. Exact to rounding.
+/// angles beyond 1 rad are halved first and the result squared. Exact and of length 1 to rounding.
 Eigen::Quaterniond exponential_map(const Vec3& angle);
 
 /// Orientation after dt of torque-free rotation with constant angular momentum L (world axes).

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -14,6 +15,12 @@ namespace ice {
 /// about the contacts of this step. Keeps its memory between pairs.
 class DecisiveSpheres {
 public:
+    /// Before for_each: how many spheres the two bodies have.
+    void begin(std::size_t spheres_a, std::size_t spheres_b) {
+        of_a_.resize(std::max(of_a_.size(), spheres_a), 0);
+        of_b_.resize(std::max(of_b_.size(), spheres_b), 0);
+    }
+
     /// Calls visit(i, j) for those of `near` whose gap may be at most `gap` [m] after their bodies
     /// have gone `gone` [m], and for all that share a sphere with one of them: a face that is
     /// farther away may still show that the sphere is outside (keep_one_per_face). No other ones
@@ -34,13 +41,10 @@ public:
 private:
     using Marks = std::vector<std::uint64_t>;  // by sphere: the last call that marked it
     void mark(Marks& marks, std::int32_t sphere) const {
-        const auto k = static_cast<std::size_t>(sphere);
-        if (k >= marks.size()) marks.resize(k + 1, 0);
-        marks[k] = call_;
+        marks[static_cast<std::size_t>(sphere)] = call_;
     }
     bool is_marked(const Marks& marks, std::int32_t sphere) const {
-        const auto k = static_cast<std::size_t>(sphere);
-        return k < marks.size() && marks[k] == call_;
+        return marks[static_cast<std::size_t>(sphere)] == call_;
     }
 
     Marks of_a_, of_b_;

@@ -231,6 +231,7 @@ void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
             batch.contacts, [&](const PairView& view, const Range& range, const Measure& measure) {
                 if (state == DormantPairs::State::unknown)
                     return work.search.for_each_near(view, range.margin, range.reach, measure);
+                work.decisive.begin(view.shape_a.center.size(), view.shape_b.center.size());
                 work.decisive.for_each(near, dormant_.gone(k), range.margin, measure);
             });
         found.contacts = batch.contacts.size() - found.contact;

@@ -23,7 +23,10 @@ Faces Faces::meeting(std::span<const Vec3> normals) {
         out.size = std::abs(volume);
     }
     if (out.count > 1)
-        for (std::size_t k = 0; k < 3; ++k) out.per_length[k] = 1.0 / out.part[k].norm();
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double length = out.part[k].norm();
+            out.per_length[k] = length > 0.0 ? 1.0 / length : 0.0;  // 0: parallel faces
+        }
     return out;
 }
 

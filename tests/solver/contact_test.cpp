@@ -240,41 +240,60 @@ TEST_CASE("a warm start finds each contact's own impulse by bodies and key", "[c
     }
 }
 
-TEST_CASE("a push goes on through floes whose gaps it closes within the step, and no further",
-          "[contact][analytic]") {
-    // four floes of one mass in a row, 1 mm apart; the first one goes 5 mm in the step
+namespace {
+
+// Floes of one mass in a row, `gap` apart, of which the first goes at `speed`; nothing has met yet.
+struct Row {
     Scene scene = make_scene(build_shape(test::make_box_set(Vec3(4, 4, 1), 0.1, 0.2), false),
                              Vec3(0, 0, 100), Vec3::Zero());
-    scene.shapes.push_back(build_shape(test::make_box_set(Vec3(1, 0.8, 0.3), 0.05, 0.1), true));
-    const double gap = 0.001, dt = 0.01, speed = 0.5;
-    std::vector<Contact> contacts;
-    for (std::int32_t k = 1; k <= 4; ++k) {
-        const double x = (1.0 + gap) * k;
-        add_floe(scene, 1, 900.0, Vec3(x, 0, 0), Quaternion::Identity(), 0, false);
-        if (k == 4) break;
-        const Vec3 between(x + 0.5 * (1.0 + gap), 0, 0);
-        contacts.push_back(contact_at(between, Vec3::UnitX()));
-        contacts.back().a = k;
-        contacts.back().b = k + 1;
-        contacts.back().gap = gap;
-    }
-    Bodies& b = scene.bodies;
-    b.velocity[1] = Vec3(speed, 0, 0);
-    const ContactLaw law = exact_law(0.3, 0.0);
     std::vector<Constraint> constraints;
-    build_constraints(b, contacts, law, constraints);
-    ContactSolver solver;
-    solver.resolve_impacts(b, constraints, law);  // nothing meets but the first two
-    b.velocity = {Vec3::Zero(), Vec3(speed, 0, 0), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
-    for (Constraint& c : constraints) c.impact_normal = 0.0;
-    REQUIRE(solver.resolve_rest(b, constraints, law).converged);
+    const ContactLaw law = exact_law(0.3, 0.0);
+
+    Row(std::int32_t floes, double gap, double speed) {
+        scene.shapes.push_back(build_shape(test::make_box_set(Vec3(1, 0.8, 0.3), 0.05, 0.1), true));
+        std::vector<Contact> contacts;
+        for (std::int32_t k = 1; k <= floes; ++k) {
+            const double x = (1.0 + gap) * k;
+            add_floe(scene, 1, 900.0, Vec3(x, 0, 0), Quaternion::Identity(), 0, false);
+            if (k == floes) break;
+            contacts.push_back(contact_at(Vec3(x + 0.5 * (1.0 + gap), 0, 0), Vec3::UnitX()));
+            contacts.back().a = k;
+            contacts.back().b = k + 1;
+            contacts.back().gap = gap;
+        }
+        scene.bodies.velocity[1] = Vec3(speed, 0, 0);
+        build_constraints(scene.bodies, contacts, law, constraints);
+    }
+    SolveReport rest() { return ContactSolver().resolve_rest(scene.bodies, constraints, law); }
+    double speed(std::size_t floe) const { return scene.bodies.velocity[floe].x(); }
+};
+
+}  // namespace
+
+TEST_CASE("a push goes on through floes whose gaps it closes within the step, and no further",
+          "[contact][analytic]") {
+    const double gap = 0.001, dt = 0.01, speed = 0.5;
+    Row row(4, gap, speed);
+    REQUIRE(row.rest().converged);
     // three share the momentum, each slower by gap / dt; the third does not reach the fourth
     const double least = (speed - 3.0 * gap / dt) / 3.0;
-    CHECK(b.velocity[1].x() == Approx(least + 2.0 * gap / dt).epsilon(1e-9));
-    CHECK(b.velocity[2].x() == Approx(least + gap / dt).epsilon(1e-9));
-    CHECK(b.velocity[3].x() == Approx(least).epsilon(1e-9));
-    CHECK(b.velocity[4].x() == 0.0);
-    CHECK(constraints[2].rest_normal == 0.0);
+    CHECK(row.speed(1) == Approx(least + 2.0 * gap / dt).epsilon(1e-9));
+    CHECK(row.speed(2) == Approx(least + gap / dt).epsilon(1e-9));
+    CHECK(row.speed(3) == Approx(least).epsilon(1e-9));
+    CHECK(row.speed(4) == 0.0);
+    CHECK(row.constraints[2].rest_normal == 0.0);
+}
+
+TEST_CASE("a push that goes on through more floes than there are solutions is not converged",
+          "[contact][analytic]") {
+    // each solution meets one floe more; six of the eight share the momentum after five
+    const double gap = 0.0002, dt = 0.01, speed = 0.5;
+    Row row(8, gap, speed);
+    CHECK_FALSE(row.rest().converged);
+    const double least = (speed - 15.0 * gap / dt) / 6.0;
+    CHECK(row.speed(1) == Approx(least + 5.0 * gap / dt).epsilon(1e-9));
+    CHECK(row.speed(6) == Approx(least).epsilon(1e-9));
+    CHECK(row.speed(7) == 0.0);
 }
 
 TEST_CASE("ice that two hull spheres crush in one place gives way once", "[contact][crushing]") {

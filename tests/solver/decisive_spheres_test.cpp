@@ -6,6 +6,7 @@
 #include <random>
 #include <set>
 #include <utility>
+#include <vector>
 
 using namespace ice;
 
@@ -16,6 +17,7 @@ using Visited = std::multiset<std::pair<std::int32_t, std::int32_t>>;
 Visited visited(DecisiveSpheres& decisive, const std::vector<SpherePair>& near, double gone,
                 double gap) {
     Visited out;
+    decisive.begin(31, 31);
     decisive.for_each(near, gone, gap, [&](std::int32_t a, std::int32_t b) { out.emplace(a, b); });
     return out;
 }

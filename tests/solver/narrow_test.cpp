@@ -137,6 +137,9 @@ TEST_CASE("pairs that are not looked at have no contacts, step after step",
           "[narrow][equivalence]") {
     World w = scattered_world(GENERATE(1u, 2u), 60);
     w.parameters.normal = GENERATE(NormalRule::centres, NormalRule::surface);
+    w.parameters.crushing_pressure = GENERATE(std::numeric_limits<double>::infinity(), 1e4);
+    for (const std::int32_t i : w.scene.bodies.moving)  // towards the middle
+        w.scene.bodies.velocity[i] = -0.5 * w.scene.bodies.position[i];
     const NormalRule rule = w.parameters.normal;
     const double dt = w.parameters.time_step;
     Travel travel;
@@ -157,6 +160,7 @@ TEST_CASE("pairs that are not looked at have no contacts, step after step",
         step(w);
     }
     CHECK(compared > 1000);
+    CHECK(std::isinf(w.parameters.crushing_pressure) == w.scene.crushed.recess.empty());
 }
 
 TEST_CASE("the broad phase finds the pairs that testing all finds", "[broad][equivalence]") {

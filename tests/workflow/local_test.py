@@ -41,7 +41,7 @@ with tempfile.TemporaryDirectory() as folder:
     assert code == 0 and "Nothing to be done" in text, text
 
     # a changed setting is a different run
-    longer = SWEEP.format(speeds="[0.5, 0.8, 1.0]", seeds=2).replace("= 2.0", "= 40.0")
+    longer = SWEEP.format(speeds="[0.5, 0.8, 1.0]", seeds=2).replace("= 2.0", "= 200.0")
     write(f"{folder}/sweep.toml", longer)
     words = snakemake_words(folder, "local", "--cores", "1")
     sweep = subprocess.Popen(words, cwd=folder, text=True, stdout=subprocess.PIPE,
