@@ -57,7 +57,7 @@ void parallel_for(std::size_t count, std::size_t serial_below, const Body& body)
     }
     // several pieces for each thread, as items may differ, but not so many that handing out counts
     const int piece = static_cast<int>(
-        std::clamp<std::size_t>(count / (16 * std::size_t(omp_get_max_threads())), 16, 256));
+        std::clamp<std::size_t>(count / (64 * std::size_t(omp_get_max_threads())), 4, 256));
     FirstException first;
 #pragma omp parallel for schedule(dynamic, piece)
     for (std::ptrdiff_t k = 0; k < static_cast<std::ptrdiff_t>(count); ++k)

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solver/contact/constraints.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <tuple>
@@ -12,18 +11,20 @@ namespace ice {
 
 namespace {
 
-Mat3 cross_matrix(const Vec3& r) {
-    Mat3 m;
-    m << 0, -r.z(), r.y(), r.z(), 0, -r.x(), -r.y(), r.x(), 0;
-    return m;
+// [r] m [r] with the matrix [r] of the product r x; by matrices a third would be products with its
+// zeros.
+Mat3 crossed_twice(const Vec3& r, const Mat3& m) {
+    Mat3 once, twice;
+    for (int k = 0; k < 3; ++k) once.col(k) = r.cross(m.col(k));
+    for (int k = 0; k < 3; ++k) twice.row(k) = Vec3(once.row(k)).cross(r);
+    return twice;
 }
 
 // K with K j = change of v_r by impulse j; k(d) = d . K d
 Mat3 response(const Bodies& bodies, const Constraint& c) {
-    const Mat3 ra = cross_matrix(c.arm_a), rb = cross_matrix(c.arm_b);
     return (bodies.inverse_mass[c.a] + bodies.inverse_mass[c.b]) * Mat3::Identity() -
-           ra * bodies.inverse_inertia_world[c.a] * ra -
-           rb * bodies.inverse_inertia_world[c.b] * rb;
+           crossed_twice(c.arm_a, bodies.inverse_inertia_world[c.a]) -
+           crossed_twice(c.arm_b, bodies.inverse_inertia_world[c.b]);
 }
 
 // Largest k(d) over unit tangents d: the greater eigenvalue of K in the tangent plane. Stepping
@@ -46,11 +47,6 @@ double strength(const Contact& contact, double approach, const ContactLaw& law) 
 }
 
 }  // namespace
-
-Vec3 relative_velocity(const Bodies& bodies, const Constraint& c) {
-    return bodies.velocity[c.b] + bodies.angular_velocity[c.b].cross(c.arm_b) -
-           bodies.velocity[c.a] - bodies.angular_velocity[c.a].cross(c.arm_a);
-}
 
 void apply_impulse(Bodies& bodies, const Constraint& c, const Vec3& j) {
     bodies.velocity[c.a] -= bodies.inverse_mass[c.a] * j;

@@ -2,6 +2,7 @@
 /// Contacts as the solver sees them: lever arms, effective masses, bounds and impulses.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <vector>
 
@@ -59,7 +60,10 @@ void build_constraints(const Bodies& bodies, const std::vector<Contact>& contact
 void measure_response(const Bodies& bodies, Constraint& c);
 
 /// v_r at a constraint from the bodies' present velocities [m/s].
-Vec3 relative_velocity(const Bodies& bodies, const Constraint& c);
+inline Vec3 relative_velocity(const Bodies& bodies, const Constraint& c) {
+    return bodies.velocity[c.b] + bodies.angular_velocity[c.b].cross(c.arm_b) -
+           bodies.velocity[c.a] - bodies.angular_velocity[c.a].cross(c.arm_a);
+}
 
 /// Gives impulse j [N s] to b and -j to a: velocities and angular velocities change.
 void apply_impulse(Bodies& bodies, const Constraint& c, const Vec3& j);

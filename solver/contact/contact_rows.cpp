@@ -5,12 +5,17 @@
 #include <algorithm>
 #include <bit>
 
+#include "common/base/parallel.hpp"
+
 namespace ice {
 
 namespace {
 
 // Colours that pairs share; a pair for whose bodies none is left gets one of its own.
 constexpr int kColours = 64;
+
+// Below this many responses waking threads costs more than they save.
+constexpr std::size_t kSerialResponses = 512;
 
 void put(LaneVectors& to, std::size_t lane, const Vec3& from) {
     for (int d = 0; d < 3; ++d) to[static_cast<std::size_t>(d)].v[lane] = from[d];
@@ -36,7 +41,7 @@ std::int32_t ContactRows::local(std::int32_t body) {
     return number;
 }
 
-void ContactRows::find_pairs(const Bodies& bodies, std::vector<Constraint>& constraints) {
+void ContactRows::find_pairs(const Bodies& bodies, const std::vector<Constraint>& constraints) {
     for (const std::int32_t body : bodies_) local_[static_cast<std::size_t>(body)] = -1;
     local_.resize(bodies.size(), -1);
     bodies_.clear();
@@ -47,11 +52,9 @@ void ContactRows::find_pairs(const Bodies& bodies, std::vector<Constraint>& cons
         while (end < which_.size() && constraints[which_[end]].a == c.a &&
                constraints[which_[end]].b == c.b)
             ++end;
-        if (c.can_move) {
+        if (c.can_move)
             pairs_.push_back({local(c.a), local(c.b), static_cast<std::int32_t>(k),
                               static_cast<std::int32_t>(end - k), 0});
-            for (std::size_t n = k; n < end; ++n) measure_response(bodies, constraints[which_[n]]);
-        }
         k = end;
     }
 }
@@ -132,6 +135,10 @@ void ContactRows::build(const Bodies& bodies, std::vector<Constraint>& constrain
     rows.clear();
     which_ = which;
     slot_.assign(which_.size(), -1);
+    parallel_for(which_.size(), kSerialResponses, [&](std::size_t n) {
+        Constraint& c = constraints[which_[n]];
+        if (c.can_move) measure_response(bodies, c);
+    });
     find_pairs(bodies, constraints);
     colour_pairs(bodies);
     // by this thread alone: it sweeps the rows, and takes longer to fetch them from another core

@@ -106,7 +106,7 @@ private:
     struct Pair {
         std::int32_t a, b, first, count, colour;  // local bodies, rows of which_
     };
-    void find_pairs(const Bodies& bodies, std::vector<Constraint>& constraints);
+    void find_pairs(const Bodies& bodies, const std::vector<Constraint>& constraints);
     void colour_pairs(const Bodies& bodies);
     void fill_block(const Bodies& bodies, const std::vector<Constraint>& constraints,
                     std::size_t first_pair, std::size_t last_pair);

@@ -44,9 +44,9 @@ FoundBatch& batch_of(std::uint64_t call) {
 // What is compared before its root is taken is not lost to rounding.
 constexpr double kRoundedUp = 1.0 + 1e-12;
 
-// A pair takes about a microsecond: below this many, waking threads costs more than they save, and
-// much more on a busy machine.
-constexpr std::size_t kSerialPairs = 256;
+// A pair takes some microseconds, a look at one a twentieth of that: below this many, waking
+// threads costs more than they save.
+constexpr std::size_t kSerialPairs = 64, kSerialLooks = 1024;
 
 // Within what distance two spheres are compared: their supports and the margin along the normal,
 // the reach and the corners' offsets across it [m]. Of edges that run side by side and cross, each
@@ -197,14 +197,13 @@ void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
                          const Travel& travel, NormalRule rule, double dt, double margin,
                          std::vector<Contact>& out) {
     dormant_.match(pairs);
+    states_.resize(pairs.size());
+    parallel_for(pairs.size(), kSerialLooks, [&](std::size_t k) {
+        states_[k] = dormant_.look(k, scene, pairs[k], travel, dt, margin);
+    });
     awake_.clear();
-    known_.clear();
-    for (std::size_t k = 0; k < pairs.size(); ++k) {
-        const auto state = dormant_.look(k, scene, pairs[k], travel, dt, margin);
-        if (state == DormantPairs::State::asleep) continue;
-        awake_.push_back(k);
-        known_.push_back(state == DormantPairs::State::known);
-    }
+    for (std::size_t k = 0; k < pairs.size(); ++k)
+        if (states_[k] != DormantPairs::State::asleep) awake_.push_back(k);
     found_.assign(awake_.size(), Found{});
     const std::uint64_t call = next_call();
     parallel_for(awake_.size(), kSerialPairs, [&](std::size_t n) {
@@ -214,8 +213,8 @@ void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
         Found& found = found_[n];
         found = {&batch, batch.contacts.size(), 0, batch.spheres.size(), 0};
         std::span<const SpherePair> near = dormant_.near(k);
-        auto state = DormantPairs::State::known;
-        if (!known_[n]) {
+        auto state = states_[k];
+        if (state == DormantPairs::State::unknown) {
             const PairView view(scene, pairs[k]);
             const Leeway leeway = dormant_leeway(scene, pairs[k], dt);
             const double least = find_near(view, rule, margin, leeway, work, batch.spheres);
@@ -238,7 +237,7 @@ void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
     });
     for (std::size_t n = 0; n < awake_.size(); ++n) {
         const Found& found = found_[n];
-        if (!known_[n])
+        if (states_[awake_[n]] == DormantPairs::State::unknown)
             dormant_.keep(awake_[n],
                           std::span(found.batch->spheres).subspan(found.sphere, found.spheres));
     }

@@ -69,9 +69,9 @@ private:
     void join(std::vector<Contact>& out) const;
 
     // kept between steps: no allocation once warm
-    std::vector<std::size_t> awake_;   // rows of the pairs that are looked at
-    std::vector<Found> found_;         // of these
-    std::vector<std::uint8_t> known_;  // of these: is near() all that may touch?
+    std::vector<DormantPairs::State> states_;  // of all pairs
+    std::vector<std::size_t> awake_;           // rows of the pairs that are measured
+    std::vector<Found> found_;                 // of these
     DormantPairs dormant_;
 };
 
