@@ -67,7 +67,9 @@ struct Range {
         const double along = corner_a + corner_b + margin, across = reach + aside_a + aside_b;
         return along * along + across * across;
     }
-    bool holds(const Vec3& center_a, const Faces& a, const Vec3& center_b, const Faces& b) const {
+    // of two places or spheres' surfaces
+    template <class A, class B>
+    bool holds(const Vec3& center_a, const A& a, const Vec3& center_b, const B& b) const {
         return (center_a - center_b).squaredNorm() <= squared(a.corner, a.aside, b.corner, b.aside);
     }
 };
@@ -106,8 +108,7 @@ struct Measure {
     }
     void by_surface(std::int32_t i, std::int32_t j) const {
         const PairKinds::Place &a = kinds.a(i), &b = kinds.b(j);
-        const Faces &faces_a = view.shape_a.faces[i], &faces_b = view.shape_b.faces[j];
-        if (!range.holds(a.center, faces_a, b.center, faces_b) || a.gone || b.gone) return;
+        if (!range.holds(a.center, a, b.center, b) || a.gone || b.gone) return;
         keep_candidate(view, rule, range, i, j, kinds.measure(i, j, a, b), out);
     }
 };

@@ -38,6 +38,7 @@ bool lets_go(const Scene& scene, const Case& parameters, std::int32_t touched, s
 
 bool release_touched(Scene& scene, const Case& parameters, const std::vector<Contact>& contacts) {
     bool any = false;
+    if (scene.bodies.moving.size() + 1 == scene.bodies.size()) return any;  // none is held
     for (const Contact& c : contacts) {
         const bool a = lets_go(scene, parameters, c.a, c.b);
         const bool b = lets_go(scene, parameters, c.b, c.a);
