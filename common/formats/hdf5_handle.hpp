@@ -28,6 +28,13 @@ public:
     Handle& operator=(const Handle&) = delete;
     operator hid_t() const { return id_; }
 
+    /// Closes now: did all that was waiting for it go well?
+    bool close() {
+        const hid_t id = id_;
+        id_ = -1;
+        return closer_(id) >= 0;
+    }
+
 private:
     hid_t id_;
     herr_t (*closer_)(hid_t);

@@ -78,6 +78,28 @@ TEST_CASE("rows of 0 floes can be appended: [2,0,3]", "[formats]") {
     CHECK(file.read<float>("/position").empty());
 }
 
+TEST_CASE("rows appended since the last flush do not count in the file on disk", "[formats]") {
+    const TempFolder folder;
+    const std::vector<double> rows(640, 1.5);
+    const auto lengths = [&] {  // as a program finds them that was not told of the open file
+        std::filesystem::copy_file(folder / "x.h5", folder / "copy.h5",
+                                   std::filesystem::copy_options::overwrite_existing);
+        const Hdf5File copy(folder / "copy.h5", Mode::read);
+        return std::pair(copy.read<double>("/one").size(), copy.read<double>("/two").size());
+    };
+    Hdf5File file(folder / "x.h5", Mode::create_growing);
+    for (const char* name : {"/one", "/two"}) file.create_appendable<double>(name, {}, 64);
+    file.append("/one", rows.data(), 64);
+    file.append("/two", rows.data(), 64);
+    file.flush();
+    CHECK(lengths() == std::pair<std::size_t, std::size_t>(64, 64));
+    file.append("/one", rows.data(), 640);
+    CHECK(lengths() == std::pair<std::size_t, std::size_t>(64, 64));
+    file.append("/two", rows.data(), 640);
+    file.flush();
+    CHECK(lengths() == std::pair<std::size_t, std::size_t>(704, 704));
+}
+
 TEST_CASE("reading what is missing or of another kind names the file and the dataset",
           "[formats]") {
     const TempFolder folder;
