@@ -65,10 +65,8 @@ inline bool belongs(const SphereSurface& s, const Vec3& n, double slack = 0.0) {
     return s.normal.dot(n) >= std::min(kLeaning, s.spread_cos) - slack;
 }
 
-/// From the centre to the foremost point along n [m]: support_point less the centre.
 inline Vec3 support_offset(const SphereSurface& s, const Vec3& n) {
-    if (s.faces.count == 0) return s.radius * n;
-    return s.faces.corner * s.normal;
+    return support_offset(s.faces, s.radius, s.normal, n);
 }
 
 /// The gap across two edges.

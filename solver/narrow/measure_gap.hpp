@@ -48,6 +48,11 @@ Crossing find_crossing(const Vec3& pa, const Vec3& ea, const Vec3& pb, const Vec
 /// own.
 Vec3 support_point(const SphereSurface& s, const Vec3& n);
 
+/// The same less the centre [m], of a sphere with these faces, radius [m] and middle normal.
+inline Vec3 support_offset(const Faces& faces, double radius, const Vec3& middle, const Vec3& n) {
+    return faces.count == 0 ? Vec3(radius * n) : Vec3(faces.corner * middle);
+}
+
 /// The paper's rule (Figure 1): normal from centre to centre, gap |d| - (r_a + r_b).
 ///
 /// Coincident centres have no direction and give an invalid gap.

@@ -48,17 +48,14 @@ struct PairView {
         return {center_b(j),           shape_b.radius[j],     turn * shape_b.normal[j],
                 shape_b.spread_cos[j], shape_b.spread_sin[j], shape_b.faces[j].turned(turn)};
     }
-    /// support_point of the spheres' surfaces, without the faces.
+    /// support_point of sphere_a(i) and sphere_b(j), whose faces need not be turned for it.
     Vec3 support_a(std::int32_t i, const Vec3& n) const {
-        const Faces& f = shape_a.faces[i];
-        if (f.count == 0) return center_a(i) + shape_a.radius[i] * n;
-        return center_a(i) + f.corner * shape_a.normal[i];
+        return center_a(i) +
+               support_offset(shape_a.faces[i], shape_a.radius[i], shape_a.normal[i], n);
     }
     Vec3 support_b(std::int32_t j, const Vec3& n) const {
-        const Faces& f = shape_b.faces[j];
-        if (f.count == 0) return center_b(j) + shape_b.radius[j] * n;
-        const Vec3 middle = turn * shape_b.normal[j];
-        return center_b(j) + f.corner * middle;
+        return center_b(j) +
+               support_offset(shape_b.faces[j], shape_b.radius[j], turn * shape_b.normal[j], n);
     }
 };
 
