@@ -19,6 +19,7 @@ using Json = nlohmann::json;
 
 constexpr std::uintmax_t kLargestPolygons = 64u << 20;  // a million corners fit
 constexpr int kDeepest = 20;                            // collections within collections
+constexpr std::size_t kMostQuoted = 60;                 // characters of a bad row in a message
 
 class GeoJsonReader {
 public:
@@ -91,7 +92,8 @@ std::vector<NamedOutline> read_csv(const std::filesystem::path& file, const std:
         if (!x && !y && out.empty()) continue;  // the header
         if (!x || !y)
             throw bad_input(fmt::format("{}:{}", file.string(), number),
-                            "is no row floe, x, y: '" + line + "'",
+                            "is no row floe, x, y: '" + line.substr(0, kMostQuoted) +
+                                (line.size() > kMostQuoted ? "...'" : "'"),
                             "write for instance 7, 12.5, -3");
         if (out.empty() || id != last) out.push_back({"floe " + id, {}});
         out.back().corners.emplace_back(x->value, y->value);
