@@ -62,8 +62,8 @@ public:
     std::vector<std::string> read_strings(const std::string& name) const;
     std::vector<std::uint64_t> shape(const std::string& name) const;
 
-    // Datasets that grow along their first dimension; `row_shape` is the shape of one row. Who opens
-    // the file meanwhile, or after a kill, finds the rows that there were at the last flush().
+    // Datasets that grow along their first dimension; `row_shape` is the shape of one row. Who
+    // opens the file meanwhile, or after a kill, finds the rows of the last flush().
     template <class T>
     void create_appendable(const std::string& name, const std::vector<std::uint64_t>& row_shape,
                            std::uint64_t rows_per_chunk);
