@@ -236,8 +236,8 @@ void Hdf5File::append(const std::string& name, const T* rows, std::uint64_t coun
     if (count == 0) return;
     std::vector<std::uint64_t> old = shape(name);
     // Closed, not flushed: the rows go to the file, which counts them at flush(), those of all
-    // datasets together. Flushed one by one, 24 of 60 kills of a run that writes half of the time
-    // left datasets of unlike length, and 1 of 60 so.
+    // datasets together. Flushed one by one, a kill while the next one is compressed would leave
+    // datasets of unlike length.
     Handle dataset(H5Dopen2(id_, name.c_str(), H5P_DEFAULT), H5Dclose);
     std::vector<hsize_t> size = to_hsize(old), start(old.size(), 0), block = size;
     start[0] = size[0];

@@ -11,8 +11,7 @@ namespace ice {
 
 namespace {
 
-// [r] m [r] with the matrix [r] of the product r x; by matrices a third would be products with its
-// zeros.
+// [r] m [r] with the matrix [r] of the product r x, without the products with its zeros.
 Mat3 crossed_twice(const Vec3& r, const Mat3& m) {
     Mat3 once, twice;
     for (int k = 0; k < 3; ++k) once.col(k) = r.cross(m.col(k));

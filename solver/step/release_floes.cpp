@@ -37,8 +37,8 @@ bool lets_go(const Scene& scene, const Case& parameters, std::int32_t touched, s
 }  // namespace
 
 bool release_touched(Scene& scene, const Case& parameters, const std::vector<Contact>& contacts) {
+    if (scene.bodies.moving.size() + 1 == scene.bodies.size()) return false;  // none is held
     bool any = false;
-    if (scene.bodies.moving.size() + 1 == scene.bodies.size()) return any;  // none is held
     for (const Contact& c : contacts) {
         const bool a = lets_go(scene, parameters, c.a, c.b);
         const bool b = lets_go(scene, parameters, c.b, c.a);
