@@ -21,7 +21,7 @@ public:
         of_b_.resize(std::max(of_b_.size(), spheres_b), 0);
     }
 
-    /// Calls visit(i, j) for those of `near` whose gap may be at most `gap` [m] after their bodies
+    /// Calls visit(i, j, possible) for those of `near` whose gap may be at most `gap` [m] after their bodies
     /// have gone `gone` [m], and for all that share a sphere with one of them: a face that is
     /// farther away may still show that the sphere is outside (keep_one_per_face). No other ones
     /// have a contact of that gap, or change one.
@@ -35,7 +35,7 @@ public:
             mark(of_b_, s.b);
         }
         for (const SpherePair& s : near)
-            if (is_marked(of_a_, s.a) || is_marked(of_b_, s.b)) visit(s.a, s.b);
+            if (is_marked(of_a_, s.a) || is_marked(of_b_, s.b)) visit(s.a, s.b, s.possible);
     }
 
 private:

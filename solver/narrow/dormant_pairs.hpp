@@ -17,6 +17,7 @@ namespace ice {
 struct SpherePair {
     std::int32_t a, b;
     float least;  ///< [m] their gap is at least this less the way that the bodies have gone
+    PossibleNormals possible = PossibleNormals::all();  ///< of their kinds
 };
 
 /// What is known of pairs of bodies until they have gone too far: how far they may go before they

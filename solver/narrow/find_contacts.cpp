@@ -94,8 +94,9 @@ struct Measure {
     Range range;
     std::vector<Candidate>& out;
 
-    void operator()(std::int32_t i, std::int32_t j) const {
-        rule == NormalRule::centres ? by_centres(i, j) : by_surface(i, j);
+    void operator()(std::int32_t i, std::int32_t j,
+                    PossibleNormals possible = PossibleNormals::all()) const {
+        rule == NormalRule::centres ? by_centres(i, j) : by_surface(i, j, possible);
     }
     void by_centres(std::int32_t i, std::int32_t j) const {
         const Vec3 center_a = view.center_a(i), center_b = view.center_b(j);
@@ -106,10 +107,10 @@ struct Measure {
         keep_candidate(view, rule, range, i, j,
                        measure_gap_centres(center_a, radius_a, center_b, radius_b), out);
     }
-    void by_surface(std::int32_t i, std::int32_t j) const {
+    void by_surface(std::int32_t i, std::int32_t j, PossibleNormals possible) const {
         const PairKinds::Place &a = kinds.a(i), &b = kinds.b(j);
         if (!range.holds(a.center, a, b.center, b) || a.gone || b.gone) return;
-        keep_candidate(view, rule, range, i, j, kinds.measure(i, j, a, b), out);
+        keep_candidate(view, rule, range, i, j, kinds.measure(i, j, a, b, possible), out);
     }
 };
 
@@ -136,19 +137,21 @@ void find_pair_contacts(const Scene& scene, BodyPair pair, NormalRule rule, doub
     finish_pair(view, rule, margin, work.candidates, out);
 }
 
-// The least gap that two spheres may have while the pair moves within `leeway`, less that motion;
-// infinite where they will be no candidates.
-double least_gap(const PairView& view, NormalRule rule, const Range& range, const Leeway& leeway,
-                 PairKinds& kinds, std::int32_t i, std::int32_t j) {
+// The least gap that two spheres may have while the pair moves within `leeway`, less that motion,
+// and along what normals; infinite where they will be no candidates.
+std::pair<double, PossibleNormals> least_gap(const PairView& view, NormalRule rule,
+                                             const Range& range, const Leeway& leeway,
+                                             PairKinds& kinds, std::int32_t i, std::int32_t j) {
     constexpr double kNever = std::numeric_limits<double>::infinity();
     if (rule == NormalRule::centres) {
-        if (view.is_gone_a(i) || view.is_gone_b(j)) return kNever;
+        if (view.is_gone_a(i) || view.is_gone_b(j)) return {kNever, PossibleNormals::none()};
         const double gap = (view.center_a(i) - view.center_b(j)).norm() -
                            (view.shape_a.radius[i] + view.shape_b.radius[j]);
-        return gap > range.margin ? kNever : gap;
+        return {gap > range.margin ? kNever : gap, PossibleNormals::none()};
     }
     const PairKinds::Place &a = kinds.a(i), &b = kinds.b(j);
-    return a.gone || b.gone ? kNever : kinds.bound(i, j, a, b, range.reach, leeway);
+    if (a.gone || b.gone) return {kNever, PossibleNormals::none()};
+    return kinds.bound(i, j, a, b, range.reach, leeway);
 }
 
 float rounded_down(double value) {
@@ -164,10 +167,10 @@ double find_near(const PairView& view, NormalRule rule, double margin, const Lee
     double least = std::numeric_limits<double>::infinity();
     work.search.for_each_near(
         view, range.margin, range.reach + leeway.distance, [&](std::int32_t i, std::int32_t j) {
-            const double gap = least_gap(view, rule, range, leeway, work.kinds, i, j);
+            const auto [gap, possible] = least_gap(view, rule, range, leeway, work.kinds, i, j);
             if (gap == std::numeric_limits<double>::infinity()) return;
             least = std::min(least, gap);
-            out.push_back({i, j, rounded_down(gap)});
+            out.push_back({i, j, rounded_down(gap), possible});
         });
     return least;
 }

@@ -30,15 +30,16 @@ KindBound::KindBound(const SphereSurface& a, const SphereSurface& b, bool prefer
 
 void KindBound::list_faces() {
     const SphereSurface &a = *a_, &b = *b_;
-    const auto add = [&](const Vec3& n, const Faces& other, const Vec3& outward) {
+    const auto add = [&](const Vec3& n, const Faces& other, const Vec3& outward, std::size_t k) {
         if (!other.have(outward, kSlantOnEdge, leeway_.angle)) return;
+        possible_.add_face(&other == &b.faces, k);
         certain_[faces_] = other.have(outward, kSlantOnEdge, -leeway_.angle);
         face_[faces_++] = {n, foothold(a, n), foothold(b, n)};
     };
     for (std::size_t k = 0; k < static_cast<std::size_t>(a.faces.count); ++k)
-        add(a.faces.normal[k], b.faces, -a.faces.normal[k]);
+        add(a.faces.normal[k], b.faces, -a.faces.normal[k], k);
     for (std::size_t k = 0; k < static_cast<std::size_t>(b.faces.count); ++k)
-        add(-b.faces.normal[k], a.faces, -b.faces.normal[k]);
+        add(-b.faces.normal[k], a.faces, -b.faces.normal[k], k);
 }
 
 // The normal across two edges turns by an angle / sine.
@@ -59,9 +60,16 @@ void KindBound::list_crossings() {
             const Vec3 n = 1.0 / sine * across;
             const Faces::Ways of_a = a.have_either(n, kSlantOnEdge, turn);
             const Faces::Ways of_b = b.have_either(n, kSlantOnEdge, turn);
-            if (of_a.back && of_b.forth) crossing_[crossings_++] = {-n, turn, skew, ea};
-            if (of_a.forth && of_b.back) crossing_[crossings_++] = {n, turn, skew, ea};
+            const bool forth = of_a.forth && of_b.back, back = of_a.back && of_b.forth;
+            if (forth || back) possible_.add_crossing(ka, kb);
+            if (back) crossing_[crossings_++] = {-n, turn, skew, ea};
+            if (forth) crossing_[crossings_++] = {n, turn, skew, ea};
         }
+}
+
+PossibleNormals KindBound::possible() {
+    if (rule_ == KindRule::edges && crossings_ < 0) list_crossings();
+    return possible_;
 }
 
 double KindBound::least(const Vec3& center_a, const Vec3& center_b) {

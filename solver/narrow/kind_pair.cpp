@@ -29,7 +29,8 @@ KindMeeting find_meeting(const SphereSurface& a, const SphereSurface& b, bool pr
     return out;
 }
 
-KindPair::KindPair(const SphereSurface& a, const SphereSurface& b, bool prefer_a)
+KindPair::KindPair(const SphereSurface& a, const SphereSurface& b, bool prefer_a,
+                   PossibleNormals possible)
     : a_(&a), b_(&b), prefer_a_(prefer_a) {
     const KindMeeting meeting = find_meeting(a, b, prefer_a);
     rule_ = meeting.rule;
@@ -39,48 +40,51 @@ KindPair::KindPair(const SphereSurface& a, const SphereSurface& b, bool prefer_a
     offset_b_ = support_offset(b, -n);
     if (rule_ == KindRule::direction) face_[0].normal = meeting.normal;
     if (rule_ != KindRule::edges) return;
-    list_faces();
-    list_crossings();
+    list_faces(possible);
+    list_crossings(possible);
     if (faces_ + crossings_ == 0) rule_ = KindRule::never;
 }
 
 // A face's normal is one of its own edge's or corner's.
-void KindPair::list_faces() {
+void KindPair::list_faces(PossibleNormals possible) {
     const auto add = [&](const Vec3& n, const Faces& other, const Vec3& outward) {
         if (!other.have(outward, kSlantOnEdge)) return;
         face_[faces_++] = {n, foothold(*a_, n), foothold(*b_, n)};
     };
     for (std::size_t k = 0; k < static_cast<std::size_t>(a_->faces.count); ++k)
-        add(a_->faces.normal[k], b_->faces, -a_->faces.normal[k]);
+        if (possible.has_face(true, k)) add(a_->faces.normal[k], b_->faces, -a_->faces.normal[k]);
     for (std::size_t k = 0; k < static_cast<std::size_t>(b_->faces.count); ++k)
-        add(-b_->faces.normal[k], a_->faces, -b_->faces.normal[k]);
+        if (possible.has_face(false, k)) add(-b_->faces.normal[k], a_->faces, -b_->faces.normal[k]);
 }
 
-void KindPair::list_crossings() {
+void KindPair::list_crossings(PossibleNormals possible) {
+    for (int ka = 0; ka < a_->faces.edges(); ++ka)
+        for (int kb = 0; kb < b_->faces.edges(); ++kb)
+            if (possible.has_crossing(ka, kb)) add_crossing(ka, kb);
+}
+
+void KindPair::add_crossing(int edge_a, int edge_b) {
     const Faces &fa = a_->faces, &fb = b_->faces;
-    for (int ka = 0; ka < fa.edges(); ++ka)
-        for (int kb = 0; kb < fb.edges(); ++kb) {
-            const Vec3 ea = fa.edge(ka), eb = fb.edge(kb);
-            const Vec3 across = ea.cross(eb);
-            const double sine = across.norm();
-            if (sine <= kParallel) continue;
-            Crossing c;
-            c.normal = 1.0 / sine * across;
-            const Faces::Ways of_a = fa.have_either(c.normal, kSlantOnEdge);
-            if (!of_a.forth && !of_a.back) continue;
-            const Faces::Ways of_b = fb.have_either(c.normal, kSlantOnEdge);
-            c.forth = of_a.forth && of_b.back;
-            c.back = of_a.back && of_b.forth;
-            if (!c.forth && !c.back) continue;
-            c.ends = fa.ends() || fb.ends();
-            // find_crossing's (between x eb) . across / square, turned round
-            const double square = across.squaredNorm();
-            c.along_a = eb.cross(across) / square;
-            c.along_b = ea.cross(across) / square;
-            c.edge_a = static_cast<std::int8_t>(ka);
-            c.edge_b = static_cast<std::int8_t>(kb);
-            crossing_[crossings_++] = c;
-        }
+    const Vec3 ea = fa.edge(edge_a), eb = fb.edge(edge_b);
+    const Vec3 across = ea.cross(eb);
+    const double sine = across.norm();
+    if (sine <= kParallel) return;
+    Crossing c;
+    c.normal = 1.0 / sine * across;
+    const Faces::Ways of_a = fa.have_either(c.normal, kSlantOnEdge);
+    if (!of_a.forth && !of_a.back) return;
+    const Faces::Ways of_b = fb.have_either(c.normal, kSlantOnEdge);
+    c.forth = of_a.forth && of_b.back;
+    c.back = of_a.back && of_b.forth;
+    if (!c.forth && !c.back) return;
+    c.ends = fa.ends() || fb.ends();
+    // find_crossing's (between x eb) . across / square, turned round
+    const double square = across.squaredNorm();
+    c.along_a = eb.cross(across) / square;
+    c.along_b = ea.cross(across) / square;
+    c.edge_a = static_cast<std::int8_t>(edge_a);
+    c.edge_b = static_cast<std::int8_t>(edge_b);
+    crossing_[crossings_++] = c;
 }
 
 Gap KindPair::measure_direction(const Vec3& center_a, const Vec3& center_b) const {

@@ -4,6 +4,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <utility>
 #include <vector>
 
 #include "solver/narrow/kind_bound.hpp"
@@ -45,23 +47,31 @@ public:
         });
     }
 
-    /// measure_gap_surface of spheres i and j, which are at `a` and `b`.
-    Gap measure(std::int32_t i, std::int32_t j, const Place& a, const Place& b) {
+    /// measure_gap_surface of spheres i and j, which are at `a` and `b`. @param possible  of their
+    /// kinds, the same for all spheres of these
+    Gap measure(std::int32_t i, std::int32_t j, const Place& a, const Place& b,
+                PossibleNormals possible) {
         if (a.kind < 0 || b.kind < 0)
             return measure_gap_surface(view_->sphere_a(i), view_->sphere_b(j), prefer_a_);
-        return pairs_.get(a.kind, b.kind, a_.surface(a.kind), b_.surface(b.kind), prefer_a_)
+        return pairs_
+            .get(a.kind, b.kind, a_.surface(a.kind), b_.surface(b.kind), prefer_a_, possible)
             .measure(a.center, b.center);
     }
 
-    /// Their KindBound.
-    double bound(std::int32_t i, std::int32_t j, const Place& a, const Place& b, double reach,
-                 const Leeway& leeway) {
-        if (a.kind < 0 || b.kind < 0)
-            return KindBound(view_->sphere_a(i), view_->sphere_b(j), prefer_a_, reach, leeway)
-                .least(a.center, b.center);
-        return bounds_
-            .get(a.kind, b.kind, a_.surface(a.kind), b_.surface(b.kind), prefer_a_, reach, leeway)
-            .least(a.center, b.center);
+    /// Their KindBound: the least gap, and the normals where there may be one.
+    std::pair<double, PossibleNormals> bound(std::int32_t i, std::int32_t j, const Place& a,
+                                             const Place& b, double reach, const Leeway& leeway) {
+        if (a.kind < 0 || b.kind < 0) {
+            const SphereSurface of_a = view_->sphere_a(i), of_b = view_->sphere_b(j);
+            return {KindBound(of_a, of_b, prefer_a_, reach, leeway).least(a.center, b.center),
+                    PossibleNormals::all()};
+        }
+        KindBound& kinds = bounds_.get(a.kind, b.kind, a_.surface(a.kind), b_.surface(b.kind),
+                                       prefer_a_, reach, leeway);
+        const double least = kinds.least(a.center, b.center);
+        if (least == std::numeric_limits<double>::infinity())
+            return {least, PossibleNormals::none()};
+        return {least, kinds.possible()};
     }
 
 private:

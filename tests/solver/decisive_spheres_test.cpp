@@ -18,7 +18,8 @@ Visited visited(DecisiveSpheres& decisive, const std::vector<SpherePair>& near, 
                 double gap) {
     Visited out;
     decisive.begin(31, 31);
-    decisive.for_each(near, gone, gap, [&](std::int32_t a, std::int32_t b) { out.emplace(a, b); });
+    decisive.for_each(near, gone, gap,
+                      [&](std::int32_t a, std::int32_t b, PossibleNormals) { out.emplace(a, b); });
     return out;
 }
 

@@ -87,8 +87,10 @@ TEST_CASE("two spheres have the gap that their kinds give, bit for bit", "[narro
     CHECK(valid > 200);
 }
 
-TEST_CASE("no gap comes below its kinds' bound while the bodies keep to the leeway",
-          "[narrow][property]") {
+TEST_CASE(
+    "what parts two spheres is possible, and no gap comes below their kinds' bound, while the "
+    "bodies keep to the leeway",
+    "[narrow][property]") {
     const int form_a = GENERATE(0, 1, 2), form_b = GENERATE(0, 1, 2);
     const bool prefer_a = GENERATE(false, true);
     Dice dice(static_cast<unsigned>(100 + 10 * form_a + form_b));
@@ -100,8 +102,8 @@ TEST_CASE("no gap comes below its kinds' bound while the bodies keep to the leew
         SphereSurface b = facing_sphere(form_b, a, dice);
         b.center = 0.09 * a.normal + 0.1 * dice.vector();
         const SphereSurface kind_a = a, kind_b = b;
-        const double least =
-            KindBound(kind_a, kind_b, prefer_a, reach, leeway).least(a.center, b.center);
+        KindBound bound(kind_a, kind_b, prefer_a, reach, leeway);
+        const double least = bound.least(a.center, b.center);
         // turned about its centre, as far as its points within 0.2 m allow, and moved by the rest
         const double angle = 0.99 * leeway.angle * dice();
         const Mat3 turn = Eigen::AngleAxisd(angle, dice.vector().normalized()).matrix();
@@ -112,6 +114,11 @@ TEST_CASE("no gap comes below its kinds' bound while the bodies keep to the leew
         later.faces = b.faces.turned(turn);
         const double gone = (later.center - b.center).norm() + arm;
         const Gap gap = measure_gap_surface(a, later, prefer_a);
+        const KindPair kinds(a, later, prefer_a, bound.possible());
+        const Gap fast = kinds.measure(a.center, later.center);
+        REQUIRE(fast.valid == gap.valid);
+        REQUIRE(fast.gap == gap.gap);
+        REQUIRE(fast.normal == gap.normal);
         if (!gap.valid || std::max(gap.lateral_sq, gap.probe_sq) > reach * reach) continue;
         ++compared;
         CAPTURE(k, least, gap.gap, gone, gap.crossing);
