@@ -86,7 +86,8 @@ DormantPairs::State DormantPairs::look(std::size_t k, const Scene& scene, BodyPa
         travel.turn(pair.a) + travel.turn(pair.b) < row.turn_unknown)
         return State::asleep;
     const PairView view(scene, pair);
-    const double apart = separation(view) - margin, closing = dt * closing_speed(scene, pair);
+    const double closing = dt * closing_speed(scene, pair);
+    const double apart = separation(view, closing + margin, row.axis) - margin;
     if (apart > closing) {
         row.soon_wake = travel.way(pair.a) + travel.way(pair.b) + apart / separation_share(view);
         row.soon_unknown = row.turn_unknown = std::numeric_limits<double>::infinity();

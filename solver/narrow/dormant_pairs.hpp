@@ -66,6 +66,7 @@ private:
         // sums of the bodies' soon() and turn() at which to look at the poses again: going the same
         // way they come no nearer to each other
         double soon_wake = 0.0, soon_unknown = 0.0, turn_unknown = 0.0;
+        std::size_t axis = 0;              // of separation(), when last looked at
         std::size_t first = 0, count = 0;  // of near_
     };
     static void remind(Row& row, BodyPair pair, const Travel& travel, double gone, double turned);

@@ -12,28 +12,40 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// The widest gap along the planes of `from` to a body whose axes are turned and shifted to them.
-double widest_gap(const ConvexBounds& from, const ConvexBounds& other, const Mat3& turn,
-                  const Vec3& shift) {
-    double widest = -kInfinity;
-    for (std::size_t k = 0; k < from.normals.size(); ++k) {
-        const Vec3 along = turn.transpose() * from.normals[k];
-        double nearest = kInfinity;
-        for (const Vec3& v : other.corners) nearest = std::min(nearest, along.dot(v));
-        widest = std::max(widest, nearest + from.normals[k].dot(shift) - from.offset[k]);
-    }
-    return widest;
+// The gap along plane k of `from` to a body whose axes are turned and shifted to them.
+double gap_along(const ConvexBounds& from, std::size_t k, const ConvexBounds& other,
+                 const Mat3& turn, const Vec3& shift) {
+    const Vec3 along = turn.transpose() * from.normals[k];
+    double nearest = kInfinity;
+    for (const Vec3& v : other.corners) nearest = std::min(nearest, along.dot(v));
+    return nearest + from.normals[k].dot(shift) - from.offset[k];
 }
 
 }  // namespace
 
-double separation(const PairView& view) {
+double separation(const PairView& view, double enough, std::size_t& axis) {
     const ConvexBounds &a = view.shape_a.bounds, &b = view.shape_b.bounds;
     if (!a.known() || !b.known()) return -kInfinity;
     const Mat3 back = view.turn.transpose();
-    const double widest = std::max(widest_gap(a, b, view.turn, view.shift),
-                                   widest_gap(b, a, back, -(back * view.shift)));
-    return widest - a.excess - b.excess;
+    const Vec3 shift_back = -(back * view.shift);
+    const std::size_t axes_a = a.normals.size(), axes = axes_a + b.normals.size();
+    const double excess = a.excess + b.excess;
+    double widest = -kInfinity;
+    const auto attempt = [&](std::size_t k) {
+        const double gap = k < axes_a ? gap_along(a, k, b, view.turn, view.shift)
+                                      : gap_along(b, k - axes_a, a, back, shift_back);
+        if (gap <= widest) return;
+        widest = gap;
+        axis = k;
+    };
+    if (axis < axes) attempt(axis);
+    for (std::size_t k = 0; k < axes && widest - excess <= enough; ++k) attempt(k);
+    return widest - excess;
+}
+
+double separation(const PairView& view) {
+    std::size_t axis = 0;
+    return separation(view, kInfinity, axis);
 }
 
 double separation_share(const PairView& view) {

@@ -13,6 +13,11 @@ namespace ice {
 /// for its surface as far as its shape's reach, which near an edge is beyond the body.
 double separation(const PairView& view);
 
+/// The same, or any gap wider than `enough` [m] where there is one: bodies that are apart mostly
+/// stay so along the same normal. @param axis  number of the normal to begin with; the one along
+/// which the gap is, where there are any
+double separation(const PairView& view, double enough, std::size_t& axis);
+
 /// The separation is less by at most this times the way that both bodies go (Travel::way).
 double separation_share(const PairView& view);
 

@@ -114,6 +114,31 @@ TEST_CASE("a separation shrinks by no more than its share of the way that bodies
     }
 }
 
+TEST_CASE("a gap that is enough is one of the bodies' and is found again along its normal",
+          "[narrow][property]") {
+    World w = two_boxes();
+    Dice dice{std::mt19937(6)};
+    int enough_found = 0, axis_kept = 0;
+    for (int k = 0; k < 300; ++k) {
+        place(w, 2, 1.2 * dice.vector(), dice.turn(3.0));
+        const PairView view(w.scene, {1, 2});
+        const double enough = 0.2 * dice(), widest = separation(view);
+        const auto first = static_cast<std::size_t>(k) % 14;  // of twelve normals
+        std::size_t axis = first;
+        const double found = separation(view, enough, axis);
+        REQUIRE(axis < 12);
+        REQUIRE((found > enough) == (widest > enough));
+        REQUIRE((found > enough ? found <= widest : found == widest));
+        std::size_t again = axis;
+        REQUIRE(separation(view, enough, again) == found);
+        REQUIRE(again == axis);
+        enough_found += found > enough && found < widest;
+        axis_kept += axis == first;
+    }
+    CHECK(enough_found > 10);
+    CHECK(axis_kept > 10);
+}
+
 TEST_CASE("of a form without bounds nothing is known", "[narrow][degenerate]") {
     World w = two_boxes();
     w.scene.shapes[1].bounds = ConvexBounds();
