@@ -21,10 +21,10 @@ public:
         of_b_.resize(std::max(of_b_.size(), spheres_b), 0);
     }
 
-    /// Calls visit(i, j, possible) for those of `near` whose gap may be at most `gap` [m] after their bodies
-    /// have gone `gone` [m], and for all that share a sphere with one of them: a face that is
-    /// farther away may still show that the sphere is outside (keep_one_per_face). No other ones
-    /// have a contact of that gap, or change one.
+    /// Calls visit(i, j, possible) for those of `near` whose gap may be at most `gap` [m] after
+    /// their bodies have gone `gone` [m], and for all that share a sphere with one of them: a face
+    /// that is farther away may still show that the sphere is outside (keep_one_per_face). No other
+    /// ones have a contact of that gap, or change one.
     template <class Visit>
     void for_each(std::span<const SpherePair> near, double gone, double gap, const Visit& visit) {
         ++call_;
