@@ -29,17 +29,17 @@ KindBound::KindBound(const SphereSurface& a, const SphereSurface& b, bool prefer
 }
 
 void KindBound::list_faces() {
-    const SphereSurface &a = *a_, &b = *b_;
-    const auto add = [&](const Vec3& n, const Faces& other, const Vec3& outward, std::size_t k) {
+    const auto add = [&](bool of_a, std::size_t k) {
+        const Faces &own = (of_a ? a_ : b_)->faces, &other = (of_a ? b_ : a_)->faces;
+        const Vec3 outward = -own.normal[k];  // of the other
         if (!other.have(outward, kSlantOnEdge, leeway_.angle)) return;
-        possible_.add_face(&other == &b.faces, k);
+        possible_.add_face(of_a, k);
         certain_[faces_] = other.have(outward, kSlantOnEdge, -leeway_.angle);
-        face_[faces_++] = {n, foothold(a, n), foothold(b, n)};
+        const Vec3 n = of_a ? own.normal[k] : outward;
+        face_[faces_++] = {n, foothold(*a_, n), foothold(*b_, n)};
     };
-    for (std::size_t k = 0; k < static_cast<std::size_t>(a.faces.count); ++k)
-        add(a.faces.normal[k], b.faces, -a.faces.normal[k], k);
-    for (std::size_t k = 0; k < static_cast<std::size_t>(b.faces.count); ++k)
-        add(-b.faces.normal[k], a.faces, -b.faces.normal[k], k);
+    for (std::size_t k = 0; k < static_cast<std::size_t>(a_->faces.count); ++k) add(true, k);
+    for (std::size_t k = 0; k < static_cast<std::size_t>(b_->faces.count); ++k) add(false, k);
 }
 
 // The normal across two edges turns by an angle / sine.

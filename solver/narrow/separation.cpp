@@ -38,8 +38,10 @@ double separation(const PairView& view, double enough, std::size_t& axis) {
         widest = gap;
         axis = k;
     };
-    if (axis < axes) attempt(axis);
-    for (std::size_t k = 0; k < axes && widest - excess <= enough; ++k) attempt(k);
+    const std::size_t first = axis;
+    if (first < axes) attempt(first);
+    for (std::size_t k = 0; k < axes && widest - excess <= enough; ++k)
+        if (k != first) attempt(k);
     return widest - excess;
 }
 
