@@ -12,6 +12,7 @@
 #include "solver/narrow/pair_kinds.hpp"
 #include "solver/narrow/search_pair.hpp"
 #include "solver/narrow/separation.hpp"
+#include "solver/narrow/within_borders.hpp"
 
 namespace ice {
 
@@ -78,12 +79,14 @@ struct Range {
 // matters too: it may show that the probe is outside.
 void keep_candidate(const PairView& view, NormalRule rule, const Range& range, std::int32_t i,
                     std::int32_t j, const Gap& gap, std::vector<Candidate>& out) {
+    if (!gap.valid) return;
     const double a = view.shape_a.reach, b = view.shape_b.reach;
     const double reach = gap.a_is_surface ? a : b, of_probe = gap.a_is_surface ? b : a;
-    const bool near = rule == NormalRule::centres
-                          ? gap.gap <= range.margin
-                          : gap.lateral_sq <= reach * reach && gap.probe_sq <= of_probe * of_probe;
-    if (gap.valid && near) out.push_back({i, j, gap});
+    const bool near = rule == NormalRule::centres ? gap.gap <= range.margin
+                                                  : gap.lateral_sq <= reach * reach &&
+                                                        gap.probe_sq <= of_probe * of_probe &&
+                                                        is_within_borders(view, i, j, gap);
+    if (near) out.push_back({i, j, gap});
 }
 
 // Measures the candidates of a pair.

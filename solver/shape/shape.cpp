@@ -210,6 +210,7 @@ Shape build_shape(const SphereSet& set, bool about_centre_of_mass) {
     shape.bounds = ConvexBounds(shape.mesh, bounded);
     shape.spacing = set.spacing;
     shape.reach = measure_reach(shape, set.spacing);
+    shape.borders = FaceBorders(shape);
     std::vector<SearchSphere> spheres;
     for (Faces& faces : shape.faces)  // an edge's sphere stands for that much of it either way
         if (faces.count > 0) faces.aside += 0.5 * shape.reach;

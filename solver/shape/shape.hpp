@@ -10,6 +10,7 @@
 
 #include "common/formats/sphere_set.hpp"
 #include "solver/shape/convex_bounds.hpp"
+#include "solver/shape/face_borders.hpp"
 #include "solver/shape/face_regions.hpp"
 #include "solver/shape/faces.hpp"
 #include "solver/shape/sphere_blocks.hpp"
@@ -42,6 +43,7 @@ struct Shape {
     double largest_radius = 0.0;   ///< [m]
     double spacing = 0.0;          ///< nominal distance of the surface spheres [m]
     double reach = 0.0;            ///< how far from its centre a sphere stands for the surface [m]
+    FaceBorders borders;           ///< where that ends before
 
     TriangleMesh mesh;             ///< closed, body axes
     PanelBlocks facets;            ///< its triangles, for buoyancy
