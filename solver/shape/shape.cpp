@@ -14,13 +14,6 @@ namespace ice {
 
 namespace {
 
-// Panels are at most this share of the shape's extent. With 1/6 the damping torque of a turning
-// square plate, a cubic integrand, is within 1 % (midpoint rule).
-constexpr double kPanelShare = 1.0 / 6.0;
-
-// Largest number of panels of one shape; finer meshes keep their triangles.
-constexpr std::size_t kMostPanels = 4000;
-
 // Faces whose normals are this far apart (cosine) meet in a knife edge of less than 40 degrees, or
 // are the two sides of a plate as thin as the sphere: that is left round.
 constexpr double kKnife = -0.77;
@@ -28,40 +21,11 @@ constexpr double kKnife = -0.77;
 // Normals whose box product with two others is below this lie in their plane: an edge, no corner.
 constexpr double kSamePlane = 0.1;
 
-void split_into_panels(const Vec3 (&corner)[3], double longest, std::vector<Panel>& out) {
-    int edge = 0;
-    double length = 0.0;
-    for (int k = 0; k < 3; ++k) {
-        const double now = (corner[(k + 1) % 3] - corner[k]).norm();
-        if (now > length) {
-            length = now;
-            edge = k;
-        }
-    }
-    if (length > longest && out.size() < kMostPanels) {
-        // halve the longest edge: panels stay well shaped
-        const Vec3& a = corner[edge];
-        const Vec3& b = corner[(edge + 1) % 3];
-        const Vec3& c = corner[(edge + 2) % 3];
-        const Vec3 middle = 0.5 * (a + b);
-        split_into_panels({a, middle, c}, longest, out);
-        split_into_panels({middle, b, c}, longest, out);
-        return;
-    }
-    out.push_back(make_panel(corner[0], corner[1], corner[2]));
-}
-
-void build_panels(Shape& shape) {
-    const double longest = kPanelShare * shape.box.sizes().maxCoeff();
-    std::vector<Panel> facets, panels;
-    for (std::size_t t = 0; t < shape.mesh.triangles.size(); ++t) {
-        const Vec3 corner[3] = {shape.mesh.corner(t, 0), shape.mesh.corner(t, 1),
-                                shape.mesh.corner(t, 2)};
-        facets.push_back(make_panel(corner[0], corner[1], corner[2]));
-        split_into_panels(corner, longest, panels);
-    }
-    shape.facets = PanelBlocks(facets);
-    shape.panels = PanelBlocks(panels);
+FacetBlocks facets_of(const TriangleMesh& mesh) {
+    std::vector<Facet> facets;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+        facets.push_back(make_facet(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)));
+    return FacetBlocks(facets);
 }
 
 // Of the normals that meet at a sphere three at most: the two farthest apart and the one farthest
@@ -217,7 +181,7 @@ Shape build_shape(const SphereSet& set, bool about_centre_of_mass) {
     for (std::size_t k = 0; k < shape.center.size(); ++k)
         spheres.push_back({shape.center[k], shape.faces[k].corner, shape.faces[k].aside});
     shape.blocks = SphereBlocks(spheres);
-    build_panels(shape);
+    shape.facets = facets_of(shape.mesh);
     return shape;
 }
 

@@ -46,8 +46,7 @@ struct Shape {
     FaceBorders borders;           ///< where that ends before
 
     TriangleMesh mesh;             ///< closed, body axes
-    PanelBlocks facets;            ///< its triangles, for buoyancy
-    PanelBlocks panels;            ///< and these in pieces, for drag
+    FacetBlocks facets;            ///< its triangles, for the water's loads
     MassProperties solid;          ///< unit density; centroid in body axes (floes: zero)
     Eigen::AlignedBox3d box;       ///< of mesh and spheres
     double bounding_radius = 0.0;  ///< about the body origin [m]

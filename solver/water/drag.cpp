@@ -25,10 +25,10 @@ WaterLoad projected_drag(const Shape& shape, const Motion& motion, double coeffi
                          double water_density) {
     WaterLoad out;
     if (motion.velocity.isZero(0.0) || motion.height >= shape.bounding_radius) return out;
-    const WaterPlane water(motion.rotation, motion.height, shape.bounding_radius);
-    // A |v|: the panels' areas are not divided by the speed, so that it need not be multiplied
+    const WaterPlane water(motion.rotation, motion.height);
+    // A |v|: the facets' areas are not divided by the speed, so that it need not be multiplied
     const double flow =
-        sum_facing(shape.panels, water, motion.rotation.transpose() * motion.velocity);
+        integrate_facing(shape.facets, water, motion.rotation.transpose() * motion.velocity);
     out.force = -0.5 * water_density * coefficient * flow * motion.velocity;
     return out;
 }
@@ -38,18 +38,18 @@ WaterLoad panel_drag(const Shape& shape, const Motion& motion, double coefficien
     WaterLoad out;
     if (motion.height >= shape.bounding_radius) return out;
     if (motion.velocity.isZero(0.0) && motion.angular_velocity.isZero(0.0)) return out;
-    const WaterPlane water(motion.rotation, motion.height, shape.bounding_radius);
-    // in body axes: panels stay, the two velocities turn
+    const WaterPlane water(motion.rotation, motion.height);
+    // in body axes: facets stay, the two velocities turn
     const Vec3 v = motion.rotation.transpose() * motion.velocity;
     const Vec3 w = motion.rotation.transpose() * motion.angular_velocity;
-    const FacingSums sums = sum_facing(shape.panels, water, v, w);
-    // with u = v + w x c: sum f u, and sum f c x u as c x (w x c) = (c . c) w - (c . w) c
-    const Vec3 force = sums.flow * v + w.cross(sums.first);
+    const FacingIntegrals met = integrate_facing(shape.facets, water, v, w);
+    // with u = v + w x p: int f u, and int f p x u as p x (w x p) = (p . p) w - (p . w) p
+    const Vec3 force = met.flow * v + w.cross(met.first);
     Mat3 second;
-    second << sums.square.x(), sums.mixed.x(), sums.mixed.y(),  //
-        sums.mixed.x(), sums.square.y(), sums.mixed.z(),        //
-        sums.mixed.y(), sums.mixed.z(), sums.square.z();
-    const Vec3 moment = sums.first.cross(v) + sums.square.sum() * w - second * w;
+    second << met.square.x(), met.mixed.x(), met.mixed.y(),  //
+        met.mixed.x(), met.square.y(), met.mixed.z(),        //
+        met.mixed.y(), met.mixed.z(), met.square.z();
+    const Vec3 moment = met.first.cross(v) + met.square.sum() * w - second * w;
     const double factor = -0.5 * water_density * coefficient;
     out.force = factor * (motion.rotation * force);
     out.moment = factor * (motion.rotation * moment);

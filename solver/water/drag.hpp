@@ -21,17 +21,19 @@ struct Motion {
 
 /// The paper's drag (Eq. 9) on the wetted part, at the centre of gravity:
 ///
-///     F = -1/2 rho_w C_d A |v| v,   A = sum over wetted panels of max(0, a . v / |v|)
+///     F = -1/2 rho_w C_d A |v| v,   A = sum over wetted facets of max(0, a . v / |v|)
 ///
-/// a: panel's outward normal times wetted area. A is the projected area of a convex body; cavities
+/// a: facet's outward normal times wetted area. A is the projected area of a convex body; cavities
 /// count their facing walls as well. Zero speed gives zero.
 WaterLoad projected_drag(const Shape& shape, const Motion& motion, double coefficient,
                          double water_density);
 
-/// The same law for every wetted panel with its own velocity u = v + w x r, so that rotation is
-/// damped too:
+/// The same law for every piece of the wetted surface with its own velocity u = v + w x r, so that
+/// rotation is damped too:
 ///
-///     F = -1/2 rho_w C_d sum max(0, a . u / |u|) |u| u,   moment = sum r x F_panel
+///     F = -1/2 rho_w C_d int max(0, n . u / |u|) |u| u dA,   moment = int r x dF,
+///
+/// exactly, whatever the triangles.
 WaterLoad panel_drag(const Shape& shape, const Motion& motion, double coefficient,
                      double water_density);
 

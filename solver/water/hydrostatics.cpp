@@ -27,7 +27,7 @@ Submerged measure_submerged(const Shape& shape, const Mat3& rotation, double hei
     Submerged out;
     // a sphere about the origin decides many cases without a look at the triangles
     if (height >= shape.bounding_radius) return out;
-    const WaterPlane water(rotation, height, shape.bounding_radius);
+    const WaterPlane water(rotation, height);
     WettedIntegrals wet;
     if (height > -shape.bounding_radius) {
         wet = integrate_wetted(shape.facets, water);

@@ -12,13 +12,10 @@ namespace ice {
 struct WaterPlane {
     Vec3 up;        ///< world z in body axes
     double height;  ///< of the body origin [m]
-    double margin;  ///< more than heights are rounded by [m]
 
-    /// For a body of at most this radius about its origin; rotation: body to world.
-    WaterPlane(const Mat3& rotation, double height_of_origin, double radius)
-        : up(rotation.row(2)),
-          height(height_of_origin),
-          margin(1e-12 * (radius + std::abs(height))) {}
+    /// rotation: body to world.
+    WaterPlane(const Mat3& rotation, double height_of_origin)
+        : up(rotation.row(2)), height(height_of_origin) {}
 };
 
 /// Integrals over the wetted surface S, z the height, n the outward normal and n_z its world z.
@@ -37,35 +34,40 @@ struct WettedIntegrals {
 /// sums over the three corners. The one corner whose side differs from the others', p0, is the apex
 /// of a tip with the others at z = 0: the tip counts where p0 is wet, all but the tip where it is
 /// dry.
-WettedIntegrals integrate_wetted(const PanelBlocks& facets, const WaterPlane& water);
+WettedIntegrals integrate_wetted(const FacetBlocks& facets, const WaterPlane& water);
 
-/// Sums over panels of f, the flow that meets the wetted part of each.
-struct FacingSums {
-    double flow = 0.0;           ///< sum of f [m3/s]
-    Vec3 first = Vec3::Zero();   ///< sum of f c [m4/s]
-    Vec3 square = Vec3::Zero();  ///< sum of f (x x, y y, z z) [m5/s]
-    Vec3 mixed = Vec3::Zero();   ///< sum of f (x y, x z, y z) [m5/s]
+/// Integrals over the part of the wetted surface that a flow u meets, n . u > 0, with f = n . u.
+struct FacingIntegrals {
+    double flow = 0.0;           ///< int f dA [m3/s]
+    Vec3 first = Vec3::Zero();   ///< int f p dA [m4/s]
+    Vec3 square = Vec3::Zero();  ///< int f (x x, y y, z z) dA [m5/s]
+    Vec3 mixed = Vec3::Zero();   ///< int f (x y, x z, y z) dA [m5/s]
 };
+
+/// Exactly, in a flow u = v + w x p, which makes f even on a triangle: f = n . v + p . (n x w).
+/// With P, F and G the sums of p, f and f p over its corners,
+///
+///     int f dA     = A / 3 F,
+///     int f p dA   = A / 12 (F P + G),
+///     int f p p dA = A / 60 ((F P + G) P + P G + sum of (F + 2 f) p p).
+///
+/// Triangles, and tips that the water cuts off, are cut where f = 0 in the same way again.
+FacingIntegrals integrate_facing(const FacetBlocks& facets, const WaterPlane& water, const Vec3& v,
+                                 const Vec3& w);
+
+/// int f dA alone, for w = 0 [m3/s].
+double integrate_facing(const FacetBlocks& facets, const WaterPlane& water, const Vec3& v);
 
 /// Least product of two differences of height that a share is divided by, so that a triangle level
 /// with the water to 1e-150 m has one, too [m2].
 constexpr double kFlat = 1e-300;
 
-/// With the panels' centres c, area vectors a and wetted shares s, in a flow v + w x c:
-///
-///     f = s max(0, a . (v + w x c)) = s max(0, a . v + (c x a) . w).
-FacingSums sum_facing(const PanelBlocks& panels, const WaterPlane& water, const Vec3& v,
-                      const Vec3& w);
-
-/// The sum of f alone, for w = 0 [m3/s].
-double sum_facing(const PanelBlocks& panels, const WaterPlane& water, const Vec3& v);
-
 namespace reference {
-// The definitions, one panel at a time: read these first. Same bits on every instruction set.
-WettedIntegrals integrate_wetted(const PanelBlocks& facets, const WaterPlane& water);
-FacingSums sum_facing(const PanelBlocks& panels, const WaterPlane& water, const Vec3& v,
-                      const Vec3& w);
-double sum_facing(const PanelBlocks& panels, const WaterPlane& water, const Vec3& v);
+// The definitions, one facet at a time: read these first. Same bits on every instruction set.
+WettedIntegrals integrate_wetted(const FacetBlocks& facets, const WaterPlane& water);
+FacingIntegrals integrate_facing(const FacetBlocks& facets, const WaterPlane& water, const Vec3& v,
+                                 const Vec3& w);
+double integrate_facing(const FacetBlocks& facets, const WaterPlane& water, const Vec3& v);
 }  // namespace reference
 
 }  // namespace ice

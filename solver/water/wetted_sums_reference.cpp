@@ -8,7 +8,7 @@ namespace ice::reference {
 
 namespace {
 
-constexpr std::size_t kLanes = PanelBlock::kLanes;
+constexpr std::size_t kLanes = FacetBlock::kLanes;
 
 // Sums in a fixed order: Eigen's depends on its vector width.
 struct Vector {
@@ -17,6 +17,9 @@ struct Vector {
     friend Vector operator-(Vector a, Vector b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
     friend Vector operator*(double s, Vector a) { return {s * a.x, s * a.y, s * a.z}; }
 };
+Vector cross(Vector a, Vector b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
 double dot(Vector a, Vector b) { return (a.x * b.x + a.y * b.y) + a.z * b.z; }
 Vector get(const Vec3& from) { return {from[0], from[1], from[2]}; }
 Vector get(const double (&from)[3][kLanes], std::size_t lane) {
@@ -41,56 +44,133 @@ struct VectorSum {
 
 bool wet(double z) { return z <= 0.0; }
 
-// The heights of a triangle's corners; where the water cuts it, `apex` is the corner alone on its
-// side.
-struct Heights {
-    double z[3];
-    bool cut = false;
+// How a quantity that is even on a triangle cuts it at 0, from its values at the corners and which
+// of these are inside. Where it does, `apex` is the corner alone on its side.
+struct Cut {
+    std::array<double, 3> value;
+    std::array<bool, 3> inside;
+    bool any = false;
     std::size_t apex = 2;
 
-    Heights(const PanelBlock& block, std::size_t lane, const WaterPlane& water) {
-        for (std::size_t k = 0; k < 3; ++k)
-            z[k] = dot(get(water.up), get(block.corner[k], lane)) + water.height;
-        const bool differ_01 = wet(z[0]) != wet(z[1]), differ_12 = wet(z[1]) != wet(z[2]);
-        cut = differ_01 || differ_12;
+    Cut(const std::array<double, 3>& values, const std::array<bool, 3>& are_inside)
+        : value(values), inside(are_inside) {
+        const bool differ_01 = inside[0] != inside[1], differ_12 = inside[1] != inside[2];
+        any = differ_01 || differ_12;
         if (differ_01) apex = differ_12 ? 1 : 0;
     }
     // share of the edge from the apex to the k-th corner after it that is on the apex' side
-    double part(std::size_t k) const { return z[apex] / (z[apex] - z[(apex + k) % 3]); }
-    bool tip_is_wet() const { return wet(z[apex]); }
+    double part(std::size_t k) const { return value[apex] / (value[apex] - value[(apex + k) % 3]); }
+    bool tip_is_inside() const { return inside[apex]; }
+    // Does the whole triangle count, with or without a tip?
+    bool counts_whole() const { return any ? !tip_is_inside() : inside[0]; }
 };
 
-double share_of(const PanelBlock& block, std::size_t lane, const WaterPlane& water) {
-    const Heights h(block, lane, water);
-    return ice::wetted_share(h.z[0], h.z[1], h.z[2]);
+Cut cut_by_water(const FacetBlock& block, std::size_t lane, const WaterPlane& water) {
+    std::array<double, 3> z;
+    for (std::size_t k = 0; k < 3; ++k)
+        z[k] = dot(get(water.up), get(block.corner[k], lane)) + water.height;
+    return Cut(z, {wet(z[0]), wet(z[1]), wet(z[2])});
+}
+
+double share_of(const FacetBlock& block, std::size_t lane, const WaterPlane& water) {
+    const Cut h = cut_by_water(block, lane, water);
+    return ice::wetted_share(h.value[0], h.value[1], h.value[2]);
+}
+
+// A triangle, and the flow through all of it if it were everywhere that at the corner [m3/s].
+struct Triangle {
+    std::array<Vector, 3> p;
+    std::array<double, 3> f;
+};
+Triangle make_triangle(const FacetBlock& block, std::size_t lane, const Vec3& v, const Vec3& w) {
+    const Vector area = get(block.area, lane);
+    const Vector turning = cross(area, get(w));
+    const double even = dot(area, get(v));
+    Triangle out;
+    for (std::size_t k = 0; k < 3; ++k) {
+        out.p[k] = get(block.corner[k], lane);
+        out.f[k] = even + dot(turning, out.p[k]);
+    }
+    return out;
+}
+// What the cut leaves on the apex' side, with the area of the whole.
+Triangle tip_of(const Triangle& t, const Cut& cut) {
+    const std::size_t a = cut.apex, b = (a + 1) % 3, c = (a + 2) % 3;
+    const double s = cut.part(1), u = cut.part(2);
+    return {{t.p[a], t.p[a] + s * (t.p[b] - t.p[a]), t.p[a] + u * (t.p[c] - t.p[a])},
+            {t.f[a], t.f[a] + s * (t.f[b] - t.f[a]), t.f[a] + u * (t.f[c] - t.f[a])}};
+}
+
+// 3, 12 and 60 times the integrals.
+struct Facing {
+    double flow = 0.0;
+    Vector first{}, square{}, mixed{};
+
+    void add(double factor, const Facing& m) {
+        flow = flow + factor * m.flow;
+        first = first + factor * m.first;
+        square = square + factor * m.square;
+        mixed = mixed + factor * m.mixed;
+    }
+};
+
+Facing integrate_whole(const Triangle& t) {
+    Facing out;
+    out.flow = (t.f[0] + t.f[1]) + t.f[2];
+    const Vector sum = (t.p[0] + t.p[1]) + t.p[2];
+    const Vector g = (t.f[0] * t.p[0] + t.f[1] * t.p[1]) + t.f[2] * t.p[2];
+    out.first = out.flow * sum + g;
+    Vector e[3];
+    for (std::size_t k = 0; k < 3; ++k) e[k] = (out.flow + 2.0 * t.f[k]) * t.p[k];
+    const auto second = [&](double Vector::*i, double Vector::*j) {
+        return ((out.first.*i * (sum.*j) + sum.*i * (g.*j)) +
+                (t.p[0].*i * (e[0].*j) + t.p[1].*i * (e[1].*j))) +
+               t.p[2].*i * (e[2].*j);
+    };
+    out.square = {second(&Vector::x, &Vector::x), second(&Vector::y, &Vector::y),
+                  second(&Vector::z, &Vector::z)};
+    out.mixed = {second(&Vector::x, &Vector::y), second(&Vector::x, &Vector::z),
+                 second(&Vector::y, &Vector::z)};
+    return out;
+}
+
+// Over the part where the flow comes from outside.
+Facing integrate_part(const Triangle& t) {
+    const Cut cut(t.f, {t.f[0] > 0.0, t.f[1] > 0.0, t.f[2] > 0.0});
+    Facing out;
+    if (cut.counts_whole()) out.add(1.0, integrate_whole(t));
+    if (!cut.any) return out;
+    const double size = cut.part(1) * cut.part(2);
+    out.add(cut.tip_is_inside() ? size : -size, integrate_whole(tip_of(t, cut)));
+    return out;
 }
 
 }  // namespace
 
-WettedIntegrals integrate_wetted(const PanelBlocks& facets, const WaterPlane& water) {
+WettedIntegrals integrate_wetted(const FacetBlocks& facets, const WaterPlane& water) {
     WettedIntegrals out;
     Sum volume{};
     VectorSum first;
-    for (const PanelBlock& block : facets.blocks)
+    for (const FacetBlock& block : facets.blocks)
         for (std::size_t lane = 0; lane < kLanes; ++lane) {
-            const Heights h(block, lane, water);
-            for (const double z : h.z) (wet(z) ? out.any_wet : out.any_dry) = true;
+            const Cut h = cut_by_water(block, lane, water);
+            const auto& z = h.value;
+            for (const bool is_wet : h.inside) (is_wet ? out.any_wet : out.any_dry) = true;
             const double area = dot(get(water.up), get(block.area, lane));
             const Vector corner[3] = {get(block.corner[0], lane), get(block.corner[1], lane),
                                       get(block.corner[2], lane)};
-            if (h.cut ? !h.tip_is_wet() : wet(h.z[0])) {
-                const double sum = (h.z[0] + h.z[1]) + h.z[2];
-                const Vector products =
-                    (h.z[0] * corner[0] + h.z[1] * corner[1]) + h.z[2] * corner[2];
+            if (h.counts_whole()) {
+                const double sum = (z[0] + z[1]) + z[2];
+                const Vector products = (z[0] * corner[0] + z[1] * corner[1]) + z[2] * corner[2];
                 volume[lane] += area * sum;
                 first.add(area * (sum * ((corner[0] + corner[1]) + corner[2]) + products), lane);
             }
-            if (h.cut) {
+            if (h.any) {
                 const Vector p = corner[h.apex];
                 const Vector q = corner[(h.apex + 1) % 3], r = corner[(h.apex + 2) % 3];
                 const double s = h.part(1), t = h.part(2);
-                const double tip = (s * t) * (area * h.z[h.apex]);
-                const double sign = h.tip_is_wet() ? 1.0 : -1.0;
+                const double tip = (s * t) * (area * z[h.apex]);
+                const double sign = h.tip_is_inside() ? 1.0 : -1.0;
                 // the corners' sum, and the apex once more: only its z is not 0
                 const Vector sum = 4.0 * p + (s * (q - p) + t * (r - p));
                 volume[lane] += sign * tip;
@@ -102,28 +182,33 @@ WettedIntegrals integrate_wetted(const PanelBlocks& facets, const WaterPlane& wa
     return out;
 }
 
-FacingSums sum_facing(const PanelBlocks& panels, const WaterPlane& water, const Vec3& v,
-                      const Vec3& w) {
+FacingIntegrals integrate_facing(const FacetBlocks& facets, const WaterPlane& water, const Vec3& v,
+                                 const Vec3& w) {
+    std::array<Facing, kLanes> sums{};
+    for (const FacetBlock& block : facets.blocks)
+        for (std::size_t lane = 0; lane < kLanes; ++lane) {
+            const Cut h = cut_by_water(block, lane, water);
+            const Triangle t = make_triangle(block, lane, v, w);
+            if (h.counts_whole()) sums[lane].add(1.0, integrate_part(t));
+            if (!h.any) continue;
+            const double size = h.part(1) * h.part(2);
+            sums[lane].add(h.tip_is_inside() ? size : -size, integrate_part(tip_of(t, h)));
+        }
     Sum flow{};
     VectorSum first, square, mixed;
-    for (const PanelBlock& block : panels.blocks)
-        for (std::size_t lane = 0; lane < kLanes; ++lane) {
-            const double facing =
-                dot(get(block.area, lane), get(v)) + dot(get(block.swing, lane), get(w));
-            if (facing <= 0.0) continue;
-            const double f = facing * share_of(block, lane, water);
-            const Vector c = get(block.center, lane), g = f * c;
-            flow[lane] += f;
-            first.add(g, lane);
-            square.add({g.x * c.x, g.y * c.y, g.z * c.z}, lane);
-            mixed.add({g.x * c.y, g.x * c.z, g.y * c.z}, lane);
-        }
-    return {total(flow), first.totals(), square.totals(), mixed.totals()};
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+        flow[lane] = sums[lane].flow;
+        first.add(sums[lane].first, lane);
+        square.add(sums[lane].square, lane);
+        mixed.add(sums[lane].mixed, lane);
+    }
+    return {total(flow) / 3.0, first.totals() / 12.0, square.totals() / 60.0,
+            mixed.totals() / 60.0};
 }
 
-double sum_facing(const PanelBlocks& panels, const WaterPlane& water, const Vec3& v) {
+double integrate_facing(const FacetBlocks& facets, const WaterPlane& water, const Vec3& v) {
     Sum sum{};
-    for (const PanelBlock& block : panels.blocks)
+    for (const FacetBlock& block : facets.blocks)
         for (std::size_t lane = 0; lane < kLanes; ++lane) {
             const double facing = dot(get(block.area, lane), get(v));
             if (facing <= 0.0) continue;

@@ -22,7 +22,7 @@ set(quarantine
   "<(hdf5|H5)"       "^common/formats/"
   "<nlohmann/"       "^(common/formats|preprocess/field|postprocess/report)/"
   "<boost/"          "^postprocess/sweep/"
-  "<hwy/"            "_simd\\.cpp$"
+  "<hwy/"            "(_simd\\.cpp|_lanes-inl\\.hpp)$"
   "<omp\\.h>"        "^common/base/parallel\\.hpp$"
   "<spdlog/"         "^common/cli/"
   "<CLI/"            "^(common/cli/|(preprocess/(spherize|icefield)|solver/icesolve|postprocess/icepost)\\.cpp$)"

@@ -55,8 +55,8 @@ SphereSet without_corners(const SphereSet& set) {
     return out;
 }
 
-// The set whose spheres in corners stand for the edge along x only: where spherize has put two edges'
-// spheres a little apart, either goes on past the corner.
+// The set whose spheres in corners stand for the edge along x only: where spherize has put spheres
+// of two edges a little apart, either goes on past the corner.
 SphereSet without_ends(const SphereSet& set) {
     SphereSet out = set;
     out.creases.clear();
@@ -191,8 +191,8 @@ TEST_CASE("floes past the end of a ship's edges touch nothing", "[narrow][border
     std::mt19937 random(7);
     std::uniform_real_distribution<double> unit(0.0, 1.0);
     for (int n = 0; n < 200; ++n) {
-        // a floe's edge slants across the line of the edge between side, y = 1, and bottom, z = -0.5,
-        // and is beyond it, but ahead of the bow, x = 2, as is all of the floe
+        // a floe's edge slants across the line of the edge between side, y = 1, and bottom,
+        // z = -0.5, and is beyond it, but ahead of the bow, x = 2, as is all of the floe
         const double lean = 0.005 + 0.01 * unit(random), ahead = 0.001 + 0.01 * unit(random);
         const double beyond = 0.001 + 0.01 * unit(random);
         const Vec3 out = (kY - kZ).normalized();

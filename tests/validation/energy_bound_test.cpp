@@ -149,8 +149,9 @@ TEST_CASE("behind a vertical transom the pieces' potential energy goes into the 
     CAPTURE(slope);
     World w = stream(slope * kDeg, 0.1, 19, 9.0);
     const Entry a = entry_at(w, 3.0), b = entry_at(w, 7.0);
-    // one piece goes under and one leaves per metre
-    const Entry c = entry_at(w, 12.0), d = entry_at(w, 16.0);
+    // one piece goes under and one leaves per metre; seen while none is turning round the transom's
+    // edge, which no two do in quite the same time
+    const Entry c = entry_at(w, 11.7), d = entry_at(w, 15.7);
     const Window under = between(a, b), leaving = between(c, d);
     test::validate({fmt::format("2D stream under a bow of {:g} degrees, as many pieces leave as "
                                 "come: resistance over losses",

@@ -177,13 +177,13 @@ TEST_CASE("buoyancy and drag have no steps when a floe crosses the surface",
     if (tilt == 0.0) return;  // a level face is wet at once
     // every face's wetted part grows by at most twice its area over its height: triangles
     double bound = 0.0;
-    for (const Panel& panel : rising.scene.shapes[1].panels) {
+    for (const Facet& facet : rising.scene.shapes[1].facets) {
         double low = 1e300, high = -1e300;
-        for (const Vec3& c : panel.corner) {
+        for (const Vec3& c : facet.corner) {
             low = std::min(low, r.row(2).dot(c));
             high = std::max(high, r.row(2).dot(c));
         }
-        const double facing = (r * panel.area).dot(velocity);
+        const double facing = (r * facet.area).dot(velocity);
         if (facing > 0.0) bound += 2.0 * facing / (high - low);
     }
     bound *= 0.5 * kWater * velocity.norm();

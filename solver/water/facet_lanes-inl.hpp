@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Pieces of the water's sums over facets, as many of a block at a time as the machine has lanes.
+// Included once per instruction set, hence the guard that lets it in again for each.
+#if defined(ICE_WATER_FACET_LANES_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef ICE_WATER_FACET_LANES_INL
+#undef ICE_WATER_FACET_LANES_INL
+#else
+#define ICE_WATER_FACET_LANES_INL
+#endif
+
+#include <hwy/highway.h>
+
+#include "solver/water/wetted_sums.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace ice::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+constexpr std::size_t kLanes = FacetBlock::kLanes;
+
+using Tag = hn::CappedTag<double, kLanes>;
+using Lanes = hn::Vec<Tag>;
+using Mask = hn::Mask<Tag>;
+
+struct Vectors {
+    Lanes x, y, z;
+};
+HWY_INLINE Vectors Get(const double (&from)[3][kLanes], std::size_t lane) {
+    const Tag d;
+    return {hn::Load(d, from[0] + lane), hn::Load(d, from[1] + lane), hn::Load(d, from[2] + lane)};
+}
+HWY_INLINE Vectors Set(const Vec3& v) {
+    const Tag d;
+    return {hn::Set(d, v[0]), hn::Set(d, v[1]), hn::Set(d, v[2])};
+}
+HWY_INLINE Vectors Zero() { return {hn::Zero(Tag()), hn::Zero(Tag()), hn::Zero(Tag())}; }
+HWY_INLINE Vectors Add(Vectors a, Vectors b) {
+    return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)};
+}
+HWY_INLINE Vectors Sub(Vectors a, Vectors b) {
+    return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
+}
+HWY_INLINE Vectors Scale(Lanes s, Vectors a) {
+    return {hn::Mul(s, a.x), hn::Mul(s, a.y), hn::Mul(s, a.z)};
+}
+HWY_INLINE Lanes Dot(Vectors a, Vectors b) {
+    return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
+}
+HWY_INLINE Vectors Cross(Vectors a, Vectors b) {
+    return {hn::Sub(hn::Mul(a.y, b.z), hn::Mul(a.z, b.y)),
+            hn::Sub(hn::Mul(a.z, b.x), hn::Mul(a.x, b.z)),
+            hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x))};
+}
+HWY_INLINE Vectors Choose(Mask which, Vectors yes, Vectors no) {
+    return {hn::IfThenElse(which, yes.x, no.x), hn::IfThenElse(which, yes.y, no.y),
+            hn::IfThenElse(which, yes.z, no.z)};
+}
+HWY_INLINE Vectors Only(Mask which, Vectors v) {
+    return {hn::IfThenElseZero(which, v.x), hn::IfThenElseZero(which, v.y),
+            hn::IfThenElseZero(which, v.z)};
+}
+
+// Partial sums, one for each lane of the blocks.
+struct alignas(64) Sum {
+    double s[kLanes];
+
+    HWY_INLINE void Put(Lanes value, std::size_t lane) { hn::Store(value, Tag(), s + lane); }
+    double Total() const {
+        return ((s[0] + s[1]) + (s[2] + s[3])) + ((s[4] + s[5]) + (s[6] + s[7]));
+    }
+};
+struct VectorSum {
+    Sum x, y, z;
+
+    HWY_INLINE void Put(Vectors v, std::size_t lane) {
+        x.Put(v.x, lane);
+        y.Put(v.y, lane);
+        z.Put(v.z, lane);
+    }
+    Vec3 Totals() const { return {x.Total(), y.Total(), z.Total()}; }
+};
+
+struct Water {
+    Vectors up;
+    Lanes height;
+
+    HWY_INLINE explicit Water(const WaterPlane& w)
+        : up(Set(w.up)), height(hn::Set(Tag(), w.height)) {}
+    HWY_INLINE Lanes HeightOf(Vectors p) const { return hn::Add(Dot(up, p), height); }
+};
+
+HWY_INLINE Mask Wet(Lanes z) { return hn::Le(z, hn::Zero(Tag())); }
+
+// How a quantity that is even on triangles cuts them at 0, from its values at the corners and which
+// of these are inside. Where it does, the one of the three that is alone on its side is the apex.
+struct Cut {
+    Lanes z0, z1, z2;
+    Mask in0, in1, in2, any, first, second;  // the latter: that corner is the apex, else the third
+
+    HWY_INLINE Cut(Lanes v0, Lanes v1, Lanes v2, Mask i0, Mask i1, Mask i2)
+        : z0(v0), z1(v1), z2(v2), in0(i0), in1(i1), in2(i2) {
+        const Mask differ_01 = hn::Xor(in0, in1), differ_12 = hn::Xor(in1, in2);
+        any = hn::Or(differ_01, differ_12);
+        first = hn::AndNot(differ_12, differ_01);
+        second = hn::And(differ_01, differ_12);
+    }
+    HWY_INLINE Mask AnyInside() const { return hn::Or(hn::Or(in0, in1), in2); }
+    HWY_INLINE Mask AllInside() const { return hn::And(hn::And(in0, in1), in2); }
+};
+
+// The cut-off tip: value at the apex, shares of the two edges from there that are on its side.
+struct Tip {
+    Lanes z, next, last;
+    Mask inside;
+
+    HWY_INLINE explicit Tip(const Cut& h)
+        : z(hn::IfThenElse(h.first, h.z0, hn::IfThenElse(h.second, h.z1, h.z2))) {
+        const Lanes zq = hn::IfThenElse(h.first, h.z1, hn::IfThenElse(h.second, h.z2, h.z0));
+        const Lanes zr = hn::IfThenElse(h.first, h.z2, hn::IfThenElse(h.second, h.z0, h.z1));
+        next = hn::Div(z, hn::Sub(z, zq));
+        last = hn::Div(z, hn::Sub(z, zr));
+        inside =
+            hn::Or(hn::And(h.first, h.in0),
+                   hn::Or(hn::And(h.second, h.in1), hn::AndNot(hn::Or(h.first, h.second), h.in2)));
+    }
+};
+
+// Does the whole triangle count, with or without a tip?
+HWY_INLINE Mask CountsWhole(const Cut& cut, const Tip& tip) {
+    return hn::Or(hn::AndNot(cut.any, cut.in0), hn::AndNot(tip.inside, cut.any));
+}
+
+HWY_INLINE Cut CutByWater(const FacetBlock& block, std::size_t lane, const Water& water) {
+    const Lanes z0 = water.HeightOf(Get(block.corner[0], lane));
+    const Lanes z1 = water.HeightOf(Get(block.corner[1], lane));
+    const Lanes z2 = water.HeightOf(Get(block.corner[2], lane));
+    return Cut(z0, z1, z2, Wet(z0), Wet(z1), Wet(z2));
+}
+
+}  // namespace ice::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif
