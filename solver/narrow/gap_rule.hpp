@@ -24,13 +24,17 @@ constexpr double kSlantOnFace = 0.95, kSlantOnEdge = 0.022;
 constexpr double kParallel = 0.02;
 static_assert(kSlantOnEdge > kParallel);
 
+/// Normals closer than 30 degrees are of the same face, for a probe.
+constexpr double kSameFace = 0.866;
+
 /// A corner is over a face as long as it is not this many radii beyond the face's edge.
 constexpr double kBeyond = 0.01;
 
 /// An edge's or corner's sphere stands for its body as far as this many radii around.
 constexpr double kAround = 2.0;
 
-/// Squared distances (in radii) that count as equal.
+/// Distances and squared distances (in radii) that count as equal: flush edges differ by rounding
+/// only, and shall be met in the same way step after step.
 constexpr double kFlush = 1e-3;
 
 /// v without its part along the unit vector n.
@@ -67,6 +71,15 @@ inline bool belongs(const SphereSurface& s, const Vec3& n, double slack = 0.0) {
 
 inline Vec3 support_offset(const SphereSurface& s, const Vec3& n) {
     return support_offset(s.faces, s.radius, s.normal, n);
+}
+
+/// How far from their spheres two edges cross, squared [m2].
+inline double distance_sq(const Crossing& at) {
+    return at.along_a * at.along_a + at.along_b * at.along_b;
+}
+/// Do they cross on what the spheres stand for?
+inline bool is_in_reach(const Crossing& at, const SphereSurface& a, const SphereSurface& b) {
+    return std::abs(at.along_a) <= a.reach && std::abs(at.along_b) <= b.reach;
 }
 
 /// The gap across two edges.

@@ -104,44 +104,80 @@ bool KindPair::meet(const Crossing& c, const Vec3& between) const {
            !(b_->faces.ends() && c.along_b.dot(between) < -kBeyond * b_->radius);
 }
 
+// Calls visit(across) for the normals across two edges whose gap is more than `least`, which may
+// change, and that meet.
+template <class Visit>
+void KindPair::for_each_across(const Vec3& d, const Vec3& between, const double& least,
+                               const Visit& visit) const {
+    for (std::uint8_t k = 0; k < crossings_; ++k) {
+        const Crossing& c = crossing_[k];
+        const double along = c.normal.dot(d), way = along < 0.0 ? -1.0 : 1.0;
+        const double now = way * c.normal.dot(between);
+        if (now <= least || along == 0.0 || !(along < 0.0 ? c.back : c.forth) || !meet(c, between))
+            continue;
+        visit(Across{&c, way, now});
+    }
+}
+
+KindPair::Across KindPair::largest_across(const Vec3& d, const Vec3& between, double least) const {
+    Across largest{nullptr, 1.0, least};
+    for_each_across(d, between, largest.gap, [&](const Across& now) { largest = now; });
+    return largest;
+}
+
+KindPair::Across KindPair::nearest_across(const Vec3& d, const Vec3& between) const {
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    Across nearest{nullptr, 1.0, 0.0};
+    double least = kInfinity;
+    for_each_across(d, between, -kInfinity, [&](const Across& now) {
+        const ice::Crossing at = now.crossing->at(between);
+        const double beside = distance_sq(at);
+        if (beside >= least || !is_in_reach(at, *a_, *b_)) return;
+        least = beside;
+        nearest = now;
+    });
+    return nearest;
+}
+
+Gap KindPair::gap_across(const Across& across, const Vec3& between) const {
+    const Crossing& c = *across.crossing;
+    if (meet_elsewhere(between, across.gap)) return kNone;
+    return crossing_gap(across.way * c.normal, across.gap, c.at(between), a_is_surface_, c.edge_a,
+                        c.edge_b);
+}
+
+bool KindPair::meet_elsewhere(const Vec3& between, double gap) const {
+    return gap < 0.0 &&
+           (is_less_deep(*a_, *b_, between, gap) || is_less_deep(*b_, *a_, -between, gap));
+}
+
 Gap KindPair::measure_edges(const Vec3& center_a, const Vec3& center_b) const {
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
     const Vec3 d = center_b - center_a;
     const Vec3 point_a = center_a + offset_a_, point_b = center_b + offset_b_;
     const Vec3 between = point_b - point_a;
     const KindDirection* face = nullptr;
-    const Crossing* crossing = nullptr;
-    double sign = 1.0, gap = -std::numeric_limits<double>::infinity();
+    double gap = -kInfinity;
     for (std::uint8_t k = 0; k < faces_; ++k) {
         const double now = face_[k].normal.dot(between);
         if (now <= gap || face_[k].normal.dot(d) <= 0.0) continue;
         face = &face_[k];
         gap = now;
     }
-    for (std::uint8_t k = 0; k < crossings_; ++k) {
-        const Crossing& c = crossing_[k];
-        const double along = c.normal.dot(d), way = along < 0.0 ? -1.0 : 1.0;
-        const double now = way * c.normal.dot(between);
-        if (now <= gap || along == 0.0 || !(along < 0.0 ? c.back : c.forth) || !meet(c, between))
-            continue;
-        crossing = &c;
-        sign = way;
-        gap = now;
-    }
-    if (!face && !crossing) return kNone;
-    if (gap < 0.0 &&
-        (is_less_deep(*a_, *b_, between, gap) || is_less_deep(*b_, *a_, -between, gap)))
-        return kNone;
-    if (crossing) {
-        const ice::Crossing at{crossing->along_a.dot(between), crossing->along_b.dot(between)};
-        return crossing_gap(sign * crossing->normal, gap, at, a_is_surface_, crossing->edge_a,
-                            crossing->edge_b);
-    }
+    const Across across = largest_across(d, between, gap);
+    if (across.crossing) return gap_across(across, between);
+    if (!face || meet_elsewhere(between, gap)) return kNone;
     const Vec3& n = face->normal;
     const double under_a =
         distance_from(face->under_a, a_->radius, part_across(point_b - center_a, n), 0.0);
     const double under_b =
         distance_from(face->under_b, b_->radius, part_across(point_a - center_b, n), 0.0);
-    // flush edges differ by rounding only: then a, step after step
+    const bool over = under_a <= a_->reach * a_->reach || under_b <= b_->reach * b_->reach;
+    const Across nearest = nearest_across(d, between);
+    if (nearest.crossing && (!over || (nearest.gap < gap - kFlush * a_->radius &&
+                                       nearest.way * nearest.crossing->normal.dot(n) > kSameFace)))
+        return gap_across(nearest, between);
+    if (!over) return kNone;
     const bool on_a = under_a <= under_b + kFlush * a_->radius * a_->radius;
     return {n, gap, on_a ? under_a : under_b, on_a, true};
 }

@@ -76,6 +76,15 @@ private:
         bool ends = false;                 // does one of them end there?
         Vec3 along_a, along_b;  // how far from there they are nearest: this . (corner to corner)
         std::int8_t edge_a, edge_b;
+
+        ice::Crossing at(const Vec3& between) const {
+            return {along_a.dot(between), along_b.dot(between)};
+        }
+    };
+    // One of these, which way it parts them and how far.
+    struct Across {
+        const Crossing* crossing;
+        double way, gap;
     };
     static inline const Gap kNone{Vec3::UnitZ(), 0.0, 0.0, true, false};
 
@@ -85,7 +94,16 @@ private:
     Gap measure_direction(const Vec3& center_a, const Vec3& center_b) const;
     Gap measure_edges(const Vec3& center_a, const Vec3& center_b) const;
     Gap measure_afresh(const Vec3& center_a, const Vec3& center_b) const;
+    template <class Visit>
+    void for_each_across(const Vec3& d, const Vec3& between, const double& least,
+                         const Visit& visit) const;
+    // Of largest gap, above `least`; none: null.
+    Across largest_across(const Vec3& d, const Vec3& between, double least) const;
+    // Of the edges that cross nearest to the two spheres, in reach of both; none: null.
+    Across nearest_across(const Vec3& d, const Vec3& between) const;
+    Gap gap_across(const Across& across, const Vec3& between) const;
     bool meet(const Crossing& c, const Vec3& between) const;
+    bool meet_elsewhere(const Vec3& between, double gap) const;
 
     const SphereSurface *a_, *b_;
     bool prefer_a_, a_is_surface_;

@@ -39,24 +39,49 @@ struct Parting {
     }
 };
 
-// The normal across edge ka of a and kb of b, where they meet on what there is of them.
-void attempt_across(const SphereSurface& a, const SphereSurface& b, int ka, int kb, const Vec3& d,
-                    const Vec3& between, Parting& best) {
-    const Vec3 ea = a.faces.edge(ka), eb = b.faces.edge(kb), across = ea.cross(eb);
-    const double sine = across.norm();
-    if (sine <= kParallel) return;
-    const Vec3 n = (across.dot(d) < 0.0 ? -1.0 : 1.0) / sine * across;
-    if (n.dot(d) <= 0.0 || !a.faces.have(n, kSlantOnEdge) || !b.faces.have(-n, kSlantOnEdge))
-        return;
-    const Crossing at = find_crossing(Vec3::Zero(), ea, between, eb);
-    if (a.faces.ends() && at.along_a < -kBeyond * a.radius) return;
-    if (b.faces.ends() && at.along_b < -kBeyond * b.radius) return;
-    best.attempt(n, between, ka, kb);
+Vec3 tip_to_tip(const SphereSurface& a, const SphereSurface& b) {
+    return support_point(b, -a.normal) - support_point(a, -b.normal);
 }
 
-Parting parting_normal(const SphereSurface& a, const SphereSurface& b, const Vec3& d) {
+// Calls visit(n, at, ka, kb) for the normals across two edges that meet on what there is of them.
+template <class Visit>
+void for_each_across(const SphereSurface& a, const SphereSurface& b, const Visit& visit) {
+    const Vec3 d = b.center - a.center, between = tip_to_tip(a, b);
+    for (int ka = 0; ka < a.faces.edges(); ++ka)
+        for (int kb = 0; kb < b.faces.edges(); ++kb) {
+            const Vec3 ea = a.faces.edge(ka), eb = b.faces.edge(kb), across = ea.cross(eb);
+            const double sine = across.norm();
+            if (sine <= kParallel) continue;
+            const Vec3 n = (across.dot(d) < 0.0 ? -1.0 : 1.0) / sine * across;
+            if (n.dot(d) <= 0.0 || !a.faces.have(n, kSlantOnEdge) ||
+                !b.faces.have(-n, kSlantOnEdge))
+                continue;
+            const Crossing at = find_crossing(Vec3::Zero(), ea, between, eb);
+            if (a.faces.ends() && at.along_a < -kBeyond * a.radius) continue;
+            if (b.faces.ends() && at.along_b < -kBeyond * b.radius) continue;
+            visit(n, at, ka, kb);
+        }
+}
+
+// Of the normals across two edges the one whose edges cross nearest to the two spheres, within
+// reach of both; zero where there is none.
+Parting nearest_across(const SphereSurface& a, const SphereSurface& b) {
+    const Vec3 between = tip_to_tip(a, b);
+    Parting nearest;
+    double least = std::numeric_limits<double>::infinity();
+    for_each_across(a, b, [&](const Vec3& n, const Crossing& at, int ka, int kb) {
+        const double beside = distance_sq(at);
+        if (beside >= least || !is_in_reach(at, a, b)) return;
+        least = beside;
+        nearest = {n, n.dot(between), static_cast<std::int8_t>(ka), static_cast<std::int8_t>(kb)};
+    });
+    return nearest;
+}
+
+// Of all normals.
+Parting parting_normal(const SphereSurface& a, const SphereSurface& b) {
     Parting best;
-    const Vec3 between = support_point(b, -a.normal) - support_point(a, -b.normal);
+    const Vec3 d = b.center - a.center, between = tip_to_tip(a, b);
     // a face's normal is one of its own edge's or corner's
     for (int k = 0; k < a.faces.count; ++k) {
         const Vec3& n = a.faces.normal[static_cast<std::size_t>(k)];
@@ -66,15 +91,15 @@ Parting parting_normal(const SphereSurface& a, const SphereSurface& b, const Vec
         const Vec3 n = -b.faces.normal[static_cast<std::size_t>(k)];
         if (n.dot(d) > 0.0 && a.faces.have(n, kSlantOnEdge)) best.attempt(n, between, -1, -1);
     }
-    for (int ka = 0; ka < a.faces.edges(); ++ka)
-        for (int kb = 0; kb < b.faces.edges(); ++kb) attempt_across(a, b, ka, kb, d, between, best);
+    for_each_across(a, b, [&](const Vec3& n, const Crossing&, int ka, int kb) {
+        best.attempt(n, between, ka, kb);
+    });
     return best;
 }
 
-// Squared distance across n from the part of the surface that `s` stands for to a probe's point.
-double distance_across(const SphereSurface& s, const Vec3& n, const Vec3& probe, bool edges) {
-    const Vec3 at = part_across(probe - s.center, n);
-    return edges ? distance_from(foothold(s, n), s.radius, at, 0.0) : at.squaredNorm();
+// Squared distance across n from what an edge's or corner's sphere stands for to a probe's point.
+double distance_across(const SphereSurface& s, const Vec3& n, const Vec3& probe) {
+    return distance_from(foothold(s, n), s.radius, part_across(probe - s.center, n), 0.0);
 }
 
 // Midway between two faces' normals; zero where they face away, over 120 degrees apart.
@@ -82,6 +107,39 @@ Vec3 mean_normal(const Vec3& normal_a, const Vec3& normal_b) {
     const Vec3 n = normal_a - normal_b;
     const double length = n.norm();
     return length < 1.0 ? Vec3(Vec3::Zero()) : Vec3(n / length);
+}
+
+const Gap kNone{Vec3::UnitZ(), 0.0, 0.0, true, false};
+
+bool meet_elsewhere(const SphereSurface& a, const SphereSurface& b, const Parting& p) {
+    const Vec3 apart = tip_to_tip(a, b);
+    return p.gap < 0.0 && (is_less_deep(a, b, apart, p.gap) || is_less_deep(b, a, -apart, p.gap));
+}
+
+Gap gap_across(const SphereSurface& a, const SphereSurface& b, const Parting& p) {
+    const Crossing at = find_crossing(support_point(a, p.normal), a.faces.edge(p.edge_a),
+                                      support_point(b, -p.normal), b.faces.edge(p.edge_b));
+    const bool same = std::abs(a.spread_cos - b.spread_cos) <= kSameSpread;
+    return crossing_gap(p.normal, p.gap, at, same || a.spread_cos > b.spread_cos, p.edge_a,
+                        p.edge_b);
+}
+
+// Two edges or corners that know their faces.
+Gap measure_gap_of_edges(const SphereSurface& a, const SphereSurface& b) {
+    const Parting parting = parting_normal(a, b);
+    const Vec3& n = parting.normal;
+    if (n.isZero(0.0) || meet_elsewhere(a, b, parting)) return kNone;
+    if (parting.edge_a >= 0) return gap_across(a, b, parting);
+    const double under_a = distance_across(a, n, support_point(b, -n));
+    const double under_b = distance_across(b, n, support_point(a, n));
+    const bool over = under_a <= a.reach * a.reach || under_b <= b.reach * b.reach;
+    const Parting across = nearest_across(a, b);
+    if (!across.normal.isZero(0.0) && (!over || (across.gap < parting.gap - kFlush * a.radius &&
+                                                 across.normal.dot(n) > kSameFace)))
+        return meet_elsewhere(a, b, across) ? kNone : gap_across(a, b, across);
+    if (!over) return kNone;
+    const bool on_a = under_a <= under_b + kFlush * a.radius * a.radius;
+    return {n, parting.gap, on_a ? under_a : under_b, on_a, true};
 }
 
 }  // namespace
@@ -115,37 +173,18 @@ Gap measure_gap_centres(const Vec3& center_a, double radius_a, const Vec3& cente
 }
 
 Gap measure_gap_surface(const SphereSurface& a, const SphereSurface& b, bool prefer_a) {
+    if (a.faces.count > 0 && b.faces.count > 0) return measure_gap_of_edges(a, b);
     const Vec3 d = b.center - a.center;
-    const Gap none{Vec3::UnitZ(), 0.0, 0.0, true, false};
-    const bool edges = a.faces.count > 0 && b.faces.count > 0;
     const bool same = std::abs(a.spread_cos - b.spread_cos) <= kSameSpread;
-    bool a_is_surface = same || a.spread_cos > b.spread_cos;
-    Vec3 n;
-    Parting parting;
-    if (edges) {
-        parting = parting_normal(a, b, d);
-        n = parting.normal;
-    } else if (same && !prefer_a)
-        n = mean_normal(nearest_normal(a, d), nearest_normal(b, -d));
-    else
-        n = a_is_surface ? nearest_normal(a, d) : Vec3(-nearest_normal(b, -d));
-    if (n.isZero(0.0) || n.dot(d) <= 0.0) return none;
-    if (!edges && (!belongs(a, n) || !belongs(b, -n))) return none;
+    const bool a_is_surface = same || a.spread_cos > b.spread_cos;
+    const Vec3 n = same && !prefer_a ? mean_normal(nearest_normal(a, d), nearest_normal(b, -d))
+                   : a_is_surface    ? nearest_normal(a, d)
+                                     : Vec3(-nearest_normal(b, -d));
+    if (n.isZero(0.0) || n.dot(d) <= 0.0 || !belongs(a, n) || !belongs(b, -n)) return kNone;
     const Vec3 point_a = support_point(a, n), point_b = support_point(b, -n);
-    const double gap = n.dot(point_b - point_a);
-    const Vec3 apart = point_b - point_a;
-    if (edges && gap < 0.0 && (is_less_deep(a, b, apart, gap) || is_less_deep(b, a, -apart, gap)))
-        return none;
-    if (parting.edge_a >= 0) {
-        const Crossing at = find_crossing(point_a, a.faces.edge(parting.edge_a), point_b,
-                                          b.faces.edge(parting.edge_b));
-        return crossing_gap(n, gap, at, a_is_surface, parting.edge_a, parting.edge_b);
-    }
-    const double under_a = distance_across(a, n, point_b, edges);
-    const double under_b = distance_across(b, n, point_a, edges);
-    // flush edges differ by rounding only: then a, step after step
-    if (edges) a_is_surface = under_a <= under_b + kFlush * a.radius * a.radius;
-    return {n, gap, a_is_surface ? under_a : under_b, a_is_surface, true};
+    const Vec3 at =
+        part_across(a_is_surface ? Vec3(point_b - a.center) : Vec3(point_a - b.center), n);
+    return {n, n.dot(point_b - point_a), at.squaredNorm(), a_is_surface, true};
 }
 
 }  // namespace ice

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 
 #include "solver/shape/shape.hpp"
 
@@ -16,6 +17,8 @@ struct SphereSurface {
     double spread_cos;  ///< cosine and sine of the half-angle of the normals that meet there;
     double spread_sin;  ///<   1 and 0 on a face
     Faces faces = {};   ///< that meet there, where they are known
+    /// How far around it stands for its surface [m].
+    double reach = std::numeric_limits<double>::infinity();
 };
 
 /// What lies between sphere a and sphere b.
@@ -66,6 +69,12 @@ Gap measure_gap_centres(const Vec3& center_a, double radius_a, const Vec3& cente
 /// Of two edges or corners that know their faces, each face's normal and those across two edges are
 /// tried and the one with the largest gap taken: the separating direction of the two local solids.
 /// Where another face is less deep in all that the spheres stand for, they meet elsewhere: invalid.
+///
+/// Where that gap is a face's, the two edges that cross nearest, in reach of both spheres, may
+/// decide instead, across them: where neither corner is over what the other sphere stands for of
+/// the face, and where they are deeper along a normal of the same face. So an edge on a face's
+/// border, or one that crosses another at a small angle, is felt where it is, between two spheres.
+///
 /// Else the flatter side gives the one of its normals that is nearest to the line of centres. The
 /// flatter side (the smaller spread; of two edges the one that has the other's corner above it, a
 /// if both) is the surface, the other one the probe. With n chosen,

@@ -4,12 +4,11 @@
 #include <algorithm>
 #include <tuple>
 
+#include "solver/narrow/gap_rule.hpp"
+
 namespace ice {
 
 namespace {
-
-// Normals closer than 30 degrees belong to the same face of a probe's neighbourhood.
-constexpr double kSameFaceCos = 0.866;
 
 // Where a candidate's surface is and faces, a's axes.
 struct Face {
@@ -70,7 +69,7 @@ void keep_one_per_face(const PairView& view, double margin, std::vector<Candidat
         if (kept.size() > group && !same_probe(kept[group], now)) group = kept.size();
         const auto first = kept.begin() + static_cast<std::ptrdiff_t>(group), last = kept.end();
         if (std::any_of(first, last, [&](const Candidate& other) {
-                return other.gap.normal.dot(now.gap.normal) > kSameFaceCos;
+                return other.gap.normal.dot(now.gap.normal) > kSameFace;
             }))
             continue;
         const auto edge = std::find_if(first, last, [&](const Candidate& other) {

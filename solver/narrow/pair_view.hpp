@@ -41,12 +41,13 @@ struct PairView {
                !shape_b.box.contains(Vec3(shape_b.center[j] + scene.crushed.recess_of(pair.b, j)));
     }
     SphereSurface sphere_a(std::int32_t i) const {
-        return {center_a(i),           shape_a.radius[i],     shape_a.normal[i],
-                shape_a.spread_cos[i], shape_a.spread_sin[i], shape_a.faces[i]};
+        return {center_a(i),           shape_a.radius[i], shape_a.normal[i], shape_a.spread_cos[i],
+                shape_a.spread_sin[i], shape_a.faces[i],  shape_a.reach};
     }
     SphereSurface sphere_b(std::int32_t j) const {
         return {center_b(j),           shape_b.radius[j],     turn * shape_b.normal[j],
-                shape_b.spread_cos[j], shape_b.spread_sin[j], shape_b.faces[j].turned(turn)};
+                shape_b.spread_cos[j], shape_b.spread_sin[j], shape_b.faces[j].turned(turn),
+                shape_b.reach};
     }
     /// support_point of sphere_a(i) and sphere_b(j), whose faces need not be turned for it.
     Vec3 support_a(std::int32_t i, const Vec3& n) const {

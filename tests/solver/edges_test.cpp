@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <initializer_list>
+#include <limits>
 #include <numbers>
 #include <random>
 
@@ -174,6 +175,48 @@ TEST_CASE("a corner's edges cross another body's edge as any edge does",
         // beyond the corner there is no edge to cross
         CHECK_FALSE((found.valid && found.crossing));
     }
+}
+
+TEST_CASE("an edge on a face's corner, between two of its spheres, crosses the face's edges",
+          "[narrow][edges][analytic]") {
+    // A box's corner points down, 3 cm below an edge along y that presses on its side from -x: the
+    // edge lies on the side from y = -3 to 3 cm. Its sphere is at y = -9 cm, beyond reach of it.
+    const double gap = GENERATE(0.002, 0.0, -0.002);
+    SphereSurface corner =
+        tip_sphere(Vec3(gap, 0, -0.03), {-kX, (kY - kZ).normalized(), (-kY - kZ).normalized()});
+    SphereSurface edge = tip_sphere(-0.09 * kY, {kX, -kZ});
+    edge.reach = corner.reach = 0.075;
+    CAPTURE(gap);
+    check_gap(edge, corner, kX, gap);
+    const Gap found = measure_gap_surface(edge, corner, true);
+    CHECK(found.crossing);
+    // the nearer of the two crossings, the other one is next to other spheres
+    CHECK((found.a_is_surface ? found.lateral_sq : found.probe_sq) == Approx(0.06 * 0.06));
+    CHECK((found.a_is_surface ? found.probe_sq : found.lateral_sq) == Approx(2 * 0.03 * 0.03));
+    // where the corner is over all that the edge's sphere stands for it is the probe
+    edge.reach = corner.reach = 0.1;
+    CHECK_FALSE(measure_gap_surface(edge, corner, true).crossing);
+}
+
+TEST_CASE("an edge that leans a little on a face is met where it crosses the face's border",
+          "[narrow][edges][analytic]") {
+    // Lower edges of two boxes cross at the origin, at 10 degrees, the second box tilted so that
+    // its lower edge is foremost. The spheres are 5 cm from there, where the second edge is over
+    // the first one's side, farther off by the lean.
+    const double gap = GENERATE(0.002, 0.0, -0.002);
+    const double lean = GENERATE(0.015, 0.005);
+    CAPTURE(gap, lean);
+    const Mat3 turn = (Eigen::AngleAxisd(-lean, kZ) * Eigen::AngleAxisd(10.0 * kDeg, kX) *
+                       Eigen::AngleAxisd(10.0 * kDeg, kY))
+                          .toRotationMatrix();
+    const Vec3 line = turn * kY;
+    Vec3 n = kY.cross(line).normalized();
+    if (n.x() < 0.0) n = -n;
+    SphereSurface a = tip_sphere(-0.05 * kY, {kX, -kZ});
+    SphereSurface b = tip_sphere(gap * n + 0.05 * line, {turn * -kX, turn * -kZ});
+    a.reach = b.reach = 0.075;
+    check_gap(a, b, n, gap);
+    CHECK(measure_gap_surface(a, b, true).crossing);
 }
 
 TEST_CASE("a corner behind one face and clear of another is not inside", "[narrow][edges]") {

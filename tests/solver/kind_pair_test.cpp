@@ -15,6 +15,8 @@ using namespace ice;
 
 namespace {
 
+constexpr double kReach = 0.075;  // [m]
+
 struct Dice {
     std::mt19937 random;
     std::uniform_real_distribution<double> unit{-1.0, 1.0};
@@ -29,6 +31,7 @@ struct Dice {
 SphereSurface some_sphere(int form, const Mat3& turn, double radius) {
     const Vec3 axes[3] = {turn.col(0), turn.col(1), turn.col(2)};
     SphereSurface s{Vec3::Zero(), radius, axes[0], 1.0, 0.0};
+    s.reach = kReach;
     if (form == 0) return s;
     if (form == 3) {  // an edge that does not know its faces
         s.spread_cos = s.spread_sin = std::sqrt(0.5);
@@ -95,14 +98,13 @@ TEST_CASE(
     const bool prefer_a = GENERATE(false, true);
     Dice dice(static_cast<unsigned>(100 + 10 * form_a + form_b));
     const Leeway leeway = GENERATE(Leeway{0.03, 0.015}, Leeway{0.015, 0.0075});
-    const double reach = 0.075;
     int compared = 0;
     for (int k = 0; k < 3000; ++k) {
         SphereSurface a = some_sphere(form_a, dice.turn(), 0.05);
         SphereSurface b = facing_sphere(form_b, a, dice);
         b.center = 0.09 * a.normal + 0.1 * dice.vector();
         const SphereSurface kind_a = a, kind_b = b;
-        KindBound bound(kind_a, kind_b, prefer_a, reach, leeway);
+        KindBound bound(kind_a, kind_b, prefer_a, kReach, leeway);
         const double least = bound.least(a.center, b.center);
         // turned about its centre, as far as its points within 0.2 m allow, and moved by the rest
         const double angle = 0.99 * leeway.angle * dice();
@@ -119,7 +121,7 @@ TEST_CASE(
         REQUIRE(fast.valid == gap.valid);
         REQUIRE(fast.gap == gap.gap);
         REQUIRE(fast.normal == gap.normal);
-        if (!gap.valid || std::max(gap.lateral_sq, gap.probe_sq) > reach * reach) continue;
+        if (!gap.valid || std::max(gap.lateral_sq, gap.probe_sq) > kReach * kReach) continue;
         ++compared;
         CAPTURE(k, least, gap.gap, gone, gap.crossing);
         // lengths of a tenth of a metre, rounded to 1e-17
