@@ -106,14 +106,14 @@ double KindBound::least_across(const Vec3& d, const Vec3& between) {
 
 // The largest gap of all normals that may part them wins, so one normal that will surely be among
 // them is a bound; without one, the least of those that might be. Where each of these leaves the
-// other's edge beyond what a sphere stands for there will be no gap. Where a face may have neither
-// corner over it, the gap may be one across two edges, and less.
+// other's edge beyond what a sphere stands for there will be no gap. A face's normal gives way to
+// edges that cross near the spheres, deeper or where no corner is over the face: they count always.
 double KindBound::least_of_edges(const Vec3& center_a, const Vec3& center_b) {
     const Vec3 d = center_b - center_a;
     const Vec3 point_a = center_a + offset_a_, point_b = center_b + offset_b_;
     const Vec3 between = point_b - point_a;
     double certain = -kInfinity, possible = kInfinity;
-    bool near = false, over = true;
+    bool near = false;
     for (std::uint8_t k = 0; k < faces_; ++k) {
         const Vec3& n = face_[k].normal;
         const double along = n.dot(d), gap = n.dot(between);
@@ -125,13 +125,6 @@ double KindBound::least_of_edges(const Vec3& center_a, const Vec3& center_b) {
         };
         near = near || is_near(face_[k].under_a, a_->radius, point_b - center_a) ||
                is_near(face_[k].under_b, b_->radius, point_a - center_b);
-        const auto is_over = [&](const Foothold& foot, const SphereSurface& s, const Vec3& v) {
-            const double surely = std::max(s.reach - leeway_.distance, 0.0);
-            return distance_from(foot, s.radius, part_across(v, n), -leeway_.distance) <=
-                   surely * surely;
-        };
-        over = over && (is_over(face_[k].under_a, *a_, point_b - center_a) ||
-                        is_over(face_[k].under_b, *b_, point_a - center_b));
     }
     const double across = least_across(d, between);
     if (!near && across == kInfinity) return kInfinity;

@@ -55,7 +55,7 @@ private:
     KindRule rule_;
     PossibleNormals possible_ = PossibleNormals::none();  // as far as they are listed
     std::uint8_t faces_ = 0;
-    std::int8_t crossings_ = -1;         // -1: not listed yet, they are seldom asked for
+    std::int8_t crossings_ = -1;         // -1: not listed yet
     Vec3 offset_a_, offset_b_;           // from the centres to the foremost points [m]
     std::array<KindDirection, 6> face_;  // the first one is the only one of rule `direction`
     std::array<bool, 6> certain_{};      // will the face's normal surely be one of both?

@@ -172,13 +172,14 @@ Gap KindPair::measure_edges(const Vec3& center_a, const Vec3& center_b) const {
         distance_from(face->under_a, a_->radius, part_across(point_b - center_a, n), 0.0);
     const double under_b =
         distance_from(face->under_b, b_->radius, part_across(point_a - center_b, n), 0.0);
-    const bool over = under_a <= a_->reach * a_->reach || under_b <= b_->reach * b_->reach;
+    const bool on_a = under_a <= under_b + kFlush * a_->radius * a_->radius;
+    const bool over = on_a ? under_a <= a_->reach * a_->reach : under_b <= b_->reach * b_->reach;
     const Across nearest = nearest_across(d, between);
-    if (nearest.crossing && (!over || (nearest.gap < gap - kFlush * a_->radius &&
-                                       nearest.way * nearest.crossing->normal.dot(n) > kSameFace)))
+    if (nearest.crossing &&
+        (!over || (nearest.gap < gap - kFlush * std::min(a_->radius, b_->radius) &&
+                   nearest.way * nearest.crossing->normal.dot(n) > kSameFace)))
         return gap_across(nearest, between);
     if (!over) return kNone;
-    const bool on_a = under_a <= under_b + kFlush * a_->radius * a_->radius;
     return {n, gap, on_a ? under_a : under_b, on_a, true};
 }
 

@@ -26,7 +26,7 @@ Vec3 nearest_normal(const SphereSurface& s, const Vec3& d) {
     return s.spread_cos * s.normal + (s.spread_sin / length) * across;
 }
 
-// Of the directions that may part two local solids the one with the largest gap.
+// A direction that may part two local solids; by attempt() the one with the largest gap.
 struct Parting {
     Vec3 normal = Vec3::Zero();  // zero where the solids do not face each other
     double gap = -std::numeric_limits<double>::infinity();
@@ -132,13 +132,14 @@ Gap measure_gap_of_edges(const SphereSurface& a, const SphereSurface& b) {
     if (parting.edge_a >= 0) return gap_across(a, b, parting);
     const double under_a = distance_across(a, n, support_point(b, -n));
     const double under_b = distance_across(b, n, support_point(a, n));
-    const bool over = under_a <= a.reach * a.reach || under_b <= b.reach * b.reach;
+    const bool on_a = under_a <= under_b + kFlush * a.radius * a.radius;
+    const bool over = on_a ? under_a <= a.reach * a.reach : under_b <= b.reach * b.reach;
     const Parting across = nearest_across(a, b);
-    if (!across.normal.isZero(0.0) && (!over || (across.gap < parting.gap - kFlush * a.radius &&
-                                                 across.normal.dot(n) > kSameFace)))
+    if (!across.normal.isZero(0.0) &&
+        (!over || (across.gap < parting.gap - kFlush * std::min(a.radius, b.radius) &&
+                   across.normal.dot(n) > kSameFace)))
         return meet_elsewhere(a, b, across) ? kNone : gap_across(a, b, across);
     if (!over) return kNone;
-    const bool on_a = under_a <= under_b + kFlush * a.radius * a.radius;
     return {n, parting.gap, on_a ? under_a : under_b, on_a, true};
 }
 

@@ -75,16 +75,17 @@ Gap measure_gap_centres(const Vec3& center_a, double radius_a, const Vec3& cente
 /// the face, and where they are deeper along a normal of the same face. So an edge on a face's
 /// border, or one that crosses another at a small angle, is felt where it is, between two spheres.
 ///
-/// Else the flatter side gives the one of its normals that is nearest to the line of centres. The
-/// flatter side (the smaller spread; of two edges the one that has the other's corner above it, a
-/// if both) is the surface, the other one the probe. With n chosen,
+/// Where one of the two does not know its faces the flatter side gives the one of its normals that
+/// is nearest to the line of centres. The flatter side (the smaller spread; of two edges the one
+/// that has the other's corner above it, a if both) is the surface, the other one the probe. With n
+/// chosen,
 ///
 ///     gap = n . (support_point(b, -n) - support_point(a, n)),
 ///
 /// exact for a face on a face, an edge on a face and an edge across an edge: a flat hull is flat
 /// and a floe's edge sharp, whatever spheres stand for them. Invalid where n is not a normal of
-/// both sides (to about 3 degrees at edges), or the centres are not on the proper sides,
-/// n . (c_b - c_a) <= 0.
+/// both sides (to about 3 degrees at edges), the centres are not on the proper sides, n . (c_b -
+/// c_a) <= 0, or neither edge's corner is over the other's face and no edges cross in reach.
 Gap measure_gap_surface(const SphereSurface& a, const SphereSurface& b, bool prefer_a);
 
 }  // namespace ice

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solver/shape/face_borders.hpp"
 
-#include <span>
+#include <algorithm>
+#include <cmath>
 
 #include "solver/shape/shape.hpp"
 #include "solver/shape/sphere_grid.hpp"
@@ -12,7 +13,7 @@ namespace {
 
 // Normals this near (cosine; 2.6 degrees) in planes this near (radii) are of one face: the hull's
 // are curved.
-constexpr double kSameFace = 0.999, kSamePlane = 0.1;
+constexpr double kOneFace = 0.999, kOnePlane = 0.1;
 
 // Planes this near (cosine, radii) are one: spheres along a straight edge differ by rounding.
 constexpr double kSameNormal = 1.0 - 1e-9, kRounding = 1e-6;
@@ -53,8 +54,8 @@ public:
 
 private:
     static bool is_same(const Face& l, const Face& r, double radius) {
-        return l.normal.dot(r.normal) > kSameFace &&
-               std::abs(l.offset - r.offset) <= kSamePlane * radius;
+        return l.normal.dot(r.normal) > kOneFace &&
+               std::abs(l.offset - r.offset) <= kOnePlane * radius;
     }
     Face face_of(std::size_t sphere, const Vec3& normal) const {
         return {normal, normal.dot(shape_.center[sphere]) + shape_.radius[sphere]};
@@ -71,6 +72,10 @@ private:
             const auto m = static_cast<std::size_t>(edges_[static_cast<std::size_t>(row)]);
             if (m != k && (shape_.center[m] - shape_.center[k]).squaredNorm() <= range * range)
                 near_.push_back(m);
+        });
+        // of planes that are all but one the first is kept: mirror images shall keep the same
+        std::sort(near_.begin(), near_.end(), [&](std::size_t l, std::size_t r) {
+            return shape_.mirror_rank[l] < shape_.mirror_rank[r];
         });
     }
 

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "common/geometry/triangle_mesh.hpp"
@@ -16,13 +18,13 @@ struct Shape;
 /// ends nearer by. It ends at the planes of the faces that come next, which the spheres of outward
 /// edges and corners nearby know. An edge ends at a plane that is next to both of its faces.
 ///
-/// Spheres without borders: corners, rounded edges, those farther than twice the reach from every
-/// edge. Inward edges, and outward ones that are hollow in plan, are no borders: no plane ends the
+/// Spheres without borders: corners, rounded edges, those farther than twice the reach and a radius
+/// from every edge. Inward edges, and outward ones that are hollow in plan, are no borders: no plane ends the
 /// face there without cutting off some of it.
 class FaceBorders {
 public:
     FaceBorders() = default;
-    /// @pre the shape's spheres, faces and reach are known. Costs as much as there are spheres near
+    /// @pre the shape's spheres, faces, mirror ranks and reach are known. Costs as much as there are spheres near
     /// edges, times the edges' spheres near each.
     explicit FaceBorders(const Shape& shape);
 

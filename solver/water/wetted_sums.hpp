@@ -2,8 +2,6 @@
 /// Sums over the part of a surface that is under water, in body axes.
 #pragma once
 
-#include <cmath>
-
 #include "solver/shape/surface_blocks.hpp"
 
 namespace ice {

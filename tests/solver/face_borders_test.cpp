@@ -90,6 +90,7 @@ struct Patchwork {
         shape.normal.push_back(middle);
         shape.spread_cos.push_back(normals.size() > 1 ? kRadius / faces.corner : 1.0);
         shape.faces.push_back(faces);
+        shape.mirror_rank.push_back(static_cast<std::int32_t>(shape.mirror_rank.size()));
     }
     // Is there a border of the first sphere's?
     bool has_border() const { return FaceBorders(shape).has(0); }

@@ -15,7 +15,7 @@ using namespace ice;
 
 namespace {
 
-constexpr double kReach = 0.075;  // [m]
+constexpr double kReach = 0.075;  // the larger of both spheres' [m]
 
 struct Dice {
     std::mt19937 random;
@@ -31,7 +31,7 @@ struct Dice {
 SphereSurface some_sphere(int form, const Mat3& turn, double radius) {
     const Vec3 axes[3] = {turn.col(0), turn.col(1), turn.col(2)};
     SphereSurface s{Vec3::Zero(), radius, axes[0], 1.0, 0.0};
-    s.reach = kReach;
+    s.reach = 1.5 * radius;
     if (form == 0) return s;
     if (form == 3) {  // an edge that does not know its faces
         s.spread_cos = s.spread_sin = std::sqrt(0.5);

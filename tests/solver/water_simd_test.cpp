@@ -255,6 +255,27 @@ TEST_CASE("panel drag is the integral over the wetted surface that the flow meet
     CHECK(loaded > 90);  // the others hardly touch the water
 }
 
+TEST_CASE("a mirror image's drag is the mirror image, however the triangles lie",
+          "[water][property]") {
+    // the box's diagonals do not lie symmetric about y = 0
+    Dice dice{std::mt19937(8)};
+    const Shape shape = build_shape(test::make_box_set(Vec3(1, 0.8, 0.3), 0.05, 0.1), true);
+    const Vec3 flip(1, -1, 1);
+    for (int k = 0; k < 100; ++k) {
+        const Mat3 turn = dice.turn(), turned = flip.asDiagonal() * turn * flip.asDiagonal();
+        const Vec3 v = dice.vector(), w = 3.0 * dice.vector();
+        const double height = 0.2 * dice.unit(dice.random);
+        const WaterLoad port = panel_drag(shape, {turn, height, v, w}, 1.0, 1000.0);
+        const WaterLoad starboard =
+            panel_drag(shape, {turned, height, flip.cwiseProduct(v), Vec3(-flip.cwiseProduct(w))},
+                       1.0, 1000.0);
+        // a few hundred roundings of parts no larger than whole triangles; lengths within a metre
+        const double slack = 1e-13 * 1000.0 * shape.solid.area * std::pow(v.norm() + w.norm(), 2);
+        CHECK((starboard.force - flip.cwiseProduct(port.force)).norm() <= slack);
+        CHECK((starboard.moment + flip.cwiseProduct(port.moment)).norm() <= slack);
+    }
+}
+
 TEST_CASE("projected drag is that of the wetted facets that the flow meets", "[water][property]") {
     Dice dice{std::mt19937(7)};
     for (int k = 0; k < 100; ++k) {

@@ -3,9 +3,8 @@
 //
 // What the arithmetic allows: contacts, friction and motion commute with the mirror image bit for
 // bit, because sphere sets are exactly symmetric and every order and tie in narrow/ looks at what
-// mirror images have in common first. Water does not: buoyancy and projected drag are sums over
-// triangles in the mesh's order (1e-15 of a load), and the panels of "panel" drag lie as the mesh's
-// diagonals do (about 1e-4 of it). The motion amplifies either.
+// mirror images have in common first. Water does not: its loads are sums over triangles in the
+// mesh's order (1e-15 of a load). The motion amplifies that.
 #include <catch2/catch.hpp>
 #include <cmath>
 
