@@ -166,7 +166,7 @@ std::vector<CaseKey> model_keys() {
          "Buoyancy at the centre of gravity (the paper), or with its moment, or none.",
          [](Case& c, G&, const Value& v) { c.buoyancy = choice<BuoyancyModel>(v, kBuoyancies); }},
         {"drag.model", Kind::choice, D::none, "\"panel\"", 0, 0, 0, kDrags,
-         "Drag on the projected area (the paper, Eq. 9), per piece of surface with its moment, or none.",
+         "Drag on the projected area (the paper, Eq. 9), on the surface with its moment, or none.",
          [](Case& c, G&, const Value& v) { c.drag = choice<DragModel>(v, kDrags); }},
         {"drag.coefficient", Kind::number, D::none, "1.0", 0, 100, 0, "", "Drag coefficient C_d.",
          [](Case& c, G&, const Value& v) { c.drag_coefficient = number(v); }},

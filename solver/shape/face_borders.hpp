@@ -18,14 +18,14 @@ struct Shape;
 /// ends nearer by. It ends at the planes of the faces that come next, which the spheres of outward
 /// edges and corners nearby know. An edge ends at a plane that is next to both of its faces.
 ///
-/// Spheres without borders: corners, rounded edges, those farther than twice the reach and a radius
-/// from every edge. Inward edges, and outward ones that are hollow in plan, are no borders: no plane ends the
-/// face there without cutting off some of it.
+/// Spheres without borders: corners, rounded edges, those farther than twice the reach and a
+/// radius from every edge. Inward edges, and outward ones that are hollow in plan, are no borders:
+/// no plane ends the face there without cutting off some of it.
 class FaceBorders {
 public:
     FaceBorders() = default;
-    /// @pre the shape's spheres, faces, mirror ranks and reach are known. Costs as much as there are spheres near
-    /// edges, times the edges' spheres near each.
+    /// @pre the shape's spheres, faces, mirror ranks and reach are known. Costs as much as there
+    /// are spheres near edges, times the edges' spheres near each.
     explicit FaceBorders(const Shape& shape);
 
     /// Has what sphere k stands for any border?
