@@ -12,12 +12,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/shape/vector_lanes-inl.hpp"
+
 HWY_BEFORE_NAMESPACE();
 namespace ice::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using Tag = hn::CappedTag<double, kLanes>;
-using Lanes = hn::Vec<Tag>;
+static_assert(kLanes == 8);  // as many as Lanes hold at most
 
 HWY_INLINE Lanes Get(const LaneValues& from, std::size_t lane) {
     return hn::LoadU(Tag(), from.v + lane);
@@ -26,28 +27,8 @@ HWY_INLINE void Put(Lanes value, LaneValues& to, std::size_t lane) {
     hn::StoreU(value, Tag(), to.v + lane);
 }
 
-struct Vectors {
-    Lanes x, y, z;
-};
 HWY_INLINE Vectors Get(const LaneVectors& from, std::size_t lane) {
     return {Get(from[0], lane), Get(from[1], lane), Get(from[2], lane)};
-}
-HWY_INLINE Vectors Add(Vectors a, Vectors b) {
-    return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)};
-}
-HWY_INLINE Vectors Sub(Vectors a, Vectors b) {
-    return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
-}
-HWY_INLINE Vectors Scale(Lanes s, Vectors a) {
-    return {hn::Mul(s, a.x), hn::Mul(s, a.y), hn::Mul(s, a.z)};
-}
-HWY_INLINE Lanes Dot(Vectors a, Vectors b) {
-    return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
-}
-HWY_INLINE Vectors Cross(Vectors a, Vectors b) {
-    return {hn::Sub(hn::Mul(a.y, b.z), hn::Mul(a.z, b.y)),
-            hn::Sub(hn::Mul(a.z, b.x), hn::Mul(a.x, b.z)),
-            hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x))};
 }
 
 // The bodies a or b of the pairs of a block while their contacts are swept.

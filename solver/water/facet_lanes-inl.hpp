@@ -10,6 +10,7 @@
 
 #include <hwy/highway.h>
 
+#include "solver/shape/vector_lanes-inl.hpp"
 #include "solver/water/wetted_sums.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -17,14 +18,8 @@ namespace ice::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 constexpr std::size_t kLanes = FacetBlock::kLanes;
+static_assert(kLanes == 8);  // as many as Lanes hold at most
 
-using Tag = hn::CappedTag<double, kLanes>;
-using Lanes = hn::Vec<Tag>;
-using Mask = hn::Mask<Tag>;
-
-struct Vectors {
-    Lanes x, y, z;
-};
 HWY_INLINE Vectors Get(const double (&from)[3][kLanes], std::size_t lane) {
     const Tag d;
     return {hn::Load(d, from[0] + lane), hn::Load(d, from[1] + lane), hn::Load(d, from[2] + lane)};
@@ -34,23 +29,6 @@ HWY_INLINE Vectors Set(const Vec3& v) {
     return {hn::Set(d, v[0]), hn::Set(d, v[1]), hn::Set(d, v[2])};
 }
 HWY_INLINE Vectors Zero() { return {hn::Zero(Tag()), hn::Zero(Tag()), hn::Zero(Tag())}; }
-HWY_INLINE Vectors Add(Vectors a, Vectors b) {
-    return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)};
-}
-HWY_INLINE Vectors Sub(Vectors a, Vectors b) {
-    return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
-}
-HWY_INLINE Vectors Scale(Lanes s, Vectors a) {
-    return {hn::Mul(s, a.x), hn::Mul(s, a.y), hn::Mul(s, a.z)};
-}
-HWY_INLINE Lanes Dot(Vectors a, Vectors b) {
-    return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
-}
-HWY_INLINE Vectors Cross(Vectors a, Vectors b) {
-    return {hn::Sub(hn::Mul(a.y, b.z), hn::Mul(a.z, b.y)),
-            hn::Sub(hn::Mul(a.z, b.x), hn::Mul(a.x, b.z)),
-            hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x))};
-}
 HWY_INLINE Vectors Choose(Mask which, Vectors yes, Vectors no) {
     return {hn::IfThenElse(which, yes.x, no.x), hn::IfThenElse(which, yes.y, no.y),
             hn::IfThenElse(which, yes.z, no.z)};
