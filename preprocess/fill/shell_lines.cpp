@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "preprocess/fill/shell_lines.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 #include "common/base/parallel.hpp"
 #include "preprocess/fill/edge_chains.hpp"
@@ -13,7 +16,9 @@ namespace ice {
 namespace {
 
 // In units of the spacing.
-constexpr double kSeparation = 0.5;  // between spheres of different edges
+constexpr double kSeparation = 0.5;         // between spheres of different edges
+constexpr double kCornerSeparation = 1e-3;  // corners: both ends of a short edge are kept
+constexpr double kRounding = 1e-6;
 constexpr double kMirrorGap = 0.25;  // half of it: a sphere and its image
 
 using Line = std::vector<Vec3>;
@@ -53,24 +58,126 @@ Line drop_between(const Line& starts) {
     return kept;
 }
 
-// Settled centres along a line of starts, cut where the edge is too sharp for a sphere.
-std::vector<Line> settle_line(const SurfaceTree& tree, const ShellOptions& o, const Line& starts) {
+// Settled centres along an edge, and the way that it goes there.
+struct SettledLine {
+    Line centers, ways;
+};
+
+// Those of a line of starts, cut where the edge is too sharp for a sphere.
+std::vector<SettledLine> settle_line(const SurfaceTree& tree, const ShellOptions& o,
+                                     const Line& starts) {
     const Seats seats = settle_starts(tree, o, starts);
-    std::vector<Line> out(1);
+    std::vector<SettledLine> out(1);
     for (std::size_t k = 0; k < seats.size(); ++k) {
         const auto& seat = seats[k];
-        Line& line = out.back();
+        const Line& line = out.back().centers;
         const double apart = k > 0 ? (starts[k] - starts[k - 1]).norm() : 0.0;
         const bool jump = seat && !line.empty() &&
                           (seat->center - line.back()).norm() > std::max(o.spacing, 1.5 * apart);
         if ((!seat || jump) && !line.empty()) out.emplace_back();
         if (!seat) continue;
         // the points near a corner all settle in it: equal neighbours are one
+        const Line& present = out.back().centers;
         const bool again =
-            !out.back().empty() && (seat->center - out.back().back()).norm() <= 1e-7 * o.radius;
-        if (!again) out.back().push_back(seat->center);
+            !present.empty() && (seat->center - present.back()).norm() <= 1e-7 * o.radius;
+        if (again) continue;
+        out.back().centers.push_back(seat->center);
+        out.back().ways.push_back(starts[std::min(k + 1, starts.size() - 1)] -
+                                  starts[k > 0 ? k - 1 : 0]);
     }
     return out;
+}
+
+bool is_corner(const Seat& seat) {
+    constexpr double kLeastVolume = 0.1;  // of three unit normals: less is an edge
+    const auto& t = seat.touch;
+    return seat.touches == 3 && std::abs(t[0].cross(t[1]).dot(t[2])) >= kLeastVolume;
+}
+
+// How far a settled sphere may go along a unit vector until it touches one more face [m]; `most`
+// where there is none before.
+double way_to_next(const SurfaceTree& tree, const Vec3& center, const Vec3& along, double radius,
+                   double most) {
+    constexpr double kLeastRise = 0.1;  // sine between the way and the face
+    thread_local std::vector<Foot> feet;
+    tree.within(center, radius + most, feet);
+    for (const Foot& foot : feet) {
+        const double rise = (foot.point - center).dot(along);
+        if (rise > kLeastRise * foot.distance)
+            most = std::min(most, (foot.distance - radius) * foot.distance / rise);
+    }
+    return most;
+}
+
+// A seat on an edge moved along it, not farther than `most`, until it touches a third face.
+std::optional<Seat> slide_to_corner(const SurfaceTree& tree, double radius, Seat seat,
+                                    const Vec3& along, double most) {
+    constexpr int kMostSteps = 8;  // one, where the third face is plane as far as there
+    for (int step = 0; step < kMostSteps; ++step) {
+        const double way = way_to_next(tree, seat.center, along, radius, most);
+        if (way == most) return std::nullopt;
+        if (way < exact_distance(seat.center, radius)) break;
+        seat.center += way * along;
+        most -= way;
+    }
+    find_crease(tree, radius, seat);
+    if (!is_corner(seat) ||
+        !tree.is_clear(seat.center, radius - 2.0 * exact_distance(seat.center, radius)))
+        return std::nullopt;
+    return seat;
+}
+
+// Is a seat in an edge that goes one way or the other?
+bool is_in_edge(const Seat& seat, const Vec3& way) {
+    constexpr double kSameWay = 0.94;  // cosine of 20 degrees
+    if (seat.touches != 2) return false;
+    const Vec3 along = seat.touch[0].cross(seat.touch[1]);
+    return std::abs(along.dot(way)) >= kSameWay * along.norm() * way.norm();
+}
+
+// The corner at a line's end. It should end there already, but its last starts, which lie beyond
+// the next face or were moved inwards from narrow ones (a chamfer's), may settle short of it or on
+// other edges. So from the first centre on, seen from the end, that is in the line's own edge.
+std::optional<Seat> find_corner(const SurfaceTree& tree, double radius, const SettledLine& line,
+                                double sign) {
+    constexpr double kStray = 3.0;  // radii from the end that centres may be out of line
+    const Line& centers = line.centers;
+    for (std::size_t k = centers.size(); k-- > 0;) {
+        const double apart = (centers.back() - centers[k]).norm();
+        if (apart > kStray * radius) break;
+        Seat seat{centers[k], Vec3::UnitZ(), tree.closest(centers[k]).triangle};
+        find_crease(tree, radius, seat);
+        if (is_corner(seat)) return seat;
+        if (!is_in_edge(seat, line.ways[k])) continue;
+        Vec3 along = seat.touch[0].cross(seat.touch[1]).normalized();
+        if (sign * along.dot(line.ways[k]) < 0.0) along = -along;
+        return slide_to_corner(tree, radius, seat, along, apart + 2.0 * radius);
+    }
+    return std::nullopt;
+}
+
+// Leads a line that is not closed on to the corners at both ends; appends these.
+void lead_to_corners(const SurfaceTree& tree, double radius, SettledLine& line,
+                     std::vector<Seat>& corners) {
+    std::array<std::optional<Seat>, 2> found;
+    for (const int end : {1, 0}) {
+        if (!line.centers.empty())
+            found[static_cast<std::size_t>(end)] =
+                find_corner(tree, radius, line, end ? 1.0 : -1.0);
+        std::reverse(line.centers.begin(), line.centers.end());
+        std::reverse(line.ways.begin(), line.ways.end());
+    }
+    Line& centers = line.centers;
+    for (const std::size_t end : {1u, 0u}) {
+        if (found[end]) {
+            const Vec3& corner = found[end]->center;
+            while (!centers.empty() && (centers.back() - corner).norm() < radius)
+                centers.pop_back();
+            centers.push_back(corner);
+            corners.push_back(*found[end]);
+        }
+        std::reverse(centers.begin(), centers.end());
+    }
 }
 
 // Starts so far on the mirrored side that none settles on this one.
@@ -84,25 +191,54 @@ public:
     LineSeats(const SurfaceTree& tree, const ShellOptions& options)
         : tree_(tree), o_(options), placed_(options.spacing) {}
 
-    void place(const Line& line) {
+    /// @param corners  seats of some of the line's centres
+    void place(const Line& line, const std::vector<Seat>& corners) {
         for (const Vec3& start : line.size() < 2 ? line : resample(line, o_.spacing)) {
             if (o_.mirror && start.y() < -1e-6 * o_.radius) continue;
-            auto seat = settle_on_line(tree_, o_, start);
-            if (seat && o_.mirror)
-                seat = mirror_seat(tree_, *seat, o_.radius, kMirrorGap * o_.spacing);
-            if (!seat) continue;
-            const std::span<const Vec3> normals = normals_at(tree_, o_.radius, *seat, found_);
-            if (placed_.any_within(seat->center, kSeparation * o_.spacing, [&](std::int32_t k) {
-                    return seats_[static_cast<std::size_t>(k)].agrees(normals);
-                }))
-                continue;
-            placed_.add(seat->center);
-            seats_.push_back(*seat);
+            const auto corner = std::find_if(corners.begin(), corners.end(),
+                                             [&](const Seat& s) { return s.center == start; });
+            const auto seat =
+                corner != corners.end() ? std::optional(*corner) : settle_on_line(tree_, o_, start);
+            if (seat) place(*seat);
         }
     }
-    std::vector<Seat> take() { return std::move(seats_); }
+    /// All but those that were placed beside a corner before it was: it stands for their faces.
+    std::vector<Seat> take() {
+        std::vector<Seat> out;
+        for (const Seat& seat : seats_) {
+            const std::span<const Vec3> normals = normals_at(tree_, o_.radius, seat, found_);
+            const bool beside = placed_.any_within(
+                seat.center, (kSeparation - kRounding) * o_.spacing, [&](std::int32_t k) {
+                    const Seat& other = seats_[static_cast<std::size_t>(k)];
+                    return is_corner(other) && other.agrees(normals);
+                });
+            if (is_corner(seat) || !beside) out.push_back(seat);
+        }
+        return out;
+    }
 
 private:
+    // Of the half y >= 0. Only a corner may stand as near to its own image as it is.
+    std::optional<Seat> in_half(const Seat& seat) const {
+        if (!o_.mirror) return seat;
+        if (is_corner(seat) && seat.center.y() > kCornerSeparation * o_.spacing) return seat;
+        return mirror_seat(tree_, seat, o_.radius, kMirrorGap * o_.spacing);
+    }
+
+    // Unless there is one near that stands for the same faces.
+    void place(const Seat& found) {
+        const auto seat = in_half(found);
+        if (!seat) return;
+        const double separation = is_corner(*seat) ? kCornerSeparation : kSeparation;
+        const std::span<const Vec3> normals = normals_at(tree_, o_.radius, *seat, found_);
+        if (placed_.any_within(seat->center, separation * o_.spacing, [&](std::int32_t k) {
+                return seats_[static_cast<std::size_t>(k)].agrees(normals);
+            }))
+            return;
+        placed_.add(seat->center);
+        seats_.push_back(*seat);
+    }
+
     const SurfaceTree& tree_;
     ShellOptions o_;
     PointGrid placed_;
@@ -117,11 +253,15 @@ std::vector<Seat> seat_lines(const SurfaceTree& tree, const ShellOptions& option
     const auto lines = options.dimension == 2 ? trace_section(tree, options.radius, step)
                                               : trace_sharp_edges(tree, options.radius, step);
     LineSeats seats(tree, options);
+    std::vector<Seat> corners;
     for (const Line& starts : lines) {
         if (options.mirror && is_image(starts, options.radius)) continue;
-        for (const Line& line :
-             settle_line(tree, options, options.by_ends ? drop_between(starts) : starts))
-            seats.place(line);
+        for (SettledLine& line :
+             settle_line(tree, options, options.by_ends ? drop_between(starts) : starts)) {
+            corners.clear();
+            if (options.dimension == 3) lead_to_corners(tree, options.radius, line, corners);
+            seats.place(line.centers, corners);
+        }
     }
     return seats.take();
 }

@@ -143,6 +143,80 @@ TEST_CASE("floes are covered as spherize covers solids, by its own certificate",
     }
 }
 
+namespace {
+
+// A plane n . x <= offset, and where three of them meet.
+struct Plane {
+    Vec3 normal;
+    double offset;
+};
+Vec3 meeting_point(const Plane& a, const Plane& b, const Plane& c) {
+    Mat3 rows;
+    rows << a.normal.transpose(), b.normal.transpose(), c.normal.transpose();
+    return rows.inverse() * Vec3(a.offset, b.offset, c.offset);
+}
+
+// Planes of a prism's sides, by the angle of their normals, moved inwards by a radius.
+std::vector<Plane> inner_sides(const SphereSet& shape) {
+    std::vector<Plane> out;
+    for (std::size_t t = 0; t < shape.mesh.triangles.size(); ++t) {
+        const Vec3 a = shape.mesh.corner(t, 0), n = (shape.mesh.corner(t, 1) - a)
+                                                        .cross(shape.mesh.corner(t, 2) - a)
+                                                        .normalized();
+        if (std::abs(n.z()) < 1e-9) out.push_back({n, n.dot(a) - shape.radius});
+    }
+    const auto angle = [](const Plane& p) { return std::atan2(p.normal.y(), p.normal.x()); };
+    std::sort(out.begin(), out.end(),
+              [&](const Plane& l, const Plane& r) { return angle(l) < angle(r); });
+    const auto same = [](const Plane& l, const Plane& r) {
+        return l.normal.dot(r.normal) > 0.9999;
+    };
+    out.erase(std::unique(out.begin(), out.end(), same), out.end());
+    if (same(out.front(), out.back())) out.pop_back();
+    return out;
+}
+
+// Has a sphere at `place` all these normals?
+bool stands_for(const SphereSet& shape, const Vec3& place, const std::vector<Vec3>& normals) {
+    for (std::size_t k = 0; k < shape.surface_count; ++k) {
+        if ((shape.centers[k] - place).norm() > 1e-6 * shape.radius) continue;
+        return std::all_of(normals.begin(), normals.end(), [&](const Vec3& n) {
+            return std::any_of(shape.creases.begin(), shape.creases.end(), [&](const auto& c) {
+                return c.sphere == static_cast<std::int32_t>(k) && c.normal.dot(n) > 0.9999;
+            });
+        });
+    }
+    return false;
+}
+
+}  // namespace
+
+TEST_CASE("a sphere sits in every corner of a floe that has room for it, chamfered or not",
+          "[field][analytic]") {
+    const std::string chamfer = GENERATE("", "chamfer = 0.1\n");
+    std::string text = kVoronoi;
+    text.replace(text.find("[spheres]"), 9, chamfer + "[spheres]\nradius = 0.25");
+    FieldReport report;
+    std::size_t corners = 0;
+    for (const SphereSet& shape : make(text, report).shapes) {
+        const std::vector<Plane> sides = inner_sides(shape);
+        for (std::size_t k = 0; k < sides.size(); ++k)
+            for (const double z : {-1.0, 1.0}) {
+                const Plane &one = sides[k], &next = sides[(k + 1) % sides.size()];
+                const Plane end{z * Vec3::UnitZ(), 0.5 - shape.radius};
+                const Vec3 place = meeting_point(one, next, end);
+                const auto has_room = [&](const Plane& p) {
+                    return p.normal.dot(place) <= p.offset + 1e-12;
+                };
+                if (!std::all_of(sides.begin(), sides.end(), has_room)) continue;
+                CAPTURE(place.transpose(), one.normal.transpose(), next.normal.transpose());
+                CHECK(stands_for(shape, place, {one.normal, next.normal, end.normal}));
+                ++corners;
+            }
+    }
+    CHECK(corners > 400);  // of some 50 floes, six above and below
+}
+
 TEST_CASE("a floe's top and bottom have the same spheres, and its creases normals of its faces",
           "[field][property]") {
     FieldReport report;

@@ -139,6 +139,21 @@ TEST_CASE("a gap that is enough is one of the bodies' and is found again along i
     CHECK(axis_kept > 10);
 }
 
+TEST_CASE("bounds hold the sharp edges that spheres stand for, where the mesh's are cut off",
+          "[narrow][analytic]") {
+    // a box's spheres in a frustum: its upper edges are inside the box's by a tenth of their length
+    const Vec3 size(1.0, 0.8, 0.4);
+    SphereSet set = test::make_box_set(size, 0.05, 0.1);
+    for (Vec3& v : set.mesh.vertices)
+        if (v.z() > 0.0) v.head<2>() *= 0.9;
+    const Shape shape = build_shape(set, false);
+    REQUIRE(shape.bounds.known());
+    // the box's upper edge from the plane of the frustum's side, which leans by 0.05 size / height
+    const double inset = 0.05 * size.x(), height = size.z();
+    const double beyond = inset * height / std::hypot(inset, height);
+    CHECK(shape.bounds.excess == Approx(beyond).epsilon(1e-12));
+}
+
 TEST_CASE("of a form without bounds nothing is known", "[narrow][degenerate]") {
     World w = two_boxes();
     w.scene.shapes[1].bounds = ConvexBounds();
