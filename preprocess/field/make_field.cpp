@@ -20,7 +20,10 @@ namespace ice {
 
 namespace {
 
-constexpr double kEqual = 1e-6;       // [m]
+constexpr double kEqual = 1e-6;  // [m]
+// Cosine of 6.3 degrees: the sides of an arc meet in edges and corners, too. Without them no sphere
+// has the normals between two sides, and another piece's edge goes in there.
+constexpr double kSharp = 0.994;
 constexpr double kMostSpheres = 2e8;  // of all shapes together; 100 bytes each in the file
 
 // Outlines about their centroids, each form once, and which of them every floe has.
@@ -95,6 +98,7 @@ SphereSet fill_form(const FieldSpec& spec, const Outline& outline) {
     options.surface_only = spec.surface_only;
     options.quick = true;
     const FillPose pose(outline, spec.spacing);
+    options.sharp = kSharp;
     options.edges_by_ends = pose.turns();  // the others are those of grids: a few for all floes
     TriangleMesh prism = make_prism(outline, spec.thickness, spec.chamfer);
     for (Vec3& vertex : prism.vertices) vertex = pose.to(vertex);

@@ -11,8 +11,7 @@ namespace ice {
 
 namespace {
 
-constexpr double kSharpCos = 0.94;     // cosine of 20 degrees between face normals
-constexpr double kStraightCos = 0.94;  // polylines turn less than 20 degrees at a vertex
+constexpr double kStraightCos = 0.94;  // settled polylines turn less than 20 degrees at a vertex
 
 struct SharpEdge {
     std::int32_t a, b;  // vertices, a < b
@@ -20,14 +19,14 @@ struct SharpEdge {
     bool used = false;
 };
 
-std::vector<SharpEdge> find_sharp_edges(const SurfaceTree& tree) {
+std::vector<SharpEdge> find_sharp_edges(const SurfaceTree& tree, double sharp) {
     const TriangleMesh& mesh = tree.mesh();
     std::vector<SharpEdge> out;
     for (const MeshEdge& edge : edge_table(mesh)) {
         if (edge.count != 2) continue;
         const Vec3& n1 = tree.normal(edge.triangles[0]);
         const Vec3& n2 = tree.normal(edge.triangles[1]);
-        if (n1.dot(n2) > kSharpCos) continue;
+        if (n1.dot(n2) > sharp) continue;
         // convex: the second triangle's far corner lies behind the first's plane
         const Vec3 on = mesh.vertices[static_cast<std::size_t>(edge.a)];
         double far = 0.0;
@@ -41,10 +40,10 @@ std::vector<SharpEdge> find_sharp_edges(const SurfaceTree& tree) {
     return out;
 }
 
-// Follows edges from `at` in direction `from` as long as exactly one continues nearly straight.
+// Follows edges from `vertex` on while exactly one continues, turning by a cosine above `sharp`.
 void follow(const TriangleMesh& mesh,
             const std::map<std::int32_t, std::vector<std::size_t>>& at_vertex,
-            std::vector<SharpEdge>& edges, std::int32_t vertex, Vec3 heading,
+            std::vector<SharpEdge>& edges, std::int32_t vertex, Vec3 heading, double sharp,
             std::vector<std::pair<std::size_t, std::int32_t>>& path) {
     while (true) {
         std::size_t next = edges.size();
@@ -55,7 +54,7 @@ void follow(const TriangleMesh& mesh,
             const Vec3 d = (mesh.vertices[static_cast<std::size_t>(other)] -
                             mesh.vertices[static_cast<std::size_t>(vertex)])
                                .normalized();
-            if (d.dot(heading) < kStraightCos) continue;
+            if (d.dot(heading) < sharp) continue;
             next = e;
             target = other;
         }
@@ -107,9 +106,9 @@ std::vector<Vec3> walk(const std::vector<Piece>& pieces, bool closed, double ste
 }  // namespace
 
 std::vector<std::vector<Vec3>> trace_sharp_edges(const SurfaceTree& tree, double radius,
-                                                 double step) {
+                                                 double step, double sharp) {
     const TriangleMesh& mesh = tree.mesh();
-    std::vector<SharpEdge> edges = find_sharp_edges(tree);
+    std::vector<SharpEdge> edges = find_sharp_edges(tree, sharp);
     std::map<std::int32_t, std::vector<std::size_t>> at_vertex;
     for (std::size_t e = 0; e < edges.size(); ++e) {
         at_vertex[edges[e].a].push_back(e);
@@ -123,8 +122,8 @@ std::vector<std::vector<Vec3>> trace_sharp_edges(const SurfaceTree& tree, double
         // backwards from a, then forwards from b: one polyline through both
         std::vector<std::pair<std::size_t, std::int32_t>> back, forth;
         const Vec3 heading = (point(edges[e].b) - point(edges[e].a)).normalized();
-        follow(mesh, at_vertex, edges, edges[e].b, heading, forth);
-        follow(mesh, at_vertex, edges, edges[e].a, -heading, back);
+        follow(mesh, at_vertex, edges, edges[e].b, heading, sharp, forth);
+        follow(mesh, at_vertex, edges, edges[e].a, -heading, sharp, back);
         std::vector<Piece> line;
         std::int32_t from = back.empty() ? edges[e].a : back.back().second;
         for (std::size_t k = back.size(); k-- > 0;) {

@@ -9,9 +9,10 @@ namespace ice {
 
 /// Sharp edges of a closed mesh as polylines of start points inside the solid: along each edge, a
 /// point every `step` [m], moved inwards by about `radius`. Edges that continue each other are one
-/// polyline. Convex edges turn by more than 20 degrees; in 2D (a prism) none along y.
+/// polyline. Convex edges whose faces turn by more than the angle whose cosine is `sharp`, as
+/// polylines do where they end; in 2D (a prism) none along y.
 std::vector<std::vector<Vec3>> trace_sharp_edges(const SurfaceTree& tree, double radius,
-                                                 double step);
+                                                 double step, double sharp);
 
 /// In 2D: the outline of the prism's section as closed polylines of start points, moved inwards.
 std::vector<std::vector<Vec3>> trace_section(const SurfaceTree& tree, double radius, double step);

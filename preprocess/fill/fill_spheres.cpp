@@ -102,8 +102,9 @@ void place_surface(const SurfaceTree& tree, const FillOptions& o, bool mirror, S
     if (o.arrangement == Arrangement::lattice) {
         place_lattice(tree, o, mirror, set);
     } else {
-        set.centers = make_shell(tree, {o.radius, set.spacing, set.dimension, mirror,
-                                        o.quick ? kQuickStep : kLineStep, o.edges_by_ends});
+        set.centers =
+            make_shell(tree, {o.radius, set.spacing, set.dimension, mirror,
+                              o.quick ? kQuickStep : kLineStep, o.sharp, o.edges_by_ends});
         set.surface_count = set.size();
     }
     report.seconds["surface_layer"] = timer.seconds();

@@ -17,6 +17,9 @@ struct FillOptions {
     /// For flat-faced solids by the thousand: no certificate, shares from samples a third of the
     /// spacing apart, edges followed by fewer points.
     bool quick = false;
+    /// Cosine of the least turn between faces that meet in an edge: 20 degrees, for hulls made of
+    /// many facets.
+    double sharp = 0.94;
     bool edges_by_ends = false;  ///< settle two points at each end of a straight edge, none between
 };
 

@@ -13,6 +13,7 @@ struct ShellOptions {
     int dimension = 3;
     bool mirror = false;     ///< the solid is symmetric about y = 0: make the layer so, bit for bit
     double line_step = 0.2;  ///< between the points that edges are followed by [spacings]
+    double sharp = 0.94;     ///< cosine of the turn between faces that meet in an edge: 20 degrees
     bool by_ends = false;  ///< follow edges by their ends alone, where these settle: straight ones
 };
 

@@ -250,8 +250,9 @@ private:
 
 std::vector<Seat> seat_lines(const SurfaceTree& tree, const ShellOptions& options) {
     const double step = options.line_step * options.spacing;
-    const auto lines = options.dimension == 2 ? trace_section(tree, options.radius, step)
-                                              : trace_sharp_edges(tree, options.radius, step);
+    const auto lines = options.dimension == 2
+                           ? trace_section(tree, options.radius, step)
+                           : trace_sharp_edges(tree, options.radius, step, options.sharp);
     LineSeats seats(tree, options);
     std::vector<Seat> corners;
     for (const Line& starts : lines) {

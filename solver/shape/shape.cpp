@@ -14,9 +14,9 @@ namespace ice {
 
 namespace {
 
-// Faces whose normals are this far apart (cosine) meet in a knife edge of less than 40 degrees, or
+// Faces whose normals are this far apart (cosine) meet in a knife edge of less than 20 degrees, or
 // are the two sides of a plate as thin as the sphere: that is left round.
-constexpr double kKnife = -0.77;
+constexpr double kKnife = -0.94;
 
 // Normals whose box product with two others is below this lie in their plane: an edge, no corner.
 constexpr double kSamePlane = 0.1;

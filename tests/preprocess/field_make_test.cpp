@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <numbers>
 
 #include "common/base/error.hpp"
 #include "common/base/parallel.hpp"
@@ -189,6 +190,26 @@ bool stands_for(const SphereSet& shape, const Vec3& place, const std::vector<Vec
     return false;
 }
 
+// Checks every corner of a convex floe that has room for a sphere; their number.
+std::size_t check_corners(const SphereSet& shape, double thickness) {
+    const std::vector<Plane> sides = inner_sides(shape);
+    std::size_t corners = 0;
+    for (std::size_t k = 0; k < sides.size(); ++k)
+        for (const double z : {-1.0, 1.0}) {
+            const Plane &one = sides[k], &next = sides[(k + 1) % sides.size()];
+            const Plane end{z * Vec3::UnitZ(), 0.5 * thickness - shape.radius};
+            const Vec3 place = meeting_point(one, next, end);
+            const auto has_room = [&](const Plane& p) {
+                return p.normal.dot(place) <= p.offset + 1e-12;
+            };
+            if (!std::all_of(sides.begin(), sides.end(), has_room)) continue;
+            CAPTURE(place.transpose(), one.normal.transpose(), next.normal.transpose());
+            CHECK(stands_for(shape, place, {one.normal, next.normal, end.normal}));
+            ++corners;
+        }
+    return corners;
+}
+
 }  // namespace
 
 TEST_CASE("a sphere sits in every corner of a floe that has room for it, chamfered or not",
@@ -198,23 +219,27 @@ TEST_CASE("a sphere sits in every corner of a floe that has room for it, chamfer
     text.replace(text.find("[spheres]"), 9, chamfer + "[spheres]\nradius = 0.25");
     FieldReport report;
     std::size_t corners = 0;
-    for (const SphereSet& shape : make(text, report).shapes) {
-        const std::vector<Plane> sides = inner_sides(shape);
-        for (std::size_t k = 0; k < sides.size(); ++k)
-            for (const double z : {-1.0, 1.0}) {
-                const Plane &one = sides[k], &next = sides[(k + 1) % sides.size()];
-                const Plane end{z * Vec3::UnitZ(), 0.5 - shape.radius};
-                const Vec3 place = meeting_point(one, next, end);
-                const auto has_room = [&](const Plane& p) {
-                    return p.normal.dot(place) <= p.offset + 1e-12;
-                };
-                if (!std::all_of(sides.begin(), sides.end(), has_room)) continue;
-                CAPTURE(place.transpose(), one.normal.transpose(), next.normal.transpose());
-                CHECK(stands_for(shape, place, {one.normal, next.normal, end.normal}));
-                ++corners;
-            }
-    }
+    for (const SphereSet& shape : make(text, report).shapes) corners += check_corners(shape, 1.0);
     CHECK(corners > 400);  // of some 50 floes, six above and below
+}
+
+TEST_CASE("the sides of an arc meet in corners with spheres of their own", "[field][analytic]") {
+    // a round floe of 4 m radius in 36 sides: they turn by 10 degrees
+    std::string rows = "floe,x,y\n";
+    for (int k = 0; k < 36; ++k) {
+        const double angle = k * std::numbers::pi / 18.0;
+        rows += "1," + std::to_string(4.0 * std::cos(angle)) + "," +
+                std::to_string(4.0 * std::sin(angle)) + "\n";
+    }
+    const TemporaryFile file(".csv", rows);
+    FieldReport report;
+    const Field field = make(
+        "pattern = \"polygons\"\n[ice]\nthickness = 1\n[spheres]\nradius = 0.25\nspacing = 0.7\n"
+        "[floes]\nfile = \"" +
+            file.path().string() + "\"\n",
+        report);
+    REQUIRE(field.shapes.size() == 1);
+    CHECK(check_corners(field.shapes[0], 1.0) == 72);
 }
 
 TEST_CASE("a floe's top and bottom have the same spheres, and its creases normals of its faces",
