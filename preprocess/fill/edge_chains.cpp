@@ -40,7 +40,7 @@ std::vector<SharpEdge> find_sharp_edges(const SurfaceTree& tree, double sharp) {
     return out;
 }
 
-// Follows edges from `vertex` on while exactly one continues, turning by a cosine above `sharp`.
+// Follows edges from `vertex` on while one continues, turning by a cosine above `sharp`.
 void follow(const TriangleMesh& mesh,
             const std::map<std::int32_t, std::vector<std::size_t>>& at_vertex,
             std::vector<SharpEdge>& edges, std::int32_t vertex, Vec3 heading, double sharp,

@@ -10,7 +10,7 @@ namespace ice {
 /// Sharp edges of a closed mesh as polylines of start points inside the solid: along each edge, a
 /// point every `step` [m], moved inwards by about `radius`. Edges that continue each other are one
 /// polyline. Convex edges whose faces turn by more than the angle whose cosine is `sharp`, as
-/// polylines do where they end; in 2D (a prism) none along y.
+/// polylines do where they end.
 std::vector<std::vector<Vec3>> trace_sharp_edges(const SurfaceTree& tree, double radius,
                                                  double step, double sharp);
 

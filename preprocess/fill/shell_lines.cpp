@@ -156,7 +156,7 @@ std::optional<Seat> find_corner(const SurfaceTree& tree, double radius, const Se
     return std::nullopt;
 }
 
-// Leads a line that is not closed on to the corners at both ends; appends these.
+// Leads a line on to the corners at both ends; appends these.
 void lead_to_corners(const SurfaceTree& tree, double radius, SettledLine& line,
                      std::vector<Seat>& corners) {
     std::array<std::optional<Seat>, 2> found;
@@ -171,7 +171,11 @@ void lead_to_corners(const SurfaceTree& tree, double radius, SettledLine& line,
     for (const std::size_t end : {1u, 0u}) {
         if (found[end]) {
             const Vec3& corner = found[end]->center;
-            while (!centers.empty() && (centers.back() - corner).norm() < radius)
+            const auto is_other = [&](const Vec3& p) {
+                return end == 0 && found[1] && p == found[1]->center;
+            };
+            while (!centers.empty() && (centers.back() - corner).norm() < radius &&
+                   !is_other(centers.back()))
                 centers.pop_back();
             centers.push_back(corner);
             corners.push_back(*found[end]);

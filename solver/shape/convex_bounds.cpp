@@ -10,6 +10,9 @@ namespace {
 // Normals whose cosine is above this are one: facets of a flat face differ by rounding.
 constexpr double kSameNormal = 1.0 - 1e-12;
 
+// Tips are where the mesh's corners are to less than this [m], unless these are cut off.
+constexpr double kSettled = 1e-6;
+
 // Keeps v where the list has none that is the same; false where the list is full.
 template <class Same>
 bool keep(std::vector<Vec3>& list, const Vec3& v, const Same& same) {
@@ -38,6 +41,18 @@ bool list_normals(const TriangleMesh& mesh, std::vector<Vec3>& out) {
     return !out.empty();
 }
 
+// How much of the way from a sphere's centre to its tip is behind all planes. What is beyond them
+// bounds the tip's distance from the corners' hull in every direction, not along normals alone.
+double share_within(const ConvexBounds& bounds, const BoundedSphere& s) {
+    double share = 1.0;
+    for (std::size_t k = 0; k < bounds.normals.size(); ++k) {
+        const double rise = bounds.normals[k].dot(s.tip);
+        const double depth = bounds.offset[k] - bounds.normals[k].dot(s.center);
+        if (rise > depth) share = std::min(share, depth / rise);
+    }
+    return share;
+}
+
 }  // namespace
 
 ConvexBounds::ConvexBounds(const TriangleMesh& mesh, std::span<const BoundedSphere> spheres) {
@@ -50,8 +65,14 @@ ConvexBounds::ConvexBounds(const TriangleMesh& mesh, std::span<const BoundedSphe
         double foremost = n.dot(corners.front());
         for (const Vec3& v : corners) foremost = std::max(foremost, n.dot(v));
         offset.push_back(foremost);
-        for (const BoundedSphere& s : spheres)
+        for (const BoundedSphere& s : spheres) {
             excess = std::max(excess, n.dot(s.center) + s.radius - foremost);
+            excess = std::max(excess, n.dot(s.center + s.tip) - foremost);
+        }
+    }
+    for (const BoundedSphere& s : spheres) {
+        const double beyond = s.tip.norm() * (1.0 - share_within(*this, s));
+        if (beyond > kSettled) excess = std::max(excess, beyond);
     }
 }
 

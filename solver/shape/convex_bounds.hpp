@@ -8,13 +8,16 @@
 
 namespace ice {
 
-/// A sphere as a bound sees it: nothing of it is farther than this from its centre.
+/// A sphere as a bound sees it: nothing of it is farther than this from its centre but the tip of
+/// the sharp edge or corner that it stands for.
 struct BoundedSphere {
-    Vec3 center;    ///< [m]
-    double radius;  ///< [m]
+    Vec3 center;              ///< [m]
+    double radius;            ///< [m]
+    Vec3 tip = Vec3::Zero();  ///< from the centre [m]
 };
 
-/// Points whose convex hull a body lies in, and planes that it lies behind; body axes.
+/// Points whose convex hull a body lies in, and planes that it lies behind, but for `excess`; body
+/// axes.
 ///
 /// Taken from the mesh: its vertices, and a plane through the foremost of them along each facet's
 /// normal. A form of more than kMost different normals or vertices (a hull of thousands of
@@ -25,7 +28,7 @@ struct ConvexBounds {
     std::vector<Vec3> corners;   ///< [m]
     std::vector<Vec3> normals;   ///< outward, unit
     std::vector<double> offset;  ///< normal . x of the foremost corner [m]
-    double excess = 0.0;         ///< how far a sphere reaches out of the planes at most [m]
+    double excess = 0.0;         ///< how far a sphere or its tip reaches out of them at most [m]
 
     bool known() const { return !corners.empty(); }
 

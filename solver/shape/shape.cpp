@@ -172,8 +172,7 @@ Shape build_shape(const SphereSet& set, bool about_centre_of_mass) {
     for (std::size_t k = 0; k < shape.center.size(); ++k) {
         bounded.push_back({shape.center[k], shape.radius[k]});
         // the edges of a chamfer narrower than the sphere are one sharp edge, outside the mesh
-        if (shape.faces[k].count > 0)
-            bounded.push_back({shape.center[k] + shape.faces[k].corner * shape.normal[k], 0.0});
+        if (shape.faces[k].count > 0) bounded.back().tip = shape.faces[k].corner * shape.normal[k];
     }
     shape.bounds = ConvexBounds(shape.mesh, bounded);
     shape.spacing = set.spacing;

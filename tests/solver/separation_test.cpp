@@ -148,10 +148,11 @@ TEST_CASE("bounds hold the sharp edges that spheres stand for, where the mesh's 
         if (v.z() > 0.0) v.head<2>() *= 0.9;
     const Shape shape = build_shape(set, false);
     REQUIRE(shape.bounds.known());
-    // the box's upper edge from the plane of the frustum's side, which leans by 0.05 size / height
-    const double inset = 0.05 * size.x(), height = size.z();
-    const double beyond = inset * height / std::hypot(inset, height);
-    CHECK(shape.bounds.excess == Approx(beyond).epsilon(1e-12));
+    // the side leans by its inset over the height: x + lean (z - bottom) <= x at the bottom; the
+    // diagonal (1, 1, 1) of an upper corner's sphere leaves it short of the corner, in each axis by
+    // inset / (1 + lean)
+    const double inset = 0.05 * size.x(), lean = inset / size.z();
+    CHECK(shape.bounds.excess == Approx(std::sqrt(3.0) * inset / (1.0 + lean)).epsilon(1e-12));
 }
 
 TEST_CASE("of a form without bounds nothing is known", "[narrow][degenerate]") {
