@@ -112,7 +112,7 @@ double way_to_next(const SurfaceTree& tree, const Vec3& center, const Vec3& alon
 // A seat on an edge moved along it, not farther than `most`, until it touches a third face.
 std::optional<Seat> slide_to_corner(const SurfaceTree& tree, double radius, Seat seat,
                                     const Vec3& along, double most) {
-    constexpr int kMostSteps = 8;  // one, where the third face is plane as far as there
+    constexpr int kMostSteps = 8;  // several where the third face is cut into triangles or curved
     for (int step = 0; step < kMostSteps; ++step) {
         const double way = way_to_next(tree, seat.center, along, radius, most);
         if (way == most) return std::nullopt;
@@ -177,7 +177,8 @@ void lead_to_corners(const SurfaceTree& tree, double radius, SettledLine& line,
             while (!centers.empty() && (centers.back() - corner).norm() < radius &&
                    !is_other(centers.back()))
                 centers.pop_back();
-            centers.push_back(corner);
+            // one corner may be both ends
+            if (centers.empty() || centers.back() != corner) centers.push_back(corner);
             corners.push_back(*found[end]);
         }
         std::reverse(centers.begin(), centers.end());
