@@ -9,10 +9,10 @@
 #include "common/base/parallel.hpp"
 #include "solver/narrow/decisive_spheres.hpp"
 #include "solver/narrow/finish_pair.hpp"
+#include "solver/narrow/measure_spheres.hpp"
 #include "solver/narrow/pair_kinds.hpp"
 #include "solver/narrow/search_pair.hpp"
 #include "solver/narrow/separation.hpp"
-#include "solver/narrow/within_borders.hpp"
 
 namespace ice {
 
@@ -42,108 +42,46 @@ FoundBatch& batch_of(std::uint64_t call) {
     return batch;
 }
 
-// What is compared before its root is taken is not lost to rounding.
-constexpr double kRoundedUp = 1.0 + 1e-12;
-
 // A pair takes some microseconds, a look at one a twentieth of that: below this many, waking
 // threads costs more than they save.
 constexpr std::size_t kSerialPairs = 64, kSerialLooks = 1024;
-
-// Within what distance two spheres are compared: their supports and the margin along the normal,
-// the reach and the corners' offsets across it [m]. Of edges that run side by side and cross, each
-// sphere may be its shape's reach from there: Faces::aside has half of it for each, and this what
-// the larger one needs beyond.
-struct Range {
-    double margin, reach;
-
-    Range(const PairView& view, NormalRule rule, double m)
-        : margin(m), reach(rule == NormalRule::centres ? 0.0 : reach_of(view)) {}
-
-    static double reach_of(const PairView& view) {
-        const double a = view.shape_a.reach, b = view.shape_b.reach;
-        return std::max(a, b) + 0.5 * std::abs(a - b);
-    }
-
-    double squared(double corner_a, double aside_a, double corner_b, double aside_b) const {
-        const double along = corner_a + corner_b + margin, across = reach + aside_a + aside_b;
-        return along * along + across * across;
-    }
-    // of two places or spheres' surfaces
-    template <class A, class B>
-    bool holds(const Vec3& center_a, const A& a, const Vec3& center_b, const B& b) const {
-        return (center_a - center_b).squaredNorm() <= squared(a.corner, a.aside, b.corner, b.aside);
-    }
-};
-
-// Keeps what is near enough to matter. Under the rule "surface" a face farther than the margin
-// matters too: it may show that the probe is outside.
-void keep_candidate(const PairView& view, NormalRule rule, const Range& range, std::int32_t i,
-                    std::int32_t j, const Gap& gap, std::vector<Candidate>& out) {
-    if (!gap.valid) return;
-    const double a = view.shape_a.reach, b = view.shape_b.reach;
-    const double reach = gap.a_is_surface ? a : b, of_probe = gap.a_is_surface ? b : a;
-    const bool near = rule == NormalRule::centres ? gap.gap <= range.margin
-                                                  : gap.lateral_sq <= reach * reach &&
-                                                        gap.probe_sq <= of_probe * of_probe &&
-                                                        is_within_borders(view, i, j, gap);
-    if (near) out.push_back({i, j, gap});
-}
-
-// Measures the candidates of a pair.
-struct Measure {
-    const PairView& view;
-    PairKinds& kinds;
-    NormalRule rule;
-    Range range;
-    std::vector<Candidate>& out;
-
-    void operator()(std::int32_t i, std::int32_t j,
-                    PossibleNormals possible = PossibleNormals::all()) const {
-        rule == NormalRule::centres ? by_centres(i, j) : by_surface(i, j, possible);
-    }
-    void by_centres(std::int32_t i, std::int32_t j) const {
-        const Vec3 center_a = view.center_a(i), center_b = view.center_b(j);
-        const double radius_a = view.shape_a.radius[i], radius_b = view.shape_b.radius[j];
-        const double most = (radius_a + radius_b + range.margin) * kRoundedUp;
-        if ((center_b - center_a).squaredNorm() > most * most) return;
-        if (view.is_gone_a(i) || view.is_gone_b(j)) return;
-        keep_candidate(view, rule, range, i, j,
-                       measure_gap_centres(center_a, radius_a, center_b, radius_b), out);
-    }
-    void by_surface(std::int32_t i, std::int32_t j, PossibleNormals possible) const {
-        const PairKinds::Place &a = kinds.a(i), &b = kinds.b(j);
-        if (!range.holds(a.center, a, b.center, b) || a.gone || b.gone) return;
-        keep_candidate(view, rule, range, i, j, kinds.measure(i, j, a, b, possible), out);
-    }
-};
 
 // What the search of a pair needs; kept between pairs.
 struct Workspace {
     PairSearch search;
     PairKinds kinds;
     DecisiveSpheres decisive;
+    std::vector<SpherePair> spheres;
     std::vector<Candidate> candidates;
 };
 
-bool prefers_a(const PairView& view) { return view.pair.a == static_cast<std::int32_t>(kShip); }
-
-// Measures the spheres that visit_pairs(view, range, measure) names, and makes contacts of them.
+// Makes contacts of the spheres near each other.
 // @pre the bodies are apart (separation) by no more than the margin
-template <class VisitPairs>
-void find_pair_contacts(const Scene& scene, BodyPair pair, NormalRule rule, double margin,
-                        Workspace& work, std::vector<Contact>& out, const VisitPairs& visit_pairs) {
-    const PairView view(scene, pair);
-    work.candidates.clear();
-    work.kinds.begin(view, prefers_a(view));
-    const Range range(view, rule, margin);
-    visit_pairs(view, range, Measure{view, work.kinds, rule, range, work.candidates});
+void search_contacts(const PairView& view, NormalRule rule, double margin, Workspace& work,
+                     std::vector<Contact>& out) {
+    const SphereRange range(view, rule, margin);
+    work.spheres.clear();
+    work.search.for_each_near(view, range.margin, range.reach, [&](std::int32_t i, std::int32_t j) {
+        work.spheres.push_back({i, j, 0.0f});
+    });
+    if (rule == NormalRule::surface) group_by_kinds(view, work.spheres);
+    measure_spheres(view, rule, range, work.spheres, work.candidates);
+    finish_pair(view, rule, margin, work.candidates, out);
+}
+
+// The same of what is known to be near.
+void measure_known(const PairView& view, NormalRule rule, double margin,
+                   std::span<const SpherePair> near, double gone, Workspace& work,
+                   std::vector<Contact>& out) {
+    work.decisive.pick(near, gone, margin, view, work.spheres);
+    measure_spheres(view, rule, SphereRange(view, rule, margin), work.spheres, work.candidates);
     finish_pair(view, rule, margin, work.candidates, out);
 }
 
 // The least gap that two spheres may have while the pair moves within `leeway`, less that motion,
 // and along what normals; infinite where they will be no candidates.
 std::pair<double, PossibleNormals> least_gap(const PairView& view, NormalRule rule,
-                                             const Range& range, const Leeway& leeway,
+                                             const SphereRange& range, const Leeway& leeway,
                                              PairKinds& kinds, std::int32_t i, std::int32_t j) {
     constexpr double kNever = std::numeric_limits<double>::infinity();
     if (rule == NormalRule::centres) {
@@ -165,8 +103,9 @@ float rounded_down(double value) {
 // they may have, less that motion; appends them.
 double find_near(const PairView& view, NormalRule rule, double margin, const Leeway& leeway,
                  Workspace& work, std::vector<SpherePair>& out) {
+    const std::size_t first = out.size();
     work.kinds.begin(view, prefers_a(view));
-    const Range range(view, rule, margin + leeway.distance);
+    const SphereRange range(view, rule, margin + leeway.distance);
     double least = std::numeric_limits<double>::infinity();
     work.search.for_each_near(
         view, range.margin, range.reach + leeway.distance, [&](std::int32_t i, std::int32_t j) {
@@ -175,6 +114,7 @@ double find_near(const PairView& view, NormalRule rule, double margin, const Lee
             least = std::min(least, gap);
             out.push_back({i, j, rounded_down(gap), possible});
         });
+    if (rule == NormalRule::surface) group_by_kinds(view, std::span(out).subspan(first));
     return least;
 }
 
@@ -189,12 +129,8 @@ void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
         FoundBatch& batch = batch_of(call);
         const std::size_t first = batch.contacts.size();
         const double most = dt * closing_speed(scene, pairs[k]) + margin;
-        if (separation(PairView(scene, pairs[k])) <= most)
-            find_pair_contacts(
-                scene, pairs[k], rule, most, work, batch.contacts,
-                [&](const PairView& view, const Range& range, const Measure& measure) {
-                    work.search.for_each_near(view, range.margin, range.reach, measure);
-                });
+        const PairView view(scene, pairs[k]);
+        if (separation(view) <= most) search_contacts(view, rule, most, work, batch.contacts);
         found_[k] = {&batch, first, batch.contacts.size() - first, 0, 0};
     });
     join(out);
@@ -231,15 +167,13 @@ void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
             state = dormant_.look(k, scene, pairs[k], travel, dt, margin);
             if (state == DormantPairs::State::asleep) return;
         }
+        const PairView view(scene, pairs[k]);
+        const double most = dt * closing_speed(scene, pairs[k]) + margin;
         // a pair too fast for what can be known in advance is searched afresh
-        find_pair_contacts(
-            scene, pairs[k], rule, dt * closing_speed(scene, pairs[k]) + margin, work,
-            batch.contacts, [&](const PairView& view, const Range& range, const Measure& measure) {
-                if (state == DormantPairs::State::unknown)
-                    return work.search.for_each_near(view, range.margin, range.reach, measure);
-                work.decisive.begin(view.shape_a.center.size(), view.shape_b.center.size());
-                work.decisive.for_each(near, dormant_.gone(k), range.margin, measure);
-            });
+        if (state == DormantPairs::State::unknown)
+            search_contacts(view, rule, most, work, batch.contacts);
+        else
+            measure_known(view, rule, most, near, dormant_.gone(k), work, batch.contacts);
         found.contacts = batch.contacts.size() - found.contact;
     });
     for (std::size_t n = 0; n < awake_.size(); ++n) {
@@ -266,18 +200,16 @@ void find_contacts(const Scene& scene, BodyPair pair, NormalRule rule, double ma
                    std::vector<Contact>& out) {
     const PairView view(scene, pair);
     if (separation(view) > margin) return;
-    const Range range(view, rule, margin);
+    const SphereRange range(view, rule, margin);
     std::vector<Candidate> candidates;
     for (std::int32_t i = 0; i < static_cast<std::int32_t>(view.shape_a.center.size()); ++i)
         for (std::int32_t j = 0; j < static_cast<std::int32_t>(view.shape_b.center.size()); ++j) {
             const SphereSurface a = view.sphere_a(i), b = view.sphere_b(j);
-            if (!range.holds(a.center, a.faces, b.center, b.faces) || view.is_gone_a(i) ||
-                view.is_gone_b(j))
-                continue;
+            if (!range.holds(a, b) || view.is_gone_a(i) || view.is_gone_b(j)) continue;
             const Gap gap = rule == NormalRule::centres
                                 ? measure_gap_centres(a.center, a.radius, b.center, b.radius)
                                 : measure_gap_surface(a, b, prefers_a(view));
-            keep_candidate(view, rule, range, i, j, gap, candidates);
+            if (is_candidate(view, rule, range, i, j, gap)) candidates.push_back({i, j, gap});
         }
     finish_pair(view, rule, margin, candidates, out);
 }

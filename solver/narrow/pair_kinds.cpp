@@ -10,7 +10,6 @@ void PairKinds::begin(const PairView& view, bool prefer_a) {
     prefer_a_ = prefer_a;
     a_.begin(view.shape_a);
     b_.begin(view.shape_b);
-    pairs_.begin();
     bounds_.begin();
 }
 

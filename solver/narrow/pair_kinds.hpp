@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "solver/narrow/kind_bound.hpp"
-#include "solver/narrow/kind_pair.hpp"
 #include "solver/narrow/pair_view.hpp"
 
 namespace ice {
@@ -47,18 +46,7 @@ public:
         });
     }
 
-    /// measure_gap_surface of spheres i and j, which are at `a` and `b`. @param possible  of their
-    /// kinds, the same for all spheres of these
-    Gap measure(std::int32_t i, std::int32_t j, const Place& a, const Place& b,
-                PossibleNormals possible) {
-        if (a.kind < 0 || b.kind < 0)
-            return measure_gap_surface(view_->sphere_a(i), view_->sphere_b(j), prefer_a_);
-        return pairs_
-            .get(a.kind, b.kind, a_.surface(a.kind), b_.surface(b.kind), prefer_a_, possible)
-            .measure(a.center, b.center);
-    }
-
-    /// Their KindBound: the least gap, and the normals where there may be one.
+    /// The KindBound of spheres i and j, which are at `a` and `b`: the least gap, and the normals where there may be one.
     std::pair<double, PossibleNormals> bound(std::int32_t i, std::int32_t j, const Place& a,
                                              const Place& b, double reach, const Leeway& leeway) {
         if (a.kind < 0 || b.kind < 0) {
@@ -148,7 +136,6 @@ private:
     const PairView* view_ = nullptr;
     bool prefer_a_ = false;
     Body a_, b_;
-    Table<KindPair> pairs_;
     Table<KindBound> bounds_;
 };
 
