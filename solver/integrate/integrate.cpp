@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solver/integrate/integrate.hpp"
 
+#include <algorithm>
+
 #include "common/base/parallel.hpp"
-#include "solver/integrate/rotation.hpp"
 #include "solver/water/hydrostatics.hpp"
 
 namespace ice {
@@ -11,6 +12,9 @@ namespace {
 
 // Below this many bodies waking threads costs more than they save.
 constexpr std::size_t kSerialBodies = 512;
+
+// Floes that a kernel takes at once: as many as the widest instruction set has lanes.
+constexpr std::size_t kGroup = 8;
 
 // Calls body(i, k) for every floe i that is not held, the k-th of them.
 template <class Body>
@@ -81,26 +85,13 @@ void apply_loads(Bodies& bodies, const std::vector<FloeLoad>& loads, double dt) 
     });
 }
 
-void store_momenta(Bodies& bodies, const std::vector<Vec3>& angular_velocity_start) {
-    for_each_moving(bodies, [&](std::size_t i, std::size_t) {
-        const Mat3& r = bodies.rotation[i];
-        const Vec3 change = bodies.angular_velocity[i] - angular_velocity_start[i];
-        bodies.momentum[i] = bodies.mass[i] * bodies.velocity[i];
-        if (!change.isZero(0.0))
-            bodies.angular_momentum[i] += r * (bodies.inertia(i) * (r.transpose() * change));
-    });
-}
-
-void advance_poses(Scene& scene, const Nudges& nudges, double dt) {
+void advance(Scene& scene, const Advance& step) {
     Bodies& b = scene.bodies;
-    b.position[kShip] += dt * b.velocity[kShip];
-    for_each_moving(b, [&](std::size_t i, std::size_t) {
-        b.position[i] += dt * b.velocity[i] + nudges.shift[i];
-        b.orientation[i] =
-            advance_orientation(b.orientation[i], b.inverse_inertia(i), b.angular_momentum[i], dt);
-        if (!nudges.turn[i].isZero(0.0))
-            b.orientation[i] = (exponential_map(nudges.turn[i]) * b.orientation[i]).normalized();
-        update_derived(b, i);
+    b.position[kShip] += step.dt * b.velocity[kShip];
+    const std::span<const std::int32_t> moving = b.moving;
+    parallel_for((moving.size() + kGroup - 1) / kGroup, kSerialBodies / kGroup, [&](std::size_t g) {
+        const std::size_t first = kGroup * g;
+        advance_floes(b, moving.subspan(first, std::min(kGroup, moving.size() - first)), step);
     });
 }
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "solver/case/case.hpp"
-#include "solver/contact/overlaps.hpp"
+#include "solver/integrate/advance_floes.hpp"
 #include "solver/scene/bodies.hpp"
 #include "solver/water/drag.hpp"
 
@@ -28,13 +28,9 @@ std::vector<FloeLoad> loads_by_body(const Bodies& bodies, const std::vector<Floe
 /// Velocities after the loads act for dt: v += F dt / m, w += I^-1 T dt.
 void apply_loads(Bodies& bodies, const std::vector<FloeLoad>& loads, double dt);
 
-/// Takes the velocity changes of the step into the momenta: P = m v, L += I (w - w_start).
-/// Untouched floes keep L bit for bit, so torque-free motion conserves it.
-void store_momenta(Bodies& bodies, const std::vector<Vec3>& angular_velocity_start);
-
-/// Moves all bodies by dt with their momenta, the ship with its velocity, then by the nudges;
-/// afterwards derived quantities are up to date.
-void advance_poses(Scene& scene, const Nudges& nudges, double dt);
+/// Moves all bodies by a step: the ship with its velocity, floes that are not held as advance_floes
+/// does.
+void advance(Scene& scene, const Advance& step);
 
 /// Kinetic energy of the free floes [J]: sum of P.v/2 + L.w/2.
 double kinetic_energy(const Bodies& bodies);

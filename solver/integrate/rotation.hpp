@@ -2,10 +2,30 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <array>
 
 #include "common/geometry/triangle_mesh.hpp"
 
 namespace ice {
+
+/// Taylor series of sin(x)/x and cos(x): ratios of successive terms over x^2, 1 / (2k (2k + 1)) and
+/// 1 / ((2k - 1) 2k) for k = 1 ... kTerms. At |x| <= 1/2 the first terms left out, x^16/16! and
+/// x^16/17!, are below 1e-18; at the angles of a step, x^2 <= kSmall, already x^10/10! and x^10/11!
+/// are, and kFewTerms do.
+struct RotationSeries {
+    static constexpr std::size_t kTerms = 7, kFewTerms = 4;
+    static constexpr double kSmall = 1e-3;
+    std::array<double, kTerms + 1> of_sinc{}, of_cosine{};
+};
+inline constexpr RotationSeries kRotationSeries = [] {
+    RotationSeries out;
+    for (std::size_t k = 1; k <= RotationSeries::kTerms; ++k) {
+        const double n = 2.0 * static_cast<double>(k);
+        out.of_sinc[k] = 1.0 / (n * (n + 1.0));
+        out.of_cosine[k] = 1.0 / ((n - 1.0) * n);
+    }
+    return out;
+}();
 
 /// Unit quaternion of a rotation vector [rad]: (cos |a|/2, sin(|a|/2) a/|a|).
 ///

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "solver/shape/ordered_products.hpp"
+
 namespace ice {
 
 void update_derived(Bodies& bodies, std::size_t i) {
@@ -16,9 +18,10 @@ void update_derived(Bodies& bodies, std::size_t i) {
     }
     const Mat3& r = bodies.rotation[i];
     bodies.inverse_mass[i] = 1.0 / bodies.mass[i];
-    bodies.inverse_inertia_world[i] = r * bodies.inverse_inertia(i) * r.transpose();
+    bodies.inverse_inertia_world[i] = ordered_turned(r, bodies.inverse_inertia(i));
     bodies.velocity[i] = bodies.momentum[i] / bodies.mass[i];
-    bodies.angular_velocity[i] = bodies.inverse_inertia_world[i] * bodies.angular_momentum[i];
+    bodies.angular_velocity[i] =
+        ordered_product(bodies.inverse_inertia_world[i], bodies.angular_momentum[i]);
 }
 
 void release(Bodies& bodies, std::size_t i) {

@@ -86,8 +86,7 @@ void step(World& w) {
     });
     timed(w, Stage::integrate, [&] {
         book_step(w.scene, w.parameters, w.constraints, w.loads, w.nudges, w.books, w.ledger);
-        store_momenta(bodies, w.books.angular_velocity);
-        advance_poses(w.scene, w.nudges, dt);
+        advance(w.scene, {w.books.angular_velocity, w.nudges, dt});
         w.ledger.kinetic += kinetic_energy(bodies) - w.books.kinetic;
     });
     ++w.steps;

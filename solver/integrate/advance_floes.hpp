@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "solver/contact/overlaps.hpp"
+#include "solver/scene/bodies.hpp"
+
+namespace ice {
+
+/// What a step does to floes beside their velocities at its end.
+struct Advance {
+    const std::vector<Vec3>& angular_velocity_start;  ///< by body [rad/s]
+    const Nudges& nudges;
+    double dt;  ///< [s]
+};
+
+/// Takes the velocity changes of a step into the momenta and moves floes with these, then by the
+/// nudges:
+///
+///     P = m v,   L += I (w - w_start),   x += dt v + shift,   q by advance_orientation, then turn,
+///
+/// and what update_derived makes of that. Where w has not changed L stays bit for bit, so that
+/// torque-free motion conserves it.
+/// @param floes  not held, each once
+void advance_floes(Bodies& bodies, std::span<const std::int32_t> floes, const Advance& step);
+
+namespace reference {
+// The definition, one floe at a time: read this first. Same bits on every instruction set.
+void advance_floes(Bodies& bodies, std::span<const std::int32_t> floes, const Advance& step);
+}  // namespace reference
+
+}  // namespace ice

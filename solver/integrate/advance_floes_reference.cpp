@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/integrate/advance_floes.hpp"
+#include "solver/integrate/rotation.hpp"
+#include "solver/shape/ordered_products.hpp"
+
+namespace ice::reference {
+
+namespace {
+
+void advance(Bodies& b, std::size_t i, const Advance& step) {
+    const Vec3 change = b.angular_velocity[i] - step.angular_velocity_start[i];
+    b.momentum[i] = b.mass[i] * b.velocity[i];
+    if (!change.isZero(0.0))
+        b.angular_momentum[i] += ordered_turned(b.rotation[i], b.inertia(i), change);
+
+    b.position[i] += step.dt * b.velocity[i] + step.nudges.shift[i];
+    b.orientation[i] =
+        advance_orientation(b.orientation[i], b.inverse_inertia(i), b.angular_momentum[i], step.dt);
+    const Vec3& turn = step.nudges.turn[i];
+    if (!turn.isZero(0.0))
+        b.orientation[i] =
+            ordered_normalized(ordered_product(exponential_map(turn), b.orientation[i]));
+    update_derived(b, i);
+}
+
+}  // namespace
+
+void advance_floes(Bodies& bodies, std::span<const std::int32_t> floes, const Advance& step) {
+    for (const std::int32_t i : floes) advance(bodies, static_cast<std::size_t>(i), step);
+}
+
+}  // namespace ice::reference
