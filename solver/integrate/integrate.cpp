@@ -23,53 +23,23 @@ void for_each_moving(const Bodies& b, const Body& body) {
                  [&](std::size_t k) { body(static_cast<std::size_t>(b.moving[k]), k); });
 }
 
-// Drag slows down, it never turns a motion round: in a step longer than it takes to stop, the
-// force is the one that just stops. At the paper's steps this is never reached.
-void limit_drag(const Bodies& b, std::size_t i, double dt, WaterLoad& drag) {
-    const double stop = b.mass[i] * b.velocity[i].norm(), push = dt * drag.force.norm();
-    if (push > stop) drag.force *= stop / push;
-    const Mat3& r = b.rotation[i];
-    const double halt = (r * (b.inertia(i) * (r.transpose() * b.angular_velocity[i]))).norm();
-    const double twist = dt * drag.moment.norm();
-    if (twist > halt) drag.moment *= halt / twist;
-}
-
-// In 2D the plane's other components are rounding only; they must not add up over a run.
-void keep_in_plane(WaterLoad& load) { load.force.y() = load.moment.x() = load.moment.z() = 0.0; }
-
-FloeLoad load_of(const Scene& scene, const Case& p, std::size_t i) {
-    const Bodies& b = scene.bodies;
-    const Shape& shape = scene.shapes[static_cast<std::size_t>(b.shape[i])];
-    const Motion motion{b.rotation[i], b.position[i].z(), b.velocity[i], b.angular_velocity[i]};
-    FloeLoad load;
-    if (p.drag == DragModel::projected)
-        load.drag = projected_drag(shape, motion, p.drag_coefficient, p.water_density);
-    if (p.drag == DragModel::panel)
-        load.drag = panel_drag(shape, motion, p.drag_coefficient, p.water_density);
-    limit_drag(b, i, p.time_step, load.drag);
-    load.force = load.drag.force;
-    load.moment = load.drag.moment;
-    load.force.z() -= b.mass[i] * p.gravity;
-    if (p.buoyancy != BuoyancyModel::none) {
-        const Submerged wet = measure_submerged(shape, b.rotation[i], b.position[i].z());
-        const Vec3 lift(0.0, 0.0, p.water_density * p.gravity * wet.volume);
-        load.force += lift;
-        load.righting = wet.centre.cross(lift);
-        if (p.buoyancy == BuoyancyModel::distributed) load.moment += load.righting;
-    }
-    if (scene.dimension == 2) {
-        keep_in_plane(load);
-        keep_in_plane(load.drag);
-    }
-    return load;
+// Calls body(floes, k) for groups of floes that are not held, the first the k-th of all.
+template <class Body>
+void for_each_group(const Bodies& b, const Body& body) {
+    const std::span<const std::int32_t> moving = b.moving;
+    parallel_for((moving.size() + kGroup - 1) / kGroup, kSerialBodies / kGroup, [&](std::size_t g) {
+        const std::size_t first = kGroup * g;
+        body(moving.subspan(first, std::min(kGroup, moving.size() - first)), first);
+    });
 }
 
 }  // namespace
 
 void measure_loads(const Scene& scene, const Case& parameters, std::vector<FloeLoad>& out) {
     out.resize(scene.bodies.moving.size());
-    for_each_moving(scene.bodies,
-                    [&](std::size_t i, std::size_t k) { out[k] = load_of(scene, parameters, i); });
+    for_each_group(scene.bodies, [&](std::span<const std::int32_t> floes, std::size_t first) {
+        load_floes(scene, parameters, floes, std::span(out).subspan(first, floes.size()));
+    });
 }
 
 std::vector<FloeLoad> loads_by_body(const Bodies& bodies, const std::vector<FloeLoad>& loads) {
@@ -88,10 +58,8 @@ void apply_loads(Bodies& bodies, const std::vector<FloeLoad>& loads, double dt) 
 void advance(Scene& scene, const Advance& step) {
     Bodies& b = scene.bodies;
     b.position[kShip] += step.dt * b.velocity[kShip];
-    const std::span<const std::int32_t> moving = b.moving;
-    parallel_for((moving.size() + kGroup - 1) / kGroup, kSerialBodies / kGroup, [&](std::size_t g) {
-        const std::size_t first = kGroup * g;
-        advance_floes(b, moving.subspan(first, std::min(kGroup, moving.size() - first)), step);
+    for_each_group(b, [&](std::span<const std::int32_t> floes, std::size_t) {
+        advance_floes(b, floes, step);
     });
 }
 

@@ -6,16 +6,10 @@
 
 #include "solver/case/case.hpp"
 #include "solver/integrate/advance_floes.hpp"
+#include "solver/integrate/load_floes.hpp"
 #include "solver/scene/bodies.hpp"
-#include "solver/water/drag.hpp"
 
 namespace ice {
-
-/// Gravity, buoyancy and drag on a floe together, and the parts that the energy ledger tells apart.
-struct FloeLoad : WaterLoad {
-    WaterLoad drag;                ///< its part
-    Vec3 righting = Vec3::Zero();  ///< moment of the buoyancy, also where the model leaves it out
-};
 
 /// Gravity, buoyancy and drag on every free floe, force and moment about the centre of mass, in the
 /// order of Bodies::moving. In 2D only x, z and the moment about y act.

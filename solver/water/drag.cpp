@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "solver/shape/ordered_products.hpp"
 #include "solver/water/wetted_sums.hpp"
 
 namespace ice {
@@ -28,7 +29,7 @@ WaterLoad projected_drag(const Shape& shape, const Motion& motion, double coeffi
     const WaterPlane water(motion.rotation, motion.height);
     // A |v|: the facets' areas are not divided by the speed, so that it need not be multiplied
     const double flow =
-        integrate_facing(shape.facets, water, motion.rotation.transpose() * motion.velocity);
+        integrate_facing(shape.facets, water, ordered_transposed(motion.rotation, motion.velocity));
     out.force = -0.5 * water_density * coefficient * flow * motion.velocity;
     return out;
 }
@@ -40,8 +41,8 @@ WaterLoad panel_drag(const Shape& shape, const Motion& motion, double coefficien
     if (motion.velocity.isZero(0.0) && motion.angular_velocity.isZero(0.0)) return out;
     const WaterPlane water(motion.rotation, motion.height);
     // in body axes: facets stay, the two velocities turn
-    const Vec3 v = motion.rotation.transpose() * motion.velocity;
-    const Vec3 w = motion.rotation.transpose() * motion.angular_velocity;
+    const Vec3 v = ordered_transposed(motion.rotation, motion.velocity);
+    const Vec3 w = ordered_transposed(motion.rotation, motion.angular_velocity);
     const FacingIntegrals met = integrate_facing(shape.facets, water, v, w);
     // with u = v + w x p: int f u, and int f p x u as p x (w x p) = (p . p) w - (p . w) p
     const Vec3 force = met.flow * v + w.cross(met.first);
@@ -49,10 +50,12 @@ WaterLoad panel_drag(const Shape& shape, const Motion& motion, double coefficien
     second << met.square.x(), met.mixed.x(), met.mixed.y(),  //
         met.mixed.x(), met.square.y(), met.mixed.z(),        //
         met.mixed.y(), met.mixed.z(), met.square.z();
-    const Vec3 moment = met.first.cross(v) + met.square.sum() * w - second * w;
+    const double total = (met.square[0] + met.square[1]) + met.square[2];
+    const Vec3 moment = met.first.cross(v) + total * w - ordered_product(second, w);
     const double factor = -0.5 * water_density * coefficient;
-    out.force = factor * (motion.rotation * force);
-    out.moment = factor * (motion.rotation * moment);
+    const Mat3 turn = factor * motion.rotation;
+    out.force = ordered_product(turn, force);
+    out.moment = ordered_product(turn, moment);
     return out;
 }
 

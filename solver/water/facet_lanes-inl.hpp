@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Pieces of the water's sums over facets, as many of a block at a time as the machine has lanes.
+// Pieces of the water's sums over facets: lanes are facets of a block, or bodies that share them.
 // Included once per instruction set, hence the guard that lets it in again for each.
 #if defined(ICE_WATER_FACET_LANES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef ICE_WATER_FACET_LANES_INL
@@ -28,6 +28,13 @@ HWY_INLINE Vectors Set(const Vec3& v) {
     const Tag d;
     return {hn::Set(d, v[0]), hn::Set(d, v[1]), hn::Set(d, v[2])};
 }
+struct Corners {
+    Vectors p[3];
+
+    HWY_INLINE Corners(const FacetBlock& block, std::size_t lane)
+        : p{Get(block.corner[0], lane), Get(block.corner[1], lane), Get(block.corner[2], lane)} {}
+    HWY_INLINE Corners(Vectors p0, Vectors p1, Vectors p2) : p{p0, p1, p2} {}
+};
 HWY_INLINE Vectors Zero() { return {hn::Zero(Tag()), hn::Zero(Tag()), hn::Zero(Tag())}; }
 HWY_INLINE Vectors Choose(Mask which, Vectors yes, Vectors no) {
     return {hn::IfThenElse(which, yes.x, no.x), hn::IfThenElse(which, yes.y, no.y),
@@ -64,6 +71,7 @@ struct Water {
 
     HWY_INLINE explicit Water(const WaterPlane& w)
         : up(Set(w.up)), height(hn::Set(Tag(), w.height)) {}
+    HWY_INLINE Water(Vectors up_in_body, Lanes of_origin) : up(up_in_body), height(of_origin) {}
     HWY_INLINE Lanes HeightOf(Vectors p) const { return hn::Add(Dot(up, p), height); }
 };
 
@@ -108,12 +116,52 @@ HWY_INLINE Mask CountsWhole(const Cut& cut, const Tip& tip) {
     return hn::Or(hn::AndNot(cut.any, cut.in0), hn::AndNot(tip.inside, cut.any));
 }
 
-HWY_INLINE Cut CutByWater(const FacetBlock& block, std::size_t lane, const Water& water) {
-    const Lanes z0 = water.HeightOf(Get(block.corner[0], lane));
-    const Lanes z1 = water.HeightOf(Get(block.corner[1], lane));
-    const Lanes z2 = water.HeightOf(Get(block.corner[2], lane));
+HWY_INLINE Cut CutByWater(const Corners& corner, const Water& water) {
+    const Lanes z0 = water.HeightOf(corner.p[0]), z1 = water.HeightOf(corner.p[1]),
+                z2 = water.HeightOf(corner.p[2]);
     return Cut(z0, z1, z2, Wet(z0), Wet(z1), Wet(z2));
 }
+
+// 12 int p z n_z dA of whole triangles; `area` is that of their projection on the water.
+HWY_INLINE Vectors WholeMoments(const Cut& h, const Corners& corner, Lanes area, Lanes sum) {
+    const Vectors products =
+        Add(Add(Scale(h.z0, corner.p[0]), Scale(h.z1, corner.p[1])), Scale(h.z2, corner.p[2]));
+    const Vectors corners = Add(Add(corner.p[0], corner.p[1]), corner.p[2]);
+    return Scale(area, Add(Scale(sum, corners), products));
+}
+
+// The corners' sum of the cut-off tips, and the apex once more: only its height is not 0.
+HWY_INLINE Vectors TipCorners(const Cut& h, const Tip& tip, const Corners& corner) {
+    const auto from = [&](int a, int b, int c) HWY_ATTR {
+        return Choose(h.first, corner.p[a], Choose(h.second, corner.p[b], corner.p[c]));
+    };
+    const Vectors p = from(0, 1, 2), q = from(1, 2, 0), r = from(2, 0, 1);
+    return Add(Scale(hn::Set(Tag(), 4.0), p),
+               Add(Scale(tip.next, Sub(q, p)), Scale(tip.last, Sub(r, p))));
+}
+
+// 3 and 12 times the integrals.
+struct Wetted {
+    Lanes volume;
+    Vectors first;
+
+    HWY_INLINE Wetted() : volume(hn::Zero(Tag())), first(Zero()) {}
+
+    HWY_INLINE void Add(const Cut& h, const Corners& corner, Lanes area) {
+        const Tag d;
+        const Tip tip(h);
+        const Mask whole = CountsWhole(h, tip);
+        const Lanes sum = hn::Add(hn::Add(h.z0, h.z1), h.z2);
+        volume = hn::Add(volume, hn::IfThenElseZero(whole, hn::Mul(area, sum)));
+        first = ice::HWY_NAMESPACE::Add(first, Only(whole, WholeMoments(h, corner, area, sum)));
+        if (hn::AllFalse(d, h.any)) return;
+        const Lanes size = hn::Mul(hn::Mul(tip.next, tip.last), hn::Mul(area, tip.z));
+        const Lanes part = hn::IfThenElse(tip.inside, size, hn::Neg(size));
+        volume = hn::Add(volume, hn::IfThenElseZero(h.any, part));
+        first =
+            ice::HWY_NAMESPACE::Add(first, Only(h.any, Scale(part, TipCorners(h, tip, corner))));
+    }
+};
 
 }  // namespace ice::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

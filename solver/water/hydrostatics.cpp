@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "solver/shape/ordered_products.hpp"
 #include "solver/water/wetted_sums.hpp"
 
 namespace ice {
@@ -35,15 +36,16 @@ Submerged measure_submerged(const Shape& shape, const Mat3& rotation, double hei
     }
     if (!wet.any_dry) {
         out.volume = shape.solid.volume;
-        out.centre = rotation * shape.solid.centroid;
+        out.centre = ordered_product(rotation, shape.solid.centroid);
         return out;
     }
     if (wet.volume <= 0.0) return out;
     // int z^2 n_z dA = 2 V z_c, and z = up . p + height; by the divergence theorem with the field
     // (0, 0, z) p, whose divergence is p + z up, int p z n_z dA = V p_c + V z_c up
-    const double depth_moment = 0.5 * (water.up.dot(wet.first) + height * wet.volume);
+    const double depth_moment = 0.5 * (ordered_dot(water.up, wet.first) + height * wet.volume);
     out.volume = wet.volume;
-    out.centre = rotation * ((wet.first - depth_moment * water.up) / wet.volume);
+    const Vec3 centre = (wet.first - depth_moment * water.up) / wet.volume;
+    out.centre = ordered_product(rotation, centre);
     return out;
 }
 

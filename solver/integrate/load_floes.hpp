@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <span>
+
+#include "solver/case/case.hpp"
+#include "solver/scene/bodies.hpp"
+#include "solver/water/drag.hpp"
+
+namespace ice {
+
+/// Gravity, buoyancy and drag on a floe together, and the parts that the energy ledger tells apart.
+struct FloeLoad : WaterLoad {
+    WaterLoad drag;                ///< its part
+    Vec3 righting = Vec3::Zero();  ///< moment of the buoyancy, also where the model leaves it out
+};
+
+/// Loads on floes, in their order. Floes of one form that follow each other cost less.
+/// @param floes  not held
+/// @param out    as many
+void load_floes(const Scene& scene, const Case& parameters, std::span<const std::int32_t> floes,
+                std::span<FloeLoad> out);
+
+namespace reference {
+// The definition, one floe at a time: read this first. Same bits on every instruction set.
+void load_floes(const Scene& scene, const Case& parameters, std::span<const std::int32_t> floes,
+                std::span<FloeLoad> out);
+}  // namespace reference
+
+}  // namespace ice

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Loads on floes of one form, as many at a time as the machine has lanes, compiled once per
+// instruction set. The mathematics is in load_floes_reference.cpp, drag.cpp and hydrostatics.cpp.
+// Mul then Add, not MulAdd: a fused product would differ from it.
+#include "solver/integrate/load_floes.hpp"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "solver/integrate/load_floes_simd.cpp"
+#include <hwy/foreach_target.h>  // must precede highway.h
+#include <hwy/highway.h>
+
+#include "solver/scene/body_lanes-inl.hpp"
+#include "solver/water/floating_lanes-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace ice::HWY_NAMESPACE {
+
+HWY_INLINE Lanes Length(Vectors v) { return hn::Sqrt(Dot(v, v)); }
+
+// Floes of one form and what the loads ask of them.
+struct Afloat {
+    const Shape& shape;
+    Matrices rotation;
+    Lanes height, mass;
+    Vectors velocity, angular_velocity;
+
+    HWY_INLINE Afloat(const Shape& form, const Bodies& b, const BodyLanes& at)
+        : shape(form),
+          rotation(RotationOf(at.Load(b.orientation))),
+          height(at.Load(b.position).z),
+          mass(at.Load(b.mass)),
+          velocity(at.Load(b.velocity)),
+          angular_velocity(at.Load(b.angular_velocity)) {}
+    HWY_INLINE Water Plane() const { return Water(rotation.row[2], height); }
+    HWY_INLINE Mask Clear() const { return hn::Ge(height, All(shape.bounding_radius)); }
+};
+
+struct Load {
+    Vectors force, moment;
+};
+
+// projected_drag()
+HWY_INLINE Load ProjectedDrag(const Afloat& floes, const Case& p) {
+    const Mask drags = hn::AndNot(floes.Clear(), NotZero(floes.velocity));
+    if (hn::AllFalse(Tag(), drags)) return {Zero(), Zero()};
+    const Vectors v = TransposedProduct(floes.rotation, floes.velocity);
+    const Lanes flow = IntegrateFloatingFacing(floes.shape.facets, floes.Plane(), v);
+    const Lanes factor = hn::Mul(All(-0.5 * p.water_density * p.drag_coefficient), flow);
+    return {Only(drags, Scale(factor, floes.velocity)), Zero()};
+}
+
+// panel_drag()
+HWY_INLINE Load PanelDrag(const Afloat& floes, const Case& p) {
+    const Mask moves = hn::Or(NotZero(floes.velocity), NotZero(floes.angular_velocity));
+    const Mask drags = hn::AndNot(floes.Clear(), moves);
+    if (hn::AllFalse(Tag(), drags)) return {Zero(), Zero()};
+    const Vectors v = TransposedProduct(floes.rotation, floes.velocity);
+    const Vectors w = TransposedProduct(floes.rotation, floes.angular_velocity);
+    const Facing met = IntegrateFloatingFacing(floes.shape.facets, floes.Plane(), v, w);
+    const Vectors force = Add(Scale(met.flow, v), Cross(w, met.first));
+    const Matrices second{{{met.square.x, met.mixed.x, met.mixed.y},
+                           {met.mixed.x, met.square.y, met.mixed.z},
+                           {met.mixed.y, met.mixed.z, met.square.z}}};
+    const Lanes total = hn::Add(hn::Add(met.square.x, met.square.y), met.square.z);
+    const Vectors moment = Sub(Add(Cross(met.first, v), Scale(total, w)), Product(second, w));
+    const Lanes factor = All(-0.5 * p.water_density * p.drag_coefficient);
+    const Matrices& r = floes.rotation;
+    const Matrices turn{
+        {Scale(factor, r.row[0]), Scale(factor, r.row[1]), Scale(factor, r.row[2])}};
+    return {Only(drags, Product(turn, force)), Only(drags, Product(turn, moment))};
+}
+
+// No longer than what stops within the step.
+HWY_INLINE Vectors Limited(Vectors load, Lanes stop, Lanes dt) {
+    const Lanes push = hn::Mul(dt, Length(load));
+    const Mask over = hn::Gt(push, stop);
+    if (hn::AllFalse(Tag(), over)) return load;
+    return Where(over, Scale(hn::Div(stop, push), load), load);
+}
+
+// measure_submerged()
+struct Buoyancy {
+    Lanes volume;
+    Vectors centre;
+
+    HWY_INLINE explicit Buoyancy(const Afloat& floes) {
+        const Tag d;
+        const Shape& shape = floes.shape;
+        const Lanes height = floes.height;
+        const Water water = floes.Plane();
+        const Mask above_deep = hn::Gt(height, All(-shape.bounding_radius));
+        const FloatingWetted wet = IntegrateFloating(shape.facets, water);
+        const Mask whole = hn::Not(hn::Or(floes.Clear(), hn::And(above_deep, wet.any_dry)));
+        const Mask part = hn::AndNot(hn::Or(floes.Clear(), whole),
+                                     hn::And(wet.any_wet, hn::Gt(wet.volume, hn::Zero(d))));
+        const Lanes moment =
+            hn::Mul(All(0.5), hn::Add(Dot(water.up, wet.first), hn::Mul(height, wet.volume)));
+        const Vectors at = Sub(wet.first, Scale(moment, water.up));
+        const Vectors cut{hn::Div(at.x, wet.volume), hn::Div(at.y, wet.volume),
+                          hn::Div(at.z, wet.volume)};
+        const Vectors in_body = Where(whole, All(shape.solid.centroid), cut);
+        const Mask any = hn::Or(whole, part);
+        volume =
+            hn::IfThenElseZero(any, hn::IfThenElse(whole, All(shape.solid.volume), wet.volume));
+        centre = Only(any, Product(floes.rotation, in_body));
+    }
+};
+
+HWY_INLINE Vectors InPlane(Vectors force) { return {force.x, hn::Zero(Tag()), force.z}; }
+HWY_INLINE Vectors AboutPlane(Vectors moment) {
+    return {hn::Zero(Tag()), moment.y, hn::Zero(Tag())};
+}
+
+// Of no more floes than there are lanes, all of one form.
+void LoadPart(const Scene& scene, const Case& p, std::span<const std::int32_t> ids,
+              std::span<FloeLoad> out) {
+    const Tag d;
+    const Bodies& b = scene.bodies;
+    const BodyLanes at(ids);
+    const auto form = static_cast<std::size_t>(b.shape[static_cast<std::size_t>(ids[0])]);
+    const Afloat floes(scene.shapes[form], b, at);
+    const Lanes dt = All(p.time_step);
+
+    Load drag{Zero(), Zero()};
+    if (p.drag == DragModel::projected) drag = ProjectedDrag(floes, p);
+    if (p.drag == DragModel::panel) drag = PanelDrag(floes, p);
+    drag.force = Limited(drag.force, hn::Mul(floes.mass, Length(floes.velocity)), dt);
+    if (p.drag == DragModel::panel) {
+        const Vectors spin =
+            Turned(floes.rotation, at.Load(b, &Inertia::body), floes.angular_velocity);
+        drag.moment = Limited(drag.moment, Length(spin), dt);
+    }
+    Load all = drag;
+    all.force.z = hn::Sub(all.force.z, hn::Mul(floes.mass, All(p.gravity)));
+    Vectors righting = Zero();
+    if (p.buoyancy != BuoyancyModel::none) {
+        const Buoyancy wet(floes);
+        const Vectors lift{hn::Zero(d), hn::Zero(d),
+                           hn::Mul(All(p.water_density * p.gravity), wet.volume)};
+        all.force = Add(all.force, lift);
+        righting = Cross(wet.centre, lift);
+        if (p.buoyancy == BuoyancyModel::distributed) all.moment = Add(all.moment, righting);
+    }
+    if (scene.dimension == 2) {
+        all = {InPlane(all.force), AboutPlane(all.moment)};
+        drag = {InPlane(drag.force), AboutPlane(drag.moment)};
+    }
+
+    const Vectors parts[5] = {all.force, all.moment, drag.force, drag.moment, righting};
+    HWY_ALIGN double value[5][3 * kMostLanes];
+    for (int k = 0; k < 5; ++k)
+        hn::StoreInterleaved3(parts[k].x, parts[k].y, parts[k].z, d, value[k]);
+    for (std::size_t k = 0; k < ids.size(); ++k) {
+        Vec3* const of_floe[5] = {&out[k].force, &out[k].moment, &out[k].drag.force,
+                                  &out[k].drag.moment, &out[k].righting};
+        for (int n = 0; n < 5; ++n)
+            std::memcpy(of_floe[n]->data(), value[n] + 3 * k, 3 * sizeof(double));
+    }
+}
+
+void LoadFloes(const Scene& scene, const Case& parameters, std::span<const std::int32_t> floes,
+               std::span<FloeLoad> out) {
+    const auto form_of = [&](std::size_t k) {
+        return scene.bodies.shape[static_cast<std::size_t>(floes[k])];
+    };
+    for (std::size_t first = 0; first < floes.size();) {
+        std::size_t last = first + 1;
+        while (last < floes.size() && last < first + kMostLanes && form_of(last) == form_of(first))
+            ++last;
+        const auto some = floes.subspan(first, last - first);
+        const auto loads = out.subspan(first, last - first);
+        // a floe or two take as long in lanes as many
+        if (4 * some.size() < kMostLanes)
+            reference::load_floes(scene, parameters, some, loads);
+        else
+            LoadPart(scene, parameters, some, loads);
+        first = last;
+    }
+}
+
+}  // namespace ice::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace ice {
+HWY_EXPORT(LoadFloes);
+
+void load_floes(const Scene& scene, const Case& parameters, std::span<const std::int32_t> floes,
+                std::span<FloeLoad> out) {
+    HWY_DYNAMIC_DISPATCH(LoadFloes)(scene, parameters, floes, out);
+}
+}  // namespace ice
+#endif

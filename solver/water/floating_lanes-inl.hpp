@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The water's sums over one form for as many bodies as the machine has lanes, with the bits of
+// wetted_sums_reference.cpp: that sums eight facets beside each other, then over the eight.
+#if defined(ICE_WATER_FLOATING_LANES_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef ICE_WATER_FLOATING_LANES_INL
+#undef ICE_WATER_FLOATING_LANES_INL
+#else
+#define ICE_WATER_FLOATING_LANES_INL
+#endif
+
+#include <hwy/highway.h>
+
+#include "solver/water/facing_lanes-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace ice::HWY_NAMESPACE {
+
+// One vector of a block for all bodies.
+HWY_INLINE Vectors SetOf(const double (&from)[3][kLanes], std::size_t lane) {
+    const Tag d;
+    return {hn::Set(d, from[0][lane]), hn::Set(d, from[1][lane]), hn::Set(d, from[2][lane])};
+}
+HWY_INLINE Corners CornersOf(const FacetBlock& block, std::size_t lane) {
+    return {SetOf(block.corner[0], lane), SetOf(block.corner[1], lane),
+            SetOf(block.corner[2], lane)};
+}
+
+// Blocks that have a facet in this lane.
+HWY_INLINE std::size_t BlocksWith(const FacetBlocks& facets, std::size_t lane) {
+    return (facets.size() + kLanes - 1 - lane) / kLanes;
+}
+
+// A number for each lane of the blocks, of each body.
+struct Parts {
+    Lanes s[kLanes];
+
+    HWY_INLINE Lanes Over(double divisor) const {
+        const Lanes low = hn::Add(hn::Add(s[0], s[1]), hn::Add(s[2], s[3]));
+        const Lanes high = hn::Add(hn::Add(s[4], s[5]), hn::Add(s[6], s[7]));
+        return hn::Div(hn::Add(low, high), hn::Set(Tag(), divisor));
+    }
+};
+struct VectorParts {
+    Parts x, y, z;
+
+    HWY_INLINE void Put(Vectors v, std::size_t lane) {
+        x.s[lane] = v.x;
+        y.s[lane] = v.y;
+        z.s[lane] = v.z;
+    }
+    HWY_INLINE Vectors Over(double divisor) const {
+        return {x.Over(divisor), y.Over(divisor), z.Over(divisor)};
+    }
+};
+
+// WettedIntegrals of each body.
+struct FloatingWetted {
+    Lanes volume;
+    Vectors first;
+    Mask any_wet, any_dry;
+};
+HWY_INLINE FloatingWetted IntegrateFloating(const FacetBlocks& facets, const Water& water) {
+    const Tag d;
+    Parts volume;
+    VectorParts first;
+    FloatingWetted out;
+    out.any_wet = out.any_dry = hn::FirstN(d, 0);
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+        Wetted sum;
+        for (std::size_t k = 0; k < BlocksWith(facets, lane); ++k) {
+            const FacetBlock& block = facets.blocks[k];
+            const Corners corner = CornersOf(block, lane);
+            const Cut h = CutByWater(corner, water);
+            out.any_wet = hn::Or(out.any_wet, h.AnyInside());
+            out.any_dry = hn::Or(out.any_dry, hn::Not(h.AllInside()));
+            if (hn::AllFalse(d, h.AnyInside())) continue;
+            sum.Add(h, corner, Dot(water.up, SetOf(block.area, lane)));
+        }
+        volume.s[lane] = sum.volume;
+        first.Put(sum.first, lane);
+    }
+    out.volume = volume.Over(3.0);
+    out.first = first.Over(12.0);
+    return out;
+}
+
+// FacingIntegrals of each body.
+HWY_INLINE Facing IntegrateFloatingFacing(const FacetBlocks& facets, const Water& water, Vectors v,
+                                          Vectors w) {
+    const Tag d;
+    Parts flow;
+    VectorParts first, square, mixed;
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+        Facing sum;
+        for (std::size_t k = 0; k < BlocksWith(facets, lane); ++k) {
+            const FacetBlock& block = facets.blocks[k];
+            const Corners corner = CornersOf(block, lane);
+            const Cut h = CutByWater(corner, water);
+            if (hn::AllFalse(d, h.AnyInside())) continue;
+            AddWetted(h, Triangles(corner, SetOf(block.area, lane), v, w), sum);
+        }
+        flow.s[lane] = sum.flow;
+        first.Put(sum.first, lane);
+        square.Put(sum.square, lane);
+        mixed.Put(sum.mixed, lane);
+    }
+    Facing out;
+    out.flow = flow.Over(3.0);
+    out.first = first.Over(12.0);
+    out.square = square.Over(60.0);
+    out.mixed = mixed.Over(60.0);
+    return out;
+}
+
+// int f dA of each body in an even flow.
+HWY_INLINE Lanes IntegrateFloatingFacing(const FacetBlocks& facets, const Water& water, Vectors v) {
+    const Tag d;
+    Parts flow;
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+        flow.s[lane] = hn::Zero(d);
+        for (std::size_t k = 0; k < BlocksWith(facets, lane); ++k) {
+            const FacetBlock& block = facets.blocks[k];
+            const Lanes facing = Dot(SetOf(block.area, lane), v);
+            const Mask away = hn::Le(facing, hn::Zero(d));
+            if (hn::AllTrue(d, away)) continue;
+            const Lanes wetted = hn::Mul(facing, WettedShare(CornersOf(block, lane), water));
+            flow.s[lane] = hn::Add(flow.s[lane], hn::IfThenZeroElse(away, wetted));
+        }
+    }
+    return flow.Over(1.0);
+}
+
+}  // namespace ice::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

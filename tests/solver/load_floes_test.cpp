@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Loads on floes in lanes: bits on every instruction set, whatever floes lie beside each other.
+#include "solver/integrate/load_floes.hpp"
+
+#include <catch2/catch.hpp>
+#include <cstring>
+#include <random>
+
+#include "tests/support/every_instruction_set.hpp"
+#include "tests/support/make_worlds.hpp"
+
+using namespace ice;
+
+namespace {
+
+struct Dice {
+    std::mt19937 random;
+    std::uniform_real_distribution<double> unit{-1.0, 1.0};
+
+    double number() { return unit(random); }
+    Vec3 vector() { return Vec3(number(), number(), number()); }
+    Quaternion turn() { return Quaternion(number(), number(), number(), number()).normalized(); }
+};
+
+// Floes in the water, wholly under it, above it and far from it both ways; some at rest.
+World make_floes(const Case& p, std::size_t count, std::size_t forms, Dice& dice) {
+    World w = test::plate_world(p, Vec3(1, 1, 1), 0.1, 0.2, 100.0);
+    const std::vector<Vec3> sizes{{1.0, 0.8, 0.3}, {0.5, 0.9, 0.4}};
+    std::vector<std::int32_t> form;
+    for (std::size_t k = 0; k < forms; ++k)
+        form.push_back(test::add_shape(w, test::make_box_set(sizes[k], 0.05, 0.1)));
+    Bodies& b = w.scene.bodies;
+    for (std::size_t k = 0; k < count; ++k) {
+        const double height = (k % 8 == 7 ? 2.0 : 0.4) * dice.number();
+        const bool upright = k % 5 == 4;
+        // runs of one form of up to three floes
+        const std::size_t i =
+            add_floe(w.scene, form[k / 3 % forms], 900.0, Vec3(3.0 * double(k), 0.0, height),
+                     upright ? Quaternion::Identity() : dice.turn(), 0, false);
+        if (k % 4 != 3) b.velocity[i] = dice.vector();
+        if (k % 3 != 2) b.angular_velocity[i] = dice.vector();
+    }
+    return w;
+}
+
+bool same_bits(const std::vector<FloeLoad>& a, const std::vector<FloeLoad>& b) {
+    return a.size() == b.size() && std::memcmp(static_cast<const void*>(a.data()), b.data(),
+                                               a.size() * sizeof(FloeLoad)) == 0;
+}
+
+void check_bits(const World& w, const std::vector<std::int32_t>& floes) {
+    std::vector<FloeLoad> expected(floes.size());
+    reference::load_floes(w.scene, w.parameters, floes, expected);
+    test::on_every_instruction_set([&] {
+        std::vector<FloeLoad> loads(floes.size());
+        load_floes(w.scene, w.parameters, floes, loads);
+        CHECK(same_bits(loads, expected));
+    });
+}
+
+}  // namespace
+
+TEST_CASE("every instruction set loads floes to the bits of the reference", "[water][simd]") {
+    Case p = test::empty_space(0.01);
+    p.gravity = 9.81;
+    p.drag_coefficient = 1.0;
+    p.drag = GENERATE(DragModel::none, DragModel::projected, DragModel::panel);
+    p.buoyancy = GENERATE(BuoyancyModel::none, BuoyancyModel::centre, BuoyancyModel::distributed);
+    // in the longer step drag would stop most of them
+    p.time_step = GENERATE(0.01, 10.0);
+    const std::size_t forms = GENERATE(1u, 2u);
+    Dice dice{std::mt19937(7)};
+    for (std::size_t count = 1; count <= 18; ++count) {
+        World w = make_floes(p, count, forms, dice);
+        w.scene.dimension = count % 6 == 5 ? 2 : 3;
+        std::vector<std::int32_t> all, some;
+        for (std::int32_t k = 1; k <= static_cast<std::int32_t>(count); ++k) {
+            all.push_back(k);
+            if (k % 7 != 3) some.push_back(k);
+        }
+        check_bits(w, all);
+        check_bits(w, some);
+    }
+}
+
+TEST_CASE("floes all above, all under or all level with the water have the reference's bits",
+          "[water][simd]") {
+    Case p = test::empty_space(0.01);
+    p.gravity = 9.81;
+    p.drag_coefficient = 1.0;
+    p.drag = GENERATE(DragModel::projected, DragModel::panel);
+    p.buoyancy = BuoyancyModel::distributed;
+    const double height = GENERATE(5.0, 0.2, 0.15, 0.0, -0.15, -0.2, -5.0);
+    Dice dice{std::mt19937(8)};
+    World w = make_floes(p, 8, 1, dice);
+    Bodies& b = w.scene.bodies;
+    for (std::size_t i = 1; i < b.size(); ++i) {
+        b.position[i].z() = height;
+        b.orientation[i] = Quaternion::Identity();
+        update_derived(b, i);
+        b.velocity[i] = dice.vector();
+    }
+    check_bits(w, b.moving);
+}
