@@ -23,6 +23,7 @@ struct Afloat {
     Matrices rotation;
     Lanes height, mass;
     Vectors velocity, angular_velocity;
+    FormHeights heights;
 
     HWY_INLINE Afloat(const Shape& form, const Bodies& b, const BodyLanes& at)
         : shape(form),
@@ -30,8 +31,8 @@ struct Afloat {
           height(at.Load(b.position).z),
           mass(at.Load(b.mass)),
           velocity(at.Load(b.velocity)),
-          angular_velocity(at.Load(b.angular_velocity)) {}
-    HWY_INLINE Water Plane() const { return Water(rotation.row[2], height); }
+          angular_velocity(at.Load(b.angular_velocity)),
+          heights(form, Water(rotation.row[2], height)) {}
     HWY_INLINE Mask Clear() const { return hn::Ge(height, All(shape.bounding_radius)); }
 };
 
@@ -44,7 +45,7 @@ HWY_INLINE Load ProjectedDrag(const Afloat& floes, const Case& p) {
     const Mask drags = hn::AndNot(floes.Clear(), NotZero(floes.velocity));
     if (hn::AllFalse(Tag(), drags)) return {Zero(), Zero()};
     const Vectors v = TransposedProduct(floes.rotation, floes.velocity);
-    const Lanes flow = IntegrateFloatingFacing(floes.shape.facets, floes.Plane(), v);
+    const Lanes flow = IntegrateFloatingFacing(floes.heights, v);
     const Lanes factor = hn::Mul(All(-0.5 * p.water_density * p.drag_coefficient), flow);
     return {Only(drags, Scale(factor, floes.velocity)), Zero()};
 }
@@ -56,7 +57,7 @@ HWY_INLINE Load PanelDrag(const Afloat& floes, const Case& p) {
     if (hn::AllFalse(Tag(), drags)) return {Zero(), Zero()};
     const Vectors v = TransposedProduct(floes.rotation, floes.velocity);
     const Vectors w = TransposedProduct(floes.rotation, floes.angular_velocity);
-    const Facing met = IntegrateFloatingFacing(floes.shape.facets, floes.Plane(), v, w);
+    const Facing met = IntegrateFloatingFacing(floes.heights, v, w);
     const Vectors force = Add(Scale(met.flow, v), Cross(w, met.first));
     const Matrices second{{{met.square.x, met.mixed.x, met.mixed.y},
                            {met.mixed.x, met.square.y, met.mixed.z},
@@ -87,15 +88,14 @@ struct Buoyancy {
         const Tag d;
         const Shape& shape = floes.shape;
         const Lanes height = floes.height;
-        const Water water = floes.Plane();
         const Mask above_deep = hn::Gt(height, All(-shape.bounding_radius));
-        const FloatingWetted wet = IntegrateFloating(shape.facets, water);
+        const FloatingWetted wet = IntegrateFloating(floes.heights);
         const Mask whole = hn::Not(hn::Or(floes.Clear(), hn::And(above_deep, wet.any_dry)));
         const Mask part = hn::AndNot(hn::Or(floes.Clear(), whole),
                                      hn::And(wet.any_wet, hn::Gt(wet.volume, hn::Zero(d))));
-        const Lanes moment =
-            hn::Mul(All(0.5), hn::Add(Dot(water.up, wet.first), hn::Mul(height, wet.volume)));
-        const Vectors at = Sub(wet.first, Scale(moment, water.up));
+        const Lanes moment = hn::Mul(
+            All(0.5), hn::Add(Dot(floes.heights.Up(), wet.first), hn::Mul(height, wet.volume)));
+        const Vectors at = Sub(wet.first, Scale(moment, floes.heights.Up()));
         const Vectors cut{hn::Div(at.x, wet.volume), hn::Div(at.y, wet.volume),
                           hn::Div(at.z, wet.volume)};
         const Vectors in_body = Where(whole, All(shape.solid.centroid), cut);

@@ -116,10 +116,15 @@ HWY_INLINE Mask CountsWhole(const Cut& cut, const Tip& tip) {
     return hn::Or(hn::AndNot(cut.any, cut.in0), hn::AndNot(tip.inside, cut.any));
 }
 
-HWY_INLINE Cut CutByWater(const Corners& corner, const Water& water) {
-    const Lanes z0 = water.HeightOf(corner.p[0]), z1 = water.HeightOf(corner.p[1]),
-                z2 = water.HeightOf(corner.p[2]);
-    return Cut(z0, z1, z2, Wet(z0), Wet(z1), Wet(z2));
+// Of the three corners.
+struct Heights {
+    Lanes z0, z1, z2;
+};
+HWY_INLINE Heights HeightsOf(const Corners& corner, const Water& water) {
+    return {water.HeightOf(corner.p[0]), water.HeightOf(corner.p[1]), water.HeightOf(corner.p[2])};
+}
+HWY_INLINE Cut CutByWater(Heights h) {
+    return Cut(h.z0, h.z1, h.z2, Wet(h.z0), Wet(h.z1), Wet(h.z2));
 }
 
 // 12 int p z n_z dA of whole triangles; `area` is that of their projection on the water.

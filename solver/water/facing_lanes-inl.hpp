@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Pieces of the integrals over what a flow meets of wetted surfaces: lanes as in facet_lanes-inl.hpp.
+// Pieces of the integrals over what a flow meets of wetted surfaces; lanes as in
+// facet_lanes-inl.hpp.
 #if defined(ICE_WATER_FACING_LANES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef ICE_WATER_FACING_LANES_INL
 #undef ICE_WATER_FACING_LANES_INL
@@ -122,11 +123,10 @@ HWY_INLINE void AddWetted(const Cut& h, const Triangles& t, Facing& sum) {
 }
 
 // wetted_share()
-HWY_INLINE Lanes WettedShare(const Corners& corner, const Water& water) {
+HWY_INLINE Lanes WettedShare(Heights h) {
     const Tag d;
     const Lanes one = hn::Set(d, 1.0);
-    const Lanes z0 = water.HeightOf(corner.p[0]), z1 = water.HeightOf(corner.p[1]),
-                z2 = water.HeightOf(corner.p[2]);
+    const Lanes z0 = h.z0, z1 = h.z1, z2 = h.z2;
     const Lanes less = hn::Min(z0, z1), more = hn::Max(z0, z1);
     const Lanes low = hn::Min(less, z2), high = hn::Max(more, z2);
     const Lanes middle = hn::Max(less, hn::Min(more, z2));

@@ -25,7 +25,7 @@ FacingIntegrals IntegrateFacing(const FacetBlocks& facets, const WaterPlane& wat
         Facing sum;
         for (const FacetBlock& block : facets.blocks) {
             const Corners corner(block, lane);
-            const Cut h = CutByWater(corner, plane);
+            const Cut h = CutByWater(HeightsOf(corner, plane));
             if (hn::AllFalse(d, h.AnyInside())) continue;
             AddWetted(h, Triangles(corner, Get(block.area, lane), velocity, spin), sum);
         }
@@ -50,7 +50,8 @@ double IntegrateFacingEven(const FacetBlocks& facets, const WaterPlane& water, c
             const Mask away = hn::Le(facing, hn::Zero(d));
             if (hn::AllTrue(d, away)) continue;
             const Corners corner(block, lane);
-            s = hn::Add(s, hn::IfThenZeroElse(away, hn::Mul(facing, WettedShare(corner, plane))));
+            s = hn::Add(s, hn::IfThenZeroElse(
+                               away, hn::Mul(facing, WettedShare(HeightsOf(corner, plane)))));
         }
         sum.Put(s, lane);
     }

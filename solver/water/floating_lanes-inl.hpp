@@ -10,6 +10,7 @@
 
 #include <hwy/highway.h>
 
+#include "solver/shape/shape.hpp"
 #include "solver/water/facing_lanes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -29,6 +30,34 @@ HWY_INLINE Corners CornersOf(const FacetBlock& block, std::size_t lane) {
 HWY_INLINE std::size_t BlocksWith(const FacetBlocks& facets, std::size_t lane) {
     return (facets.size() + kLanes - 1 - lane) / kLanes;
 }
+
+// Heights of a form's corners above the water. Triangles share theirs: where a form has few, each
+// is asked for once.
+class FormHeights {
+public:
+    HWY_INLINE FormHeights(const Shape& form, const Water& water) : form_(form), water_(water) {
+        const std::vector<Vec3>& vertices = form.mesh.vertices;
+        few_ = vertices.size() <= kFew;
+        for (std::size_t k = 0; few_ && k < vertices.size(); ++k)
+            height_[k] = water.HeightOf(Set(vertices[k]));
+    }
+    HWY_INLINE Heights Of(std::size_t block, std::size_t lane) const {
+        if (!few_) return HeightsOf(CornersOf(form_.facets.blocks[block], lane), water_);
+        const auto& corner = form_.mesh.triangles[kLanes * block + lane];
+        const auto at = [&](std::size_t k) { return static_cast<std::size_t>(corner[k]); };
+        return {height_[at(0)], height_[at(1)], height_[at(2)]};
+    }
+    HWY_INLINE Vectors Up() const { return water_.up; }
+    HWY_INLINE const FacetBlocks& Facets() const { return form_.facets; }
+
+private:
+    static constexpr std::size_t kFew = 64;
+
+    const Shape& form_;
+    Water water_;
+    bool few_;
+    Lanes height_[kFew];
+};
 
 // A number for each lane of the blocks, of each body.
 struct Parts {
@@ -59,8 +88,9 @@ struct FloatingWetted {
     Vectors first;
     Mask any_wet, any_dry;
 };
-HWY_INLINE FloatingWetted IntegrateFloating(const FacetBlocks& facets, const Water& water) {
+HWY_INLINE FloatingWetted IntegrateFloating(const FormHeights& heights) {
     const Tag d;
+    const FacetBlocks& facets = heights.Facets();
     Parts volume;
     VectorParts first;
     FloatingWetted out;
@@ -69,12 +99,11 @@ HWY_INLINE FloatingWetted IntegrateFloating(const FacetBlocks& facets, const Wat
         Wetted sum;
         for (std::size_t k = 0; k < BlocksWith(facets, lane); ++k) {
             const FacetBlock& block = facets.blocks[k];
-            const Corners corner = CornersOf(block, lane);
-            const Cut h = CutByWater(corner, water);
+            const Cut h = CutByWater(heights.Of(k, lane));
             out.any_wet = hn::Or(out.any_wet, h.AnyInside());
             out.any_dry = hn::Or(out.any_dry, hn::Not(h.AllInside()));
             if (hn::AllFalse(d, h.AnyInside())) continue;
-            sum.Add(h, corner, Dot(water.up, SetOf(block.area, lane)));
+            sum.Add(h, CornersOf(block, lane), Dot(heights.Up(), SetOf(block.area, lane)));
         }
         volume.s[lane] = sum.volume;
         first.Put(sum.first, lane);
@@ -85,19 +114,18 @@ HWY_INLINE FloatingWetted IntegrateFloating(const FacetBlocks& facets, const Wat
 }
 
 // FacingIntegrals of each body.
-HWY_INLINE Facing IntegrateFloatingFacing(const FacetBlocks& facets, const Water& water, Vectors v,
-                                          Vectors w) {
+HWY_INLINE Facing IntegrateFloatingFacing(const FormHeights& heights, Vectors v, Vectors w) {
     const Tag d;
+    const FacetBlocks& facets = heights.Facets();
     Parts flow;
     VectorParts first, square, mixed;
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
         Facing sum;
         for (std::size_t k = 0; k < BlocksWith(facets, lane); ++k) {
             const FacetBlock& block = facets.blocks[k];
-            const Corners corner = CornersOf(block, lane);
-            const Cut h = CutByWater(corner, water);
+            const Cut h = CutByWater(heights.Of(k, lane));
             if (hn::AllFalse(d, h.AnyInside())) continue;
-            AddWetted(h, Triangles(corner, SetOf(block.area, lane), v, w), sum);
+            AddWetted(h, Triangles(CornersOf(block, lane), SetOf(block.area, lane), v, w), sum);
         }
         flow.s[lane] = sum.flow;
         first.Put(sum.first, lane);
@@ -113,8 +141,9 @@ HWY_INLINE Facing IntegrateFloatingFacing(const FacetBlocks& facets, const Water
 }
 
 // int f dA of each body in an even flow.
-HWY_INLINE Lanes IntegrateFloatingFacing(const FacetBlocks& facets, const Water& water, Vectors v) {
+HWY_INLINE Lanes IntegrateFloatingFacing(const FormHeights& heights, Vectors v) {
     const Tag d;
+    const FacetBlocks& facets = heights.Facets();
     Parts flow;
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
         flow.s[lane] = hn::Zero(d);
@@ -123,7 +152,7 @@ HWY_INLINE Lanes IntegrateFloatingFacing(const FacetBlocks& facets, const Water&
             const Lanes facing = Dot(SetOf(block.area, lane), v);
             const Mask away = hn::Le(facing, hn::Zero(d));
             if (hn::AllTrue(d, away)) continue;
-            const Lanes wetted = hn::Mul(facing, WettedShare(CornersOf(block, lane), water));
+            const Lanes wetted = hn::Mul(facing, WettedShare(heights.Of(k, lane)));
             flow.s[lane] = hn::Add(flow.s[lane], hn::IfThenZeroElse(away, wetted));
         }
     }

@@ -23,7 +23,7 @@ WettedIntegrals IntegrateWetted(const FacetBlocks& facets, const WaterPlane& wat
         Wetted sum;
         for (const FacetBlock& block : facets.blocks) {
             const Corners corner(block, lane);
-            const Cut h = CutByWater(corner, plane);
+            const Cut h = CutByWater(HeightsOf(corner, plane));
             out.any_dry |= !hn::AllTrue(d, h.AllInside());
             if (hn::AllFalse(d, h.AnyInside())) continue;
             out.any_wet = true;
