@@ -3,15 +3,14 @@
 
 #include <vector>
 
-#include "solver/case/case.hpp"
 #include "solver/narrow/find_contacts.hpp"
 #include "solver/narrow/pair_view.hpp"
 
 namespace ice {
 
-/// Appends a pair's contacts: points, patches, keys and hull regions of its candidates.
-/// @pre under the rule "surface" the candidates of a probe stand together
-void emit_contacts(const PairView& view, NormalRule rule, const std::vector<Candidate>& candidates,
+/// Appends a pair's contacts under the rule "surface": points, patches, keys and hull regions of
+/// its candidates. @pre the candidates of a probe stand together
+void emit_contacts(const PairView& view, const std::vector<Candidate>& candidates,
                    std::vector<Contact>& out);
 
 }  // namespace ice

@@ -7,6 +7,7 @@
 
 #include "solver/broad/find_pairs.hpp"
 #include "solver/case/case.hpp"
+#include "solver/narrow/centres_finder.hpp"
 #include "solver/narrow/dormant_pairs.hpp"
 #include "solver/narrow/patch.hpp"
 #include "solver/scene/bodies.hpp"
@@ -73,6 +74,7 @@ private:
     std::vector<std::size_t> awake_;           // rows of the pairs that are measured
     std::vector<Found> found_;                 // of these
     DormantPairs dormant_;
+    CentresFinder centres_;  // instead of all these under the rule "centres"
 };
 
 namespace reference {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "solver/narrow/emit_centres.hpp"
 #include "solver/narrow/emit_contacts.hpp"
 #include "solver/narrow/one_per_face.hpp"
 
@@ -40,10 +41,11 @@ void finish_pair(const PairView& view, NormalRule rule, double margin,
                  std::vector<Candidate>& candidates, std::vector<Contact>& out) {
     const auto touches = [&](const Candidate& c) { return c.gap.gap <= margin; };
     if (std::none_of(candidates.begin(), candidates.end(), touches)) return;
-    if (rule == NormalRule::surface) keep_one_per_face(view, margin, candidates);
+    if (rule == NormalRule::centres) return emit_centres(view, candidates, out);
+    keep_one_per_face(view, margin, candidates);
     thread_local std::vector<Contact> found;  // keeps its memory
     found.clear();
-    emit_contacts(view, rule, candidates, found);
+    emit_contacts(view, candidates, found);
     order_contacts(view, found, out);
 }
 

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "solver/narrow/sphere_lists.hpp"
+#include "solver/scene/bodies.hpp"
+
+namespace ice {
+
+struct Contact;
+
+/// ContactFinder's way under the rule "centres", where only distances count: spheres that may touch
+/// are listed in advance, pair by pair, and the lists measured many spheres at a time.
+class CentresFinder {
+public:
+    /// As ContactFinder::find. @pre travel was updated with the present poses and dt
+    void find(const Scene& scene, const std::vector<BodyPair>& pairs, const Travel& travel,
+              double dt, double margin, std::vector<Contact>& out);
+
+private:
+    // What one thread finds of its pairs, one after the other; of use within find() only.
+    struct Batch;
+    // What was found of a pair: pieces of what one thread found.
+    struct Found {
+        Batch* batch = nullptr;
+        std::size_t contact = 0, contacts = 0;  // first and number
+        std::size_t block = 0, blocks = 0;      // listed anew
+    };
+    struct Step {
+        const Scene& scene;
+        const Travel& travel;
+        double dt, margin;
+    };
+    Found look(std::size_t k, BodyPair pair, const Step& step, Batch& batch);
+    static Batch& batch_of(std::uint64_t call);
+
+    // kept between steps: no allocation once warm
+    SphereLists lists_;
+    std::vector<std::size_t> awake_;  // rows of the pairs that are looked at
+    std::vector<Found> found_;        // of these
+};
+
+}  // namespace ice

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/narrow/emit_centres.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <tuple>
+
+namespace ice {
+
+namespace {
+
+// An edge that presses sideways still has some area, so that no contact is without strength.
+constexpr double kLeastFacing = 0.05;
+
+// Surface of an ice sphere as seen along the contact normal: with the mean normal m and the
+// half-angle s of the faces that meet there, cos(s) m is the sphere's vector area per area.
+double facing_area(const Shape& shape, std::int32_t k, const Vec3& outward) {
+    const double facing = shape.spread_cos[k] * shape.normal[k].dot(outward);
+    return shape.area[k] * std::max(facing, kLeastFacing);
+}
+
+// Contacts per sphere of one side; of spheres not in contact the entry is not set.
+void count_contacts(const std::vector<Candidate>& all, std::int32_t Candidate::*side,
+                    std::size_t spheres, std::vector<std::int32_t>& out) {
+    if (out.size() < spheres) out.resize(spheres);
+    for (const Candidate& c : all) out[static_cast<std::size_t>(c.*side)] = 0;
+    for (const Candidate& c : all) ++out[static_cast<std::size_t>(c.*side)];
+}
+
+// A candidate's place in the order, as far as its spheres decide it.
+struct Row {
+    std::uint64_t ranks;  // of a's sphere, then of b's
+    const Candidate* candidate;
+};
+
+const std::vector<Row>& ordered_rows(const PairView& view,
+                                     const std::vector<Candidate>& candidates) {
+    thread_local std::vector<Row> rows;  // keeps its memory
+    rows.clear();
+    for (const Candidate& c : candidates) {
+        const auto a = static_cast<std::uint32_t>(view.shape_a.mirror_rank[c.i]);
+        const auto b = static_cast<std::uint32_t>(view.shape_b.mirror_rank[c.j]);
+        rows.push_back({(std::uint64_t{a} << 32) | b, &c});
+    }
+    std::sort(rows.begin(), rows.end(),
+              [](const Row& l, const Row& r) { return l.ranks < r.ranks; });
+    return rows;
+}
+
+// Spheres and their mirror images have the same ranks: of their contacts gap and place decide.
+void order_equals(const std::vector<Row>& rows, Contact* first) {
+    for (std::size_t k = 0; k < rows.size();) {
+        std::size_t end = k + 1;
+        while (end < rows.size() && rows[end].ranks == rows[k].ranks) ++end;
+        if (end > k + 1)
+            std::sort(first + k, first + end, [](const Contact& l, const Contact& r) {
+                const auto rest = [](const Contact& c) {
+                    return std::tuple(c.gap, c.point.x(), c.point.z(), c.key);
+                };
+                return rest(l) < rest(r);
+            });
+        k = end;
+    }
+}
+
+}  // namespace
+
+// Every pair of spheres is a contact, and shares of the surface are split. The point is midway
+// between the surfaces, the gap small against the radii.
+void emit_centres(const PairView& view, const std::vector<Candidate>& candidates,
+                  std::vector<Contact>& out) {
+    const Bodies& bodies = view.scene.bodies;
+    const Mat3& rotation = bodies.rotation[view.pair.a];
+    const bool ship = view.pair.a == static_cast<std::int32_t>(kShip);
+    thread_local std::vector<std::int32_t> shared_a, shared_b;  // keep their memory
+    count_contacts(candidates, &Candidate::j, view.shape_b.center.size(), shared_b);
+    // the hull has many spheres and its shares are not asked for
+    if (!ship) count_contacts(candidates, &Candidate::i, view.shape_a.center.size(), shared_a);
+    const std::vector<Row>& rows = ordered_rows(view, candidates);
+    const std::size_t first = out.size();
+    out.resize(first + rows.size());
+    Contact* contact = out.data() + first;
+    for (const Row& row : rows) {
+        const Candidate& c = *row.candidate;
+        contact->a = view.pair.a;
+        contact->b = view.pair.b;
+        contact->sphere_a = c.i;
+        contact->sphere_b = c.j;
+        contact->key = (static_cast<std::uint64_t>(c.i) << 32) | static_cast<std::uint32_t>(c.j);
+        const Vec3 inward = -c.gap.normal;
+        const Vec3 surface = view.center_b(c.j) + view.shape_b.radius[c.j] * inward;
+        const Vec3 local = surface + 0.5 * c.gap.gap * inward;
+        contact->point = rotation * local + bodies.position[view.pair.a];
+        contact->normal = rotation * c.gap.normal;
+        contact->gap = c.gap.gap;
+        contact->region = ship ? view.shape_a.region.at(c.i, c.gap.normal) : -1;
+        contact->crushes_a = false;
+        double area = facing_area(view.shape_b, c.j, view.turn.transpose() * inward) /
+                      shared_b[static_cast<std::size_t>(c.j)];
+        if (!ship)
+            area = std::min(area, facing_area(view.shape_a, c.i, c.gap.normal) /
+                                      shared_a[static_cast<std::size_t>(c.i)]);
+        contact->patch = Patch{.share = area};
+        ++contact;
+    }
+    order_equals(rows, out.data() + first);
+}
+
+}  // namespace ice

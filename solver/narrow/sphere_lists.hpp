@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "solver/broad/find_pairs.hpp"
+#include "solver/narrow/touching_spheres.hpp"
+
+namespace ice {
+
+/// What the rule "centres" remembers of pairs of bodies: which of their spheres may touch while the
+/// bodies do not go too far, and until when they need not be looked at at all.
+class SphereLists {
+public:
+    /// Of one pair.
+    struct Row {
+        // when its spheres were listed
+        Mat3 turn = Mat3::Zero();   ///< PairView's
+        Vec3 shift = Vec3::Zero();  ///< PairView's [m]
+        double crushed = 0.0;       ///< Travel::crushed of both bodies [m]
+        double range = -1.0;        ///< all whose gap was at most this are listed [m]; < 0: none
+
+        std::size_t axis = 0;  ///< of separation(), when last looked at
+
+    private:
+        friend class SphereLists;
+        std::size_t first = 0, count = 0;  // of blocks_
+    };
+
+    /// Takes what is known of pairs over to a new list; both sorted.
+    void match(const std::vector<BodyPair>& pairs);
+
+    std::size_t size() const { return rows_.size(); }
+    Row& row(std::size_t k) { return rows_[k]; }
+
+    /// Pair k has no contact while the sum of its bodies' Travel::soon is less than this [m].
+    double& wake(std::size_t k) { return wake_[k]; }
+
+    /// Spheres of pair k that may touch; good until the next keep() or match().
+    std::span<const ListedSpheres> listed(std::size_t k) const {
+        return {blocks_.data() + rows_[k].first, rows_[k].count};
+    }
+    void keep(std::size_t k, std::span<const ListedSpheres> listed);
+
+private:
+    void close_gaps();
+
+    std::vector<BodyPair> pairs_;
+    std::vector<double> wake_, moved_wake_;  // by pair; all of them are asked in every step
+    std::vector<Row> rows_, moved_rows_;     // by pair
+    std::vector<ListedSpheres> blocks_, moved_blocks_;
+    std::size_t kept_ = 0;  // of blocks_ that rows use
+};
+
+}  // namespace ice

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// As many pairs at a time as the machine has lanes, compiled once per instruction set. The
+// mathematics is in touching_spheres_reference.cpp.
+#include "solver/narrow/touching_spheres.hpp"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "solver/narrow/touching_spheres_simd.cpp"
+#include <hwy/foreach_target.h>  // must precede highway.h
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace ice::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Tag = hn::CappedTag<float, ListedSpheres::kPairs>;
+using IdTag = hn::RebindToSigned<Tag>;
+
+void FindTouching(std::span<const ListedSpheres> listed, const FloatPose& pose, float most,
+                  TouchingSpheres& out) {
+    const Tag d;
+    const IdTag di;
+    // full vectors are stored behind the last
+    const std::size_t room = (listed.size() + 1) * ListedSpheres::kPairs;
+    if (out.a.size() < room) out.a.resize(room);
+    if (out.b.size() < room) out.b.resize(room);
+    auto least = hn::Set(d, ListedSpheres::kNowhere);
+    std::size_t found = 0;
+    for (const ListedSpheres& s : listed)
+        for (std::size_t k = 0; k < ListedSpheres::kPairs; k += hn::Lanes(d)) {
+            const auto x = hn::Load(d, s.bx + k), y = hn::Load(d, s.by + k),
+                       z = hn::Load(d, s.bz + k);
+            // Mul then Add, not MulAdd: a fused product would differ from the reference
+            const auto apart = [&](int axis, const float* a) {
+                const float* row = pose.turn[axis];
+                const auto moved = hn::Add(
+                    hn::Add(hn::Mul(hn::Set(d, row[0]), x), hn::Mul(hn::Set(d, row[1]), y)),
+                    hn::Add(hn::Mul(hn::Set(d, row[2]), z), hn::Set(d, pose.shift[axis])));
+                return hn::Sub(moved, hn::Load(d, a + k));
+            };
+            const auto dx = apart(0, s.ax), dy = apart(1, s.ay), dz = apart(2, s.az);
+            const auto square = hn::Add(hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy)), hn::Mul(dz, dz));
+            const auto gap = hn::Sub(hn::Sqrt(square), hn::Load(d, s.radii + k));
+            least = hn::Min(least, gap);
+            const auto touch = hn::Le(gap, hn::Set(d, most));
+            if (hn::AllFalse(d, touch)) continue;
+            // StoreU(Compress()) and not CompressStore(): the latter is slow on AMD's AVX-512
+            const auto ids = hn::RebindMask(di, touch);
+            hn::StoreU(hn::Compress(hn::Load(di, s.a + k), ids), di, out.a.data() + found);
+            hn::StoreU(hn::Compress(hn::Load(di, s.b + k), ids), di, out.b.data() + found);
+            found += hn::CountTrue(d, touch);
+        }
+    out.count = found;
+    out.least = hn::GetLane(hn::MinOfLanes(d, least));
+}
+
+}  // namespace ice::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace ice {
+HWY_EXPORT(FindTouching);
+
+void find_touching(std::span<const ListedSpheres> listed, const FloatPose& pose, float most,
+                   TouchingSpheres& out) {
+    HWY_DYNAMIC_DISPATCH(FindTouching)(listed, pose, most, out);
+}
+}  // namespace ice
+#endif
