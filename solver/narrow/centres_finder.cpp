@@ -20,7 +20,6 @@ struct CentresFinder::Batch {
 
     // of the pair at hand
     PairSearch search;
-    std::vector<ListedSpheres> near;
     TouchingSpheres touching;
     std::vector<Candidate> candidates;
 };
@@ -142,14 +141,10 @@ CentresFinder::Found CentresFinder::look(std::size_t k, BodyPair pair, const Ste
         row.crushed = crushed;
         gone = 0.0;
         std::size_t count = 0;
-        batch.near.clear();
         batch.search.for_each_near(
             view, row.range, 0.0,
-            [&](std::int32_t i, std::int32_t j) { append(view, i, j, count++, batch.near); });
-        fill_up(count, batch.near);
-        find_touching(batch.near, pose, static_cast<float>(row.range + slack), batch.touching);
-        for (count = 0; count < batch.touching.count; ++count)
-            append(view, batch.touching.a[count], batch.touching.b[count], count, batch.listed);
+            [&](std::int32_t i, std::int32_t j) { append(view, i, j, count++, batch.listed); },
+            &Shape::balls);
         fill_up(count, batch.listed);
         found.blocks = batch.listed.size() - found.block;
         listed = std::span(batch.listed).subspan(found.block);

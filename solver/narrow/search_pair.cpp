@@ -43,10 +43,11 @@ float reach_of(const SphereBlocks& others, const SearchRange& range) {
 
 }  // namespace
 
-void PairSearch::pick(const PairView& view, double along, double across) {
+void PairSearch::pick(const PairView& view, double along, double across,
+                      SphereBlocks Shape::*blocks) {
     const bool few_a = asks_first(view);
-    const SphereBlocks& few = (few_a ? view.shape_a : view.shape_b).blocks;
-    const SphereBlocks& many = (few_a ? view.shape_b : view.shape_a).blocks;
+    const SphereBlocks& few = (few_a ? view.shape_a : view.shape_b).*blocks;
+    const SphereBlocks& many = (few_a ? view.shape_b : view.shape_a).*blocks;
     // to and from the axes of the few
     const Mat3 turn = few_a ? view.turn : Mat3(view.turn.transpose());
     const Vec3 shift = few_a ? view.shift : Vec3(-(view.turn.transpose() * view.shift));

@@ -21,9 +21,11 @@ public:
     ///
     /// corner and aside as in Faces, and for some that are farther by rounding to floats or by
     /// crushing. A sphere of the body with fewer spheres comes with all its partners at once.
+    /// @param blocks  the shapes' spheres; of `balls` corner is the radius and aside 0
     template <class Visit>
-    void for_each_near(const PairView& view, double along, double across, const Visit& visit) {
-        pick(view, along, across);
+    void for_each_near(const PairView& view, double along, double across, const Visit& visit,
+                       SphereBlocks Shape::*blocks = &Shape::blocks) {
+        pick(view, along, across, blocks);
         const bool few_a = asks_first(view);
         for (std::size_t first = 0; first < few_.count; first += kRows) {
             const std::size_t last = std::min(first + kRows, few_.count);
@@ -45,7 +47,7 @@ private:
     static constexpr std::size_t kRows = SphereBlocks::kGroup;
 
     // Sets few_, many_ (in the axes of the body with fewer spheres) and range_.
-    void pick(const PairView& view, double along, double across);
+    void pick(const PairView& view, double along, double across, SphereBlocks Shape::*blocks);
 
     // Of many_ those that rows [first, last) may be near to.
     const NearSpheres& partners_of(std::size_t first, std::size_t last);

@@ -178,12 +178,15 @@ Shape build_shape(const SphereSet& set, bool about_centre_of_mass) {
     shape.spacing = set.spacing;
     shape.reach = measure_reach(shape, set.spacing);
     shape.borders = FaceBorders(shape);
-    std::vector<SearchSphere> spheres;
+    std::vector<SearchSphere> spheres, balls;
     for (Faces& faces : shape.faces)  // an edge's sphere stands for that much of it either way
         if (faces.count > 0) faces.aside += 0.5 * shape.reach;
-    for (std::size_t k = 0; k < shape.center.size(); ++k)
+    for (std::size_t k = 0; k < shape.center.size(); ++k) {
         spheres.push_back({shape.center[k], shape.faces[k].corner, shape.faces[k].aside});
+        balls.push_back({shape.center[k], shape.radius[k], 0.0});
+    }
     shape.blocks = SphereBlocks(spheres);
+    shape.balls = SphereBlocks(balls);
     shape.facets = facets_of(shape.mesh);
     return shape;
 }
