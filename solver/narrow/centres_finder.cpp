@@ -15,13 +15,12 @@ namespace ice {
 
 struct CentresFinder::Batch {
     std::uint64_t call = 0;
-    std::vector<Contact> contacts;
+    std::vector<Candidate> candidates;
     std::vector<ListedSpheres> listed;
 
     // of the pair at hand
     PairSearch search;
     TouchingSpheres touching;
-    std::vector<Candidate> candidates;
 };
 
 namespace {
@@ -86,10 +85,9 @@ double gone_since(const SphereLists::Row& row, const PairView& view, double crus
            view.shape_b.bounding_radius * (view.turn - row.turn).norm() / std::numbers::sqrt2;
 }
 
-// Measures the spheres that touch in floats.
+// Measures the spheres that touch in floats; appends the candidates.
 void measure(const PairView& view, const TouchingSpheres& touching, double most,
              std::vector<Candidate>& out) {
-    out.clear();
     for (std::size_t k = 0; k < touching.count; ++k) {
         const std::int32_t i = touching.a[k], j = touching.b[k];
         const Gap gap = measure_gap_centres(view.center_a(i), view.shape_a.radius[i],
@@ -106,7 +104,7 @@ void measure(const PairView& view, const TouchingSpheres& touching, double most,
 CentresFinder::Batch& CentresFinder::batch_of(std::uint64_t call) {
     thread_local Batch batch;
     if (batch.call != call) {
-        batch.contacts.clear();
+        batch.candidates.clear();
         batch.listed.clear();
         batch.call = call;
     }
@@ -116,7 +114,7 @@ CentresFinder::Batch& CentresFinder::batch_of(std::uint64_t call) {
 CentresFinder::Found CentresFinder::look(std::size_t k, BodyPair pair, const Step& step,
                                          Batch& batch) {
     const auto& [scene, travel, dt, margin] = step;
-    Found found{&batch, batch.contacts.size(), 0, batch.listed.size(), 0};
+    Found found{&batch, batch.candidates.size(), 0, batch.listed.size(), 0};
     const PairView view(scene, pair);
     SphereLists::Row& row = lists_.row(k);
     const double closing = dt * closing_speed(scene, pair), most = closing + margin;
@@ -154,9 +152,8 @@ CentresFinder::Found CentresFinder::look(std::size_t k, BodyPair pair, const Ste
     lists_.wake(k) =
         way + std::min(batch.touching.least - unsure - margin, row.range - margin - gone);
     measure(view, batch.touching, most, batch.candidates);
-    if (batch.candidates.empty() || are_apart(view, most)) return found;
-    emit_centres(view, batch.candidates, batch.contacts);
-    found.contacts = batch.candidates.size();
+    found.count = batch.candidates.size() - found.first;
+    if (found.count > 0 && are_apart(view, most)) found.count = 0;
     return found;
 }
 
@@ -175,16 +172,25 @@ void CentresFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
         found_[n] =
             look(awake_[n], pairs[awake_[n]], {scene, travel, dt, margin}, batch_of(call));
     });
-    out.clear();
+    touching_.clear();
+    std::size_t contacts = 0;
     for (std::size_t n = 0; n < awake_.size(); ++n) {
         const Found& found = found_[n];
-        const auto first =
-            found.batch->contacts.begin() + static_cast<std::ptrdiff_t>(found.contact);
-        out.insert(out.end(), first, first + static_cast<std::ptrdiff_t>(found.contacts));
         if (found.blocks > 0)
             lists_.keep(awake_[n],
                         std::span(found.batch->listed).subspan(found.block, found.blocks));
+        if (found.count == 0) continue;
+        touching_.push_back({pairs[awake_[n]], n, contacts});
+        contacts += found.count;
     }
+    out.resize(contacts);
+    parallel_for(touching_.size(), kSerialPairs, [&](std::size_t n) {
+        const Touching& t = touching_[n];
+        const Found& found = found_[t.found];
+        emit_centres(PairView(scene, t.pair),
+                     std::span(found.batch->candidates).subspan(found.first, found.count),
+                     out.data() + t.contact);
+    });
 }
 
 }  // namespace ice

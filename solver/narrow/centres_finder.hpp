@@ -25,8 +25,13 @@ private:
     // What was found of a pair: pieces of what one thread found.
     struct Found {
         Batch* batch = nullptr;
-        std::size_t contact = 0, contacts = 0;  // first and number
-        std::size_t block = 0, blocks = 0;      // listed anew
+        std::size_t first = 0, count = 0;   // candidates
+        std::size_t block = 0, blocks = 0;  // spheres listed anew
+    };
+    // A pair that has contacts.
+    struct Touching {
+        BodyPair pair;
+        std::size_t found, contact;  // row of found_, place of its first contact
     };
     struct Step {
         const Scene& scene;
@@ -40,6 +45,7 @@ private:
     SphereLists lists_;
     std::vector<std::size_t> awake_;  // rows of the pairs that are looked at
     std::vector<Found> found_;        // of these
+    std::vector<Touching> touching_;
 };
 
 }  // namespace ice

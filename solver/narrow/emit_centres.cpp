@@ -20,7 +20,7 @@ double facing_area(const Shape& shape, std::int32_t k, const Vec3& outward) {
 }
 
 // Contacts per sphere of one side; of spheres not in contact the entry is not set.
-void count_contacts(const std::vector<Candidate>& all, std::int32_t Candidate::*side,
+void count_contacts(std::span<const Candidate> all, std::int32_t Candidate::*side,
                     std::size_t spheres, std::vector<std::int32_t>& out) {
     if (out.size() < spheres) out.resize(spheres);
     for (const Candidate& c : all) out[static_cast<std::size_t>(c.*side)] = 0;
@@ -33,8 +33,7 @@ struct Row {
     const Candidate* candidate;
 };
 
-const std::vector<Row>& ordered_rows(const PairView& view,
-                                     const std::vector<Candidate>& candidates) {
+const std::vector<Row>& ordered_rows(const PairView& view, std::span<const Candidate> candidates) {
     thread_local std::vector<Row> rows;  // keeps its memory
     rows.clear();
     for (const Candidate& c : candidates) {
@@ -67,8 +66,7 @@ void order_equals(const std::vector<Row>& rows, Contact* first) {
 
 // Every pair of spheres is a contact, and shares of the surface are split. The point is midway
 // between the surfaces, the gap small against the radii.
-void emit_centres(const PairView& view, const std::vector<Candidate>& candidates,
-                  std::vector<Contact>& out) {
+void emit_centres(const PairView& view, std::span<const Candidate> candidates, Contact* out) {
     const Bodies& bodies = view.scene.bodies;
     const Mat3& rotation = bodies.rotation[view.pair.a];
     const bool ship = view.pair.a == static_cast<std::int32_t>(kShip);
@@ -77,9 +75,7 @@ void emit_centres(const PairView& view, const std::vector<Candidate>& candidates
     // the hull has many spheres and its shares are not asked for
     if (!ship) count_contacts(candidates, &Candidate::i, view.shape_a.center.size(), shared_a);
     const std::vector<Row>& rows = ordered_rows(view, candidates);
-    const std::size_t first = out.size();
-    out.resize(first + rows.size());
-    Contact* contact = out.data() + first;
+    Contact* contact = out;
     for (const Row& row : rows) {
         const Candidate& c = *row.candidate;
         contact->a = view.pair.a;
@@ -103,7 +99,7 @@ void emit_centres(const PairView& view, const std::vector<Candidate>& candidates
         contact->patch = Patch{.share = area};
         ++contact;
     }
-    order_equals(rows, out.data() + first);
+    order_equals(rows, out);
 }
 
 }  // namespace ice

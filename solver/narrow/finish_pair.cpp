@@ -2,6 +2,7 @@
 #include "solver/narrow/finish_pair.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <tuple>
 
 #include "solver/narrow/emit_centres.hpp"
@@ -41,7 +42,10 @@ void finish_pair(const PairView& view, NormalRule rule, double margin,
                  std::vector<Candidate>& candidates, std::vector<Contact>& out) {
     const auto touches = [&](const Candidate& c) { return c.gap.gap <= margin; };
     if (std::none_of(candidates.begin(), candidates.end(), touches)) return;
-    if (rule == NormalRule::centres) return emit_centres(view, candidates, out);
+    if (rule == NormalRule::centres) {
+        out.resize(out.size() + candidates.size());
+        return emit_centres(view, candidates, &*(out.end() - std::ssize(candidates)));
+    }
     keep_one_per_face(view, margin, candidates);
     thread_local std::vector<Contact> found;  // keeps its memory
     found.clear();
