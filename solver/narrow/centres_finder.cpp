@@ -31,7 +31,7 @@ constexpr std::size_t kSerialPairs = 128;
 // A pair's spheres are listed as far ahead as it goes in so many steps, within these bounds: more
 // keeps more spheres, less has to be found anew sooner.
 constexpr double kLookAhead = 5.0;
-constexpr double kLeastShare = 0.3, kMostShare = 0.6;  // of the ice's radius
+constexpr double kLeastShare = 0.6, kMostShare = 0.8;  // of the ice's radius
 
 // Appends two spheres to a list of `count`.
 void append(const PairView& view, std::int32_t i, std::int32_t j, std::size_t count,
@@ -97,6 +97,14 @@ void measure(const PairView& view, const TouchingSpheres& touching, double most,
     }
 }
 
+// Is the bodies' separation() less than `most` [m], where two of their spheres have this gap?
+bool surely_meet(const PairView& view, double gap, double most) {
+    constexpr double kRounding = 1e-6;  // [m]
+    return view.shape_a.bounds.hold_spheres && view.shape_b.bounds.hold_spheres &&
+           view.scene.crushed.is_whole(view.pair.a) && view.scene.crushed.is_whole(view.pair.b) &&
+           gap <= most - kRounding;
+}
+
 }  // namespace
 
 // The calling thread's. By thread, not by pair: a pair's row changes from step to step, so lists by
@@ -153,7 +161,9 @@ CentresFinder::Found CentresFinder::look(std::size_t k, BodyPair pair, const Ste
         way + std::min(batch.touching.least - unsure - margin, row.range - margin - gone);
     measure(view, batch.touching, most, batch.candidates);
     found.count = batch.candidates.size() - found.first;
-    if (found.count > 0 && are_apart(view, most)) found.count = 0;
+    if (found.count > 0 && !surely_meet(view, batch.touching.least + slack, most) &&
+        are_apart(view, most))
+        found.count = 0;
     return found;
 }
 
@@ -163,10 +173,13 @@ void CentresFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
     static std::atomic<std::uint64_t> calls{0};  // by it a thread knows what it has to forget
     const std::uint64_t call = ++calls;
     lists_.match(pairs);
-    awake_.clear();
-    for (std::size_t k = 0; k < pairs.size(); ++k)
-        if (travel.soon(pairs[k].a) + travel.soon(pairs[k].b) >= lists_.wake(k))
-            awake_.push_back(k);
+    awake_.resize(pairs.size());
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+        awake_[count] = k;  // without a branch that nothing foretells
+        count += travel.soon(pairs[k].a) + travel.soon(pairs[k].b) >= lists_.wake(k) ? 1 : 0;
+    }
+    awake_.resize(count);
     found_.resize(awake_.size());
     parallel_for(awake_.size(), kSerialPairs, [&](std::size_t n) {
         found_[n] =
