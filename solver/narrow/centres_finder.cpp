@@ -33,6 +33,9 @@ constexpr std::size_t kSerialPairs = 128;
 constexpr double kLookAhead = 5.0;
 constexpr double kLeastShare = 0.6, kMostShare = 0.8;  // of the ice's radius
 
+// What rounding may add to a separation, by far [m].
+constexpr double kRounding = 1e-6;
+
 // Appends two spheres to a list of `count`.
 void append(const PairView& view, std::int32_t i, std::int32_t j, std::size_t count,
             std::vector<ListedSpheres>& out) {
@@ -97,12 +100,10 @@ void measure(const PairView& view, const TouchingSpheres& touching, double most,
     }
 }
 
-// Is the bodies' separation() less than `most` [m], where two of their spheres have this gap?
-bool surely_meet(const PairView& view, double gap, double most) {
-    constexpr double kRounding = 1e-6;  // [m]
+// Is no sphere of one body nearer to the other than their separation()?
+bool are_held(const PairView& view) {
     return view.shape_a.bounds.hold_spheres && view.shape_b.bounds.hold_spheres &&
-           view.scene.crushed.is_whole(view.pair.a) && view.scene.crushed.is_whole(view.pair.b) &&
-           gap <= most - kRounding;
+           view.scene.crushed.is_whole(view.pair.a) && view.scene.crushed.is_whole(view.pair.b);
 }
 
 }  // namespace
@@ -132,10 +133,11 @@ CentresFinder::Found CentresFinder::look(std::size_t k, BodyPair pair, const Ste
     std::span<const ListedSpheres> listed = lists_.listed(k);
     const FloatPose pose = float_pose(view);
     const double slack = float_slack(view);
+    const bool held = are_held(view);
     if (gone + most > row.range) {
         const double apart = separation(view, most, row.axis);
         if (apart > most) {
-            lists_.wake(k) = way + (apart - margin) / separation_share(view);
+            lists_.wake(k) = way + (apart - kRounding - margin) / (held ? 1.0 : separation_share(view));
             return found;
         }
         const double radius = view.shape_b.largest_radius;
@@ -161,7 +163,7 @@ CentresFinder::Found CentresFinder::look(std::size_t k, BodyPair pair, const Ste
         way + std::min(batch.touching.least - unsure - margin, row.range - margin - gone);
     measure(view, batch.touching, most, batch.candidates);
     found.count = batch.candidates.size() - found.first;
-    if (found.count > 0 && !surely_meet(view, batch.touching.least + slack, most) &&
+    if (found.count > 0 && !(held && batch.touching.least + slack + kRounding <= most) &&
         are_apart(view, most))
         found.count = 0;
     return found;
