@@ -128,6 +128,7 @@ TEST_CASE("a gap that is enough is one of the bodies' and is found again along i
         const double found = separation(view, enough, axis);
         REQUIRE(axis < 12);
         REQUIRE((found > enough) == (widest > enough));
+        REQUIRE(are_apart(view, enough) == (widest > enough));
         REQUIRE((found > enough ? found <= widest : found == widest));
         std::size_t again = axis;
         REQUIRE(separation(view, enough, again) == found);
@@ -155,10 +156,39 @@ TEST_CASE("bounds hold the sharp edges that spheres stand for, where the mesh's 
     CHECK(shape.bounds.excess == Approx(std::sqrt(3.0) * inset / (1.0 + lean)).epsilon(1e-12));
 }
 
+TEST_CASE("spheres in convex bodies are no nearer than the bodies' separation", "[narrow][property]") {
+    World w = two_boxes();
+    const Shape& box = w.scene.shapes[1];
+    REQUIRE(box.bounds.hold_spheres);
+    Dice dice{std::mt19937(7)};
+    for (int k = 0; k < 100; ++k) {
+        place(w, 2, 1.2 * dice.vector(), dice.turn(3.0));
+        const PairView view(w.scene, {1, 2});
+        double least = std::numeric_limits<double>::infinity();
+        for (std::int32_t i = 0; i < std::ssize(box.center); ++i)
+            for (std::int32_t j = 0; j < std::ssize(box.center); ++j)
+                least = std::min(least, (view.center_b(j) - view.center_a(i)).norm() -
+                                            (box.radius[i] + box.radius[j]));
+        REQUIRE(least >= separation(view) - 1e-12);
+    }
+}
+
+TEST_CASE("a form with a dent, or whose spheres reach far out of it, holds none",
+          "[narrow][degenerate]") {
+    SphereSet set = test::make_box_set(kSize, 0.05, 0.1);
+    REQUIRE(build_shape(set, false).bounds.hold_spheres);
+    SphereSet dented = set, small = set;
+    dented.mesh.vertices.front() *= 0.2;
+    CHECK_FALSE(build_shape(dented, false).bounds.hold_spheres);
+    for (Vec3& v : small.mesh.vertices) v *= 0.8;
+    CHECK_FALSE(build_shape(small, false).bounds.hold_spheres);
+}
+
 TEST_CASE("of a form without bounds nothing is known", "[narrow][degenerate]") {
     World w = two_boxes();
     w.scene.shapes[1].bounds = ConvexBounds();
     CHECK(separation_now(w) == -std::numeric_limits<double>::infinity());
+    CHECK_FALSE(are_apart(PairView(w.scene, {1, 2}), -1e9));
 }
 
 TEST_CASE("edges that cross have a contact wherever between their spheres they do",
