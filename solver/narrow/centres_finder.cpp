@@ -137,7 +137,8 @@ CentresFinder::Found CentresFinder::look(std::size_t k, BodyPair pair, const Ste
     if (gone + most > row.range) {
         const double apart = separation(view, most, row.axis);
         if (apart > most) {
-            lists_.wake(k) = way + (apart - kRounding - margin) / (held ? 1.0 : separation_share(view));
+            lists_.wake(k) =
+                way + (apart - kRounding - margin) / (held ? 1.0 : separation_share(view));
             return found;
         }
         const double radius = view.shape_b.largest_radius;
@@ -184,8 +185,7 @@ void CentresFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
     awake_.resize(count);
     found_.resize(awake_.size());
     parallel_for(awake_.size(), kSerialPairs, [&](std::size_t n) {
-        found_[n] =
-            look(awake_[n], pairs[awake_[n]], {scene, travel, dt, margin}, batch_of(call));
+        found_[n] = look(awake_[n], pairs[awake_[n]], {scene, travel, dt, margin}, batch_of(call));
     });
     touching_.clear();
     std::size_t contacts = 0;

@@ -74,6 +74,7 @@ void emit_centres(const PairView& view, std::span<const Candidate> candidates, C
     count_contacts(candidates, &Candidate::j, view.shape_b.center.size(), shared_b);
     // the hull has many spheres and its shares are not asked for
     if (!ship) count_contacts(candidates, &Candidate::i, view.shape_a.center.size(), shared_a);
+    const std::int32_t *contacts_of_a = shared_a.data(), *contacts_of_b = shared_b.data();
     const std::vector<Row>& rows = ordered_rows(view, candidates);
     Contact* contact = out;
     for (const Row& row : rows) {
@@ -91,11 +92,11 @@ void emit_centres(const PairView& view, std::span<const Candidate> candidates, C
         contact->gap = c.gap.gap;
         contact->region = ship ? view.shape_a.region.at(c.i, c.gap.normal) : -1;
         contact->crushes_a = false;
-        double area = facing_area(view.shape_b, c.j, view.turn.transpose() * inward) /
-                      shared_b[static_cast<std::size_t>(c.j)];
+        double area =
+            facing_area(view.shape_b, c.j, view.turn.transpose() * inward) / contacts_of_b[c.j];
         if (!ship)
-            area = std::min(area, facing_area(view.shape_a, c.i, c.gap.normal) /
-                                      shared_a[static_cast<std::size_t>(c.i)]);
+            area =
+                std::min(area, facing_area(view.shape_a, c.i, c.gap.normal) / contacts_of_a[c.i]);
         contact->patch = Patch{.share = area};
         ++contact;
     }

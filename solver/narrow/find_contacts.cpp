@@ -139,8 +139,7 @@ void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
 void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
                          const Travel& travel, NormalRule rule, double dt, double margin,
                          std::vector<Contact>& out) {
-    if (rule == NormalRule::centres)
-        return centres_.find(scene, pairs, travel, dt, margin, out);
+    if (rule == NormalRule::centres) return centres_.find(scene, pairs, travel, dt, margin, out);
     dormant_.match(pairs);
     states_.resize(pairs.size());
     parallel_for(pairs.size(), kSerialLooks, [&](std::size_t k) {

@@ -165,14 +165,6 @@ Crossing find_crossing(const Vec3& pa, const Vec3& ea, const Vec3& pb, const Vec
     return {a.dot(between), b.dot(between)};
 }
 
-Gap measure_gap_centres(const Vec3& center_a, double radius_a, const Vec3& center_b,
-                        double radius_b) {
-    const Vec3 d = center_b - center_a;
-    const double length = d.norm();
-    if (length == 0.0) return {Vec3::UnitZ(), 0.0, 0.0, true, false};
-    return {d / length, length - (radius_a + radius_b), 0.0, true, true};
-}
-
 Gap measure_gap_surface(const SphereSurface& a, const SphereSurface& b, bool prefer_a) {
     if (a.faces.count > 0 && b.faces.count > 0) return measure_gap_of_edges(a, b);
     const Vec3 d = b.center - a.center;

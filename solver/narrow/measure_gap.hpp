@@ -59,8 +59,13 @@ inline Vec3 support_offset(const Faces& faces, double radius, const Vec3& middle
 /// The paper's rule (Figure 1): normal from centre to centre, gap |d| - (r_a + r_b).
 ///
 /// Coincident centres have no direction and give an invalid gap.
-Gap measure_gap_centres(const Vec3& center_a, double radius_a, const Vec3& center_b,
-                        double radius_b);
+inline Gap measure_gap_centres(const Vec3& center_a, double radius_a, const Vec3& center_b,
+                               double radius_b) {
+    const Vec3 d = center_b - center_a;
+    const double length = d.norm();
+    if (length == 0.0) return {Vec3::UnitZ(), 0.0, 0.0, true, false};
+    return {d / length, length - (radius_a + radius_b), 0.0, true, true};
+}
 
 /// Our rule: a sphere touches its surface from inside, so the surface near it is the sphere's cap
 /// over the normals that meet there: a plane on a face, an arc on an edge.

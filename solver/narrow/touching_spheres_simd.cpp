@@ -32,9 +32,9 @@ void FindTouching(std::span<const ListedSpheres> listed, const FloatPose& pose, 
             // Mul then Add, not MulAdd: a fused product would differ from the reference
             const auto apart = [&](int axis, const float* a) {
                 const float* row = pose.turn[axis];
-                const auto moved = hn::Add(
-                    hn::Add(hn::Mul(hn::Set(d, row[0]), x), hn::Mul(hn::Set(d, row[1]), y)),
-                    hn::Add(hn::Mul(hn::Set(d, row[2]), z), hn::Set(d, pose.shift[axis])));
+                const auto moved =
+                    hn::Add(hn::Add(hn::Mul(hn::Set(d, row[0]), x), hn::Mul(hn::Set(d, row[1]), y)),
+                            hn::Add(hn::Mul(hn::Set(d, row[2]), z), hn::Set(d, pose.shift[axis])));
                 return hn::Sub(moved, hn::Load(d, a + k));
             };
             const auto dx = apart(0, s.ax), dy = apart(1, s.ay), dz = apart(2, s.az);

@@ -41,18 +41,22 @@ bool list_normals(const TriangleMesh& mesh, std::vector<Vec3>& out) {
     return !out.empty();
 }
 
-// Is no corner before a facet? Then what is behind all planes is the corners' hull, and a sphere
-// that is so but for a part of its radius reaches out of it by that part. Facets whose normals are
-// just not one meet at a part in 1e6: the hull is right to a million times this [m].
-bool is_convex(const TriangleMesh& mesh, const std::vector<Vec3>& corners) {
-    constexpr double kFlat = 1e-13;
+// Is no corner before a facet, and no sphere by more than `excess`? Then what is behind all facets
+// is the corners' hull, and a sphere, which is so but for a part of its radius, reaches out of it
+// by that part. Sharp edges between facets only just not in one plane are right to 1e6 kFlat.
+bool hold_all(const TriangleMesh& mesh, const std::vector<Vec3>& corners,
+              std::span<const BoundedSphere> spheres, double excess) {
+    constexpr double kFlat = 1e-13;  // [m]
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         const Vec3 at = mesh.corner(t, 0);
         const Vec3 across = (mesh.corner(t, 1) - at).cross(mesh.corner(t, 2) - at);
-        const double most = kFlat * across.norm();
-        if (std::any_of(corners.begin(), corners.end(),
-                        [&](const Vec3& v) { return across.dot(v - at) > most; }))
-            return false;
+        const double length = across.norm();
+        if (length == 0.0) continue;
+        const Vec3 n = across / length;
+        for (const Vec3& v : corners)
+            if (n.dot(v - at) > kFlat) return false;
+        for (const BoundedSphere& s : spheres)
+            if (n.dot(s.center - at) + s.radius > excess + kFlat || s.radius < excess) return false;
     }
     return true;
 }
@@ -90,9 +94,7 @@ ConvexBounds::ConvexBounds(const TriangleMesh& mesh, std::span<const BoundedSphe
         const double beyond = s.tip.norm() * (1.0 - share_within(*this, s));
         if (beyond > kSettled) excess = std::max(excess, beyond);
     }
-    hold_spheres = is_convex(mesh, corners) &&
-                   std::all_of(spheres.begin(), spheres.end(),
-                               [&](const BoundedSphere& s) { return s.radius >= excess; });
+    hold_spheres = hold_all(mesh, corners, spheres, excess);
 }
 
 }  // namespace ice

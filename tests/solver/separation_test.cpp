@@ -156,7 +156,8 @@ TEST_CASE("bounds hold the sharp edges that spheres stand for, where the mesh's 
     CHECK(shape.bounds.excess == Approx(std::sqrt(3.0) * inset / (1.0 + lean)).epsilon(1e-12));
 }
 
-TEST_CASE("spheres in convex bodies are no nearer than the bodies' separation", "[narrow][property]") {
+TEST_CASE("spheres in convex bodies are no nearer than the bodies' separation",
+          "[narrow][property]") {
     World w = two_boxes();
     const Shape& box = w.scene.shapes[1];
     REQUIRE(box.bounds.hold_spheres);

@@ -71,8 +71,8 @@ TEST_CASE("an empty list has nothing that touches, and no gap", "[narrow][degene
 
 TEST_CASE("every instruction set finds the touching spheres of the reference, bit for bit",
           "[narrow][simd]") {
-    const std::size_t count = GENERATE(0u, 1u, 2u, 3u, 4u, 5u, 7u, 8u, 9u, 12u, 13u, 15u, 16u, 17u,
-                                       31u, 32u, 33u, 1000u);
+    const std::size_t count =
+        GENERATE(0u, 1u, 2u, 3u, 4u, 5u, 7u, 8u, 9u, 12u, 13u, 15u, 16u, 17u, 31u, 32u, 33u, 1000u);
     const auto listed = random_list(count, static_cast<unsigned>(count) + 1);
     const float most = GENERATE(-0.1f, 0.05f, 0.3f, 2.0f);
     TouchingSpheres expected, found;
