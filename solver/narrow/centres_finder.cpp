@@ -66,15 +66,6 @@ void fill_up(std::size_t count, std::vector<ListedSpheres>& out) {
     }
 }
 
-FloatPose float_pose(const PairView& view) {
-    FloatPose out;
-    for (int r = 0; r < 3; ++r) {
-        for (int c = 0; c < 3; ++c) out.turn[r][c] = static_cast<float>(view.turn(r, c));
-        out.shift[r] = static_cast<float>(view.shift[r]);
-    }
-    return out;
-}
-
 // What rounding to floats costs a gap at most [m].
 double float_slack(const PairView& view) {
     const double extent = 2.0 * (view.shape_a.blocks.size + 2.0 * view.shape_b.blocks.size);
@@ -131,7 +122,7 @@ CentresFinder::Found CentresFinder::look(std::size_t k, BodyPair pair, const Ste
     const double crushed = travel.crushed(pair.a) + travel.crushed(pair.b);
     double gone = gone_since(row, view, crushed - row.crushed);
     std::span<const ListedSpheres> listed = lists_.listed(k);
-    const FloatPose pose = float_pose(view);
+    const FloatPose pose = to_floats(view.turn, view.shift);
     const double slack = float_slack(view);
     const bool held = are_held(view);
     if (gone + most > row.range) {

@@ -10,15 +10,6 @@ namespace {
 // Up to so many it costs less to compare with all than to pick the nearer ones.
 constexpr std::size_t kAllAtOnce = 64;
 
-FloatPose to_floats(const Mat3& turn, const Vec3& shift) {
-    FloatPose out;
-    for (int r = 0; r < 3; ++r) {
-        for (int c = 0; c < 3; ++c) out.turn[r][c] = static_cast<float>(turn(r, c));
-        out.shift[r] = static_cast<float>(shift[r]);
-    }
-    return out;
-}
-
 // The box around a box that was moved by p' = turn p + shift.
 FloatBox move_box(const FloatBox& box, const Mat3& turn, const Vec3& shift) {
     Vec3 middle, half;
@@ -42,6 +33,15 @@ float reach_of(const SphereBlocks& others, const SearchRange& range) {
 }
 
 }  // namespace
+
+FloatPose to_floats(const Mat3& turn, const Vec3& shift) {
+    FloatPose out;
+    for (int r = 0; r < 3; ++r) {
+        for (int c = 0; c < 3; ++c) out.turn[r][c] = static_cast<float>(turn(r, c));
+        out.shift[r] = static_cast<float>(shift[r]);
+    }
+    return out;
+}
 
 void PairSearch::pick(const PairView& view, double along, double across,
                       SphereBlocks Shape::*blocks) {

@@ -8,6 +8,9 @@
 
 namespace ice {
 
+/// p' = turn p + shift, rounded.
+FloatPose to_floats(const Mat3& turn, const Vec3& shift);
+
 /// Finds the spheres of two bodies that are near each other; keeps its memory between pairs.
 ///
 /// The body with fewer spheres asks the other one: of that one the groups and then the spheres near

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solver/narrow/sphere_lists.hpp"
 
+#include <limits>
+
 namespace ice {
 
 namespace {
