@@ -69,10 +69,10 @@ void search_contacts(const PairView& view, NormalRule rule, double margin, Works
     finish_pair(view, rule, margin, work.candidates, out);
 }
 
-// The same of what is known to be near.
-void measure_known(const PairView& view, NormalRule rule, double margin,
-                   std::span<const SpherePair> near, double gone, Workspace& work,
-                   std::vector<Contact>& out) {
+// The same of what is known to be near, under the rule "surface".
+void measure_known(const PairView& view, double margin, std::span<const SpherePair> near,
+                   double gone, Workspace& work, std::vector<Contact>& out) {
+    constexpr NormalRule rule = NormalRule::surface;
     work.decisive.pick(near, gone, margin, view, work.spheres);
     measure_spheres(view, rule, SphereRange(view, rule, margin), work.spheres, work.candidates);
     finish_pair(view, rule, margin, work.candidates, out);
@@ -80,18 +80,10 @@ void measure_known(const PairView& view, NormalRule rule, double margin,
 
 // The least gap that two spheres may have while the pair moves within `leeway`, less that motion,
 // and along what normals; infinite where they will be no candidates.
-std::pair<double, PossibleNormals> least_gap(const PairView& view, NormalRule rule,
-                                             const SphereRange& range, const Leeway& leeway,
+std::pair<double, PossibleNormals> least_gap(const SphereRange& range, const Leeway& leeway,
                                              PairKinds& kinds, std::int32_t i, std::int32_t j) {
-    constexpr double kNever = std::numeric_limits<double>::infinity();
-    if (rule == NormalRule::centres) {
-        if (view.is_gone_a(i) || view.is_gone_b(j)) return {kNever, PossibleNormals::none()};
-        const double gap = (view.center_a(i) - view.center_b(j)).norm() -
-                           (view.shape_a.radius[i] + view.shape_b.radius[j]);
-        return {gap > range.margin ? kNever : gap, PossibleNormals::none()};
-    }
     const PairKinds::Place &a = kinds.a(i), &b = kinds.b(j);
-    if (a.gone || b.gone) return {kNever, PossibleNormals::none()};
+    if (a.gone || b.gone) return {std::numeric_limits<double>::infinity(), PossibleNormals::none()};
     return kinds.bound(i, j, a, b, range.reach, leeway);
 }
 
@@ -101,20 +93,20 @@ float rounded_down(double value) {
 
 // The spheres that may be candidates while the pair moves within `leeway`, and the least gap that
 // they may have, less that motion; appends them.
-double find_near(const PairView& view, NormalRule rule, double margin, const Leeway& leeway,
-                 Workspace& work, std::vector<SpherePair>& out) {
+double find_near(const PairView& view, double margin, const Leeway& leeway, Workspace& work,
+                 std::vector<SpherePair>& out) {
     const std::size_t first = out.size();
     work.kinds.begin(view, prefers_a(view));
-    const SphereRange range(view, rule, margin + leeway.distance);
+    const SphereRange range(view, NormalRule::surface, margin + leeway.distance);
     double least = std::numeric_limits<double>::infinity();
     work.search.for_each_near(
         view, range.margin, range.reach + leeway.distance, [&](std::int32_t i, std::int32_t j) {
-            const auto [gap, possible] = least_gap(view, rule, range, leeway, work.kinds, i, j);
+            const auto [gap, possible] = least_gap(range, leeway, work.kinds, i, j);
             if (gap == std::numeric_limits<double>::infinity()) return;
             least = std::min(least, gap);
             out.push_back({i, j, rounded_down(gap), possible});
         });
-    if (rule == NormalRule::surface) group_by_kinds(view, std::span(out).subspan(first));
+    group_by_kinds(view, std::span(out).subspan(first));
     return least;
 }
 
@@ -161,7 +153,7 @@ void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
         if (state == DormantPairs::State::unknown) {
             const PairView view(scene, pairs[k]);
             const Leeway leeway = dormant_leeway(scene, pairs[k], dt);
-            const double least = find_near(view, rule, margin, leeway, work, batch.spheres);
+            const double least = find_near(view, margin, leeway, work, batch.spheres);
             near = std::span(batch.spheres).subspan(found.sphere);
             found.spheres = near.size();
             dormant_.settle(k, view, travel, leeway, std::min(least - margin, leeway.distance));
@@ -174,7 +166,7 @@ void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
         if (state == DormantPairs::State::unknown)
             search_contacts(view, rule, most, work, batch.contacts);
         else
-            measure_known(view, rule, most, near, dormant_.gone(k), work, batch.contacts);
+            measure_known(view, most, near, dormant_.gone(k), work, batch.contacts);
         found.contacts = batch.contacts.size() - found.contact;
     });
     for (std::size_t n = 0; n < awake_.size(); ++n) {
