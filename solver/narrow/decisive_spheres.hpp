@@ -15,14 +15,18 @@ namespace ice {
 /// about the contacts of this step. Keeps its memory between pairs.
 class DecisiveSpheres {
 public:
+    /// Before pick: how many spheres the two bodies have.
+    void begin(std::size_t spheres_a, std::size_t spheres_b) {
+        of_a_.resize(std::max(of_a_.size(), spheres_a), 0);
+        of_b_.resize(std::max(of_b_.size(), spheres_b), 0);
+    }
+
     /// Puts into `out` those of `near` whose gap may be at most `gap` [m] after their bodies have
     /// gone `gone` [m], and all that share a sphere with one of them: a face that is farther away
     /// may still show that the sphere is outside (keep_one_per_face). No other ones have a contact
     /// of that gap, or change one. The order is kept.
-    void pick(std::span<const SpherePair> near, double gone, double gap, const PairView& view,
+    void pick(std::span<const SpherePair> near, double gone, double gap,
               std::vector<SpherePair>& out) {
-        of_a_.resize(std::max(of_a_.size(), view.shape_a.center.size()), 0);
-        of_b_.resize(std::max(of_b_.size(), view.shape_b.center.size()), 0);
         ++call_;
         const double most = gone + gap;
         for (const SpherePair& s : near) {

@@ -73,7 +73,8 @@ void search_contacts(const PairView& view, NormalRule rule, double margin, Works
 void measure_known(const PairView& view, double margin, std::span<const SpherePair> near,
                    double gone, Workspace& work, std::vector<Contact>& out) {
     constexpr NormalRule rule = NormalRule::surface;
-    work.decisive.pick(near, gone, margin, view, work.spheres);
+    work.decisive.begin(view.shape_a.center.size(), view.shape_b.center.size());
+    work.decisive.pick(near, gone, margin, work.spheres);
     measure_spheres(view, rule, SphereRange(view, rule, margin), work.spheres, work.candidates);
     finish_pair(view, rule, margin, work.candidates, out);
 }

@@ -46,7 +46,8 @@ public:
         });
     }
 
-    /// The KindBound of spheres i and j, which are at `a` and `b`: the least gap, and the normals where there may be one.
+    /// The KindBound of spheres i and j, which are at `a` and `b`: the least gap, and the normals
+    /// where there may be one.
     std::pair<double, PossibleNormals> bound(std::int32_t i, std::int32_t j, const Place& a,
                                              const Place& b, double reach, const Leeway& leeway) {
         if (a.kind < 0 || b.kind < 0) {

@@ -12,14 +12,15 @@ using namespace ice;
 
 namespace {
 
-using Visited = std::multiset<std::pair<std::int32_t, std::int32_t>>;
+using Picked = std::multiset<std::pair<std::int32_t, std::int32_t>>;
 
-Visited visited(DecisiveSpheres& decisive, const std::vector<SpherePair>& near, double gone,
-                double gap) {
-    Visited out;
+Picked picked_of(DecisiveSpheres& decisive, const std::vector<SpherePair>& near, double gone,
+                 double gap) {
+    std::vector<SpherePair> picked;
     decisive.begin(31, 31);
-    decisive.for_each(near, gone, gap,
-                      [&](std::int32_t a, std::int32_t b, PossibleNormals) { out.emplace(a, b); });
+    decisive.pick(near, gone, gap, picked);
+    Picked out;
+    for (const SpherePair& s : picked) out.emplace(s.a, s.b);
     return out;
 }
 
@@ -33,11 +34,11 @@ TEST_CASE("spheres that cannot come within the gap are left out, unless they sha
                                        {7, 0, 0.040f},   // shares b's 0
                                        {7, 1, 0.040f},   // shares them with those only
                                        {8, 9, 0.040f}};  // far from all
-    CHECK(visited(decisive, near, 0.009, 0.0009).empty());
-    CHECK(visited(decisive, near, 0.009, 0.0011) == Visited{{0, 0}, {0, 1}, {7, 0}});
-    CHECK(visited(decisive, near, 0.0, 0.05).size() == near.size());
-    CHECK(visited(decisive, {}, 0.0, 1.0).empty());  // and no mark is left from the last call
-    CHECK(visited(decisive, {{0, 0, 0.04f}}, 0.0, 0.01).empty());
+    CHECK(picked_of(decisive, near, 0.009, 0.0009).empty());
+    CHECK(picked_of(decisive, near, 0.009, 0.0011) == Picked{{0, 0}, {0, 1}, {7, 0}});
+    CHECK(picked_of(decisive, near, 0.0, 0.05).size() == near.size());
+    CHECK(picked_of(decisive, {}, 0.0, 1.0).empty());  // and no mark is left from the last call
+    CHECK(picked_of(decisive, {{0, 0, 0.04f}}, 0.0, 0.01).empty());
 }
 
 TEST_CASE("what is picked of many spheres is what their definition says", "[narrow][dormant]") {
@@ -49,13 +50,13 @@ TEST_CASE("what is picked of many spheres is what their definition says", "[narr
         std::vector<SpherePair> near;
         for (int k = 0; k < 60; ++k)
             near.push_back({sphere(random), sphere(random), least(random)});
-        Visited expected;
+        Picked expected;
         for (const SpherePair& s : near)
             for (const SpherePair& other : near)
                 if (other.least <= 0.01f && (other.a == s.a || other.b == s.b)) {
                     expected.emplace(s.a, s.b);
                     break;
                 }
-        CHECK(visited(decisive, near, 0.0, 0.01f) == expected);
+        CHECK(picked_of(decisive, near, 0.0, 0.01f) == expected);
     }
 }
