@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <bit>
+#include <numeric>
 
 #include "common/base/parallel.hpp"
 
@@ -79,12 +80,28 @@ void ContactRows::colour_pairs(const Bodies& bodies) {
         if (free_a) a |= std::uint64_t{1} << p.colour;
         if (free_b) b |= std::uint64_t{1} << p.colour;
     }
-    // `first` makes the order complete: pairs_ are found in ascending order
-    std::sort(pairs_.begin(), pairs_.end(), [](const Pair& l, const Pair& r) {
-        if (l.colour != r.colour) return l.colour < r.colour;
-        if (l.count != r.count) return l.count > r.count;
-        return l.first < r.first;
-    });
+    sort_pairs();
+}
+
+// By colour, within a colour by falling counts, within these as they are found. Two passes by
+// counting: the second one keeps the order of the first.
+void ContactRows::sort_pairs() {
+    const auto sort_by = [&](auto key_of) {
+        places_.clear();
+        for (const Pair& p : pairs_) {
+            const std::size_t key = key_of(p);
+            if (places_.size() < key + 2) places_.resize(key + 2, 0);
+            ++places_[key + 1];
+        }
+        std::partial_sum(places_.begin(), places_.end(), places_.begin());
+        sorted_.resize(pairs_.size());
+        for (const Pair& p : pairs_) sorted_[places_[key_of(p)]++] = p;
+        pairs_.swap(sorted_);
+    };
+    std::int32_t most = 0;
+    for (const Pair& p : pairs_) most = std::max(most, p.count);
+    sort_by([&](const Pair& p) { return static_cast<std::size_t>(most - p.count); });
+    sort_by([](const Pair& p) { return static_cast<std::size_t>(p.colour); });
 }
 
 void ContactRows::fill_block(const Bodies& bodies, const std::vector<Constraint>& constraints,

@@ -108,6 +108,7 @@ private:
     };
     void find_pairs(const Bodies& bodies, const std::vector<Constraint>& constraints);
     void colour_pairs(const Bodies& bodies);
+    void sort_pairs();
     void fill_block(const Bodies& bodies, const std::vector<Constraint>& constraints,
                     std::size_t first_pair, std::size_t last_pair);
     std::int32_t local(std::int32_t body);
@@ -115,7 +116,8 @@ private:
     void set(std::size_t slot, const Constraint& c, double normal, const Vec3& tangent,
              const Target& target);
 
-    std::vector<Pair> pairs_;
+    std::vector<Pair> pairs_, sorted_;
+    std::vector<std::size_t> places_;          // of sort_pairs
     std::vector<std::int32_t> which_;          // constraints that take part
     std::vector<std::int32_t> bodies_;         // by local number
     std::vector<std::int32_t> local_;          // by body; -1 for those that take no part

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <tuple>
+#include <vector>
+
+#include "solver/narrow/contact_order.hpp"
 
 namespace ice {
 
@@ -27,41 +29,6 @@ void count_contacts(std::span<const Candidate> all, std::int32_t Candidate::*sid
     for (const Candidate& c : all) ++out[static_cast<std::size_t>(c.*side)];
 }
 
-// A candidate's place in the order, as far as its spheres decide it.
-struct Row {
-    std::uint64_t ranks;  // of a's sphere, then of b's
-    const Candidate* candidate;
-};
-
-const std::vector<Row>& ordered_rows(const PairView& view, std::span<const Candidate> candidates) {
-    thread_local std::vector<Row> rows;  // keeps its memory
-    rows.clear();
-    for (const Candidate& c : candidates) {
-        const auto a = static_cast<std::uint32_t>(view.shape_a.mirror_rank[c.i]);
-        const auto b = static_cast<std::uint32_t>(view.shape_b.mirror_rank[c.j]);
-        rows.push_back({(std::uint64_t{a} << 32) | b, &c});
-    }
-    std::sort(rows.begin(), rows.end(),
-              [](const Row& l, const Row& r) { return l.ranks < r.ranks; });
-    return rows;
-}
-
-// Spheres and their mirror images have the same ranks: of their contacts gap and place decide.
-void order_equals(const std::vector<Row>& rows, Contact* first) {
-    for (std::size_t k = 0; k < rows.size();) {
-        std::size_t end = k + 1;
-        while (end < rows.size() && rows[end].ranks == rows[k].ranks) ++end;
-        if (end > k + 1)
-            std::sort(first + k, first + end, [](const Contact& l, const Contact& r) {
-                const auto rest = [](const Contact& c) {
-                    return std::tuple(c.gap, c.point.x(), c.point.z(), c.key);
-                };
-                return rest(l) < rest(r);
-            });
-        k = end;
-    }
-}
-
 }  // namespace
 
 // Every pair of spheres is a contact, and shares of the surface are split. The point is midway
@@ -75,15 +42,19 @@ void emit_centres(const PairView& view, std::span<const Candidate> candidates, C
     // the hull has many spheres and its shares are not asked for
     if (!ship) count_contacts(candidates, &Candidate::i, view.shape_a.center.size(), shared_a);
     const std::int32_t *contacts_of_a = shared_a.data(), *contacts_of_b = shared_b.data();
-    const std::vector<Row>& rows = ordered_rows(view, candidates);
+    thread_local std::vector<ContactPlace> places;
+    places.clear();
+    for (const Candidate& c : candidates)
+        places.push_back(place_of(view, c, std::uint64_t(c.i) << 32 | std::uint64_t(c.j)));
+    sort_places(places);
     Contact* contact = out;
-    for (const Row& row : rows) {
-        const Candidate& c = *row.candidate;
+    for (const ContactPlace& place : places) {
+        const Candidate& c = *place.candidate;
         contact->a = view.pair.a;
         contact->b = view.pair.b;
         contact->sphere_a = c.i;
         contact->sphere_b = c.j;
-        contact->key = (static_cast<std::uint64_t>(c.i) << 32) | static_cast<std::uint32_t>(c.j);
+        contact->key = place.key;
         const Vec3 inward = -c.gap.normal;
         const Vec3 surface = view.center_b(c.j) + view.shape_b.radius[c.j] * inward;
         const Vec3 local = surface + 0.5 * c.gap.gap * inward;
@@ -100,7 +71,7 @@ void emit_centres(const PairView& view, std::span<const Candidate> candidates, C
         contact->patch = Patch{.share = area};
         ++contact;
     }
-    order_equals(rows, out);
+    order_equals(places, out);
 }
 
 }  // namespace ice

@@ -3,6 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "solver/narrow/contact_order.hpp"
 
 namespace ice {
 
@@ -61,34 +65,48 @@ Vec3 meeting_point(const PairView& view, const Candidate& c) {
     return surface + 0.5 * c.gap.gap * outward;
 }
 
-}  // namespace
-
-void emit_contacts(const PairView& view, const std::vector<Candidate>& candidates,
-                   std::vector<Contact>& out) {
-    const Bodies& bodies = view.scene.bodies;
-    const Mat3& rotation = bodies.rotation[view.pair.a];
-    const bool ship = view.pair.a == static_cast<std::int32_t>(kShip);
+// The candidates' places, with the keys of their contacts, sorted.
+const std::vector<ContactPlace>& places_of(const PairView& view,
+                                           std::span<const Candidate> candidates) {
+    thread_local std::vector<ContactPlace> places;  // keeps its memory
+    places.clear();
     std::int32_t last_probe = -1, face = 0;
     for (const Candidate& c : candidates) {
-        Contact contact;
-        contact.a = view.pair.a;
-        contact.b = view.pair.b;
-        contact.sphere_a = c.i;
-        contact.sphere_b = c.j;
-        contact.gap = c.gap.gap;
-        contact.normal = rotation * c.gap.normal;
-        const Vec3 local = meeting_point(view, c);
-        contact.point = rotation * local + bodies.position[view.pair.a];
-        contact.crushes_a = !ship && !c.gap.a_is_surface;
-        contact.patch = probe_patch(view, c);
-        contact.region = ship ? view.shape_a.region.at(c.i, c.gap.normal) : -1;
         // a probe slides over many surface spheres: the probe and its face's rank are what lasts
         const std::int32_t probe = (c.probe() << 1) | (c.gap.a_is_surface ? 1 : 0);
         face = probe == last_probe ? face + 1 : 0;
         last_probe = probe;
-        contact.key = (static_cast<std::uint64_t>(probe) << 32) | static_cast<std::uint32_t>(face);
-        out.push_back(contact);
+        places.push_back(place_of(view, c, std::uint64_t(probe) << 32 | std::uint64_t(face)));
     }
+    sort_places(places);
+    return places;
+}
+
+}  // namespace
+
+void emit_contacts(const PairView& view, std::span<const Candidate> candidates, Contact* out) {
+    const Bodies& bodies = view.scene.bodies;
+    const Mat3& rotation = bodies.rotation[view.pair.a];
+    const bool ship = view.pair.a == static_cast<std::int32_t>(kShip);
+    const std::vector<ContactPlace>& places = places_of(view, candidates);
+    Contact* contact = out;
+    for (const ContactPlace& place : places) {
+        const Candidate& c = *place.candidate;
+        contact->a = view.pair.a;
+        contact->b = view.pair.b;
+        contact->sphere_a = c.i;
+        contact->sphere_b = c.j;
+        contact->key = place.key;
+        contact->gap = c.gap.gap;
+        contact->normal = rotation * c.gap.normal;
+        const Vec3 local = meeting_point(view, c);
+        contact->point = rotation * local + bodies.position[view.pair.a];
+        contact->crushes_a = !ship && !c.gap.a_is_surface;
+        contact->patch = probe_patch(view, c);
+        contact->region = ship ? view.shape_a.region.at(c.i, c.gap.normal) : -1;
+        ++contact;
+    }
+    order_equals(places, out);
 }
 
 }  // namespace ice

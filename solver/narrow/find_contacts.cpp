@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "common/base/parallel.hpp"
 #include "solver/narrow/decisive_spheres.hpp"
@@ -18,7 +19,7 @@ namespace ice {
 
 struct FoundBatch {
     std::uint64_t call = 0;
-    std::vector<Contact> contacts;
+    std::vector<Candidate> candidates;  // that are contacts
     std::vector<SpherePair> spheres;
 };
 
@@ -35,7 +36,7 @@ std::uint64_t next_call() {
 FoundBatch& batch_of(std::uint64_t call) {
     thread_local FoundBatch batch;
     if (batch.call != call) {
-        batch.contacts.clear();
+        batch.candidates.clear();
         batch.spheres.clear();
         batch.call = call;
     }
@@ -55,10 +56,9 @@ struct Workspace {
     std::vector<Candidate> candidates;
 };
 
-// Makes contacts of the spheres near each other.
+// Sets work.candidates to those that are contacts.
 // @pre the bodies are apart (separation) by no more than the margin
-void search_contacts(const PairView& view, NormalRule rule, double margin, Workspace& work,
-                     std::vector<Contact>& out) {
+void search_contacts(const PairView& view, NormalRule rule, double margin, Workspace& work) {
     const SphereRange range(view, rule, margin);
     work.spheres.clear();
     work.search.for_each_near(view, range.margin, range.reach, [&](std::int32_t i, std::int32_t j) {
@@ -66,17 +66,17 @@ void search_contacts(const PairView& view, NormalRule rule, double margin, Works
     });
     if (rule == NormalRule::surface) group_by_kinds(view, work.spheres);
     measure_spheres(view, rule, range, work.spheres, work.candidates);
-    finish_pair(view, rule, margin, work.candidates, out);
+    choose_contacts(view, rule, margin, work.candidates);
 }
 
 // The same of what is known to be near, under the rule "surface".
 void measure_known(const PairView& view, double margin, std::span<const SpherePair> near,
-                   double gone, Workspace& work, std::vector<Contact>& out) {
+                   double gone, Workspace& work) {
     constexpr NormalRule rule = NormalRule::surface;
     work.decisive.begin(view.shape_a.center.size(), view.shape_b.center.size());
     work.decisive.pick(near, gone, margin, work.spheres);
     measure_spheres(view, rule, SphereRange(view, rule, margin), work.spheres, work.candidates);
-    finish_pair(view, rule, margin, work.candidates, out);
+    choose_contacts(view, rule, margin, work.candidates);
 }
 
 // The least gap that two spheres may have while the pair moves within `leeway`, less that motion,
@@ -115,18 +115,22 @@ double find_near(const PairView& view, double margin, const Leeway& leeway, Work
 
 void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs, NormalRule rule,
                          double dt, double margin, std::vector<Contact>& out) {
+    awake_.resize(pairs.size());
+    std::iota(awake_.begin(), awake_.end(), std::size_t{0});
     found_.assign(pairs.size(), Found{});
     const std::uint64_t call = next_call();
     parallel_for(pairs.size(), kSerialPairs, [&](std::size_t k) {
         thread_local Workspace work;  // keeps its memory between pairs
         FoundBatch& batch = batch_of(call);
-        const std::size_t first = batch.contacts.size();
         const double most = dt * closing_speed(scene, pairs[k]) + margin;
         const PairView view(scene, pairs[k]);
-        if (separation(view) <= most) search_contacts(view, rule, most, work, batch.contacts);
-        found_[k] = {&batch, first, batch.contacts.size() - first, 0, 0};
+        work.candidates.clear();
+        if (separation(view) <= most) search_contacts(view, rule, most, work);
+        found_[k] = {&batch, batch.candidates.size(), work.candidates.size(), 0, 0, 0};
+        batch.candidates.insert(batch.candidates.end(), work.candidates.begin(),
+                                work.candidates.end());
     });
-    join(out);
+    emit(scene, pairs, rule, out);
 }
 
 void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
@@ -148,7 +152,7 @@ void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
         const std::size_t k = awake_[n];
         FoundBatch& batch = batch_of(call);
         Found& found = found_[n];
-        found = {&batch, batch.contacts.size(), 0, batch.spheres.size(), 0};
+        found = {&batch, batch.candidates.size(), 0, batch.spheres.size(), 0, 0};
         std::span<const SpherePair> near = dormant_.near(k);
         auto state = states_[k];
         if (state == DormantPairs::State::unknown) {
@@ -165,10 +169,12 @@ void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
         const double most = dt * closing_speed(scene, pairs[k]) + margin;
         // a pair too fast for what can be known in advance is searched afresh
         if (state == DormantPairs::State::unknown)
-            search_contacts(view, rule, most, work, batch.contacts);
+            search_contacts(view, rule, most, work);
         else
-            measure_known(view, most, near, dormant_.gone(k), work, batch.contacts);
-        found.contacts = batch.contacts.size() - found.contact;
+            measure_known(view, most, near, dormant_.gone(k), work);
+        found.count = work.candidates.size();
+        batch.candidates.insert(batch.candidates.end(), work.candidates.begin(),
+                                work.candidates.end());
     });
     for (std::size_t n = 0; n < awake_.size(); ++n) {
         const Found& found = found_[n];
@@ -176,16 +182,24 @@ void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
             dormant_.keep(awake_[n],
                           std::span(found.batch->spheres).subspan(found.sphere, found.spheres));
     }
-    join(out);
+    emit(scene, pairs, rule, out);
 }
 
-void ContactFinder::join(std::vector<Contact>& out) const {
-    out.clear();
-    for (const Found& found : found_) {
-        const auto first =
-            found.batch->contacts.begin() + static_cast<std::ptrdiff_t>(found.contact);
-        out.insert(out.end(), first, first + static_cast<std::ptrdiff_t>(found.contacts));
+void ContactFinder::emit(const Scene& scene, const std::vector<BodyPair>& pairs, NormalRule rule,
+                         std::vector<Contact>& out) {
+    std::size_t contacts = 0;
+    for (Found& found : found_) {
+        found.contact = contacts;
+        contacts += found.count;
     }
+    out.resize(contacts);
+    parallel_for(found_.size(), kSerialPairs, [&](std::size_t n) {
+        const Found& found = found_[n];
+        if (found.count > 0)
+            emit_pair(PairView(scene, pairs[awake_[n]]), rule,
+                      std::span(found.batch->candidates).subspan(found.first, found.count),
+                      out.data() + found.contact);
+    });
 }
 
 namespace reference {
@@ -205,7 +219,9 @@ void find_contacts(const Scene& scene, BodyPair pair, NormalRule rule, double ma
                                 : measure_gap_surface(a, b, prefers_a(view));
             if (is_candidate(view, rule, range, i, j, gap)) candidates.push_back({i, j, gap});
         }
-    finish_pair(view, rule, margin, candidates, out);
+    choose_contacts(view, rule, margin, candidates);
+    out.resize(out.size() + candidates.size());
+    emit_pair(view, rule, candidates, out.data() + (out.size() - candidates.size()));
 }
 
 }  // namespace reference

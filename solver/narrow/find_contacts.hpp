@@ -63,11 +63,13 @@ private:
     // What was found of a pair: pieces of what one thread found.
     struct Found {
         const FoundBatch* batch = nullptr;
-        std::size_t contact = 0, contacts = 0;  // first and number
-        std::size_t sphere = 0, spheres = 0;    // what is newly known
+        std::size_t first = 0, count = 0;     // candidates that are contacts
+        std::size_t sphere = 0, spheres = 0;  // what is newly known
+        std::size_t contact = 0;              // where they begin among all pairs' contacts
     };
-    // The contacts of all rows of found_.
-    void join(std::vector<Contact>& out) const;
+    // Makes the contacts of all rows of found_.
+    void emit(const Scene& scene, const std::vector<BodyPair>& pairs, NormalRule rule,
+              std::vector<Contact>& out);
 
     // kept between steps: no allocation once warm
     std::vector<DormantPairs::State> states_;  // of all pairs

@@ -72,8 +72,9 @@ void keep_one_per_face(const PairView& view, double margin, std::vector<Candidat
                 return other.gap.normal.dot(now.gap.normal) > kSameFace;
             }))
             continue;
+        const Face face = first == last ? Face{} : face_of(view, now);
         const auto edge = std::find_if(first, last, [&](const Candidate& other) {
-            return meet_outwards(face_of(view, other), face_of(view, now));
+            return meet_outwards(face_of(view, other), face);
         });
         if (edge == last)
             kept.push_back(now);

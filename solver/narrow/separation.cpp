@@ -12,13 +12,18 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// The gap along plane k of `from` to a body whose axes are turned and shifted to them.
+// The gap along plane k of `from` to a body whose axes are turned and shifted to them; where it is
+// no more than `least`, anything between.
 double gap_along(const ConvexBounds& from, std::size_t k, const ConvexBounds& other,
-                 const Mat3& turn, const Vec3& shift) {
+                 const Mat3& turn, const Vec3& shift, double least) {
     const Vec3 along = turn.transpose() * from.normals[k];
+    const double rest = from.normals[k].dot(shift);
     double nearest = kInfinity;
-    for (const Vec3& v : other.corners) nearest = std::min(nearest, along.dot(v));
-    return nearest + from.normals[k].dot(shift) - from.offset[k];
+    for (const Vec3& v : other.corners) {
+        nearest = std::min(nearest, along.dot(v));
+        if (nearest + rest - from.offset[k] <= least) break;
+    }
+    return nearest + rest - from.offset[k];
 }
 
 // Is any gap along a plane of `from`, less `excess`, more than `gap`? A corner that is not beyond
@@ -47,8 +52,8 @@ double separation(const PairView& view, double enough, std::size_t& axis) {
     const double excess = a.excess + b.excess;
     double widest = -kInfinity;
     const auto attempt = [&](std::size_t k) {
-        const double gap = k < axes_a ? gap_along(a, k, b, view.turn, view.shift)
-                                      : gap_along(b, k - axes_a, a, back, shift_back);
+        const double gap = k < axes_a ? gap_along(a, k, b, view.turn, view.shift, widest)
+                                      : gap_along(b, k - axes_a, a, back, shift_back, widest);
         if (gap <= widest) return;
         widest = gap;
         axis = k;

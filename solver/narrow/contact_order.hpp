@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// The order of a pair's contacts, in which the solver takes them: its answer depends on it.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "solver/narrow/find_contacts.hpp"
+#include "solver/narrow/pair_view.hpp"
+
+namespace ice {
+
+/// A candidate's place in the order, as far as its spheres decide it. Candidates and contacts are
+/// large, these are moved instead.
+struct ContactPlace {
+    std::uint64_t ranks;  ///< Shape::mirror_rank of a's sphere, then of b's
+    std::uint64_t key;    ///< Contact::key
+    const Candidate* candidate;
+};
+
+inline ContactPlace place_of(const PairView& view, const Candidate& c, std::uint64_t key) {
+    const auto a = static_cast<std::uint32_t>(view.shape_a.mirror_rank[c.i]);
+    const auto b = static_cast<std::uint32_t>(view.shape_b.mirror_rank[c.j]);
+    return {(std::uint64_t{a} << 32) | b, key, &c};
+}
+
+/// Sorts by the spheres' ranks.
+void sort_places(std::vector<ContactPlace>& places);
+
+/// Brings the contacts made at these places, sorted, into their order: spheres and their mirror
+/// images have the same ranks, and of their contacts gap and place decide.
+void order_equals(const std::vector<ContactPlace>& places, Contact* first);
+
+}  // namespace ice
