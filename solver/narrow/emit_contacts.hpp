@@ -9,8 +9,8 @@
 namespace ice {
 
 /// Makes contacts of a pair's candidates under the rule "surface", in the order that ContactFinder
-/// gives them: points, patches, keys and hull regions. @pre the candidates of a probe stand together
-/// @param out  room for as many
+/// gives them: points, patches, keys and hull regions. @param out  room for as many
+/// @pre the candidates of a probe stand together
 void emit_contacts(const PairView& view, std::span<const Candidate> candidates, Contact* out);
 
 }  // namespace ice
