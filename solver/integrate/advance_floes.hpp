@@ -23,7 +23,8 @@ struct Advance {
 ///
 /// and what update_derived makes of that. Where w has not changed L stays bit for bit, so that
 /// torque-free motion conserves it.
-/// @param floes  not held, each once
+/// @param floes  not held, ascending
+/// @pre what update_derived makes of their poses
 void advance_floes(Bodies& bodies, std::span<const std::int32_t> floes, const Advance& step);
 
 namespace reference {

@@ -31,7 +31,7 @@ HWY_INLINE Quaternions Normalized(Quaternions q) {
     const Lanes length = hn::Sqrt(square);
     const Quaternions unit{hn::Div(q.x, length), hn::Div(q.y, length), hn::Div(q.z, length),
                            hn::Div(q.w, length)};
-    return Where(hn::Gt(square, hn::Zero(Tag())), unit, q);
+    return Choose(hn::Gt(square, hn::Zero(Tag())), unit, q);
 }
 
 // exponential_map() but for angles beyond 1 rad, which are noted.
@@ -93,7 +93,7 @@ void AdvancePart(Bodies& b, std::span<const std::int32_t> floes, const Advance& 
     Vectors angular_momentum = at.Load(b.angular_momentum);
     if (!hn::AllFalse(d, changed)) {
         const Vectors gain = Turned(r, at.Load(b, &Inertia::body), change);
-        angular_momentum = Where(changed, Add(angular_momentum, gain), angular_momentum);
+        angular_momentum = Choose(changed, Add(angular_momentum, gain), angular_momentum);
     }
 
     const Matrices inverse_inertia = at.Load(b, &Inertia::inverse);
@@ -102,8 +102,8 @@ void AdvancePart(Bodies& b, std::span<const std::int32_t> floes, const Advance& 
     const Mask spins = NotZero(k1), nudged = NotZero(turn);
     ExponentialMap map;
     if (!hn::AllFalse(d, spins))
-        q = Where(spins, Turn(q, inverse_inertia, angular_momentum, k1, dt, map), q);
-    if (!hn::AllFalse(d, nudged)) q = Where(nudged, Normalized(Product(map(turn), q)), q);
+        q = Choose(spins, Turn(q, inverse_inertia, angular_momentum, k1, dt, map), q);
+    if (!hn::AllFalse(d, nudged)) q = Choose(nudged, Normalized(Product(map(turn), q)), q);
     if (!hn::AllFalse(d, map.beyond)) return reference::advance_floes(b, floes, step);
 
     // where nothing turns, all that follows from the orientation is there

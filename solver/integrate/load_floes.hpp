@@ -16,7 +16,8 @@ struct FloeLoad : WaterLoad {
 };
 
 /// Loads on floes, in their order. Floes of one form that follow each other cost less.
-/// @param floes  not held
+/// @param floes  not held, ascending
+/// @pre what update_derived makes of their poses
 /// @param out    as many
 void load_floes(const Scene& scene, const Case& parameters, std::span<const std::int32_t> floes,
                 std::span<FloeLoad> out);

@@ -76,7 +76,7 @@ HWY_INLINE Vectors Limited(Vectors load, Lanes stop, Lanes dt) {
     const Lanes push = hn::Mul(dt, Length(load));
     const Mask over = hn::Gt(push, stop);
     if (hn::AllFalse(Tag(), over)) return load;
-    return Where(over, Scale(hn::Div(stop, push), load), load);
+    return Choose(over, Scale(hn::Div(stop, push), load), load);
 }
 
 // measure_submerged()
@@ -98,7 +98,7 @@ struct Buoyancy {
         const Vectors at = Sub(wet.first, Scale(moment, floes.heights.Up()));
         const Vectors cut{hn::Div(at.x, wet.volume), hn::Div(at.y, wet.volume),
                           hn::Div(at.z, wet.volume)};
-        const Vectors in_body = Where(whole, All(shape.solid.centroid), cut);
+        const Vectors in_body = Choose(whole, Set(shape.solid.centroid), cut);
         const Mask any = hn::Or(whole, part);
         volume =
             hn::IfThenElseZero(any, hn::IfThenElse(whole, All(shape.solid.volume), wet.volume));
@@ -169,8 +169,8 @@ void LoadFloes(const Scene& scene, const Case& parameters, std::span<const std::
             ++last;
         const auto some = floes.subspan(first, last - first);
         const auto loads = out.subspan(first, last - first);
-        // a floe or two take as long in lanes as many
-        if (4 * some.size() < kMostLanes)
+        // in lanes one floe takes as long as many
+        if (some.size() == 1)
             reference::load_floes(scene, parameters, some, loads);
         else
             LoadPart(scene, parameters, some, loads);

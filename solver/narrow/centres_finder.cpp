@@ -114,7 +114,7 @@ CentresFinder::Batch& CentresFinder::batch_of(std::uint64_t call) {
 CentresFinder::Found CentresFinder::look(std::size_t k, BodyPair pair, const Step& step,
                                          Batch& batch) {
     const auto& [scene, travel, dt, margin] = step;
-    Found found{&batch, batch.candidates.size(), 0, batch.listed.size(), 0};
+    Found found{&batch, batch.candidates.size(), 0, batch.listed.size(), 0, false};
     const PairView view(scene, pair);
     SphereLists::Row& row = lists_.row(k);
     const double closing = dt * closing_speed(scene, pair), most = closing + margin;
@@ -146,6 +146,7 @@ CentresFinder::Found CentresFinder::look(std::size_t k, BodyPair pair, const Ste
             [&](std::int32_t i, std::int32_t j) { append(view, i, j, count++, batch.listed); },
             &Shape::balls);
         fill_up(count, batch.listed);
+        found.anew = true;
         found.blocks = batch.listed.size() - found.block;
         listed = std::span(batch.listed).subspan(found.block);
     }
@@ -170,8 +171,8 @@ void CentresFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
     awake_.resize(pairs.size());
     std::size_t count = 0;
     for (std::size_t k = 0; k < pairs.size(); ++k) {
-        awake_[count] = k;  // without a branch that nothing foretells
-        count += travel.soon(pairs[k].a) + travel.soon(pairs[k].b) >= lists_.wake(k) ? 1 : 0;
+        awake_[count] = k;  // without a branch that nothing foretells; what is no number is awake
+        count += travel.soon(pairs[k].a) + travel.soon(pairs[k].b) < lists_.wake(k) ? 0 : 1;
     }
     awake_.resize(count);
     found_.resize(awake_.size());
@@ -182,7 +183,7 @@ void CentresFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
     std::size_t contacts = 0;
     for (std::size_t n = 0; n < awake_.size(); ++n) {
         const Found& found = found_[n];
-        if (found.blocks > 0)
+        if (found.anew)
             lists_.keep(awake_[n],
                         std::span(found.batch->listed).subspan(found.block, found.blocks));
         if (found.count == 0) continue;

@@ -27,7 +27,8 @@ private:
     struct Found {
         Batch* batch = nullptr;
         std::size_t first = 0, count = 0;   // candidates
-        std::size_t block = 0, blocks = 0;  // spheres listed anew
+        std::size_t block = 0, blocks = 0;  // spheres listed anew,
+        bool anew = false;                  // where they were
     };
     // A pair that has contacts.
     struct Touching {

@@ -39,7 +39,7 @@ public:
         if (kind_a != kind_a_ || kind_b != kind_b_) {
             if (kind_a != kind_a_) surface_a_ = view_.sphere_a(s.a);
             if (kind_b != kind_b_) surface_b_ = view_.sphere_b(s.b);
-            kinds_.emplace(surface_a_, surface_b_, prefers_a(view_), s.possible);
+            kinds_.reset();
             near_sq_ = range_.squared(surface_a_.faces, surface_b_.faces);
             kind_a_ = kind_a;
             kind_b_ = kind_b;
@@ -48,7 +48,10 @@ public:
         if (s.b != sphere_b_) center_b_ = view_.center_b(sphere_b_ = s.b);
         return (center_a_ - center_b_).squaredNorm() <= near_sq_;
     }
-    Gap gap() const { return kinds_->measure(center_a_, center_b_); }
+    Gap gap(PossibleNormals possible) {
+        if (!kinds_) kinds_.emplace(surface_a_, surface_b_, prefers_a(view_), possible);
+        return kinds_->measure(center_a_, center_b_);
+    }
 
 private:
     const PairView& view_;
@@ -90,7 +93,7 @@ void measure_spheres(const PairView& view, NormalRule rule, const SphereRange& r
     for (const SpherePair& s : spheres) {
         if (!last.meet(s)) continue;
         if (!whole && (view.is_gone_a(s.a) || view.is_gone_b(s.b))) continue;
-        const Gap gap = last.gap();
+        const Gap gap = last.gap(s.possible);
         if (is_candidate(view, rule, range, s.a, s.b, gap)) out.push_back({s.a, s.b, gap});
     }
 }

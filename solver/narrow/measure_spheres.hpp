@@ -52,9 +52,9 @@ bool is_candidate(const PairView& view, NormalRule rule, const SphereRange& rang
 /// Brings spheres of the same kinds together.
 void group_by_kinds(const PairView& view, std::span<SpherePair> spheres);
 
-/// The candidates among these spheres, in their order, to the last bit those that
-/// measure_gap_surface (measure_gap_centres) gives; what two kinds decide is found once for those
-/// that stand together. @param out  what it held is forgotten
+/// The candidates among these spheres, in their order: those that measure_gap_surface gives, as
+/// KindPair has them, or measure_gap_centres. What two kinds decide is found once for those that
+/// stand together. @param out  what it held is forgotten
 void measure_spheres(const PairView& view, NormalRule rule, const SphereRange& range,
                      std::span<const SpherePair> spheres, std::vector<Candidate>& out);
 

@@ -17,12 +17,10 @@ namespace ice {
 /// asked for. Keeps its memory between pairs.
 class PairKinds {
 public:
-    /// Where a sphere is, and what decides how near another one must be: Faces has 200 bytes.
     struct Place {
-        Vec3 center;           ///< a's axes [m]
-        double corner, aside;  ///< its Faces' [m]
-        bool gone;             ///< driven right through its body
-        std::int8_t kind;      ///< number within the pair; -1 where there are too many
+        Vec3 center;       ///< a's axes [m]
+        bool gone;         ///< driven right through its body
+        std::int8_t kind;  ///< number within the pair; -1 where there are too many
     };
 
     /// Forgets everything. @param prefer_a  as for measure_gap_surface
@@ -33,16 +31,14 @@ public:
         return a_.place(i, [&] {
             const std::int8_t kind =
                 a_.number(view_->shape_a.kind[i], [&] { return view_->sphere_a(i); });
-            const Faces& faces = view_->shape_a.faces[i];
-            return Place{view_->center_a(i), faces.corner, faces.aside, view_->is_gone_a(i), kind};
+            return Place{view_->center_a(i), view_->is_gone_a(i), kind};
         });
     }
     const Place& b(std::int32_t j) {
         return b_.place(j, [&] {
             const std::int8_t kind =
                 b_.number(view_->shape_b.kind[j], [&] { return view_->sphere_b(j); });
-            const Faces& faces = view_->shape_b.faces[j];
-            return Place{view_->center_b(j), faces.corner, faces.aside, view_->is_gone_b(j), kind};
+            return Place{view_->center_b(j), view_->is_gone_b(j), kind};
         });
     }
 

@@ -32,7 +32,6 @@ public:
     /// Takes what is known of pairs over to a new list; both sorted.
     void match(const std::vector<BodyPair>& pairs);
 
-    std::size_t size() const { return rows_.size(); }
     Row& row(std::size_t k) { return rows_[k]; }
 
     /// Pair k has no contact while the sum of its bodies' Travel::soon is less than this [m].

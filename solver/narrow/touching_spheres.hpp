@@ -36,7 +36,7 @@ struct TouchingSpheres {
 ///
 ///     |turn c_b + shift - c_a| - (r_a + r_b) <= most.
 ///
-/// @param pose  brings b's axes to a's
+/// @param pose  brings b's axes to a's; finite
 void find_touching(std::span<const ListedSpheres> listed, const FloatPose& pose, float most,
                    TouchingSpheres& out);
 

@@ -19,7 +19,7 @@ void find_touching(std::span<const ListedSpheres> listed, const FloatPose& pose,
             const float dx = moved(0) - s.ax[k], dy = moved(1) - s.ay[k], dz = moved(2) - s.az[k];
             const float gap = std::sqrt(dx * dx + dy * dy + dz * dz) - s.radii[k];
             out.least = std::min(out.least, gap);
-            if (gap > most) continue;
+            if (!(gap <= most)) continue;
             out.a.push_back(s.a[k]);
             out.b.push_back(s.b[k]);
             ++out.count;

@@ -30,7 +30,7 @@ void FindTouching(std::span<const ListedSpheres> listed, const FloatPose& pose, 
             const auto x = hn::Load(d, s.bx + k), y = hn::Load(d, s.by + k),
                        z = hn::Load(d, s.bz + k);
             // Mul then Add, not MulAdd: a fused product would differ from the reference
-            const auto apart = [&](int axis, const float* a) {
+            const auto apart = [&](int axis, const float* a) HWY_ATTR {
                 const float* row = pose.turn[axis];
                 const auto moved =
                     hn::Add(hn::Add(hn::Mul(hn::Set(d, row[0]), x), hn::Mul(hn::Set(d, row[1]), y)),

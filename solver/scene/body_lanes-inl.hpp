@@ -31,17 +31,12 @@ struct Quaternions {
 };
 
 HWY_INLINE Lanes All(double value) { return hn::Set(Tag(), value); }
-HWY_INLINE Vectors All(const Vec3& v) { return {All(v[0]), All(v[1]), All(v[2])}; }
 HWY_INLINE Matrices All(const Mat3& m) {
     return {{{All(m(0, 0)), All(m(0, 1)), All(m(0, 2))},
              {All(m(1, 0)), All(m(1, 1)), All(m(1, 2))},
              {All(m(2, 0)), All(m(2, 1)), All(m(2, 2))}}};
 }
-HWY_INLINE Vectors Where(Mask which, Vectors yes, Vectors no) {
-    return {hn::IfThenElse(which, yes.x, no.x), hn::IfThenElse(which, yes.y, no.y),
-            hn::IfThenElse(which, yes.z, no.z)};
-}
-HWY_INLINE Quaternions Where(Mask which, Quaternions yes, Quaternions no) {
+HWY_INLINE Quaternions Choose(Mask which, Quaternions yes, Quaternions no) {
     return {hn::IfThenElse(which, yes.x, no.x), hn::IfThenElse(which, yes.y, no.y),
             hn::IfThenElse(which, yes.z, no.z), hn::IfThenElse(which, yes.w, no.w)};
 }
@@ -92,7 +87,7 @@ HWY_INLINE Matrices RotationOf(Quaternions q) {
              {hn::Sub(xz, wy), hn::Add(yz, wx), hn::Sub(one, hn::Add(xx, yy))}}};
 }
 
-// As many bodies as there are lanes, or fewer; lanes beyond them hold the first.
+// As many bodies as there are lanes, or fewer, ascending; lanes beyond them hold the first.
 class BodyLanes {
 public:
     HWY_INLINE explicit BodyLanes(std::span<const std::int32_t> bodies)

@@ -30,7 +30,8 @@ struct ConvexBounds {
     std::vector<double> offset;  ///< normal . x of the foremost corner [m]
     double excess = 0.0;         ///< how far a sphere or its tip reaches out of them at most [m]
     /// No sphere reaches out of the corners' convex hull by more than that, in any direction: the
-    /// mesh is convex. Then separation() is at most the least gap of two whole bodies' spheres.
+    /// mesh, closed, is convex. Of two such bodies, whole, separation() is at most the least gap of
+    /// their spheres.
     bool hold_spheres = false;
 
     bool known() const { return !corners.empty(); }

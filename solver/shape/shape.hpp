@@ -40,7 +40,7 @@ struct Shape {
     std::size_t sphere_count = 0;  ///< of the whole set, interior included
     ConvexBounds bounds;           ///< of mesh and spheres
     SphereBlocks blocks;           ///< of `center`, for the search
-    SphereBlocks balls;            ///< the same spheres without their faces
+    SphereBlocks balls;            ///< the same without their faces, for the rule "centres"
     double largest_radius = 0.0;   ///< [m]
     double spacing = 0.0;          ///< nominal distance of the surface spheres [m]
     double reach = 0.0;            ///< how far from its centre a sphere stands for the surface [m]

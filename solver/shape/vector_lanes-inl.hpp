@@ -11,6 +11,8 @@
 
 #include <hwy/highway.h>
 
+#include "common/geometry/triangle_mesh.hpp"
+
 HWY_BEFORE_NAMESPACE();
 namespace ice::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
@@ -22,6 +24,19 @@ using Mask = hn::Mask<Tag>;
 struct Vectors {
     Lanes x, y, z;
 };
+HWY_INLINE Vectors Zero() { return {hn::Zero(Tag()), hn::Zero(Tag()), hn::Zero(Tag())}; }
+HWY_INLINE Vectors Choose(Mask which, Vectors yes, Vectors no) {
+    return {hn::IfThenElse(which, yes.x, no.x), hn::IfThenElse(which, yes.y, no.y),
+            hn::IfThenElse(which, yes.z, no.z)};
+}
+HWY_INLINE Vectors Only(Mask which, Vectors v) {
+    return {hn::IfThenElseZero(which, v.x), hn::IfThenElseZero(which, v.y),
+            hn::IfThenElseZero(which, v.z)};
+}
+HWY_INLINE Vectors Set(const Vec3& v) {
+    const Tag d;
+    return {hn::Set(d, v[0]), hn::Set(d, v[1]), hn::Set(d, v[2])};
+}
 HWY_INLINE Vectors Add(Vectors a, Vectors b) {
     return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)};
 }

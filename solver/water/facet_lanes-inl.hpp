@@ -24,10 +24,6 @@ HWY_INLINE Vectors Get(const double (&from)[3][kLanes], std::size_t lane) {
     const Tag d;
     return {hn::Load(d, from[0] + lane), hn::Load(d, from[1] + lane), hn::Load(d, from[2] + lane)};
 }
-HWY_INLINE Vectors Set(const Vec3& v) {
-    const Tag d;
-    return {hn::Set(d, v[0]), hn::Set(d, v[1]), hn::Set(d, v[2])};
-}
 struct Corners {
     Vectors p[3];
 
@@ -35,16 +31,6 @@ struct Corners {
         : p{Get(block.corner[0], lane), Get(block.corner[1], lane), Get(block.corner[2], lane)} {}
     HWY_INLINE Corners(Vectors p0, Vectors p1, Vectors p2) : p{p0, p1, p2} {}
 };
-HWY_INLINE Vectors Zero() { return {hn::Zero(Tag()), hn::Zero(Tag()), hn::Zero(Tag())}; }
-HWY_INLINE Vectors Choose(Mask which, Vectors yes, Vectors no) {
-    return {hn::IfThenElse(which, yes.x, no.x), hn::IfThenElse(which, yes.y, no.y),
-            hn::IfThenElse(which, yes.z, no.z)};
-}
-HWY_INLINE Vectors Only(Mask which, Vectors v) {
-    return {hn::IfThenElseZero(which, v.x), hn::IfThenElseZero(which, v.y),
-            hn::IfThenElseZero(which, v.z)};
-}
-
 // Partial sums, one for each lane of the blocks.
 struct alignas(64) Sum {
     double s[kLanes];

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "tests/support/every_instruction_set.hpp"
+#include "tests/support/make_meshes.hpp"
 #include "tests/support/make_worlds.hpp"
 
 using namespace ice;
@@ -101,4 +102,36 @@ TEST_CASE("floes all above, all under or all level with the water have the refer
         b.velocity[i] = dice.vector();
     }
     check_bits(w, b.moving);
+}
+
+TEST_CASE("forms of many corners, the last block of facets not full, have the reference's bits",
+          "[water][simd]") {
+    // more corners than are asked for their height once, and two facets more than fill blocks
+    SphereSet set = test::make_ball_set(0.4);
+    set.mesh = test::make_globe(0.4, 7);
+    const auto [i, j, k] = set.mesh.triangles.front();
+    const auto middle = static_cast<std::int32_t>(set.mesh.vertices.size());
+    set.mesh.vertices.push_back(
+        (set.mesh.vertices[i] + set.mesh.vertices[j] + set.mesh.vertices[k]) / 3.0);
+    set.mesh.triangles.front() = {i, j, middle};
+    set.mesh.triangles.push_back({j, k, middle});
+    set.mesh.triangles.push_back({k, i, middle});
+    REQUIRE(set.mesh.vertices.size() > 64);
+    REQUIRE(set.mesh.triangles.size() % 8 == 2);
+    set.mesh.region.resize(set.mesh.triangles.size(), 0);
+    Case p = test::empty_space(0.01);
+    p.gravity = 9.81;
+    p.drag_coefficient = 1.0;
+    p.drag = GENERATE(DragModel::projected, DragModel::panel);
+    p.buoyancy = BuoyancyModel::distributed;
+    World w = test::plate_world(p, Vec3(1, 1, 1), 0.1, 0.2, 100.0);
+    const std::int32_t form = test::add_shape(w, set);
+    Dice dice{std::mt19937(9)};
+    for (int n = 0; n < 13; ++n) {
+        const Vec3 at(double(n), 0.0, 0.5 * dice.number());
+        const std::size_t floe = add_floe(w.scene, form, 900.0, at, dice.turn(), 0, false);
+        w.scene.bodies.velocity[floe] = dice.vector();
+        w.scene.bodies.angular_velocity[floe] = dice.vector();
+    }
+    check_bits(w, w.scene.bodies.moving);
 }
