@@ -2,7 +2,6 @@
 #include "solver/narrow/centres_finder.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <numbers>
 
@@ -10,13 +9,18 @@
 #include "solver/narrow/emit_centres.hpp"
 #include "solver/narrow/search_pair.hpp"
 #include "solver/narrow/separation.hpp"
+#include "solver/narrow/thread_batch.hpp"
 
 namespace ice {
 
 struct CentresFinder::Batch {
-    std::uint64_t call = 0;
     std::vector<Candidate> candidates;
     std::vector<ListedSpheres> listed;
+
+    void forget() {
+        candidates.clear();
+        listed.clear();
+    }
 
     // of the pair at hand
     PairSearch search;
@@ -99,18 +103,6 @@ bool are_held(const PairView& view) {
 
 }  // namespace
 
-// The calling thread's. By thread, not by pair: a pair's row changes from step to step, so lists by
-// row would all grow to what the largest pair ever needed.
-CentresFinder::Batch& CentresFinder::batch_of(std::uint64_t call) {
-    thread_local Batch batch;
-    if (batch.call != call) {
-        batch.candidates.clear();
-        batch.listed.clear();
-        batch.call = call;
-    }
-    return batch;
-}
-
 CentresFinder::Found CentresFinder::look(std::size_t k, BodyPair pair, const Step& step,
                                          Batch& batch) {
     const auto& [scene, travel, dt, margin] = step;
@@ -165,8 +157,7 @@ CentresFinder::Found CentresFinder::look(std::size_t k, BodyPair pair, const Ste
 void CentresFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
                          const Travel& travel, double dt, double margin,
                          std::vector<Contact>& out) {
-    static std::atomic<std::uint64_t> calls{0};  // by it a thread knows what it has to forget
-    const std::uint64_t call = ++calls;
+    const std::uint64_t call = next_call();
     lists_.match(pairs);
     awake_.resize(pairs.size());
     std::size_t count = 0;
@@ -177,7 +168,8 @@ void CentresFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
     awake_.resize(count);
     found_.resize(awake_.size());
     parallel_for(awake_.size(), kSerialPairs, [&](std::size_t n) {
-        found_[n] = look(awake_[n], pairs[awake_[n]], {scene, travel, dt, margin}, batch_of(call));
+        found_[n] =
+            look(awake_[n], pairs[awake_[n]], {scene, travel, dt, margin}, batch_of<Batch>(call));
     });
     touching_.clear();
     std::size_t contacts = 0;

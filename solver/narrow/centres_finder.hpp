@@ -41,7 +41,6 @@ private:
         double dt, margin;
     };
     Found look(std::size_t k, BodyPair pair, const Step& step, Batch& batch);
-    static Batch& batch_of(std::uint64_t call);
 
     // kept between steps: no allocation once warm
     SphereLists lists_;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// The order of a pair's contacts, in which the solver takes them: its answer depends on it.
+/// What contacts of both rules have in common: their order within a pair, in which the solver takes
+/// them (its answer depends on it), and most of what is in them.
 #pragma once
 
 #include <cstdint>
@@ -22,6 +23,23 @@ inline ContactPlace place_of(const PairView& view, const Candidate& c, std::uint
     const auto a = static_cast<std::uint32_t>(view.shape_a.mirror_rank[c.i]);
     const auto b = static_cast<std::uint32_t>(view.shape_b.mirror_rank[c.j]);
     return {(std::uint64_t{a} << 32) | b, key, &c};
+}
+
+/// Sets all of a contact but its patch and what it crushes. @param meeting  its point, a's axes [m]
+inline void fill_contact(const PairView& view, const ContactPlace& place, const Vec3& meeting,
+                         Contact& out) {
+    const Candidate& c = *place.candidate;
+    const Mat3& rotation = view.scene.bodies.rotation[view.pair.a];
+    out.a = view.pair.a;
+    out.b = view.pair.b;
+    out.sphere_a = c.i;
+    out.sphere_b = c.j;
+    out.key = place.key;
+    out.point = rotation * meeting + view.scene.bodies.position[view.pair.a];
+    out.normal = rotation * c.gap.normal;
+    out.gap = c.gap.gap;
+    const bool ship = view.pair.a == static_cast<std::int32_t>(kShip);
+    out.region = ship ? view.shape_a.region.at(c.i, c.gap.normal) : -1;
 }
 
 /// Sorts by the spheres' ranks.

@@ -34,8 +34,6 @@ void count_contacts(std::span<const Candidate> all, std::int32_t Candidate::*sid
 // Every pair of spheres is a contact, and shares of the surface are split. The point is midway
 // between the surfaces, the gap small against the radii.
 void emit_centres(const PairView& view, std::span<const Candidate> candidates, Contact* out) {
-    const Bodies& bodies = view.scene.bodies;
-    const Mat3& rotation = bodies.rotation[view.pair.a];
     const bool ship = view.pair.a == static_cast<std::int32_t>(kShip);
     thread_local std::vector<std::int32_t> shared_a, shared_b;  // keep their memory
     count_contacts(candidates, &Candidate::j, view.shape_b.center.size(), shared_b);
@@ -50,18 +48,9 @@ void emit_centres(const PairView& view, std::span<const Candidate> candidates, C
     Contact* contact = out;
     for (const ContactPlace& place : places) {
         const Candidate& c = *place.candidate;
-        contact->a = view.pair.a;
-        contact->b = view.pair.b;
-        contact->sphere_a = c.i;
-        contact->sphere_b = c.j;
-        contact->key = place.key;
         const Vec3 inward = -c.gap.normal;
         const Vec3 surface = view.center_b(c.j) + view.shape_b.radius[c.j] * inward;
-        const Vec3 local = surface + 0.5 * c.gap.gap * inward;
-        contact->point = rotation * local + bodies.position[view.pair.a];
-        contact->normal = rotation * c.gap.normal;
-        contact->gap = c.gap.gap;
-        contact->region = ship ? view.shape_a.region.at(c.i, c.gap.normal) : -1;
+        fill_contact(view, place, surface + 0.5 * c.gap.gap * inward, *contact);
         contact->crushes_a = false;
         double area =
             facing_area(view.shape_b, c.j, view.turn.transpose() * inward) / contacts_of_b[c.j];

@@ -85,25 +85,14 @@ const std::vector<ContactPlace>& places_of(const PairView& view,
 }  // namespace
 
 void emit_contacts(const PairView& view, std::span<const Candidate> candidates, Contact* out) {
-    const Bodies& bodies = view.scene.bodies;
-    const Mat3& rotation = bodies.rotation[view.pair.a];
     const bool ship = view.pair.a == static_cast<std::int32_t>(kShip);
     const std::vector<ContactPlace>& places = places_of(view, candidates);
     Contact* contact = out;
     for (const ContactPlace& place : places) {
         const Candidate& c = *place.candidate;
-        contact->a = view.pair.a;
-        contact->b = view.pair.b;
-        contact->sphere_a = c.i;
-        contact->sphere_b = c.j;
-        contact->key = place.key;
-        contact->gap = c.gap.gap;
-        contact->normal = rotation * c.gap.normal;
-        const Vec3 local = meeting_point(view, c);
-        contact->point = rotation * local + bodies.position[view.pair.a];
+        fill_contact(view, place, meeting_point(view, c), *contact);
         contact->crushes_a = !ship && !c.gap.a_is_surface;
         contact->patch = probe_patch(view, c);
-        contact->region = ship ? view.shape_a.region.at(c.i, c.gap.normal) : -1;
         ++contact;
     }
     order_equals(places, out);

@@ -2,7 +2,6 @@
 #include "solver/narrow/find_contacts.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -14,34 +13,21 @@
 #include "solver/narrow/pair_kinds.hpp"
 #include "solver/narrow/search_pair.hpp"
 #include "solver/narrow/separation.hpp"
+#include "solver/narrow/thread_batch.hpp"
 
 namespace ice {
 
 struct FoundBatch {
-    std::uint64_t call = 0;
     std::vector<Candidate> candidates;  // that are contacts
     std::vector<SpherePair> spheres;
+
+    void forget() {
+        candidates.clear();
+        spheres.clear();
+    }
 };
 
 namespace {
-
-// Each call of find() has its own number, so that a thread knows what it has to forget.
-std::uint64_t next_call() {
-    static std::atomic<std::uint64_t> calls{0};
-    return ++calls;
-}
-
-// The calling thread's. By thread, not by pair: a pair's row changes from step to step, so lists by
-// row would all grow to what the largest pair ever needed.
-FoundBatch& batch_of(std::uint64_t call) {
-    thread_local FoundBatch batch;
-    if (batch.call != call) {
-        batch.candidates.clear();
-        batch.spheres.clear();
-        batch.call = call;
-    }
-    return batch;
-}
 
 // A pair takes some microseconds, a look at one a twentieth of that: below this many, waking
 // threads costs more than they save.
@@ -121,7 +107,7 @@ void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
     const std::uint64_t call = next_call();
     parallel_for(pairs.size(), kSerialPairs, [&](std::size_t k) {
         thread_local Workspace work;  // keeps its memory between pairs
-        FoundBatch& batch = batch_of(call);
+        FoundBatch& batch = batch_of<FoundBatch>(call);
         const double most = dt * closing_speed(scene, pairs[k]) + margin;
         const PairView view(scene, pairs[k]);
         work.candidates.clear();
@@ -150,7 +136,7 @@ void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
     parallel_for(awake_.size(), kSerialPairs, [&](std::size_t n) {
         thread_local Workspace work;
         const std::size_t k = awake_[n];
-        FoundBatch& batch = batch_of(call);
+        FoundBatch& batch = batch_of<FoundBatch>(call);
         Found& found = found_[n];
         found = {&batch, batch.candidates.size(), 0, batch.spheres.size(), 0, 0};
         std::span<const SpherePair> near = dormant_.near(k);

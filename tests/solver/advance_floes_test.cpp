@@ -7,18 +7,14 @@
 #include <random>
 
 #include "solver/integrate/rotation.hpp"
+#include "tests/support/dice.hpp"
 #include "tests/support/every_instruction_set.hpp"
 
 using namespace ice;
 
 namespace {
 
-struct Dice {
-    std::mt19937 random;
-    std::uniform_real_distribution<double> unit{-1.0, 1.0};
-
-    Vec3 vector() { return Vec3(unit(random), unit(random), unit(random)); }
-};
+using test::Dice;
 
 // Floes of about a ton and a metre after a step, the ship first. They turn by up to `angle` [rad].
 struct Floes {

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <random>
 
+#include "tests/support/dice.hpp"
 #include "tests/support/every_instruction_set.hpp"
 #include "tests/support/make_meshes.hpp"
 #include "tests/support/make_worlds.hpp"
@@ -14,14 +15,11 @@ using namespace ice;
 
 namespace {
 
-struct Dice {
-    std::mt19937 random;
-    std::uniform_real_distribution<double> unit{-1.0, 1.0};
+using test::Dice;
 
-    double number() { return unit(random); }
-    Vec3 vector() { return Vec3(number(), number(), number()); }
-    Quaternion turn() { return Quaternion(number(), number(), number(), number()).normalized(); }
-};
+Quaternion turn(Dice& dice) {
+    return Quaternion(dice.number(), dice.number(), dice.number(), dice.number()).normalized();
+}
 
 // Floes in the water, wholly under it, above it and far from it both ways; some at rest.
 World make_floes(const Case& p, std::size_t count, std::size_t forms, Dice& dice) {
@@ -37,7 +35,7 @@ World make_floes(const Case& p, std::size_t count, std::size_t forms, Dice& dice
         // runs of one form of up to three floes
         const std::size_t i =
             add_floe(w.scene, form[k / 3 % forms], 900.0, Vec3(3.0 * double(k), 0.0, height),
-                     upright ? Quaternion::Identity() : dice.turn(), 0, false);
+                     upright ? Quaternion::Identity() : turn(dice), 0, false);
         if (k % 4 != 3) b.velocity[i] = dice.vector();
         if (k % 3 != 2) b.angular_velocity[i] = dice.vector();
     }
@@ -129,7 +127,7 @@ TEST_CASE("forms of many corners, the last block of facets not full, have the re
     Dice dice{std::mt19937(9)};
     for (int n = 0; n < 13; ++n) {
         const Vec3 at(double(n), 0.0, 0.5 * dice.number());
-        const std::size_t floe = add_floe(w.scene, form, 900.0, at, dice.turn(), 0, false);
+        const std::size_t floe = add_floe(w.scene, form, 900.0, at, turn(dice), 0, false);
         w.scene.bodies.velocity[floe] = dice.vector();
         w.scene.bodies.angular_velocity[floe] = dice.vector();
     }

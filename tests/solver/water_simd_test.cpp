@@ -8,6 +8,7 @@
 #include "solver/water/drag.hpp"
 #include "solver/water/hydrostatics.hpp"
 #include "solver/water/wetted_sums.hpp"
+#include "tests/support/dice.hpp"
 #include "tests/support/every_instruction_set.hpp"
 #include "tests/support/make_sphere_sets.hpp"
 
@@ -15,13 +16,12 @@ using namespace ice;
 
 namespace {
 
-struct Dice {
-    std::mt19937 random;
-    std::uniform_real_distribution<double> unit{-1.0, 1.0};
+using test::Dice;
 
-    Vec3 vector() { return Vec3(unit(random), unit(random), unit(random)); }
-    Mat3 turn() { return Eigen::AngleAxisd(3.0 * unit(random), vector().normalized()).matrix(); }
-};
+Mat3 any_turn(Dice& dice) {
+    const double angle = 3.0 * dice.number();
+    return Eigen::AngleAxisd(angle, dice.vector().normalized()).matrix();
+}
 
 // Triangles of up to a metre that belong to no body: the sums ask for none.
 std::vector<Facet> loose_facets(std::size_t count, Dice& dice) {
@@ -119,7 +119,7 @@ TEST_CASE("every instruction set sums wetted facets to the bits of the reference
     Dice dice{std::mt19937(static_cast<unsigned>(count))};
     const FacetBlocks facets(loose_facets(count, dice));
     for (const double height : {-4.0, -1.3, -0.2, 0.0, 0.4, 1.3, 4.0}) {
-        const WaterPlane water(dice.turn(), height);
+        const WaterPlane water(any_turn(dice), height);
         const Vec3 v = dice.vector(), w = dice.vector();
         const auto expected = by_reference(facets, water, v, w);
         if (count > 8 && std::abs(height) < 1.0) {  // or nothing is compared
@@ -155,7 +155,7 @@ TEST_CASE("the fill of the last block adds exactly nothing", "[water][property]"
     FacetBlocks other(facets);
     for (std::size_t lane = 1; lane < 8; ++lane)
         for (int d = 0; d < 3; ++d) other.blocks[1].area[d][lane] = 0.0;
-    const WaterPlane water(dice.turn(), 0.1);
+    const WaterPlane water(any_turn(dice), 0.1);
     const Vec3 v = dice.vector(), w = dice.vector();
     CHECK(same_bits(by_kernel(filled, water, v, w), by_kernel(other, water, v, w)));
 }
@@ -176,7 +176,7 @@ TEST_CASE("the submerged part is that of the body cut triangle by triangle", "[w
     Dice dice{std::mt19937(5)};
     for (int k = 0; k < 100; ++k) {
         const Shape shape = lumpy_shape(dice);
-        const Mat3 turn = dice.turn();
+        const Mat3 turn = any_turn(dice);
         const double height = 0.2 * dice.unit(dice.random);
         const Submerged expected = clip_body(shape, turn, height);
         const Submerged s = measure_submerged(shape, turn, height);
@@ -241,7 +241,7 @@ TEST_CASE("panel drag is the integral over the wetted surface that the flow meet
     int loaded = 0;
     for (int k = 0; k < 100; ++k) {
         const Shape shape = lumpy_shape(dice);
-        const Mat3 turn = dice.turn();
+        const Mat3 turn = any_turn(dice);
         const Vec3 v = dice.vector(), w = 3.0 * dice.vector();
         const Motion motion{turn, 0.2 * dice.unit(dice.random), v, w};
         const Loads expected = drag_by_clipping(shape, motion);
@@ -262,7 +262,7 @@ TEST_CASE("a mirror image's drag is the mirror image, however the triangles lie"
     const Shape shape = build_shape(test::make_box_set(Vec3(1, 0.8, 0.3), 0.05, 0.1), true);
     const Vec3 flip(1, -1, 1);
     for (int k = 0; k < 100; ++k) {
-        const Mat3 turn = dice.turn(), turned = flip.asDiagonal() * turn * flip.asDiagonal();
+        const Mat3 turn = any_turn(dice), turned = flip.asDiagonal() * turn * flip.asDiagonal();
         const Vec3 v = dice.vector(), w = 3.0 * dice.vector();
         const double height = 0.2 * dice.unit(dice.random);
         const WaterLoad port = panel_drag(shape, {turn, height, v, w}, 1.0, 1000.0);
@@ -280,7 +280,7 @@ TEST_CASE("projected drag is that of the wetted facets that the flow meets", "[w
     Dice dice{std::mt19937(7)};
     for (int k = 0; k < 100; ++k) {
         const Shape shape = lumpy_shape(dice);
-        const Mat3 turn = dice.turn();
+        const Mat3 turn = any_turn(dice);
         const Vec3 v = dice.vector(), w = Vec3::Zero();
         const Motion motion{turn, 0.2 * dice.unit(dice.random), v, w};
         double area = 0.0;

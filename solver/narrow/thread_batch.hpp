@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+
+namespace ice {
+
+/// Each call of a finder has its own number, so that a thread knows what it has to forget.
+inline std::uint64_t next_call() {
+    static std::atomic<std::uint64_t> calls{0};
+    return ++calls;
+}
+
+/// What the calling thread found in this call so far; it keeps its memory. By thread, not by pair:
+/// a pair's row changes from step to step, so lists by row would all grow to what the largest pair
+/// ever needed. @tparam Batch  has forget()
+template <class Batch>
+Batch& batch_of(std::uint64_t call) {
+    thread_local std::uint64_t filled_in = 0;
+    thread_local Batch batch;
+    if (filled_in != call) batch.forget();
+    filled_in = call;
+    return batch;
+}
+
+}  // namespace ice
