@@ -19,25 +19,6 @@ Mat3 crossed_twice(const Vec3& r, const Mat3& m) {
     return twice;
 }
 
-// K with K j = change of v_r by impulse j; k(d) = d . K d
-Mat3 response(const Bodies& bodies, const Constraint& c) {
-    return (bodies.inverse_mass[c.a] + bodies.inverse_mass[c.b]) * Mat3::Identity() -
-           crossed_twice(c.arm_a, bodies.inverse_inertia_world[c.a]) -
-           crossed_twice(c.arm_b, bodies.inverse_inertia_world[c.b]);
-}
-
-// Largest k(d) over unit tangents d: the greater eigenvalue of K in the tangent plane. Stepping
-// with it, friction converges to exactly opposite the sliding direction.
-double largest_tangent_response(const Mat3& k, const Vec3& n) {
-    // any tangent will do; the axis least along n is never parallel to it
-    int axis = 0;
-    n.cwiseAbs().minCoeff(&axis);
-    const Vec3 s = n.cross(Vec3::Unit(axis)).normalized();
-    const Vec3 t = n.cross(s);
-    const double ss = s.dot(k * s), tt = t.dot(k * t), st = s.dot(k * t);
-    return 0.5 * (ss + tt) + std::sqrt(0.25 * (ss - tt) * (ss - tt) + st * st);
-}
-
 // Largest normal impulse: crushing pressure on the section cut half way through the step.
 double strength(const Contact& contact, double approach, const ContactLaw& law) {
     if (std::isinf(law.crushing_pressure)) return law.crushing_pressure;
@@ -76,13 +57,10 @@ void build_constraints(const Bodies& bodies, const std::vector<Contact>& contact
     });
 }
 
-void measure_response(const Bodies& bodies, Constraint& c) {
-    if (c.normal_mass > 0.0) return;
-    c.turn_a = bodies.inverse_inertia_world[c.a] * c.arm_a.cross(c.normal);
-    c.turn_b = bodies.inverse_inertia_world[c.b] * c.arm_b.cross(c.normal);
-    const Mat3 k = response(bodies, c);
-    c.normal_mass = 1.0 / c.normal.dot(k * c.normal);
-    c.tangent_mass = 1.0 / largest_tangent_response(k, c.normal);
+Mat3 response_matrix(double inverse_mass, const Mat3& inertia_a, const Vec3& arm_a,
+                     const Mat3& inertia_b, const Vec3& arm_b) {
+    return inverse_mass * Mat3::Identity() - crossed_twice(arm_a, inertia_a) -
+           crossed_twice(arm_b, inertia_b);
 }
 
 bool WarmStart::less(const Entry& l, const Entry& r) {
@@ -106,7 +84,9 @@ void WarmStart::recall(const std::vector<Contact>& contacts,
                              [](const Entry& e, std::uint64_t key) { return e.key < key; });
         if (found == last || found->key != contact.key) continue;
         Constraint& c = constraints[k];
+        if (!c.can_move) continue;
         c.rest_normal = std::min(found->normal, std::max(c.strength - c.impact_normal, 0.0));
+        if (c.rest_normal <= 0.0) continue;
         c.rest_tangent = found->tangent - found->tangent.dot(c.normal) * c.normal;
         const double most = c.friction * c.rest_normal, size = c.rest_tangent.norm();
         if (size > most) c.rest_tangent *= most / size;
@@ -114,10 +94,11 @@ void WarmStart::recall(const std::vector<Contact>& contacts,
 }
 
 void WarmStart::remember(const std::vector<Contact>& contacts,
-                         const std::vector<Constraint>& constraints) {
+                         const std::vector<Constraint>& constraints,
+                         const std::vector<std::int32_t>& which) {
     entries_.clear();
     std::size_t first = 0;  // of the pair's entries
-    for (std::size_t k = 0; k < contacts.size(); ++k) {
+    for (const std::int32_t k : which) {
         if (constraints[k].rest_normal <= 0.0) continue;
         if (entries_.size() > first && precedes(entries_[first], contacts[k])) {
             std::sort(entries_.begin() + static_cast<std::ptrdiff_t>(first), entries_.end(), less);

@@ -24,18 +24,14 @@ struct ContactLaw {
 /// One contact in the solver; impulses act on b, their opposites on a.
 struct Constraint {
     std::int32_t a, b;
-    Vec3 normal;        ///< from a to b
-    Vec3 arm_a, arm_b;  ///< r = p - x [m]
-    bool can_move;      ///< can either body?
-    // measure_response sets these, for the contacts that are asked
-    Vec3 turn_a = Vec3::Zero(), turn_b = Vec3::Zero();  ///< I^-1 (r x n), world [rad/s per N s]
-    double normal_mass = 0.0;                           ///< 1 / k(n) [kg]
-    double tangent_mass = 0.0;                          ///< 1 / largest k(d) over tangents d [kg]
-    double friction;                                    ///< Coulomb's coefficient
-    double strength;             ///< largest normal impulse per step: p A dt [N s]
+    bool can_move;               ///< can either body?
     bool rebounds;               ///< false once the contact has crushed in this step's impacts
     double gap;                  ///< at the start of the step [m]
+    Vec3 normal;                 ///< from a to b
+    Vec3 arm_a, arm_b;           ///< r = p - x [m]
     double approach;             ///< v_r . n at the start of the step [m/s], < 0 approaching
+    double strength;             ///< largest normal impulse per step: p A dt [N s]
+    double friction;             ///< Coulomb's coefficient
     double impact_normal = 0.0;  ///< normal impulse of the impact stage [N s]
     Vec3 impact_tangent = Vec3::Zero();
     double rest_normal = 0.0;  ///< normal impulse of the resting stage [N s]
@@ -46,18 +42,19 @@ struct Constraint {
     bool crushed() const { return total_normal() >= strength * (1.0 - 1e-9); }
 };
 
-/// Prepares contacts with the bodies' present pose and velocity:
-///
-///     v_r  = (v_b + w_b x r_b) - (v_a + w_a x r_a)
-///     k(d) = 1/m_a + 1/m_b + d . [ (I_a^-1 (r_a x d)) x r_a + (I_b^-1 (r_b x d)) x r_b ]
-///
-/// One constraint per contact, same order; masses are left to measure_response.
+/// Prepares contacts with the bodies' present pose and velocity, v_r = (v_b + w_b x r_b) -
+/// (v_a + w_a x r_a). One constraint per contact, same order.
 void build_constraints(const Bodies& bodies, const std::vector<Contact>& contacts,
                        const ContactLaw& law, std::vector<Constraint>& out);
 
-/// Sets turn_a, turn_b and the masses, unless they are known: most contacts are near ones that are
-/// never asked. @pre c.can_move
-void measure_response(const Bodies& bodies, Constraint& c);
+/// K with K j = change of v_r by an impulse j at points r_a and r_b from two bodies' centres:
+///
+///     K j = (1/m_a + 1/m_b) j + (I_a^-1 (r_a x j)) x r_a + (I_b^-1 (r_b x j)) x r_b
+///
+/// and k(d) = d . K d for a unit vector d. @param inverse_mass  1/m_a + 1/m_b [1/kg]
+/// @param inertia_a, inertia_b  I^-1, world axes [1/(kg m2)]
+Mat3 response_matrix(double inverse_mass, const Mat3& inertia_a, const Vec3& arm_a,
+                     const Mat3& inertia_b, const Vec3& arm_b);
 
 /// v_r at a constraint from the bodies' present velocities [m/s].
 inline Vec3 relative_velocity(const Bodies& bodies, const Constraint& c) {
@@ -71,12 +68,14 @@ void apply_impulse(Bodies& bodies, const Constraint& c, const Vec3& j);
 /// Resting impulses of the last step, found again by (a, b, key): the solver's first guess.
 class WarmStart {
 public:
-    /// Sets rest_normal and rest_tangent of the contacts known from the last step. The tangential
-    /// part is projected on the new tangent plane and the new cone.
+    /// Sets rest_normal and rest_tangent of the contacts known from the last step, where either
+    /// body can move. The tangential part is projected on the new tangent plane and the new cone.
     /// @pre contacts ordered by (a, b), as ContactFinder gives them
     void recall(const std::vector<Contact>& contacts, std::vector<Constraint>& constraints) const;
-    /// @pre as of recall
-    void remember(const std::vector<Contact>& contacts, const std::vector<Constraint>& constraints);
+    /// Takes the impulses of the resting stage. @pre as of recall
+    /// @param which  constraints that took part in it, ascending
+    void remember(const std::vector<Contact>& contacts, const std::vector<Constraint>& constraints,
+                  const std::vector<std::int32_t>& which);
 
 private:
     friend struct StateFields;  // step/state_fields.cpp

@@ -5,8 +5,9 @@
 #include <algorithm>
 #include <bit>
 #include <numeric>
+#include <span>
 
-#include "common/base/parallel.hpp"
+#include "solver/contact/responses.hpp"
 
 namespace ice {
 
@@ -15,9 +16,6 @@ namespace {
 // Colours that pairs share; a pair for whose bodies none is left gets one of its own.
 constexpr int kColours = 64;
 
-// Below this many responses waking threads costs more than they save.
-constexpr std::size_t kSerialResponses = 512;
-
 void put(LaneVectors& to, std::size_t lane, const Vec3& from) {
     for (int d = 0; d < 3; ++d) to[static_cast<std::size_t>(d)].v[lane] = from[d];
 }
@@ -25,6 +23,10 @@ void put(LaneVectors& to, std::size_t lane, const Vec3& from) {
 void put(std::array<LaneValues, 6>& to, std::size_t lane, const Mat3& m) {
     const double entries[6] = {m(0, 0), m(1, 1), m(2, 2), m(0, 1), m(0, 2), m(1, 2)};
     for (std::size_t k = 0; k < 6; ++k) to[k].v[lane] = entries[k];
+}
+
+void put(std::array<LaneValues, 9>& to, std::size_t lane, const Mat3& m) {
+    for (int k = 0; k < 9; ++k) to[static_cast<std::size_t>(k)].v[lane] = m(k / 3, k % 3);
 }
 
 Vec3 get(const LaneVectors& from, std::size_t lane) {
@@ -107,6 +109,7 @@ void ContactRows::sort_pairs() {
 void ContactRows::fill_block(const Bodies& bodies, const std::vector<Constraint>& constraints,
                              std::size_t first_pair, std::size_t last_pair) {
     PairBlock block;
+    BlockInertias inertias;
     block.first_row = static_cast<std::int32_t>(rows.size());
     block.rows = pairs_[first_pair].count;  // the first has the most
     block.colour = pairs_[first_pair].colour;
@@ -126,6 +129,8 @@ void ContactRows::fill_block(const Bodies& bodies, const std::vector<Constraint>
         block.inverse_mass_b.v[lane] = bodies.inverse_mass[b];
         put(block.inverse_inertia_a, lane, bodies.inverse_inertia_world[a]);
         put(block.inverse_inertia_b, lane, bodies.inverse_inertia_world[b]);
+        put(inertias.a, lane, bodies.inverse_inertia_world[a]);
+        put(inertias.b, lane, bodies.inverse_inertia_world[b]);
         for (std::int32_t k = 0; k < pair.count; ++k) {
             const std::size_t n = static_cast<std::size_t>(pair.first + k);
             const Constraint& c = constraints[which_[n]];
@@ -133,29 +138,22 @@ void ContactRows::fill_block(const Bodies& bodies, const std::vector<Constraint>
             put(row.normal, lane, c.normal);
             put(row.arm_a, lane, c.arm_a);
             put(row.arm_b, lane, c.arm_b);
-            put(row.response, lane,
-                (bodies.inverse_mass[a] + bodies.inverse_mass[b]) * c.normal +
-                    c.turn_a.cross(c.arm_a) + c.turn_b.cross(c.arm_b));
-            row.normal_response.v[lane] = 1.0 / c.normal_mass;
-            row.tangent_response.v[lane] = 1.0 / c.tangent_mass;
             row.friction.v[lane] = c.friction;
             slot_[n] =
                 static_cast<std::int32_t>(kLanes) * (block.first_row + k) + static_cast<int>(lane);
         }
     }
+    measure_responses(block, inertias,
+                      std::span(rows).subspan(static_cast<std::size_t>(block.first_row)));
     blocks.push_back(block);
 }
 
-void ContactRows::build(const Bodies& bodies, std::vector<Constraint>& constraints,
+void ContactRows::build(const Bodies& bodies, const std::vector<Constraint>& constraints,
                         const std::vector<std::int32_t>& which) {
     blocks.clear();
     rows.clear();
     which_ = which;
     slot_.assign(which_.size(), -1);
-    parallel_for(which_.size(), kSerialResponses, [&](std::size_t n) {
-        Constraint& c = constraints[which_[n]];
-        if (c.can_move) measure_response(bodies, c);
-    });
     find_pairs(bodies, constraints);
     colour_pairs(bodies);
     // by this thread alone: it sweeps the rows, and takes longer to fetch them from another core
@@ -178,12 +176,9 @@ void ContactRows::load_motions(const Bodies& bodies) {
     }
 }
 
-void ContactRows::set(std::size_t slot, const Constraint& c, double normal, const Vec3& tangent,
-                      const Target& target) {
+void ContactRows::set(std::size_t slot, double normal, const Vec3& tangent, const Target& target) {
     ContactRow& row = rows[slot / kLanes];
     const std::size_t lane = slot % kLanes;
-    row.normal_mass.v[lane] = c.normal_mass;
-    row.tangent_mass.v[lane] = c.tangent_mass;
     row.wanted.v[lane] = target.wanted;
     row.bound.v[lane] = std::max(target.bound, 0.0);
     row.impulse.normal.v[lane] = normal;

@@ -28,15 +28,15 @@ struct RowImpulses {
 
 /// One contact of each pair of a block; where a pair has no more contacts all is zero.
 struct ContactRow {
-    LaneVectors normal, arm_a, arm_b;  ///< as in Constraint
-    LaneVectors response;              ///< change of v_r by a unit normal impulse [1/kg]
-    LaneValues normal_response;        ///< k(n) [1/kg]
-    LaneValues tangent_response;       ///< largest k(t) [1/kg]
-    LaneValues friction;               ///< Coulomb's coefficient
-    // of the stage; all 0 where there is no contact
+    LaneVectors normal, arm_a, arm_b;      ///< as in Constraint
+    LaneVectors response;                  ///< change of v_r by a unit normal impulse [1/kg]
+    LaneValues normal_response;            ///< k(n) [1/kg]
+    LaneValues tangent_response;           ///< largest k(t) [1/kg]
     LaneValues normal_mass, tangent_mass;  ///< 1 / the responses [kg]
-    LaneValues wanted;                     ///< least v_r . n [m/s]
-    LaneValues bound;                      ///< largest normal impulse, >= 0 [N s]
+    LaneValues friction;                   ///< Coulomb's coefficient
+    // of the stage
+    LaneValues wanted;  ///< least v_r . n [m/s]
+    LaneValues bound;   ///< largest normal impulse, >= 0 [N s]
     RowImpulses impulse;
 };
 
@@ -61,11 +61,10 @@ struct alignas(64) BodyMotion {
 /// the sweeps depends on which bodies touch at how many points, and on nothing else.
 class ContactRows {
 public:
-    /// Measures the response of those that take part.
     /// @pre constraints ordered by (a, b), as ContactFinder gives them
     /// @param which  constraints that take part, ascending; those that can move nothing are passed
     ///               over
-    void build(const Bodies& bodies, std::vector<Constraint>& constraints,
+    void build(const Bodies& bodies, const std::vector<Constraint>& constraints,
                const std::vector<std::int32_t>& which);
 
     /// What a stage asks of a contact.
@@ -83,7 +82,7 @@ public:
         for (std::size_t n = 0; n < which_.size(); ++n) {
             const Constraint& c = constraints[which_[n]];
             if (slot_[n] >= 0)
-                set(static_cast<std::size_t>(slot_[n]), c, c.*normal, c.*tangent, target_of(c));
+                set(static_cast<std::size_t>(slot_[n]), c.*normal, c.*tangent, target_of(c));
         }
     }
 
@@ -113,8 +112,7 @@ private:
                     std::size_t first_pair, std::size_t last_pair);
     std::int32_t local(std::int32_t body);
     void load_motions(const Bodies& bodies);
-    void set(std::size_t slot, const Constraint& c, double normal, const Vec3& tangent,
-             const Target& target);
+    void set(std::size_t slot, double normal, const Vec3& tangent, const Target& target);
 
     std::vector<Pair> pairs_, sorted_;
     std::vector<std::size_t> places_;          // of sort_pairs

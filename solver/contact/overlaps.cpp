@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 
 namespace ice {
@@ -27,7 +28,7 @@ double gap_after(const Bodies& bodies, const Constraint& c, double dt) {
 
 }  // namespace
 
-void Overlaps::separate(const Bodies& bodies, std::vector<Constraint>& constraints,
+void Overlaps::separate(const Bodies& bodies, const std::vector<Constraint>& constraints,
                         const ContactLaw& law, Nudges& out) {
     out.shift.resize(bodies.size(), Vec3::Zero());
     out.turn.resize(bodies.size(), Vec3::Zero());
@@ -37,11 +38,16 @@ void Overlaps::separate(const Bodies& bodies, std::vector<Constraint>& constrain
     }
     pushes_.clear();
     for (std::size_t k = 0; k < constraints.size(); ++k) {
-        Constraint& c = constraints[k];
+        const Constraint& c = constraints[k];
         const double gap = gap_after(bodies, c, law.dt);
         if (gap >= -kSlop || !c.can_move || c.crushed()) continue;
-        measure_response(bodies, c);
-        pushes_.push_back({k, std::min(kPushShare * (-gap - kSlop), kMostPush), 0.0});
+        const Mat3 &inertia_a = bodies.inverse_inertia_world[c.a],
+                   &inertia_b = bodies.inverse_inertia_world[c.b];
+        const double inverse_mass = bodies.inverse_mass[c.a] + bodies.inverse_mass[c.b];
+        const Mat3 response = response_matrix(inverse_mass, inertia_a, c.arm_a, inertia_b, c.arm_b);
+        pushes_.push_back({k, std::min(kPushShare * (-gap - kSlop), kMostPush), 0.0,
+                           inertia_a * c.arm_a.cross(c.normal), inertia_b * c.arm_b.cross(c.normal),
+                           1.0 / c.normal.dot(response * c.normal)});
     }
     for (int iteration = 0; iteration < kSeparationIterations; ++iteration)
         for (Push& push : pushes_) {
@@ -49,25 +55,26 @@ void Overlaps::separate(const Bodies& bodies, std::vector<Constraint>& constrain
             const Vec3 move = out.shift[c.b] + out.turn[c.b].cross(c.arm_b) - out.shift[c.a] -
                               out.turn[c.a].cross(c.arm_a);
             const double next =
-                std::max(push.done + (push.wanted - move.dot(c.normal)) * c.normal_mass, 0.0);
+                std::max(push.done + (push.wanted - move.dot(c.normal)) * push.mass, 0.0);
             const double change = next - push.done;
             push.done = next;
             out.shift[c.a] -= change * bodies.inverse_mass[c.a] * c.normal;
             out.shift[c.b] += change * bodies.inverse_mass[c.b] * c.normal;
-            out.turn[c.a] -= change * c.turn_a;
-            out.turn[c.b] += change * c.turn_b;
+            out.turn[c.a] -= change * push.turn_a;
+            out.turn[c.b] += change * push.turn_b;
         }
 }
 
 void Overlaps::crush(Scene& scene, const std::vector<Contact>& contacts,
-                     const std::vector<Constraint>& constraints, double dt) {
+                     const std::vector<Constraint>& constraints, const ContactLaw& law) {
     const Bodies& bodies = scene.bodies;
     dents_.clear();
     scene.crushed.recent.clear();
+    if (std::isinf(law.crushing_pressure)) return;
     for (std::size_t k = 0; k < constraints.size(); ++k) {
         const Constraint& c = constraints[k];
         if (!c.crushed()) continue;
-        const double gap = gap_after(bodies, c, dt);
+        const double gap = gap_after(bodies, c, law.dt);
         if (gap >= 0.0) continue;
         const Contact& contact = contacts[k];
         if (contact.crushes_a)

@@ -21,18 +21,20 @@ public:
     ///
     /// The same inequality solver on displacements instead of velocities: n . (d_b - d_a) >= push.
     /// Crushed contacts are left alone: that ice is gone.
-    void separate(const Bodies& bodies, std::vector<Constraint>& constraints, const ContactLaw& law,
-                  Nudges& out);
+    void separate(const Bodies& bodies, const std::vector<Constraint>& constraints,
+                  const ContactLaw& law, Nudges& out);
 
     /// Ice at its strength gives way: what overlap the step leaves at a crushed contact is taken
     /// off the ice for good. @pre called before the poses advance, after resolve_rest
     void crush(Scene& scene, const std::vector<Contact>& contacts,
-               const std::vector<Constraint>& constraints, double dt);
+               const std::vector<Constraint>& constraints, const ContactLaw& law);
 
 private:
     struct Push {
         std::size_t constraint;
         double wanted, done;  // [m]
+        Vec3 turn_a, turn_b;  // by a unit push: I^-1 (r x n) [rad/m kg]
+        double mass;          // 1 / k(n) [kg]
     };
     struct Dent {
         std::int32_t body, sphere;

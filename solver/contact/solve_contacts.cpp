@@ -180,10 +180,6 @@ void ContactSolver::begin_rest_with_guess(Bodies& bodies, std::vector<Constraint
 
 SolveReport ContactSolver::resolve_rest(Bodies& bodies, std::vector<Constraint>& constraints,
                                         const ContactLaw& law) {
-    for (Constraint& c : constraints) {
-        if (!c.can_move) c.rest_normal = 0.0;
-        if (c.rest_normal <= 0.0) c.rest_tangent.setZero();
-    }
     active_.clear();
     is_active_.assign(constraints.size(), 0);
     SolveReport report;

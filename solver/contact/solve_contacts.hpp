@@ -43,7 +43,7 @@ public:
 
     /// Resting stage, after the loads: no contact closes further than its gap,
     /// v_r . n >= -max(gap, 0) / dt, with what strength the impact stage left. Starts from
-    /// rest_normal and rest_tangent as given.
+    /// rest_normal and rest_tangent as given (WarmStart::recall).
     ///
     /// Solved for the contacts that the loads close or nearly close; while a solution closes
     /// others, again with them and those it nearly closes. A contact that stays apart carries
@@ -52,6 +52,8 @@ public:
     /// @pre impact_normal is the impact stage's; constraints ordered by (a, b)
     SolveReport resolve_rest(Bodies& bodies, std::vector<Constraint>& constraints,
                              const ContactLaw& law);
+    /// Constraints that took part in the last resting stage, ascending; the others rest on nothing.
+    const std::vector<std::int32_t>& resting() const { return active_; }
 
 private:
     // Sweeps over contacts_ until no velocity changes any more.

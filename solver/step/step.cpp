@@ -75,14 +75,14 @@ void step(World& w) {
     timed(w, Stage::contact, [&] {
         w.warm_start.recall(w.contacts, w.constraints);
         w.rest = w.solver.resolve_rest(bodies, w.constraints, law);
-        w.warm_start.remember(w.contacts, w.constraints);
+        w.warm_start.remember(w.contacts, w.constraints, w.solver.resting());
     });
 
     // overlap that the finite step left is taken out of the poses, not of the velocities; where the
     // ice crushes, out of the ice
     timed(w, Stage::contact, [&] {
         w.overlaps.separate(bodies, w.constraints, law, w.nudges);
-        w.overlaps.crush(w.scene, w.contacts, w.constraints, dt);
+        w.overlaps.crush(w.scene, w.contacts, w.constraints, law);
     });
     timed(w, Stage::integrate, [&] {
         book_step(w.scene, w.parameters, w.constraints, w.loads, w.nudges, w.books, w.ledger);

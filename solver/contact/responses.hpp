@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "solver/contact/contact_rows.hpp"
+
+namespace ice {
+
+/// Inverse inertias of a block's bodies in world axes, all nine entries row by row [1/(kg m2)]: a
+/// sweep takes the upper half of what rounding has left not quite symmetric.
+struct BlockInertias {
+    std::array<LaneValues, 9> a{}, b{};
+};
+
+/// Measures what the contacts of a block respond to impulses, from normal, arm_a and arm_b: sets
+/// response, normal_response, tangent_response and the masses. With K of response_matrix
+///
+///     k(n) = n . K n,   largest k(t) = greater eigenvalue of K in the tangent plane
+///
+/// @param rows  of the block; where a lane has no contact (normal zero) all becomes zero
+void measure_responses(const PairBlock& block, const BlockInertias& inertias,
+                       std::span<ContactRow> rows);
+
+namespace reference {
+// The definition, one contact at a time: read this first. Same bits on every instruction set.
+void measure_responses(const PairBlock& block, const BlockInertias& inertias,
+                       std::span<ContactRow> rows);
+}  // namespace reference
+
+}  // namespace ice

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What contacts respond, as many pairs of a block at a time as the machine has lanes, compiled once
+// per instruction set. The mathematics is in responses_reference.cpp.
+#include "solver/contact/responses.hpp"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "solver/contact/responses_simd.cpp"
+#include <hwy/foreach_target.h>  // must precede highway.h
+#include <hwy/highway.h>
+
+#include "solver/scene/body_lanes-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace ice::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+HWY_INLINE Vectors Get(const LaneVectors& from, std::size_t lane) {
+    const Tag d;
+    return {hn::LoadU(d, from[0].v + lane), hn::LoadU(d, from[1].v + lane),
+            hn::LoadU(d, from[2].v + lane)};
+}
+
+HWY_INLINE Matrices Get(const std::array<LaneValues, 9>& from, std::size_t lane) {
+    const Tag d;
+    Matrices out;
+    for (std::size_t k = 0; k < 3; ++k)
+        out.row[k] = {hn::LoadU(d, from[3 * k].v + lane), hn::LoadU(d, from[3 * k + 1].v + lane),
+                      hn::LoadU(d, from[3 * k + 2].v + lane)};
+    return out;
+}
+
+// [r] m [r] with the matrix [r] of the product r x, without the products with its zeros.
+HWY_INLINE Matrices CrossedTwice(Vectors r, const Matrices& m) {
+    return {{Cross(Sub(Scale(r.y, m.row[2]), Scale(r.z, m.row[1])), r),
+             Cross(Sub(Scale(r.z, m.row[0]), Scale(r.x, m.row[2])), r),
+             Cross(Sub(Scale(r.x, m.row[1]), Scale(r.y, m.row[0])), r)}};
+}
+
+HWY_INLINE Matrices ResponseMatrix(Lanes inverse_mass, const Matrices& inertia_a, Vectors arm_a,
+                                   const Matrices& inertia_b, Vectors arm_b) {
+    const Lanes zero = hn::Zero(Tag());
+    const Matrices a = CrossedTwice(arm_a, inertia_a), b = CrossedTwice(arm_b, inertia_b);
+    const Vectors own[3] = {
+        {inverse_mass, zero, zero}, {zero, inverse_mass, zero}, {zero, zero, inverse_mass}};
+    Matrices out;
+    for (int k = 0; k < 3; ++k) out.row[k] = Sub(Sub(own[k], a.row[k]), b.row[k]);
+    return out;
+}
+
+// The axis that n is least along, the first one of equals.
+HWY_INLINE Vectors LeastAxis(Vectors n) {
+    const Lanes x = hn::Abs(n.x), y = hn::Abs(n.y), z = hn::Abs(n.z), one = All(1.0);
+    const Mask is_z = hn::Lt(z, hn::Min(x, y)), is_y = hn::AndNot(is_z, hn::Lt(y, x));
+    return {hn::IfThenZeroElse(hn::Or(is_y, is_z), one), hn::IfThenElseZero(is_y, one),
+            hn::IfThenElseZero(is_z, one)};
+}
+
+HWY_INLINE Lanes LargestTangentResponse(const Matrices& k, Vectors n) {
+    const Vectors across = Cross(n, LeastAxis(n));
+    const Lanes length = hn::Sqrt(Dot(across, across));
+    const Vectors s = {hn::Div(across.x, length), hn::Div(across.y, length),
+                       hn::Div(across.z, length)};
+    const Vectors t = Cross(n, s), kt = Product(k, t);
+    const Lanes ss = Dot(s, Product(k, s)), tt = Dot(t, kt), st = Dot(s, kt);
+    const Lanes apart = hn::Sub(ss, tt);
+    return hn::Add(hn::Mul(All(0.5), hn::Add(ss, tt)),
+                   hn::Sqrt(hn::Add(hn::Mul(hn::Mul(All(0.25), apart), apart), hn::Mul(st, st))));
+}
+
+void MeasureResponses(const PairBlock& block, const BlockInertias& inertias,
+                      std::span<ContactRow> rows) {
+    const Tag d;
+    const Lanes one = All(1.0);
+    for (std::size_t lane = 0; lane < kLanes; lane += hn::Lanes(d)) {
+        const Matrices inertia_a = Get(inertias.a, lane), inertia_b = Get(inertias.b, lane);
+        const Lanes inverse_mass = hn::Add(hn::LoadU(d, block.inverse_mass_a.v + lane),
+                                           hn::LoadU(d, block.inverse_mass_b.v + lane));
+        for (ContactRow& row : rows) {
+            const Vectors n = Get(row.normal, lane);
+            const Vectors arm_a = Get(row.arm_a, lane), arm_b = Get(row.arm_b, lane);
+            const Mask there = NotZero(n);
+            const auto put = [&](Lanes value, LaneValues& to) HWY_ATTR {
+                hn::StoreU(hn::IfThenElseZero(there, value), d, to.v + lane);
+            };
+            const Vectors turn_a = Product(inertia_a, Cross(arm_a, n));
+            const Vectors turn_b = Product(inertia_b, Cross(arm_b, n));
+            const Vectors response =
+                Add(Add(Scale(inverse_mass, n), Cross(turn_a, arm_a)), Cross(turn_b, arm_b));
+            put(response.x, row.response[0]);
+            put(response.y, row.response[1]);
+            put(response.z, row.response[2]);
+            const Matrices k = ResponseMatrix(inverse_mass, inertia_a, arm_a, inertia_b, arm_b);
+            const Lanes normal_mass = hn::Div(one, Dot(n, Product(k, n)));
+            const Lanes tangent_mass = hn::Div(one, LargestTangentResponse(k, n));
+            put(normal_mass, row.normal_mass);
+            put(tangent_mass, row.tangent_mass);
+            put(hn::Div(one, normal_mass), row.normal_response);
+            put(hn::Div(one, tangent_mass), row.tangent_response);
+        }
+    }
+}
+
+}  // namespace ice::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace ice {
+HWY_EXPORT(MeasureResponses);
+
+void measure_responses(const PairBlock& block, const BlockInertias& inertias,
+                       std::span<ContactRow> rows) {
+    HWY_DYNAMIC_DISPATCH(MeasureResponses)(block, inertias, rows);
+}
+}  // namespace ice
+#endif
