@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "solver/contact/overlaps.hpp"
 #include "solver/contact/solve_contacts.hpp"
@@ -192,10 +193,11 @@ TEST_CASE("a warm start's tangent lies in the new tangent plane and in its cone"
     last[0].rest_normal = 2.0;
     last[0].rest_tangent = Vec3(0.5, 0, 0);
     WarmStart warm;
-    warm.remember(contacts, last);
+    warm.remember(contacts, last, {0});
     now[0].normal = Vec3(1, 0, 1).normalized();
     now[0].strength = std::numeric_limits<double>::infinity();
     now[0].friction = 0.1;
+    now[0].can_move = true;
     warm.recall(contacts, now);
     CHECK(now[0].rest_normal == 2.0);
     // (1/2, 0, 0) less its part along the normal is (1/4, 0, -1/4), longer than 0.1 x 2 N s
@@ -229,9 +231,12 @@ TEST_CASE("a warm start finds each contact's own impulse by bodies and key", "[c
         c.normal = Vec3::UnitZ();
         c.strength = std::numeric_limits<double>::infinity();
         c.friction = 0.1;
+        c.can_move = true;
     }
+    std::vector<std::int32_t> all(last.size());
+    std::iota(all.begin(), all.end(), 0);
     WarmStart warm;
-    warm.remember(contacts_of(then), last);
+    warm.remember(contacts_of(then), last, all);
     warm.recall(contacts_of(now), next);
     for (std::size_t k = 0; k < now.size(); ++k) {
         CAPTURE(k);
@@ -311,6 +316,9 @@ TEST_CASE("ice that two hull spheres crush in one place gives way once", "[conta
         constraints[k].gap = -0.01;
         constraints[k].strength = constraints[k].impact_normal = 1.0;
     }
-    Overlaps().crush(w.scene, contacts, constraints, 0.01);
+    ContactLaw law;
+    law.crushing_pressure = 1e6;
+    law.dt = 0.01;
+    Overlaps().crush(w.scene, contacts, constraints, law);
     CHECK((w.scene.crushed.recess_of(1, 7) - Vec3(0, 0, -0.01)).norm() < 1e-15);
 }

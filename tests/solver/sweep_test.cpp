@@ -11,85 +11,14 @@
 #include <random>
 
 #include "solver/contact/extrapolation.hpp"
+#include "tests/support/contact_problem.hpp"
 #include "tests/support/every_instruction_set.hpp"
 
 using namespace ice;
+using test::ContactProblem;
+using test::make_bodies;
 
 namespace {
-
-// Bodies of about a ton; body 0 and every tenth are immovable.
-Bodies make_bodies(std::size_t count, std::mt19937& random) {
-    std::uniform_real_distribution<double> unit(-1.0, 1.0);
-    const auto vector = [&] { return Vec3(unit(random), unit(random), unit(random)); };
-    Bodies out;
-    for (std::size_t k = 0; k < count; ++k) {
-        const bool free = k % 10 != 0;
-        out.shape.push_back(0);
-        out.position.push_back(3.0 * vector());
-        out.velocity.push_back(vector());
-        out.angular_velocity.push_back(vector());
-        out.inverse_mass.push_back(free ? 1e-3 * (2.0 + unit(random)) : 0.0);
-        const Mat3 turn =
-            Quaternion(Eigen::AngleAxisd(unit(random), vector().normalized())) * Mat3::Identity();
-        const Vec3 inertia =
-            free ? Vec3(1e-2 * (vector() + Vec3::Constant(2.0))) : Vec3(Vec3::Zero());
-        out.inverse_inertia_world.push_back(turn * inertia.asDiagonal() * turn.transpose());
-    }
-    return out;
-}
-
-// Contacts of random pairs, up to `most` each, ordered by pair.
-std::vector<Constraint> make_constraints(const Bodies& bodies, std::size_t pairs, int most,
-                                         std::mt19937& random) {
-    std::uniform_real_distribution<double> unit(-1.0, 1.0);
-    std::uniform_int_distribution<std::int32_t> body(0, static_cast<int>(bodies.size()) - 1);
-    std::uniform_int_distribution<int> count(1, most);
-    std::vector<std::pair<std::int32_t, std::int32_t>> chosen;
-    while (chosen.size() < pairs) {
-        const std::int32_t a = body(random), b = body(random);
-        if (a < b) chosen.emplace_back(a, b);
-    }
-    std::sort(chosen.begin(), chosen.end());
-    chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
-    std::vector<Contact> contacts;
-    for (const auto& [a, b] : chosen)
-        for (int k = count(random); k > 0; --k) {
-            Contact c{};
-            c.a = a;
-            c.b = b;
-            c.point = 0.5 * (bodies.position[a] + bodies.position[b]) +
-                      0.1 * Vec3(unit(random), unit(random), unit(random));
-            c.normal = Vec3(unit(random), unit(random), unit(random)).normalized();
-            contacts.push_back(c);
-        }
-    ContactLaw law;
-    law.crushing_pressure = std::numeric_limits<double>::infinity();
-    std::vector<Constraint> out;
-    build_constraints(bodies, contacts, law, out);
-    return out;
-}
-
-struct Problem {
-    Bodies bodies;
-    std::vector<Constraint> constraints;
-    std::vector<std::int32_t> which;  // constraints that take part
-    ContactRows contacts;
-
-    Problem(std::size_t pairs, int most, unsigned seed) {
-        std::mt19937 random(seed);
-        bodies = make_bodies(pairs / 2 + 5, random);
-        constraints = make_constraints(bodies, pairs, most, random);
-        for (std::size_t k = 0; k < constraints.size(); ++k)
-            if (constraints[k].normal.x() < 0.7) which.push_back(static_cast<std::int32_t>(k));
-        contacts.build(bodies, constraints, which);
-    }
-    void begin() {
-        contacts.begin_stage(bodies, constraints, &Constraint::rest_normal,
-                             &Constraint::rest_tangent, [](const Constraint& c) {
-                                 return ContactRows::Target{0.1, 400.0 * c.normal.y()};
-                             });
-    }
-};
 
 template <class T>
 bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
@@ -105,7 +34,7 @@ std::vector<RowImpulses> impulses_of(const ContactRows& contacts) {
 }  // namespace
 
 TEST_CASE("no two pairs of a block, nor of blocks of one colour, share a free body", "[sweep]") {
-    Problem problem(GENERATE(1u, 8u, 9u, 300u), 5, 3);
+    ContactProblem problem(GENERATE(1u, 8u, 9u, 300u), 5, 3);
     const ContactRows& contacts = problem.contacts;
     std::size_t pairs = 0, rows = 0;
     for (std::size_t k = 0; k < contacts.blocks.size();) {
@@ -197,7 +126,7 @@ TEST_CASE("one contact is brought to its conditions by one sweep", "[sweep][anal
 
 TEST_CASE("every instruction set sweeps to the bits of the reference", "[sweep][simd]") {
     const std::size_t pairs = GENERATE(1u, 2u, 3u, 5u, 7u, 8u, 9u, 17u, 400u);
-    Problem problem(pairs, 6, static_cast<unsigned>(pairs));
+    ContactProblem problem(pairs, 6, static_cast<unsigned>(pairs));
     ContactRows& contacts = problem.contacts;
     const auto run = [&](const auto& sweep_once, const auto& change, const auto& go_on) {
         problem.begin();
