@@ -8,24 +8,18 @@
 #include <hwy/foreach_target.h>  // must precede highway.h
 #include <hwy/highway.h>
 
+#include "solver/contact/row_lanes-inl.hpp"
 #include "solver/scene/body_lanes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace ice::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-HWY_INLINE Vectors Get(const LaneVectors& from, std::size_t lane) {
-    const Tag d;
-    return {hn::LoadU(d, from[0].v + lane), hn::LoadU(d, from[1].v + lane),
-            hn::LoadU(d, from[2].v + lane)};
-}
-
 HWY_INLINE Matrices Get(const std::array<LaneValues, 9>& from, std::size_t lane) {
-    const Tag d;
     Matrices out;
     for (std::size_t k = 0; k < 3; ++k)
-        out.row[k] = {hn::LoadU(d, from[3 * k].v + lane), hn::LoadU(d, from[3 * k + 1].v + lane),
-                      hn::LoadU(d, from[3 * k + 2].v + lane)};
+        out.row[k] = {Get(from[3 * k], lane), Get(from[3 * k + 1], lane),
+                      Get(from[3 * k + 2], lane)};
     return out;
 }
 
@@ -73,15 +67,14 @@ void MeasureResponses(const PairBlock& block, const BlockInertias& inertias,
     const Lanes one = All(1.0);
     for (std::size_t lane = 0; lane < kLanes; lane += hn::Lanes(d)) {
         const Matrices inertia_a = Get(inertias.a, lane), inertia_b = Get(inertias.b, lane);
-        const Lanes inverse_mass = hn::Add(hn::LoadU(d, block.inverse_mass_a.v + lane),
-                                           hn::LoadU(d, block.inverse_mass_b.v + lane));
+        const Lanes inverse_mass =
+            hn::Add(Get(block.inverse_mass_a, lane), Get(block.inverse_mass_b, lane));
         for (ContactRow& row : rows) {
             const Vectors n = Get(row.normal, lane);
             const Vectors arm_a = Get(row.arm_a, lane), arm_b = Get(row.arm_b, lane);
             const Mask there = NotZero(n);
-            const auto put = [&](Lanes value, LaneValues& to) HWY_ATTR {
-                hn::StoreU(hn::IfThenElseZero(there, value), d, to.v + lane);
-            };
+            const auto put = [&](Lanes value, LaneValues& to)
+                                 HWY_ATTR { Put(hn::IfThenElseZero(there, value), to, lane); };
             const Vectors turn_a = Product(inertia_a, Cross(arm_a, n));
             const Vectors turn_b = Product(inertia_b, Cross(arm_b, n));
             const Vectors response =
