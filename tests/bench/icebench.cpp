@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <utility>
 
 #include "common/base/error.hpp"
 #include "common/base/instruction_set.hpp"
@@ -24,13 +25,13 @@ using namespace ice::bench;
 namespace {
 
 struct Options {
-    std::vector<std::string> scenes = scene_names(), simd{"auto"};
+    std::vector<std::string> scenes = scene_names(), simd{"auto"}, models{"scene", "default"};
     std::vector<int> floes, threads{1, 2};
     int steps = 1000;
     double patience = 150.0;
     bool peers = false, kernels = false, quiet = false;
-    std::string csv, water = "distributed", normal = "surface";
-    Models models;
+    std::string csv;
+    int iterations = 10;
 };
 
 void declare(CLI::App& app, Options& o) {
@@ -62,21 +63,23 @@ void declare(CLI::App& app, Options& o) {
     app.add_option("--patience", o.patience,
                    "Wall time after which a peer does not begin another step [s] (default 150)")
         ->check(CLI::PositiveNumber);
-    app.add_option("--water", o.water,
-                   "Loads on the floes of our solver: distributed (buoyancy) with panel (drag), "
-                   "the default; paper: centre with projected; none: no water, no weight")
-        ->check(CLI::IsMember({"distributed", "paper", "none"}));
-    app.add_option("--normal", o.normal, "Contact rule of our solver (default surface)")
-        ->check(CLI::IsMember({"surface", "centres"}));
-    app.add_option("--iterations", o.models.iterations,
+    app.add_option("--model", o.models,
+                   "Models of our solver, separated by commas (default: both). scene: contacts of "
+                   "single spheres, buoyancy and drag at the centre, as loose and packed are "
+                   "defined and the peers have them, engine icesolve; default: the solver's "
+                   "defaults, flat faces and sharp edges, loads on every facet, engine "
+                   "icesolve-default")
+        ->delimiter(',')
+        ->check(CLI::IsMember({"scene", "default"}));
+    app.add_option("--iterations", o.iterations,
                    "Upper bound per stage of our contact solver (default 10)")
         ->check(CLI::Range(1, 100000));
     app.add_option("--csv", o.csv, "Write the table here, too")->type_name("FILE");
     app.add_flag("-q,--quiet", o.quiet, "No progress");
     app.footer(
-        "Nothing sleeps and every contact is kept. --water, --normal and --iterations do not\n"
-        "concern paper-3d, which is the case of that name. Exit codes: 0 ok; 1 failed, or state\n"
-        "hashes of one scene differ; 2 bad command line; 130 interrupted.");
+        "Nothing sleeps and every contact is kept. --model and --iterations do not concern\n"
+        "paper-3d, which is the case of that name. Exit codes: 0 ok; 1 failed, or state hashes of\n"
+        "one scene differ; 2 bad command line; 130 interrupted.");
 }
 
 // What `--simd all` stands for: the instruction sets that this machine has.
@@ -99,14 +102,6 @@ public:
         const auto all = std::find(o_.simd.begin(), o_.simd.end(), "all");
         if (all != o_.simd.end()) o_.simd = instruction_sets();
         for (const std::string& name : o_.simd) set_instruction_set(name);  // or refuse it now
-        o_.models.normal = o_.normal == "centres" ? NormalRule::centres : NormalRule::surface;
-        if (o_.water == "paper") {
-            o_.models.buoyancy = BuoyancyModel::centre;
-            o_.models.drag = DragModel::projected;
-        } else if (o_.water == "none") {
-            o_.models.buoyancy = BuoyancyModel::none;
-            o_.models.drag = DragModel::none;
-        }
     }
 
     int run() {
@@ -131,18 +126,40 @@ private:
     int run_kernels() {
         set_thread_count(1);
         for (const std::string& name : o_.scenes)
-            for (const int floes : numbers_of(name)) {
-                const BenchScene scene = make_bench_scene(name, floes, o_.models);
-                fmt::print("{}, {} floes, {} steps\n\n{}", name, floes, o_.steps, kernel_head());
-                for (const std::string& simd : o_.simd) {
-                    if (interrupted()) return static_cast<int>(ExitCode::interrupted);
-                    set_instruction_set(simd);
-                    fmt::print("{}", kernel_line(measure_kernels(scene, o_.steps)));
-                    std::fflush(stdout);
+            for (const int floes : numbers_of(name))
+                for (const std::string& model : models_of(name)) {
+                    const BenchScene scene = make(name, floes, model);
+                    fmt::print("{}, {} floes, {} steps, {}\n\n{}", name, floes, o_.steps,
+                               engine_of(model), kernel_head());
+                    for (const std::string& simd : o_.simd) {
+                        if (interrupted()) return static_cast<int>(ExitCode::interrupted);
+                        set_instruction_set(simd);
+                        fmt::print("{}", kernel_line(measure_kernels(scene, o_.steps)));
+                        std::fflush(stdout);
+                    }
+                    fmt::print("\n");
                 }
-                fmt::print("\n");
-            }
         return 0;
+    }
+
+    // The paper's case has models of its own.
+    std::vector<std::string> models_of(const std::string& scene) const {
+        return scene == "paper-3d" ? std::vector<std::string>{"scene"} : o_.models;
+    }
+
+    static const char* engine_of(const std::string& model) {
+        return model == "default" ? "icesolve-default" : "icesolve";
+    }
+
+    BenchScene make(const std::string& name, int floes, const std::string& model) const {
+        Models models;
+        models.iterations = o_.iterations;
+        if (model == "scene") {
+            models.normal = NormalRule::centres;
+            models.buoyancy = BuoyancyModel::centre;
+            models.drag = DragModel::projected;
+        }
+        return make_bench_scene(name, floes, models);
     }
 
     std::vector<int> numbers_of(const std::string& scene) const {
@@ -156,39 +173,53 @@ private:
     }
 
     void measure_scene(const std::string& name, int floes) {
-        const BenchScene scene = make_bench_scene(name, floes, o_.models);
-        std::size_t fastest = rows_.size();  // of one thread: what peers are compared with
-        const std::size_t first = rows_.size();
+        std::vector<Row> fastest;  // of each model: what peers are compared with
+        for (const std::string& model : models_of(name)) {
+            const std::size_t first = rows_.size();
+            if (!measure_model(make(name, floes, model), model)) return;
+            compare_hashes(first);
+            fastest.push_back(*std::min_element(rows_.begin() + static_cast<std::ptrdiff_t>(first),
+                                                rows_.end(), [](const Row& l, const Row& r) {
+                                                    return std::pair(l.threads > 1, l.median_ms()) <
+                                                           std::pair(r.threads > 1, r.median_ms());
+                                                }));
+        }
+        if (o_.peers && !fastest.empty()) measure_peers(name, floes, fastest);
+    }
+
+    bool measure_model(const BenchScene& scene, const std::string& model) {
         for (const std::string& simd : o_.simd)
             for (const int threads : o_.threads) {
                 set_thread_count(threads);
                 set_instruction_set(simd);
                 const std::string in_force(instruction_set());  // of "auto" the best
                 Progress progress("icebench", o_.quiet);
-                Row row = measure_solver(scene, o_.steps,
-                                         watch(progress, fmt::format("{} {}, {}, {} threads", name,
-                                                                     floes, in_force, threads)));
+                Row row = measure_solver(
+                    scene, o_.steps,
+                    watch(progress, fmt::format("{} {}, {}, {}, {} threads", scene.name,
+                                                scene.world.scene.bodies.size() - 1,
+                                                engine_of(model), in_force, threads)));
                 progress.finish();
+                row.engine = engine_of(model);
                 row.simd = in_force;
-                if (!add(std::move(row), "")) return;
-                const Row& now = rows_.back();
-                if (now.threads == 1 &&
-                    (rows_[fastest].threads > 1 || now.median_ms() < rows_[fastest].median_ms()))
-                    fastest = rows_.size() - 1;
+                if (!add(std::move(row), "")) return false;
             }
-        compare_hashes(first);
-        if (o_.peers && scene.for_peers) measure_peers(scene, rows_[fastest]);
+        return true;
     }
 
-    void measure_peers(const BenchScene& scene, Row ours) {
+    void measure_peers(const std::string& name, int floes, const std::vector<Row>& ours) {
+        const BenchScene scene = make(name, floes, "scene");
+        if (!scene.for_peers) return;
         for (const PeerKind& kind : peer_kinds()) {
             if (kind.make == nullptr || interrupted()) continue;
             Progress progress("icebench", o_.quiet);
             Row row = measure_peer(
                 kind, scene, {o_.steps, o_.patience},
-                watch(progress, fmt::format("{} {}, {}", scene.name, ours.floes, kind.name)));
+                watch(progress, fmt::format("{} {}, {}", scene.name, floes, kind.name)));
             progress.finish();
-            const std::string to_ours = fmt::format("{:.1f}", ratio(row, ours));
+            std::string to_ours;
+            for (const Row& own : ours)
+                to_ours += fmt::format("{}{:.1f}", to_ours.empty() ? "" : " / ", ratio(row, own));
             add(std::move(row), to_ours);
         }
     }

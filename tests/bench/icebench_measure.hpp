@@ -17,7 +17,7 @@ struct Row {
     int floes = 0, threads = 1;
     std::string simd;                 ///< instruction set
     std::vector<double> step_ms;      ///< wall time of every step [ms]; fewer where time ran out
-    std::vector<double> step_cpu_ms;  ///< processor time of all threads [ms]
+    std::vector<double> step_cpu_ms;  ///< processor time of all its threads [ms]
     double contacts = 0.0;            ///< that carried an impulse, mean over the steps
     double max_overlap = 0.0;         ///< deepest at the start of any step [m]
     double energy = 0.0;              ///< kinetic energy of the floes at the end [J]

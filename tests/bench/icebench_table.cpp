@@ -10,11 +10,11 @@ namespace ice::bench {
 namespace {
 
 constexpr const char* kLine =
-    "| {:<8} | {:<9} | {:>5} | {:>7} | {:<6} | {:>5} | {:>8} | {:>9} | {:>9} | {:>9} | {:>8} | "
+    "| {:<16} | {:<9} | {:>5} | {:>7} | {:<6} | {:>5} | {:>8} | {:>9} | {:>9} | {:>9} | {:>8} | "
     "{:>10} | "
     "{:>8} | "
-    "{:>14} | {:>16} | {:>7} |\n";
-constexpr const char* kStageLine = "| {:<9} | {:>5} | {:>7} | {:<6} |";
+    "{:>14} | {:>16} | {:>14} |\n";
+constexpr const char* kStageLine = "| {:<16} | {:<9} | {:>5} | {:>7} | {:<6} |";
 
 }  // namespace
 
@@ -37,8 +37,8 @@ std::string table_line(const Row& row, const std::string& to_ours) {
 }
 
 std::string stage_table(const std::vector<Row>& rows) {
-    std::string out = fmt::format(kStageLine, "scene", "floes", "threads", "simd");
-    std::string rule = "|---|---|---|---|";
+    std::string out = fmt::format(kStageLine, "engine", "scene", "floes", "threads", "simd");
+    std::string rule = "|---|---|---|---|---|";
     for (const char* stage : kStageNames) {
         out += fmt::format(" {:>9} |", stage);
         rule += "---|";
@@ -46,7 +46,7 @@ std::string stage_table(const std::vector<Row>& rows) {
     out += "\n" + rule + "\n";
     for (const Row& row : rows) {
         if (row.stage_ms.empty()) continue;
-        out += fmt::format(kStageLine, row.scene, row.floes, row.threads, row.simd);
+        out += fmt::format(kStageLine, row.engine, row.scene, row.floes, row.threads, row.simd);
         for (const double ms : row.stage_ms) out += fmt::format(" {:>9.4f} |", ms);
         out += "\n";
     }
