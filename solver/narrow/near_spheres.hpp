@@ -33,6 +33,7 @@ struct NearSpheres {
 struct NearPairs {
     std::vector<std::int32_t> partner;  ///< ids of the many; beyond end.back() without meaning
     std::vector<std::int32_t> end;      ///< one per row
+    std::vector<std::uint8_t> masks;    ///< room for the search
 };
 
 /// Groups of 16 spheres whose box comes within `reach` [m] of `box`, ascending; body axes.

@@ -156,31 +156,78 @@ void PickNear(const NearSpheres& from, const FloatBox& box, float grow, NearSphe
     picked.Finish();
 }
 
+// Bytes of a stored mask.
+constexpr std::size_t kMaskBytes = (hn::MaxLanes(Tag()) + 7) / 8;
+
+// Rows that are tested together: what is loaded of the many serves all of them.
+constexpr std::size_t kRows = 4;
+
+// Tests rows f .. f + N - 1 against all of the many, a mask for every vector of these: the masks of
+// a row follow each other. Has a row any partner?
+template <std::size_t N>
+HWY_INLINE void TestRows(const NearSpheres& few, std::size_t f, const NearSpheres& many,
+                         const SearchRange& range, std::uint8_t* masks, std::size_t row_bytes,
+                         bool* any) {
+    const Tag d;
+    const std::size_t lanes = hn::Lanes(d);
+    const Mask all = hn::FirstN(d, lanes);
+    Lanes x[N], y[N], z[N], along[N], across[N];
+    Mask hits[N];
+    for (std::size_t r = 0; r < N; ++r) {
+        x[r] = hn::Set(d, few.x[f + r]);
+        y[r] = hn::Set(d, few.y[f + r]);
+        z[r] = hn::Set(d, few.z[f + r]);
+        along[r] = hn::Set(d, few.along[f + r] + range.along);
+        across[r] = hn::Set(d, few.aside[f + r] + range.across);
+        hits[r] = hn::FirstN(d, 0);
+    }
+    std::uint8_t* to = masks;
+    for (std::size_t m = 0; m < many.count; m += lanes, to += kMaskBytes) {
+        const Lanes mx = hn::LoadU(d, many.x.data() + m), my = hn::LoadU(d, many.y.data() + m);
+        const Lanes mz = hn::LoadU(d, many.z.data() + m);
+        const Lanes m_along = hn::LoadU(d, many.along.data() + m);
+        const Lanes m_aside = hn::LoadU(d, many.aside.data() + m);
+        Mask valid = all;
+        if (many.count - m < lanes) valid = hn::FirstN(d, many.count - m);
+        for (std::size_t r = 0; r < N; ++r) {
+            const Lanes dx = hn::Sub(mx, x[r]), dy = hn::Sub(my, y[r]), dz = hn::Sub(mz, z[r]);
+            const Lanes a = hn::Add(m_along, along[r]), c = hn::Add(m_aside, across[r]);
+            const Lanes apart = hn::Add(hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy)), hn::Mul(dz, dz));
+            const Mask near = hn::And(hn::Le(apart, hn::Add(hn::Mul(a, a), hn::Mul(c, c))), valid);
+            hits[r] = hn::Or(hits[r], near);
+            hn::StoreMaskBits(d, near, to + r * row_bytes);
+        }
+    }
+    for (std::size_t r = 0; r < N; ++r) any[r] = !hn::AllFalse(d, hits[r]);
+}
+
 void FindNearPairs(const NearSpheres& few, std::size_t first, std::size_t last,
                    const NearSpheres& many, const SearchRange& range, NearPairs& out) {
     const Tag d;
+    const std::size_t lanes = hn::Lanes(d), vectors = (many.count + lanes - 1) / lanes;
     const std::size_t room = (last - first) * many.count + kBlock;
     if (out.partner.size() < room) out.partner.resize(room);
+    const std::size_t row_bytes = vectors * kMaskBytes;
+    // eight bytes are read for a mask
+    if (out.masks.size() < kRows * row_bytes + 8) out.masks.resize(kRows * row_bytes + 8);
     out.end.clear();
     std::size_t found = 0;
-    for (std::size_t f = first; f < last; ++f) {
-        const auto x = hn::Set(d, few.x[f]), y = hn::Set(d, few.y[f]), z = hn::Set(d, few.z[f]);
-        const auto along = hn::Set(d, few.along[f] + range.along);
-        const auto across = hn::Set(d, few.aside[f] + range.across);
-        for (std::size_t m = 0; m < many.count; m += hn::Lanes(d)) {
-            const auto dx = hn::Sub(hn::LoadU(d, many.x.data() + m), x);
-            const auto dy = hn::Sub(hn::LoadU(d, many.y.data() + m), y);
-            const auto dz = hn::Sub(hn::LoadU(d, many.z.data() + m), z);
-            const auto a = hn::Add(hn::LoadU(d, many.along.data() + m), along);
-            const auto c = hn::Add(hn::LoadU(d, many.aside.data() + m), across);
-            const auto apart = hn::Add(hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy)), hn::Mul(dz, dz));
-            const auto near = hn::And(hn::Le(apart, hn::Add(hn::Mul(a, a), hn::Mul(c, c))),
-                                      hn::FirstN(d, many.count - m));
-            if (hn::AllFalse(d, near)) continue;
-            Append(many.id.data() + m, near, out.partner.data() + found);
-            found += hn::CountTrue(d, near);
+    for (std::size_t f = first; f < last;) {
+        const std::size_t rows = last - f < kRows ? 1 : kRows;
+        bool any[kRows];
+        rows == 1 ? TestRows<1>(few, f, many, range, out.masks.data(), row_bytes, any)
+                  : TestRows<kRows>(few, f, many, range, out.masks.data(), row_bytes, any);
+        for (std::size_t r = 0; r < rows; ++r) {
+            for (std::size_t v = 0; any[r] && v < vectors; ++v) {
+                const Mask near =
+                    hn::LoadMaskBits(d, out.masks.data() + r * row_bytes + v * kMaskBytes);
+                if (hn::AllFalse(d, near)) continue;
+                Append(many.id.data() + v * lanes, near, out.partner.data() + found);
+                found += hn::CountTrue(d, near);
+            }
+            out.end.push_back(static_cast<std::int32_t>(found));
         }
-        out.end.push_back(static_cast<std::int32_t>(found));
+        f += rows;
     }
 }
 
