@@ -8,6 +8,8 @@
 #include <hwy/foreach_target.h>  // must precede highway.h
 #include <hwy/highway.h>
 
+#include "solver/narrow/compress_lanes-inl.hpp"
+
 HWY_BEFORE_NAMESPACE();
 namespace ice::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
@@ -19,14 +21,14 @@ using IdTag = hn::RebindToSigned<Tag>;
 using Lanes = hn::Vec<Tag>;
 using Mask = hn::Mask<Tag>;
 
-// StoreU(Compress()) and not CompressStore(): the latter is slow on AMD's AVX-512.
+// Not CompressStore(), which is slow on AMD's AVX-512.
 HWY_INLINE void Append(Lanes values, Mask which, float* to) {
-    hn::StoreU(hn::Compress(values, which), Tag(), to);
+    hn::StoreU(Compressed(Tag(), values, which), Tag(), to);
 }
 
 HWY_INLINE void Append(const std::int32_t* ids, Mask which, std::int32_t* to) {
     const IdTag d;
-    hn::StoreU(hn::Compress(hn::LoadU(d, ids), hn::RebindMask(d, which)), d, to);
+    hn::StoreU(Compressed(d, hn::LoadU(d, ids), hn::RebindMask(d, which)), d, to);
 }
 
 // Appends the numbers of those of 16 boxes from `first` on that touch `box` grown by `reach`.
@@ -45,7 +47,7 @@ HWY_INLINE std::size_t TouchingBoxes(const BoxRows& rows, std::size_t first, con
                                         hn::Set(d, box.low[axis] - reach)));
         }
         const auto number = hn::Iota(di, static_cast<std::int32_t>(k));
-        hn::StoreU(hn::Compress(number, hn::RebindMask(di, near)), di, out + found);
+        hn::StoreU(Compressed(di, number, hn::RebindMask(di, near)), di, out + found);
         found += hn::CountTrue(d, near);
     }
     return found;

@@ -8,6 +8,8 @@
 #include <hwy/foreach_target.h>  // must precede highway.h
 #include <hwy/highway.h>
 
+#include "solver/narrow/compress_lanes-inl.hpp"
+
 HWY_BEFORE_NAMESPACE();
 namespace ice::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
@@ -43,10 +45,10 @@ void FindTouching(std::span<const ListedSpheres> listed, const FloatPose& pose, 
             least = hn::Min(least, gap);
             const auto touch = hn::Le(gap, hn::Set(d, most));
             if (hn::AllFalse(d, touch)) continue;
-            // StoreU(Compress()) and not CompressStore(): the latter is slow on AMD's AVX-512
+            // not CompressStore(), which is slow on AMD's AVX-512
             const auto ids = hn::RebindMask(di, touch);
-            hn::StoreU(hn::Compress(hn::Load(di, s.a + k), ids), di, out.a.data() + found);
-            hn::StoreU(hn::Compress(hn::Load(di, s.b + k), ids), di, out.b.data() + found);
+            hn::StoreU(Compressed(di, hn::Load(di, s.a + k), ids), di, out.a.data() + found);
+            hn::StoreU(Compressed(di, hn::Load(di, s.b + k), ids), di, out.b.data() + found);
             found += hn::CountTrue(d, touch);
         }
     out.count = found;
