@@ -57,10 +57,10 @@ void build_constraints(const Bodies& bodies, const std::vector<Contact>& contact
     });
 }
 
-Mat3 response_matrix(double inverse_mass, const Mat3& inertia_a, const Vec3& arm_a,
-                     const Mat3& inertia_b, const Vec3& arm_b) {
-    return inverse_mass * Mat3::Identity() - crossed_twice(arm_a, inertia_a) -
-           crossed_twice(arm_b, inertia_b);
+Mat3 response_matrix(double inverse_mass, const Mat3& inverse_inertia_a, const Vec3& arm_a,
+                     const Mat3& inverse_inertia_b, const Vec3& arm_b) {
+    return inverse_mass * Mat3::Identity() - crossed_twice(arm_a, inverse_inertia_a) -
+           crossed_twice(arm_b, inverse_inertia_b);
 }
 
 bool WarmStart::less(const Entry& l, const Entry& r) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solver/contact/contact_rows.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <bit>
 #include <numeric>
@@ -27,10 +26,6 @@ void put(std::array<LaneValues, 6>& to, std::size_t lane, const Mat3& m) {
 
 void put(std::array<LaneValues, 9>& to, std::size_t lane, const Mat3& m) {
     for (int k = 0; k < 9; ++k) to[static_cast<std::size_t>(k)].v[lane] = m(k / 3, k % 3);
-}
-
-Vec3 get(const LaneVectors& from, std::size_t lane) {
-    return {from[0].v[lane], from[1].v[lane], from[2].v[lane]};
 }
 
 }  // namespace
@@ -109,7 +104,7 @@ void ContactRows::sort_pairs() {
 void ContactRows::fill_block(const Bodies& bodies, const std::vector<Constraint>& constraints,
                              std::size_t first_pair, std::size_t last_pair) {
     PairBlock block;
-    BlockInertias inertias;
+    BlockInverseInertias inverse_inertias;
     block.first_row = static_cast<std::int32_t>(rows.size());
     block.rows = pairs_[first_pair].count;  // the first has the most
     block.colour = pairs_[first_pair].colour;
@@ -129,8 +124,8 @@ void ContactRows::fill_block(const Bodies& bodies, const std::vector<Constraint>
         block.inverse_mass_b.v[lane] = bodies.inverse_mass[b];
         put(block.inverse_inertia_a, lane, bodies.inverse_inertia_world[a]);
         put(block.inverse_inertia_b, lane, bodies.inverse_inertia_world[b]);
-        put(inertias.a, lane, bodies.inverse_inertia_world[a]);
-        put(inertias.b, lane, bodies.inverse_inertia_world[b]);
+        put(inverse_inertias.a, lane, bodies.inverse_inertia_world[a]);
+        put(inverse_inertias.b, lane, bodies.inverse_inertia_world[b]);
         for (std::int32_t k = 0; k < pair.count; ++k) {
             const std::size_t n = static_cast<std::size_t>(pair.first + k);
             const Constraint& c = constraints[which_[n]];
@@ -143,7 +138,7 @@ void ContactRows::fill_block(const Bodies& bodies, const std::vector<Constraint>
                 static_cast<std::int32_t>(kLanes) * (block.first_row + k) + static_cast<int>(lane);
         }
     }
-    measure_responses(block, inertias,
+    measure_responses(block, inverse_inertias,
                       std::span(rows).subspan(static_cast<std::size_t>(block.first_row)));
     blocks.push_back(block);
 }

@@ -20,6 +20,11 @@ struct alignas(64) LaneValues {
 };
 using LaneVectors = std::array<LaneValues, 3>;  ///< x, y, z
 
+/// The vector in one lane.
+inline Vec3 get(const LaneVectors& from, std::size_t lane) {
+    return {from[0].v[lane], from[1].v[lane], from[2].v[lane]};
+}
+
 /// Impulses of a row: what a sweep changes.
 struct RowImpulses {
     LaneValues normal;    ///< accumulated in the stage, >= 0 [N s]
@@ -61,6 +66,7 @@ struct alignas(64) BodyMotion {
 /// the sweeps depends on which bodies touch at how many points, and on nothing else.
 class ContactRows {
 public:
+    /// Measures their responses, with the bodies' present poses.
     /// @pre constraints ordered by (a, b), as ContactFinder gives them
     /// @param which  constraints that take part, ascending; those that can move nothing are passed
     ///               over

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "solver/contact/sweep.hpp"
+#include "solver/contact/sweep_memory.hpp"
 
 namespace ice {
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <tuple>
 
+#include "solver/shape/ordered_products.hpp"
+
 namespace ice {
 
 namespace {
@@ -41,13 +43,14 @@ void Overlaps::separate(const Bodies& bodies, const std::vector<Constraint>& con
         const Constraint& c = constraints[k];
         const double gap = gap_after(bodies, c, law.dt);
         if (gap >= -kSlop || !c.can_move || c.crushed()) continue;
-        const Mat3 &inertia_a = bodies.inverse_inertia_world[c.a],
-                   &inertia_b = bodies.inverse_inertia_world[c.b];
-        const double inverse_mass = bodies.inverse_mass[c.a] + bodies.inverse_mass[c.b];
-        const Mat3 response = response_matrix(inverse_mass, inertia_a, c.arm_a, inertia_b, c.arm_b);
+        const Mat3 &of_a = bodies.inverse_inertia_world[c.a],
+                   &of_b = bodies.inverse_inertia_world[c.b];
+        const Mat3 response = response_matrix(bodies.inverse_mass[c.a] + bodies.inverse_mass[c.b],
+                                              of_a, c.arm_a, of_b, c.arm_b);
         pushes_.push_back({k, std::min(kPushShare * (-gap - kSlop), kMostPush), 0.0,
-                           inertia_a * c.arm_a.cross(c.normal), inertia_b * c.arm_b.cross(c.normal),
-                           1.0 / c.normal.dot(response * c.normal)});
+                           ordered_product(of_a, c.arm_a.cross(c.normal)),
+                           ordered_product(of_b, c.arm_b.cross(c.normal)),
+                           1.0 / ordered_dot(c.normal, ordered_product(response, c.normal))});
     }
     for (int iteration = 0; iteration < kSeparationIterations; ++iteration)
         for (Push& push : pushes_) {

@@ -25,7 +25,8 @@ public:
                   const ContactLaw& law, Nudges& out);
 
     /// Ice at its strength gives way: what overlap the step leaves at a crushed contact is taken
-    /// off the ice for good. @pre called before the poses advance, after resolve_rest
+    /// off the ice for good; rigid ice is never at its strength.
+    /// @pre called before the poses advance, after resolve_rest, with the law of the constraints
     void crush(Scene& scene, const std::vector<Contact>& contacts,
                const std::vector<Constraint>& constraints, const ContactLaw& law);
 
@@ -33,7 +34,7 @@ private:
     struct Push {
         std::size_t constraint;
         double wanted, done;  // [m]
-        Vec3 turn_a, turn_b;  // by a unit push: I^-1 (r x n) [rad/m kg]
+        Vec3 turn_a, turn_b;  // by a unit push: I^-1 (r x n) [rad/(kg m)]
         double mass;          // 1 / k(n) [kg]
     };
     struct Dent {

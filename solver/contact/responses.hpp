@@ -10,7 +10,7 @@ namespace ice {
 
 /// Inverse inertias of a block's bodies in world axes, all nine entries row by row [1/(kg m2)]: a
 /// sweep takes the upper half of what rounding has left not quite symmetric.
-struct BlockInertias {
+struct BlockInverseInertias {
     std::array<LaneValues, 9> a{}, b{};
 };
 
@@ -20,12 +20,12 @@ struct BlockInertias {
 ///     k(n) = n . K n,   largest k(t) = greater eigenvalue of K in the tangent plane
 ///
 /// @param rows  of the block; where a lane has no contact (normal zero) all becomes zero
-void measure_responses(const PairBlock& block, const BlockInertias& inertias,
+void measure_responses(const PairBlock& block, const BlockInverseInertias& inverse_inertias,
                        std::span<ContactRow> rows);
 
 namespace reference {
 // The definition, one contact at a time: read this first. Same bits on every instruction set.
-void measure_responses(const PairBlock& block, const BlockInertias& inertias,
+void measure_responses(const PairBlock& block, const BlockInverseInertias& inverse_inertias,
                        std::span<ContactRow> rows);
 }  // namespace reference
 

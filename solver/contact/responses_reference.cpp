@@ -9,10 +9,6 @@ namespace ice::reference {
 
 namespace {
 
-Vec3 get(const LaneVectors& from, std::size_t lane) {
-    return {from[0].v[lane], from[1].v[lane], from[2].v[lane]};
-}
-
 Mat3 get(const std::array<LaneValues, 9>& from, std::size_t lane) {
     Mat3 out;
     for (int k = 0; k < 9; ++k) out(k / 3, k % 3) = from[static_cast<std::size_t>(k)].v[lane];
@@ -33,16 +29,17 @@ double largest_tangent_response(const Mat3& k, const Vec3& n) {
     return 0.5 * (ss + tt) + std::sqrt(0.25 * (ss - tt) * (ss - tt) + st * st);
 }
 
-void measure(double inverse_mass, const Mat3& inertia_a, const Mat3& inertia_b, std::size_t lane,
-             ContactRow& row) {
+void measure(double inverse_mass, const Mat3& inverse_inertia_a, const Mat3& inverse_inertia_b,
+             std::size_t lane, ContactRow& row) {
     const Vec3 n = get(row.normal, lane);
     const Vec3 arm_a = get(row.arm_a, lane), arm_b = get(row.arm_b, lane);
-    const Vec3 turn_a = ordered_product(inertia_a, arm_a.cross(n));
-    const Vec3 turn_b = ordered_product(inertia_b, arm_b.cross(n));
+    const Vec3 turn_a = ordered_product(inverse_inertia_a, arm_a.cross(n));
+    const Vec3 turn_b = ordered_product(inverse_inertia_b, arm_b.cross(n));
     const Vec3 response = inverse_mass * n + turn_a.cross(arm_a) + turn_b.cross(arm_b);
     for (std::size_t d = 0; d < 3; ++d)
         row.response[d].v[lane] = response[static_cast<Eigen::Index>(d)];
-    const Mat3 k = response_matrix(inverse_mass, inertia_a, arm_a, inertia_b, arm_b);
+    const Mat3 k =
+        response_matrix(inverse_mass, inverse_inertia_a, arm_a, inverse_inertia_b, arm_b);
     row.normal_mass.v[lane] = 1.0 / ordered_dot(n, ordered_product(k, n));
     row.tangent_mass.v[lane] = 1.0 / largest_tangent_response(k, n);
     row.normal_response.v[lane] = 1.0 / row.normal_mass.v[lane];
@@ -51,14 +48,15 @@ void measure(double inverse_mass, const Mat3& inertia_a, const Mat3& inertia_b, 
 
 }  // namespace
 
-void measure_responses(const PairBlock& block, const BlockInertias& inertias,
+void measure_responses(const PairBlock& block, const BlockInverseInertias& inverse_inertias,
                        std::span<ContactRow> rows) {
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
-        const Mat3 inertia_a = get(inertias.a, lane), inertia_b = get(inertias.b, lane);
+        const Mat3 inverse_inertia_a = get(inverse_inertias.a, lane),
+                   inverse_inertia_b = get(inverse_inertias.b, lane);
         const double inverse_mass = block.inverse_mass_a.v[lane] + block.inverse_mass_b.v[lane];
         for (ContactRow& row : rows) {
             if (get(row.normal, lane) != Vec3::Zero()) {
-                measure(inverse_mass, inertia_a, inertia_b, lane, row);
+                measure(inverse_mass, inverse_inertia_a, inverse_inertia_b, lane, row);
                 continue;
             }
             for (LaneValues& part : row.response) part.v[lane] = 0.0;

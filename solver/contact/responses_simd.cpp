@@ -30,10 +30,12 @@ HWY_INLINE Matrices CrossedTwice(Vectors r, const Matrices& m) {
              Cross(Sub(Scale(r.x, m.row[1]), Scale(r.y, m.row[0])), r)}};
 }
 
-HWY_INLINE Matrices ResponseMatrix(Lanes inverse_mass, const Matrices& inertia_a, Vectors arm_a,
-                                   const Matrices& inertia_b, Vectors arm_b) {
+HWY_INLINE Matrices ResponseMatrix(Lanes inverse_mass, const Matrices& inverse_inertia_a,
+                                   Vectors arm_a, const Matrices& inverse_inertia_b,
+                                   Vectors arm_b) {
     const Lanes zero = hn::Zero(Tag());
-    const Matrices a = CrossedTwice(arm_a, inertia_a), b = CrossedTwice(arm_b, inertia_b);
+    const Matrices a = CrossedTwice(arm_a, inverse_inertia_a),
+                   b = CrossedTwice(arm_b, inverse_inertia_b);
     const Vectors own[3] = {
         {inverse_mass, zero, zero}, {zero, inverse_mass, zero}, {zero, zero, inverse_mass}};
     Matrices out;
@@ -61,12 +63,13 @@ HWY_INLINE Lanes LargestTangentResponse(const Matrices& k, Vectors n) {
                    hn::Sqrt(hn::Add(hn::Mul(hn::Mul(All(0.25), apart), apart), hn::Mul(st, st))));
 }
 
-void MeasureResponses(const PairBlock& block, const BlockInertias& inertias,
+void MeasureResponses(const PairBlock& block, const BlockInverseInertias& inverse_inertias,
                       std::span<ContactRow> rows) {
     const Tag d;
     const Lanes one = All(1.0);
     for (std::size_t lane = 0; lane < kLanes; lane += hn::Lanes(d)) {
-        const Matrices inertia_a = Get(inertias.a, lane), inertia_b = Get(inertias.b, lane);
+        const Matrices inverse_inertia_a = Get(inverse_inertias.a, lane),
+                       inverse_inertia_b = Get(inverse_inertias.b, lane);
         const Lanes inverse_mass =
             hn::Add(Get(block.inverse_mass_a, lane), Get(block.inverse_mass_b, lane));
         for (ContactRow& row : rows) {
@@ -75,14 +78,15 @@ void MeasureResponses(const PairBlock& block, const BlockInertias& inertias,
             const Mask there = NotZero(n);
             const auto put = [&](Lanes value, LaneValues& to)
                                  HWY_ATTR { Put(hn::IfThenElseZero(there, value), to, lane); };
-            const Vectors turn_a = Product(inertia_a, Cross(arm_a, n));
-            const Vectors turn_b = Product(inertia_b, Cross(arm_b, n));
+            const Vectors turn_a = Product(inverse_inertia_a, Cross(arm_a, n));
+            const Vectors turn_b = Product(inverse_inertia_b, Cross(arm_b, n));
             const Vectors response =
                 Add(Add(Scale(inverse_mass, n), Cross(turn_a, arm_a)), Cross(turn_b, arm_b));
             put(response.x, row.response[0]);
             put(response.y, row.response[1]);
             put(response.z, row.response[2]);
-            const Matrices k = ResponseMatrix(inverse_mass, inertia_a, arm_a, inertia_b, arm_b);
+            const Matrices k =
+                ResponseMatrix(inverse_mass, inverse_inertia_a, arm_a, inverse_inertia_b, arm_b);
             const Lanes normal_mass = hn::Div(one, Dot(n, Product(k, n)));
             const Lanes tangent_mass = hn::Div(one, LargestTangentResponse(k, n));
             put(normal_mass, row.normal_mass);
@@ -100,9 +104,9 @@ HWY_AFTER_NAMESPACE();
 namespace ice {
 HWY_EXPORT(MeasureResponses);
 
-void measure_responses(const PairBlock& block, const BlockInertias& inertias,
+void measure_responses(const PairBlock& block, const BlockInverseInertias& inverse_inertias,
                        std::span<ContactRow> rows) {
-    HWY_DYNAMIC_DISPATCH(MeasureResponses)(block, inertias, rows);
+    HWY_DYNAMIC_DISPATCH(MeasureResponses)(block, inverse_inertias, rows);
 }
 }  // namespace ice
 #endif

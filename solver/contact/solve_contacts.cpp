@@ -10,6 +10,8 @@
 #include <cmath>
 #include <tuple>
 
+#include "solver/contact/sweep.hpp"
+
 namespace ice {
 
 namespace {

@@ -49,10 +49,12 @@ public:
     /// others, again with them and those it nearly closes. A contact that stays apart carries
     /// nothing, so the conditions of the rest are the same without it. `residual` is the last
     /// solution's; not converged where contacts still close after five.
-    /// @pre impact_normal is the impact stage's; constraints ordered by (a, b)
+    /// @pre impact_normal is the impact stage's; constraints ordered by (a, b); no rest_normal
+    /// where nothing can move, no rest_tangent where there is no rest_normal
     SolveReport resolve_rest(Bodies& bodies, std::vector<Constraint>& constraints,
                              const ContactLaw& law);
-    /// Constraints that took part in the last resting stage, ascending; the others rest on nothing.
+    /// Constraints that took part in the last resting stage, or, where it did not converge, would
+    /// have to; ascending. The others carry nothing in it.
     const std::vector<std::int32_t>& resting() const { return active_; }
 
 private:

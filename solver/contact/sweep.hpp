@@ -21,28 +21,10 @@ namespace ice {
 double sweep(const std::vector<PairBlock>& blocks, std::vector<ContactRow>& rows,
              std::vector<BodyMotion>& motion);
 
-/// State before a sweep and the direction of the extrapolation, beside rows and motions.
-struct SweepMemory {
-    std::vector<RowImpulses> before, way;
-    std::vector<BodyMotion> motion_before, motion_way;
-};
-
-/// |g|^2 = sum of k(n) (dJ_n^2 + dJ_t^2) for the changes since `memory` [J], twice the energy of
-/// them on unit masses; summed by lanes, then over the lanes.
-double measure_change(const std::vector<ContactRow>& rows, const SweepMemory& memory);
-
-/// With g the change since `before`: values += beta way, way = beta way + g, before = values; for
-/// impulses and velocities.
-void move_on(std::vector<ContactRow>& rows, std::vector<BodyMotion>& motion, double beta,
-             SweepMemory& memory);
-
 namespace reference {
-// The definitions, one contact at a time: read these first. Same bits on every instruction set.
+// The definition, one contact at a time: read this first. Same bits on every instruction set.
 double sweep(const std::vector<PairBlock>& blocks, std::vector<ContactRow>& rows,
              std::vector<BodyMotion>& motion);
-double measure_change(const std::vector<ContactRow>& rows, const SweepMemory& memory);
-void move_on(std::vector<ContactRow>& rows, std::vector<BodyMotion>& motion, double beta,
-             SweepMemory& memory);
 }  // namespace reference
 
 }  // namespace ice

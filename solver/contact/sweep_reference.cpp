@@ -1,57 +1,43 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
 #include "solver/contact/sweep.hpp"
+#include "solver/shape/ordered_products.hpp"
 
 namespace ice::reference {
 
 namespace {
 
-// Sums in a fixed order: Eigen's depends on its vector width.
-struct Vector {
-    double x, y, z;
-    friend Vector operator+(Vector a, Vector b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-    friend Vector operator-(Vector a, Vector b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-    friend Vector operator*(double s, Vector a) { return {s * a.x, s * a.y, s * a.z}; }
-};
-double dot(Vector a, Vector b) { return (a.x * b.x + a.y * b.y) + a.z * b.z; }
-Vector cross(Vector a, Vector b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
-Vector get(const LaneVectors& from, std::size_t lane) {
-    return {from[0].v[lane], from[1].v[lane], from[2].v[lane]};
-}
-
 // A body of a pair while its contacts are swept.
 struct Side {
-    Vector velocity, angular_velocity;
-    double inverse_mass, inertia[6];  // inverse, xx yy zz xy xz yz
+    Vec3 velocity, angular_velocity;
+    double inverse_mass, inverse_inertia[6];  // xx yy zz xy xz yz
 
     Side(const BodyMotion& m, const LaneValues& mass, const std::array<LaneValues, 6>& i,
          std::size_t lane)
-        : velocity{m.v[0], m.v[1], m.v[2]},
-          angular_velocity{m.v[3], m.v[4], m.v[5]},
+        : velocity(m.v[0], m.v[1], m.v[2]),
+          angular_velocity(m.v[3], m.v[4], m.v[5]),
           inverse_mass(mass.v[lane]) {
-        for (std::size_t k = 0; k < 6; ++k) inertia[k] = i[k].v[lane];
+        for (std::size_t k = 0; k < 6; ++k) inverse_inertia[k] = i[k].v[lane];
     }
-    Vector at(Vector arm) const { return velocity + cross(angular_velocity, arm); }
-    void push(Vector arm, Vector j) {
+    Vec3 at(const Vec3& arm) const { return velocity + angular_velocity.cross(arm); }
+    void push(const Vec3& arm, const Vec3& j) {
         velocity = velocity + inverse_mass * j;
-        const Vector m = cross(arm, j);
-        const double* i = inertia;
-        angular_velocity = angular_velocity + Vector{(i[0] * m.x + i[3] * m.y) + i[4] * m.z,
-                                                     (i[3] * m.x + i[1] * m.y) + i[5] * m.z,
-                                                     (i[4] * m.x + i[5] * m.y) + i[2] * m.z};
+        const Vec3 m = arm.cross(j);
+        const double* i = inverse_inertia;
+        angular_velocity = angular_velocity + Vec3{(i[0] * m.x() + i[3] * m.y()) + i[4] * m.z(),
+                                                   (i[3] * m.x() + i[1] * m.y()) + i[5] * m.z(),
+                                                   (i[4] * m.x() + i[5] * m.y()) + i[2] * m.z()};
     }
     void store(BodyMotion& m) const {
-        m.v[0] = velocity.x;
-        m.v[1] = velocity.y;
-        m.v[2] = velocity.z;
-        m.v[3] = angular_velocity.x;
-        m.v[4] = angular_velocity.y;
-        m.v[5] = angular_velocity.z;
+        m.v[0] = velocity.x();
+        m.v[1] = velocity.y();
+        m.v[2] = velocity.z();
+        m.v[3] = angular_velocity.x();
+        m.v[4] = angular_velocity.y();
+        m.v[5] = angular_velocity.z();
     }
 };
 
@@ -61,32 +47,33 @@ struct Changes {
 };
 
 void solve(ContactRow& row, std::size_t lane, Side& a, Side& b, Changes& most) {
-    const Vector n = get(row.normal, lane);
-    const Vector arm_a = get(row.arm_a, lane), arm_b = get(row.arm_b, lane);
-    const Vector v = b.at(arm_b) - a.at(arm_a);
+    const Vec3 n = get(row.normal, lane);
+    const Vec3 arm_a = get(row.arm_a, lane), arm_b = get(row.arm_b, lane);
+    const Vec3 v = b.at(arm_b) - a.at(arm_a);
     double& normal = row.impulse.normal.v[lane];
-    const double reached = normal + (row.wanted.v[lane] - dot(n, v)) * row.normal_mass.v[lane];
+    const double reached =
+        normal + (row.wanted.v[lane] - ordered_dot(n, v)) * row.normal_mass.v[lane];
     const double next = std::min(std::max(reached, 0.0), row.bound.v[lane]);
     const double change = next - normal;
     normal = next;
 
-    const Vector after = v + change * get(row.response, lane);
-    const Vector sliding = after - dot(n, after) * n;
-    const Vector before = get(row.impulse.tangent, lane);
-    Vector tangent = before - row.tangent_mass.v[lane] * sliding;
-    const double size_sq = dot(tangent, tangent), limit = row.friction.v[lane] * next;
+    const Vec3 after = v + change * get(row.response, lane);
+    const Vec3 sliding = after - ordered_dot(n, after) * n;
+    const Vec3 before = get(row.impulse.tangent, lane);
+    Vec3 tangent = before - row.tangent_mass.v[lane] * sliding;
+    const double size_sq = ordered_dot(tangent, tangent), limit = row.friction.v[lane] * next;
     if (size_sq > limit * limit) tangent = (limit / std::sqrt(size_sq)) * tangent;
-    const Vector turned = tangent - before;
-    row.impulse.tangent[0].v[lane] = tangent.x;
-    row.impulse.tangent[1].v[lane] = tangent.y;
-    row.impulse.tangent[2].v[lane] = tangent.z;
+    const Vec3 turned = tangent - before;
+    row.impulse.tangent[0].v[lane] = tangent.x();
+    row.impulse.tangent[1].v[lane] = tangent.y();
+    row.impulse.tangent[2].v[lane] = tangent.z();
 
-    const Vector j = change * n + turned;
+    const Vec3 j = change * n + turned;
     a.push(arm_a, -1.0 * j);
     b.push(arm_b, j);
     const double k = row.tangent_response.v[lane];
     most.normal = std::max(most.normal, std::abs(change) * row.normal_response.v[lane]);
-    most.tangent_sq = std::max(most.tangent_sq, dot(turned, turned) * (k * k));
+    most.tangent_sq = std::max(most.tangent_sq, ordered_dot(turned, turned) * (k * k));
 }
 
 }  // namespace
@@ -107,45 +94,6 @@ double sweep(const std::vector<PairBlock>& blocks, std::vector<ContactRow>& rows
             if (b.inverse_mass > 0.0) b.store(mb);
         }
     return std::max(most.normal, std::sqrt(most.tangent_sq));
-}
-
-double measure_change(const std::vector<ContactRow>& rows, const SweepMemory& memory) {
-    double sum[kLanes] = {};
-    for (std::size_t r = 0; r < rows.size(); ++r)
-        for (std::size_t lane = 0; lane < kLanes; ++lane) {
-            const RowImpulses &now = rows[r].impulse, &before = memory.before[r];
-            const double normal = now.normal.v[lane] - before.normal.v[lane];
-            const Vector tangent = get(now.tangent, lane) - get(before.tangent, lane);
-            sum[lane] +=
-                (normal * normal + dot(tangent, tangent)) * rows[r].normal_response.v[lane];
-        }
-    return ((sum[0] + sum[1]) + (sum[2] + sum[3])) + ((sum[4] + sum[5]) + (sum[6] + sum[7]));
-}
-
-namespace {
-
-void move_on(double& value, double& before, double& way, double beta) {
-    const double change = value - before;
-    value = value + beta * way;
-    way = beta * way + change;
-    before = value;
-}
-
-}  // namespace
-
-void move_on(std::vector<ContactRow>& rows, std::vector<BodyMotion>& motion, double beta,
-             SweepMemory& memory) {
-    for (std::size_t r = 0; r < rows.size(); ++r)
-        for (std::size_t lane = 0; lane < kLanes; ++lane) {
-            RowImpulses &now = rows[r].impulse, &before = memory.before[r], &way = memory.way[r];
-            move_on(now.normal.v[lane], before.normal.v[lane], way.normal.v[lane], beta);
-            for (std::size_t d = 0; d < 3; ++d)
-                move_on(now.tangent[d].v[lane], before.tangent[d].v[lane], way.tangent[d].v[lane],
-                        beta);
-        }
-    for (std::size_t k = 0; k < motion.size(); ++k)
-        for (std::size_t d = 0; d < 8; ++d)
-            move_on(motion[k].v[d], memory.motion_before[k].v[d], memory.motion_way[k].v[d], beta);
 }
 
 }  // namespace ice::reference

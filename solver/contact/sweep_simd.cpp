@@ -36,8 +36,9 @@ struct Side {
     }
     template <std::size_t M>
     HWY_INLINE void Take(const Side<M>& from, std::size_t s, std::size_t as) {
-        const auto take = [&](Wide<N>& to, const Wide<M>& value) { to.of[as] = value.of[s]; };
-        const auto take_vector = [&](WideVectors<N>& to, const WideVectors<M>& value) {
+        const auto take = [&](Wide<N>& to, const Wide<M>& value)
+                              HWY_ATTR { to.of[as] = value.of[s]; };
+        const auto take_vector = [&](WideVectors<N>& to, const WideVectors<M>& value) HWY_ATTR {
             take(to.x, value.x), take(to.y, value.y), take(to.z, value.z);
         };
         take_vector(velocity, from.velocity);
@@ -50,7 +51,7 @@ struct Side {
 
 HWY_INLINE Side<1> LoadSide(const std::array<std::int32_t, kLanes>& body,
                             const std::vector<BodyMotion>& motion, const LaneValues& mass,
-                            const std::array<LaneValues, 6>& inertia, std::size_t first) {
+                            const std::array<LaneValues, 6>& inverse_inertia, std::size_t first) {
     // lanes without a pair have no mass and no contacts: any body will do
     LaneValues values[6];
     for (std::size_t k = 0; k < hn::Lanes(Tag()); ++k) {
@@ -58,7 +59,8 @@ HWY_INLINE Side<1> LoadSide(const std::array<std::int32_t, kLanes>& body,
         for (std::size_t d = 0; d < 6; ++d) values[d].v[k] = m.v[d];
     }
     const auto value = [&](std::size_t d) HWY_ATTR { return Wide<1>{{Get(values[d], 0)}}; };
-    const auto entry = [&](std::size_t k) HWY_ATTR { return Wide<1>{{Get(inertia[k], first)}}; };
+    const auto entry = [&](std::size_t k)
+                           HWY_ATTR { return Wide<1>{{Get(inverse_inertia[k], first)}}; };
     return {{value(0), value(1), value(2)},
             {value(3), value(4), value(5)},
             {{Get(mass, first)}},
@@ -93,67 +95,66 @@ struct Changes {
     Lanes normal, tangent_sq;
 };
 
-// As many pairs of a block as the machine has lanes.
+// As many pairs of a block as the machine has lanes, at one of their rows.
 struct Stream {
     const PairBlock* block;
     std::size_t lane;
     ContactRow* row;
+    std::int32_t left;  // rows
 };
 
-// N streams that share no free body, the one with the fewest rows last.
+// N streams that share no free body.
 template <std::size_t N>
 struct Streams {
     Stream of[N];
     Side<N> a, b;
 
     template <class Part>
-    HWY_INLINE Wide<N> Read(std::int32_t r, const Part& part) const {
+    HWY_INLINE Wide<N> Read(const Part& part) const {
         Wide<N> out;
-        for (std::size_t s = 0; s < N; ++s) out.of[s] = Get(part(of[s].row[r]), of[s].lane);
+        for (std::size_t s = 0; s < N; ++s) out.of[s] = Get(part(*of[s].row), of[s].lane);
         return out;
     }
     template <class Part>
-    HWY_INLINE WideVectors<N> ReadVectors(std::int32_t r, const Part& part) const {
+    HWY_INLINE WideVectors<N> ReadVectors(const Part& part) const {
         const auto axis = [&](std::size_t d) HWY_ATTR {
-            return Read(r,
-                        [&](const ContactRow& row) -> const LaneValues& { return part(row)[d]; });
+            return Read([&](const ContactRow& row) -> const LaneValues& { return part(row)[d]; });
         };
         return {axis(0), axis(1), axis(2)};
     }
     template <class Part>
-    HWY_INLINE void Write(const Wide<N>& value, std::int32_t r, const Part& part) {
-        for (std::size_t s = 0; s < N; ++s) Put(value.of[s], part(of[s].row[r]), of[s].lane);
+    HWY_INLINE void Write(const Wide<N>& value, const Part& part) {
+        for (std::size_t s = 0; s < N; ++s) Put(value.of[s], part(*of[s].row), of[s].lane);
     }
 
-    HWY_INLINE void Solve(std::int32_t r, Changes& most);
+    HWY_INLINE void Solve(Changes& most);
 };
 
 template <std::size_t N>
-HWY_INLINE void Streams<N>::Solve(std::int32_t r, Changes& most) {
+HWY_INLINE void Streams<N>::Solve(Changes& most) {
     const Tag d;
     const auto vectors = [&](LaneVectors ContactRow::*part) HWY_ATTR {
-        return ReadVectors(r,
-                           [=](const ContactRow& row) -> const LaneVectors& { return row.*part; });
+        return ReadVectors([=](const ContactRow& row) -> const LaneVectors& { return row.*part; });
     };
     const auto values = [&](LaneValues ContactRow::*part) HWY_ATTR {
-        return Read(r, [=](const ContactRow& row) -> const LaneValues& { return row.*part; });
+        return Read([=](const ContactRow& row) -> const LaneValues& { return row.*part; });
     };
     const WideVectors<N> n = vectors(&ContactRow::normal);
     const WideVectors<N> arm_a = vectors(&ContactRow::arm_a), arm_b = vectors(&ContactRow::arm_b);
     const WideVectors<N> v = b.At(arm_b) - a.At(arm_a);
     const auto normal_of = [](auto& row) -> auto& { return row.impulse.normal; };
-    const Wide<N> normal = Read(r, normal_of), bound = values(&ContactRow::bound);
+    const Wide<N> normal = Read(normal_of), bound = values(&ContactRow::bound);
     Wide<N> next =
         normal + (values(&ContactRow::wanted) - Dot(n, v)) * values(&ContactRow::normal_mass);
     for (std::size_t s = 0; s < N; ++s)
         next.of[s] = hn::Min(hn::Max(next.of[s], hn::Zero(d)), bound.of[s]);
     const Wide<N> change = next - normal;
-    Write(next, r, normal_of);
+    Write(next, normal_of);
 
     const WideVectors<N> after = v + change * vectors(&ContactRow::response);
     const WideVectors<N> sliding = after - Dot(n, after) * n;
     const WideVectors<N> before = ReadVectors(
-        r, [](const ContactRow& row) -> const LaneVectors& { return row.impulse.tangent; });
+        [](const ContactRow& row) -> const LaneVectors& { return row.impulse.tangent; });
     const WideVectors<N> free = before - values(&ContactRow::tangent_mass) * sliding;
     const Wide<N> size_sq = Dot(free, free), limit = values(&ContactRow::friction) * next;
     const Wide<N> limit_sq = limit * limit;
@@ -164,9 +165,9 @@ HWY_INLINE void Streams<N>::Solve(std::int32_t r, Changes& most) {
                            hn::Div(limit.of[s], hn::Sqrt(size_sq.of[s])), hn::Set(d, 1.0));
     const WideVectors<N> tangent = shorter * free;
     const WideVectors<N> turned = tangent - before;
-    Write(tangent.x, r, [](ContactRow& row) -> LaneValues& { return row.impulse.tangent[0]; });
-    Write(tangent.y, r, [](ContactRow& row) -> LaneValues& { return row.impulse.tangent[1]; });
-    Write(tangent.z, r, [](ContactRow& row) -> LaneValues& { return row.impulse.tangent[2]; });
+    Write(tangent.x, [](ContactRow& row) -> LaneValues& { return row.impulse.tangent[0]; });
+    Write(tangent.y, [](ContactRow& row) -> LaneValues& { return row.impulse.tangent[1]; });
+    Write(tangent.z, [](ContactRow& row) -> LaneValues& { return row.impulse.tangent[2]; });
 
     const WideVectors<N> j = change * n + turned;
     Wide<N> minus;
@@ -176,67 +177,115 @@ HWY_INLINE void Streams<N>::Solve(std::int32_t r, Changes& most) {
     const Wide<N> k = values(&ContactRow::tangent_response);
     const Wide<N> slid = Dot(turned, turned) * (k * k);
     const Wide<N> response = values(&ContactRow::normal_response);
+    for (std::size_t s = 0; s < N; ++s) ++of[s].row;
     for (std::size_t s = 0; s < N; ++s) {
         most.normal = hn::Max(most.normal, hn::Mul(hn::Abs(change.of[s]), response.of[s]));
         most.tangent_sq = hn::Max(most.tangent_sq, slid.of[s]);
     }
 }
 
-// From row r to the end of all streams: each leaves after its last row.
 template <std::size_t N>
-HWY_INLINE void Finish(Streams<N>& streams, std::int32_t r, std::vector<BodyMotion>& motion,
-                       Changes& most) {
-    const Stream& last = streams.of[N - 1];
-    for (; r < last.block->rows; ++r) streams.Solve(r, most);
-    StoreSide(streams.a, N - 1, last.block->a, last.block->inverse_mass_a, last.lane, motion);
-    StoreSide(streams.b, N - 1, last.block->b, last.block->inverse_mass_b, last.lane, motion);
-    if constexpr (N > 1) {
-        Streams<N - 1> others;
-        for (std::size_t s = 0; s + 1 < N; ++s) {
-            others.of[s] = streams.of[s];
-            others.a.Take(streams.a, s, s);
-            others.b.Take(streams.b, s, s);
+HWY_INLINE void Begin(const Stream& stream, const std::vector<BodyMotion>& motion,
+                      Streams<N>& streams, std::size_t s) {
+    const PairBlock& pairs = *stream.block;
+    const std::size_t lane = stream.lane;
+    streams.of[s] = stream;
+    streams.a.Take(LoadSide(pairs.a, motion, pairs.inverse_mass_a, pairs.inverse_inertia_a, lane),
+                   0, s);
+    streams.b.Take(LoadSide(pairs.b, motion, pairs.inverse_mass_b, pairs.inverse_inertia_b, lane),
+                   0, s);
+}
+
+template <std::size_t N>
+HWY_INLINE void End(const Streams<N>& streams, std::size_t s, std::vector<BodyMotion>& motion) {
+    const Stream& stream = streams.of[s];
+    const PairBlock& pairs = *stream.block;
+    StoreSide(streams.a, s, pairs.a, pairs.inverse_mass_a, stream.lane, motion);
+    StoreSide(streams.b, s, pairs.b, pairs.inverse_mass_b, stream.lane, motion);
+}
+
+template <std::size_t N>
+HWY_INLINE Streams<N - 1> Without(std::size_t left_out, const Streams<N>& streams) {
+    Streams<N - 1> out;
+    for (std::size_t s = 0; s + 1 < N; ++s) {
+        const std::size_t from = s < left_out ? s : s + 1;
+        out.of[s] = streams.of[from];
+        out.a.Take(streams.a, from, s);
+        out.b.Take(streams.b, from, s);
+    }
+    return out;
+}
+
+// The streams of a colour that have not begun.
+struct Waiting {
+    const PairBlock* block;
+    const PairBlock* end;
+    std::size_t lane;
+    std::vector<ContactRow>* rows;
+
+    HWY_INLINE bool IsEmpty() const { return block == end; }
+    HWY_INLINE Stream Next() {
+        const Stream out{block, lane, rows->data() + block->first_row, block->rows};
+        lane += hn::Lanes(Tag());
+        if (lane == kLanes) {
+            lane = 0;
+            ++block;
         }
-        Finish(others, r, motion, most);
+        return out;
     }
-}
+};
 
-// Begins `count` streams, at most N, from `first` on, and takes them to their end.
+// Takes streams to their ends. Where one ends another begins; once none waits, the others go on.
 template <std::size_t N>
-HWY_INLINE void Run(const Stream* first, std::size_t count, std::vector<BodyMotion>& motion,
-                    Changes& most) {
-    if constexpr (N > 1)
-        if (count < N) return Run<N - 1>(first, count, motion, most);
-    Streams<N> streams;
-    for (std::size_t s = 0; s < N; ++s) {
-        const PairBlock& pairs = *first[s].block;
-        const std::size_t lane = first[s].lane;
-        streams.of[s] = first[s];
-        streams.a.Take(
-            LoadSide(pairs.a, motion, pairs.inverse_mass_a, pairs.inverse_inertia_a, lane), 0, s);
-        streams.b.Take(
-            LoadSide(pairs.b, motion, pairs.inverse_mass_b, pairs.inverse_inertia_b, lane), 0, s);
+HWY_INLINE void Finish(Streams<N>& streams, Waiting& waiting, std::vector<BodyMotion>& motion,
+                       Changes& most) {
+    while (true) {
+        std::int32_t together = streams.of[0].left;
+        for (std::size_t s = 1; s < N; ++s) together = std::min(together, streams.of[s].left);
+        for (std::int32_t r = 0; r < together; ++r) streams.Solve(most);
+        for (std::size_t s = 0; s < N; ++s) streams.of[s].left -= together;
+        for (std::size_t s = 0; s < N; ++s) {
+            if (streams.of[s].left > 0) continue;
+            End(streams, s, motion);
+            if (!waiting.IsEmpty()) {
+                Begin(waiting.Next(), motion, streams, s);
+                continue;
+            }
+            if constexpr (N > 1) {
+                Streams<N - 1> others = Without(s, streams);
+                Finish(others, waiting, motion, most);
+            }
+            return;
+        }
     }
-    Finish(streams, 0, motion, most);
 }
 
-// Streams beside each other; three gain nothing more, as their velocities come from memory.
+// Begins up to N streams, and takes all to their ends.
+template <std::size_t N>
+HWY_INLINE void Run(Waiting waiting, std::vector<BodyMotion>& motion, Changes& most) {
+    if constexpr (N > 1) {
+        const auto streams =
+            static_cast<std::size_t>(waiting.end - waiting.block) * (kLanes / hn::Lanes(Tag()));
+        if (streams < N) return Run<N - 1>(waiting, motion, most);
+    }
+    Streams<N> streams;
+    for (std::size_t s = 0; s < N; ++s) Begin(waiting.Next(), motion, streams, s);
+    Finish(streams, waiting, motion, most);
+}
+
+// Streams beside each other; a third gains nothing.
 constexpr std::size_t kStreams = 2;
 
 double Sweep(const std::vector<PairBlock>& blocks, std::vector<ContactRow>& rows,
              std::vector<BodyMotion>& motion) {
     const Tag d;
-    const std::size_t parts = kLanes / hn::Lanes(d), streams = parts * blocks.size();
     Changes most{hn::Zero(d), hn::Zero(d)};
-    for (std::size_t k = 0; k < streams;) {
-        Stream taken[kStreams];
-        std::size_t count = 0;
-        for (const std::int32_t colour = blocks[k / parts].colour;
-             count < kStreams && k < streams && blocks[k / parts].colour == colour; ++k, ++count) {
-            const PairBlock& pairs = blocks[k / parts];
-            taken[count] = {&pairs, k % parts * hn::Lanes(d), rows.data() + pairs.first_row};
-        }
-        Run<kStreams>(taken, count, motion, most);
+    const PairBlock* const end = blocks.data() + blocks.size();
+    for (const PairBlock* first = blocks.data(); first != end;) {
+        const PairBlock* last = first;
+        while (last != end && last->colour == first->colour) ++last;
+        Run<kStreams>({first, last, 0, &rows}, motion, most);
+        first = last;
     }
     return std::max(hn::GetLane(hn::MaxOfLanes(d, most.normal)),
                     std::sqrt(hn::GetLane(hn::MaxOfLanes(d, most.tangent_sq))));

@@ -10,7 +10,6 @@
 
 #include <hwy/highway.h>
 
-#include <array>
 #include <cstdint>
 
 HWY_BEFORE_NAMESPACE();
@@ -38,12 +37,16 @@ constexpr CompressTable make_compress_table() {
     return out;
 }
 inline constexpr CompressTable kCompressTable = make_compress_table();
+static_assert(kCompressTable.lanes[0b10110][0] == 1 && kCompressTable.lanes[0b10110][1] == 2 &&
+              kCompressTable.lanes[0b10110][2] == 4 && kCompressTable.lanes[0b10110][3] == 0);
+static_assert(kCompressTable.lanes[0b1000][0] == 3 && kCompressTable.lanes[0b1000][3] == 2);
 #endif
 
 // Lanes of four bytes; what follows those that are chosen means nothing.
 template <class D, class V, class M>
 HWY_INLINE V Compressed(D d, V values, M chosen) {
 #if ICE_OWN_COMPRESS
+    static_assert(sizeof(hn::TFromD<D>) == 4);
     std::uint8_t bits[8];
     hn::StoreMaskBits(d, chosen, bits);
     return hn::TableLookupLanes(values, hn::SetTableIndices(d, kCompressTable.lanes[bits[0]]));

@@ -158,11 +158,11 @@ void PickNear(const NearSpheres& from, const FloatBox& box, float grow, NearSphe
     picked.Finish();
 }
 
-// Bytes of a stored mask.
+// Bytes of a stored mask: StoreMaskBits writes no more.
 constexpr std::size_t kMaskBytes = (hn::MaxLanes(Tag()) + 7) / 8;
 
 // Rows that are tested together: what is loaded of the many serves all of them.
-constexpr std::size_t kRows = 4;
+constexpr std::size_t kRowsAtOnce = 4;
 
 // Tests rows f .. f + N - 1 against all of the many, a mask for every vector of these: the masks of
 // a row follow each other. Has a row any partner?
@@ -211,14 +211,15 @@ void FindNearPairs(const NearSpheres& few, std::size_t first, std::size_t last,
     if (out.partner.size() < room) out.partner.resize(room);
     const std::size_t row_bytes = vectors * kMaskBytes;
     // eight bytes are read for a mask
-    if (out.masks.size() < kRows * row_bytes + 8) out.masks.resize(kRows * row_bytes + 8);
+    if (out.masks.size() < kRowsAtOnce * row_bytes + 8)
+        out.masks.resize(kRowsAtOnce * row_bytes + 8);
     out.end.clear();
     std::size_t found = 0;
     for (std::size_t f = first; f < last;) {
-        const std::size_t rows = last - f < kRows ? 1 : kRows;
-        bool any[kRows];
+        const std::size_t rows = last - f < kRowsAtOnce ? 1 : kRowsAtOnce;
+        bool any[kRowsAtOnce];
         rows == 1 ? TestRows<1>(few, f, many, range, out.masks.data(), row_bytes, any)
-                  : TestRows<kRows>(few, f, many, range, out.masks.data(), row_bytes, any);
+                  : TestRows<kRowsAtOnce>(few, f, many, range, out.masks.data(), row_bytes, any);
         for (std::size_t r = 0; r < rows; ++r) {
             for (std::size_t v = 0; any[r] && v < vectors; ++v) {
                 const Mask near =

@@ -173,7 +173,7 @@ private:
     }
 
     void measure_scene(const std::string& name, int floes) {
-        std::vector<Row> fastest;  // of each model: what peers are compared with
+        std::vector<Row> fastest;  // of each model, on one thread if measured: peers' measure
         for (const std::string& model : models_of(name)) {
             const std::size_t first = rows_.size();
             if (!measure_model(make(name, floes, model), model)) return;

@@ -202,6 +202,15 @@ TEST_CASE("a warm start's tangent lies in the new tangent plane and in its cone"
     CHECK(now[0].rest_normal == 2.0);
     // (1/2, 0, 0) less its part along the normal is (1/4, 0, -1/4), longer than 0.1 x 2 N s
     CHECK((now[0].rest_tangent - 0.2 * Vec3(1, 0, -1).normalized()).norm() < 1e-15);
+    std::vector<Constraint> stuck(1);
+    stuck[0].strength = now[0].strength;
+    stuck[0].can_move = false;
+    warm.recall(contacts, stuck);
+    CHECK(stuck[0].rest_normal == 0.0);
+    warm.remember(contacts, last, {});  // took no part
+    now[0].rest_normal = 0.0;
+    warm.recall(contacts, now);
+    CHECK(now[0].rest_normal == 0.0);
 }
 
 TEST_CASE("a warm start finds each contact's own impulse by bodies and key", "[contact]") {

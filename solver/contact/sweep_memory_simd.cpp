@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What extrapolation does with rows and motions, as many lanes at a time as the machine has,
-// compiled once per instruction set. The mathematics is in sweep_reference.cpp.
-#include "solver/contact/sweep.hpp"
+// compiled once per instruction set. The mathematics is in sweep_memory_reference.cpp.
+#include "solver/contact/sweep_memory.hpp"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "solver/contact/extrapolation_simd.cpp"
+#define HWY_TARGET_INCLUDE "solver/contact/sweep_memory_simd.cpp"
 #include <hwy/foreach_target.h>  // must precede highway.h
 #include <hwy/highway.h>
 

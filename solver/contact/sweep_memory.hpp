@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "solver/contact/contact_rows.hpp"
+
+namespace ice {
+
+/// State before a sweep and the direction of the extrapolation, beside rows and motions.
+struct SweepMemory {
+    std::vector<RowImpulses> before, way;
+    std::vector<BodyMotion> motion_before, motion_way;
+};
+
+/// |g|^2 = sum of k(n) (dJ_n^2 + dJ_t^2) for the changes since `memory` [J], twice the energy of
+/// them on unit masses; summed by lanes, then over the lanes.
+double measure_change(const std::vector<ContactRow>& rows, const SweepMemory& memory);
+
+/// With g the change since `before`: values += beta way, way = beta way + g, before = values; for
+/// impulses and velocities.
+void move_on(std::vector<ContactRow>& rows, std::vector<BodyMotion>& motion, double beta,
+             SweepMemory& memory);
+
+namespace reference {
+// The definitions, one number at a time: read these first. Same bits on every instruction set.
+double measure_change(const std::vector<ContactRow>& rows, const SweepMemory& memory);
+void move_on(std::vector<ContactRow>& rows, std::vector<BodyMotion>& motion, double beta,
+             SweepMemory& memory);
+}  // namespace reference
+
+}  // namespace ice
