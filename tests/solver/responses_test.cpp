@@ -55,7 +55,7 @@ Block random_block(std::size_t pairs, std::size_t rows, unsigned seed) {
             out.inverse_inertias.b[k].v[lane] = main + 0.3 * dice.number();
         }
         for (std::size_t r = 0; r < rows - lane * rows / kLanes; ++r) {
-            // the normals of boxes, too: there the axis that they are least along is not the only one
+            // the normals of boxes, too, which are least along more than one axis
             const Vec3 normals[] = {dice.vector().normalized(),
                                     -Vec3::UnitX(),
                                     Vec3::UnitY(),
