@@ -36,20 +36,41 @@ void find_pairs(const Scene& scene, double margin, std::vector<BodyPair>& out) {
     out.clear();
     const Bodies& b = scene.bodies;
     double largest = 0.0;
+    // no part of the ship's box is farther than this from the ship's origin; most floes are
+    const Eigen::AlignedBox3d& box = scene.shapes[0].box;
+    const double corner = box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).norm();
     for (std::size_t i = 1; i < b.size(); ++i) {
         largest = std::max(largest, bounding_radius(scene, i));
+        const double range = corner + bounding_radius(scene, i) + margin;
+        if ((b.position[i] - b.position[kShip]).squaredNorm() > 1.000001 * range * range) continue;
         if (near_ship(scene, i, margin)) out.push_back(make_pair(kShip, i));
     }
     if (largest == 0.0) return;
 
-    // only moving floes ask; a pair of two moving ones is reported by the lower
-    thread_local SphereGrid grid;  // keeps its memory
-    grid.build({b.position.data() + 1, b.size() - 1}, 2.0 * largest + margin);
+    // only moving floes ask: held ones beyond the box that they reach need no place in the grid
+    Eigen::AlignedBox3d reached;
+    for (std::size_t i = 1; i < b.size(); ++i)
+        if (!b.held[i]) reached.extend(b.position[i]);
+    reached.min().array() -= 2.0 * largest + margin;
+    reached.max().array() += 2.0 * largest + margin;
+    thread_local std::vector<std::int32_t> asked;
+    thread_local std::vector<Vec3> places;
+    thread_local SphereGrid grid;  // all keep their memory
+    asked.clear();
+    places.clear();
     for (std::size_t i = 1; i < b.size(); ++i) {
+        if (!reached.contains(b.position[i])) continue;
+        asked.push_back(static_cast<std::int32_t>(i));
+        places.push_back(b.position[i]);
+    }
+    grid.build(places, 2.0 * largest + margin);
+    for (const std::int32_t asking : asked) {
+        const auto i = static_cast<std::size_t>(asking);
         if (b.held[i]) continue;
         const double range = bounding_radius(scene, i) + largest + margin;
         grid.for_each_near(b.position[i], range, [&](std::int32_t item) {
-            const std::size_t j = static_cast<std::size_t>(item) + 1;
+            const auto j = static_cast<std::size_t>(asked[static_cast<std::size_t>(item)]);
+            // a pair of two moving ones is reported by the lower
             if (j == i || (!b.held[j] && j < i)) return;
             if (near_floes(scene, i, j, margin))
                 out.push_back(make_pair(std::min(i, j), std::max(i, j)));
