@@ -2,12 +2,15 @@
 #include "solver/broad/find_pairs.hpp"
 
 #include <algorithm>
+#include <span>
 
 #include "solver/shape/sphere_grid.hpp"
 
 namespace ice {
 
 namespace {
+
+constexpr auto kShipId = static_cast<std::int32_t>(kShip);
 
 double bounding_radius(const Scene& scene, std::size_t i) {
     return scene.shapes[static_cast<std::size_t>(scene.bodies.shape[i])].bounding_radius;
@@ -26,57 +29,77 @@ bool near_floes(const Scene& scene, std::size_t i, std::size_t j, double margin)
     return (b.position[j] - b.position[i]).squaredNorm() <= range * range;
 }
 
+double largest_radius(const Scene& scene) {
+    double largest = 0.0;
+    for (std::size_t k = 1; k < scene.shapes.size(); ++k)
+        largest = std::max(largest, scene.shapes[k].bounding_radius);
+    return largest;
+}
+
+Eigen::AlignedBox3d grown(const Eigen::AlignedBox3d& box, double by) {
+    return {box.min().array() - by, box.max().array() + by};
+}
+
 BodyPair make_pair(std::size_t a, std::size_t b) {
     return {static_cast<std::int32_t>(a), static_cast<std::int32_t>(b)};
+}
+
+// A box with the centres of all floes that may come within `margin` of a body that moves.
+Eigen::AlignedBox3d reach_of_motion(const Scene& scene, double margin) {
+    const Bodies& b = scene.bodies;
+    const double largest = largest_radius(scene);
+    Eigen::AlignedBox3d ship, floes;
+    for (int k = 0; k < 8; ++k) {
+        const auto corner = scene.shapes[0].box.corner(Eigen::AlignedBox3d::CornerType(k));
+        ship.extend(Vec3(b.position[kShip] + b.rotation[kShip] * corner));
+    }
+    for (const std::int32_t i : b.moving) floes.extend(b.position[i]);
+    ship = grown(ship, largest + margin);
+    return b.moving.empty() ? ship : ship.merged(grown(floes, 2.0 * largest + margin));
+}
+
+void find_floes(const Scene& scene, const Eigen::AlignedBox3d& box,
+                std::vector<std::int32_t>& out) {
+    out.clear();
+    const Bodies& b = scene.bodies;
+    for (std::size_t i = 1; i < b.size(); ++i)
+        if (box.contains(b.position[i])) out.push_back(static_cast<std::int32_t>(i));
+}
+
+// The pairs of the ship and `floes`, those within reach_of_motion() and perhaps others.
+void find_pairs_among(const Scene& scene, double margin, std::span<const std::int32_t> floes,
+                      std::vector<BodyPair>& out) {
+    out.clear();
+    const Bodies& b = scene.bodies;
+    for (const std::int32_t i : floes)
+        if (near_ship(scene, static_cast<std::size_t>(i), margin)) out.push_back({kShipId, i});
+
+    thread_local std::vector<Vec3> places;
+    thread_local SphereGrid grid;  // both keep their memory
+    places.clear();
+    for (const std::int32_t i : floes) places.push_back(b.position[i]);
+    const double largest = largest_radius(scene);
+    grid.build(places, 2.0 * largest + margin);
+    for (const std::int32_t i : floes) {
+        if (b.held[i]) continue;  // only moving floes ask
+        const double range = bounding_radius(scene, static_cast<std::size_t>(i)) + largest + margin;
+        grid.for_each_near(b.position[i], range, [&](std::int32_t item) {
+            const std::int32_t j = floes[static_cast<std::size_t>(item)];
+            // a pair of two moving ones is reported by the lower
+            if (j == i || (!b.held[j] && j < i)) return;
+            if (near_floes(scene, static_cast<std::size_t>(i), static_cast<std::size_t>(j), margin))
+                out.push_back({std::min(i, j), std::max(i, j)});
+        });
+    }
+    std::sort(out.begin(), out.end());
 }
 
 }  // namespace
 
 void find_pairs(const Scene& scene, double margin, std::vector<BodyPair>& out) {
-    out.clear();
-    const Bodies& b = scene.bodies;
-    double largest = 0.0;
-    // no part of the ship's box is farther than this from the ship's origin; most floes are
-    const Eigen::AlignedBox3d& box = scene.shapes[0].box;
-    const double corner = box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).norm();
-    for (std::size_t i = 1; i < b.size(); ++i) {
-        largest = std::max(largest, bounding_radius(scene, i));
-        const double range = corner + bounding_radius(scene, i) + margin;
-        if ((b.position[i] - b.position[kShip]).squaredNorm() > 1.000001 * range * range) continue;
-        if (near_ship(scene, i, margin)) out.push_back(make_pair(kShip, i));
-    }
-    if (largest == 0.0) return;
-
-    // only moving floes ask: held ones beyond the box that they reach need no place in the grid
-    Eigen::AlignedBox3d reached;
-    for (std::size_t i = 1; i < b.size(); ++i)
-        if (!b.held[i]) reached.extend(b.position[i]);
-    reached.min().array() -= 2.0 * largest + margin;
-    reached.max().array() += 2.0 * largest + margin;
-    thread_local std::vector<std::int32_t> asked;
-    thread_local std::vector<Vec3> places;
-    thread_local SphereGrid grid;  // all keep their memory
-    asked.clear();
-    places.clear();
-    for (std::size_t i = 1; i < b.size(); ++i) {
-        if (!reached.contains(b.position[i])) continue;
-        asked.push_back(static_cast<std::int32_t>(i));
-        places.push_back(b.position[i]);
-    }
-    grid.build(places, 2.0 * largest + margin);
-    for (const std::int32_t asking : asked) {
-        const auto i = static_cast<std::size_t>(asking);
-        if (b.held[i]) continue;
-        const double range = bounding_radius(scene, i) + largest + margin;
-        grid.for_each_near(b.position[i], range, [&](std::int32_t item) {
-            const auto j = static_cast<std::size_t>(asked[static_cast<std::size_t>(item)]);
-            // a pair of two moving ones is reported by the lower
-            if (j == i || (!b.held[j] && j < i)) return;
-            if (near_floes(scene, i, j, margin))
-                out.push_back(make_pair(std::min(i, j), std::max(i, j)));
-        });
-    }
-    std::sort(out.begin(), out.end());
+    std::vector<std::int32_t> floes;
+    find_floes(scene, reach_of_motion(scene, margin), floes);
+    find_pairs_among(scene, margin, floes, out);
 }
 
 namespace {
@@ -84,23 +107,33 @@ namespace {
 // The list is made for bodies that go this far [m]; more makes it longer, less makes it anew often.
 constexpr double kSkin = 0.1;
 
+// Floes are looked through anew when what moves has gone this far [m]: held ones cost nothing else.
+constexpr double kAround = 5.0;
+
 }  // namespace
 
 bool PairList::is_good(const Scene& scene, const Travel& travel) const {
-    const Bodies& b = scene.bodies;
-    if (way_.size() != b.size() || moving_ != b.moving) return false;
-    const auto stayed = [&](std::int32_t i) { return travel.soon(i) <= way_[i] + kSkin; };
-    return stayed(kShip) && std::all_of(moving_.begin(), moving_.end(), stayed);
+    if (bodies_ != scene.bodies.size() || moving_ != scene.bodies.moving) return false;
+    if (travel.soon(kShipId) > ship_way_ + kSkin) return false;
+    for (std::size_t k = 0; k < moving_.size(); ++k)
+        if (travel.soon(moving_[k]) > way_[k] + kSkin) return false;
+    return true;
 }
 
 void PairList::update(const Scene& scene, const Travel& travel, double margin) {
     if (is_good(scene, travel)) return;
-    // both bodies of a pair may go as far
-    find_pairs(scene, margin + 2.0 * kSkin, pairs_);
+    const double reach = margin + 2.0 * kSkin;  // both bodies of a pair may go as far
+    const Eigen::AlignedBox3d box = reach_of_motion(scene, reach);
+    if (bodies_ != scene.bodies.size() || !vicinity_.contains(box)) {
+        vicinity_ = grown(box, kAround);
+        find_floes(scene, vicinity_, floes_);
+        bodies_ = scene.bodies.size();
+    }
+    find_pairs_among(scene, reach, floes_, pairs_);
     moving_ = scene.bodies.moving;
-    way_.resize(travel.size());
-    for (std::size_t i = 0; i < way_.size(); ++i)
-        way_[i] = travel.way(static_cast<std::int32_t>(i));
+    ship_way_ = travel.way(kShipId);
+    way_.resize(moving_.size());
+    for (std::size_t k = 0; k < way_.size(); ++k) way_[k] = travel.way(moving_[k]);
 }
 
 namespace reference {

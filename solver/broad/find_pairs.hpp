@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <vector>
 
@@ -18,8 +19,8 @@ struct BodyPair {
 
 /// Pairs whose bounding spheres (for the ship: its box) come within `margin` [m] of each other.
 ///
-/// A uniform grid over the floes' positions, so the cost is O(floes). Pairs of two held floes are
-/// left out: neither can move. Sorted by a, then b; the answer does not depend on thread count.
+/// A uniform grid over the positions of floes near those that move, so the cost is O(floes). Pairs
+/// of two held floes are left out: neither can move. Sorted by a, then b.
 void find_pairs(const Scene& scene, double margin, std::vector<BodyPair>& out);
 
 namespace reference {
@@ -27,7 +28,8 @@ namespace reference {
 void find_pairs(const Scene& scene, double margin, std::vector<BodyPair>& out);
 }  // namespace reference
 
-/// The pairs of bodies that may touch within a step, kept until bodies have gone too far.
+/// The pairs of bodies that may touch within a step, kept until bodies have gone too far. Made anew,
+/// it costs what lies around the moving bodies: held floes elsewhere are not looked at.
 class PairList {
 public:
     /// Brings the list up to date: afterwards it holds all pairs that find_pairs gives for bodies
@@ -41,8 +43,12 @@ private:
     bool is_good(const Scene& scene, const Travel& travel) const;
 
     std::vector<BodyPair> pairs_;
-    std::vector<double> way_;           // of the bodies when the list was made [m]
-    std::vector<std::int32_t> moving_;  // which moved then
+    std::vector<std::int32_t> moving_;  // the floes that moved when the list was made
+    std::vector<double> way_;           // theirs then [m]
+    double ship_way_ = 0.0;
+    Eigen::AlignedBox3d vicinity_;     // of all that moves
+    std::vector<std::int32_t> floes_;  // in it, held ones too
+    std::size_t bodies_ = 0;           // that were looked at for them
 };
 
 }  // namespace ice

@@ -76,16 +76,19 @@ StepRecord measure_step(const Scene& scene, const std::vector<Contact>& contacts
 }
 
 void measure_floe_forces(const std::vector<Constraint>& constraints, double dt,
-                         std::vector<FloeForces>& out) {
+                         std::span<const std::int32_t> asked, std::span<FloeForces> out) {
     std::fill(out.begin(), out.end(), FloeForces{});
+    if (out.empty()) return;
     for (const Constraint& c : constraints) {
+        const std::int32_t a = asked[c.a], b = asked[c.b];
+        if (a < 0 && b < 0) continue;
         const Vec3 push = c.total_normal() / dt * c.normal, rub = c.total_tangent() / dt;
         if (c.a == static_cast<std::int32_t>(kShip)) {
-            out[c.b].contact -= push;
-            out[c.b].friction -= rub;
+            out[b].contact -= push;
+            out[b].friction -= rub;
         } else {
-            out[c.b].ice += push + rub;
-            out[c.a].ice -= push + rub;
+            if (b >= 0) out[b].ice += push + rub;
+            if (a >= 0) out[a].ice -= push + rub;
         }
     }
 }

@@ -2,7 +2,7 @@
 /// What one step did, as forces: impulses over dt, those of the ice on the ship.
 #pragma once
 
-#include <map>
+#include <span>
 #include <vector>
 
 #include "solver/contact/constraints.hpp"
@@ -48,8 +48,10 @@ struct FloeForces {
 StepRecord measure_step(const Scene& scene, const std::vector<Contact>& contacts,
                         const std::vector<Constraint>& constraints, double dt);
 
-/// Forces on every body by one pass over the constraints; `out` has one entry per body.
+/// Forces on the floes that are asked for, by one pass over the constraints.
+/// @param asked  per body, its entry in `out`; -1 where none is wanted
+/// @param out    what it held before does not count
 void measure_floe_forces(const std::vector<Constraint>& constraints, double dt,
-                         std::vector<FloeForces>& out);
+                         std::span<const std::int32_t> asked, std::span<FloeForces> out);
 
 }  // namespace ice

@@ -93,9 +93,13 @@ Recorder::Recorder(const Case& parameters, const Scene& scene)
       tally_({scene.shapes[0].region_names, parameters.average_from,
               std::isinf(parameters.crushing_pressure), worrying_overlap(scene),
               tunnelling_speed(scene, parameters.time_step)}),
-      floe_forces_(scene.bodies.size()),
+      track_of_(scene.bodies.size(), -1),
+      tracked_(parameters.track.size()),
       tracked_sum_(parameters.track.size()),
-      frame_impulse_(scene.bodies.size(), Vec3::Zero()) {}
+      frame_impulse_(scene.bodies.size(), Vec3::Zero()) {
+    for (std::size_t k = 0; k < parameters.track.size(); ++k)
+        track_of_[static_cast<std::size_t>(parameters.track[k])] = static_cast<std::int32_t>(k);
+}
 
 void Recorder::open(const std::filesystem::path& folder, const std::string& command_line,
                     const Scene& scene) {
@@ -133,9 +137,8 @@ RecordPosition Recorder::save_rows() {
 void Recorder::add(const StepView& view) {
     const StepRecord record = measure_step(view.scene, view.contacts, view.constraints, dt_);
     tally_.add(record, view.time, dt_, view.converged);
-    measure_floe_forces(view.constraints, dt_, floe_forces_);
-    for (std::size_t i = 1; i < floe_forces_.size(); ++i)
-        frame_impulse_[i] -= dt_ * (floe_forces_[i].contact + floe_forces_[i].friction);
+    measure_floe_forces(view.constraints, dt_, track_of_, tracked_);
+    for (const RegionImpulse& r : record.regions) frame_impulse_[r.floe] -= r.impulse;
     hull_contacts_.add(view.contacts, view.constraints);
     add_history(view, record);
     // half a step of tolerance: times are multiples of dt up to rounding
@@ -153,10 +156,9 @@ void Recorder::add_history(const StepView& view, const StepRecord& record) {
     row_.max_overlap = std::max(row_.max_overlap, record.max_overlap);
     row_.kinetic_energy = record.kinetic_energy;
     for (std::size_t k = 0; k < tracked_sum_.size(); ++k) {
-        const FloeForces& now = floe_forces_[static_cast<std::size_t>(parameters_.track[k])];
-        tracked_sum_[k].contact += now.contact;
-        tracked_sum_[k].friction += now.friction;
-        tracked_sum_[k].ice += now.ice;
+        tracked_sum_[k].contact += tracked_[k].contact;
+        tracked_sum_[k].friction += tracked_[k].friction;
+        tracked_sum_[k].ice += tracked_[k].ice;
     }
     const double due = static_cast<double>(rows_ + 1) * parameters_.history_every;
     if (view.time + 0.5 * dt_ >= due) flush_history(view);

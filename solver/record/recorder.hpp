@@ -74,7 +74,8 @@ private:
     std::optional<RunWriter> run_;    ///< from open() or resume() on
     std::vector<CsvFile> csv_files_;  ///< forces.csv, then the tracked floes'
     Tally tally_;
-    std::vector<FloeForces> floe_forces_;  ///< of the last step, per body
+    std::vector<std::int32_t> track_of_;  ///< per body, its number among the tracked floes, or -1
+    std::vector<FloeForces> tracked_;     ///< per tracked floe, in the last step
 
     HistoryRow row_;
     int row_steps_ = 0;

@@ -42,7 +42,8 @@ void declare(CLI::App& app, Options& o) {
         ->check(CLI::IsMember(scene_names()));
     app.add_option("--floes", o.floes,
                    "Numbers of floes, separated by commas. loose and packed take any (default "
-                   "100,400,1600,10000); paper-3d has 180 and ship-100m 2000 and they are left "
+                   "100,400,1600,10000), held too, of which all but 500 are held (default "
+                   "500,100500); paper-3d has 180 and ship-100m 2000 and they are left "
                    "out where the list lacks that")
         ->delimiter(',')
         ->check(CLI::Range(1, 1000000));

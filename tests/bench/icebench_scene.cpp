@@ -20,6 +20,8 @@ constexpr double kIceDensity = 900.0, kWaterDensity = 1000.0;  // [kg/m3]
 constexpr double kWedgeStart = -9.6;  // x of its stern: the waterline ends just before the ice [m]
 constexpr double kDraught = 8.0;      // of the 100 m hull [m]
 constexpr double kForever = 1e9;      // [s]
+constexpr int kFreeOfHeld = 500;      // floes that are not held in the scene "held"
+constexpr double kHeldFrom = 50.0;    // x of its first held floe: 20 m ahead of those [m]
 
 // Steele, Lea, Flood: Fast splittable pseudorandom number generators, OOPSLA 2014.
 class SplitMix64 {
@@ -76,6 +78,15 @@ World field_world(const Field& field, const SphereSet& hull, const Vec3& hull_po
     return w;
 }
 
+// Adds floes of a field that are held until the ship comes, `ahead` [m] along x.
+void add_held(World& w, const Field& field, double ahead) {
+    w.parameters.floes.push_back(w.parameters.floes[0]);
+    w.parameters.floes[1].hold = Hold::until_hull_contact;
+    for (const FloeStart& start : place_floes(field))
+        add_floe(w.scene, 1, kIceDensity, start.position + Vec3(ahead, 0.0, 0.0), start.orientation,
+                 1, true);
+}
+
 // The squarest columns x rows of this many floes.
 Field rectangle_of(int floes) {
     Field field;
@@ -124,18 +135,30 @@ BenchScene ship_scene(const std::string& name, int floes, const Models& models) 
     return out;
 }
 
+// What stands still beside a field that moves.
+BenchScene held_scene(const std::string& name, int floes, const Models& models) {
+    const int free = std::min(floes, kFreeOfHeld);
+    BenchScene out = wedge_scene(name, rectangle_of(free), models);
+    out.for_peers = false;
+    if (floes > free) add_held(out.world, rectangle_of(floes - free), kHeldFrom);
+    return out;
+}
+
 }  // namespace
 
 const std::vector<std::string>& scene_names() {
-    static const std::vector<std::string> names{"loose", "packed", "paper-3d", "ship-100m"};
+    static const std::vector<std::string> names{"loose", "packed", "held", "paper-3d", "ship-100m"};
     return names;
 }
 
-bool takes_any_number(const std::string& name) { return name == "loose" || name == "packed"; }
+bool takes_any_number(const std::string& name) {
+    return name == "loose" || name == "packed" || name == "held";
+}
 
 std::vector<int> usual_floes(const std::string& name) {
     if (name == "paper-3d") return {180};
     if (name == "ship-100m") return {2000};
+    if (name == "held") return {kFreeOfHeld, kFreeOfHeld + 100000};
     return {100, 400, 1600, 10000};
 }
 
@@ -175,6 +198,7 @@ BenchScene make_bench_scene(const std::string& name, int floes, const Models& mo
         out.world = test::paper_3d();
         return out;
     }
+    if (name == "held") return held_scene(name, floes, models);
     Field field = rectangle_of(floes);
     if (name == "packed") {  // a sheet sawn into floes, at rest
         field.gap = 0.004;

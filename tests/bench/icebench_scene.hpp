@@ -43,7 +43,7 @@ struct BenchScene {
     bool for_peers = false;  ///< other engines can be asked to do it, too
 };
 
-/// Names of the scenes: "loose", "packed", "paper-3d", "ship-100m".
+/// Names of the scenes: "loose", "packed", "held", "paper-3d", "ship-100m".
 const std::vector<std::string>& scene_names();
 
 /// Numbers of floes that a scene is measured with unless others are asked for. paper-3d and
@@ -52,7 +52,9 @@ std::vector<int> usual_floes(const std::string& name);
 bool takes_any_number(const std::string& name);
 
 /// Makes a scene ready.
-/// @param floes  loose and packed: any number >= 1, in the squarest whole rectangle
+/// @param floes  loose and packed: any number >= 1, in the squarest whole rectangle; held: any
+///               number, the first 500 a loose field, all others held ahead of it until the ship
+///               comes, which takes longer than a minute
 BenchScene make_bench_scene(const std::string& name, int floes, const Models& models);
 
 /// Starts of a field's floes, column by column from x = 0 on: odd columns are a quarter of a pitch

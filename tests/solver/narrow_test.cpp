@@ -170,27 +170,6 @@ TEST_CASE("pairs that are not looked at have no contacts, step after step",
     CHECK(std::isinf(w.parameters.crushing_pressure) == w.scene.crushed.recess.empty());
 }
 
-TEST_CASE("the broad phase finds the pairs that testing all finds", "[broad][equivalence]") {
-    World w = scattered_world(GENERATE(1u, 2u, 3u, 4u), 200);
-    std::vector<BodyPair> found, expected;
-    find_pairs(w.scene, 0.05, found);
-    reference::find_pairs(w.scene, 0.05, expected);
-    CHECK(expected.size() > 200);
-    CHECK(found == expected);
-}
-
-TEST_CASE("no floe, one floe and two held floes make no ice-ice pair", "[broad][degenerate]") {
-    World w = test::plate_world(test::empty_space(0.01), Vec3(1, 1, 1), 0.1, 0.2, 50.0);
-    std::vector<BodyPair> pairs{{1, 2}};
-    find_pairs(w.scene, 0.1, pairs);
-    CHECK(pairs.empty());
-    const auto box = test::add_shape(w, test::make_box_set(Vec3(1, 0.8, 0.3), 0.05, 0.1));
-    add_floe(w.scene, box, 900.0, Vec3::Zero(), Quaternion::Identity(), 0, true);
-    add_floe(w.scene, box, 900.0, Vec3(0.5, 0, 0), Quaternion::Identity(), 0, true);
-    find_pairs(w.scene, 0.1, pairs);
-    CHECK(pairs.empty());
-}
-
 TEST_CASE("a grid query finds every point in range", "[shape][property]") {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> unit(-1.0, 1.0);

@@ -10,6 +10,8 @@
 #include "solver/record/measure_step.hpp"
 #include "solver/record/statistics.hpp"
 #include "solver/record/tally.hpp"
+#include "solver/step/run.hpp"
+#include "tests/common/fixtures.hpp"
 #include "tests/support/make_worlds.hpp"
 
 using namespace ice;
@@ -122,10 +124,71 @@ TEST_CASE("forces are the opposite of what the floe feels, split into normal and
     CHECK(r.regions[0].floe == 1);
     CHECK((r.regions[0].impulse / 0.01 - r.contact_force - r.friction_force).norm() < 1e-9);
     CHECK((r.regions[0].friction / 0.01 - r.friction_force).norm() < 1e-9);
+}
 
-    std::vector<FloeForces> forces(2);
-    measure_floe_forces(w.constraints, 0.01, forces);
-    CHECK((forces[1].contact - r.contact_force).norm() < 1e-9);
+TEST_CASE("forces on chosen floes are the impulses of their contacts over the step",
+          "[record][analytic]") {
+    const auto touch = [](std::int32_t a, std::int32_t b, double push, double rub) {
+        Constraint c;
+        c.a = a;
+        c.b = b;
+        c.normal = -Vec3::UnitZ();
+        c.rest_normal = push;
+        c.rest_tangent = Vec3(rub, 0, 0);
+        return c;
+    };
+    // the ship presses floe 1 down, which presses floe 2, which presses floe 3
+    const std::vector<Constraint> contacts{touch(0, 1, 3.0, 0.5), touch(1, 2, 2.0, 0.25),
+                                           touch(2, 3, 1.0, 0.0)};
+    const std::vector<std::int32_t> asked{-1, 1, -1, 0};
+    std::vector<FloeForces> forces(2, {Vec3::Ones(), Vec3::Ones(), Vec3::Ones()});
+    measure_floe_forces(contacts, 0.5, asked, forces);
+    CHECK(forces[0].contact == Vec3::Zero());
+    CHECK(forces[0].ice == Vec3(0, 0, -2.0));
+    CHECK(forces[1].contact == Vec3(0, 0, 6.0));
+    CHECK(forces[1].friction == Vec3(-1.0, 0, 0));
+    CHECK(forces[1].ice == Vec3(-0.5, 0, 4.0));
+}
+
+TEST_CASE("the forces on floes, in rows and in frames, are together those on the ship",
+          "[record]") {
+    Case p;
+    p.time_step = 0.01;
+    p.duration = 0.5;
+    p.speed_table = {{0.0, 1.0}};
+    p.frames_every = 0.1;
+    p.history_every = 0.05;
+    p.track = {2, 1};
+    p.floes.resize(1);
+    p.floes[0].hold = Hold::never;
+    World w = test::plate_world(p, Vec3(3, 2, 0.4), 0.1, 0.2, -0.5);
+    const auto box = test::add_shape(w, test::make_box_set(Vec3(0.5, 0.4, 0.2), 0.05, 0.1));
+    for (const double x : {0.0, 0.7})
+        add_floe(w.scene, box, 900.0, Vec3(x, 0.05, -0.601), Quaternion::Identity(), 0, false);
+    const test::TempFolder folder;
+    run(w, {folder / "run", "command"});
+    const RunData data = read_run(folder / "run" / "run.h5");
+
+    Vec3 on_ship = Vec3::Zero();  // impulse [N s]
+    double through_friction = 0.0;
+    for (std::size_t k = 0; k < data.history.size(); ++k) {
+        const HistoryRow& row = data.history[k];
+        const TrackRow &first = data.tracks[1][k], &second = data.tracks[0][k];
+        const Vec3 contact = first.contact_force + second.contact_force;
+        const Vec3 friction = first.friction_force + second.friction_force;
+        CHECK((contact - row.contact_force).norm() <= 1e-12 * row.contact_force.norm());
+        CHECK((friction - row.friction_force).norm() <= 1e-12 * row.friction_force.norm());
+        on_ship += 0.05 * (row.contact_force + row.friction_force);
+        through_friction += 0.05 * row.friction_force.norm();
+    }
+    CHECK(through_friction > 0.05 * on_ship.norm());
+    Vec3 on_ice = Vec3::Zero();
+    for (std::size_t k = 1; k < data.frames.size(); ++k)
+        for (const Vec3& force : data.frames[k].contact_force) {
+            CHECK_FALSE(force.isZero());
+            on_ice += (data.frames[k].time - data.frames[k - 1].time) * force;
+        }
+    CHECK((on_ice + on_ship).norm() < 1e-5 * on_ship.norm());  // frames keep single precision
 }
 
 TEST_CASE("hull contacts between two frames add up to the forces of their steps",
