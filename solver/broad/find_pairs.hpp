@@ -28,8 +28,8 @@ namespace reference {
 void find_pairs(const Scene& scene, double margin, std::vector<BodyPair>& out);
 }  // namespace reference
 
-/// The pairs of bodies that may touch within a step, kept until bodies have gone too far. Made anew,
-/// it costs what lies around the moving bodies: held floes elsewhere are not looked at.
+/// The pairs of bodies that may touch within a step, kept until bodies have gone too far. To make
+/// it anew costs what lies around the moving bodies: held floes elsewhere are not looked at.
 class PairList {
 public:
     /// Brings the list up to date: afterwards it holds all pairs that find_pairs gives for bodies

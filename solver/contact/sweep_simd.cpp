@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/contact/motion_lanes-inl.hpp"
 #include "solver/contact/row_lanes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -53,12 +54,8 @@ HWY_INLINE Side<1> LoadSide(const std::array<std::int32_t, kLanes>& body,
                             const std::vector<BodyMotion>& motion, const LaneValues& mass,
                             const std::array<LaneValues, 6>& inverse_inertia, std::size_t first) {
     // lanes without a pair have no mass and no contacts: any body will do
-    LaneValues values[6];
-    for (std::size_t k = 0; k < hn::Lanes(Tag()); ++k) {
-        const BodyMotion& m = motion[static_cast<std::size_t>(std::max(body[first + k], 0))];
-        for (std::size_t d = 0; d < 6; ++d) values[d].v[k] = m.v[d];
-    }
-    const auto value = [&](std::size_t d) HWY_ATTR { return Wide<1>{{Get(values[d], 0)}}; };
+    const Motions m = LoadMotions(body.data() + first, motion);
+    const auto value = [&](std::size_t d) HWY_ATTR { return Wide<1>{{m.entry[d]}}; };
     const auto entry = [&](std::size_t k)
                            HWY_ATTR { return Wide<1>{{Get(inverse_inertia[k], first)}}; };
     return {{value(0), value(1), value(2)},
@@ -76,18 +73,11 @@ template <std::size_t N>
 HWY_INLINE void StoreSide(const Side<N>& side, std::size_t s,
                           const std::array<std::int32_t, kLanes>& body, const LaneValues& mass,
                           std::size_t first, std::vector<BodyMotion>& motion) {
-    LaneValues values[6];
-    Put(side.velocity.x.of[s], values[0], 0);
-    Put(side.velocity.y.of[s], values[1], 0);
-    Put(side.velocity.z.of[s], values[2], 0);
-    Put(side.angular_velocity.x.of[s], values[3], 0);
-    Put(side.angular_velocity.y.of[s], values[4], 0);
-    Put(side.angular_velocity.z.of[s], values[5], 0);
-    for (std::size_t k = 0; k < hn::Lanes(Tag()); ++k) {
-        if (mass.v[first + k] == 0.0) continue;
-        BodyMotion& m = motion[static_cast<std::size_t>(body[first + k])];
-        for (std::size_t d = 0; d < 6; ++d) m.v[d] = values[d].v[k];
-    }
+    const Lanes unused = hn::Zero(Tag());
+    StoreMotions({{side.velocity.x.of[s], side.velocity.y.of[s], side.velocity.z.of[s],
+                   side.angular_velocity.x.of[s], side.angular_velocity.y.of[s],
+                   side.angular_velocity.z.of[s], unused, unused}},
+                 body.data() + first, mass.v + first, motion);
 }
 
 // Largest changes of velocity so far; the tangential one squared.
