@@ -33,8 +33,10 @@ std::vector<BodyPair> pairs_at_start(Scene& scene, const Case& parameters) {
     std::vector<BodyPair> pairs;
     std::vector<std::uint8_t> all_free(b.size(), 0);
     b.held.swap(all_free);  // or two held floes would be no pair
+    list_moving(b);
     find_pairs(scene, 0.0, pairs);
     b.held.swap(all_free);
+    list_moving(b);
     const auto stays = [&](std::int32_t i) {
         return i > 0 && parameters.floes[static_cast<std::size_t>(b.group[i])].hold == Hold::always;
     };
