@@ -17,8 +17,9 @@ namespace ice::bench {
 
 namespace {
 
-// Energy is measured in every so many steps: it takes as long as a step and empties the caches.
-constexpr int kEnergyEvery = 10;
+// Energy is measured in every so many steps, with more floes than this [1/step] in fewer: it takes
+// as long as a step in which all floes move, and empties the caches.
+constexpr int kEnergyEvery = 10, kFloesPerStep = 1000;
 
 // Kinetic and potential energy above that at the start and what the ship put in [J]. The moment
 // that buoyancy "centre" leaves out takes energy like a load from outside.
@@ -72,6 +73,7 @@ Row measure_solver(const BenchScene& scene, int steps, const Watch& watch) {
     row.scene = scene.name;
     row.floes = static_cast<int>(w.scene.bodies.size()) - 1;
     row.threads = thread_count();
+    const int energy_every = std::max(kEnergyEvery, row.floes / kFloesPerStep);
     for (int k = 1; k <= steps && !row.interrupted; ++k) {
         timed(row, [&] { step(w); });
         const StepRecord record =
@@ -79,7 +81,7 @@ Row measure_solver(const BenchScene& scene, int steps, const Watch& watch) {
         row.contacts += record.contacts;
         row.max_overlap = std::max(row.max_overlap, record.max_overlap);
         row.energy = record.kinetic_energy;
-        if (k % kEnergyEvery == 0 || k == steps) {
+        if (k % energy_every == 0 || k == steps) {
             const double above = energy_above_input(w);
             if (!(row.energy_above_input >= above)) row.energy_above_input = above;
         }
