@@ -53,9 +53,10 @@ Eigen::AlignedBox3d reach_of_motion(const Scene& scene, double margin) {
         const auto corner = scene.shapes[0].box.corner(Eigen::AlignedBox3d::CornerType(k));
         ship.extend(Vec3(b.position[kShip] + b.rotation[kShip] * corner));
     }
-    for (const std::int32_t i : b.moving) floes.extend(b.position[i]);
+    for (const std::int32_t i : b.moving)
+        if (b.position[i].allFinite()) floes.extend(b.position[i]);
     ship = grown(ship, largest + margin);
-    return b.moving.empty() ? ship : ship.merged(grown(floes, 2.0 * largest + margin));
+    return floes.isEmpty() ? ship : ship.merged(grown(floes, 2.0 * largest + margin));
 }
 
 void find_floes(const Scene& scene, const Eigen::AlignedBox3d& box,
@@ -74,17 +75,23 @@ void find_pairs_among(const Scene& scene, double margin, std::span<const std::in
     for (const std::int32_t i : floes)
         if (near_ship(scene, static_cast<std::size_t>(i), margin)) out.push_back({kShipId, i});
 
+    thread_local std::vector<std::int32_t> placed;
     thread_local std::vector<Vec3> places;
-    thread_local SphereGrid grid;  // both keep their memory
+    thread_local SphereGrid grid;  // all keep their memory
+    placed.clear();
     places.clear();
-    for (const std::int32_t i : floes) places.push_back(b.position[i]);
+    for (const std::int32_t i : floes) {
+        if (!b.position[i].allFinite()) continue;  // a run that fails says so after the step
+        placed.push_back(i);
+        places.push_back(b.position[i]);
+    }
     const double largest = largest_radius(scene);
     grid.build(places, 2.0 * largest + margin);
-    for (const std::int32_t i : floes) {
+    for (const std::int32_t i : placed) {
         if (b.held[i]) continue;  // only moving floes ask
         const double range = bounding_radius(scene, static_cast<std::size_t>(i)) + largest + margin;
         grid.for_each_near(b.position[i], range, [&](std::int32_t item) {
-            const std::int32_t j = floes[static_cast<std::size_t>(item)];
+            const std::int32_t j = placed[static_cast<std::size_t>(item)];
             // a pair of two moving ones is reported by the lower
             if (j == i || (!b.held[j] && j < i)) return;
             if (near_floes(scene, static_cast<std::size_t>(i), static_cast<std::size_t>(j), margin))
@@ -107,16 +114,19 @@ namespace {
 // The list is made for bodies that go this far [m]; more makes it longer, less makes it anew often.
 constexpr double kSkin = 0.1;
 
-// Floes are looked through anew when what moves has gone this far [m]: held ones cost nothing else.
-constexpr double kAround = 5.0;
+// The vicinity is larger than what the moving bodies reach by this [m]. More puts more floes in the
+// list's grid, less has all floes looked through more often: a ship at 2 m/s every 2.5 s.
+constexpr double kVicinityRoom = 5.0;
 
 }  // namespace
 
 bool PairList::is_good(const Scene& scene, const Travel& travel) const {
     if (bodies_ != scene.bodies.size() || moving_ != scene.bodies.moving) return false;
-    if (travel.soon(kShipId) > ship_way_ + kSkin) return false;
+    // what is no number is never good
+    const auto stays = [&](std::int32_t i, double way) { return travel.soon(i) <= way + kSkin; };
+    if (!stays(kShipId, ship_way_)) return false;
     for (std::size_t k = 0; k < moving_.size(); ++k)
-        if (travel.soon(moving_[k]) > way_[k] + kSkin) return false;
+        if (!stays(moving_[k], way_[k])) return false;
     return true;
 }
 
@@ -125,7 +135,7 @@ void PairList::update(const Scene& scene, const Travel& travel, double margin) {
     const double reach = margin + 2.0 * kSkin;  // both bodies of a pair may go as far
     const Eigen::AlignedBox3d box = reach_of_motion(scene, reach);
     if (bodies_ != scene.bodies.size() || !vicinity_.contains(box)) {
-        vicinity_ = grown(box, kAround);
+        vicinity_ = grown(box, kVicinityRoom);
         find_floes(scene, vicinity_, floes_);
         bodies_ = scene.bodies.size();
     }

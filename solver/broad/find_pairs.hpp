@@ -20,7 +20,8 @@ struct BodyPair {
 /// Pairs whose bounding spheres (for the ship: its box) come within `margin` [m] of each other.
 ///
 /// A uniform grid over the positions of floes near those that move, so the cost is O(floes). Pairs
-/// of two held floes are left out: neither can move. Sorted by a, then b.
+/// of two held floes are left out: neither can move. Sorted by a, then b; the answer does not
+/// depend on thread count. @pre Bodies::moving lists the floes that are not held
 void find_pairs(const Scene& scene, double margin, std::vector<BodyPair>& out);
 
 namespace reference {
@@ -29,7 +30,8 @@ void find_pairs(const Scene& scene, double margin, std::vector<BodyPair>& out);
 }  // namespace reference
 
 /// The pairs of bodies that may touch within a step, kept until bodies have gone too far. To make
-/// it anew costs what lies around the moving bodies: held floes elsewhere are not looked at.
+/// it anew costs what lies in the box of all that moves; held floes elsewhere are not looked at,
+/// and are taken to stay where they are.
 class PairList {
 public:
     /// Brings the list up to date: afterwards it holds all pairs that find_pairs gives for bodies

@@ -11,6 +11,8 @@
 #include <hwy/highway.h>
 
 #include <cstddef>
+#include <cstdint>
+#include <vector>
 
 #include "solver/contact/contact_rows.hpp"
 #include "solver/shape/vector_lanes-inl.hpp"
@@ -21,36 +23,46 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 constexpr std::size_t kMotionLanes = hn::MaxLanes(Tag());
 
-// Entry k of row i becomes entry i of row k: first within blocks of two by two, then the blocks.
-// Number by number through memory a block of pairs takes as long as two or three of its contacts.
-HWY_INLINE void Transpose(Lanes* rows) {
-    [[maybe_unused]] const Tag d;
 #if HWY_TARGET != HWY_SCALAR
-    Lanes pairs[kMotionLanes];  // of entries k and k + 1 at even and odd k
-    for (std::size_t k = 0; k + 1 < kMotionLanes; k += 2) {
-        pairs[k] = hn::InterleaveLower(d, rows[k], rows[k + 1]);
-        pairs[k + 1] = hn::InterleaveUpper(d, rows[k], rows[k + 1]);
+// Entries k and k + 1 of rows k and k + 1 change places, for even k, in each two entries.
+HWY_INLINE void TransposeTwos(Lanes* rows) {
+    const Tag d;
+    for (std::size_t k = 0; k < kMotionLanes; k += 2) {
+        const Lanes upper = hn::InterleaveUpper(d, rows[k], rows[k + 1]);
+        rows[k] = hn::InterleaveLower(d, rows[k], rows[k + 1]);
+        rows[k + 1] = upper;
     }
-    if constexpr (kMotionLanes <= 2)
-        for (std::size_t k = 0; k < kMotionLanes; ++k) rows[k] = pairs[k];
-    for (std::size_t k = 0; kMotionLanes == 4 && k < 2; ++k) {
-        rows[k] = hn::ConcatLowerLower(d, pairs[k + 2], pairs[k]);
-        rows[k + 2] = hn::ConcatUpperUpper(d, pairs[k + 2], pairs[k]);
-    }
-    for (std::size_t k = 0; kMotionLanes == 8 && k < 2; ++k) {
-        const auto even = [&](std::size_t r) HWY_ATTR {
-            return hn::OddEvenBlocks(hn::SwapAdjacentBlocks(pairs[r + 2]), pairs[r]);
-        };
-        const auto odd = [&](std::size_t r) HWY_ATTR {
-            return hn::OddEvenBlocks(pairs[r + 2], hn::SwapAdjacentBlocks(pairs[r]));
-        };
-        rows[k] = hn::ConcatLowerLower(d, even(k + 4), even(k));
-        rows[k + 2] = hn::ConcatLowerLower(d, odd(k + 4), odd(k));
-        rows[k + 4] = hn::ConcatUpperUpper(d, even(k + 4), even(k));
-        rows[k + 6] = hn::ConcatUpperUpper(d, odd(k + 4), odd(k));
-    }
-#else
-    static_cast<void>(rows);
+}
+#endif
+
+// Entry k of row i becomes entry i of row k: first within blocks of two by two, then the blocks.
+// Fetching motions number by number takes a block of pairs as long as two or three contacts.
+HWY_INLINE void Transpose([[maybe_unused]] Lanes* rows) {
+    static_assert(kMotionLanes == 1 || kMotionLanes == 2 || kMotionLanes == 4 || kMotionLanes == 8);
+#if HWY_TARGET != HWY_SCALAR
+    [[maybe_unused]] const Tag d;
+    if constexpr (kMotionLanes > 1) TransposeTwos(rows);
+    if constexpr (kMotionLanes == 4)
+        for (std::size_t k = 0; k < 2; ++k) {
+            const Lanes upper = hn::ConcatUpperUpper(d, rows[k + 2], rows[k]);
+            rows[k] = hn::ConcatLowerLower(d, rows[k + 2], rows[k]);
+            rows[k + 2] = upper;
+        }
+    if constexpr (kMotionLanes == 8)
+        for (std::size_t k = 0; k < 2; ++k) {
+            const auto even = [&](std::size_t r) HWY_ATTR {
+                return hn::OddEvenBlocks(hn::SwapAdjacentBlocks(rows[r + 2]), rows[r]);
+            };
+            const auto odd = [&](std::size_t r) HWY_ATTR {
+                return hn::OddEvenBlocks(rows[r + 2], hn::SwapAdjacentBlocks(rows[r]));
+            };
+            const Lanes low_even = even(k), low_odd = odd(k);
+            const Lanes high_even = even(k + 4), high_odd = odd(k + 4);
+            rows[k] = hn::ConcatLowerLower(d, high_even, low_even);
+            rows[k + 2] = hn::ConcatLowerLower(d, high_odd, low_odd);
+            rows[k + 4] = hn::ConcatUpperUpper(d, high_even, low_even);
+            rows[k + 6] = hn::ConcatUpperUpper(d, high_odd, low_odd);
+        }
 #endif
 }
 
@@ -59,7 +71,8 @@ struct Motions {
     Lanes entry[8];
 };
 
-// @param body  local numbers of as many bodies as there are lanes; any will do for -1
+// @param body  local numbers of as many bodies as there are lanes; -1 for lanes that are not used,
+//              which get some body's
 HWY_INLINE Motions LoadMotions(const std::int32_t* body, const std::vector<BodyMotion>& motion) {
     Motions out;
     for (std::size_t part = 0; part < 8; part += kMotionLanes) {

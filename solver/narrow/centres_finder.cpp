@@ -13,6 +13,17 @@
 
 namespace ice {
 
+namespace {
+
+// Two spheres that are to be listed.
+struct Near {
+    Vec3 a, b;     // their centres, each in its own body's axes, a's from the list's origin [m]
+    double radii;  // sum [m]
+    std::int32_t i, j;
+};
+
+}  // namespace
+
 struct CentresFinder::Batch {
     std::vector<Candidate> candidates;
     std::vector<ListedSpheres> listed;
@@ -24,6 +35,7 @@ struct CentresFinder::Batch {
 
     // of the pair at hand
     PairSearch search;
+    std::vector<Near> near;
     TouchingSpheres touching;
 };
 
@@ -40,40 +52,48 @@ constexpr double kLeastShare = 0.6, kMostShare = 0.8;  // of the ice's radius
 // What rounding may add to a separation, by far [m].
 constexpr double kRounding = 1e-6;
 
-// Appends two spheres to a list of `count`.
-void append(const PairView& view, std::int32_t i, std::int32_t j, std::size_t count,
-            std::vector<ListedSpheres>& out) {
-    const std::size_t k = count % ListedSpheres::kPairs;
-    if (k == 0) out.emplace_back();
-    ListedSpheres& block = out.back();
-    const Vec3 a = view.center_a(i);
-    const Vec3 b = view.shape_b.center[j] + view.scene.crushed.recess_of(view.pair.b, j);
-    block.ax[k] = static_cast<float>(a.x());
-    block.ay[k] = static_cast<float>(a.y());
-    block.az[k] = static_cast<float>(a.z());
-    block.bx[k] = static_cast<float>(b.x());
-    block.by[k] = static_cast<float>(b.y());
-    block.bz[k] = static_cast<float>(b.z());
-    block.radii[k] = static_cast<float>(view.shape_a.radius[i] + view.shape_b.radius[j]);
-    block.a[k] = i;
-    block.b[k] = j;
+// Finds the spheres whose gap is at most `range` [m], and others.
+void find_near(const PairView& view, double range, PairSearch& search, std::vector<Near>& out) {
+    out.clear();
+    search.for_each_near(
+        view, range, 0.0,
+        [&](std::int32_t i, std::int32_t j) {
+            out.push_back({view.center_a(i) - view.shift,
+                           view.shape_b.center[j] + view.scene.crushed.recess_of(view.pair.b, j),
+                           view.shape_a.radius[i] + view.shape_b.radius[j], i, j});
+        },
+        &Shape::balls);
 }
 
-// Fills the last block of a list of `count` up.
-void fill_up(std::size_t count, std::vector<ListedSpheres>& out) {
-    for (std::size_t k = count % ListedSpheres::kPairs; k % ListedSpheres::kPairs != 0; ++k) {
+// Makes a list of spheres in units as small as the farthest of them allows [m]; returns the unit.
+double list_spheres(const std::vector<Near>& near, std::vector<ListedSpheres>& out) {
+    constexpr std::size_t kPairs = ListedSpheres::kPairs;
+    double farthest = 0.0;
+    for (const Near& n : near)
+        farthest =
+            std::max({farthest, n.a.cwiseAbs().maxCoeff(), n.b.cwiseAbs().maxCoeff(), n.radii});
+    const double unit = near.empty() ? 1.0 : farthest / ListedSpheres::kMost;
+    const auto in_units = [&](double length) {
+        return static_cast<std::int16_t>(std::lround(length / unit));
+    };
+    for (std::size_t n = 0; n < near.size(); ++n) {
+        const std::size_t k = n % kPairs;
+        if (k == 0) {
+            ListedSpheres& fill = out.emplace_back();
+            std::fill_n(fill.radii, kPairs, static_cast<std::int16_t>(-ListedSpheres::kMost - 1));
+        }
         ListedSpheres& block = out.back();
-        for (auto* values : {block.ax, block.ay, block.az, block.bx, block.by, block.bz})
-            values[k] = 0.0f;
-        block.radii[k] = -ListedSpheres::kNowhere;
-        block.a[k] = block.b[k] = -1;
+        block.ax[k] = in_units(near[n].a.x());
+        block.ay[k] = in_units(near[n].a.y());
+        block.az[k] = in_units(near[n].a.z());
+        block.bx[k] = in_units(near[n].b.x());
+        block.by[k] = in_units(near[n].b.y());
+        block.bz[k] = in_units(near[n].b.z());
+        block.radii[k] = in_units(near[n].radii);
+        block.a[k] = near[n].i;
+        block.b[k] = near[n].j;
     }
-}
-
-// What rounding to floats costs a gap at most [m].
-double float_slack(const PairView& view) {
-    const double extent = 2.0 * (view.shape_a.blocks.size + 2.0 * view.shape_b.blocks.size);
-    return static_cast<double>(SphereBlocks::kFloatShare) * (extent + view.shift.norm());
+    return unit;
 }
 
 // How far a sphere of b may have gone relative to one of a since they were listed [m]: two
@@ -83,7 +103,7 @@ double gone_since(const SphereLists::Row& row, const PairView& view, double crus
            view.shape_b.bounding_radius * (view.turn - row.turn).norm() / std::numbers::sqrt2;
 }
 
-// Measures the spheres that touch in floats; appends the candidates.
+// Measures the spheres that touch in whole units; appends the candidates.
 void measure(const PairView& view, const TouchingSpheres& touching, double most,
              std::vector<Candidate>& out) {
     for (std::size_t k = 0; k < touching.count; ++k) {
@@ -114,8 +134,6 @@ CentresFinder::Found CentresFinder::look(std::size_t k, BodyPair pair, const Ste
     const double crushed = travel.crushed(pair.a) + travel.crushed(pair.b);
     double gone = gone_since(row, view, crushed - row.crushed);
     std::span<const ListedSpheres> listed = lists_.listed(k);
-    const FloatPose pose = to_floats(view.turn, view.shift);
-    const double slack = float_slack(view);
     const bool held = are_held(view);
     if (gone + most > row.range) {
         const double apart = separation(view, most, row.axis);
@@ -132,24 +150,21 @@ CentresFinder::Found CentresFinder::look(std::size_t k, BodyPair pair, const Ste
         row.shift = view.shift;
         row.crushed = crushed;
         gone = 0.0;
-        std::size_t count = 0;
-        batch.search.for_each_near(
-            view, row.range, 0.0,
-            [&](std::int32_t i, std::int32_t j) { append(view, i, j, count++, batch.listed); },
-            &Shape::balls);
-        fill_up(count, batch.listed);
+        find_near(view, row.range, batch.search, batch.near);
+        row.unit = list_spheres(batch.near, batch.listed);
         found.anew = true;
         found.blocks = batch.listed.size() - found.block;
         listed = std::span(batch.listed).subspan(found.block);
     }
-    const double unsure = slack + crushed - row.crushed;
-    find_touching(listed, pose, static_cast<float>(most + unsure), batch.touching);
-    lists_.wake(k) =
-        way + std::min(batch.touching.least - unsure - margin, row.range - margin - gone);
+    const double rounding = ListedSpheres::kError * row.unit;
+    const double unsure = rounding + crushed - row.crushed;
+    const FloatPose pose = to_floats(view.turn, (view.shift - row.shift) / row.unit);
+    find_touching(listed, pose, static_cast<float>((most + unsure) / row.unit), batch.touching);
+    const double least = batch.touching.least * row.unit;
+    lists_.wake(k) = way + std::min(least - unsure - margin, row.range - margin - gone);
     measure(view, batch.touching, most, batch.candidates);
     found.count = batch.candidates.size() - found.first;
-    if (found.count > 0 && !(held && batch.touching.least + slack + kRounding <= most) &&
-        are_apart(view, most))
+    if (found.count > 0 && !(held && least + rounding + kRounding <= most) && are_apart(view, most))
         found.count = 0;
     return found;
 }

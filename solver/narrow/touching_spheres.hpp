@@ -11,32 +11,38 @@
 
 namespace ice {
 
-/// Sixteen pairs of spheres beside each other, each sphere in its own body's axes.
+/// Sixteen pairs of spheres beside each other, each sphere in its own body's axes, in whole units
+/// of a length that their list has.
 ///
-/// Floats, as in SphereBlocks: what touches is measured in double precision.
+/// Lists are read in every step, those of many bodies from beyond the caches: with 16 bits a number
+/// they take two thirds of the room of floats. What touches is measured in double precision.
 struct alignas(64) ListedSpheres {
     static constexpr std::size_t kPairs = 16;
 
-    float ax[kPairs], ay[kPairs], az[kPairs];  ///< centre of a's [m]
-    float bx[kPairs], by[kPairs], bz[kPairs];  ///< and of b's [m]
-    float radii[kPairs];                       ///< sum of both radii [m]; -kNowhere in the fill
-    std::int32_t a[kPairs], b[kPairs];         ///< numbers of the spheres
+    std::int32_t a[kPairs], b[kPairs];                ///< numbers of the spheres
+    std::int16_t ax[kPairs], ay[kPairs], az[kPairs];  ///< centre of a's, from an origin of the list
+    std::int16_t bx[kPairs], by[kPairs], bz[kPairs];  ///< and of b's
+    std::int16_t radii[kPairs];                       ///< sum of both radii; -kMost - 1 in the fill
 
-    static constexpr float kNowhere = 1e9f;  ///< a gap that is wider than any [m]
+    static constexpr int kMost = 32767;  ///< largest number of units
+    /// What a gap may be off: 0.5 (2 sqrt(3) + 1) = 2.24 by rounding to units, 0.1 by floats.
+    static constexpr double kError = 2.5;
+    static constexpr float kNowhere = 1e9f;  ///< a gap that is wider than any
 };
 
 /// What find_touching found; entries from `count` on mean nothing.
 struct TouchingSpheres {
     std::vector<std::int32_t> a, b;
     std::size_t count = 0;
-    float least = ListedSpheres::kNowhere;  ///< gap of all that are listed [m]
+    float least = ListedSpheres::kNowhere;  ///< gap of all that are listed
 };
 
-/// Finds the listed pairs, in their order, whose gap is at most `most` [m],
+/// Finds the listed pairs, in their order, whose gap is at most `most`,
 ///
-///     |turn c_b + shift - c_a| - (r_a + r_b) <= most.
+///     |turn c_b + shift - c_a| - (r_a + r_b) <= most,
 ///
-/// @param pose  brings b's axes to a's; finite
+/// all lengths in the list's unit.
+/// @param pose  brings b's axes to a's, from the list's origin; finite
 void find_touching(std::span<const ListedSpheres> listed, const FloatPose& pose, float most,
                    TouchingSpheres& out);
 

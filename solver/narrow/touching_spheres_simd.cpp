@@ -17,6 +17,12 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Tag = hn::CappedTag<float, ListedSpheres::kPairs>;
 using IdTag = hn::RebindToSigned<Tag>;
 
+// Whole units as floats.
+HWY_INLINE hn::Vec<Tag> Get(const std::int16_t* units) {
+    const hn::Rebind<std::int16_t, Tag> d;
+    return hn::ConvertTo(Tag(), hn::PromoteTo(IdTag(), hn::Load(d, units)));
+}
+
 void FindTouching(std::span<const ListedSpheres> listed, const FloatPose& pose, float most,
                   TouchingSpheres& out) {
     const Tag d;
@@ -29,19 +35,18 @@ void FindTouching(std::span<const ListedSpheres> listed, const FloatPose& pose, 
     std::size_t found = 0;
     for (const ListedSpheres& s : listed)
         for (std::size_t k = 0; k < ListedSpheres::kPairs; k += hn::Lanes(d)) {
-            const auto x = hn::Load(d, s.bx + k), y = hn::Load(d, s.by + k),
-                       z = hn::Load(d, s.bz + k);
+            const auto x = Get(s.bx + k), y = Get(s.by + k), z = Get(s.bz + k);
             // Mul then Add, not MulAdd: a fused product would differ from the reference
-            const auto apart = [&](int axis, const float* a) HWY_ATTR {
+            const auto apart = [&](int axis, const std::int16_t* a) HWY_ATTR {
                 const float* row = pose.turn[axis];
                 const auto moved =
                     hn::Add(hn::Add(hn::Mul(hn::Set(d, row[0]), x), hn::Mul(hn::Set(d, row[1]), y)),
                             hn::Add(hn::Mul(hn::Set(d, row[2]), z), hn::Set(d, pose.shift[axis])));
-                return hn::Sub(moved, hn::Load(d, a + k));
+                return hn::Sub(moved, Get(a + k));
             };
             const auto dx = apart(0, s.ax), dy = apart(1, s.ay), dz = apart(2, s.az);
             const auto square = hn::Add(hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy)), hn::Mul(dz, dz));
-            const auto gap = hn::Sub(hn::Sqrt(square), hn::Load(d, s.radii + k));
+            const auto gap = hn::Sub(hn::Sqrt(square), Get(s.radii + k));
             least = hn::Min(least, gap);
             const auto touch = hn::Le(gap, hn::Set(d, most));
             if (hn::AllFalse(d, touch)) continue;

@@ -49,7 +49,7 @@ StepRecord measure_step(const Scene& scene, const std::vector<Contact>& contacts
                         const std::vector<Constraint>& constraints, double dt);
 
 /// Forces on the floes that are asked for, by one pass over the constraints.
-/// @param asked  per body, its entry in `out`; -1 where none is wanted
+/// @param asked  per body, its entry in `out`; -1 where none is wanted, and for the ship
 /// @param out    what it held before does not count
 void measure_floe_forces(const std::vector<Constraint>& constraints, double dt,
                          std::span<const std::int32_t> asked, std::span<FloeForces> out);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "common/base/error.hpp"
 #include "common/base/state_hash.hpp"
 #include "common/base/version.hpp"
 #include "solver/scene/tunnelling_speed.hpp"
@@ -97,8 +98,15 @@ Recorder::Recorder(const Case& parameters, const Scene& scene)
       tracked_(parameters.track.size()),
       tracked_sum_(parameters.track.size()),
       frame_impulse_(scene.bodies.size(), Vec3::Zero()) {
-    for (std::size_t k = 0; k < parameters.track.size(); ++k)
-        track_of_[static_cast<std::size_t>(parameters.track[k])] = static_cast<std::int32_t>(k);
+    for (std::size_t k = 0; k < parameters.track.size(); ++k) {
+        const auto floe = static_cast<std::size_t>(parameters.track[k]);  // < 0: beyond all
+        if (floe == 0 || floe >= track_of_.size() || track_of_[floe] >= 0)
+            throw bad_input("output.track",
+                            fmt::format("names floe {}, which does not exist or is named before",
+                                        parameters.track[k]),
+                            "floes are numbered from 1; name each once");
+        track_of_[floe] = static_cast<std::int32_t>(k);
+    }
 }
 
 void Recorder::open(const std::filesystem::path& folder, const std::string& command_line,

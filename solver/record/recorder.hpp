@@ -40,6 +40,7 @@ struct RecordPosition {
 /// tracked floes' poses are those at the end of the row.
 class Recorder {
 public:
+    /// @throws Error (exit code 2) where a tracked floe does not exist or is named twice.
     Recorder(const Case& parameters, const Scene& scene);
 
     /// Creates the folder's files and stores the first frame.

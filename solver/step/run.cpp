@@ -31,7 +31,7 @@ constexpr double kFarAway = 1e7;  // [m]
 
 void check_finite(const World& w) {
     const Bodies& b = w.scene.bodies;
-    for (const std::int32_t i : b.moving)
+    for (const std::int32_t i : b.moving)  // held ones are as the case gave them
         if (!(b.position[i].norm() < kFarAway) || !b.velocity[i].allFinite())
             throw run_failed(fmt::format("step {}, floe {}", w.steps, i),
                              "its position is no longer a number, or is beyond any sea",

@@ -42,7 +42,7 @@ void declare(CLI::App& app, Options& o) {
         ->check(CLI::IsMember(scene_names()));
     app.add_option("--floes", o.floes,
                    "Numbers of floes, separated by commas. loose and packed take any (default "
-                   "100,400,1600,10000), held too, of which all but 500 are held (default "
+                   "100,400,1600,10000), held 500 and more, of which all but 500 are held (default "
                    "500,100500); paper-3d has 180 and ship-100m 2000 and they are left "
                    "out where the list lacks that")
         ->delimiter(',')
@@ -166,7 +166,11 @@ private:
     std::vector<int> numbers_of(const std::string& scene) const {
         std::vector<int> usual = usual_floes(scene);
         if (o_.floes.empty()) return usual;
-        if (takes_any_number(scene)) return o_.floes;
+        if (takes_any_number(scene)) {
+            std::vector<int> out = o_.floes;
+            std::erase_if(out, [&](int n) { return n < fewest_floes(scene); });
+            return out;
+        }
         std::erase_if(usual, [&](int n) {
             return std::find(o_.floes.begin(), o_.floes.end(), n) == o_.floes.end();
         });

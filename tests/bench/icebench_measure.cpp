@@ -17,8 +17,8 @@ namespace ice::bench {
 
 namespace {
 
-// Energy is measured in every so many steps, with more floes than this [1/step] in fewer: it takes
-// as long as a step in which all floes move, and empties the caches.
+// Energy is measured every 10 steps, or every (floes / 1000) where that is more: it takes as long
+// as a step in which all floes move, and empties the caches.
 constexpr int kEnergyEvery = 10, kFloesPerStep = 1000;
 
 // Kinetic and potential energy above that at the start and what the ship put in [J]. The moment

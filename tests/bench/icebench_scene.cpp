@@ -137,10 +137,9 @@ BenchScene ship_scene(const std::string& name, int floes, const Models& models) 
 
 // What stands still beside a field that moves.
 BenchScene held_scene(const std::string& name, int floes, const Models& models) {
-    const int free = std::min(floes, kFreeOfHeld);
-    BenchScene out = wedge_scene(name, rectangle_of(free), models);
+    BenchScene out = wedge_scene(name, rectangle_of(kFreeOfHeld), models);
     out.for_peers = false;
-    if (floes > free) add_held(out.world, rectangle_of(floes - free), kHeldFrom);
+    if (floes > kFreeOfHeld) add_held(out.world, rectangle_of(floes - kFreeOfHeld), kHeldFrom);
     return out;
 }
 
@@ -154,6 +153,8 @@ const std::vector<std::string>& scene_names() {
 bool takes_any_number(const std::string& name) {
     return name == "loose" || name == "packed" || name == "held";
 }
+
+int fewest_floes(const std::string& name) { return name == "held" ? kFreeOfHeld : 1; }
 
 std::vector<int> usual_floes(const std::string& name) {
     if (name == "paper-3d") return {180};

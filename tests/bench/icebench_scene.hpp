@@ -50,11 +50,13 @@ const std::vector<std::string>& scene_names();
 /// ship-100m have one number and no other.
 std::vector<int> usual_floes(const std::string& name);
 bool takes_any_number(const std::string& name);
+/// ... from this one on.
+int fewest_floes(const std::string& name);
 
 /// Makes a scene ready.
-/// @param floes  loose and packed: any number >= 1, in the squarest whole rectangle; held: any
-///               number, the first 500 a loose field, all others held ahead of it until the ship
-///               comes, which takes longer than a minute
+/// @param floes  loose and packed: any number >= 1, in the squarest whole rectangle; held: >= 500,
+///               the first 500 a loose field, all others held ahead of it until the ship comes,
+///               which takes longer than a minute
 BenchScene make_bench_scene(const std::string& name, int floes, const Models& models);
 
 /// Starts of a field's floes, column by column from x = 0 on: odd columns are a quarter of a pitch

@@ -120,12 +120,28 @@ TEST_CASE("the wedge's 4557 spheres touch its solid from inside", "[bench]") {
 }
 
 TEST_CASE("no scene starts with an overlap", "[bench]") {
-    const std::string name = GENERATE("loose", "packed", "ship-100m");
+    const std::string name = GENERATE("loose", "packed", "held", "ship-100m");
     CAPTURE(name);
-    BenchScene scene = make_bench_scene(name, name == "ship-100m" ? 20 : 100, {});
+    BenchScene scene = make_bench_scene(name,
+                                        name == "held"        ? 520
+                                        : name == "ship-100m" ? 20
+                                                              : 100,
+                                        {});
     World& w = scene.world;
     step(w);
     CHECK(measure_step(w.scene, w.contacts, w.constraints, 0.01).max_overlap == 0.0);
+}
+
+TEST_CASE("in the scene held 500 floes move, and the others wait well ahead of them", "[bench]") {
+    const BenchScene scene = make_bench_scene("held", 520, {});
+    const Bodies& b = scene.world.scene.bodies;
+    REQUIRE(b.size() == 521);
+    CHECK(b.moving.size() == 500);
+    double foremost = -1e300, nearest = 1e300;
+    for (std::size_t i = 1; i < b.size(); ++i)
+        (b.held[i] ? nearest = std::min(nearest, b.position[i].x())
+                   : foremost = std::max(foremost, b.position[i].x()));
+    CHECK(nearest > foremost + 20.0);
 }
 
 TEST_CASE("a floe moved by a nanometre changes the state's hash", "[bench]") {

@@ -22,22 +22,6 @@ SphereSurface edge(const Vec3& center, double radius, const Vec3& normal) {
     return {center, radius, normal, std::sqrt(0.5), std::sqrt(0.5)};
 }
 
-// Floes of `size` m at random poses around a hull, some held.
-World scattered_world(unsigned seed, int floes, double size = 1.0) {
-    Case p = test::empty_space(0.01);
-    World w = test::plate_world(p, size * Vec3(4, 2, 0.6), 0.1 * size, 0.15 * size, -0.3 * size);
-    const auto box =
-        test::add_shape(w, test::make_box_set(size * Vec3(1, 0.8, 0.3), 0.05 * size, 0.1 * size));
-    std::mt19937 random(seed);
-    std::uniform_real_distribution<double> unit(-1.0, 1.0);
-    for (int k = 0; k < floes; ++k) {
-        const Vec3 at = size * Vec3(3.0 * unit(random), 2.0 * unit(random), 1.0 * unit(random));
-        const Quaternion q(unit(random), unit(random), unit(random), unit(random));
-        add_floe(w.scene, box, 900.0, at, q.normalized(), 0, k % 3 == 0);
-    }
-    return w;
-}
-
 bool same(const Contact& l, const Contact& r) {
     return l.a == r.a && l.b == r.b && l.sphere_a == r.sphere_a && l.sphere_b == r.sphere_b &&
            l.key == r.key && l.gap == r.gap && l.normal == r.normal && l.point == r.point &&
@@ -120,7 +104,7 @@ TEST_CASE("a floe face under a flat hull has one contact per floe sphere, all wi
 
 TEST_CASE("the grid finds the contacts that testing every sphere with every other finds",
           "[narrow][equivalence]") {
-    World w = scattered_world(GENERATE(1u, 2u, 3u), 40);
+    World w = test::scattered_world(GENERATE(1u, 2u, 3u), 40);
     const NormalRule rule = GENERATE(NormalRule::centres, NormalRule::surface);
     std::vector<BodyPair> pairs;
     find_pairs(w.scene, 0.01, pairs);
@@ -137,7 +121,7 @@ TEST_CASE("the grid finds the contacts that testing every sphere with every othe
 TEST_CASE("pairs that are not looked at have no contacts, step after step",
           "[narrow][equivalence]") {
     const double size = GENERATE(1.0, 10.0);  // spheres of half a metre reach farther
-    World w = scattered_world(GENERATE(1u, 2u), 60, size);
+    World w = test::scattered_world(GENERATE(1u, 2u), 60, size);
     w.parameters.normal = GENERATE(NormalRule::centres, NormalRule::surface);
     w.parameters.crushing_pressure = GENERATE(std::numeric_limits<double>::infinity(), 1e4);
     Bodies& b = w.scene.bodies;

@@ -8,6 +8,7 @@
 #include "solver/record/hull_contacts.hpp"
 #include "solver/record/lindqvist.hpp"
 #include "solver/record/measure_step.hpp"
+#include "solver/record/recorder.hpp"
 #include "solver/record/statistics.hpp"
 #include "solver/record/tally.hpp"
 #include "solver/step/run.hpp"
@@ -163,32 +164,50 @@ TEST_CASE("the forces on floes, in rows and in frames, are together those on the
     p.floes[0].hold = Hold::never;
     World w = test::plate_world(p, Vec3(3, 2, 0.4), 0.1, 0.2, -0.5);
     const auto box = test::add_shape(w, test::make_box_set(Vec3(0.5, 0.4, 0.2), 0.05, 0.1));
-    for (const double x : {0.0, 0.7})
-        add_floe(w.scene, box, 900.0, Vec3(x, 0.05, -0.601), Quaternion::Identity(), 0, false);
+    add_floe(w.scene, box, 900.0, Vec3(0.0, 0.05, -0.601), Quaternion::Identity(), 0, false);
+    add_floe(w.scene, box, 800.0, Vec3(0.7, 0.05, -0.601), Quaternion::Identity(), 0, false);
     const test::TempFolder folder;
     run(w, {folder / "run", "command"});
     const RunData data = read_run(folder / "run" / "run.h5");
 
-    Vec3 on_ship = Vec3::Zero();  // impulse [N s]
-    double through_friction = 0.0;
+    // rounding of a handful of sums; frames keep single precision
+    const double kRows = 1e-12, kFrames = 1e-5;
+    Vec3 by_rows[2] = {Vec3::Zero(), Vec3::Zero()};  // impulses on floes 1 and 2 [N s]
+    double of_friction = 0.0;
     for (std::size_t k = 0; k < data.history.size(); ++k) {
         const HistoryRow& row = data.history[k];
-        const TrackRow &first = data.tracks[1][k], &second = data.tracks[0][k];
-        const Vec3 contact = first.contact_force + second.contact_force;
-        const Vec3 friction = first.friction_force + second.friction_force;
-        CHECK((contact - row.contact_force).norm() <= 1e-12 * row.contact_force.norm());
-        CHECK((friction - row.friction_force).norm() <= 1e-12 * row.friction_force.norm());
-        on_ship += 0.05 * (row.contact_force + row.friction_force);
-        through_friction += 0.05 * row.friction_force.norm();
+        const TrackRow* const floe[2] = {&data.tracks[1][k], &data.tracks[0][k]};
+        const Vec3 contact = floe[0]->contact_force + floe[1]->contact_force;
+        const Vec3 friction = floe[0]->friction_force + floe[1]->friction_force;
+        CHECK((contact - row.contact_force).norm() <= kRows * row.contact_force.norm());
+        CHECK((friction - row.friction_force).norm() <= kRows * row.friction_force.norm());
+        of_friction += 0.05 * row.friction_force.norm();
+        for (int n = 0; n < 2; ++n)
+            by_rows[n] -= 0.05 * (floe[n]->contact_force + floe[n]->friction_force);
     }
-    CHECK(through_friction > 0.05 * on_ship.norm());
-    Vec3 on_ice = Vec3::Zero();
-    for (std::size_t k = 1; k < data.frames.size(); ++k)
-        for (const Vec3& force : data.frames[k].contact_force) {
-            CHECK_FALSE(force.isZero());
-            on_ice += (data.frames[k].time - data.frames[k - 1].time) * force;
-        }
-    CHECK((on_ice + on_ship).norm() < 1e-5 * on_ship.norm());  // frames keep single precision
+    CHECK(of_friction > 0.05 * (by_rows[0] + by_rows[1]).norm());
+    CHECK((by_rows[0] - by_rows[1]).norm() >
+          0.01 * by_rows[0].norm());  // or they could be mixed up
+    for (std::size_t n = 0; n < 2; ++n) {
+        Vec3 by_frames = Vec3::Zero();
+        for (std::size_t k = 1; k < data.frames.size(); ++k)
+            by_frames +=
+                (data.frames[k].time - data.frames[k - 1].time) * data.frames[k].contact_force[n];
+        CHECK((by_frames - by_rows[n]).norm() < kFrames * by_rows[n].norm());
+    }
+}
+
+TEST_CASE("floes that do not exist or are named twice cannot be tracked", "[record][degenerate]") {
+    Case p = test::empty_space(0.01);
+    World w = test::plate_world(p, Vec3(3, 2, 0.4), 0.1, 0.2, -0.5);
+    const auto box = test::add_shape(w, test::make_box_set(Vec3(0.5, 0.4, 0.2), 0.05, 0.1));
+    add_floe(w.scene, box, 900.0, Vec3(0, 0, -2), Quaternion::Identity(), 0, false);
+    p.track = {1};
+    CHECK_NOTHROW(Recorder(p, w.scene));
+    for (const std::vector<int>& track : {std::vector{0}, {2}, {-1}, {1, 1}}) {
+        p.track = track;
+        CHECK_THROWS_WITH(Recorder(p, w.scene), Catch::Contains("output.track"));
+    }
 }
 
 TEST_CASE("hull contacts between two frames add up to the forces of their steps",

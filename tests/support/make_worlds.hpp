@@ -2,6 +2,8 @@
 /// Small worlds made in code.
 #pragma once
 
+#include <random>
+
 #include "solver/scene/build_scene.hpp"
 #include "solver/step/step.hpp"
 #include "tests/support/make_sphere_sets.hpp"
@@ -39,6 +41,22 @@ inline World plate_world(const Case& parameters, const Vec3& size, double radius
 inline std::int32_t add_shape(World& w, const SphereSet& set) {
     w.scene.shapes.push_back(build_shape(set, true));
     return static_cast<std::int32_t>(w.scene.shapes.size()) - 1;
+}
+
+/// Floes of `size` m at random poses around a hull of 4 times that and up to `far` sizes ahead and
+/// astern of its middle; a third of them held.
+inline World scattered_world(unsigned seed, int floes, double size = 1.0, double far = 3.0) {
+    const Case p = empty_space(0.01);
+    World w = plate_world(p, size * Vec3(4, 2, 0.6), 0.1 * size, 0.15 * size, -0.3 * size);
+    const auto box = add_shape(w, make_box_set(size * Vec3(1, 0.8, 0.3), 0.05 * size, 0.1 * size));
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> unit(-1.0, 1.0);
+    for (int k = 0; k < floes; ++k) {
+        const Vec3 at = size * Vec3(far * unit(random), 2.0 * unit(random), 1.0 * unit(random));
+        const Quaternion q(unit(random), unit(random), unit(random), unit(random));
+        add_floe(w.scene, box, 900.0, at, q.normalized(), 0, k % 3 == 0);
+    }
+    return w;
 }
 
 /// Normal and tangential force of the ship's contacts on the floes in the last step [N].
