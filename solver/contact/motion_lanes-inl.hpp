@@ -21,13 +21,11 @@ HWY_BEFORE_NAMESPACE();
 namespace ice::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-constexpr std::size_t kMotionLanes = hn::MaxLanes(Tag());
-
 #if HWY_TARGET != HWY_SCALAR
 // Entries k and k + 1 of rows k and k + 1 change places, for even k, in each two entries.
 HWY_INLINE void TransposeTwos(Lanes* rows) {
     const Tag d;
-    for (std::size_t k = 0; k < kMotionLanes; k += 2) {
+    for (std::size_t k = 0; k < kMostLanes; k += 2) {
         const Lanes upper = hn::InterleaveUpper(d, rows[k], rows[k + 1]);
         rows[k] = hn::InterleaveLower(d, rows[k], rows[k + 1]);
         rows[k + 1] = upper;
@@ -38,17 +36,17 @@ HWY_INLINE void TransposeTwos(Lanes* rows) {
 // Entry k of row i becomes entry i of row k: first within blocks of two by two, then the blocks.
 // Fetching motions number by number takes a block of pairs as long as two or three contacts.
 HWY_INLINE void Transpose([[maybe_unused]] Lanes* rows) {
-    static_assert(kMotionLanes == 1 || kMotionLanes == 2 || kMotionLanes == 4 || kMotionLanes == 8);
+    static_assert(kMostLanes == 1 || kMostLanes == 2 || kMostLanes == 4 || kMostLanes == 8);
 #if HWY_TARGET != HWY_SCALAR
     [[maybe_unused]] const Tag d;
-    if constexpr (kMotionLanes > 1) TransposeTwos(rows);
-    if constexpr (kMotionLanes == 4)
+    if constexpr (kMostLanes > 1) TransposeTwos(rows);
+    if constexpr (kMostLanes == 4)
         for (std::size_t k = 0; k < 2; ++k) {
             const Lanes upper = hn::ConcatUpperUpper(d, rows[k + 2], rows[k]);
             rows[k] = hn::ConcatLowerLower(d, rows[k + 2], rows[k]);
             rows[k + 2] = upper;
         }
-    if constexpr (kMotionLanes == 8)
+    if constexpr (kMostLanes == 8)
         for (std::size_t k = 0; k < 2; ++k) {
             const auto even = [&](std::size_t r) HWY_ATTR {
                 return hn::OddEvenBlocks(hn::SwapAdjacentBlocks(rows[r + 2]), rows[r]);
@@ -75,8 +73,8 @@ struct Motions {
 //              which get some body's
 HWY_INLINE Motions LoadMotions(const std::int32_t* body, const std::vector<BodyMotion>& motion) {
     Motions out;
-    for (std::size_t part = 0; part < 8; part += kMotionLanes) {
-        for (std::size_t k = 0; k < kMotionLanes; ++k)
+    for (std::size_t part = 0; part < 8; part += kMostLanes) {
+        for (std::size_t k = 0; k < kMostLanes; ++k)
             out.entry[part + k] = hn::Load(
                 Tag(), motion[static_cast<std::size_t>(body[k] < 0 ? 0 : body[k])].v + part);
         Transpose(out.entry + part);
@@ -87,9 +85,9 @@ HWY_INLINE Motions LoadMotions(const std::int32_t* body, const std::vector<BodyM
 // @param moves  of as many bodies as there are lanes: those for which it is zero keep their motion
 HWY_INLINE void StoreMotions(Motions motions, const std::int32_t* body, const double* moves,
                              std::vector<BodyMotion>& motion) {
-    for (std::size_t part = 0; part < 8; part += kMotionLanes) {
+    for (std::size_t part = 0; part < 8; part += kMostLanes) {
         Transpose(motions.entry + part);
-        for (std::size_t k = 0; k < kMotionLanes; ++k)
+        for (std::size_t k = 0; k < kMostLanes; ++k)
             if (moves[k] != 0.0)
                 hn::Store(motions.entry[part + k], Tag(),
                           motion[static_cast<std::size_t>(body[k])].v + part);

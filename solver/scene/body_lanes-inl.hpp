@@ -21,8 +21,6 @@ HWY_BEFORE_NAMESPACE();
 namespace ice::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-constexpr std::size_t kMostLanes = hn::MaxLanes(Tag());
-
 struct Matrices {
     Vectors row[3];
 };

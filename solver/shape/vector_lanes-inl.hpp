@@ -11,6 +11,8 @@
 
 #include <hwy/highway.h>
 
+#include <cstddef>
+
 #include "common/geometry/triangle_mesh.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -20,6 +22,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Tag = hn::CappedTag<double, 8>;
 using Lanes = hn::Vec<Tag>;
 using Mask = hn::Mask<Tag>;
+
+constexpr std::size_t kMostLanes = hn::MaxLanes(Tag());
 
 struct Vectors {
     Lanes x, y, z;
