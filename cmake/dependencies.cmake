@@ -10,7 +10,7 @@ find_package(Threads REQUIRED)
 find_package(OpenMP REQUIRED COMPONENTS CXX)     # common/base/parallel.hpp
 set(HDF5_PREFER_PARALLEL FALSE)
 find_package(HDF5 REQUIRED COMPONENTS C HL)      # common/formats; HL: dimension scales
-find_package(nlohmann_json 3.11 CONFIG REQUIRED) # common/formats, preprocess/field
+find_package(nlohmann_json 3.11 CONFIG REQUIRED) # common/formats, toml, preprocess/field
 find_package(fmt 9 CONFIG REQUIRED)              # everywhere: text
 find_package(spdlog 1.10 CONFIG REQUIRED)        # common/cli
 find_package(CLI11 2.1 CONFIG REQUIRED)          # common/cli and the four programs

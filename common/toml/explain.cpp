@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The schema table as text: for people (--explain, --print-defaults) and editors (--print-schema).
+// The schema table as text for people: --explain and --print-defaults.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -46,31 +46,6 @@ bool has_range(const Key& key) {
     return key.kind != Kind::text && key.kind != Kind::path && key.kind != Kind::choice;
 }
 
-std::string json_type(const Key& key) {
-    switch (key.kind) {
-        case Kind::integer:
-            return R"("type": "integer")";
-        case Kind::text:
-        case Kind::path:
-            return R"("type": "string")";
-        case Kind::choice: {
-            std::string list(key.choices);
-            for (std::size_t at = 0; (at = list.find('|', at)) != std::string::npos; at += 4)
-                list.replace(at, 1, "\", \"");
-            return "\"enum\": [\"" + list + "\"]";
-        }
-        case Kind::vector:
-        case Kind::counts:
-        case Kind::place:
-        case Kind::integer_list:
-        case Kind::pair_list:
-            return R"("type": "array")";
-        case Kind::number:
-            break;
-    }
-    return R"("type": ["number", "string"])";  // a string carries a unit
-}
-
 std::string table_of(const Key& key) {
     const auto dot = key.path.rfind('.');
     return dot == std::string_view::npos ? "" : std::string(key.path.substr(0, dot));
@@ -95,54 +70,27 @@ std::string explain_key(const Schema& schema, const std::string& path) {
     return out + "\n";
 }
 
+std::string schema_file_name(const Schema& schema) {
+    return schema.title.substr(schema.title.rfind(' ') + 1) + ".schema.json";
+}
+
 std::string default_text(const Schema& schema) {
-    std::string out, table;
+    const std::string name = schema_file_name(schema);
+    std::string out = fmt::format(
+        "#:schema {0}\n# for editors, made by: {1} --print-schema > {0}\n", name, schema.program);
+    std::string table;
     for (const Key& key : schema.keys) {
         if (const std::string now = table_of(key); now != table) {
             out += now == schema.repeated_table ? fmt::format("\n[[{}]]\n", now)
                                                 : fmt::format("\n[{}]\n", now);
             table = now;
         }
-        const auto name = key.path.substr(key.path.rfind('.') + 1);
+        const auto leaf = key.path.substr(key.path.rfind('.') + 1);
         const bool has_default = !key.default_text.empty() && key.default_text != "-";
-        out += fmt::format("{}{} = {}  # {} ({})\n", has_default ? "" : "# ", name,
+        out += fmt::format("{}{} = {}  # {} ({})\n", has_default ? "" : "# ", leaf,
                            has_default ? key.default_text : "...", key.doc, kind_text(key));
     }
     return out;
-}
-
-std::string json_schema(const Schema& schema) {
-    std::string out = fmt::format(
-        "{{\n  \"$schema\": \"http://json-schema.org/draft-04/schema#\",\n"
-        "  \"title\": \"{}\",\n  \"type\": \"object\",\n"
-        "  \"additionalProperties\": false,\n  \"properties\": {{",
-        schema.title);
-    std::string table, separator;
-    const auto close_table = [&] {
-        if (table == schema.repeated_table && !table.empty())
-            out += "\n    } } }";
-        else if (!table.empty())
-            out += "\n    } }";
-    };
-    for (const Key& key : schema.keys) {
-        const std::string now = table_of(key);
-        const std::string name(key.path.substr(key.path.rfind('.') + 1));
-        if (now != table) {
-            close_table();
-            const std::string open =
-                R"("type": "object", "additionalProperties": false, "properties": {)";
-            out += fmt::format(
-                "{}\n    \"{}\": {{ {}", separator, now,
-                now == schema.repeated_table ? R"("type": "array", "items": { )" + open : open);
-            table = now;
-            separator = "";
-        }
-        out += fmt::format("{}\n      \"{}\": {{ {}, \"description\": \"{}\" }}", separator, name,
-                           json_type(key), key.doc);
-        separator = ",";
-    }
-    close_table();
-    return out + "\n  }\n}\n";
 }
 
 }  // namespace ice

@@ -49,6 +49,7 @@ struct Schema {
     std::string repeated_table;  ///< "floes" where [[floes]] may be given many times; "" for none
     std::string program;         ///< whose --print-defaults lists the keys
     std::string title;           ///< "icesolve case"
+    std::vector<std::vector<std::string>> one_of;  ///< keys of a table, of which one is given
 
     /// The key of that path, or null.
     const Key* find(std::string_view path) const;
@@ -59,9 +60,14 @@ struct Schema {
 
 /// Text of `--explain KEY`. @throws Error (exit code 2) for an unknown key.
 std::string explain_key(const Schema& schema, const std::string& path);
-/// A complete file with all defaults, as TOML.
+/// What a file's "#:schema" line calls its JSON schema: "case.schema.json".
+std::string schema_file_name(const Schema& schema);
+/// A complete file with all defaults, as TOML; its first line names the schema.
 std::string default_text(const Schema& schema);
-/// JSON schema (draft 4) of the file, for editors.
+/// JSON schema of the file, for editors: types, units, bounds, sizes, choices, defaults, what is
+/// required. It accepts every file that the reader accepts. Only the reader sees missing files,
+/// bounds of texts with units, times that must grow, keys that belong together.
+/// Draft 4, which taplo (the language server of TOML) and python3-jsonschema know.
 std::string json_schema(const Schema& schema);
 
 }  // namespace ice

@@ -145,7 +145,7 @@ const std::vector<FieldKey>& field_keys() {
 
 const Schema& field_schema() {
     static const Schema schema = [] {
-        Schema out{{}, "", "icefield", "icefield specification"};
+        Schema out{{}, "", "icefield", "icefield specification", {}};
         for (const FieldKey& key : field_keys()) out.keys.push_back(key);
         return out;
     }();

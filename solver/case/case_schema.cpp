@@ -202,7 +202,7 @@ const std::vector<CaseKey>& case_keys() {
 
 const Schema& case_schema() {
     static const Schema schema = [] {
-        Schema out{{}, "floes", "icesolve", "icesolve case"};
+        Schema out{{}, "floes", "icesolve", "icesolve case", {{"hull.speed", "hull.speed_table"}}};
         for (const CaseKey& key : case_keys()) out.keys.push_back(key);
         return out;
     }();

@@ -20,7 +20,7 @@ set(quarantine
   "<CGAL/"           "^preprocess/(clean|measure|repair|slice|field)/"
   "<toml"            "^(common/toml|postprocess/(check|sweep))/"
   "<(hdf5|H5)"       "^common/formats/"
-  "<nlohmann/"       "^(common/formats|preprocess/field|postprocess/report)/"
+  "<nlohmann/"       "^(common/(formats|toml)|preprocess/field|postprocess/report)/"
   "<boost/"          "^postprocess/sweep/"
   "<hwy/"            "(_simd\\.cpp|_lanes-inl\\.hpp)$"
   "<omp\\.h>"        "^common/base/parallel\\.hpp$"
