@@ -24,6 +24,7 @@
 #include "solver/record/recorder.hpp"
 #include "solver/step/check_start.hpp"
 #include "solver/step/run.hpp"
+#include "solver/step/run_folder.hpp"
 
 namespace {
 
@@ -34,7 +35,7 @@ struct Options {
     std::int64_t hash_every = 0;
     double checkpoint_every = 0.0;
     bool check = false, schema = false, defaults = false, json = false, verify = false,
-         no_report = false, allow_overlap = false;
+         no_report = false, allow_overlap = false, overwrite = false;
     ice::MessageOptions messages;
 };
 
@@ -49,7 +50,11 @@ std::string positive_seconds(const std::string& text) {
 void declare(CLI::App& app, Options& o) {
     ice::declare_version(app);
     app.add_option("case", o.case_file, "Case file (TOML)");
-    app.add_option("--out", o.out, "Run folder (default results/<case stem>)");
+    app.add_option("--out", o.out,
+                   "Run folder (default results/<stem of the case file, or its folder where the "
+                   "file is called case.cfg>)");
+    app.add_flag("--overwrite", o.overwrite,
+                 "Replace a run that the run folder holds; other files in it stay");
     app.add_option("--set", o.overrides, "key=value, replaces a key of the case; repeatable")
         ->allow_extra_args(false)
         ->take_all();
@@ -90,7 +95,7 @@ void declare(CLI::App& app, Options& o) {
 
 // The command that goes on with an interrupted run.
 std::string command_to_go_on(const Options& o, const std::filesystem::path& folder) {
-    std::string line = "icesolve " + ice::shell_word(o.case_file);
+    std::string line = ice::typed_program() + " " + ice::shell_word(o.case_file);
     for (const std::string& text : o.overrides) line += " --set " + ice::shell_word(text);
     if (o.checkpoint_every > 0.0) line += fmt::format(" --checkpoint-every {}", o.checkpoint_every);
     return line + " --restart " + ice::shell_word((folder / ice::kCheckpointName).string());
@@ -136,13 +141,23 @@ void write_report(const std::filesystem::path& folder) {
                                      ice::shell_word(folder.string())));
 }
 
-std::filesystem::path run_folder(const Options& o) {
+std::filesystem::path folder_of_run(const Options& o) {
     if (!o.out.empty()) return o.out;
     if (!o.restart.empty()) {
         const auto parent = std::filesystem::path(o.restart).parent_path();
         return parent.empty() ? "." : parent;
     }
-    return std::filesystem::path("results") / std::filesystem::path(o.case_file).stem();
+    return ice::default_run_folder(o.case_file);
+}
+
+// What may be in the run folder before: nothing, a run to replace, or the run that goes on.
+ice::Existing may_exist(const Options& o, const std::filesystem::path& folder) {
+    std::error_code ignored;
+    if (!o.restart.empty() &&
+        std::filesystem::equivalent(folder, std::filesystem::absolute(o.restart).parent_path(),
+                                    ignored))
+        return ice::Existing::go_on;
+    return o.overwrite ? ice::Existing::replace : ice::Existing::refuse;
 }
 
 int run_case(const Options& o, const std::string& command_line) {
@@ -164,8 +179,11 @@ int run_case(const Options& o, const std::string& command_line) {
         ice::say(fmt::format("{}: good, {} floes", o.case_file, world.scene.bodies.size() - 1));
         return 0;
     }
-    const std::filesystem::path folder = run_folder(o);
-    ice::make_run_folder(folder, going_on);
+    const ice::RunFolder claimed(
+        folder_of_run(o), may_exist(o, folder_of_run(o)),
+        {ice::typed_program() + command_line.substr(command_line.find(' ')) + " --overwrite",
+         command_to_go_on(o, folder_of_run(o))});
+    const std::filesystem::path& folder = claimed.path();
     ice::log_to_file(folder / "run.log", going_on != nullptr);
     ice::say(fmt::format("icesolve {} ({}): {}", ice::version(), ice::git_commit(), command_line));
     say_warnings();

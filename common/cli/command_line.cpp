@@ -31,6 +31,7 @@ int run_command_line(CLI::App& app, int argc, const char* const* argv,
         // CLI11's own codes start at 100; help and version end with 0
         return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::bad_input);
     }
+    set_typed_program(argv[0]);
     const Colour colour = messages.colour == "always"  ? Colour::always
                           : messages.colour == "never" ? Colour::never
                                                        : Colour::automatic;

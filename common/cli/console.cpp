@@ -15,8 +15,8 @@
 #include <exception>
 #include <memory>
 #include <new>
-#include <system_error>
 #include <stdexcept>
+#include <system_error>
 
 #include "common/base/error.hpp"
 #include "common/cli/fault_handlers.hpp"
@@ -26,6 +26,7 @@ namespace ice {
 namespace {
 
 volatile std::sig_atomic_t interrupt_flag = 0;
+std::string program_word;
 
 void on_interrupt(int) {
     if (interrupt_flag) _exit(static_cast<int>(ExitCode::interrupted));
@@ -120,6 +121,9 @@ void catch_interrupts() {
 }
 
 bool interrupted() { return interrupt_flag != 0; }
+
+std::string typed_program() { return shell_word(program_word); }
+void set_typed_program(const std::string& word) { program_word = word; }
 
 std::string shell_word(const std::string& word) {
     const bool plain = word.find_first_of(" '\"$*?[]{}()<>|&;\\") == std::string::npos;

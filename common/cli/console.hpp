@@ -33,6 +33,9 @@ bool interrupted();
 
 /// The words of the command line joined, quoted where a shell needs it.
 std::string command_line(int argc, const char* const* argv);
+/// The program as the user typed it, for commands to copy; run_command_line() sets it.
+std::string typed_program();
+void set_typed_program(const std::string& word);
 /// A word of a command line, quoted where a shell needs it.
 std::string shell_word(const std::string& word);
 

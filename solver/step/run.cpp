@@ -17,6 +17,7 @@
 #include "solver/record/recorder.hpp"
 #include "solver/scene/build_scene.hpp"
 #include "solver/step/balance.hpp"
+#include "solver/step/run_folder.hpp"
 
 namespace ice {
 
@@ -93,28 +94,19 @@ void write_summary(const World& w, const RunOptions& options, double wall_second
     write_text_file(options.folder / "summary.json", summary_text(summary));
 }
 
-void remove_parts(const std::filesystem::path& folder) {
-    std::error_code ignored;
-    for (const auto& entry : std::filesystem::directory_iterator(folder, ignored))
-        if (entry.path().extension() == ".part") std::filesystem::remove(entry.path(), ignored);
-}
-
-void remove_results(const std::filesystem::path& folder) {
-    std::error_code ignored;
-    for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
-        const std::string name = entry.path().filename().string();
-        const bool old = name == "summary.json" || name == "report.html" || name == "run.h5" ||
-                         name == "forces.csv" || name.starts_with("floe_");
-        if (old && entry.path().extension() != ".part")
-            std::filesystem::remove(entry.path(), ignored);
-    }
-}
-
 // Nothing half-written stays of a run that failed, unless a checkpoint can still make use of it.
 void remove_unfinished(const std::filesystem::path& folder) {
     if (std::filesystem::exists(folder / kCheckpointName)) return;
     remove_parts(folder);
     remove_saved_rows(folder);
+}
+
+void create_folder(const std::filesystem::path& folder) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error)
+        throw run_failed(folder.string(), "cannot be created: " + error.message(),
+                         "choose another folder");
 }
 
 // A run on its way: what run() and its parts share.
@@ -203,24 +195,9 @@ World build_world(const Case& parameters) {
     return world;
 }
 
-void make_run_folder(const std::filesystem::path& folder, const SavedRun* saved) {
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (error)
-        throw run_failed(folder.string(), "cannot be created: " + error.message(),
-                         "choose another folder with --out");
-    std::error_code ignored;
-    if (saved != nullptr && std::filesystem::equivalent(folder, saved->folder, ignored)) return;
-    // a run into the same folder replaces the old one: nothing of it may look like a result
-    remove_results(folder);
-    remove_parts(folder);
-    remove_saved_rows(folder);
-    std::filesystem::remove(folder / kCheckpointName, ignored);
-}
-
 Summary run(World& world, const RunOptions& options) {
     const Case& p = world.parameters;
-    make_run_folder(options.folder, options.saved);
+    create_folder(options.folder);
     std::string command = options.command_line;
     std::replace(command.begin(), command.end(), '\n', ' ');  // it stands in a comment
     write_text_file(

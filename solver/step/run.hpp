@@ -14,7 +14,8 @@ namespace ice {
 
 /// What the caller of a run may watch and decide.
 struct RunOptions {
-    std::filesystem::path folder;  ///< run folder; created
+    std::filesystem::path folder;  ///< run folder; created. Claim it before (RunFolder): files of
+                                   ///< an older run are replaced, not removed
     std::string command_line;
     double checkpoint_every = 0.0;  ///< simulated seconds; 0: only when interrupted
     SavedRun* saved = nullptr;      ///< go on with this run; its recorder is taken over
@@ -30,14 +31,6 @@ struct RunOptions {
 
 /// A case made ready: sphere sets read, floes placed.
 World build_world(const Case& parameters);
-
-/// Name of the checkpoint in a run folder.
-constexpr const char* kCheckpointName = "checkpoint.h5";
-
-/// Creates the run folder and removes an older run's files from it, but not where that run goes on
-/// in its folder.
-/// @throws Error (exit code 1) when it cannot be created
-void make_run_folder(const std::filesystem::path& folder, const SavedRun* saved = nullptr);
 
 /// Runs a world to its case's duration and writes the run folder.
 ///

@@ -16,7 +16,8 @@ EVERY = "20"  # steps
 
 def hashes(icesolve, case, out, options):
     """Lines of step and hash, or None where the machine lacks the instruction set."""
-    command = [icesolve, case, "--out", out, "-q", "--no-report", "--hash-every", EVERY, *options]
+    command = [icesolve, case, "--out", out, "--overwrite", "-q", "--no-report",
+               "--hash-every", EVERY, *options]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     if done.returncode == 2 and "--simd" in done.stderr:
         return None

@@ -16,7 +16,7 @@ using namespace ice::test;
 TEST_CASE("icesolve writes the run folder of the contract", "[cli]") {
     const Workshop w;
     w.make_case();
-    const Result r = w.run("icesolve case.cfg");
+    const Result r = w.run("icesolve case.cfg --out results/case");
     CAPTURE(r.err);
     REQUIRE(r.code == 0);
     CHECK(r.out.empty());
@@ -96,8 +96,9 @@ TEST_CASE("the same case gives the same state hash for 1, 2, 3 and 4 threads",
     w.make_case();
     std::set<std::uint64_t> hashes;
     for (const int threads : {1, 2, 3, 4}) {
-        REQUIRE(w.run("icesolve case.cfg -q --out r --threads " + std::to_string(threads)).code ==
-                0);
+        REQUIRE(
+            w.run("icesolve case.cfg -q --out r --overwrite --threads " + std::to_string(threads))
+                .code == 0);
         hashes.insert(read_summary(w / "r/summary.json").state_hash);
     }
     CHECK(hashes.size() == 1);
@@ -126,7 +127,7 @@ hold = "never"
     std::set<std::uint64_t> hashes;
     double contacts = 0.0;
     for (const int threads : {1, 2, 3}) {
-        REQUIRE(w.run("icesolve field.cfg -q --allow-overlap --out r --threads " +
+        REQUIRE(w.run("icesolve field.cfg -q --allow-overlap --out r --overwrite --threads " +
                       std::to_string(threads))
                     .code == 0);
         const Summary s = read_summary(w / "r/summary.json");
@@ -142,26 +143,15 @@ TEST_CASE("a run that fails on the way says so in its summary and leaves no .par
     const Workshop w;
     w.make_case("[environment]\ngravity = 0.0\n");
     const Result r = w.run(
-        "icesolve case.cfg --set floes.hold=never --set floes.pattern=single "
+        "icesolve case.cfg --out r --set floes.hold=never --set floes.pattern=single "
         "--set floes.position=[5,0,-0.16] --set floes.velocity=[50,0,0] --set drag.model=none "
         "--set simulation.duration=999000 --set simulation.time_step=1 "
         "--set output.track=[] --set output.history_every=1000 --set output.frames_every=10000");
     CAPTURE(r.err);
     CHECK(r.code == 1);
     CHECK_THAT(r.err, Catch::Contains("step") && Catch::Contains("floe 1"));
-    CHECK(read_summary(w / "results/case/summary.json").status == "failed");
+    CHECK(read_summary(w / "r/summary.json").status == "failed");
     for (const std::string& name : w.files()) CHECK(name.find(".part") == std::string::npos);
-}
-
-TEST_CASE("an old run's files do not survive a new run into the same folder", "[cli]") {
-    const Workshop w;
-    w.make_case();
-    REQUIRE(w.run("icesolve case.cfg -q").code == 0);
-    REQUIRE(fs::exists(w / "results/case/floe_1.csv"));
-    w.write("results/case/run.h5.part", "old");
-    REQUIRE(w.run("icesolve case.cfg -q --set output.track=[]").code == 0);
-    CHECK_FALSE(fs::exists(w / "results/case/floe_1.csv"));
-    CHECK_FALSE(fs::exists(w / "results/case/run.h5.part"));
 }
 
 TEST_CASE("the resolved case repeats the run to the same bits", "[cli][determinism]") {
@@ -184,9 +174,9 @@ TEST_CASE("option --hash-every prints a line of step and hash", "[cli]") {
 TEST_CASE("option --json prints the summary on stdout, and only that", "[cli]") {
     const Workshop w;
     w.make_case();
-    const Result r = w.run("icesolve case.cfg -q --json");
+    const Result r = w.run("icesolve case.cfg -q --json --out r");
     CHECK(r.err.empty());
-    CHECK(r.out == slurp(w / "results/case/summary.json"));
+    CHECK(r.out == slurp(w / "r/summary.json"));
     CHECK_THAT(r.out, Catch::Contains("\"schema\": \"icesolve-summary/1\""));
 }
 

@@ -28,7 +28,8 @@ TEST_CASE("a run without icepost, or with one that fails, is complete and warns"
     const Workshop w;
     w.make_case("[drag]\nmodel = \"none\"\n");
     fs::copy(ICE_BIN "/icesolve", w / "icesolve");
-    const std::string command = "icesolve --version >/dev/null && ./icesolve case.cfg --out a";
+    const std::string command =
+        "icesolve --version >/dev/null && ./icesolve case.cfg --out a --overwrite";
     const Result alone = w.run(command);
     CHECK(alone.code == 0);
     CHECK_THAT(alone.err, Catch::Contains("icepost does not lie beside icesolve; try icepost "

@@ -21,7 +21,7 @@ def environment(**more):
 def on_terminal(*words, **more):
     """What the run writes to a terminal of its own."""
     mine, its = pty.openpty()
-    run = subprocess.Popen([icesolve, "case.cfg", "--no-report", *words], stderr=its,
+    run = subprocess.Popen([icesolve, "case.cfg", "--overwrite", "--no-report", *words], stderr=its,
                            stdout=subprocess.DEVNULL, env=environment(**more))
     os.close(its)
     text = b""
@@ -36,7 +36,7 @@ def on_terminal(*words, **more):
 
 
 def elsewhere(*words, **more):
-    run = subprocess.run([icesolve, "case.cfg", "--no-report", *words], capture_output=True,
+    run = subprocess.run([icesolve, "case.cfg", "--overwrite", "--no-report", *words], capture_output=True,
                          text=True, check=True, env=environment(**more))
     assert run.stdout == "", run.stdout
     return run.stderr

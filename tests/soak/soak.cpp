@@ -15,6 +15,7 @@
 #include "common/cli/console.hpp"
 #include "solver/integrate/integrate.hpp"
 #include "solver/step/run.hpp"
+#include "solver/step/run_folder.hpp"
 #include "tests/soak/basin.hpp"
 
 using namespace ice;
@@ -160,7 +161,8 @@ int main(int argc, char** argv) {
             return true;
         };
         RunOptions options;
-        options.folder = o.out;
+        const RunFolder folder(o.out, Existing::replace);
+        options.folder = folder.path();
         options.command_line = command_line(argc, argv);
         options.keep_going = watch;
         const Summary summary = run(world, options);

@@ -61,8 +61,8 @@ def run(options, pressure, name, seed):
     if options.duration:
         keys |= {"simulation.duration": options.duration, "output.average_from": 0.0}
     if not is_done(out):
-        command = [options.bin / "icesolve", folder / "case.cfg", "--out", out, "--threads", "1",
-                   "-q", *(part for k, v in keys.items() for part in ("--set", f"{k}={v}"))]
+        command = [options.bin / "icesolve", folder / "case.cfg", "--out", out, "--overwrite",
+                   "--threads", "1", "-q", *(part for k, v in keys.items() for part in ("--set", f"{k}={v}"))]
         subprocess.run(command, check=True)
     return json.loads((out / "summary.json").read_text())
 

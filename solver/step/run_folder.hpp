@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Whose a run folder is, and which of its files are the solver's.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace ice {
+
+/// Name of the checkpoint in a run folder.
+constexpr const char* kCheckpointName = "checkpoint.h5";
+
+/// What a program does with a folder that holds something.
+enum class Existing {
+    refuse,   ///< ends with an Error
+    replace,  ///< removes an older run's files; what the solver does not write stays
+    go_on     ///< leaves all as it is: the run goes on from a checkpoint in this folder
+};
+
+/// Command lines that an Error about an existing folder prints.
+struct FolderCommands {
+    std::string replace;  ///< computes the run all the same, e.g. "icesolve a.cfg --overwrite"
+    std::string go_on;    ///< goes on from the folder's checkpoint
+};
+
+/// A run folder that belongs to this program as long as the object lives.
+///
+/// Two programs never write one folder: its run.log is locked (flock), which the system ends with
+/// the program, however that ends. File systems without locks are served without one.
+class RunFolder {
+public:
+    /// Creates the folder, locks it and, with Existing::replace, removes an older run from it. Is
+    /// to be called when all that the run needs has been read and checked. An empty folder is
+    /// never refused.
+    /// @throws Error exit code 2 when another program writes this run, or the folder holds anything
+    ///         and `existing` is refuse; 1 when it cannot be created
+    RunFolder(std::filesystem::path folder, Existing existing, const FolderCommands& commands = {});
+    ~RunFolder();
+    RunFolder(const RunFolder&) = delete;
+    RunFolder& operator=(const RunFolder&) = delete;
+
+    const std::filesystem::path& path() const { return path_; }
+
+private:
+    std::filesystem::path path_;
+    int lock_ = -1;
+};
+
+/// Folder of a case's run where none is given: results/<stem of the case file>, or of its folder
+/// where the file is called case.cfg.
+std::filesystem::path default_run_folder(const std::filesystem::path& case_file);
+
+/// Removes what a finished run consists of, for one that goes on: its summary would be out of date.
+void remove_results(const std::filesystem::path& folder);
+
+/// Removes the .part files of a run.
+void remove_parts(const std::filesystem::path& folder);
+
+}  // namespace ice
