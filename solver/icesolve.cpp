@@ -103,7 +103,7 @@ std::string command_to_go_on(const Options& o, const std::filesystem::path& fold
 
 // `said`: warnings that the user has seen at the start
 int report(const ice::Summary& s, const Options& o, const std::string& folder,
-           const std::vector<std::string>& said) {
+           const std::vector<ice::Warning>& said) {
     if (o.json) fmt::print("{}", ice::summary_text(s));
     const char* unit = s.dimension == 2 ? "N/m" : "N";
     const std::string interval = std::isfinite(s.resistance.ci95)
@@ -118,8 +118,9 @@ int report(const ice::Summary& s, const Options& o, const std::string& folder,
         ice::say(
             fmt::format("Lindqvist's submersion resistance: {:.1f} N", *s.lindqvist_submersion));
     if (const std::string line = ice::energy_line(s); !line.empty()) ice::say(line);
-    for (const std::string& warning : s.warnings)
-        if (std::find(said.begin(), said.end(), warning) == said.end()) ice::say_warning(warning);
+    for (const ice::Warning& warning : s.warnings)
+        if (std::find(said.begin(), said.end(), warning) == said.end())
+            ice::say_warning(ice::with_verdict(warning));
     ice::say(fmt::format("{} s simulated in {:.1f} s ({:.1f}x real time); results in {}",
                          s.simulated_s, s.wall_s, s.simulated_s / s.wall_s, folder));
     if (s.status != "interrupted") return 0;
@@ -169,10 +170,10 @@ int run_case(const Options& o, const std::string& command_line) {
     std::optional<ice::SavedRun> saved;
     if (!o.restart.empty()) saved.emplace(ice::read_checkpoint(o.restart, world));
     ice::SavedRun* going_on = saved ? &*saved : nullptr;
-    std::vector<std::string> warnings;
+    std::vector<ice::Warning> warnings;
     if (!saved) warnings = ice::check_start(world, o.allow_overlap);
     const auto say_warnings = [&] {
-        for (const std::string& warning : warnings) ice::say_warning(warning);
+        for (const ice::Warning& warning : warnings) ice::say_warning(ice::with_verdict(warning));
     };
     if (o.check) {
         say_warnings();

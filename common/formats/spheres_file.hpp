@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "common/formats/sphere_set.hpp"
-#include "common/formats/summary_file.hpp"
+#include "common/formats/spheres_report.hpp"
 
 namespace ice {
 

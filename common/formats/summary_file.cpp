@@ -3,22 +3,18 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-#include <limits>
-#include <nlohmann/json.hpp>
-
-#include "common/base/error.hpp"
-#include "common/base/version.hpp"
+#include "common/formats/json_file.hpp"
 
 namespace ice {
 
 namespace {
 
-// keeps the order of insertion, which is the order of the contract; dump() turns NaN into null
-using Json = nlohmann::ordered_json;
-
 constexpr const char* kSummarySchema = "icesolve-summary/1";
-constexpr const char* kRemedy = "run the case again with icesolve";
+
+template <class T>
+Json or_null(const std::optional<T>& value) {
+    return value ? Json(*value) : Json(nullptr);
+}
 
 Json force_json(const ForceStatistics& force) {
     return {{"mean_N", force.mean},
@@ -26,7 +22,11 @@ Json force_json(const ForceStatistics& force) {
             {"friction_mean_N", force.friction_mean},
             {"std_N", force.std},
             {"max_N", force.max},
-            {"ci95_N", force.ci95}};
+            {"ci95_N", force.ci95},
+            {"correlation_time_s", force.correlation_time},
+            {"effective_samples", force.effective_samples},
+            {"trend_N", force.trend},
+            {"trend_significant", or_null(force.trend_significant)}};
 }
 
 Json regions_json(const std::map<std::string, RegionStatistics>& regions) {
@@ -40,122 +40,100 @@ Json regions_json(const std::map<std::string, RegionStatistics>& regions) {
     return out;
 }
 
-void add_origin(Json& json) {
-    json["version"] = version();
-    json["git_commit"] = git_commit();
-    json["compiler"] = compiler();
+Json ensemble_json(const Ensemble& e) {
+    return {{"members", e.means.size()},
+            {"mean_N", e.mean},
+            {"ci95_N", e.ci95},
+            {"means_N", e.means},
+            {"seeds", e.seeds}};
 }
 
-// texts from file names and meshes may be no UTF-8: replaced, because JSON must be
-std::string dump(const Json& json) {
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+Json warnings_json(const std::vector<Warning>& warnings) {
+    Json out = Json::array();
+    for (const Warning& w : warnings)
+        out.push_back({{"text", w.text},
+                       {"affects_mean", or_null(w.affects_mean)},
+                       {"share", or_null(w.share)}});
+    return out;
 }
 
-Json parse_file(const std::filesystem::path& path) {
-    std::error_code ignored;
-    std::ifstream in(path, std::ios::binary);
-    if (!in || !std::filesystem::is_regular_file(path, ignored))
-        throw bad_input(path.string(), "file not found or not readable", "check the path");
-    try {
-        return Json::parse(in);
-    } catch (const Json::exception& error) {
-        throw bad_input(path.string(), std::string("is not valid JSON: ") + error.what(),
-                        "make it again with the tool that wrote it");
+constexpr std::string_view kPerMetre = "_per_m";
+
+// In 2D forces, impulses and energies are per metre of breadth, and say so in a twin of each key.
+void add_names_per_metre(Json& json) {
+    if (!json.is_structured()) return;
+    std::vector<std::pair<std::string, Json>> twins;
+    for (auto& [key, value] : json.items()) {
+        const bool newtons = key.ends_with("_N") || key.ends_with("_Ns") || key.ends_with("_J");
+        if (newtons && json.is_object())
+            twins.emplace_back(key + std::string(kPerMetre), value);
+        else
+            add_names_per_metre(value);
     }
+    for (auto& [key, value] : twins) json[key] = std::move(value);
 }
 
-// Reads values by dotted key and names the key in every complaint.
-class Reader {
-public:
-    explicit Reader(const std::filesystem::path& path) : path_(path), json_(parse_file(path)) {}
+ForceStatistics read_force(const JsonReader& in, const std::string& key) {
+    ForceStatistics out{in.number(key + ".mean_N"),          in.number(key + ".contact_mean_N"),
+                        in.number(key + ".friction_mean_N"), in.number(key + ".std_N"),
+                        in.number(key + ".max_N"),           in.number(key + ".ci95_N")};
+    // files of version 0.1 end here
+    out.correlation_time = in.number_if_there(key, "correlation_time_s");
+    out.effective_samples = in.number_if_there(key, "effective_samples");
+    out.trend = in.number_if_there(key, "trend_N");
+    if (const Json& force = in.at(key); force.contains("trend_significant"))
+        out.trend_significant = in.convert<std::optional<bool>>(force["trend_significant"], key);
+    return out;
+}
 
-    template <class T>
-    T get(const std::string& key) const {
-        const Json* at = &json_;
-        for (std::size_t begin = 0; begin <= key.size();) {
-            const std::size_t end = std::min(key.find('.', begin), key.size());
-            at = &child(*at, key.substr(begin, end - begin), key);
-            begin = end + 1;
+std::map<std::string, RegionStatistics> read_regions(const JsonReader& in) {
+    std::map<std::string, RegionStatistics> out;
+    for (const auto& [name, region] : in.at("regions").items()) {
+        const std::string key = "regions." + name;
+        RegionStatistics& row = out[name];
+        row.hits = in.convert<std::int64_t>(in.child(region, "hits", key), key);
+        row.max_impulse = in.value_or_nan(in.child(region, "max_impulse_Ns", key), key);
+        row.mean = in.vector(in.child(region, "mean_N", key), key + ".mean_N");
+        // files from before the split have the sum alone
+        const Json unknown = Json::array({nullptr, nullptr, nullptr});
+        row.contact_mean = in.vector(region.value("contact_mean_N", unknown), key);
+        row.friction_mean = in.vector(region.value("friction_mean_N", unknown), key);
+    }
+    return out;
+}
+
+// energies without their twins per metre
+std::map<std::string, double> read_energy(const JsonReader& in) {
+    auto energy = in.numbers("energy");
+    std::erase_if(energy, [](const auto& entry) { return entry.first.ends_with(kPerMetre); });
+    return energy;
+}
+
+std::vector<Warning> read_warnings(const JsonReader& in) {
+    std::vector<Warning> out;
+    for (const Json& w : in.at("warnings")) {
+        const std::string key = "warnings";
+        if (w.is_string()) {  // of version 0.1
+            out.push_back({w.get<std::string>()});
+            continue;
         }
-        return convert<T>(*at, key);
+        out.push_back({in.convert<std::string>(in.child(w, "text", key), key + ".text"),
+                       in.convert<std::optional<bool>>(in.child(w, "affects_mean", key), key),
+                       in.convert<std::optional<double>>(w.value("share", Json()), key)});
     }
+    return out;
+}
 
-    // a number, or NaN where the file has null
-    double number(const std::string& key) const {
-        return get<std::optional<double>>(key).value_or(std::numeric_limits<double>::quiet_NaN());
-    }
-
-    ForceStatistics force(const std::string& key) const {
-        return {number(key + ".mean_N"),          number(key + ".contact_mean_N"),
-                number(key + ".friction_mean_N"), number(key + ".std_N"),
-                number(key + ".max_N"),           number(key + ".ci95_N")};
-    }
-
-    std::map<std::string, RegionStatistics> regions() const {
-        std::map<std::string, RegionStatistics> out;
-        for (const auto& [name, region] : child(json_, "regions", "regions").items()) {
-            const std::string key = "regions." + name;
-            RegionStatistics& row = out[name];
-            row.hits = convert<std::int64_t>(child(region, "hits", key), key);
-            row.max_impulse = value_or_nan(child(region, "max_impulse_Ns", key), key);
-            row.mean = vector(child(region, "mean_N", key), key + ".mean_N");
-            // files from before the split have the sum alone
-            const Json unknown = Json::array({nullptr, nullptr, nullptr});
-            row.contact_mean = vector(region.value("contact_mean_N", unknown), key);
-            row.friction_mean = vector(region.value("friction_mean_N", unknown), key);
-        }
-        return out;
-    }
-
-    std::map<std::string, double> numbers(const std::string& key) const {
-        std::map<std::string, double> out;
-        if (!json_.contains(key)) return out;
-        for (const auto& [name, value] : json_[key].items())
-            out[name] = value_or_nan(value, key + "." + name);
-        return out;
-    }
-
-    bool has(const std::string& key) const { return json_.contains(key); }
-
-    Error fault(const std::string& key, const std::string& what) const {
-        return bad_input(path_.string() + ": " + key, what, kRemedy);
-    }
-
-private:
-    const Json& child(const Json& parent, const std::string& name, const std::string& key) const {
-        if (!parent.is_object() || !parent.contains(name)) throw fault(key, "is missing");
-        return parent[name];
-    }
-
-    std::array<double, 3> vector(const Json& json, const std::string& key) const {
-        if (json.size() != 3) throw fault(key, "has not 3 elements");
-        std::array<double, 3> out{};
-        for (std::size_t k = 0; k < 3; ++k) out[k] = value_or_nan(json[k], key);
-        return out;
-    }
-
-    double value_or_nan(const Json& json, const std::string& key) const {
-        return convert<std::optional<double>>(json, key).value_or(
-            std::numeric_limits<double>::quiet_NaN());
-    }
-
-    template <class T>
-    T convert(const Json& json, const std::string& key) const {
-        try {
-            if constexpr (std::is_same_v<T, std::optional<double>>) {
-                if (json.is_null()) return std::nullopt;
-                return json.get<double>();
-            } else {
-                return json.get<T>();
-            }
-        } catch (const Json::exception&) {
-            throw fault(key, "has the wrong type");
-        }
-    }
-
-    std::filesystem::path path_;
-    Json json_;
-};
+std::optional<Ensemble> read_ensemble(const JsonReader& in) {
+    if (!in.has("ensemble")) return std::nullopt;
+    Ensemble out{in.number("ensemble.mean_N"),
+                 in.number("ensemble.ci95_N"),
+                 {},
+                 in.get<std::vector<std::int64_t>>("ensemble.seeds")};
+    for (const Json& mean : in.at("ensemble.means_N"))
+        out.means.push_back(in.value_or_nan(mean, "ensemble.means_N"));
+    return out;
+}
 
 void collect_numbers(const Json& json, const std::string& key, std::map<std::string, double>& out) {
     if (json.is_number()) out[key] = json.get<double>();
@@ -197,15 +175,16 @@ std::string summary_text(const Summary& s) {
                         {"unconverged_steps", s.unconverged_steps}};
     json["energy"] = s.energy;
     if (!s.imbalance.empty()) json["imbalance"] = s.imbalance;
-    json["lindqvist_submersion_N"] =
-        s.lindqvist_submersion ? Json(*s.lindqvist_submersion) : Json(nullptr);
-    json["warnings"] = s.warnings;
+    json["lindqvist_submersion_N"] = or_null(s.lindqvist_submersion);
+    if (s.ensemble) json["ensemble"] = ensemble_json(*s.ensemble);
+    json["warnings"] = warnings_json(s.warnings);
+    if (s.dimension == 2) add_names_per_metre(json);
     add_origin(json);
-    return dump(json);
+    return json_text(json);
 }
 
 Summary read_summary(const std::filesystem::path& path) {
-    const Reader in(path);
+    const JsonReader in(path, "run the case again with icesolve");
     Summary s;
     if (in.get<std::string>("schema") != kSummarySchema)
         throw in.fault("schema", std::string("is not ") + kSummarySchema);
@@ -227,59 +206,26 @@ Summary read_summary(const std::filesystem::path& path) {
     s.floes_total = in.get<std::int64_t>("floes.total");
     s.floes_moved = in.get<std::int64_t>("floes.moved");
     s.floes_behind = in.get<std::int64_t>("floes.behind");
-    s.resistance = in.force("resistance");
-    s.lateral = in.force("lateral");
-    s.vertical = in.force("vertical");
-    s.regions = in.regions();
+    s.resistance = read_force(in, "resistance");
+    s.lateral = read_force(in, "lateral");
+    s.vertical = read_force(in, "vertical");
+    s.regions = read_regions(in);
     s.contacts_mean = in.number("contacts.mean");
     s.contacts_max = in.number("contacts.max");
     s.max_overlap = in.number("contacts.max_overlap_m");
     s.unconverged_steps = in.get<std::int64_t>("contacts.unconverged_steps");
-    s.energy = in.numbers("energy");
+    s.energy = read_energy(in);
     s.imbalance = in.numbers("imbalance");
     s.lindqvist_submersion = in.get<std::optional<double>>("lindqvist_submersion_N");
-    s.warnings = in.get<std::vector<std::string>>("warnings");
+    s.ensemble = read_ensemble(in);
+    s.warnings = read_warnings(in);
     return s;
 }
 
 std::map<std::string, double> read_json_numbers(const std::filesystem::path& path) {
     std::map<std::string, double> out;
-    collect_numbers(parse_file(path), "", out);
+    collect_numbers(parse_json_file(path), "", out);
     return out;
-}
-
-std::string spheres_report_text(const SpheresReport& r) {
-    Json json;
-    json["schema"] = "spherize/1";
-    json["dimension"] = r.dimension;
-    json["radius_m"] = r.radius;
-    json["spacing_m"] = r.spacing;
-    json["spheres"] = r.spheres;
-    json["surface_spheres"] = r.surface_spheres;
-    json["volume_m3"] = r.volume;
-    json["area_m2"] = r.area;
-    json["centroid_m"] = r.centroid;
-    json["inertia_unit_density"] = r.inertia_unit_density;
-    json["protrusion_max_m"] = r.protrusion_max;
-    json["covering_radius_m"] = r.covering_radius;
-    json["gap_p50_m"] = r.gap_p50;
-    json["gap_p99_m"] = r.gap_p99;
-    json["gap_max_m"] = r.gap_max;
-    json["normal_error_mean_deg"] = r.normal_error_mean_deg;
-    json["normal_error_p99_deg"] = r.normal_error_p99_deg;
-    json["thin_features"] = Json::array();
-    for (const ThinFeature& thin : r.thin_features)
-        json["thin_features"].push_back({{"at_m", thin.at}, {"size_m", thin.size}});
-    json["repairs"] = Json::array();
-    for (const auto& [step, count] : r.repairs)
-        json["repairs"].push_back({{"step", step}, {"count", count}});
-    json["guessed"] = r.guessed;
-    json["warnings"] = r.warnings;
-    json["seconds"] = r.seconds;
-    json["source_mesh"] = r.source_mesh;
-    json["command_line"] = r.command_line;
-    add_origin(json);
-    return dump(json);
 }
 
 }  // namespace ice

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// `summary.json` and spherize's JSON: the numbers other programs read.
+/// `summary.json`: what a run found out, for other programs.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "common/formats/warning.hpp"
 
 namespace ice {
 
@@ -16,7 +19,16 @@ namespace ice {
 struct ForceStatistics {
     double mean = 0.0, contact_mean = 0.0, friction_mean = 0.0;
     double std = 0.0, max = 0.0;  ///< max: of the magnitude, with the sign it had
-    double ci95 = 0.0;            ///< half width of the 95 % interval of the mean, from batch means
+    double ci95 = 0.0;            ///< half width of the 95 % interval of the mean; NaN: too short
+
+    /// Integrated autocorrelation time [s]: the averaged time holds as many independent samples as
+    /// it is longer than this. NaN where it is too short to tell.
+    double correlation_time = std::numeric_limits<double>::quiet_NaN();
+    double effective_samples = std::numeric_limits<double>::quiet_NaN();  ///< the number of them
+    double trend = std::numeric_limits<double>::quiet_NaN();  ///< change over the averaged time of
+                                                              ///< the straight line through it [N]
+    std::optional<bool> trend_significant =
+        std::nullopt;  ///< at 95 %, with effective_samples; none: too short
 };
 
 /// What one region of the hull felt.
@@ -26,6 +38,14 @@ struct RegionStatistics {
     std::array<double, 3> mean{};           ///< mean force of the ice on the region, world axes [N]
     std::array<double, 3> contact_mean{};   ///< of it normal forces; NaN in files without them
     std::array<double, 3> friction_mean{};  ///< of it friction; likewise
+};
+
+/// Several runs of one case that differ in a seed (`icesolve --seeds`).
+struct Ensemble {
+    double mean = 0.0;          ///< of the members' mean resistances [N], in 2D [N/m]
+    double ci95 = 0.0;          ///< half width of Student's 95 % interval of it; NaN for one member
+    std::vector<double> means;  ///< mean resistance of each member
+    std::vector<std::int64_t> seeds;  ///< of each member
 };
 
 /// Content of summary.json (schema icesolve-summary/1, CONTRACT.md section 5).
@@ -47,47 +67,21 @@ struct Summary {
     std::map<std::string, double> imbalance;      ///< worst step's, per kind; empty: not asked for
     std::map<std::string, double> stage_seconds;  ///< wall time per stage of the step
     std::optional<double> lindqvist_submersion;   ///< [N]; none where the hull has no waterline
-    std::vector<std::string> warnings;
+    std::optional<Ensemble> ensemble;             ///< of an ensemble's folder
+    std::vector<Warning> warnings;
     std::string case_file, command_line;
 };
 
-/// The summary as JSON text, keys in the contract's order, numbers with all digits.
+/// The summary as JSON text, keys in the contract's order, numbers with all digits. In 2D every
+/// key that ends in _N, _Ns or _J has a twin with _per_m behind it: forces per metre of breadth.
 std::string summary_text(const Summary& summary);
 
-/// Reads summary.json back.
+/// Reads summary.json back. Warnings may be a plain list of texts, as older programs wrote them.
 /// @throws Error (exit code 2) naming the file and the key.
 Summary read_summary(const std::filesystem::path& path);
 
 /// All numbers of a JSON file by dotted key, e.g. "resistance.mean_N"; array elements as "key.0".
 /// @throws Error (exit code 2) naming the file when it is no JSON.
 std::map<std::string, double> read_json_numbers(const std::filesystem::path& path);
-
-/// One place of the solid where no sphere fits.
-struct ThinFeature {
-    std::array<double, 3> at{};  ///< [m]
-    double size = 0.0;           ///< extent of the unfilled surface there [m]
-};
-
-/// Certificate of a sphere set (schema spherize/1, CONTRACT.md section 2).
-struct SpheresReport {
-    int dimension = 3;
-    double radius = 0.0, spacing = 0.0;
-    std::int64_t spheres = 0, surface_spheres = 0;
-    double volume = 0.0, area = 0.0;
-    std::array<double, 3> centroid{};
-    std::array<double, 6> inertia_unit_density{};  ///< xx, yy, zz, xy, xz, yz
-    double protrusion_max = 0.0, covering_radius = 0.0;
-    double gap_p50 = 0.0, gap_p99 = 0.0, gap_max = 0.0;
-    double normal_error_mean_deg = 0.0, normal_error_p99_deg = 0.0;
-    std::vector<ThinFeature> thin_features;
-    std::vector<std::pair<std::string, std::int64_t>> repairs;  ///< step, count
-    std::map<std::string, std::string> guessed;
-    std::vector<std::string> warnings;
-    std::map<std::string, double> seconds;
-    std::string source_mesh, command_line;
-};
-
-/// The certificate as JSON text.
-std::string spheres_report_text(const SpheresReport& report);
 
 }  // namespace ice

@@ -169,11 +169,11 @@ std::string numerics_table(const Summary& s) {
     return facts(rows);
 }
 
-std::string warning_list(const std::vector<std::string>& warnings) {
+std::string warning_list(const std::vector<Warning>& warnings) {
     if (warnings.empty()) return "";
     std::string out =
         "<section id=\"warnings\" class=\"warnings\">\n<b>Warnings of the run</b>\n<ul>\n";
-    for (const std::string& text : warnings) out += "<li>" + escape(text) + "</li>\n";
+    for (const Warning& w : warnings) out += "<li>" + escape(with_verdict(w)) + "</li>\n";
     return out + "</ul>\n</section>\n";
 }
 

@@ -35,7 +35,7 @@ std::string region_table(const Summary& summary);
 std::string energy_table(const Summary& summary);
 /// Contacts, overlap, computing time: whether the numbers can be trusted.
 std::string numerics_table(const Summary& summary);
-/// The warnings as a list; "" when there are none.
-std::string warning_list(const std::vector<std::string>& warnings);
+/// The warnings with their verdicts as a list; "" when there are none.
+std::string warning_list(const std::vector<Warning>& warnings);
 
 }  // namespace ice::report

@@ -112,8 +112,8 @@ std::string make_report(const read::RunFolder& run, std::size_t frames) {
         page.summary = key_numbers(*run.summary) + warning_list(run.summary->warnings);
     else
         page.summary =
-            warning_list({"The run ended before it wrote summary.json: there are no statistics, "
-                          "and pictures and histories end with the last flush."});
+            warning_list({{"The run ended before it wrote summary.json: there are no statistics, "
+                           "and pictures and histories end with the last flush"}});
     page.body = history_section(data, figures);
     if (run.summary) page.body += statistics_sections(*run.summary);
     page.body += load_section(data, figures);

@@ -72,7 +72,7 @@ void read_outcome(const fs::path& log, SweepRun& run) {
             run.summary = std::move(summary);
         } else {
             const bool said = run.status == "failed" && !summary.warnings.empty();
-            run.fault = said ? summary.warnings.back()
+            run.fault = said ? summary.warnings.back().text
                              : fmt::format("ended at {:g} s", summary.simulated_s);
         }
     } catch (const Error& error) {

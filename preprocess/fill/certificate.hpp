@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "common/formats/sphere_set.hpp"
-#include "common/formats/summary_file.hpp"
+#include "common/formats/spheres_report.hpp"
 #include "preprocess/fill/survey.hpp"
 #include "preprocess/measure/surface_tree.hpp"
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "common/formats/sphere_set.hpp"
-#include "common/formats/summary_file.hpp"
+#include "common/formats/spheres_report.hpp"
 #include "preprocess/slice/slice_solid.hpp"
 
 namespace ice {

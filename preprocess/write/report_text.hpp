@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "common/formats/summary_file.hpp"
+#include "common/formats/spheres_report.hpp"
 
 namespace ice {
 

@@ -85,10 +85,11 @@ void fill_energy(const EnergyLedger& ledger, double potential_now, Summary& summ
     out["residual_J"] = residual;
     out["residual_share"] = share;
     if (std::abs(residual) > kWorryingResidual * turnover)
-        summary.warnings.push_back(fmt::format(
-            "energy: {:.2g} % of the ship's work is not explained by motion, height, friction, "
-            "impacts, crushing and drag: lower simulation.time_step",
-            100.0 * residual / turnover));
+        summary.warnings.push_back(
+            {fmt::format("energy: {:.2g} % of the ship's work is not explained by motion, height, "
+                         "friction, "
+                         "impacts, crushing and drag: lower simulation.time_step",
+                         100.0 * residual / turnover)});
 }
 
 std::string energy_line(const Summary& summary) {

@@ -134,42 +134,48 @@ void Tally::fill(Summary& summary) const {
 void Tally::warn(Summary& summary) const {
     const double steps = std::max<double>(1.0, static_cast<double>(steps_));
     if (static_cast<double>(unconverged_) > kWorthWarning * steps)
-        summary.warnings.push_back(fmt::format(
-            "{} of {} steps ({:.0f} %) did not reach contact.tolerance within contact.iterations; "
-            "raise the iterations, and trust the mean if it stays within its interval",
-            unconverged_, steps_, 100.0 * static_cast<double>(unconverged_) / steps));
+        summary.warnings.push_back(
+            {fmt::format("{} of {} steps ({:.0f} %) did not reach contact.tolerance within "
+                         "contact.iterations; "
+                         "raise the iterations, and trust the mean if it stays within its interval",
+                         unconverged_, steps_, 100.0 * static_cast<double>(unconverged_) / steps)});
     if (jammed_steps_ > 0)
-        summary.warnings.push_back(fmt::format(
-            "jam: in {} of {} steps a floe squeezed between the hull and other ice could not give "
+        summary.warnings.push_back({fmt::format(
+            "jam: in {} of {} steps a floe squeezed between the hull and other ice could not "
+            "give "
             "way, first floe {} at t = {:.2f} s, x = {:.2f}, y = {:.2f}, z = {:.2f} m; {}",
             jammed_steps_, steps_, first_jam_floe_, first_jam_time_, first_jam_point_.x(),
             first_jam_point_.y(), first_jam_point_.z(),
             options_.rigid ? "with rigid contact the force there depends on time_step and "
                              "iterations: set contact.crushing_pressure"
-                           : "the solver ran out of iterations there: raise contact.iterations"));
+                           : "the solver ran out of iterations there: raise contact.iterations")});
     const double peaks = share_of_largest(total_[0]);
     if (peaks > kWorryingPeaks)
-        summary.warnings.push_back(fmt::format(
-            "{:.0f} % of the force along x comes from 1 % of the steps: squeezed or hit floes, not "
-            "sliding ones, decide the mean",
-            100.0 * peaks));
+        summary.warnings.push_back(
+            {fmt::format("{:.0f} % of the force along x comes from 1 % of "
+                         "the steps: squeezed or hit floes, not "
+                         "sliding ones, decide the mean",
+                         100.0 * peaks)});
     if (max_overlap_ > options_.worrying_overlap)
-        summary.warnings.push_back(fmt::format(
-            "overlap reached {:.1f} mm at t = {:.2f} s: bodies were pushed through each other; "
-            "lower time_step, raise contact.iterations or contact.crushing_pressure",
-            1e3 * max_overlap_, deepest_time_));
+        summary.warnings.push_back(
+            {fmt::format("overlap reached {:.1f} mm at t = {:.2f} s: bodies were pushed through "
+                         "each other; "
+                         "lower time_step, raise contact.iterations or contact.crushing_pressure",
+                         1e3 * max_overlap_, deepest_time_)});
     warn_of_tunnelling(summary);
     if (contacts_max_ == 0.0)
-        summary.warnings.push_back("nothing touched anything: is the hull on its way to the ice?");
+        summary.warnings.push_back(
+            {"nothing touched anything: is the hull on its way to the ice?", true});
 }
 
 void Tally::warn_of_tunnelling(Summary& summary) const {
     if (closing_speed_ <= options_.tunnelling_speed) return;
-    summary.warnings.push_back(fmt::format(
-        "{} and floe {} met at {:.3g} m/s at t = {:.2f} s; above {:.3g} m/s, a contact sphere's "
+    summary.warnings.push_back({fmt::format(
+        "{} and floe {} met at {:.3g} m/s at t = {:.2f} s; above {:.3g} m/s, a contact "
+        "sphere's "
         "diameter per step, bodies may pass through each other: lower simulation.time_step",
         closing_a_ == 0 ? std::string("the hull") : fmt::format("floe {}", closing_a_), closing_b_,
-        closing_speed_, closing_time_, options_.tunnelling_speed));
+        closing_speed_, closing_time_, options_.tunnelling_speed)});
 }
 
 }  // namespace ice

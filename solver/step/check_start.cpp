@@ -130,7 +130,7 @@ std::string describe(const std::vector<StartOverlap>& overlaps, const char* sepa
 }
 
 // The set with the widest spacing, if spheres of other bodies pass between its own.
-void warn_of_spacing(const World& w, std::vector<std::string>& warnings) {
+void warn_of_spacing(const World& w, std::vector<Warning>& warnings) {
     const bool centres = w.parameters.normal == NormalRule::centres;
     const double limit = centres ? 2.0 : kWidestSpacing;
     std::vector<double> in_radii;
@@ -142,14 +142,15 @@ void warn_of_spacing(const World& w, std::vector<std::string>& warnings) {
     });
     if (in_radii[static_cast<std::size_t>(*widest)] <= limit * (1.0 + kSpacingRounding)) return;
     const Shape& shape = w.scene.shapes[static_cast<std::size_t>(*widest)];
-    warnings.push_back(fmt::format(
+    const std::string text = fmt::format(
         "the surface spheres of {} are {:.3g} m apart, but bodies may pass between them above "
         "{:g} radii{}: make its set with a spacing of {:.3g} m",
         name_of(static_cast<std::int32_t>(widest - row.begin())), shape.spacing, limit,
-        centres ? " (contact.normal = \"centres\")" : "", limit * smallest_radius(shape)));
+        centres ? " (contact.normal = \"centres\")" : "", limit * smallest_radius(shape));
+    warnings.push_back({text});
 }
 
-void warn_of_speed(const World& w, std::vector<std::string>& warnings) {
+void warn_of_speed(const World& w, std::vector<Warning>& warnings) {
     const Case& p = w.parameters;
     const double limit = tunnelling_speed(w.scene, p.time_step);
     // rows of the table beyond the end are never reached: the end itself counts instead
@@ -166,11 +167,12 @@ void warn_of_speed(const World& w, std::vector<std::string>& warnings) {
         who = static_cast<std::int32_t>(i);
     }
     if (fastest <= limit) return;
-    warnings.push_back(fmt::format(
+    const std::string text = fmt::format(
         "{} goes {:.3g} m/s, but bodies may pass through each other above {:.3g} m/s, where they "
         "go a contact sphere's diameter within a step: lower simulation.time_step to {:.2g} s",
         who == 0 ? "the ship" : name_of(who) + ", seen from the ship,", fastest, limit,
-        p.time_step * limit / fastest));
+        p.time_step * limit / fastest);
+    warnings.push_back({text});
 }
 
 }  // namespace
@@ -214,14 +216,14 @@ std::vector<StartOverlap> find_start_overlaps(Scene& scene, const Case& paramete
     return found;
 }
 
-std::vector<std::string> check_start(World& world, bool allow_overlap) {
-    std::vector<std::string> warnings;
+std::vector<Warning> check_start(World& world, bool allow_overlap) {
+    std::vector<Warning> warnings;
     const auto overlaps = find_start_overlaps(world.scene, world.parameters);
     if (!overlaps.empty() && !allow_overlap)
         throw bad_input(world.parameters.file.string(), describe(overlaps, "\n  "),
                         "move the hull (hull.position), widen floes.gap or lower "
                         "simulation.jitter; --allow-overlap goes on all the same");
-    if (!overlaps.empty()) warnings.push_back(describe(overlaps, "; "));
+    if (!overlaps.empty()) warnings.push_back({describe(overlaps, "; ")});
     warn_of_speed(world, warnings);
     warn_of_spacing(world, warnings);
     return warnings;

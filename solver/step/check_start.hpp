@@ -2,9 +2,9 @@
 /// What is wrong with a case before its first step: bodies in each other, steps too long.
 #pragma once
 
-#include <string>
 #include <vector>
 
+#include "common/formats/warning.hpp"
 #include "solver/step/step.hpp"
 
 namespace ice {
@@ -36,6 +36,6 @@ std::vector<StartOverlap> find_start_overlaps(Scene& scene, const Case& paramete
 ///         kWidestSpacing, with the rule "centres" than they are wide; overlaps, where allowed
 /// @throws Error (exit code 2) naming the bodies that overlap, how deep and where, unless
 ///         `allow_overlap`
-std::vector<std::string> check_start(World& world, bool allow_overlap);
+std::vector<Warning> check_start(World& world, bool allow_overlap);
 
 }  // namespace ice

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "common/base/error.hpp"
 #include "common/base/instruction_set.hpp"
@@ -126,28 +125,30 @@ struct Job {
 
 void start(Job& job) {
     job.recorder.open(job.options.folder, job.options.command_line, job.world.scene);
-    for (const std::string& warning : job.options.start_warnings)
-        job.progress.warnings += warning + '\n';
+    job.progress.warnings = job.options.start_warnings;
 }
 
 void go_on(Job& job, const SavedRun& saved) {
     const RunOptions& o = job.options;
     job.progress = saved.progress;
     job.wall_before = saved.progress.wall_seconds;
-    std::string& warnings = job.progress.warnings;
+    const auto warn = [&](const std::string& text) {
+        job.progress.warnings.push_back({text, false});
+    };
     for (const std::string& name : job.recorder.resume(o.folder, o.command_line, job.world.scene,
                                                        saved.folder, saved.position))
-        warnings += fmt::format(
+        warn(fmt::format(
             "the rows of {} before t = {:g} s were not found in {}: the file begins there; the "
-            "statistics are of the whole run\n",
-            name, job.world.time, saved.folder.string());
+            "statistics are of the whole run",
+            name, job.world.time, saved.folder.string()));
     // the continued files are named .part now; the finished ones of before are out of date
     remove_results(o.folder);
     const std::string here = fmt::format("icesolve {} ({})", version(), git_commit());
     if (saved.created_by != here)
-        warnings += fmt::format(
-            "the run was begun with {} and goes on with {}: its bits may not be those of either\n",
-            saved.created_by, here);
+        job.progress.warnings.push_back(
+            {fmt::format("the run was begun with {} and goes on with {}: its bits may not be those "
+                         "of either",
+                         saved.created_by, here)});
 }
 
 void save(Job& job) {
@@ -213,21 +214,22 @@ Summary run(World& world, const RunOptions& options) {
     summary.command_line = options.command_line;
     if (std::abs(static_cast<double>(steps) * p.time_step - p.duration) > 1e-9 * p.duration)
         summary.warnings.push_back(
-            fmt::format("simulation.duration is not a whole number of steps: {:g} s are simulated",
-                        static_cast<double>(steps) * p.time_step));
+            {fmt::format("simulation.duration is not a whole number of steps: {:g} s are simulated",
+                         static_cast<double>(steps) * p.time_step),
+             false});
     if (options.saved != nullptr)
         go_on(job, *options.saved);
     else
         start(job);
-    std::istringstream lines(job.progress.warnings);
-    for (std::string line; std::getline(lines, line);) summary.warnings.push_back(line);
+    summary.warnings.insert(summary.warnings.end(), job.progress.warnings.begin(),
+                            job.progress.warnings.end());
     try {
         advance(job);
         write_summary(world, options, job.wall_seconds(), thickness, job.recorder, summary);
     } catch (const Error& error) {
         // what was computed up to here is kept where it can be written, and says that it failed
         summary.status = "failed";
-        summary.warnings.push_back(error.what());
+        summary.warnings.push_back({error.what(), true});
         try {
             write_summary(world, options, job.wall_seconds(), thickness, job.recorder, summary);
         } catch (const Error&) {

@@ -17,10 +17,9 @@ struct RunOptions {
     std::filesystem::path folder;  ///< run folder; created. Claim it before (RunFolder): files of
                                    ///< an older run are replaced, not removed
     std::string command_line;
-    double checkpoint_every = 0.0;  ///< simulated seconds; 0: only when interrupted
-    SavedRun* saved = nullptr;      ///< go on with this run; its recorder is taken over
-    std::vector<std::string> start_warnings =
-        {};               ///< of check_start(), for the summary; a line each
+    double checkpoint_every = 0.0;             ///< simulated seconds; 0: only when interrupted
+    SavedRun* saved = nullptr;                 ///< go on with this run; its recorder is taken over
+    std::vector<Warning> start_warnings = {};  ///< of check_start(), for the summary
     bool verify = false;  ///< every step must balance (balance.hpp); the worst is in the summary
     /// Called after every step with (fraction done, world); false ends the run as "interrupted",
     /// with a checkpoint.

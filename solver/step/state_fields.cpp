@@ -129,8 +129,20 @@ void StateFields::carry(CheckpointFile& file, RecordPosition& position) {
 }
 
 void StateFields::carry(CheckpointFile& file, RunProgress& progress) {
+    auto count = static_cast<std::int64_t>(progress.warnings.size());
     file.carry("wall_seconds", progress.wall_seconds);
-    file.carry("warnings", progress.warnings);
+    file.carry("warnings.count", count);
+    progress.warnings.resize(static_cast<std::size_t>(count));
+    for (std::size_t k = 0; k < progress.warnings.size(); ++k) {
+        Warning& w = progress.warnings[k];
+        const std::string name = fmt::format("warnings.{}.", k);
+        std::optional<std::uint8_t> affects;
+        if (w.affects_mean) affects = *w.affects_mean ? 1 : 0;
+        file.carry(name + "text", w.text);
+        file.carry(name + "affects_mean", affects);
+        file.carry(name + "share", w.share);
+        if (affects) w.affects_mean = *affects != 0;
+    }
 }
 
 }  // namespace ice

@@ -9,8 +9,8 @@ namespace ice {
 
 /// What run() itself carries on beside the world and the recorder.
 struct RunProgress {
-    double wall_seconds = 0.0;  ///< of all programs that worked on the run
-    std::string warnings;       ///< about the start and restarts, a line each
+    double wall_seconds = 0.0;      ///< of all programs that worked on the run
+    std::vector<Warning> warnings;  ///< about the start and restarts
 };
 
 /// All state that a run carries from one step to the next, in one list (state_fields.cpp) that both

@@ -155,8 +155,8 @@ TEST_CASE("a case whose floes overlap names them and the depth, and --allow-over
     REQUIRE(at != std::string::npos);
     CHECK(r.err.find(words, at + 1) == std::string::npos);
     const auto warnings = read_summary(w / "r/summary.json").warnings;
-    CHECK(std::any_of(warnings.begin(), warnings.end(), [&](const std::string& warning) {
-        return warning.find(words) != std::string::npos;
+    CHECK(std::any_of(warnings.begin(), warnings.end(), [&](const Warning& warning) {
+        return warning.text.find(words) != std::string::npos;
     }));
     CHECK_THAT(slurp(w / "r/run.log"), Catch::Contains(words));
 }
@@ -195,8 +195,8 @@ TEST_CASE("a time step in which bodies may tunnel is warned of, before and after
                           Catch::Contains("lower simulation.time_step to 0.04 s"));
     CHECK_THAT(r.err, Catch::Contains("the hull and floe 1 met at "));
     const auto warnings = read_summary(w / "r/summary.json").warnings;
-    CHECK(std::count_if(warnings.begin(), warnings.end(), [](const std::string& text) {
-              return text.find("pass through each other") != std::string::npos;
+    CHECK(std::count_if(warnings.begin(), warnings.end(), [](const Warning& w) {
+              return w.text.find("pass through each other") != std::string::npos;
           }) == 2);
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "common/base/version.hpp"
+#include "common/formats/spheres_report.hpp"
 #include "tests/common/fixtures.hpp"
 
 using namespace ice;
@@ -39,7 +40,7 @@ Summary make_summary() {
     s.energy["kinetic_J"] = 55.0;
     s.stage_seconds["narrow"] = 2.5;
     s.lindqvist_submersion = 950.0;
-    s.warnings = {"floe 3 fell off"};
+    s.warnings = {{"floe 3 fell off", true, 0.125}, {"a picture is wrong", false}, {"who knows"}};
     s.case_file = "channel.cfg";
     return s;
 }
@@ -75,6 +76,72 @@ TEST_CASE("a summary comes back with all digits", "[formats]") {
     CHECK(back.warnings == s.warnings);
     CHECK(back.case_file == "channel.cfg");
     CHECK(summary_text(back) == summary_text(s));
+}
+
+TEST_CASE("warnings that are plain texts, as version 0.1 wrote them, are read", "[formats]") {
+    Summary s = make_summary();
+    s.warnings.clear();
+    std::string text = summary_text(s);
+    const std::string none = "\"warnings\": []";
+    text.replace(text.find(none), none.size(), "\"warnings\": [\"floe 3 fell off\", \"jam\"]");
+    const TempFolder folder;
+    write_bytes(folder / "summary.json", text);
+    const Summary back = read_summary(folder / "summary.json");
+    REQUIRE(back.warnings.size() == 2);
+    CHECK(back.warnings[0] == Warning{"floe 3 fell off"});
+    CHECK(with_verdict(back.warnings[1]) == "jam (effect on the mean resistance: not measured)");
+}
+
+TEST_CASE("a warning says behind its text what it does to the mean", "[formats]") {
+    CHECK(with_verdict({"jam", true, 0.125}) ==
+          "jam (the mean resistance is affected: about 12 % of it)");
+    CHECK(with_verdict({"jam", true}) == "jam (the mean resistance is affected)");
+    CHECK(with_verdict({"jam", false, 0.003}) ==
+          "jam (the mean resistance is not affected: about 0.3 % of it)");
+    CHECK(with_verdict({"jam", false}) == "jam (the mean resistance is not affected)");
+}
+
+TEST_CASE("an ensemble and the figures of its interval come back", "[formats]") {
+    Summary s = make_summary();
+    s.resistance.correlation_time = 0.75;
+    s.resistance.effective_samples = 26.5;
+    s.resistance.trend = -12.0;
+    s.resistance.trend_significant = false;
+    s.ensemble = {
+        1100.0, 25.5, {1090.0, 1110.0, std::numeric_limits<double>::quiet_NaN()}, {1, 2, 7}};
+    const Summary back = written_and_read(s);
+    CHECK(back.resistance.correlation_time == 0.75);
+    CHECK(back.resistance.effective_samples == 26.5);
+    CHECK(back.resistance.trend == -12.0);
+    CHECK(back.resistance.trend_significant == false);
+    CHECK_FALSE(back.lateral.trend_significant);
+    REQUIRE(back.ensemble);
+    CHECK(back.ensemble->mean == 1100.0);
+    CHECK(back.ensemble->ci95 == 25.5);
+    CHECK(back.ensemble->means[1] == 1110.0);
+    CHECK(std::isnan(back.ensemble->means[2]));
+    CHECK(back.ensemble->seeds == s.ensemble->seeds);
+    CHECK(summary_text(back) == summary_text(s));
+    CHECK_THAT(summary_text(s), Catch::Contains("\"members\": 3"));
+}
+
+TEST_CASE("in 2D forces have a second name that says they are per metre", "[formats]") {
+    Summary s = make_summary();
+    s.ensemble = {1100.0, 25.5, {1090.0, 1110.0}, {1, 2}};
+    const TempFolder folder;
+    write_bytes(folder / "three.json", summary_text(s));
+    for (const auto& [key, value] : read_json_numbers(folder / "three.json"))
+        CHECK(key.find("_per_m") == std::string::npos);
+    s.dimension = 2;
+    write_bytes(folder / "two.json", summary_text(s));
+    const auto numbers = read_json_numbers(folder / "two.json");
+    for (const char* key : {"resistance.mean_N", "resistance.ci95_N", "lateral.std_N",
+                            "regions.bow.max_impulse_Ns", "energy.kinetic_J", "ensemble.mean_N"}) {
+        CAPTURE(key);
+        CHECK(numbers.at(key) == numbers.at(std::string(key) + "_per_m"));
+    }
+    CHECK(numbers.at("regions.bow.mean_N_per_m.2") == 200.0);
+    CHECK(read_summary(folder / "two.json").energy == s.energy);
 }
 
 TEST_CASE("summary.json holds the contract's keys in the contract's order", "[formats]") {

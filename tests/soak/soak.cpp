@@ -167,7 +167,7 @@ int main(int argc, char** argv) {
         options.keep_going = watch;
         const Summary summary = run(world, options);
         fmt::print("\n{} steps, state hash {:016x}\n", summary.steps, summary.state_hash);
-        for (const std::string& warning : summary.warnings) fmt::print("warning: {}\n", warning);
+        for (const Warning& w : summary.warnings) fmt::print("warning: {}\n", with_verdict(w));
         return judge(rows) ? 0 : static_cast<int>(ExitCode::failed);
     });
 }

@@ -253,7 +253,7 @@ TEST_CASE("more than 0.5 % of unexplained work is worth a warning, less is not",
 
     fill_energy(ledger, 148.0, bad);
     REQUIRE(bad.warnings.size() == 1);
-    CHECK_THAT(bad.warnings[0], Catch::Contains("0.6 % of the ship's work"));
+    CHECK_THAT(bad.warnings[0].text, Catch::Contains("0.6 % of the ship's work"));
 
     fill_energy({}, 0.0, idle);  // a ship that met no ice
     CHECK(idle.warnings.empty());

@@ -157,7 +157,7 @@ TEST_CASE("a run stopped in the middle of a jam has the summary of the whole run
     const auto warned = [&](const char* words) {
         return std::any_of(
             expected.warnings.begin(), expected.warnings.end(),
-            [&](const std::string& text) { return text.find(words) != std::string::npos; });
+            [&](const Warning& w) { return w.text.find(words) != std::string::npos; });
     };
     // all that the tally remembers of a jam is there to be compared, and of bodies too fast
     CHECK(warned("jam: in "));

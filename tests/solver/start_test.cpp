@@ -62,7 +62,7 @@ TEST_CASE("a floe that reaches into its neighbour is named with the depth", "[st
                          Catch::Contains("--allow-overlap"));
     const auto warnings = check_start(w, true);
     REQUIRE(warnings.size() == 1);
-    CHECK_THAT(warnings[0], Catch::StartsWith("floe 1 and floe 2 overlap by"));
+    CHECK_THAT(warnings[0].text, Catch::StartsWith("floe 1 and floe 2 overlap by"));
 }
 
 TEST_CASE("overlap up to a fiftieth of the spheres' radius is tolerated", "[step]") {
@@ -132,14 +132,14 @@ TEST_CASE("a ship or floe that goes a sphere's diameter in a step is warned of, 
     w.parameters.speed_table = {{0.0, 1.0}, {10.0, -20.0}, {20.0, 49.0}};
     auto warnings = check_start(w, false);
     REQUIRE(warnings.size() == 1);
-    CHECK_THAT(warnings[0], Catch::Contains("the ship goes 20 m/s") &&
-                                Catch::Contains("above 10 m/s") &&
-                                Catch::Contains("simulation.time_step to 0.005 s"));
+    CHECK_THAT(warnings[0].text, Catch::Contains("the ship goes 20 m/s") &&
+                                     Catch::Contains("above 10 m/s") &&
+                                     Catch::Contains("simulation.time_step to 0.005 s"));
     w.parameters.speed_table = {{0.0, 1.0}};
     w.scene.bodies.velocity[1] = Vec3(0, 0, 12.0);
     warnings = check_start(w, false);
     REQUIRE(warnings.size() == 1);
-    CHECK_THAT(warnings[0], Catch::Contains("floe 1, seen from the ship, goes 12 m/s"));
+    CHECK_THAT(warnings[0].text, Catch::Contains("floe 1, seen from the ship, goes 12 m/s"));
 }
 
 TEST_CASE("spheres too far apart to keep others out are warned of, with the limit of the rule",
@@ -156,15 +156,16 @@ TEST_CASE("spheres too far apart to keep others out are warned of, with the limi
     add(kWidestSpacing);
     auto warnings = check_start(w, false);
     REQUIRE(warnings.size() == 1);
-    CHECK_THAT(warnings[0], Catch::Contains("spheres of floe 2 are 0.15 m apart") &&
-                                Catch::Contains("above 2 radii (contact.normal = \"centres\")") &&
-                                Catch::Contains("a spacing of 0.1 m"));
+    CHECK_THAT(warnings[0].text,
+               Catch::Contains("spheres of floe 2 are 0.15 m apart") &&
+                   Catch::Contains("above 2 radii (contact.normal = \"centres\")") &&
+                   Catch::Contains("a spacing of 0.1 m"));
     w.parameters.normal = NormalRule::surface;
     CHECK(check_start(w, false).empty());
     add(kWidestSpacing + 0.1);
     warnings = check_start(w, false);
     REQUIRE(warnings.size() == 1);
-    CHECK_THAT(warnings[0], Catch::Contains("spheres of floe 3 are 0.155 m apart") &&
-                                Catch::Contains("above 3 radii:") &&
-                                Catch::Contains("a spacing of 0.15 m"));
+    CHECK_THAT(warnings[0].text, Catch::Contains("spheres of floe 3 are 0.155 m apart") &&
+                                     Catch::Contains("above 3 radii:") &&
+                                     Catch::Contains("a spacing of 0.15 m"));
 }

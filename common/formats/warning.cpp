@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "common/formats/warning.hpp"
+
+#include <fmt/format.h>
+
+namespace ice {
+
+std::string with_verdict(const Warning& w) {
+    const std::string much =
+        w.share ? fmt::format("about {:.2g} % of it", 100.0 * *w.share) : std::string();
+    if (!w.affects_mean) return w.text + " (effect on the mean resistance: not measured)";
+    if (!*w.affects_mean)
+        return fmt::format("{} (the mean resistance is not affected{})", w.text,
+                           much.empty() ? much : ": " + much);
+    return fmt::format("{} (the mean resistance is affected{})", w.text,
+                       much.empty() ? much : ": " + much);
+}
+
+}  // namespace ice

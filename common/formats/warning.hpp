@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// What a run warns of, and what that does to its answer.
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace ice {
+
+/// A warning with its verdict on the mean resistance, the answer of a run.
+struct Warning {
+    std::string text;  ///< what was seen and what to do; begins small, no full stop
+    std::optional<bool> affects_mean = std::nullopt;  ///< none: unknown, nothing was measured
+    std::optional<double> share =
+        std::nullopt;  ///< at most about this share of the mean; none: not measured
+
+    bool operator==(const Warning&) const = default;
+};
+
+/// The text with the verdict behind it, as a terminal or a report shows it.
+std::string with_verdict(const Warning& warning);
+
+}  // namespace ice
