@@ -139,8 +139,8 @@ int main(int argc, char** argv) {
     draw->add_option("--time", o.time, "the frame nearest to this time [s]")
         ->required()
         ->check(finite_seconds);
-    draw->add_option("--from", o.from, "below, top, side, front or quarter")
-        ->check(CLI::IsMember({"below", "top", "side", "front", "quarter"}));
+    draw->add_option("--from", o.from, "below, top, side (starboard), port, front or quarter")
+        ->check(CLI::IsMember({"below", "top", "side", "port", "front", "quarter"}));
     draw->add_option("-o,--out", o.out, "the SVG file")->required();
     auto* plot_run = command("plot", "draw histories and tracked floes' paths as one SVG");
     plot_run->add_option("-o,--out", o.out, "the SVG file (default RUN/plot.svg)");

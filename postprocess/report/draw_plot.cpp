@@ -23,7 +23,7 @@ std::string draw_paths(const std::vector<views::Trail>& trails, int axis) {
     chart.x_title = "x from the ship's origin [m]";
     chart.y_title = axis == 1 ? "y [m], to port" : "z [m]";
     for (const views::Trail& trail : trails) {
-        views::Curve curve{fmt::format("{}", trail.floe), trail.color, {}, 1.4, "", 1.0};
+        views::Curve curve{fmt::format("{}", trail.floe), trail.color, {}, 1.6, trail.dash, 1.0};
         for (const Vec3& p : trail.offset) curve.points.emplace_back(p.x(), p[axis]);
         chart.curves.push_back(std::move(curve));
     }

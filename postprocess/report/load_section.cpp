@@ -19,9 +19,9 @@ std::string load_section(const RunData& run, const RunFigures& figures) {
     const views::HullLoad hull{run.header.shapes[0].mesh, map.mesh, map.load, end,
                                -run.frames.front().ship_position.z()};
     const std::vector<ViewFrom> sides =
-        run.header.dimension == 2
-            ? std::vector<ViewFrom>{ViewFrom::side}
-            : std::vector<ViewFrom>{ViewFrom::below, ViewFrom::side, ViewFrom::front};
+        run.header.dimension == 2 ? std::vector<ViewFrom>{ViewFrom::side}
+                                  : std::vector<ViewFrom>{ViewFrom::below, ViewFrom::front,
+                                                          ViewFrom::side, ViewFrom::port};
     std::vector<std::string> pictures;
     for (const ViewFrom from : sides) pictures.push_back(views::draw_load_view(hull, from, 560.0));
     double largest = 0.0;
@@ -38,7 +38,7 @@ std::string load_section(const RunData& run, const RunFigures& figures) {
             unit.name, readable(largest / unit.pascals), unit.name, force.text(map.force),
             force.name),
         "<div class=\"natural\"><div class=\"legend\">" +
-            views::draw_load_legend(readable(0.25 * end / unit.pascals),
+            views::draw_load_legend(readable(0.5 * end / unit.pascals),
                                     readable(end / unit.pascals), unit.name) +
             "</div>\n" + report::figures(pictures) + "</div>\n");
 }

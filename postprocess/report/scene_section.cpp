@@ -78,13 +78,12 @@ views::ViewOptions view_options(const RunData& run) {
 }
 
 std::vector<views::Trail> make_trails(const RunData& run) {
-    static const std::vector<std::string> colors{views::kPurple, views::kGreen, views::kBlack,
-                                                 views::kBlue, views::kOrange};
     std::vector<views::Trail> trails;
     for (std::size_t k = 0; k < run.tracks.size(); ++k) {
         views::Trail trail;
         trail.floe = run.header.tracked[k];
-        trail.color = colors[k % colors.size()];
+        trail.color = views::trail_style(k).color;
+        trail.dash = views::trail_style(k).dash;
         const std::size_t count = run.tracks[k].size(), stride = count / 1000 + 1;
         for (std::size_t s = 0; s < count; s += stride) {
             trail.time.push_back(run.tracks[k][s].time);

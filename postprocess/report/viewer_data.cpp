@@ -165,7 +165,7 @@ private:
         meta_["load"] = {{"max", std::max(most, 1e-9)},
                          {"scale_end", end},
                          {"scale_text", views::readable(end / unit.newtons)},
-                         {"quarter_text", views::readable(0.25 * end / unit.newtons)},
+                         {"half_text", views::readable(0.5 * end / unit.newtons)},
                          {"unit", unit.name}};
         std::vector<std::int16_t> codes;
         for (std::size_t b = 0; b < floes; ++b)
@@ -219,7 +219,7 @@ private:
                          {"offset", offset},
                          {"regions", regions},
                          {"scale_text", views::readable(end / unit.pascals)},
-                         {"quarter_text", views::readable(0.25 * end / unit.pascals)},
+                         {"half_text", views::readable(0.5 * end / unit.pascals)},
                          {"unit", unit.name}};
     }
 

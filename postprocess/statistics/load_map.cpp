@@ -203,6 +203,16 @@ LoadMap make_load_map(const RunData& run, double from) {
     return map;
 }
 
+namespace {
+
+// two digits, so that legends need no more
+double round_up(double value) {
+    const double digit = std::pow(10.0, std::floor(std::log10(value)) - 1.0);
+    return std::ceil(value / digit * (1.0 - 1e-12)) * digit;
+}
+
+}  // namespace
+
 double scale_end(const LoadMap& map) {
     std::vector<std::pair<double, double>> loaded;  // load, area
     double area = 0.0;
@@ -215,7 +225,7 @@ double scale_end(const LoadMap& map) {
     double below = 0.0;
     for (const auto& [load, part] : loaded) {
         below += part;
-        if (below >= 0.99 * area) return load;
+        if (below >= 0.99 * area) return round_up(load);
     }
     return 0.0;
 }

@@ -20,6 +20,16 @@ double choose_step(double extent, int most) {
     return 10.0 * power;
 }
 
+// values and labels, about one per 34 pixels
+std::vector<std::pair<double, std::string>> upright_ticks(const Axis& y) {
+    const auto values = choose_ticks(std::min(y.low, y.high), std::max(y.low, y.high),
+                                     static_cast<int>((y.from - y.to) / 34.0) + 1);
+    const double step = values.size() > 1 ? values[1] - values[0] : 1.0;
+    std::vector<std::pair<double, std::string>> ticks;
+    for (const double v : values) ticks.emplace_back(v, tick_label(v, step));
+    return ticks;
+}
+
 }  // namespace
 
 std::vector<double> choose_ticks(double low, double high, int most) {
@@ -52,14 +62,19 @@ void widen(double& low, double& high) {
     high = std::ceil(high / step) * step;
 }
 
+double label_width(const Axis& y) {
+    double widest = 0.0;
+    for (const auto& [value, label] : upright_ticks(y))
+        widest = std::max(widest, text_width(label));
+    return widest;
+}
+
 std::string draw_axes(const Axis& x, const Axis& y, const std::string& x_title,
                       const std::string& y_title) {
     std::string out;
-    // about one label per 70 pixels across and per 34 pixels up
+    // about one label per 70 pixels across
     const auto xs = choose_ticks(std::min(x.low, x.high), std::max(x.low, x.high),
                                  static_cast<int>((x.to - x.from) / 70.0) + 1);
-    const auto ys = choose_ticks(std::min(y.low, y.high), std::max(y.low, y.high),
-                                 static_cast<int>((y.from - y.to) / 34.0) + 1);
     const auto step = [](const std::vector<double>& ticks) {
         return ticks.size() > 1 ? ticks[1] - ticks[0] : 1.0;
     };
@@ -67,9 +82,9 @@ std::string draw_axes(const Axis& x, const Axis& y, const std::string& x_title,
         out += line_element(x.pixel(v), y.from, x.pixel(v), y.to, kGrid);
         out += text_element(x.pixel(v), y.from + 16.0, tick_label(v, step(xs)), "middle");
     }
-    for (const double v : ys) {
+    for (const auto& [v, label] : upright_ticks(y)) {
         out += line_element(x.from, y.pixel(v), x.to, y.pixel(v), kGrid);
-        out += text_element(x.from - 6.0, y.pixel(v) + 4.5, tick_label(v, step(ys)), "end");
+        out += text_element(x.from - 6.0, y.pixel(v) + 4.5, label, "end");
     }
     out += text_element(0.5 * (x.from + x.to), y.from + 33.0, x_title, "middle");
     const double middle = 0.5 * (y.from + y.to);

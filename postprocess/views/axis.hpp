@@ -24,6 +24,9 @@ std::string tick_label(double value, double step);
 /// Widens a range to round values; one without extent becomes [value - 1, value + 1].
 void widen(double& low, double& high);
 
+/// Width of the widest tick label that draw_axes() puts beside an upright axis [px].
+double label_width(const Axis& y);
+
 /// Grid lines, tick labels and titles of a plot area: `x` runs right, `y` upwards (from > to).
 /// @param x_title, y_title with units, e.g. "time [s]"
 std::string draw_axes(const Axis& x, const Axis& y, const std::string& x_title,

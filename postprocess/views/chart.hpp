@@ -14,12 +14,15 @@ namespace ice::views {
 struct Curve {
     std::string name, color;
     std::vector<Vec2> points;
-    double width = 1.2;  ///< of the line [px]
+    double width = 1.2;  ///< of the line [px]; 0: no line
     std::string dash;    ///< SVG dash pattern, e.g. "6 3": tells curves apart without colour
     double opacity = 1.0;
+    /// Sign at each point: 'o' circle, 's' square, '^' triangle, 'd' diamond, 'v' triangle down,
+    /// 'x' cross; 0: none. It, too, tells curves apart without colour.
+    char mark = 0;
 };
 
-/// A line chart over time.
+/// A line chart, over time unless its x title says otherwise.
 struct Chart {
     std::string title, x_title = "time [s]", y_title;
     std::vector<Curve> curves;
@@ -27,10 +30,14 @@ struct Chart {
     std::optional<double> level;                        ///< dashed line across, e.g. the mean
     std::string level_name;                             ///< its name in the legend
     std::optional<std::pair<double, double>> averaged;  ///< x range shaded as averaging window
-    double width = 560.0, height = 250.0;               ///< [px]
+    double width = 480.0, height = 240.0;               ///< [px]
+    bool x_from_zero = false;                           ///< the x axis includes 0
+    /// A second scale above the chart: x times this, with this title, e.g. knots.
+    std::optional<std::pair<double, std::string>> top_scale;
 };
 
-/// Draws axes with units, legend and curves as one SVG element; empty charts say "no data".
+/// Draws axes with units, legend and curves as one SVG element; empty charts say "no data". The
+/// legend takes as many rows as its names need, and the left margin is as wide as the labels.
 std::string draw_chart(const Chart& chart);
 
 /// Colours that people with colour-blindness can tell apart (Okabe and Ito 2008).

@@ -14,6 +14,13 @@ const FloeStyle& floe_style(FloeState state) {
     return state == FloeState::held ? held : state == FloeState::moving ? moving : behind;
 }
 
+TrailStyle trail_style(std::size_t k) {
+    static constexpr const char* kColors[]{"#332288", "#cc6677", "#117733", "#222222", "#3a9fc4",
+                                           "#882255", "#8a8a1c", "#d55e00", "#aa4499", "#2a9d8f"};
+    static constexpr const char* kDashes[]{"", "7 3", "2 2.5"};
+    return {kColors[k % std::size(kColors)], kDashes[k % std::size(kDashes)]};
+}
+
 std::string draw_legend(double width) {
     std::string out = fmt::format(
         "<svg width=\"{}\" height=\"22\" role=\"img\" font-family=\"system-ui,Arial,sans-serif\" "

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <map>
 
+#include "postprocess/views/depth_map.hpp"
+
 namespace ice::views {
 
 namespace {
@@ -42,9 +44,9 @@ std::string outline(const std::vector<Vec3>& corners, const Projection& projecti
 }
 
 // edges between a face that looks at the viewer and one that does not
-std::string silhouette(const TriangleMesh& mesh, const Projection& projection,
-                       const PageScale& scale) {
-    std::map<std::pair<std::int32_t, std::int32_t>, int> edges;  // +1 facing, -1 not
+std::vector<std::pair<Vec3, Vec3>> turning_edges(const TriangleMesh& mesh,
+                                                 const Projection& projection) {
+    std::map<std::pair<std::int32_t, std::int32_t>, int> edges;  // faces that look at the viewer
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         const bool facing = mesh.area_vector(t).dot(projection.toward) > 1e-9;
         for (std::size_t k = 0; k < 3; ++k) {
@@ -52,15 +54,44 @@ std::string silhouette(const TriangleMesh& mesh, const Projection& projection,
             edges[{std::min(a, b), std::max(a, b)}] += facing ? 1 : 0;
         }
     }
+    std::vector<std::pair<Vec3, Vec3>> turning;
+    for (const auto& [edge, facing] : edges)
+        if (facing == 1)
+            turning.emplace_back(
+                projection.apply(mesh.vertices[static_cast<std::size_t>(edge.first)]),
+                projection.apply(mesh.vertices[static_cast<std::size_t>(edge.second)]));
+    return turning;
+}
+
+// The outline on the page. An edge inside it, where small facets turn to and fro, is no outline, so
+// each piece of an edge counts only where the hull is on one of its sides.
+std::string silhouette(const TriangleMesh& mesh, const Projection& projection,
+                       const PageScale& scale) {
+    constexpr double kPiece = 4.0, kBeside = 2.5;  // [px]
+    const DepthMap seen(mesh, projection, 600);
     std::string data;
-    for (const auto& [edge, facing] : edges) {
-        if (facing != 1) continue;
-        std::vector<Vec2> points;
-        for (const std::int32_t v : {edge.first, edge.second}) {
-            const Vec3 p = projection.apply(mesh.vertices[static_cast<std::size_t>(v)]);
-            points.push_back(scale.pixel(p.x(), p.y()));
+    for (const auto& [a, b] : turning_edges(mesh, projection)) {
+        const Vec2 from = a.head<2>(), way = b.head<2>() - from;
+        const double length = way.norm();
+        const int pieces = std::max(1, static_cast<int>(length * scale.per_metre / kPiece));
+        const Vec2 beside =
+            Vec2(-way.y(), way.x()) / std::max(length, 1e-12) * kBeside / scale.per_metre;
+        const auto bare = [&](const Vec2& p) {
+            return !std::isfinite(seen.nearness(p.x(), p.y()));
+        };
+        // pieces in a row are one line
+        for (int k = 0, end = 0; k < pieces; k = end) {
+            const auto outside = [&](int piece) {
+                const Vec2 middle = from + way * (piece + 0.5) / pieces;
+                return bare(middle + beside) || bare(middle - beside);
+            };
+            for (end = k; end < pieces && outside(end);) ++end;
+            const Vec2 p = from + way * k / pieces, q = from + way * end / pieces;
+            if (end > k)
+                data += path_data({scale.pixel(p.x(), p.y()), scale.pixel(q.x(), q.y())}, false);
+            else
+                end = k + 1;
         }
-        data += path_data(points, false);
     }
     return data;
 }
@@ -76,6 +107,12 @@ double brightness(const Vec3& normal, const Projection& projection) {
 
 std::string draw_hull(const TriangleMesh& mesh, const Projection& projection,
                       const PageScale& scale, double waterline, const HullColours& colours) {
+    return draw_hull_faces(mesh, projection, scale, waterline, colours) +
+           draw_hull_lines(mesh, projection, scale, waterline);
+}
+
+std::string draw_hull_faces(const TriangleMesh& mesh, const Projection& projection,
+                            const PageScale& scale, double waterline, const HullColours& colours) {
     const TriangleMesh simple = simplify_mesh(mesh, kMostTriangles);
     const CutMesh cut = cut_mesh(simple, waterline);
     const auto below = make_faces(cut.below), above = make_faces(cut.above);
@@ -98,14 +135,19 @@ std::string draw_hull(const TriangleMesh& mesh, const Projection& projection,
         out += fmt::format("<path d=\"{}\" fill=\"{}\"{}/>\n", data, color,
                            edges ? "" : " stroke=\"" + color + "\"");
     }
-    out += "</g>\n";
-    out += fmt::format(
+    return out + "</g>\n";
+}
+
+std::string draw_hull_lines(const TriangleMesh& mesh, const Projection& projection,
+                            const PageScale& scale, double waterline) {
+    const TriangleMesh simple = simplify_mesh(mesh, kMostTriangles);
+    std::string out = fmt::format(
         "<path d=\"{}\" fill=\"none\" stroke=\"#222\" stroke-width=\"1.6\" "
         "stroke-linecap=\"round\"/>\n",
         silhouette(simple, projection, scale));
     if (std::abs(projection.toward.z()) > 0.9) {
         std::string data;
-        for (const auto& [a, b] : cut.section) {
+        for (const auto& [a, b] : cut_mesh(simple, waterline).section) {
             const Vec3 p = projection.apply(a), q = projection.apply(b);
             data += path_data({scale.pixel(p.x(), p.y()), scale.pixel(q.x(), q.y())}, false);
         }

@@ -30,6 +30,13 @@ struct HullColours {
 std::string draw_hull(const TriangleMesh& mesh, const Projection& projection,
                       const PageScale& scale, double waterline, const HullColours& colours = {});
 
+/// The two halves of it: what lies between them hides faces, but no outline.
+std::string draw_hull_faces(const TriangleMesh& mesh, const Projection& projection,
+                            const PageScale& scale, double waterline,
+                            const HullColours& colours = {});
+std::string draw_hull_lines(const TriangleMesh& mesh, const Projection& projection,
+                            const PageScale& scale, double waterline);
+
 /// Brightness of a face in [0.68, 1.06], in steps that the eye does not see: light comes from the
 /// viewer's upper left.
 double brightness(const Vec3& normal, const Projection& projection);

@@ -17,8 +17,9 @@ namespace ice::views {
 
 namespace {
 
-constexpr int kSteps = 10;
-constexpr double kCell = 3.0;                                               // [px]
+constexpr int kSteps = 20;
+constexpr double kEdgeOn = 0.05;  // cosine between a face's normal and the way to the viewer
+constexpr double kCell = 3.0;     // [px]
 constexpr double kLeft = 52.0, kRight = 10.0, kTop = 26.0, kBottom = 40.0;  // margins [px]
 const HullColours kBare{{222, 226, 230}, {236, 239, 241}};
 
@@ -32,9 +33,9 @@ std::string load_colour(double x) {
     return shade(c.array().round().cast<int>().matrix(), 1.0);
 }
 
-// colours follow the square root of the load: half the ramp for the quarter that most loads are in
+// linear; a step of 0 has the hull's own colour
 int step_of(double load, double end) {
-    return std::min(kSteps, static_cast<int>(kSteps * std::sqrt(load / end)));
+    return std::min(kSteps, static_cast<int>(kSteps * load / end));
 }
 std::string step_colour(int step) { return load_colour(static_cast<double>(step) / kSteps); }
 
@@ -51,7 +52,10 @@ std::string draw_loads(const HullLoad& hull, const Projection& projection, const
         const double up = page.max().y() - (row + 0.5) * cell;
         const auto step_at = [&](int column) {
             const auto t = seen.triangle(page.min().x() + (column + 0.5) * cell, up);
-            return t ? step_of(hull.load[*t], hull.scale_end) : 0;
+            // a face seen nearly edge-on would show as flecks along the outline
+            if (!t || hull.mesh.area_vector(*t).normalized().dot(projection.toward) < kEdgeOn)
+                return 0;
+            return step_of(hull.load[*t], hull.scale_end);
         };
         for (int column = 0, end = 0; column < columns; column = end) {
             const int step = step_at(column);
@@ -70,6 +74,22 @@ std::string draw_loads(const HullLoad& hull, const Projection& projection, const
     return out;
 }
 
+// which way is port or the bow: jams are often on one side only
+std::string name_sides(ViewFrom from) {
+    switch (from) {
+        case ViewFrom::below:
+            return " (starboard up, port down)";
+        case ViewFrom::front:
+            return " (starboard left, port right)";
+        case ViewFrom::port:
+            return " (bow left)";
+        case ViewFrom::side:
+            return " (bow right)";
+        default:
+            return "";
+    }
+}
+
 }  // namespace
 
 std::string draw_load_view(const HullLoad& hull, ViewFrom from, double width) {
@@ -84,33 +104,35 @@ std::string draw_load_view(const HullLoad& hull, ViewFrom from, double width) {
     const double wide = per_metre * (right - left), tall = per_metre * (high - low);
     const PageScale scale{left, high, kLeft, kTop, per_metre};
 
-    const std::string title = view_caption(from);
+    const std::string title = view_caption(from) + name_sides(from);
     std::string out = svg_open(kLeft + wide + kRight, kTop + tall + kBottom, title);
     out += text_element(kLeft, 17.0, title, "start", "font-weight=\"600\"");
     const bool below = from == ViewFrom::below;
-    const Axis x{left, right, kLeft, kLeft + wide};
+    Axis x{left, right, kLeft, kLeft + wide};
+    if (from == ViewFrom::port) x = {-left, -right, kLeft, kLeft + wide};
     Axis y{low, high, kTop + tall, kTop};
     if (below) y = {-low, -high, kTop + tall, kTop};
     out += draw_axes(x, y,
                      from == ViewFrom::front ? "y on the ship [m], to port" : "x on the ship [m]",
                      below ? "y on the ship [m]" : "z on the ship [m]");
-    out += draw_hull(hull.hull, projection, scale, hull.waterline, kBare);
+    out += draw_hull_faces(hull.hull, projection, scale, hull.waterline, kBare);
     if (hull.scale_end > 0.0) out += draw_loads(hull, projection, scale, page);
+    out += draw_hull_lines(hull.hull, projection, scale, hull.waterline);
     return out + "</svg>\n";
 }
 
-std::string draw_load_legend(const std::string& quarter, const std::string& end,
+std::string draw_load_legend(const std::string& half, const std::string& end,
                              const std::string& unit) {
-    const double left = 170.0, box = 24.0;
-    std::string out = svg_open(640.0, 40.0, "Meaning of the colours");
-    out += text_element(left - 12.0, 15.0, "mean normal load", "end");
+    const double left = 20.0, box = 12.0;
+    std::string out = svg_open(340.0, 60.0, "Meaning of the colours");
+    out += text_element(left, 14.0, "mean normal load [" + unit + "], linear scale", "start");
     for (int k = 0; k <= kSteps; ++k)
-        out += fmt::format("<rect x=\"{}\" y=\"4\" width=\"{}\" height=\"14\" fill=\"{}\"/>\n",
+        out += fmt::format("<rect x=\"{}\" y=\"22\" width=\"{}\" height=\"14\" fill=\"{}\"/>\n",
                            pixels(left + k * box), pixels(box), step_colour(k));
-    // step k begins at (k / 10)^2 of the end
-    out += text_element(left, 34.0, "0", "middle");
-    out += text_element(left + 0.5 * kSteps * box, 34.0, quarter, "middle");
-    out += text_element(left + kSteps * box, 34.0, end + " " + unit, "middle");
+    // the last box stands for all loads above the end
+    out += text_element(left, 52.0, "0", "middle");
+    out += text_element(left + 0.5 * kSteps * box, 52.0, half, "middle");
+    out += text_element(left + kSteps * box, 52.0, "\u2265 " + end, "middle");
     return out + "</svg>\n";
 }
 

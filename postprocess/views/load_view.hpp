@@ -18,14 +18,12 @@ struct HullLoad {
 };
 
 /// The hull from one side with its loaded triangles coloured, as one SVG element with axes in the
-/// ship frame, in cells of 3 px. Colours have 10 steps and follow the square root of the load: most
-/// of a hull bears far less than its hardest places.
+/// ship frame, in cells of 3 px. Colours have 20 steps and are linear in the load.
 /// @param width of the picture [px]
 std::string draw_load_view(const HullLoad& hull, ViewFrom from, double width);
 
-/// The colours with their loads. @param quarter, end loads as text: a quarter of the scale's end,
-/// which is half way, and the end
-std::string draw_load_legend(const std::string& quarter, const std::string& end,
+/// The colours with their loads. @param half, end loads as text: half of the scale's end, and the end
+std::string draw_load_legend(const std::string& half, const std::string& end,
                              const std::string& unit);
 
 }  // namespace ice::views

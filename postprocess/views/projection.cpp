@@ -14,6 +14,8 @@ Projection projection_of(ViewFrom from) {
             return {x, y, z};
         case ViewFrom::side:
             return {x, z, -y};
+        case ViewFrom::port:
+            return {-x, z, y};
         case ViewFrom::front:
             return {y, z, x};
         case ViewFrom::quarter:
@@ -28,6 +30,7 @@ std::optional<ViewFrom> parse_view(const std::string& name) {
     if (name == "below") return ViewFrom::below;
     if (name == "top") return ViewFrom::top;
     if (name == "side") return ViewFrom::side;
+    if (name == "port") return ViewFrom::port;
     if (name == "front") return ViewFrom::front;
     if (name == "quarter") return ViewFrom::quarter;
     return std::nullopt;
@@ -41,6 +44,8 @@ std::string view_caption(ViewFrom from) {
             return "From above";
         case ViewFrom::side:
             return "From starboard";
+        case ViewFrom::port:
+            return "From port";
         case ViewFrom::front:
             return "From ahead";
         case ViewFrom::quarter:

@@ -8,8 +8,9 @@
 
 namespace ice::views {
 
-/// Where the viewer stands. The bow is at the right, except for `front`, which looks aft.
-enum class ViewFrom { below, top, side, front, quarter };
+/// Where the viewer stands. The bow is at the right, except for `port`, where it is at the left, and
+/// for `front`, which looks aft.
+enum class ViewFrom { below, top, side, port, front, quarter };
 
 /// Parallel projection of world axes onto the page; right x up = toward.
 struct Projection {
@@ -19,11 +20,11 @@ struct Projection {
     Vec3 apply(const Vec3& p) const { return {right.dot(p), up.dot(p), toward.dot(p)}; }
 };
 
-/// below: starboard is up on the page; side: seen from starboard; front: seen from ahead;
+/// below: starboard is up on the page; side: seen from starboard; port: from port; front: seen from ahead;
 /// quarter: oblique, from ahead, starboard and below.
 Projection projection_of(ViewFrom from);
 
-/// "below", "top", "side", "front" or "quarter"; nothing for other names.
+/// "below", "top", "side", "port", "front" or "quarter"; nothing for other names.
 std::optional<ViewFrom> parse_view(const std::string& name);
 
 /// Caption: "From below", "From above", ...

@@ -19,6 +19,8 @@ namespace {
 
 constexpr double kLeft = 52.0, kRight = 10.0, kTop = 26.0, kBottom = 40.0;  // margins [px]
 
+bool from_a_side(ViewFrom from) { return from == ViewFrom::side || from == ViewFrom::port; }
+
 // One floe to paint.
 struct Item {
     std::size_t body;
@@ -47,7 +49,6 @@ struct SceneView::Parts {
     std::vector<Item> sort_floes(const RunFrame& frame) const;
     std::string draw_floe(std::size_t body, const RunFrame& frame, bool outlined) const;
     std::string draw_floes(const RunFrame& frame, const std::vector<Trail>& trails) const;
-    std::string draw_trails(const RunFrame& frame, const std::vector<Trail>& trails) const;
     std::string draw_frame_axes(const RunFrame& frame) const;
     std::string draw_water() const;
     Vec2 place(const Vec3& offset) const {
@@ -145,7 +146,7 @@ std::string SceneView::Parts::draw_floe(std::size_t body, const RunFrame& frame,
     const bool touched = frame.contact_force[body].squaredNorm() > 0.0;
     // held floes between viewer and hull would hide it
     const bool veil =
-        state == FloeState::held && !flat && (from == ViewFrom::side || from == ViewFrom::front);
+        state == FloeState::held && !flat && (from_a_side(from) || from == ViewFrom::front);
     std::string out;
     for (const Face& face : faces[shape]) {
         const Vec3 normal = turn * face.normal;
@@ -182,33 +183,6 @@ std::string SceneView::Parts::draw_floes(const RunFrame& frame,
     return open + behind + "</g>\n" + ship + open + before + "</g>\n";
 }
 
-std::string SceneView::Parts::draw_trails(const RunFrame& frame,
-                                          const std::vector<Trail>& trails) const {
-    std::string out;
-    for (const Trail& trail : trails) {
-        std::vector<Vec2> points;
-        for (std::size_t k = 0; k < trail.time.size() && trail.time[k] <= frame.time; ++k) {
-            const Vec2 p = place(trail.offset[k]);
-            // steps below half a pixel only make the file longer
-            if (points.empty() || (p - points.back()).norm() > 0.5) points.push_back(p);
-        }
-        const std::string data = path_data(points, false);
-        if (!data.empty())
-            out += fmt::format(
-                "<path d=\"{}\" fill=\"none\" stroke=\"#fff\" stroke-width=\"3\" opacity=\".7\"/>"
-                "<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.6\"/>\n",
-                data, data, trail.color);
-        const auto body = static_cast<std::size_t>(trail.floe - 1);
-        if (body >= frame.position.size()) continue;
-        const Vec2 at = place(frame.position[body] - frame.ship_position);
-        out +=
-            text_element(at.x(), at.y() + 4.5, std::to_string(trail.floe), "middle",
-                         "font-weight=\"700\" font-size=\"12\" stroke=\"#fff\" stroke-width=\"3\" "
-                         "paint-order=\"stroke\"");
-    }
-    return out;
-}
-
 std::string SceneView::Parts::draw_water() const {
     std::string out = fmt::format("<rect width=\"{}\" height=\"{}\" fill=\"#fbfdfe\"/>\n",
                                   pixels(width), pixels(height));
@@ -227,7 +201,11 @@ std::string SceneView::Parts::draw_frame_axes(const RunFrame& frame) const {
     Axis x{window.left + x_shift, window.right + x_shift, kLeft, kLeft + width};
     Axis y{window.bottom, window.top, kTop + height, kTop};
     std::string x_title = "x in the world [m]", y_title = "y [m], to port";
-    if (from == ViewFrom::side || from == ViewFrom::front) {
+    if (from == ViewFrom::port) {
+        x.low = ship.x() - window.left;
+        x.high = ship.x() - window.right;
+    }
+    if (from_a_side(from) || from == ViewFrom::front) {
         y.low -= options.waterline;  // heights above the water
         y.high -= options.waterline;
         y_title = "z [m]";
@@ -246,7 +224,9 @@ std::string SceneView::draw(const RunFrame& frame, const std::vector<Trail>& tra
     const Parts& s = *parts_;
     const bool oblique = s.from == ViewFrom::quarter;
     const double total_width = kLeft + s.width + kRight;
-    const double legend = s.options.legend ? 26.0 : 0.0;
+    const TrailLegend paths =
+        draw_trail_legend(s.options.legend ? trails : std::vector<Trail>{}, total_width);
+    const double legend = s.options.legend ? 26.0 + 18.0 * paths.rows : 0.0;
     const double total_height = kTop + s.height + (oblique ? 8.0 : kBottom) + legend;
     const std::string title = fmt::format("{}, t = {:.2f} s", view_caption(s.from), frame.time);
     std::string out = svg_open(total_width, total_height, title);
@@ -257,20 +237,21 @@ std::string SceneView::draw(const RunFrame& frame, const std::vector<Trail>& tra
                        pixels(kTop), pixels(s.width), pixels(s.height));
     out += s.draw_water();
     out += s.draw_floes(frame, trails);
-    if (s.from == ViewFrom::side || s.from == ViewFrom::front) {
+    if (from_a_side(s.from) || s.from == ViewFrom::front) {
         const double y = s.scale.pixel(0.0, s.options.waterline).y();
         out += line_element(0.0, y, s.width, y,
                             "stroke=\"#2b7bb9\" stroke-width=\"1\" stroke-dasharray=\"8 3\"");
     }
-    out += s.draw_trails(frame, trails);
+    out += draw_trails(frame, trails, [&](const Vec3& offset) { return s.place(offset); });
     out += "</svg>\n";
     out += fmt::format(
         "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"none\" "
         "stroke=\"#8a949c\"/>\n",
         pixels(kLeft), pixels(kTop), pixels(s.width), pixels(s.height));
     if (s.options.legend)
-        out += fmt::format("<svg y=\"{}\">{}</svg>\n", pixels(total_height - legend),
-                           draw_legend(total_width));
+        out += fmt::format("<svg y=\"{}\">{}</svg>\n<svg y=\"{}\">{}</svg>\n",
+                           pixels(total_height - legend), draw_legend(total_width),
+                           pixels(total_height - legend + 24.0), paths.svg);
     return out + "</svg>\n";
 }
 

@@ -8,16 +8,9 @@
 
 #include "common/formats/run_data.hpp"
 #include "postprocess/views/projection.hpp"
+#include "postprocess/views/trails.hpp"
 
 namespace ice::views {
-
-/// Path of a floe's centre of mass as the ship sees it.
-struct Trail {
-    std::int32_t floe = 0;  ///< id, from 1
-    std::string color;
-    std::vector<double> time;  ///< [s], rising
-    std::vector<Vec3> offset;  ///< position minus ship position [m]
-};
 
 struct ViewOptions {
     double width = 560.0;       ///< of the picture [px]; its height follows

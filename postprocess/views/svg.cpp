@@ -91,6 +91,13 @@ std::string text_element(double x, double y, const std::string& text, const std:
                        pixels(y), anchor, more.empty() ? "" : " ", more, escape(text));
 }
 
+double text_width(const std::string& text) {
+    const auto letters = std::count_if(text.begin(), text.end(), [](char c) {
+        return (static_cast<unsigned char>(c) & 0xc0) != 0x80;  // bytes that go on are none
+    });
+    return 8.0 * static_cast<double>(letters);
+}
+
 std::string line_element(double x1, double y1, double x2, double y2, const std::string& more) {
     return fmt::format("<line x1=\"{}\" y1=\"{}\" x2=\"{}\" y2=\"{}\" {}/>\n", pixels(x1),
                        pixels(y1), pixels(x2), pixels(y2), more);

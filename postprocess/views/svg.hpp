@@ -26,6 +26,9 @@ std::string path_data(const std::vector<Vec2>& points, bool closed);
 std::string text_element(double x, double y, const std::string& text, const std::string& anchor,
                          const std::string& more = "");
 
+/// Width of a text of 13 px in the widest of the fonts a browser may take [px]: never too small.
+double text_width(const std::string& text);
+
 std::string line_element(double x1, double y1, double x2, double y2, const std::string& more);
 
 /// Opening <svg> with a viewBox in pixels, a title for screen readers and the common font.

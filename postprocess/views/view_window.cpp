@@ -18,6 +18,8 @@ Window choose_window(const Eigen::AlignedBox3d& hull, ViewFrom from, double floe
             return {aft, ahead, -side, side};
         case ViewFrom::side:
             return {aft, ahead, deep, high};
+        case ViewFrom::port:
+            return {-ahead, -aft, deep, high};
         case ViewFrom::front:
             return {-side, side, deep, high};
         case ViewFrom::quarter:

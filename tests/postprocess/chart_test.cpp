@@ -72,6 +72,34 @@ TEST_CASE("a chart names its axes, curves and mean, and is well-formed", "[views
     CHECK(count(svg, "<path") == 2);
 }
 
+TEST_CASE("a legend that is longer than the chart goes on in a second row", "[views]") {
+    Chart chart;
+    for (int k = 0; k < 6; ++k)
+        chart.curves.push_back(
+            {"a curve with a long name", kBlue, {{0, 0}, {1, 1}}, 1.0, "", 1.0, "os^vdx"[k]});
+    const std::string svg = draw_chart(chart);
+    CHECK(tag_fault(svg).empty());
+    CHECK_THAT(svg, Catch::Contains("y=\"36\"") && Catch::Contains("y=\"54\""));
+    // signs of two points and of the legend; circles are no paths
+    CHECK(count(svg, "<circle") == 3);
+    CHECK(count(svg, "<path") == 6 + 5 * 3);
+}
+
+TEST_CASE("a chart over the speed begins at 0 and has knots above", "[views]") {
+    Chart chart;
+    chart.x_title = "speed [m/s]";
+    chart.x_from_zero = true;
+    chart.top_scale = {1.0 / 0.514444, "speed [kn]"};
+    chart.curves = {{"a", kBlue, {{1.0, 2.0}, {5.14444, 3.0}}, 1.0, ""}};
+    const std::string svg = draw_chart(chart);
+    CHECK_THAT(svg, Catch::Contains("speed [kn]") && Catch::Contains(">10</text>"));
+    CHECK(tag_fault(svg).empty());
+}
+
+TEST_CASE("wide labels move the plot to the right", "[views]") {
+    CHECK(label_width({0.0, 200000.0, 200.0, 0.0}) > label_width({0.0, 20.0, 200.0, 0.0}) + 20.0);
+}
+
 TEST_CASE("a chart without points says 'no data'", "[views]") {
     CHECK_THAT(draw_chart({}), Catch::Contains("no data"));
     Chart one;

@@ -2,6 +2,7 @@
 #include "postprocess/views/scene_view.hpp"
 
 #include <catch2/catch.hpp>
+#include <set>
 
 #include "postprocess/views/floe_style.hpp"
 #include "postprocess/views/hull_drawing.hpp"
@@ -100,14 +101,44 @@ TEST_CASE("the picture moves with the ship: hull and floe at the same place 100 
 
 TEST_CASE("a tracked floe is numbered and its path is drawn up to the frame's time", "[views]") {
     const RunData run = make_run();
-    Trail trail{6, "#aa4499", {0.0, 1.0, 2.0, 3.0}, {}};
+    Trail trail{6, "#aa4499", "7 3", {0.0, 1.0, 2.0, 3.0}, {}};
     for (int k = 0; k < 4; ++k) trail.offset.emplace_back(8.0 - 2.0 * k, 0.0, -0.5);
     const SceneView view(run.header, ViewFrom::side, {});
     const std::string early = view.draw(run.frames[11], {trail});
     const std::string late = view.draw(run.frames[40], {trail});
     CHECK_THAT(late, Catch::Contains(">6</text>"));
     CHECK(count(late, "#aa4499") == 1);
+    CHECK_THAT(late, Catch::Contains("stroke-dasharray=\"7 3\""));
     CHECK(late.size() > early.size());
+}
+
+TEST_CASE("numbers of floes at one place stand above each other, and the legend has all paths",
+          "[views]") {
+    const RunData run = make_run();
+    std::vector<Trail> trails;
+    for (std::int32_t floe = 1; floe <= 6; ++floe) {
+        const TrailStyle style = trail_style(static_cast<std::size_t>(floe));
+        trails.push_back({floe, style.color, style.dash, {}, {}});
+    }
+    const std::string svg =
+        draw_trails(run.frames[0], trails, [](const Vec3&) { return Vec2(100.0, 50.0); });
+    std::set<std::string> heights;
+    for (std::size_t at = svg.find("<text"); at != std::string::npos;
+         at = svg.find("<text", at + 1))
+        heights.insert(svg.substr(svg.find(" y=", at), 9));
+    CHECK(heights.size() == 6);
+    const TrailLegend wide = draw_trail_legend(trails, 800.0);
+    CHECK(wide.rows == 1);
+    CHECK(count(wide.svg, "<line") == 6);
+    CHECK(draw_trail_legend(trails, 260.0).rows > 1);
+    CHECK(draw_trail_legend({}, 800.0).rows == 0);
+}
+
+TEST_CASE("the paths of thirty floes differ in colour or dash", "[views]") {
+    std::set<std::string> looks;
+    for (std::size_t k = 0; k < 30; ++k)
+        looks.insert(std::string(trail_style(k).color) + trail_style(k).dash);
+    CHECK(looks.size() == 30);
 }
 
 TEST_CASE("with an id the hull is defined once and referred to", "[views]") {

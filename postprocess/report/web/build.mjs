@@ -12,13 +12,16 @@ const here = dirname(fileURLToPath(import.meta.url));
 const out = process.argv[2] ?? join(here, 'dist/report_template.html');
 const read = (name) => readFileSync(join(here, name), 'utf8');
 
-const bundle = await build({ entryPoints: [join(here, 'src/main.js')], bundle: true, minify: true,
-  format: 'iife', target: ['es2020'], charset: 'ascii', legalComments: 'inline', write: false,
-  logLevel: 'warning' });
-const script = bundle.outputFiles[0].text.trim();
-// the page is HTML and XML: the script may end neither the element nor the CDATA section
-for (const end of ['</script', ']]>'])
-  if (script.includes(end)) throw new Error(`the bundle contains ${end}: escape it`);
+async function bundle(entry) {
+  const result = await build({ entryPoints: [join(here, entry)], bundle: true, minify: true,
+    format: 'iife', target: ['es2021'], charset: 'ascii', legalComments: 'inline', write: false,
+    logLevel: 'warning' });
+  const script = result.outputFiles[0].text.trim();
+  // the page is HTML and XML: the script may end neither the element nor the CDATA section
+  for (const end of ['</script', ']]>'])
+    if (script.includes(end)) throw new Error(`the bundle contains ${end}: escape it`);
+  return script;
+}
 
 const licences = [['three.js', 'node_modules/three'], ['uPlot', 'node_modules/uplot']]
   .map(([name, folder]) => {
@@ -28,7 +31,8 @@ const licences = [['three.js', 'node_modules/three'], ['uPlot', 'node_modules/up
 if (licences.includes('--')) throw new Error('a licence contains "--", which ends a comment');
 
 const parts = { LICENCES: licences, STYLE: `${read('node_modules/uplot/dist/uPlot.min.css').trim()}
-${read('style.css').trim()}`, SCRIPT: script };
+${read('style.css').trim()}`, TOOLS: await bundle('src/tools.js'),
+SCRIPT: await bundle('src/main.js') };
 let page = read('index.html');
 for (const [name, text] of Object.entries(parts)) page = page.replace(`@${name}@`, () => text);
 mkdirSync(dirname(out), { recursive: true });

@@ -24,16 +24,16 @@ function swatches(items) {
   return list;
 }
 
-/** Colours follow square roots: half way stands a quarter of the end. */
-function scaleBar(title, colour, { quarter_text: quarter, scale_text: end, unit }) {
+/** Colours are linear; what is above the end has its colour. */
+function scaleBar(title, colour, { half_text: half, scale_text: end, unit }) {
   const bar = element('div', '', 'scale');
   const colours = element('i');
   colours.style.background = cssGradient(colour);
   const labels = element('div', '', 'labels');
-  labels.append(element('span', '0'), element('span', quarter), element('span', end));
+  labels.append(element('span', '0'), element('span', half), element('span', `≥ ${end}`));
   const both = element('div');
   both.append(colours, labels);
-  bar.append(element('b', title), both, element('span', unit));
+  bar.append(element('b', title), both, element('span', `${unit}, linear scale`));
   return bar;
 }
 
@@ -75,6 +75,13 @@ export class Controls {
       act(e.target.type === 'checkbox' ? e.target.checked : e.target.value);
       this.legend();
       redraw();
+    });
+    find('picture').addEventListener('click', () => {
+      view.draw();
+      const link = element('a');
+      link.href = root.querySelector('canvas').toDataURL();
+      link.download = `${document.title}, ${this.root.querySelector('.clock').textContent}.png`;
+      link.click();
     });
     on('follow', (follow) => { view.follow = follow; });
     on('water', (shown) => view.setWater(shown));

@@ -57,9 +57,9 @@ out vec4 colour;
 ${glslRamp('forceColour')}
 ${SHADE}
 void main() {
-  // forces are stored and coloured as square roots, so that small ones are seen
+  // forces are stored as square roots and coloured linearly
   vec3 base = byState ? states[clamp(vState, 0, 2)]
-                      : forceColour(vLoad * sqrt(loadMax / scaleEnd));
+                      : forceColour(vLoad * vLoad * loadMax / scaleEnd);
   colour = vec4(base * shade(vView) * outline(vEdge), 1.0);
 }`;
 

@@ -39,6 +39,18 @@ function creases(vertices, triangles, angle) {
   return out;
 }
 
+/** Ends of the edges between faces that meet at `angle` degrees or more, and of borders: 6 numbers each. */
+export function creaseLines(vertices, triangles, angle) {
+  const crease = creases(vertices, triangles, angle);
+  const points = [];
+  for (let t = 0; t < triangles.length; t += 3)
+    for (let k = 0; k < 3; ++k)
+      if (crease[t + k])
+        for (const corner of [triangles[t + ((k + 1) % 3)], triangles[t + ((k + 2) % 3)]])
+          points.push(...vertices.subarray(3 * corner, 3 * corner + 3));
+  return new Float32Array(points);
+}
+
 /**
  * Triangles without shared corners. `edge` of corner k is the k-th unit vector: interpolated, it
  * tells how far a pixel is from each side. Sides that are not to be drawn get a 1 at all corners,
