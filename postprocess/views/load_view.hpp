@@ -22,7 +22,8 @@ struct HullLoad {
 /// @param width of the picture [px]
 std::string draw_load_view(const HullLoad& hull, ViewFrom from, double width);
 
-/// The colours with their loads. @param half, end loads as text: half of the scale's end, and the end
+/// The colours with their loads.
+/// @param half, end loads as text: half of the scale's end, and the end
 std::string draw_load_legend(const std::string& half, const std::string& end,
                              const std::string& unit);
 

@@ -8,8 +8,8 @@
 
 namespace ice::views {
 
-/// Where the viewer stands. The bow is at the right, except for `port`, where it is at the left, and
-/// for `front`, which looks aft.
+/// Where the viewer stands. The bow is at the right, except for `port`, where it is at the left,
+/// and for `front`, which looks aft.
 enum class ViewFrom { below, top, side, port, front, quarter };
 
 /// Parallel projection of world axes onto the page; right x up = toward.
@@ -20,8 +20,8 @@ struct Projection {
     Vec3 apply(const Vec3& p) const { return {right.dot(p), up.dot(p), toward.dot(p)}; }
 };
 
-/// below: starboard is up on the page; side: seen from starboard; port: from port; front: seen from ahead;
-/// quarter: oblique, from ahead, starboard and below.
+/// below: starboard is up on the page; side: seen from starboard; port: from port; front: from
+/// ahead; quarter: oblique, from ahead, starboard and below.
 Projection projection_of(ViewFrom from);
 
 /// "below", "top", "side", "port", "front" or "quarter"; nothing for other names.

@@ -22,8 +22,8 @@ struct Trail {
 /// Place on the page [px] of a point relative to the ship [m].
 using Place = std::function<Vec2(const Vec3&)>;
 
-/// The paths up to the frame's time, then the floes' numbers. A number that would lie on another one
-/// moves up or down and keeps a line to its floe.
+/// The paths up to the frame's time, then the floes' numbers. A number that would lie on another
+/// one moves up or down and keeps a line to its floe.
 std::string draw_trails(const RunFrame& frame, const std::vector<Trail>& trails,
                         const Place& place);
 

@@ -31,7 +31,7 @@ inline read::RunFolder make_folder(const RunSize& size = {}) {
     s.energy["drag_J"] = 1470.0;
     s.energy["residual_J"] = -6.0;
     s.lindqvist_submersion = 954.0;
-    s.warnings = {"a floe <7> left the field & sank"};
+    s.warnings = {{.text = "a floe <7> left the field & sank"}};
     folder.summary = s;
     return folder;
 }

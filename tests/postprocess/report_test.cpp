@@ -121,7 +121,7 @@ TEST_CASE("names that a mesh or case brings along are text, whatever they look l
     read::RunFolder folder = make_folder();
     folder.data.header.title = folder.summary->title = name;
     folder.summary->regions[name] = {1, 2.0, {3.0, 4.0, 5.0}};
-    folder.summary->warnings = {name};
+    folder.summary->warnings = {{.text = name}};
     for (auto& shape : folder.data.header.shapes)
         for (std::string& region : shape.mesh.region_names) region = name;
     const std::string html = make_report(folder);

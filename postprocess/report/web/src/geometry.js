@@ -39,7 +39,7 @@ function creases(vertices, triangles, angle) {
   return out;
 }
 
-/** Ends of the edges between faces that meet at `angle` degrees or more, and of borders: 6 numbers each. */
+/** Ends of the edges where faces meet at `angle` degrees or more and of borders: 6 numbers each. */
 export function creaseLines(vertices, triangles, angle) {
   const crease = creases(vertices, triangles, angle);
   const points = [];

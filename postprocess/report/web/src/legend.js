@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A chart's legend: each curve's line as it is drawn, its name and its value at the pointer, else at
-// the instant that the 3D view shows. A click on a curve hides or shows it.
+// A chart's legend: each curve's line as it is drawn, its name and its value at the pointer, else
+// at the instant that the 3D view shows. A click on a curve hides or shows it.
 
 import { readable } from './numbers.js';
 
