@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "common/formats/json_file.hpp"
+#include "common/formats/particulars_json.hpp"
 
 namespace ice {
 
@@ -165,6 +166,9 @@ std::string summary_text(const Summary& s) {
     json["spheres"] = {{"hull", s.hull_spheres}, {"ice", s.ice_spheres}};
     json["floes"] = {
         {"total", s.floes_total}, {"moved", s.floes_moved}, {"behind", s.floes_behind}};
+    json["ship"] = s.ship;
+    json["ice"] = s.ice;
+    json["travel"] = s.travel;
     json["resistance"] = force_json(s.resistance);
     json["lateral"] = force_json(s.lateral);
     json["vertical"] = force_json(s.vertical);
@@ -176,6 +180,7 @@ std::string summary_text(const Summary& s) {
     json["energy"] = s.energy;
     if (!s.imbalance.empty()) json["imbalance"] = s.imbalance;
     json["lindqvist_submersion_N"] = or_null(s.lindqvist_submersion);
+    json["formulas"] = s.formulas;
     if (s.ensemble) json["ensemble"] = ensemble_json(*s.ensemble);
     json["warnings"] = warnings_json(s.warnings);
     if (s.dimension == 2) add_names_per_metre(json);
@@ -206,6 +211,9 @@ Summary read_summary(const std::filesystem::path& path) {
     s.floes_total = in.get<std::int64_t>("floes.total");
     s.floes_moved = in.get<std::int64_t>("floes.moved");
     s.floes_behind = in.get<std::int64_t>("floes.behind");
+    if (in.has("ship")) s.ship = in.get<ShipParticulars>("ship");
+    if (in.has("ice")) s.ice = in.get<IceParticulars>("ice");
+    if (in.has("travel")) s.travel = in.get<TravelParticulars>("travel");
     s.resistance = read_force(in, "resistance");
     s.lateral = read_force(in, "lateral");
     s.vertical = read_force(in, "vertical");
@@ -217,6 +225,7 @@ Summary read_summary(const std::filesystem::path& path) {
     s.energy = read_energy(in);
     s.imbalance = in.numbers("imbalance");
     s.lindqvist_submersion = in.get<std::optional<double>>("lindqvist_submersion_N");
+    if (in.has("formulas")) s.formulas = in.get<std::vector<FormulaValue>>("formulas");
     s.ensemble = read_ensemble(in);
     s.warnings = read_warnings(in);
     return s;

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "common/formats/particulars.hpp"
 #include "common/formats/warning.hpp"
 
 namespace ice {
@@ -59,6 +60,9 @@ struct Summary {
     std::int64_t hull_spheres = 0, ice_spheres = 0;
     std::int64_t floes_total = 0, floes_moved = 0, floes_behind = 0;
     double average_from = 0.0;
+    ShipParticulars ship;
+    IceParticulars ice;
+    TravelParticulars travel;
     ForceStatistics resistance, lateral, vertical;
     std::map<std::string, RegionStatistics> regions;
     double contacts_mean = 0.0, contacts_max = 0.0, max_overlap = 0.0;
@@ -67,6 +71,7 @@ struct Summary {
     std::map<std::string, double> imbalance;      ///< worst step's, per kind; empty: not asked for
     std::map<std::string, double> stage_seconds;  ///< wall time per stage of the step
     std::optional<double> lindqvist_submersion;   ///< [N]; none where the hull has no waterline
+    std::vector<FormulaValue> formulas;           ///< of the same ship and ice
     std::optional<Ensemble> ensemble;             ///< of an ensemble's folder
     std::vector<Warning> warnings;
     std::string case_file, command_line;

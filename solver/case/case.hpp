@@ -74,6 +74,8 @@ struct Case {
 
     /// Speed of the ship at time t [m/s]: linear between the table's rows, constant outside.
     double ship_speed(double time) const;
+    /// How far along x the ship goes from one time to a later one [m], exactly.
+    double ship_travel(double from, double to) const;
 };
 
 }  // namespace ice

@@ -283,6 +283,18 @@ double Case::ship_speed(double time) const {
     return u0 + (u1 - u0) * (time - t0) / (t1 - t0);
 }
 
+double Case::ship_travel(double from, double to) const {
+    double sum = 0.0, before = from;
+    const auto go_to = [&](double time) {  // the speed is linear up to there
+        sum += 0.5 * (time - before) * (ship_speed(before) + ship_speed(time));
+        before = time;
+    };
+    for (const auto& row : speed_table)
+        if (row.first > before && row.first < to) go_to(row.first);
+    go_to(to);
+    return sum;
+}
+
 namespace {
 
 Case read_once(const std::filesystem::path& file, const std::vector<std::string>& overrides) {

@@ -70,9 +70,9 @@ std::optional<HullForm> measure_hull_form(const TriangleMesh& hull, double water
     const std::vector<Segment> deeper = cut(hull, waterline - depth);
     const double rake = bow - foremost(deeper);
     const double run = bow - foremost_at(water, 0.25 * form.breadth);
-    if (deeper.empty() || !(form.draught > 0.0) || !(run > 1e-6 * form.length)) return std::nullopt;
-    form.stem_angle = std::atan2(depth, std::max(rake, 0.0));
-    form.entrance_angle = std::atan2(0.25 * form.breadth, run);
+    const bool pointed = !deeper.empty() && form.draught > 0.0 && run > 1e-6 * form.length;
+    form.stem_angle = pointed ? std::atan2(depth, std::max(rake, 0.0)) : std::nan("");
+    form.entrance_angle = pointed ? std::atan2(0.25 * form.breadth, run) : std::nan("");
     return form;
 }
 

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "common/geometry/triangle_mesh.hpp"
@@ -66,6 +67,8 @@ struct Scene {
     Bodies bodies;
     CrushedIce crushed;
     Vec3 ship_velocity = Vec3::Zero();
+    /// Area of the floes over the field's; NaN unless all come from one field file.
+    double concentration = std::numeric_limits<double>::quiet_NaN();
 };
 
 constexpr std::size_t kShip = 0;

@@ -201,6 +201,8 @@ Scene build_scene(const Case& parameters) {
         else
             add_set_group(scene, parameters, g, rows);
     }
+    if (rows.of_set.empty() && rows.of_field.size() == 1)
+        scene.concentration = rows.of_field.begin()->second.first.concentration;
     apply_jitter(scene, parameters);
     for (const int id : parameters.track)
         if (id >= static_cast<int>(scene.bodies.size()))

@@ -12,7 +12,7 @@
 #include "common/base/part_file.hpp"
 #include "common/base/timer.hpp"
 #include "common/base/version.hpp"
-#include "solver/record/lindqvist.hpp"
+#include "solver/record/particulars.hpp"
 #include "solver/record/recorder.hpp"
 #include "solver/scene/build_scene.hpp"
 #include "solver/step/balance.hpp"
@@ -52,25 +52,6 @@ void verified_step(World& w, Summary& summary) {
     keep("ship_and_floes", found.together);
 }
 
-// Thickness of the first group's floes as they lie: h of the empirical formula.
-double ice_thickness(const World& w) {
-    const Shape& shape = w.scene.shapes[static_cast<std::size_t>(w.scene.bodies.shape[1])];
-    Eigen::AlignedBox3d box;
-    const Mat3 r = w.parameters.floes.front().orientation.toRotationMatrix();
-    for (const Vec3& v : shape.mesh.vertices) box.extend(r * v);
-    return box.sizes().z();
-}
-
-std::optional<double> lindqvist_of(const World& w, double thickness) {
-    const Case& p = w.parameters;
-    if (p.dimension == 2) return std::nullopt;  // a formula for whole ships
-    const auto form = measure_hull_form(w.scene.shapes[0].mesh, -p.hull_position.z());
-    if (!form) return std::nullopt;
-    const double speed = std::abs(p.ship_speed(0.5 * (p.average_from + p.duration)));
-    return lindqvist_submersion(
-        *form, {thickness, p.friction_ship_ice, p.ice_density, p.water_density, p.gravity, speed});
-}
-
 void fill_run(const World& w, double wall_seconds, Summary& s) {
     const Case& p = w.parameters;
     s.title = p.title;
@@ -85,10 +66,10 @@ void fill_run(const World& w, double wall_seconds, Summary& s) {
         s.stage_seconds[kStageNames[k]] = w.stage_seconds[k];
 }
 
-void write_summary(const World& w, const RunOptions& options, double wall_seconds, double thickness,
+void write_summary(const World& w, const RunOptions& options, double wall_seconds,
                    Recorder& recorder, Summary& summary) {
     recorder.finish(view_of(w), summary);
-    summary.lindqvist_submersion = lindqvist_of(w, thickness);
+    fill_particulars(w.scene, w.parameters, w.time, summary);
     fill_run(w, wall_seconds, summary);
     write_text_file(options.folder / "summary.json", summary_text(summary));
 }
@@ -204,7 +185,6 @@ Summary run(World& world, const RunOptions& options) {
     write_text_file(
         options.folder / "case.resolved.cfg",
         fmt::format("# icesolve {} ({})\n# {}\n{}", version(), git_commit(), command, p.resolved));
-    const double thickness = ice_thickness(world);
     const auto steps = static_cast<std::int64_t>(std::llround(p.duration / p.time_step));
 
     Job job{
@@ -225,13 +205,13 @@ Summary run(World& world, const RunOptions& options) {
                             job.progress.warnings.end());
     try {
         advance(job);
-        write_summary(world, options, job.wall_seconds(), thickness, job.recorder, summary);
+        write_summary(world, options, job.wall_seconds(), job.recorder, summary);
     } catch (const Error& error) {
         // what was computed up to here is kept where it can be written, and says that it failed
         summary.status = "failed";
         summary.warnings.push_back({error.what(), true});
         try {
-            write_summary(world, options, job.wall_seconds(), thickness, job.recorder, summary);
+            write_summary(world, options, job.wall_seconds(), job.recorder, summary);
         } catch (const Error&) {
             remove_unfinished(options.folder);
         }

@@ -40,6 +40,10 @@ Summary make_summary() {
     s.energy["kinetic_J"] = 55.0;
     s.stage_seconds["narrow"] = 2.5;
     s.lindqvist_submersion = 950.0;
+    s.ship = {100.0, 20.5, 8.0, 9.5e6, 25.0, 30.0, 2.5};
+    s.ice = {1.0, 140, 2.5, 6.25, 12.0, 0.8, 900.0, 0.1, 0.3, 1e6, {"never", "always"}};
+    s.travel = {150.0, 1.5, 1.0};
+    s.formulas = {{"Lindqvist 1989", "submersion", 950.0, false}};
     s.warnings = {{"floe 3 fell off", true, 0.125}, {"a picture is wrong", false}, {"who knows"}};
     s.case_file = "channel.cfg";
     return s;
@@ -131,7 +135,7 @@ TEST_CASE("in 2D forces have a second name that says they are per metre", "[form
     const TempFolder folder;
     write_bytes(folder / "three.json", summary_text(s));
     for (const auto& [key, value] : read_json_numbers(folder / "three.json"))
-        CHECK(key.find("_per_m") == std::string::npos);
+        CHECK_FALSE(key.ends_with("_per_m"));
     s.dimension = 2;
     write_bytes(folder / "two.json", summary_text(s));
     const auto numbers = read_json_numbers(folder / "two.json");
@@ -142,6 +146,30 @@ TEST_CASE("in 2D forces have a second name that says they are per metre", "[form
     }
     CHECK(numbers.at("regions.bow.mean_N_per_m.2") == 200.0);
     CHECK(read_summary(folder / "two.json").energy == s.energy);
+}
+
+TEST_CASE("ship, ice, travel and formulas come back, rigid ice and unknowns as null", "[formats]") {
+    Summary s = make_summary();
+    const Summary back = written_and_read(s);
+    CHECK(back.ship.length == 100.0);
+    CHECK(back.ship.entrance_angle_deg == 30.0);
+    CHECK(back.ship.speed_mean == 2.5);
+    CHECK(back.ice.floes == 140);
+    CHECK(back.ice.floe_size_mean == 6.25);
+    CHECK(back.ice.crushing_pressure == 1e6);
+    CHECK(back.ice.hold == s.ice.hold);
+    CHECK(back.travel.averaged_lengths == 1.0);
+    REQUIRE(back.formulas.size() == 1);
+    CHECK(back.formulas[0].name == "Lindqvist 1989");
+    CHECK(back.formulas[0].value == 950.0);
+
+    s.ice.crushing_pressure = std::numeric_limits<double>::infinity();
+    s.ice.concentration = s.ship.breadth = kUnknown;
+    CHECK_THAT(summary_text(s), Catch::Contains("\"crushing_pressure_Pa\": null"));
+    const Summary unknown = written_and_read(s);
+    CHECK(std::isinf(unknown.ice.crushing_pressure));
+    CHECK(std::isnan(unknown.ice.concentration));
+    CHECK(std::isnan(unknown.ship.breadth));
 }
 
 TEST_CASE("summary.json holds the contract's keys in the contract's order", "[formats]") {
@@ -164,6 +192,30 @@ TEST_CASE("summary.json holds the contract's keys in the contract's order", "[fo
                             "total",
                             "moved",
                             "behind",
+                            "ship",
+                            "length_m",
+                            "breadth_m",
+                            "draught_m",
+                            "displacement_kg",
+                            "stem_angle_deg",
+                            "entrance_angle_deg",
+                            "speed_mean",
+                            "ice",
+                            "thickness_m",
+                            "floes",
+                            "floe_size_min_m",
+                            "floe_size_mean_m",
+                            "floe_size_max_m",
+                            "concentration",
+                            "density_kg_per_m3",
+                            "friction_ship_ice",
+                            "friction_ice_ice",
+                            "crushing_pressure_Pa",
+                            "hold",
+                            "travel",
+                            "distance_m",
+                            "lengths",
+                            "averaged_lengths",
                             "resistance",
                             "mean_N",
                             "contact_mean_N",
@@ -186,6 +238,11 @@ TEST_CASE("summary.json holds the contract's keys in the contract's order", "[fo
                             "unconverged_steps",
                             "energy",
                             "lindqvist_submersion_N",
+                            "formulas",
+                            "name",
+                            "part",
+                            "value_N",
+                            "verified",
                             "warnings",
                             "version",
                             "git_commit",
@@ -238,6 +295,8 @@ TEST_CASE("a summary with a missing key or a wrong type names file and key", "[f
                Catch::Contains("summary.json: resistance.std_N: is missing"));
     CHECK_THAT(complaint("\"steps\": 3000", "\"steps\": \"many\""),
                Catch::Contains("steps: has the wrong type"));
+    CHECK_THAT(complaint("\"length_m\": 100.0", "\"length_m\": \"long\""),
+               Catch::Contains("ship: has the wrong type"));
     CHECK_THAT(complaint("icesolve-summary/1", "other/1"),
                Catch::Contains("schema: is not icesolve-summary/1"));
     CHECK_THAT(complaint("{", ""), Catch::Contains("is not valid JSON"));

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Ship, ice and travel of a run in a few numbers: what a reader wants to know before the forces.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace ice {
+
+/// In all of them: NaN where a quantity cannot be measured, which is null in JSON.
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+/// The ship at calm water, measured from the mesh (solver/record/particulars.hpp).
+struct ShipParticulars {
+    double length = kUnknown, breadth = kUnknown;  ///< of the waterline [m]; 2D: length only
+    double draught = kUnknown;                     ///< [m]
+    double displacement = kUnknown;                ///< [kg]; unknown in 2D
+    double stem_angle_deg = kUnknown;      ///< of the stem from the horizontal; unknown in 2D
+    double entrance_angle_deg = kUnknown;  ///< half angle of the waterline at the bow; likewise
+    double speed_mean = kUnknown;          ///< over the averaged time [m/s]
+};
+
+/// The floes that may move, and what the case says of all ice.
+struct IceParticulars {
+    double thickness = kUnknown;  ///< of the first floe as it lies [m]
+    std::int64_t floes = 0;       ///< without unbroken ice, which never moves
+    /// Diameters of the circles with the floes' plan areas [m]; 2D: lengths along x.
+    double floe_size_min = kUnknown, floe_size_mean = kUnknown, floe_size_max = kUnknown;
+    double concentration = kUnknown;  ///< of the field file that all floes come from, else unknown
+    double density = kUnknown;        ///< [kg/m3]
+    double friction_ship_ice = kUnknown, friction_ice_ice = kUnknown;
+    /// [Pa]; infinite for rigid ice, which is null in JSON as well
+    double crushing_pressure = std::numeric_limits<double>::infinity();
+    std::vector<std::string> hold;  ///< release rules in use, as a case file names them
+};
+
+/// How far the ship goes.
+struct TravelParticulars {
+    double distance = kUnknown;          ///< [m]
+    double lengths = kUnknown;           ///< the same in lengths of the waterline
+    double averaged_lengths = kUnknown;  ///< of it while forces are averaged
+};
+
+/// What an empirical formula says of the same ship and ice.
+struct FormulaValue {
+    std::string name;       ///< author and year
+    std::string part;       ///< of the resistance: "submersion", ...
+    double value = 0.0;     ///< [N]
+    bool verified = false;  ///< compared with numbers that its author published
+};
+
+}  // namespace ice

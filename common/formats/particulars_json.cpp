@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "common/formats/particulars_json.hpp"
+
+namespace ice {
+
+namespace {
+
+template <class T>
+void take(const Json& json, const char* key, T& value) {
+    if (json.contains(key) && !json[key].is_null()) json[key].get_to(value);
+}
+
+}  // namespace
+
+void to_json(Json& json, const ShipParticulars& s) {
+    json = {{"length_m", s.length},
+            {"breadth_m", s.breadth},
+            {"draught_m", s.draught},
+            {"displacement_kg", s.displacement},
+            {"stem_angle_deg", s.stem_angle_deg},
+            {"entrance_angle_deg", s.entrance_angle_deg},
+            {"speed_mean", s.speed_mean}};
+}
+
+void from_json(const Json& json, ShipParticulars& s) {
+    take(json, "length_m", s.length);
+    take(json, "breadth_m", s.breadth);
+    take(json, "draught_m", s.draught);
+    take(json, "displacement_kg", s.displacement);
+    take(json, "stem_angle_deg", s.stem_angle_deg);
+    take(json, "entrance_angle_deg", s.entrance_angle_deg);
+    take(json, "speed_mean", s.speed_mean);
+}
+
+void to_json(Json& json, const IceParticulars& i) {
+    json = {{"thickness_m", i.thickness},
+            {"floes", i.floes},
+            {"floe_size_min_m", i.floe_size_min},
+            {"floe_size_mean_m", i.floe_size_mean},
+            {"floe_size_max_m", i.floe_size_max},
+            {"concentration", i.concentration},
+            {"density_kg_per_m3", i.density},
+            {"friction_ship_ice", i.friction_ship_ice},
+            {"friction_ice_ice", i.friction_ice_ice},
+            {"crushing_pressure_Pa", i.crushing_pressure},
+            {"hold", i.hold}};
+}
+
+void from_json(const Json& json, IceParticulars& i) {
+    take(json, "thickness_m", i.thickness);
+    take(json, "floes", i.floes);
+    take(json, "floe_size_min_m", i.floe_size_min);
+    take(json, "floe_size_mean_m", i.floe_size_mean);
+    take(json, "floe_size_max_m", i.floe_size_max);
+    take(json, "concentration", i.concentration);
+    take(json, "density_kg_per_m3", i.density);
+    take(json, "friction_ship_ice", i.friction_ship_ice);
+    take(json, "friction_ice_ice", i.friction_ice_ice);
+    take(json, "crushing_pressure_Pa", i.crushing_pressure);
+    take(json, "hold", i.hold);
+}
+
+void to_json(Json& json, const TravelParticulars& t) {
+    json = {{"distance_m", t.distance},
+            {"lengths", t.lengths},
+            {"averaged_lengths", t.averaged_lengths}};
+}
+
+void from_json(const Json& json, TravelParticulars& t) {
+    take(json, "distance_m", t.distance);
+    take(json, "lengths", t.lengths);
+    take(json, "averaged_lengths", t.averaged_lengths);
+}
+
+void to_json(Json& json, const FormulaValue& f) {
+    json = {{"name", f.name}, {"part", f.part}, {"value_N", f.value}, {"verified", f.verified}};
+}
+
+void from_json(const Json& json, FormulaValue& f) {
+    take(json, "name", f.name);
+    take(json, "part", f.part);
+    take(json, "value_N", f.value);
+    take(json, "verified", f.verified);
+}
+
+}  // namespace ice

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/record/particulars.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string_view>
+
+#include "solver/record/lindqvist.hpp"
+#include "solver/water/hydrostatics.hpp"
+
+namespace ice {
+
+namespace {
+
+constexpr double kDegrees = 180.0 / std::numbers::pi;
+
+// As the case file names them, in the order of Hold.
+constexpr std::string_view kHoldNames[] = {"never", "until-hull-contact", "until-contact",
+                                           "always"};
+
+const Shape& shape_of(const Scene& scene, std::size_t body) {
+    return scene.shapes[static_cast<std::size_t>(scene.bodies.shape[body])];
+}
+
+const FloeGroup& group_of(const Scene& scene, const Case& parameters, std::size_t floe) {
+    return parameters.floes[static_cast<std::size_t>(scene.bodies.group[floe])];
+}
+
+Eigen::Vector3d extent_of(const TriangleMesh& mesh, const Mat3& rotation) {
+    Eigen::AlignedBox3d box;
+    for (const Vec3& v : mesh.vertices) box.extend(rotation * v);
+    return box.sizes();
+}
+
+// Area seen from above: a closed surface turns as much of it up as down.
+double plan_area(const TriangleMesh& mesh, const Mat3& rotation) {
+    double both = 0.0;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+        both += std::abs(rotation.row(2).dot(mesh.area_vector(t)));
+    return 0.5 * both;
+}
+
+double size_of(const Shape& shape, const Mat3& rotation) {
+    if (shape.dimension == 2) return extent_of(shape.mesh, rotation).x();
+    return 2.0 * std::sqrt(plan_area(shape.mesh, rotation) / std::numbers::pi);
+}
+
+// Smallest, mean and largest size, and how many floes there are.
+void measure_sizes(const Scene& scene, const Case& parameters, IceParticulars& ice) {
+    double sum = 0.0;
+    for (std::size_t i = 1; i < scene.bodies.size(); ++i) {
+        const FloeGroup& group = group_of(scene, parameters, i);
+        if (group.hold == Hold::always) continue;
+        const double size = size_of(shape_of(scene, i), group.orientation.toRotationMatrix());
+        ice.floe_size_min = std::fmin(ice.floe_size_min, size);  // fmin: NaN stands for none
+        ice.floe_size_max = std::fmax(ice.floe_size_max, size);
+        sum += size;
+        ++ice.floes;
+    }
+    if (ice.floes > 0) ice.floe_size_mean = sum / static_cast<double>(ice.floes);
+}
+
+// The angles are NaN for a bow without a point, and so is the formula then.
+double lindqvist_of(const ShipParticulars& ship, const IceParticulars& ice, const Case& p) {
+    const HullForm form{ship.length, ship.breadth, ship.draught, ship.stem_angle_deg / kDegrees,
+                        ship.entrance_angle_deg / kDegrees};
+    return lindqvist_submersion(form, {ice.thickness, p.friction_ship_ice, p.ice_density,
+                                       p.water_density, p.gravity, std::abs(ship.speed_mean)});
+}
+
+}  // namespace
+
+ShipParticulars measure_ship(const Scene& scene, const Case& parameters) {
+    const Shape& hull = scene.shapes[0];
+    const double height = scene.bodies.position[kShip].z();
+    double keel = hull.mesh.vertices.front().z();
+    for (const Vec3& v : hull.mesh.vertices) keel = std::min(keel, v.z());
+    ShipParticulars ship;
+    ship.draught = -height - keel;
+    const auto form = measure_hull_form(hull.mesh, -height);
+    if (!form) return ship;
+    ship.length = form->length;
+    if (scene.dimension == 2) return ship;
+    ship.breadth = form->breadth;
+    ship.stem_angle_deg = form->stem_angle * kDegrees;
+    ship.entrance_angle_deg = form->entrance_angle * kDegrees;
+    ship.displacement =
+        parameters.water_density * measure_submerged(hull, Mat3::Identity(), height).volume;
+    return ship;
+}
+
+IceParticulars measure_ice(const Scene& scene, const Case& parameters) {
+    IceParticulars ice;
+    ice.density = parameters.ice_density;
+    ice.friction_ship_ice = parameters.friction_ship_ice;
+    ice.friction_ice_ice = parameters.friction_ice_ice;
+    ice.crushing_pressure = parameters.crushing_pressure;
+    ice.concentration = scene.concentration;
+    if (scene.bodies.size() < 2) return ice;
+    const Mat3 as_it_lies = group_of(scene, parameters, 1).orientation.toRotationMatrix();
+    ice.thickness = extent_of(shape_of(scene, 1).mesh, as_it_lies).z();
+    measure_sizes(scene, parameters, ice);
+    bool used[std::size(kHoldNames)] = {};
+    for (std::size_t i = 1; i < scene.bodies.size(); ++i)
+        used[static_cast<std::size_t>(group_of(scene, parameters, i).hold)] = true;
+    for (std::size_t k = 0; k < std::size(kHoldNames); ++k)
+        if (used[k]) ice.hold.emplace_back(kHoldNames[k]);
+    return ice;
+}
+
+double speed_mean(const Case& p, double until) {
+    const double from = until > p.average_from ? p.average_from : 0.0;
+    return until > from ? p.ship_travel(from, until) / (until - from) : p.ship_speed(0.0);
+}
+
+TravelParticulars measure_travel(const Case& p, const ShipParticulars& ship, double until) {
+    TravelParticulars travel;
+    travel.distance = std::abs(p.ship_travel(0.0, until));
+    travel.lengths = travel.distance / ship.length;
+    travel.averaged_lengths =
+        std::abs(p.ship_travel(std::min(p.average_from, until), until)) / ship.length;
+    return travel;
+}
+
+void fill_particulars(const Scene& scene, const Case& parameters, double until, Summary& summary) {
+    summary.ship = measure_ship(scene, parameters);
+    summary.ship.speed_mean = speed_mean(parameters, until);
+    summary.ice = measure_ice(scene, parameters);
+    summary.travel = measure_travel(parameters, summary.ship, until);
+    const double submersion = lindqvist_of(summary.ship, summary.ice, parameters);
+    if (!std::isfinite(submersion)) return;  // 2D, no waterline, or a bow without a point
+    summary.lindqvist_submersion = submersion;
+    summary.formulas.push_back({"Lindqvist 1989", "submersion", submersion, false});
+}
+
+}  // namespace ice

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Ship, ice and travel of a case in a few numbers, measured from what is simulated.
+#pragma once
+
+#include "common/formats/summary_file.hpp"
+#include "solver/case/case.hpp"
+#include "solver/scene/bodies.hpp"
+
+namespace ice {
+
+/// The hull as it lies in calm water: section and sink of its mesh at the ship's height.
+///
+/// Length, breadth and angles as measure_hull_form(). Displacement: volume below the water, exactly
+/// (measure_submerged), times the water's density. Draught: down to the mesh's lowest point;
+/// negative where the hull hangs above the water. All else is NaN where the hull does not cross the
+/// water; in 2D all but length and draught. The mean speed is speed_mean().
+ShipParticulars measure_ship(const Scene& scene, const Case& parameters);
+
+/// The floes that may move: those of groups that are not held always. Their plan area is the area
+/// seen from above in their group's orientation, whatever became of them since; overhangs count
+/// twice. Without floes: what the case says alone.
+IceParticulars measure_ice(const Scene& scene, const Case& parameters);
+
+/// Mean speed [m/s] from average_from to `until`, or over the whole run where it ends before.
+double speed_mean(const Case& parameters, double until);
+
+/// Travel from the start to `until` [s].
+TravelParticulars measure_travel(const Case& parameters, const ShipParticulars& ship, double until);
+
+/// Fills ship, ice, travel, formulas and lindqvist_submersion of a run that ended at `until`.
+void fill_particulars(const Scene& scene, const Case& parameters, double until, Summary& summary);
+
+}  // namespace ice
