@@ -17,6 +17,7 @@
 #include "postprocess/report/draw_plot.hpp"
 #include "postprocess/report/pictures.hpp"
 #include "postprocess/report/write_report.hpp"
+#include "postprocess/sensitivity/write_study.hpp"
 #include "postprocess/sweep/sweep_markdown.hpp"
 #include "postprocess/sweep/write_sweep.hpp"
 
@@ -88,6 +89,21 @@ int sweep(const Options& o) {
     return 0;
 }
 
+int sensitivity(const Options& o) {
+    const auto study = ice::sensitivity::read_study(o.run);
+    const auto file = o.out.empty() ? o.run / "sensitivity.html" : o.out;
+    ice::write_text_file(file, ice::sensitivity::make_study_page(study));
+    if (const std::string faults = ice::sweep::list_faults(study.runs); !faults.empty())
+        ice::say_warning(faults);
+    ice::say(fmt::format("wrote {}", file.string()));
+    if (!o.svg.empty()) {
+        ice::write_text_file(o.svg, ice::sensitivity::make_tornado(study));
+        ice::say(fmt::format("wrote {}", o.svg.string()));
+    }
+    fmt::print("{}", ice::sensitivity::study_text(study));
+    return 0;
+}
+
 int paraview(const Options& o) {
     const auto run = ice::read::read_run_folder(o.run);
     const auto folder = o.out.empty() ? run.path / "paraview" : o.out;
@@ -153,6 +169,11 @@ int main(int argc, char** argv) {
     curve->add_option("-o,--out", o.out, "another file");
     curve->add_option("--svg", o.svg, "also write the first chart, resistance against speed");
     curve->add_flag("--markdown", o.markdown, "also print the points as tables in Markdown");
+    auto* study = app.add_subcommand(
+        "sensitivity", "write DIR/sensitivity.html and print what decides a case's resistance");
+    study->fallthrough()->add_option("DIR", o.run, "folder of a sensitivity study")->required();
+    study->add_option("-o,--out", o.out, "another file");
+    study->add_option("--svg", o.svg, "also write the tornado chart");
     auto* export_files = command("paraview", "write PVD and VTP files for ParaView");
     export_files->add_option("-o,--out", o.out, "folder (default RUN/paraview)");
     export_files->add_option("--every", o.every, "keep each N-th frame")
@@ -168,6 +189,7 @@ int main(int argc, char** argv) {
         if (plot_run->parsed()) return plot(o);
         if (table->parsed()) return compare_runs(o);
         if (curve->parsed()) return sweep(o);
+        if (study->parsed()) return sensitivity(o);
         return export_files->parsed() ? paraview(o) : check(o);
     };
     return ice::run_command_line(app, argc, argv, o.messages,

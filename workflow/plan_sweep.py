@@ -29,6 +29,8 @@ class Run:
     values: dict                                 # axis -> value as in the sweep file
     overrides: list = field(default_factory=list)  # key=value for icesolve --set
     inputs: list = field(default_factory=list)     # files that must exist before
+    input: str = ""                              # of a study: what differs from the case, and
+    label: str = ""                              # its value
 
 
 @dataclass
@@ -44,27 +46,33 @@ class Plan:
     axes: list
     inputs: list
     runs: dict
+    page: str = "sweep"  # icepost's command, and the name of the page it writes
+    more: str = ""       # further tables of runs.toml
 
     def text(self):
-        """runs.toml; a JSON string is a TOML string, too."""
+        """runs.toml, the same for the same plan; a JSON string is a TOML string, too."""
         quote = lambda text: json.dumps(text, ensure_ascii=False)
         lines = ["# written by the workflow, read by icepost sweep", f"title = {quote(self.title)}",
                  f"axes = [{', '.join(map(quote, self.axes))}]"]
         for run in self.runs.values():
             values = ", ".join(f"{quote(k)} = {toml_text(v)}" for k, v in run.values.items())
             lines += ["[[run]]", f"name = {quote(run.name)}", f"values = {{{values}}}"]
-        return "\n".join(lines) + "\n"
+            if self.page == "sensitivity":
+                lines += [f"input = {quote(run.input)}", f"label = {quote(run.label)}"]
+        return "\n".join(lines) + "\n" + self.more
 
 
 class Planner:
+    KEYS = KEYS
+
     def __init__(self, path, out, folder):
         self.path = os.path.abspath(path)
-        self.file = read_toml(self.path, "sweep file")
+        self.file = self.read_file()
         for key in self.file:
-            if key not in KEYS:
-                near = difflib.get_close_matches(key, KEYS, 1)
+            if key not in self.KEYS:
+                near = difflib.get_close_matches(key, self.KEYS, 1)
                 self.fail(f"unknown key '{key}'", f"did you mean '{near[0]}'?" if near else
-                          "known keys: " + ", ".join(KEYS))
+                          "known keys: " + ", ".join(self.KEYS))
         self.case = self.beside(self.get("case", str, None))
         self.programs = find_programs(folder)
         self.case_keys = read_toml(self.case, "case")
@@ -77,6 +85,9 @@ class Planner:
             self.out = os.path.abspath(os.path.join("results", stem))
         self.recipes = self.read_recipes()
         self.made = {}  # (program, source, options) -> Input
+
+    def read_file(self):
+        return read_toml(self.path, "sweep file")
 
     def fail(self, what, remedy):
         raise SweepError(f"{self.path}: {what}\n  {remedy}")
@@ -105,7 +116,7 @@ class Planner:
 
     def explain(self, key):
         """Refuses a key that the program would not take, before anything runs."""
-        if re.fullmatch(r"(hull|floes(\.\d+)?)\.mesh", key) or key == SPECIFICATION:
+        if re.fullmatch(r"(hull|floes(\.\d+)?)\.(mesh|spherize)", key) or key == SPECIFICATION:
             return
         program, name = ("icefield", key[6:]) if key.startswith("field.") else ("icesolve", key)
         name = re.sub(r"^floes\.\d+\.", "floes.", name)
@@ -170,6 +181,16 @@ class Planner:
         stem = safe(os.path.basename(source).split(".")[0])
         return f"{spheres}={self.make('spherize', source, options, stem)}"
 
+    def spherize_override(self, key, options):
+        """The set again, from the same mesh with other options."""
+        spheres = key[:-len("spherize")] + "spheres"
+        recipe = self.recipe_of(spheres)
+        if recipe is None:
+            self.fail(f"'{key}' has no sphere set to make anew",
+                      "the case's spheres.txt must list the call that makes it")
+        stem = safe(os.path.basename(recipe.source).split(".")[0])
+        return f"{spheres}={self.make('spherize', recipe.source, options.split(), stem)}"
+
     def field_override(self, values):
         recipe = next((r for r in self.recipes.values() if r.program == "icefield"), None)
         if recipe is None:
@@ -191,9 +212,10 @@ class Planner:
         fields = {k: v for k, v in keys.items() if k.startswith("field.")}
         replaced = set()
         for key, value in keys.items():
-            if key.endswith(".mesh"):
-                run.overrides.append(self.mesh_override(key, value))
-                recipe = self.recipe_of(key[:-4] + "spheres")
+            if key.endswith((".mesh", ".spherize")):
+                remake = self.mesh_override if key.endswith(".mesh") else self.spherize_override
+                run.overrides.append(remake(key, str(value)))
+                recipe = self.recipe_of(key.rsplit(".", 1)[0] + ".spheres")
                 replaced.add(recipe.output if recipe else None)
             elif key not in fields:
                 run.overrides.append(f"{key}={set_text(value)}")
@@ -249,11 +271,14 @@ class Planner:
             along = {key: each[axes[axis].index(values[axis])]
                      for axis, keys in tied.items() for key, each in keys.items()}
             runs[name] = self.plan_run(name, values, {**constant, **along})
+        return self.make_plan(list(axes), runs)
+
+    def make_plan(self, axes, runs):
         needed = {path for run in runs.values() for path in run.inputs}
         inputs = [i for i in [*self.recipes.values(), *self.made.values()] if i.output in needed]
         return Plan(self.get("title", str, ""), self.case, self.out, self.get("threads", int, 1),
                     self.get("report", bool, True), self.get("memory_mb", int, 1000),
-                    self.get("runtime_min", int, 60), self.programs, list(axes), inputs, runs)
+                    self.get("runtime_min", int, 60), self.programs, axes, inputs, runs)
 
 
 def run_name(values):

@@ -35,6 +35,18 @@ std::string make_page(const PageParts& parts) {
     return page;
 }
 
+std::string open_page(const std::string& title) {
+    const std::string_view page = page_template();
+    const auto begin = page.find("<style>"), end = page.find("</style>");
+    const std::string style = begin == std::string_view::npos || end == std::string_view::npos
+                                  ? ""
+                                  : std::string(page.substr(begin, end - begin)) + "</style>\n";
+    return "<!DOCTYPE html>\n<html lang=\"en\" xmlns=\"http://www.w3.org/1999/xhtml\">\n<head>\n"
+           "<meta charset=\"utf-8\" />\n<meta name=\"viewport\" content=\"width=device-width, "
+           "initial-scale=1\" />\n<title>" +
+           escape(title) + "</title>\n" + style + "</head>\n<body>\n";
+}
+
 std::string section(const std::string& id, const std::string& heading, const std::string& intro,
                     const std::string& body) {
     std::string out = "<section id=\"" + escape(id) + "\">\n<h2>" + escape(heading) + "</h2>\n";

@@ -20,6 +20,9 @@ struct PageParts {
 /// tables and drawings.
 std::string make_page(const PageParts& parts);
 
+/// Beginning of another page up to <body>, in the look of the report. @param title plain text
+std::string open_page(const std::string& title);
+
 /// <section> with a heading. @param id for links; @param intro plain text, may be empty
 std::string section(const std::string& id, const std::string& heading, const std::string& intro,
                     const std::string& body);

@@ -9,7 +9,6 @@
 
 #include "common/base/version.hpp"
 #include "postprocess/report/page.hpp"
-#include "postprocess/report/page_template.hpp"
 #include "postprocess/sweep/key_names.hpp"
 #include "postprocess/sweep/sweep_charts.hpp"
 #include "postprocess/sweep/sweep_tables.hpp"
@@ -28,15 +27,6 @@ constexpr std::size_t kMostPanels = 200;  // small multiples drawn
 std::size_t count_completed(const Sweep& sweep) {
     return static_cast<std::size_t>(std::count_if(sweep.runs.begin(), sweep.runs.end(),
                                                   [](const SweepRun& r) { return r.summary; }));
-}
-
-// the look of the runs' own reports
-std::string style() {
-    const std::string_view page = report::page_template();
-    const auto begin = page.find("<style>"), end = page.find("</style>");
-    return begin == std::string_view::npos || end == std::string_view::npos
-               ? ""
-               : std::string(page.substr(begin, end - begin)) + "</style>\n";
 }
 
 std::string header(const Sweep& sweep) {
@@ -152,11 +142,7 @@ std::string make_sweep_page(const Sweep& sweep, const std::filesystem::path& pag
     const auto points = make_points(sweep);
     const report::ForceUnit unit = choose_sweep_unit(points);
     std::string out =
-        "<!DOCTYPE html>\n<html lang=\"en\" xmlns=\"http://www.w3.org/1999/xhtml\">\n<head>\n"
-        "<meta charset=\"utf-8\" />\n<meta name=\"viewport\" content=\"width=device-width, "
-        "initial-scale=1\" />\n<title>" +
-        escape(sweep.title) + "</title>\n" + style() + "</head>\n<body>\n" + header(sweep) +
-        "<main>\n" + fault_list(sweep);
+        report::open_page(sweep.title) + header(sweep) + "<main>\n" + fault_list(sweep);
     out += curve_sections(sweep, points, unit);
     if (!points.empty())
         out += section("points", "All points",

@@ -9,7 +9,7 @@ set(order_preprocess preprocess/load preprocess/clean preprocess/measure preproc
 set(order_solver solver/case solver/shape solver/water solver/scene solver/broad solver/narrow
   solver/contact solver/integrate solver/record solver/step solver)
 set(order_postprocess postprocess/read postprocess/views postprocess/statistics postprocess/report
-  postprocess/sweep postprocess/paraview postprocess/check postprocess)
+  postprocess/sweep postprocess/sensitivity postprocess/paraview postprocess/check postprocess)
 set(tools preprocess solver postprocess)
 
 # Third-party headers and the files that may include them: pairs of regular expressions. Tests may
@@ -18,10 +18,10 @@ set(tools preprocess solver postprocess)
 set(quarantine
   "<assimp/"         "^preprocess/load/"
   "<CGAL/"           "^preprocess/(clean|measure|repair|slice|field)/"
-  "<toml"            "^(common/toml|postprocess/(check|sweep))/"
+  "<toml"            "^(common/toml|postprocess/(check|sweep|sensitivity))/"
   "<(hdf5|H5)"       "^common/formats/"
   "<nlohmann/"       "^(common/(formats|toml)|preprocess/field|postprocess/report)/"
-  "<boost/"          "^postprocess/sweep/"
+  "<boost/"          "^postprocess/(sweep|sensitivity)/"
   "<hwy/"            "(_simd\\.cpp|_lanes-inl\\.hpp)$"
   "<omp\\.h>"        "^common/base/parallel\\.hpp$"
   "<spdlog/"         "^common/cli/"

@@ -72,5 +72,21 @@ with tempfile.TemporaryDirectory() as folder:
     assert code == 1 and "did you mean 'hull.speed'?" in text, text
     assert "Traceback" not in text, text
     assert not os.path.exists(f"{folder}/new")
+
+    # a sensitivity study goes the same way to its own page, and is resumed, too
+    write(f"{folder}/ranges.toml", '[[range]]\nname = "drag"\nkeys = ["drag.coefficient"]\n'
+          'factors = [0.5, 2.0]\nsource = "a test"\n')
+    study = SWEEP.split("[axes]")[0].replace('"out"', '"study"').replace(
+        "[set]", 'seeds = 2\nranges = "ranges.toml"\n[set]')
+    write(f"{folder}/study.toml", study)
+    words = ["local", "--cores", "2"]
+    code, text = run_snakemake(folder, *words, file="sensitivity=study.toml")
+    assert code == 0 and "stated model uncertainty" in text, text
+    assert len(os.listdir(f"{folder}/study/runs")) == 6
+    page = read(f"{folder}/study/sensitivity.html")
+    xml.fromstring(page.replace("<!DOCTYPE html>", ""))
+    assert "case: 1.0" in page and "a test" in page and ">2.0<" in page
+    code, text = run_snakemake(folder, *words, file="sensitivity=study.toml")
+    assert code == 0 and "Nothing to be done" in text, text
     print("ok")
     sys.exit(0)

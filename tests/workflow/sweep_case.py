@@ -53,15 +53,16 @@ def read(path):
         return file.read()
 
 
-def snakemake_words(folder, profile, *words):
+def snakemake_words(folder, profile, *words, file="sweep=sweep.toml"):
+    kind, name = file.split("=")
     return [SNAKEMAKE, "-s", f"{SOURCE}/workflow/Snakefile", "--profile",
-            f"{SOURCE}/workflow/{profile}", "--config", f"sweep={folder}/sweep.toml", f"bin={BIN}",
+            f"{SOURCE}/workflow/{profile}", "--config", f"{kind}={folder}/{name}", f"bin={BIN}",
             *words]
 
 
-def run_snakemake(folder, profile, *words):
-    done = subprocess.run(snakemake_words(folder, profile, *words), cwd=folder, text=True,
-                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+def run_snakemake(folder, profile, *words, file="sweep=sweep.toml"):
+    done = subprocess.run(snakemake_words(folder, profile, *words, file=file), cwd=folder,
+                          text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
     return done.returncode, done.stdout
 
 

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Which input moves the resistance most, and whether the seeds allow to say so.
+#pragma once
+
+#include "postprocess/sensitivity/read_study.hpp"
+#include "postprocess/sweep/sweep_points.hpp"
+
+namespace ice::sensitivity {
+
+using sweep::Estimate;
+
+/// What the model itself may be wrong by, as a share of the resistance: stated, not computed. An
+/// independent model of the same problem, convex solids with compliant contact, lay 3 to 12 % below
+/// this one on the pre-sawn channel.
+inline constexpr double kModelUncertainty = 0.10;
+
+/// Mean of an ensemble: Student's interval over its seeds; of a single run the run's own.
+Estimate estimate_ensemble(const Ensemble& ensemble);
+
+/// Mean of b less mean of a with Welch's 95 % interval:
+///
+///     half = t_{0.975, v} sqrt(q_a + q_b),   q = s^2 / n,
+///     v = (q_a + q_b)^2 / (q_a^2 / (n_a - 1) + q_b^2 / (n_b - 1))
+///
+/// Where an ensemble has one run only, its interval is the run's own and the two half widths add as
+/// squares. NaN where one of them has no value, or no interval.
+/// Source: Welch (1947), "The generalization of 'Student's' problem", Biometrika 34.
+Estimate estimate_difference(const Ensemble& a, const Ensemble& b);
+
+/// One value of an input against the case.
+struct Change {
+    std::string label;
+    Estimate resistance, difference;  ///< [N; 2D: N/m]
+    /// Whether the interval of the difference leaves out zero.
+    bool significant() const;
+};
+
+struct RankedInput {
+    std::string name, base, source;
+    std::vector<Change> changes;  ///< in the plan's order
+    double largest() const;       ///< magnitude of the largest difference; 0 without one
+};
+
+/// Inputs with the largest difference first; equal ones, and those without a result, in the plan's
+/// order.
+std::vector<RankedInput> rank_inputs(const Study& study);
+
+}  // namespace ice::sensitivity

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "postprocess/sensitivity/read_study.hpp"
+
+#define TOML_HEADER_ONLY 0  // Debian's libtomlplusplus.so holds the version that throws
+#include <toml++/toml.h>
+
+#include <algorithm>
+
+#include "common/base/error.hpp"
+
+namespace ice::sensitivity {
+
+namespace {
+
+constexpr const char* kRemedy =
+    "give the folder that the workflow made: snakemake ... --config sensitivity=CASE.cfg";
+
+std::string text_of(const toml::table& table, const char* key) {
+    return table[key].value_or<std::string>("");
+}
+
+// entries of a repeated table, none where it is missing
+template <class Use>
+void for_each(const toml::table& table, const char* name, const Use& use) {
+    if (const toml::array* rows = table[name].as_array())
+        for (const toml::node& row : *rows)
+            if (const toml::table* entry = row.as_table()) use(*entry);
+}
+
+Ensemble& find_or_add(std::vector<Ensemble>& values, const std::string& label) {
+    const auto found = std::find_if(values.begin(), values.end(),
+                                    [&](const Ensemble& e) { return e.label == label; });
+    if (found != values.end()) return *found;
+    return values.emplace_back(Ensemble{label, {}, {}});
+}
+
+void add_run(const toml::table& entry, Study& study) {
+    const std::string name = text_of(entry, "name"), input = text_of(entry, "input");
+    const auto run = std::find_if(study.runs.runs.begin(), study.runs.runs.end(),
+                                  [&](const sweep::SweepRun& r) { return r.name == name; });
+    Ensemble* values = &study.base;
+    if (!input.empty()) {
+        const auto owner = std::find_if(study.inputs.begin(), study.inputs.end(),
+                                        [&](const Input& i) { return i.name == input; });
+        if (owner == study.inputs.end()) return;
+        values = &find_or_add(owner->values, text_of(entry, "label"));
+    }
+    if (run == study.runs.runs.end() || !run->summary) return;
+    values->resistance.push_back(run->summary->resistance.mean);
+    values->half.push_back(run->summary->resistance.ci95);
+    study.dimension = run->summary->dimension;
+}
+
+}  // namespace
+
+Study read_study(const std::filesystem::path& folder) {
+    const auto plan = folder / "runs.toml";
+    if (std::filesystem::is_directory(folder) && !std::filesystem::exists(plan))
+        throw bad_input(folder.string(), "has no runs.toml", kRemedy);
+    Study study;
+    study.runs = sweep::read_sweep(folder);  // complains of what is no TOML
+    study.title = study.runs.title;
+    const toml::table table = toml::parse_file(plan.string());
+    for_each(table, "input", [&](const toml::table& entry) {
+        study.inputs.push_back(
+            {text_of(entry, "name"), text_of(entry, "base"), text_of(entry, "source"), {}});
+    });
+    if (study.inputs.empty())
+        throw bad_input(plan.string(), "plans a sweep, not a sensitivity study",
+                        "icepost sweep " + folder.string() + " makes its page");
+    for_each(table, "left_out", [&](const toml::table& entry) {
+        study.left_out.emplace_back(text_of(entry, "name"), text_of(entry, "why"));
+    });
+    for_each(table, "run", [&](const toml::table& entry) { add_run(entry, study); });
+    if (study.base.resistance.empty())
+        throw bad_input(folder.string(), "no run of the case itself has a result",
+                        "let the workflow go on: the same command computes what is missing");
+    return study;
+}
+
+}  // namespace ice::sensitivity
