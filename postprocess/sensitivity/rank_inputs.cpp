@@ -22,13 +22,13 @@ double square_error(const std::vector<double>& values, double mean) {
 
 }  // namespace
 
-Estimate estimate_ensemble(const Ensemble& ensemble) {
+Estimate estimate_ensemble(const Seeds& ensemble) {
     Estimate out = sweep::estimate_mean(ensemble.resistance);
     if (ensemble.resistance.size() == 1) out.half = ensemble.half.front();
     return out;
 }
 
-Estimate estimate_difference(const Ensemble& a, const Ensemble& b) {
+Estimate estimate_difference(const Seeds& a, const Seeds& b) {
     const Estimate first = estimate_ensemble(a), second = estimate_ensemble(b);
     const double mean = second.mean - first.mean;
     if (a.resistance.size() < 2 || b.resistance.size() < 2)
@@ -58,7 +58,7 @@ std::vector<RankedInput> rank_inputs(const Study& study) {
     std::vector<RankedInput> out;
     for (const Input& input : study.inputs) {
         out.push_back({input.name, input.base, input.source, {}});
-        for (const Ensemble& value : input.values)
+        for (const Seeds& value : input.values)
             out.back().changes.push_back(
                 {value.label, estimate_ensemble(value), estimate_difference(study.base, value)});
     }

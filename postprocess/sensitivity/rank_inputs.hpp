@@ -15,7 +15,7 @@ using sweep::Estimate;
 inline constexpr double kModelUncertainty = 0.10;
 
 /// Mean of an ensemble: Student's interval over its seeds; of a single run the run's own.
-Estimate estimate_ensemble(const Ensemble& ensemble);
+Estimate estimate_ensemble(const Seeds& ensemble);
 
 /// Mean of b less mean of a with Welch's 95 % interval:
 ///
@@ -25,7 +25,7 @@ Estimate estimate_ensemble(const Ensemble& ensemble);
 /// Where an ensemble has one run only, its interval is the run's own and the two half widths add as
 /// squares. NaN where one of them has no value, or no interval.
 /// Source: Welch (1947), "The generalization of 'Student's' problem", Biometrika 34.
-Estimate estimate_difference(const Ensemble& a, const Ensemble& b);
+Estimate estimate_difference(const Seeds& a, const Seeds& b);
 
 /// One value of an input against the case.
 struct Change {

@@ -27,18 +27,18 @@ void for_each(const toml::table& table, const char* name, const Use& use) {
             if (const toml::table* entry = row.as_table()) use(*entry);
 }
 
-Ensemble& find_or_add(std::vector<Ensemble>& values, const std::string& label) {
+Seeds& find_or_add(std::vector<Seeds>& values, const std::string& label) {
     const auto found = std::find_if(values.begin(), values.end(),
-                                    [&](const Ensemble& e) { return e.label == label; });
+                                    [&](const Seeds& e) { return e.label == label; });
     if (found != values.end()) return *found;
-    return values.emplace_back(Ensemble{label, {}, {}});
+    return values.emplace_back(Seeds{label, {}, {}});
 }
 
 void add_run(const toml::table& entry, Study& study) {
     const std::string name = text_of(entry, "name"), input = text_of(entry, "input");
     const auto run = std::find_if(study.runs.runs.begin(), study.runs.runs.end(),
                                   [&](const sweep::SweepRun& r) { return r.name == name; });
-    Ensemble* values = &study.base;
+    Seeds* values = &study.base;
     if (!input.empty()) {
         const auto owner = std::find_if(study.inputs.begin(), study.inputs.end(),
                                         [&](const Input& i) { return i.name == input; });

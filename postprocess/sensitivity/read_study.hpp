@@ -24,7 +24,7 @@
 namespace ice::sensitivity {
 
 /// Resistances of runs that differ in their seed only.
-struct Ensemble {
+struct Seeds {
     std::string label;               ///< the input's value; "" for the case itself
     std::vector<double> resistance;  ///< of the completed runs [N; 2D: N/m]
     std::vector<double> half;        ///< their own 95 % half widths, NaN where unknown
@@ -32,13 +32,13 @@ struct Ensemble {
 
 struct Input {
     std::string name, base, source;
-    std::vector<Ensemble> values;  ///< in the plan's order
+    std::vector<Seeds> values;  ///< in the plan's order
 };
 
 struct Study {
     std::string title;
     int dimension = 3;
-    Ensemble base;  ///< the case itself
+    Seeds base;  ///< the case itself
     std::vector<Input> inputs;
     std::vector<std::pair<std::string, std::string>> left_out;  ///< input, why
     sweep::Sweep runs;                                          ///< all of them, for their faults

@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-Ensemble ensemble(const std::string& label, const std::vector<double>& values, double half = kNaN) {
+Seeds ensemble(const std::string& label, const std::vector<double>& values, double half = kNaN) {
     return {label, values, std::vector<double>(values.size(), half)};
 }
 
@@ -57,13 +57,13 @@ void write_study(const TempFolder& folder) {
 
 TEST_CASE("Welch's interval is the two-sample one for equal scatter, Student's for one-sided",
           "[sensitivity]") {
-    const Ensemble a = ensemble("", {9.0, 10.0, 11.0}), b = ensemble("", {19.0, 20.0, 21.0});
+    const Seeds a = ensemble("", {9.0, 10.0, 11.0}), b = ensemble("", {19.0, 20.0, 21.0});
     // both have s = 1: v = 4, t_{0.975, 4} = 2.77645 (tables)
     CHECK(estimate_difference(a, b).mean == Approx(10.0));
     CHECK(estimate_difference(a, b).half == Approx(2.77645 * std::sqrt(2.0 / 3.0)).epsilon(1e-5));
     CHECK(estimate_difference(b, a).mean == Approx(-10.0));
     // no scatter in one: what is left is Student's interval of the other, v = 2, t = 4.30265
-    const Ensemble still = ensemble("", {5.0, 5.0, 5.0, 5.0});
+    const Seeds still = ensemble("", {5.0, 5.0, 5.0, 5.0});
     CHECK(estimate_difference(a, still).half == Approx(4.30265 / std::sqrt(3.0)).epsilon(1e-5));
     CHECK(estimate_difference(still, still).half == 0.0);
     // single runs have their own intervals, which add as squares
