@@ -7,10 +7,10 @@
 
 #include "common/base/error.hpp"
 #include "common/base/part_file.hpp"
-#include "common/base/units.hpp"
 #include "common/base/version.hpp"
 #include "common/cli/command_line.hpp"
 #include "common/cli/console.hpp"
+#include "common/cli/quantity_option.hpp"
 #include "postprocess/check/check_run.hpp"
 #include "postprocess/paraview/write_paraview.hpp"
 #include "postprocess/report/compare_runs.hpp"
@@ -125,13 +125,6 @@ int check(const Options& o) {
     return ice::check::all_passed(verdicts) ? 0 : static_cast<int>(ice::ExitCode::failed);
 }
 
-// CLI11 takes NaN for a number.
-std::string finite_seconds(const std::string& text) {
-    const auto number = ice::parse_quantity(text, ice::Dimension::none);
-    return number && std::isfinite(number->value) ? std::string()
-                                                  : text + " is not a number of seconds";
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -154,7 +147,7 @@ int main(int argc, char** argv) {
     auto* draw = command("view", "draw hull and ice at one instant as SVG");
     draw->add_option("--time", o.time, "the frame nearest to this time [s]")
         ->required()
-        ->check(finite_seconds);
+        ->transform(ice::finite_quantity(ice::Dimension::time, "2.5"));
     draw->add_option("--from", o.from, "below, top, side (starboard), port, front or quarter")
         ->check(CLI::IsMember({"below", "top", "side", "port", "front", "quarter"}));
     draw->add_option("-o,--out", o.out, "the SVG file")->required();

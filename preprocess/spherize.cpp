@@ -17,6 +17,7 @@
 #include "common/cli/command_line.hpp"
 #include "common/cli/console.hpp"
 #include "common/cli/fault_handlers.hpp"
+#include "common/cli/quantity_option.hpp"
 #include "common/formats/spheres_file.hpp"
 #include "common/formats/widest_spacing.hpp"
 #include "preprocess/fill/fill_spheres.hpp"
@@ -45,17 +46,12 @@ struct Options {
     ice::MessageOptions messages;
 };
 
-// CLI11's own check for positive numbers answers with the largest double, in digits.
-std::string positive_metres(const std::string& text) {
-    const auto number = ice::parse_quantity(text, ice::Dimension::none);
-    return number && number->value > 0.0 && std::isfinite(number->value)
-               ? std::string()
-               : text + " is not a positive number of metres (0.15, without a unit)";
-}
-
-std::string positive_density(const std::string& text) {
-    return positive_metres(text).empty() ? std::string()
-                                         : text + " is not a positive number of kg/m3";
+// Puts the unit's length in metres in place of its name.
+std::string metres_per_unit(std::string& text) {
+    const auto unit = ice::parse_quantity("1 " + text, ice::Dimension::length);
+    if (!unit || !unit->has_unit || text == "km") return text + " is none of mm, cm, m, ft, in";
+    text = fmt::format("{}", unit->value);
+    return {};
 }
 
 void declare(CLI::App& app, Options& o) {
@@ -63,9 +59,12 @@ void declare(CLI::App& app, Options& o) {
     app.add_option("mesh", o.mesh, "Surface mesh: OBJ, STL, PLY, OFF, DAE, glTF, FBX, also .gz")
         ->required();
     app.add_option("-o,--output", o.out, "Sphere file (default <mesh stem>.spheres.h5)");
-    app.add_option("-r,--radius", o.fill.radius, "Sphere radius [m] (0.1)")->check(positive_metres);
-    app.add_option("-s,--spacing", o.fill.spacing, "Centre distance on the surface [m] (radius)")
-        ->check(positive_metres);
+    const auto length = ice::positive_quantity(ice::Dimension::length, "0.15");
+    app.add_option("-r,--radius", o.fill.radius, "Sphere radius, in m or with a unit (0.1)")
+        ->transform(length);
+    app.add_option("-s,--spacing", o.fill.spacing,
+                   "Centre distance on the surface, in m or with a unit (radius)")
+        ->transform(length);
     app.add_option("--arrangement", o.arrangement, "conforming or lattice")
         ->check(CLI::IsMember({"conforming", "lattice"}));
     app.add_option("--mode", o.mode, "fill, or surface to drop the interior")
@@ -73,13 +72,12 @@ void declare(CLI::App& app, Options& o) {
     app.add_option("--slice", o.slice, "y=VALUE: 2D set from that section");
     app.add_option("--solid", o.solid, "envelope (fill inner voids and double skins) or material")
         ->check(CLI::IsMember({"envelope", "material"}));
-    const std::map<std::string, double> units{
-        {"mm", 1e-3}, {"cm", 1e-2}, {"m", 1.0}, {"ft", 0.3048}, {"in", 0.0254}};
     auto* unit = app.add_option("--units", o.read.scale,
                                 "Unit of the file: mm, cm, m, ft, in (from the file, or guessed)")
-                     ->transform(CLI::CheckedTransformer(units));
+                     ->type_name("UNIT")
+                     ->transform(CLI::Validator(metres_per_unit, ""));
     app.add_option("--scale", o.read.scale, "Metres per file unit")
-        ->check(positive_metres)
+        ->transform(ice::positive_quantity(ice::Dimension::none, "0.001"))
         ->excludes(unit);
     app.add_option("--up", o.read.up, "File axis that points up (from the file, or guessed)")
         ->check(CLI::IsMember({"y", "z"}));
@@ -95,7 +93,7 @@ void declare(CLI::App& app, Options& o) {
                    "Also write the set as csv, vtp, yade, liggghts or chrono; repeatable")
         ->check(CLI::IsMember(ice::export_formats()));
     app.add_option("--density", o.density, "Density [kg/m3] of the mass in the exports (900, ice)")
-        ->check(positive_density);
+        ->transform(ice::positive_quantity(ice::Dimension::density, "900"));
     app.add_option("--json", o.json, "Write the certificate as JSON");
     app.add_option("--threads", o.threads, "Threads (default: all cores)")
         ->check(CLI::Range(1, 4096));

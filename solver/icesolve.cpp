@@ -11,12 +11,12 @@
 #include "common/base/error.hpp"
 #include "common/base/instruction_set.hpp"
 #include "common/base/parallel.hpp"
-#include "common/base/units.hpp"
 #include "common/base/version.hpp"
 #include "common/cli/command_line.hpp"
 #include "common/cli/console.hpp"
 #include "common/cli/fault_handlers.hpp"
 #include "common/cli/progress.hpp"
+#include "common/cli/quantity_option.hpp"
 #include "common/cli/sibling_program.hpp"
 #include "solver/case/case_schema.hpp"
 #include "solver/case/read_case.hpp"
@@ -39,14 +39,6 @@ struct Options {
     ice::MessageOptions messages;
 };
 
-// CLI11's own check for positive numbers lets NaN pass.
-std::string positive_seconds(const std::string& text) {
-    const auto number = ice::parse_quantity(text, ice::Dimension::none);
-    return number && number->value > 0.0 && std::isfinite(number->value)
-               ? std::string()
-               : text + " is not a positive number of seconds (2.5, without a unit)";
-}
-
 void declare(CLI::App& app, Options& o) {
     ice::declare_version(app);
     app.add_option("case", o.case_file, "Case file (TOML)");
@@ -65,7 +57,7 @@ void declare(CLI::App& app, Options& o) {
     app.add_option("--checkpoint-every", o.checkpoint_every,
                    "Write checkpoint.h5 in the run folder every T simulated seconds and at the end")
         ->type_name("T")
-        ->check(positive_seconds);
+        ->transform(ice::positive_quantity(ice::Dimension::time, "2.5"));
     app.add_option("--restart", o.restart,
                    "Go on from a checkpoint, in its folder (or --out), to the same bits; only "
                    "simulation.duration may have changed")

@@ -17,8 +17,9 @@ struct Unit {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 
-// the first unit of each dimension is the SI one
+// the first unit of each dimension that has one is the SI one
 constexpr std::array kUnits{
+    Unit{"%", 0.01, Dimension::share},
     Unit{"m", 1.0, Dimension::length},
     Unit{"km", 1000.0, Dimension::length},
     Unit{"cm", 0.01, Dimension::length},
@@ -75,7 +76,12 @@ std::string unit_names(Dimension dimension) {
     return names;
 }
 
+bool has_unit(Dimension dimension) {
+    return dimension != Dimension::none && dimension != Dimension::share;
+}
+
 std::string_view si_unit(Dimension dimension) {
+    if (!has_unit(dimension)) return "1";
     for (const Unit& unit : kUnits)
         if (unit.dimension == dimension) return unit.name;
     return "1";

@@ -8,9 +8,11 @@
 
 namespace ice {
 
-/// What a number measures. `none` is dimensionless and takes no unit.
+/// What a number measures. `none` is dimensionless and takes no unit, `share` is a part of a whole
+/// and may be given in per cent.
 enum class Dimension {
     none,
+    share,
     length,
     time,
     speed,
@@ -33,10 +35,13 @@ struct Quantity {
 ///         dimension
 std::optional<Quantity> parse_quantity(std::string_view text, Dimension dimension);
 
-/// Units accepted for a dimension, for messages: "km, m, cm, mm, ft, in"; "" for none.
+/// Units accepted for a dimension, for messages: "m, km, cm, mm, ft, in"; "" for none.
 std::string unit_names(Dimension dimension);
 
-/// The SI unit itself: "m", "kg/m3", or "1" for none.
+/// True where the SI unit has a name: not for `none` and `share`.
+bool has_unit(Dimension dimension);
+
+/// The SI unit itself: "m", "kg/m3", or "1" for none and share.
 std::string_view si_unit(Dimension dimension);
 
 }  // namespace ice

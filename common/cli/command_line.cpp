@@ -5,8 +5,10 @@
 #include <malloc.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 
 #include "common/base/error.hpp"
+#include "common/base/nearest_name.hpp"
 #include "common/base/version.hpp"
 #include "common/cli/console.hpp"
 
@@ -22,14 +24,81 @@ void keep_pages() {
     mallopt(M_TRIM_THRESHOLD, 1 << 30);
 }
 
+namespace {
+
+// the command that was given, or the program itself: "icepost report"
+const CLI::App& given_command(const CLI::App& app) {
+    const auto commands = app.get_subcommands();
+    return commands.empty() ? app : *commands.front();
+}
+
+std::string full_name(const CLI::App& app) {
+    const CLI::App& command = given_command(app);
+    return &command == &app ? app.get_name() : app.get_name() + " " + command.get_name();
+}
+
+std::vector<std::string> option_names(const CLI::App& app) {
+    std::vector<std::string> names;
+    for (const CLI::App* part : {&app, &given_command(app)})
+        for (const CLI::Option* option : part->get_options())
+            for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    return names;
+}
+
+std::vector<std::string> command_names(const CLI::App& app) {
+    std::vector<std::string> names;
+    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+        names.push_back(command->get_name());
+    return names;
+}
+
+std::string join_words(const std::vector<std::string>& words) {
+    return fmt::format("{}", fmt::join(words, ", "));
+}
+
+// CLI11's complaint in the words of the project's other errors: what is wrong, what to do
+Error usage_error(const CLI::App& app, const CLI::ParseError& error) {
+    const std::string help = full_name(app) + " --help lists what it takes";
+    const std::vector<std::string> left = app.remaining(true);
+    const std::vector<std::string> commands = command_names(app);
+    if (!commands.empty() && app.get_subcommands().empty()) {
+        if (left.empty() || left.front().starts_with('-'))
+            return bad_input("", "no command given", "give one of " + join_words(commands));
+        const std::string near = nearest_name(left.front(), commands);
+        return bad_input("", fmt::format("there is no command '{}'", left.front()),
+                         near.empty() ? "give one of " + join_words(commands)
+                                      : fmt::format("did you mean '{}'?", near));
+    }
+    if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr && !left.empty()) {
+        const auto option = std::find_if(left.begin(), left.end(), [](const std::string& word) {
+            return word.starts_with('-');
+        });
+        if (option == left.end())
+            return bad_input("", fmt::format("one argument too many: {}", join_words(left)), help);
+        const std::string near =
+            nearest_name(option->substr(0, option->find('=')), option_names(app));
+        return bad_input("", fmt::format("there is no option '{}'", *option),
+                         near.empty() ? help : fmt::format("did you mean '{}'?", near));
+    }
+    std::string what = error.what();
+    if (const auto end = what.rfind(" is required"); end != std::string::npos)
+        what = fmt::format("no {} given", what.substr(0, end));
+    else if (const auto colon = what.find(": "); what.ends_with(" missing"))
+        what = what.substr(0, colon) + " needs a value";
+    return bad_input("", what, help);
+}
+
+}  // namespace
+
 int run_command_line(CLI::App& app, int argc, const char* const* argv,
                      const MessageOptions& messages, const std::string& to_save_memory,
                      const std::function<int(const std::string&)>& body) {
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
-        // CLI11's own codes start at 100; help and version end with 0
-        return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::bad_input);
+        if (error.get_exit_code() == 0) return app.exit(error);  // help and version
+        start_messages(Colour::automatic, false);
+        return run_program(app.get_name(), [&]() -> int { throw usage_error(app, error); });
     }
     set_typed_program(argv[0]);
     const Colour colour = messages.colour == "always"  ? Colour::always

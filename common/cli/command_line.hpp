@@ -26,7 +26,7 @@ void keep_pages();
 
 /// Parses the command line and runs the program's body; what a main function returns.
 ///
-/// A bad command line ends with exit code 2 and CLI11's message, --help and --version with 0,
+/// A bad command line ends with exit code 2 and what is meant by it, --help and --version with 0,
 /// exceptions as run_program() says.
 /// @param app       all options declared; its name is the program's
 /// @param messages  where the app puts --quiet and --color; read after parsing

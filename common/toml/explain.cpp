@@ -64,7 +64,7 @@ std::string explain_key(const Schema& schema, const std::string& path) {
     std::string out =
         fmt::format("{}\n  {}\n  {}, {}", key->path, key->doc, kind_text(*key), default_note(*key));
     if (has_range(*key)) out += fmt::format(", from {:g} to {:g}", key->low, key->high);
-    if (key->dimension != Dimension::none)
+    if (has_unit(key->dimension))
         out +=
             fmt::format(", in {} (units: {})", si_unit(key->dimension), unit_names(key->dimension));
     return out + "\n";

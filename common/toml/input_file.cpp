@@ -8,12 +8,16 @@
 
 #include "common/base/error.hpp"
 #include "common/base/rehearse.hpp"
+#include "common/toml/recognise_input.hpp"
 
 namespace ice {
 
 std::string read_input_text(const std::filesystem::path& file, const std::string& what,
-                            std::uintmax_t largest) {
+                            std::string_view ending, std::uintmax_t largest) {
     std::error_code error;
+    if (std::filesystem::is_directory(file, error))
+        throw bad_input(file.string(), fmt::format("is a folder, not a {}", what),
+                        look_into_folder(file, ending));
     if (!std::filesystem::is_regular_file(file, error))
         throw bad_input(file.string(), what + " not found", "check the path");
     if (std::filesystem::file_size(file, error) > largest)
@@ -22,7 +26,11 @@ std::string read_input_text(const std::filesystem::path& file, const std::string
                         "is this the right file?");
     std::ifstream in(file, std::ios::binary);
     if (!in) throw bad_input(file.string(), "cannot be read", "check its permissions");
-    return {std::istreambuf_iterator<char>(in), {}};
+    std::string text{std::istreambuf_iterator<char>(in), {}};
+    if (const auto other = recognise_file(file, text))
+        throw bad_input(file.string(), fmt::format("is {}, not a {}", other->what, what),
+                        other->remedy);
+    return text;
 }
 
 void rehearse_input(const std::filesystem::path& file, const std::function<void()>& read) {
@@ -38,7 +46,7 @@ void throw_mistakes(const Mistakes& mistakes, const std::filesystem::path& file,
     std::string all = fmt::format("{} mistake{}", count, count == 1 ? "" : "s");
     for (const std::string& text : mistakes.texts) all += "\n" + text;
     if (mistakes.more > 0) all += fmt::format("\nand {} more", mistakes.more);
-    throw bad_input(file.string(), all, remedy);
+    throw bad_input(file.string(), all, mistakes.remedy.empty() ? remedy : mistakes.remedy);
 }
 
 }  // namespace ice

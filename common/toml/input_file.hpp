@@ -15,11 +15,13 @@ namespace ice {
 inline constexpr std::uintmax_t kLargestInput = 64u << 20;
 
 /// Text of a whole input file.
-/// @param what  "case file", for messages
-/// @param largest  size that is read [bytes]
-/// @throws Error (exit code 2) when it is missing, unreadable or larger.
+/// @param what    "case file", for messages
+/// @param ending  what such files are usually called, ".cfg": to find one in a folder
+/// @param largest size that is read [bytes]
+/// @throws Error (exit code 2) when it is missing, unreadable or larger, or a folder, a mesh, an HDF5
+///         file or UTF-16.
 std::string read_input_text(const std::filesystem::path& file, const std::string& what,
-                            std::uintmax_t largest = kLargestInput);
+                            std::string_view ending, std::uintmax_t largest = kLargestInput);
 
 /// rehearse() for reading a TOML file: keys nested 100 000 deep exhaust toml++'s stack. Nothing
 /// happens for a file that is missing or too large, of which reading complains by itself.

@@ -96,7 +96,8 @@ Json default_json(const Key& key, const Schema& schema) {
 Json key_schema(const Key& key, const Schema& schema) {
     Json out = value_schema(key);
     std::string text(key.doc);
-    if (key.dimension != Dimension::none) {
+    if (key.dimension == Dimension::share) text += " A number, or a text in %.";
+    if (has_unit(key.dimension)) {
         text += fmt::format(" In {}, or a text with a unit: {}.", si_unit(key.dimension),
                             unit_names(key.dimension));
         out["x-unit"] = si_unit(key.dimension);

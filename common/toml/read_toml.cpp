@@ -12,11 +12,15 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "common/base/nearest_name.hpp"
+#include "common/toml/quote_line.hpp"
+#include "common/toml/recognise_input.hpp"
+
 namespace ice {
 
 namespace {
 
-constexpr std::size_t kMostShown = 120;     // characters of a line in a message
+constexpr std::size_t kMostShown = 120;     // characters of a key in a message
 constexpr std::size_t kMostTables = 10000;  // [[floes]]
 
 class Document {
@@ -27,14 +31,16 @@ public:
         for (std::string line; std::getline(in, line);) lines_.push_back(line);
     }
 
-    Values read(const std::string& text, std::size_t& groups) {
+    // `whole`: a file, not an override
+    Values read(const std::string& text, bool whole, std::size_t& groups) {
         toml::table root;
         try {
             root = toml::parse(text);
         } catch (const toml::parse_error& error) {
-            complain(error.source(), std::string(error.description()), 1);
+            complain_of_syntax(error);
             return {};
         }
+        if (whole && is_another_kind(root)) return {};
         Values values;
         walk(root, "", "", values, groups);
         return values;
@@ -45,18 +51,31 @@ private:
         const auto line = where.begin.line, column = where.begin.column;
         std::string text = fmt::format("{}:{}:{}: error: {}", name_, line, column, shorten(what));
         if (line >= 1 && line <= lines_.size())
-            text += show(line, column > 0 ? column - 1 : 0, std::max<std::size_t>(width, 1));
+            text += quote_line(lines_[line - 1], line, column > 0 ? column - 1 : 0, width);
         mistakes_.add(text);
     }
 
-    // the line with carets under `width` characters from `at` on; of a long line what is around
-    std::string show(std::size_t line, std::size_t at, std::size_t width) const {
-        const std::string& all = lines_[line - 1];
-        const std::size_t first = at > kMostShown / 2 ? at - kMostShown / 2 : 0;
-        std::string part = all.substr(std::min(first, all.size()), kMostShown);
-        if (first + kMostShown < all.size()) part += "...";
-        return fmt::format("\n{:5} | {}\n      | {}{}", line, part, std::string(at - first, ' '),
-                           std::string(std::min(width, kMostShown), '^'));
+    void complain_of_syntax(const toml::parse_error& error) {
+        const std::string what(error.description());
+        const auto line = error.source().begin.line;
+        std::string hint;
+        if (what.find("utf-8") != std::string::npos)
+            hint = "; save the file as UTF-8";
+        else if (line >= 1 && line <= lines_.size())
+            hint = explain_value(lines_[line - 1]);
+        complain(error.source(), what + hint, 1);
+    }
+
+    // a case given to icefield would be a dozen mistakes, of which none says what is wrong
+    bool is_another_kind(const toml::table& root) {
+        std::vector<std::string> names;
+        for (auto&& [key, node] : root) names.emplace_back(key.str());
+        const auto other = recognise_tables(name_, names, schema_.title);
+        if (!other) return false;
+        mistakes_.add(
+            fmt::format("{}: error: this is {}, no {}", name_, other->what, schema_.title));
+        mistakes_.remedy = other->remedy;
+        return true;
     }
 
     static std::string shorten(const std::string& what) {
@@ -87,11 +106,55 @@ private:
             } else if (const auto* rows = node.as_array(); rows && is_repeated(full)) {
                 walk_repeated(*rows, values, groups);
             } else if (const auto* inner = node.as_table(); inner && is_table(full)) {
-                walk(*inner, full, labelled, values, groups);
+                walk_table(key, *inner, full, labelled, values, groups);
+            } else if (!schema_.find(full) && (node.is_table() || node.is_array_of_tables())) {
+                read_unknown_table(key, node, full, values, groups);
             } else {
                 read_key(key, node, full, labelled, values);
             }
         }
+    }
+
+    void walk_table(const toml::key& key, const toml::table& table, const std::string& path,
+                    const std::string& label, Values& values, std::size_t& groups) {
+        if (!is_repeated(path) || groups > 0) return walk(table, path, label, values, groups);
+        // of a file: there are no groups yet that an override could mean
+        complain(key.source(), fmt::format("write [[{0}]] for each group, not [{0}]", path),
+                 path.size());
+        walk(table, path, path + "." + std::to_string(groups++), values, groups);
+    }
+
+    // A misspelt table is complained of once and read as the one that was meant: its keys are
+    // neither unknown nor missing.
+    void read_unknown_table(const toml::key& name, const toml::node& node, const std::string& path,
+                            Values& values, std::size_t& groups) {
+        const std::string near = is_table(path)        ? path
+                                 : worth_a_guess(path) ? nearest_name(path, schema_.tables())
+                                                       : "";
+        if (near.empty() || mistakes_.full()) {
+            complain(name.source(),
+                     fmt::format("unknown table '{}'; the tables are {}", path,
+                                 fmt::join(schema_.tables(), ", ")),
+                     name.str().size());
+            return;
+        }
+        complain(name.source(),
+                 near == path ? fmt::format("there is one table of this name: write [{}]", path)
+                              : fmt::format("unknown table '{}'; did you mean '{}'?", path, near),
+                 name.str().size());
+        if (const auto* rows = node.as_array(); rows && is_repeated(near))
+            walk_repeated(*rows, values, groups);
+        else if (const auto* rows_of_one = node.as_array())
+            walk(*rows_of_one->get(0)->as_table(), near, near, values, groups);
+        else if (!is_repeated(near))
+            walk(*node.as_table(), near, near, values, groups);
+        else
+            walk(*node.as_table(), near, near + "." + std::to_string(groups++), values, groups);
+    }
+
+    // what was meant is not looked for in thousands of keys, nor in very long ones
+    bool worth_a_guess(const std::string& path) const {
+        return !mistakes_.full() && path.size() < kMostShown;
     }
 
     void walk_repeated(const toml::array& rows, Values& values, std::size_t& groups) {
@@ -127,9 +190,7 @@ private:
                   const std::string& label, Values& values) {
         const Key* key = schema_.find(path);
         if (key == nullptr) {
-            // what was meant is not looked for in thousands of keys, nor in very long ones
-            const bool worth = !mistakes_.full() && path.size() < kMostShown;
-            const std::string near = worth ? schema_.nearest(path) : "";
+            const std::string near = worth_a_guess(path) ? schema_.nearest(path) : "";
             complain(name.source(),
                      "unknown key '" + path + "'" +
                          (near.empty() ? "; " + schema_.program + " --print-defaults lists all keys"
@@ -173,11 +234,12 @@ private:
             const auto quantity = parse_quantity(*text, dimension);
             if (!quantity) {
                 const std::string units = unit_names(dimension);
-                complain(
-                    node.source(),
-                    fmt::format("{} = \"{}\" is not a number with a unit it can have ({})",
-                                key.path, *text, units.empty() ? "it has none" : "use " + units),
-                    text->size() + 2);
+                complain(node.source(),
+                         fmt::format(
+                             "{} = \"{}\" is not a number with a unit it can have ({}){}", key.path,
+                             *text, units.empty() ? "it has none" : "use " + units,
+                             has_decimal_comma(*text) ? "; the decimal point is '.', not ','" : ""),
+                         text->size() + 2);
                 return false;
             }
             out = quantity->value;
@@ -185,19 +247,23 @@ private:
             out = *number;
         } else {
             complain(node.source(),
-                     fmt::format(
-                         "{} must be a number{}", key.path,
-                         dimension == Dimension::none
-                             ? ""
-                             : " in " + std::string(si_unit(dimension)) + " or a text with a unit"),
+                     fmt::format("{} must be a number{}", key.path,
+                                 !has_unit(dimension) ? ""
+                                                      : " in " + std::string(si_unit(dimension)) +
+                                                            " or a text with a unit"),
                      1);
             return false;
         }
         if (out >= key.low && out <= key.high) return true;
-        complain(node.source(),
-                 fmt::format("{} = {:g} is outside [{:g}, {:g}] {}", key.path, out, key.low,
-                             key.high, dimension == Dimension::none ? "" : si_unit(dimension)),
-                 1);
+        const bool percent = dimension == Dimension::share && out > 1.0 && 0.01 * out >= key.low &&
+                             0.01 * out <= key.high;
+        complain(
+            node.source(),
+            fmt::format("{} = {:g} is outside [{:g}, {:g}] {}", key.path, out, key.low, key.high,
+                        percent ? fmt::format("; {0:g} % is {1:g}, or \"{0:g} %\"", out, 0.01 * out)
+                        : has_unit(dimension) ? si_unit(dimension)
+                                              : ""),
+            1);
         return false;
     }
 
@@ -308,7 +374,7 @@ bool parses(const std::string& text) {
 
 Values read_toml(const std::string& text, const std::string& name, const Schema& schema,
                  Mistakes& mistakes, std::size_t& groups) {
-    return Document(text, name, schema, mistakes).read(text, groups);
+    return Document(text, name, schema, mistakes).read(text, true, groups);
 }
 
 Values read_override(const std::string& text, const Schema& schema, std::size_t groups,
@@ -321,7 +387,7 @@ Values read_override(const std::string& text, const Schema& schema, std::size_t 
     const std::string key = text.substr(0, equals), value = text.substr(equals + 1);
     std::string line = key + " = " + value;
     if (!parses(line)) line = key + " = \"" + value + "\"";
-    return read_toml(line, "--set", schema, mistakes, groups);
+    return Document(line, "--set", schema, mistakes).read(line, false, groups);
 }
 
 Value default_value(const Key& key, const Schema& schema) {
@@ -329,7 +395,7 @@ Value default_value(const Key& key, const Schema& schema) {
     Mistakes mistakes;
     std::size_t groups = 0;
     const std::string line = fmt::format("{} = {}", key.path, key.default_text);
-    const Values values = read_toml(line, "default", schema, mistakes, groups);
+    const Values values = Document(line, "default", schema, mistakes).read(line, false, groups);
     if (values.empty()) throw std::logic_error("bad default: " + line);
     return values.begin()->second;
 }

@@ -20,6 +20,7 @@ struct Mistakes {
     std::size_t more = 0;            ///< not kept
     std::set<std::string> bad_keys;  ///< keys given with a bad value: not missing as well
     std::map<std::string, std::string> places;  ///< "file:line:column" of each key given
+    std::string remedy;                         ///< of the one mistake that explains all; else ""
 
     bool full() const { return texts.size() >= kMost; }
     void add(const std::string& text) {

@@ -53,9 +53,10 @@ struct Schema {
 
     /// The key of that path, or null.
     const Key* find(std::string_view path) const;
-    /// The most similar known key, or "" when none is near (edit distance above a quarter of the
-    /// name).
+    /// The most similar known key, or "" when none is near: nearest_name().
     std::string nearest(std::string_view path) const;
+    /// The tables that hold the keys, in their order: "simulation", "floes", ...
+    std::vector<std::string> tables() const;
 };
 
 /// Text of `--explain KEY`. @throws Error (exit code 2) for an unknown key.

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "common/base/error.hpp"
-#include "postprocess/check/nearest_name.hpp"
+#include "common/base/nearest_name.hpp"
 #include "postprocess/views/svg.hpp"
 
 namespace ice::check {

@@ -9,7 +9,7 @@
 #include <cmath>
 
 #include "common/base/error.hpp"
-#include "postprocess/check/nearest_name.hpp"
+#include "common/base/nearest_name.hpp"
 
 namespace ice::check {
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "postprocess/read/run_folder.hpp"
 
+#include <fmt/format.h>
+
 #include "common/base/error.hpp"
 
 namespace ice::read {
@@ -34,9 +36,17 @@ RunFolder read_run_folder(const fs::path& path) {
 fs::path find_summary(const fs::path& path) {
     if (!fs::exists(path)) throw bad_input(path.string(), "run folder not found", kRemedy);
     const fs::path file = fs::is_directory(path) ? path / "summary.json" : path;
-    if (!fs::exists(file))
-        throw bad_input(path.string(), "holds no summary.json: the run did not end", kRemedy);
-    return file;
+    if (fs::exists(file)) return file;
+    const fs::path folder = file.parent_path();
+    if (!fs::exists(folder / "run.h5.part") && !fs::exists(folder / "run.h5"))
+        throw bad_input(path.string(), "holds no summary.json and no run.h5", kRemedy);
+    // the folder is the right one: what can be done with what is there
+    std::string remedy = fmt::format("icepost report {} shows what is there", folder.string());
+    if (fs::exists(folder / "checkpoint.h5"))
+        remedy += fmt::format("; icesolve CASE.cfg --restart {} goes on with the run",
+                              (folder / "checkpoint.h5").string());
+    throw bad_input(path.string(), "holds no summary.json: the run still goes on, or was killed",
+                    remedy);
 }
 
 }  // namespace ice::read

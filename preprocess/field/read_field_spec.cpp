@@ -118,7 +118,7 @@ private:
 FieldSpec read_once(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
     Mistakes mistakes;
     std::size_t unused = 0;
-    std::string text = read_input_text(file, "field specification");
+    std::string text = read_input_text(file, "field specification", ".toml");
     Values values = read_toml(text, file.string(), field_schema(), mistakes, unused);
     for (const std::string& given : overrides) {
         for (auto& [key, value] : read_override(given, field_schema(), 0, mistakes))

@@ -105,7 +105,7 @@ std::vector<NamedOutline> read_csv(const std::filesystem::path& file, const std:
 }  // namespace
 
 std::vector<NamedOutline> read_polygons(const std::filesystem::path& file, std::size_t& holes) {
-    const std::string text = read_input_text(file, "file of polygons", kLargestPolygons);
+    const std::string text = read_input_text(file, "file of polygons", ".csv", kLargestPolygons);
     std::vector<NamedOutline> out =
         file.extension() == ".csv" ? read_csv(file, text) : GeoJsonReader(file, holes).read(text);
     if (out.empty())

@@ -139,7 +139,7 @@ std::vector<CaseKey> floe_keys() {
 
 std::vector<CaseKey> model_keys() {
     return {
-        {"contact.restitution", Kind::number, D::none, "0.3", 0, 1, 0, "",
+        {"contact.restitution", Kind::number, D::share, "0.3", 0, 1, 0, "",
          "Normal speed after an impact over the speed before it.",
          [](Case& c, G&, const Value& v) { c.restitution = number(v); }},
         {"contact.friction_ship_ice", Kind::number, D::none, "0.1", 0, 10, 0, "",

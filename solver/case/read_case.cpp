@@ -159,10 +159,18 @@ private:
         if (path.is_relative()) path = std::filesystem::absolute(file_).parent_path() / path;
         path = path.lexically_normal();
         if (!std::filesystem::exists(path))
-            complain_at(label, fmt::format("{}: file {} not found; make it with {}",
-                                           counted_from_one(label), path.string(),
-                                           label.ends_with(".file") ? "icefield" : "spherize"));
+            complain_at(label,
+                        fmt::format("{}: file {} not found; make it with {}",
+                                    counted_from_one(label), path.string(), maker_of(path, label)));
         return path.string();
+    }
+
+    // a shipped case brings the list of what makes its files
+    static std::string maker_of(const std::filesystem::path& missing, const std::string& label) {
+        const auto folder = missing.parent_path();
+        if (std::filesystem::exists(folder / "spheres.txt"))
+            return fmt::format("cases/prepare.sh {}", folder.string());
+        return label.ends_with(".file") ? "icefield" : "spherize";
     }
 
     void check_choices() {
@@ -300,8 +308,8 @@ namespace {
 Case read_once(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
     Mistakes mistakes;
     std::size_t groups = 0;
-    Values values = read_toml(read_input_text(file, "case file"), file.string(), case_schema(),
-                              mistakes, groups);
+    Values values = read_toml(read_input_text(file, "case file", ".cfg"), file.string(),
+                              case_schema(), mistakes, groups);
     for (const std::string& text : overrides) {
         Values given = read_override(text, case_schema(), groups, mistakes);
         spread_to_groups(given, groups);

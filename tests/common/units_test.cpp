@@ -46,6 +46,16 @@ TEST_CASE("a dimensionless number takes no unit", "[base]") {
     CHECK(si_unit(Dimension::none) == "1");
 }
 
+TEST_CASE("a share is a number or per cent", "[base]") {
+    CHECK(si("80 %", Dimension::share) == Approx(0.8).epsilon(1e-15));
+    CHECK(si("80%", Dimension::share) == si("80 %", Dimension::share));
+    CHECK(si("0.8", Dimension::share) == 0.8);
+    CHECK_FALSE(parse_quantity("80 m", Dimension::share));
+    CHECK_FALSE(parse_quantity("80 %", Dimension::none));
+    CHECK(si_unit(Dimension::share) == "1");
+    CHECK(unit_names(Dimension::share) == "%");
+}
+
 TEST_CASE("inf is read as infinity", "[base]") {
     CHECK(std::isinf(si("inf", Dimension::pressure)));
     CHECK(std::isinf(si("inf MPa", Dimension::pressure)));

@@ -3,7 +3,6 @@
 #include <limits>
 
 #include "postprocess/check/check_run.hpp"
-#include "postprocess/check/nearest_name.hpp"
 #include "tests/postprocess/make_folder.hpp"
 
 using namespace ice;
@@ -96,14 +95,6 @@ TEST_CASE("faults of the file are named with line and column", "[check]") {
     CHECK_THAT(complaint(key + "min = 3\nmax = 2\n"), Catch::Contains("has min above max"));
     CHECK_THAT(complaint("[[expect]]\nmin = 0\n"), Catch::Contains("an expectation without key"));
     CHECK_THAT(error_text([] { read_expected("no.toml"); }), Catch::Contains("file not found"));
-}
-
-TEST_CASE("the nearest name is found within two fifths of the letters", "[check]") {
-    const std::vector<std::string> names{"value", "abs", "why"};
-    CHECK(nearest_name("vaule", names) == "value");
-    CHECK(nearest_name("whz", names) == "why");
-    CHECK(nearest_name("zzzzz", names).empty());
-    CHECK(nearest_name("", names).empty());
 }
 
 TEST_CASE("every case says what is expected of it and where each value comes from", "[check]") {

@@ -32,7 +32,7 @@ TEST_CASE("a killed run is read from run.h5.part and has no summary", "[read]") 
     CHECK(back.data.frames.size() == 20);
     CHECK_FALSE(back.summary);
     CHECK_THAT(error_text([&] { read::find_summary(folder.path()); }),
-               Catch::Contains("the run did not end"));
+               Catch::Contains("still goes on, or was killed"));
 }
 
 TEST_CASE("a folder that does not exist or holds no run is named", "[read]") {
