@@ -18,8 +18,8 @@ inline constexpr std::uintmax_t kLargestInput = 64u << 20;
 /// @param what    "case file", for messages
 /// @param ending  what such files are usually called, ".cfg": to find one in a folder
 /// @param largest size that is read [bytes]
-/// @throws Error (exit code 2) when it is missing, unreadable or larger, or a folder, a mesh, an HDF5
-///         file or UTF-16.
+/// @throws Error (exit code 2) when it is missing, unreadable or larger, or a folder, a mesh, an
+///         HDF5 file or UTF-16.
 std::string read_input_text(const std::filesystem::path& file, const std::string& what,
                             std::string_view ending, std::uintmax_t largest = kLargestInput);
 

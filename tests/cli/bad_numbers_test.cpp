@@ -195,8 +195,8 @@ TEST_CASE("a time step in which bodies may tunnel is warned of, before and after
                           Catch::Contains("lower simulation.time_step to 0.04 s"));
     CHECK_THAT(r.err, Catch::Contains("the hull and floe 1 met at "));
     const auto warnings = read_summary(w / "r/summary.json").warnings;
-    CHECK(std::count_if(warnings.begin(), warnings.end(), [](const Warning& w) {
-              return w.text.find("pass through each other") != std::string::npos;
+    CHECK(std::count_if(warnings.begin(), warnings.end(), [](const Warning& warning) {
+              return warning.text.find("pass through each other") != std::string::npos;
           }) == 2);
 }
 
@@ -223,7 +223,7 @@ TEST_CASE("a case of a million lines is read, or refused with a message of a pag
 
     w.write("groups.cfg", good + repeat("[[floes]]\nspheres = \"floe.h5\"\n\n\n", 250000));
     check_refused(w, {"icesolve groups.cfg", "more than 10000 [[floes]] tables"});
-    w.write("line.cfg", good + "[x]\ny = \"" + repeat("a", 1000000) + "\"\n");
+    w.write("line.cfg", good + "[drag]\ny = \"" + repeat("a", 1000000) + "\"\n");
     check_refused(w, {"icesolve line.cfg", "unknown key"});
     w.write("deep.cfg", good + "[x]\ny = " + repeat("[", 1000000));
     check_refused(w, {"icesolve deep.cfg", "nested"});

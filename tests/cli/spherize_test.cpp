@@ -152,7 +152,7 @@ TEST_CASE("spherize refuses bad meshes by name with exit code 2 and leaves nothi
     refuses("nan.obj", "not a finite number");
     refuses("text.obj", "text.obj");
     refuses("missing.obj", "not found");
-    refuses("", "mesh is required");
+    refuses("", "no mesh given");
     refuses("open.obj --radius -1", "--radius");
     refuses("open.obj --frobnicate", "frobnicate");
     refuses(ICE_MESHES "/paper-floe-3d.obj -r 0.2", "the largest that fits has 0.15 m");
