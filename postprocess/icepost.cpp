@@ -10,6 +10,7 @@
 #include "common/base/version.hpp"
 #include "common/cli/command_line.hpp"
 #include "common/cli/console.hpp"
+#include "common/cli/picture_file.hpp"
 #include "common/cli/quantity_option.hpp"
 #include "postprocess/check/check_run.hpp"
 #include "postprocess/paraview/write_paraview.hpp"
@@ -34,6 +35,7 @@ struct Options {
 };
 
 int report(const Options& o) {
+    ice::check_page_name(o.out);
     const auto run = ice::read::read_run_folder(o.run);
     const auto file = o.out.empty() ? run.path / "report.html" : o.out;
     ice::report::write_report(run, file, o.frames);
@@ -42,9 +44,10 @@ int report(const Options& o) {
 }
 
 int view(const Options& o) {
+    ice::check_picture_name(o.out);
     const auto run = ice::read::read_run_folder(o.run);
-    ice::write_text_file(o.out,
-                         ice::report::draw_view(run.data, *ice::views::parse_view(o.from), o.time));
+    ice::write_picture(o.out,
+                       ice::report::draw_view(run.data, *ice::views::parse_view(o.from), o.time));
     const double first = run.data.frames.front().time, last = run.data.frames.back().time;
     if (o.time < first || o.time > last)
         ice::say_warning(fmt::format(
@@ -55,9 +58,10 @@ int view(const Options& o) {
 }
 
 int plot(const Options& o) {
+    if (!o.out.empty()) ice::check_picture_name(o.out);
     const auto run = ice::read::read_run_folder(o.run);
     const auto file = o.out.empty() ? run.path / "plot.svg" : o.out;
-    ice::write_text_file(file, ice::report::draw_plot(run));
+    ice::write_picture(file, ice::report::draw_plot(run));
     ice::say(fmt::format("wrote {}", file.string()));
     return 0;
 }
@@ -66,11 +70,13 @@ int compare_runs(const Options& o) {
     std::vector<ice::report::NamedSummary> runs;
     for (const std::string& run : o.runs)
         runs.emplace_back(run, ice::read_summary(ice::read::find_summary(run)));
-    fmt::print("{}", o.csv ? ice::report::compare_csv(runs) : ice::report::compare_text(runs));
+    ice::write_data(o.csv ? ice::report::compare_csv(runs) : ice::report::compare_text(runs));
     return 0;
 }
 
 int sweep(const Options& o) {
+    ice::check_page_name(o.out);
+    if (!o.svg.empty()) ice::check_picture_name(o.svg);
     const auto runs = ice::sweep::read_sweep(o.run);
     const auto file = o.out.empty() ? o.run / "sweep.html" : o.out;
     ice::write_text_file(file, ice::sweep::make_sweep_page(runs, file));
@@ -82,10 +88,10 @@ int sweep(const Options& o) {
         if (curve.empty())
             throw ice::bad_input(o.run.string(), "has no curve to draw: " + o.svg.string(),
                                  "leave out --svg, or let one or two numbers vary");
-        ice::write_text_file(o.svg, curve);
+        ice::write_picture(o.svg, curve);
         ice::say(fmt::format("wrote {}", o.svg.string()));
     }
-    if (o.markdown) fmt::print("{}", ice::sweep::sweep_markdown(runs));
+    if (o.markdown) ice::write_data(ice::sweep::sweep_markdown(runs));
     return 0;
 }
 
@@ -119,7 +125,7 @@ int check(const Options& o) {
     const auto expected = ice::check::read_expected(o.expected);
     const auto numbers = ice::read_json_numbers(ice::read::find_summary(o.run));
     const auto verdicts = ice::check::check_numbers(numbers, expected, o.expected);
-    fmt::print("{}", ice::check::verdict_table(verdicts));
+    ice::write_data(ice::check::verdict_table(verdicts));
     if (!o.junit.empty())
         ice::write_text_file(o.junit, ice::check::junit_text(verdicts, o.run.string()));
     return ice::check::all_passed(verdicts) ? 0 : static_cast<int>(ice::ExitCode::failed);
@@ -144,15 +150,16 @@ int main(int argc, char** argv) {
     make_report->add_option("--frames", o.frames, "of the 3D playback at most, evenly chosen")
         ->capture_default_str()
         ->check(CLI::Range(2, 1000000));
-    auto* draw = command("view", "draw hull and ice at one instant as SVG");
+    auto* draw = command("view", "draw hull and ice at one instant");
     draw->add_option("--time", o.time, "the frame nearest to this time [s]")
         ->required()
         ->transform(ice::finite_quantity(ice::Dimension::time, "2.5"));
     draw->add_option("--from", o.from, "below, top, side (starboard), port, front or quarter")
         ->check(CLI::IsMember({"below", "top", "side", "port", "front", "quarter"}));
-    draw->add_option("-o,--out", o.out, "the SVG file")->required();
-    auto* plot_run = command("plot", "draw histories and tracked floes' paths as one SVG");
-    plot_run->add_option("-o,--out", o.out, "the SVG file (default RUN/plot.svg)");
+    draw->add_option("-o,--out", o.out, "the picture: .svg, .png or .pdf")->required();
+    auto* plot_run = command("plot", "draw histories and tracked floes' paths in one picture");
+    plot_run->add_option("-o,--out", o.out,
+                         "the picture: .svg, .png or .pdf (default RUN/plot.svg)");
     auto* table = app.add_subcommand("table", "compare runs, a line each")->fallthrough();
     table->add_option("RUN", o.runs, "run folders made by icesolve")->required();
     table->add_flag("--csv", o.csv, "comma-separated, all digits");
@@ -160,7 +167,8 @@ int main(int argc, char** argv) {
         app.add_subcommand("sweep", "write DIR/sweep.html, resistance curves of many runs");
     curve->fallthrough()->add_option("DIR", o.run, "folder of run folders")->required();
     curve->add_option("-o,--out", o.out, "another file");
-    curve->add_option("--svg", o.svg, "also write the first chart, resistance against speed");
+    curve->add_option("--svg", o.svg,
+                      "also write the first chart, resistance against speed: .svg, .png or .pdf");
     curve->add_flag("--markdown", o.markdown, "also print the points as tables in Markdown");
     auto* study = app.add_subcommand(
         "sensitivity", "write DIR/sensitivity.html and print what decides a case's resistance");

@@ -11,7 +11,8 @@
 #include "common/base/version.hpp"
 #include "common/cli/command_line.hpp"
 #include "common/cli/console.hpp"
-#include "common/cli/fault_handlers.hpp"
+#include "common/cli/picture_file.hpp"
+#include "common/cli/start_threads.hpp"
 #include "common/formats/field_file.hpp"
 #include "preprocess/field/make_field.hpp"
 
@@ -35,7 +36,7 @@ void declare(CLI::App& app, Options& o) {
         ->take_all();
     app.add_option("--seed", o.seed, "Another seed than the specification's");
     app.add_option("--json", o.json, "Write what was made as JSON");
-    app.add_option("--preview", o.preview, "Write the field from above as SVG");
+    app.add_option("--preview", o.preview, "Draw the field from above: .svg, .png or .pdf");
     app.add_option("--explain", o.explain, "Explain a key of the specification");
     app.add_flag("--print-defaults", o.defaults, "Print all keys with their defaults");
     app.add_flag("--print-schema", o.schema, "Print the JSON schema of the specification");
@@ -79,18 +80,19 @@ std::string report_text(const ice::FieldReport& r, const ice::Field& field,
 
 int run_icefield(const Options& o, const std::string& command_line) {
     if (!o.explain.empty()) {
-        fmt::print("{}", ice::explain_key(ice::field_schema(), o.explain));
+        ice::write_data(ice::explain_key(ice::field_schema(), o.explain));
         return 0;
     }
     if (o.schema || o.defaults) {
-        fmt::print("{}", o.schema ? ice::json_schema(ice::field_schema())
-                                  : ice::default_text(ice::field_schema()));
+        ice::write_data(o.schema ? ice::json_schema(ice::field_schema())
+                                 : ice::default_text(ice::field_schema()));
         return 0;
     }
     if (o.spec.empty())
         throw ice::bad_input("icefield", "no specification given", "icefield SPEC.toml -o FILE");
     ice::set_thread_count(o.threads);
     ice::start_threads();
+    if (!o.preview.empty()) ice::check_picture_name(o.preview);
     std::vector<std::string> overrides = o.overrides;
     if (o.seed) overrides.push_back(fmt::format("seed={}", *o.seed));
     const ice::FieldSpec spec = ice::read_field_spec(o.spec, overrides);
@@ -103,13 +105,13 @@ int run_icefield(const Options& o, const std::string& command_line) {
     const ice::FieldPlan plan = ice::plan_field(spec, report.warnings);
     report.plan_seconds = timer.seconds();
     // before the spheres: what it shows may be why they do not fit
-    if (!o.preview.empty()) ice::write_text_file(o.preview, ice::field_svg(plan));
+    if (!o.preview.empty()) ice::write_picture(o.preview, ice::field_svg(plan));
     ice::Field field = ice::make_field(spec, plan, report);
     field.created_by = fmt::format("icefield {} ({})", ice::version(), ice::git_commit());
     field.command_line = command_line;
     ice::write_field(out, field);
     if (!o.json.empty()) ice::write_text_file(o.json, ice::field_report_text(report));
-    if (!o.messages.quiet) fmt::print("{}", report_text(report, field, out));
+    if (!o.messages.quiet) ice::write_data(report_text(report, field, out));
     for (const std::string& warning : report.warnings) ice::say_warning(warning);
     return 0;
 }

@@ -16,8 +16,8 @@
 #include "common/base/version.hpp"
 #include "common/cli/command_line.hpp"
 #include "common/cli/console.hpp"
-#include "common/cli/fault_handlers.hpp"
 #include "common/cli/quantity_option.hpp"
+#include "common/cli/start_threads.hpp"
 #include "common/formats/spheres_file.hpp"
 #include "common/formats/widest_spacing.hpp"
 #include "preprocess/fill/fill_spheres.hpp"
@@ -144,7 +144,7 @@ ice::TriangleMesh read_solid(const Options& o, ice::TriangleMesh surface,
 // still described, on stdout and in the JSON, before the refusal.
 int report_check(const Options& o, ice::SpheresReport& report) {
     const ice::TriangleMesh surface = read_surface(o, report);
-    fmt::print("{}:\n{}", o.mesh, ice::describe_mesh(surface));
+    ice::write_data(fmt::format("{}:\n{}", o.mesh, ice::describe_mesh(surface)));
     const auto write_json = [&] {
         if (!o.json.empty()) ice::write_text_file(o.json, ice::spheres_report_text(report));
     };
@@ -154,11 +154,11 @@ int report_check(const Options& o, ice::SpheresReport& report) {
         report.volume = mass.volume;
         report.area = mass.area;
         for (const auto& [what, value] : report.guessed)
-            fmt::print("  {:<18}{}: {}\n", "assumed", what, value);
+            ice::write_data(fmt::format("  {:<18}{}: {}\n", "assumed", what, value));
         for (const auto& [step, count] : report.repairs)
-            fmt::print("  {:<18}{}: {}\n", "repair", step, count);
-        fmt::print("{}: closed solid, {} triangles, {:.9g} m3\n", o.mesh, mesh.triangles.size(),
-                   mass.volume);
+            ice::write_data(fmt::format("  {:<18}{}: {}\n", "repair", step, count));
+        ice::write_data(fmt::format("{}: closed solid, {} triangles, {:.9g} m3\n", o.mesh,
+                                    mesh.triangles.size(), mass.volume));
     } catch (const ice::Error& refusal) {
         report.warnings.emplace_back(refusal.what());
         write_json();
@@ -262,9 +262,10 @@ int run_spherize(Options& o, const std::string& command_line) {
     report.seconds["total"] = timer.seconds();
     if (!o.json.empty()) ice::write_text_file(o.json, ice::spheres_report_text(report));
     const auto exported = ice::write_exports(set, o.exports, density, export_base);
-    if (!o.messages.quiet) fmt::print("{}", ice::report_text(report, out));
+    if (!o.messages.quiet) ice::write_data(ice::report_text(report, out));
     if (!o.messages.quiet)
-        for (const auto& path : exported) fmt::print("  {:<18}{}\n", "exported", path.string());
+        for (const auto& path : exported)
+            ice::write_data(fmt::format("  {:<18}{}\n", "exported", path.string()));
     for (const std::string& warning : report.warnings) ice::say_warning(warning);
     return 0;
 }

@@ -14,10 +14,10 @@
 #include "common/base/version.hpp"
 #include "common/cli/command_line.hpp"
 #include "common/cli/console.hpp"
-#include "common/cli/fault_handlers.hpp"
 #include "common/cli/progress.hpp"
 #include "common/cli/quantity_option.hpp"
 #include "common/cli/sibling_program.hpp"
+#include "common/cli/start_threads.hpp"
 #include "solver/case/case_schema.hpp"
 #include "solver/case/read_case.hpp"
 #include "solver/record/energy_ledger.hpp"
@@ -96,7 +96,7 @@ std::string command_to_go_on(const Options& o, const std::filesystem::path& fold
 // `said`: warnings that the user has seen at the start
 int report(const ice::Summary& s, const Options& o, const std::string& folder,
            const std::vector<ice::Warning>& said) {
-    if (o.json) fmt::print("{}", ice::summary_text(s));
+    if (o.json) ice::write_data(ice::summary_text(s));
     const char* unit = s.dimension == 2 ? "N/m" : "N";
     const std::string interval = std::isfinite(s.resistance.ci95)
                                      ? fmt::format("+- {:.1f} {} (95 %)", s.resistance.ci95, unit)
@@ -187,7 +187,8 @@ int run_case(const Options& o, const std::string& command_line) {
     const auto watch = [&](double done, const ice::World& w) {
         progress.update(done, fmt::format("{:.1f}x real time", (w.time - begun) / timer.seconds()));
         if (o.hash_every > 0 && w.steps % o.hash_every == 0)
-            fmt::print("{} {:016x}\n", w.steps, ice::state_hash(w.scene, w.constraints));
+            ice::write_data(
+                fmt::format("{} {:016x}\n", w.steps, ice::state_hash(w.scene, w.constraints)));
         return !ice::interrupted();
     };
     const ice::Summary summary = ice::run(
@@ -200,11 +201,11 @@ int run_case(const Options& o, const std::string& command_line) {
 
 int run_icesolve(const Options& o, const std::string& command_line) {
     if (!o.explain.empty()) {
-        fmt::print("{}", ice::explain_key(ice::case_schema(), o.explain));
+        ice::write_data(ice::explain_key(ice::case_schema(), o.explain));
     } else if (o.schema) {
-        fmt::print("{}", ice::json_schema(ice::case_schema()));
+        ice::write_data(ice::json_schema(ice::case_schema()));
     } else if (o.defaults) {
-        fmt::print("{}", ice::default_text(ice::case_schema()));
+        ice::write_data(ice::default_text(ice::case_schema()));
     } else if (o.case_file.empty()) {
         throw ice::bad_input("", "no case file given", "icesolve --help lists what it takes");
     } else {

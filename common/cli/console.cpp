@@ -4,6 +4,7 @@
 #include <spdlog/sinks/basic_file_sink.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <array>
@@ -27,6 +28,17 @@ namespace {
 
 volatile std::sig_atomic_t interrupt_flag = 0;
 std::string program_word;
+bool reader_gone = false;  // of stdout
+
+// After a failure there, which a full disk shows as late as when the last data are written.
+void check_stdout() {
+    if (errno == EPIPE) {
+        reader_gone = true;
+        return;
+    }
+    throw run_failed("standard output", std::string("cannot be written: ") + std::strerror(errno),
+                     "check that the disk is not full");
+}
 
 void on_interrupt(int) {
     if (interrupt_flag) _exit(static_cast<int>(ExitCode::interrupted));
@@ -35,7 +47,19 @@ void on_interrupt(int) {
 
 }  // namespace
 
-bool stderr_is_terminal() { return isatty(STDERR_FILENO) == 1 && std::getenv("CI") == nullptr; }
+bool stderr_is_terminal() {
+    const char* kind = std::getenv("TERM");
+    return isatty(STDERR_FILENO) == 1 && std::getenv("CI") == nullptr && kind != nullptr &&
+           std::strcmp(kind, "dumb") != 0;
+}
+
+int terminal_width() {
+    winsize size{};
+    if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) return size.ws_col;
+    const char* columns = std::getenv("COLUMNS");
+    const int width = columns != nullptr ? std::atoi(columns) : 0;
+    return width > 0 ? width : 80;
+}
 
 void start_messages(Colour colour, bool quiet) {
     const bool colourful =
@@ -65,6 +89,11 @@ void say(const std::string& text) { spdlog::info("{}", text); }
 
 void say_warning(const std::string& text) { spdlog::warn("warning: {}", text); }
 
+void write_data(const std::string& text) {
+    if (reader_gone || std::fwrite(text.data(), 1, text.size(), stdout) == text.size()) return;
+    check_stdout();
+}
+
 int run_program(const std::string& name, const std::function<int()>& body,
                 const std::string& to_save_memory) {
     install_fault_handlers(name);
@@ -83,11 +112,7 @@ int run_program(const std::string& name, const std::function<int()>& body,
     };
     try {
         const int code = body();
-        // what a full disk did to the data on stdout shows only when the last of it is written
-        if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
-            throw run_failed("standard output",
-                             std::string("cannot be written: ") + std::strerror(errno),
-                             "check that the disk is not full");
+        if (!reader_gone && (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)) check_stdout();
         return code;
     } catch (const Error& error) {
         complain(error.what());

@@ -11,8 +11,11 @@ namespace ice {
 /// Colour of messages on stderr. `automatic`: on a terminal, unless NO_COLOR is set.
 enum class Colour { automatic, always, never };
 
-/// True when stderr is a terminal that redraws, i.e. no pipe, file or CI log (variable CI).
+/// True when stderr is a terminal that redraws, i.e. no pipe, file, CI log (variable CI) or
+/// terminal without colours and cursor (TERM=dumb, as in editors).
 bool stderr_is_terminal();
+/// Columns of the terminal behind stderr: its own word, else the variable COLUMNS, else 80.
+int terminal_width();
 
 /// Prepares messages: stderr with optional colour, nothing but errors when quiet.
 void start_messages(Colour colour, bool quiet);
@@ -21,6 +24,11 @@ void start_messages(Colour colour, bool quiet);
 void log_to_file(const std::filesystem::path& path, bool append = false);
 void say(const std::string& text);          ///< information
 void say_warning(const std::string& text);  ///< something the user should know
+
+/// Writes data to stdout. A reader that has gone (a pager, head) is no failure: the program goes on
+/// and the rest is dropped.
+/// @throws Error (exit code 1) when it cannot be written for another reason
+void write_data(const std::string& text);
 
 /// Runs a program's body and turns exceptions into one message and the contract's exit code.
 /// @param to_save_memory  what the user can do when there is not enough: "use ..."

@@ -8,13 +8,9 @@
 #include <csignal>
 #include <cstring>
 #include <exception>
-#include <latch>
 #include <new>
-#include <thread>
-#include <vector>
 
 #include "common/base/error.hpp"
-#include "common/base/parallel.hpp"
 #include "common/base/part_file.hpp"
 
 namespace ice {
@@ -59,25 +55,6 @@ void on_signal(int) { end("interrupted", ExitCode::interrupted); }
 
 }  // namespace
 
-void start_threads() {
-    const int others = thread_count() - 1;
-    std::vector<std::thread> trial;
-    const auto join = [&] {
-        for (std::thread& thread : trial) thread.join();
-    };
-    std::latch all_there(1);  // they must live at the same time
-    try {
-        for (int k = 0; k < others; ++k) trial.emplace_back([&] { all_there.wait(); });
-    } catch (...) {
-        all_there.count_down();
-        join();
-        throw;
-    }
-    all_there.count_down();
-    join();
-    parallel_tasks(static_cast<std::size_t>(thread_count()), true, [](std::size_t) {});
-}
-
 void install_fault_handlers(const std::string& program) {
     const std::size_t length = std::min(program.size(), sizeof(program_name) - 1);
     program.copy(program_name, length);
@@ -86,6 +63,7 @@ void install_fault_handlers(const std::string& program) {
     std::signal(SIGINT, on_signal);
     std::signal(SIGTERM, on_signal);
     std::signal(SIGXFSZ, SIG_IGN);
+    std::signal(SIGPIPE, SIG_IGN);
 }
 
 }  // namespace ice

@@ -11,15 +11,11 @@ namespace ice {
 /// - an exception in a thread or where none may leave: 1;
 /// - SIGTERM and Ctrl-C, until the program catches them itself (catch_interrupts): 130;
 /// - files at the size limit of the shell or the batch system (SIGXFSZ, which would kill it) are
-///   written like those on a full disk, whose errors are checked.
+///   written like those on a full disk, whose errors are checked;
+/// - a pager that is quit, or head, does not end the program (SIGPIPE): see write_data().
 ///
 /// Names of outputs under way (PartFile) are removed. @param program  for the messages; is copied
 void install_fault_handlers(const std::string& program);
-
-/// Starts all threads that parallel loops will use (set_thread_count), which then wait for work:
-/// OpenMP itself ends a program in the middle of it where a thread cannot start.
-/// @throws std::system_error when there is no room for them
-void start_threads();
 
 /// What a program says when memory runs out.
 extern const char* const kOutOfMemory;

@@ -7,8 +7,9 @@
 
 namespace ice {
 
-/// Progress of long work on stderr: on a terminal one line redrawn at most 10 times a second,
-/// elsewhere a line per 10 %, nothing when quiet.
+/// Progress of long work on stderr: on a terminal one line, as wide as it, redrawn at most 10 times
+/// a second, elsewhere a line per 10 %, nothing when quiet. The time left stands in it as soon as
+/// there is something to tell it from.
 class Progress {
 public:
     Progress(std::string label, bool quiet);

@@ -10,25 +10,27 @@
 
 namespace ice {
 
-std::optional<int> run_sibling(const std::string& name, const std::vector<std::string>& words) {
-    std::error_code error;
-    const auto own = std::filesystem::read_symlink("/proc/self/exe", error);
-    if (error) return std::nullopt;
-    const std::string program = (own.parent_path() / name).string();
-    if (access(program.c_str(), X_OK) != 0) return std::nullopt;
-
+std::optional<int> run_child(const std::string& program, const std::vector<std::string>& words) {
     std::vector<std::string> texts{program};
     texts.insert(texts.end(), words.begin(), words.end());
     std::vector<char*> argv;
     for (std::string& text : texts) argv.push_back(text.data());
     argv.push_back(nullptr);
     pid_t child = 0;
-    if (posix_spawn(&child, program.c_str(), nullptr, nullptr, argv.data(), environ) != 0)
+    if (posix_spawnp(&child, program.c_str(), nullptr, nullptr, argv.data(), environ) != 0)
         return std::nullopt;
     int status = 0;
     while (waitpid(child, &status, 0) < 0)
         if (errno != EINTR) return std::nullopt;
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+std::optional<int> run_sibling(const std::string& name, const std::vector<std::string>& words) {
+    std::error_code error;
+    const auto own = std::filesystem::read_symlink("/proc/self/exe", error);
+    if (error) return std::nullopt;
+    const std::string program = (own.parent_path() / name).string();
+    return access(program.c_str(), X_OK) == 0 ? run_child(program, words) : std::nullopt;
 }
 
 }  // namespace ice
