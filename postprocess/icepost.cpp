@@ -96,6 +96,8 @@ int sweep(const Options& o) {
 }
 
 int sensitivity(const Options& o) {
+    ice::check_page_name(o.out);
+    if (!o.svg.empty()) ice::check_picture_name(o.svg);
     const auto study = ice::sensitivity::read_study(o.run);
     const auto file = o.out.empty() ? o.run / "sensitivity.html" : o.out;
     ice::write_text_file(file, ice::sensitivity::make_study_page(study));
@@ -103,10 +105,10 @@ int sensitivity(const Options& o) {
         ice::say_warning(faults);
     ice::say(fmt::format("wrote {}", file.string()));
     if (!o.svg.empty()) {
-        ice::write_text_file(o.svg, ice::sensitivity::make_tornado(study));
+        ice::write_picture(o.svg, ice::sensitivity::make_tornado(study));
         ice::say(fmt::format("wrote {}", o.svg.string()));
     }
-    fmt::print("{}", ice::sensitivity::study_text(study));
+    ice::write_data(ice::sensitivity::study_text(study));
     return 0;
 }
 
