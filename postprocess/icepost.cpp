@@ -159,7 +159,8 @@ int main(int argc, char** argv) {
     draw->add_option("--from", o.from, "below, top, side (starboard), port, front or quarter")
         ->check(CLI::IsMember({"below", "top", "side", "port", "front", "quarter"}));
     draw->add_option("-o,--out", o.out, "the picture: .svg, .png or .pdf")->required();
-    auto* plot_run = command("plot", "draw histories and tracked floes' paths in one picture");
+    auto* plot_run =
+        command("plot", "draw histories, tracked floes' paths and their forces in one picture");
     plot_run->add_option("-o,--out", o.out,
                          "the picture: .svg, .png or .pdf (default RUN/plot.svg)");
     auto* table = app.add_subcommand("table", "compare runs, a line each")->fallthrough();

@@ -49,6 +49,8 @@ std::string draw_plot(const read::RunFolder& run) {
         if (run.data.header.dimension == 3) charts.push_back(draw_paths(trails, 1));
         charts.push_back(draw_paths(trails, 2));
     }
+    for (std::size_t track = 0; track < run.data.tracks.size(); ++track)
+        for (const History& h : track_histories(run.data, track)) charts.push_back(draw_history(h));
     const views::Chart size;  // all charts have the default size
     const auto rows = (charts.size() + kColumns - 1) / kColumns;
     const double gap = 12.0, title = 30.0;

@@ -9,7 +9,7 @@ namespace ice::report {
 
 /// Histories of the ship and the tracked floes' paths as one SVG for papers and slides: forces with
 /// their moving averages, coverage of the bottom, paths as the ship sees them from above and from
-/// starboard.
+/// starboard, and the forces of each tracked floe that touched the ship.
 /// @throws Error (exit code 2) for a run without histories
 std::string draw_plot(const read::RunFolder& run);
 

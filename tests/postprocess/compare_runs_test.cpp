@@ -30,13 +30,14 @@ TEST_CASE("runs are compared a line each, missing values as a dash", "[report]")
     CHECK(compare_text({}).find("mean_N") != std::string::npos);
 }
 
-TEST_CASE("the plot of a run has its forces, coverage and paths, in 2D no lateral ones",
-          "[report]") {
+TEST_CASE(
+    "the plot of a run has its forces, coverage, paths and tracked floes, in 2D no lateral ones",
+    "[report]") {
     const std::string svg = draw_plot(make_folder());
     CHECK(tag_fault(svg).empty());
-    for (const char* title :
-         {"Resistance, moving average", "on the ship, x", "on the ship, y", "on the ship, z",
-          "Bottom covered by ice", "from above", "from starboard"}) {
+    for (const char* title : {"Resistance, moving average", "on the ship, x", "on the ship, y",
+                              "on the ship, z", "Bottom covered by ice", "from above",
+                              "from starboard", "on the ship, contact", "on the ship, friction"}) {
         CAPTURE(title);
         CHECK_THAT(svg, Catch::Contains(title));
     }
