@@ -10,6 +10,7 @@
 
 #include "common/base/error.hpp"
 #include "common/base/nearest_name.hpp"
+#include "common/toml/recognise_input.hpp"
 
 namespace ice::check {
 
@@ -30,6 +31,7 @@ public:
                 throw bad_input(path_.string(), "file not found", "check the path");
             throw fault(error.source(), std::string(error.description()), "correct the TOML");
         }
+        refuse_another_kind(file);
         for (const auto& [name, node] : file)
             if (name.str() != "expect") throw unknown(name, {"expect"});
         const toml::array* entries = file["expect"].as_array();
@@ -50,6 +52,15 @@ private:
                 const std::string& remedy) const {
         return bad_input(fmt::format("{}:{}:{}", path_.string(), at.begin.line, at.begin.column),
                          what, remedy);
+    }
+
+    // a case, whose every table would be unknown
+    void refuse_another_kind(const toml::table& file) const {
+        std::vector<std::string> names;
+        for (const auto& [name, node] : file) names.emplace_back(name.str());
+        if (const auto other = recognise_tables(path_, names, "expected numbers"))
+            throw bad_input(path_.string(), "is " + other->what + ", no list of expected numbers",
+                            other->remedy);
     }
 
     Error unknown(const toml::key& name, const std::vector<std::string>& known) const {

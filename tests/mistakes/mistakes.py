@@ -10,6 +10,7 @@ import argparse
 import concurrent.futures
 import os
 import pty
+import re
 import shutil
 import subprocess
 import sys
@@ -161,6 +162,7 @@ def faults_of(row, code, raw, came):
         if not leaves and came:
             wrong.append(f"leaves {sorted(came)}")
     wrong += [f"leaves {name}" for name in row.get("lacks", []) if name in came]
+    wrong += wide_lines(text, row["terminal"]) if "terminal" in row else []
     if code in (1, 2) and row.get("words", True):
         lines = text.strip().splitlines()
         start = next((k for k, line in enumerate(lines) if ": error: " in line), None)
@@ -169,6 +171,15 @@ def faults_of(row, code, raw, came):
         elif len(lines) == start + 1 or not lines[-1].startswith(" "):
             wrong.append("ends without a remedy")
     return wrong
+
+
+def wide_lines(text, columns):
+    """Lines that are redrawn and do not fit: a terminal wraps them, and each update adds some."""
+    drawn = [line for line in re.split(r"\r+\n|\n", text) if "\r" in line]
+    pieces = [re.sub(r"\033\[[0-9;]*[A-Za-z]", "", piece) for line in drawn
+              for piece in line.split("\r")]
+    return [f"redraws a line of {len(piece)} characters on a terminal of {columns}"
+            for piece in pieces if len(piece) > columns][:1]
 
 
 def check_row(shop, row, show):
