@@ -19,6 +19,7 @@
 #include "postprocess/report/pictures.hpp"
 #include "postprocess/report/write_report.hpp"
 #include "postprocess/sensitivity/write_study.hpp"
+#include "postprocess/sweep/split_sweep.hpp"
 #include "postprocess/sweep/sweep_markdown.hpp"
 #include "postprocess/sweep/write_sweep.hpp"
 
@@ -74,6 +75,27 @@ int compare_runs(const Options& o) {
     return 0;
 }
 
+// one file, or one for each dimension: x-2d.svg and x-3d.svg
+void write_sweep_curves(const Options& o, const ice::sweep::Sweep& runs) {
+    const auto parts = ice::sweep::split_sweep(runs);
+    bool drawn = false;
+    for (const auto& part : parts) {
+        const std::string curve = ice::sweep::make_sweep_curve(part);
+        if (curve.empty()) continue;
+        auto file = o.svg;
+        if (parts.size() > 1)
+            file.replace_filename(fmt::format("{}-{}d{}", file.stem().string(),
+                                              ice::sweep::dimension_of(part),
+                                              file.extension().string()));
+        ice::write_picture(file, curve);
+        ice::say(fmt::format("wrote {}", file.string()));
+        drawn = true;
+    }
+    if (!drawn)
+        throw ice::bad_input(o.run.string(), "has no curve to draw: " + o.svg.string(),
+                             "leave out --svg, or let one or two numbers vary");
+}
+
 int sweep(const Options& o) {
     ice::check_page_name(o.out);
     if (!o.svg.empty()) ice::check_picture_name(o.svg);
@@ -83,14 +105,7 @@ int sweep(const Options& o) {
     if (const std::string faults = ice::sweep::list_faults(runs); !faults.empty())
         ice::say_warning(faults);
     ice::say(fmt::format("wrote {}", file.string()));
-    if (!o.svg.empty()) {
-        const std::string curve = ice::sweep::make_sweep_curve(runs);
-        if (curve.empty())
-            throw ice::bad_input(o.run.string(), "has no curve to draw: " + o.svg.string(),
-                                 "leave out --svg, or let one or two numbers vary");
-        ice::write_picture(o.svg, curve);
-        ice::say(fmt::format("wrote {}", o.svg.string()));
-    }
+    if (!o.svg.empty()) write_sweep_curves(o, runs);
     if (o.markdown) ice::write_data(ice::sweep::sweep_markdown(runs));
     return 0;
 }

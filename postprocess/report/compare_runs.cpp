@@ -6,13 +6,20 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/base/error.hpp"
+
 namespace ice::report {
 
 namespace {
 
-const std::vector<std::string> kColumns{"run",         "mean_N",        "ci95_N", "contact_N",
-                                        "friction_N",  "std_N",         "max_N",  "lindqvist_N",
-                                        "floes_moved", "unconverged_%", "status"};
+// forces of a 2D run are per metre of breadth, which the names say
+std::vector<std::string> columns_of(int dimension) {
+    std::vector<std::string> names{"run"};
+    for (const char* force : {"mean", "ci95", "contact", "friction", "std", "max", "lindqvist"})
+        names.push_back(std::string(force) + (dimension == 2 ? "_N_per_m" : "_N"));
+    names.insert(names.end(), {"floes_moved", "unconverged_%", "status"});
+    return names;
+}
 
 // the columns' values between the first and the last
 std::vector<double> numbers_of(const Summary& s) {
@@ -44,16 +51,22 @@ std::string csv_text(const std::string& text) {
     return out + "\"";
 }
 
-}  // namespace
+std::vector<NamedSummary> of_dimension(const std::vector<NamedSummary>& runs, int dimension) {
+    std::vector<NamedSummary> out;
+    for (const NamedSummary& run : runs)
+        if (run.second.dimension == dimension) out.push_back(run);
+    return out;
+}
 
-std::string compare_text(const std::vector<NamedSummary>& runs) {
-    std::vector<std::vector<std::string>> rows{kColumns};
+std::string one_table(const std::vector<NamedSummary>& runs, int dimension) {
+    const auto columns = columns_of(dimension);
+    std::vector<std::vector<std::string>> rows{columns};
     for (const auto& [name, summary] : runs) {
         rows.push_back({name});
         for (const double value : numbers_of(summary)) rows.back().push_back(short_number(value));
         rows.back().push_back(summary.status);
     }
-    std::vector<std::size_t> width(kColumns.size(), 0);
+    std::vector<std::size_t> width(columns.size(), 0);
     for (const auto& row : rows)
         for (std::size_t k = 0; k < row.size(); ++k) width[k] = std::max(width[k], row[k].size());
     std::string out;
@@ -69,8 +82,21 @@ std::string compare_text(const std::vector<NamedSummary>& runs) {
     return out;
 }
 
+}  // namespace
+
+std::string compare_text(const std::vector<NamedSummary>& runs) {
+    const auto solid = of_dimension(runs, 3), flat = of_dimension(runs, 2);
+    if (flat.empty()) return one_table(solid, 3);
+    return (solid.empty() ? "" : one_table(solid, 3) + "\n") + one_table(flat, 2);
+}
+
 std::string compare_csv(const std::vector<NamedSummary>& runs) {
-    std::string out = fmt::format("{}\n", fmt::join(kColumns, ","));
+    const auto solid = of_dimension(runs, 3), flat = of_dimension(runs, 2);
+    if (!solid.empty() && !flat.empty())
+        throw bad_input(fmt::format("{} and {}", solid.front().first, flat.front().first),
+                        "are in 3D and in 2D: newtons and newtons per metre share no column",
+                        "give runs of one dimension to a table with --csv");
+    std::string out = fmt::format("{}\n", fmt::join(columns_of(flat.empty() ? 3 : 2), ","));
     for (const auto& [name, summary] : runs) {
         out += csv_text(name);
         for (const double value : numbers_of(summary))

@@ -12,6 +12,19 @@ namespace ice::report {
 
 using views::escape;
 
+namespace {
+
+// a piece of the report's page that other pages share: its look, its buttons
+std::string template_piece(const char* opening, const char* closing) {
+    const std::string_view page = page_template();
+    const auto begin = page.find(opening), end = page.find(closing, begin);
+    return begin == std::string_view::npos || end == std::string_view::npos
+               ? ""
+               : std::string(page.substr(begin, end - begin)) + closing + "\n";
+}
+
+}  // namespace
+
 std::string make_page(const PageParts& parts) {
     const std::string footer =
         "Made by icepost " + escape(version()) + " (" + escape(git_commit()) +
@@ -36,15 +49,18 @@ std::string make_page(const PageParts& parts) {
 }
 
 std::string open_page(const std::string& title) {
-    const std::string_view page = page_template();
-    const auto begin = page.find("<style>"), end = page.find("</style>");
-    const std::string style = begin == std::string_view::npos || end == std::string_view::npos
-                                  ? ""
-                                  : std::string(page.substr(begin, end - begin)) + "</style>\n";
     return "<!DOCTYPE html>\n<html lang=\"en\" xmlns=\"http://www.w3.org/1999/xhtml\">\n<head>\n"
            "<meta charset=\"utf-8\" />\n<meta name=\"viewport\" content=\"width=device-width, "
            "initial-scale=1\" />\n<title>" +
-           escape(title) + "</title>\n" + style + "</head>\n<body>\n";
+           escape(title) + "</title>\n" + template_piece("<style>", "</style>") +
+           "</head>\n<body>\n";
+}
+
+std::string close_page() {
+    return "<footer><div class=\"inner\">Made by icepost " + escape(version()) + " (" +
+           escape(git_commit()) +
+           "). Forces are those of the ice on the ship.</div></footer>\n" +
+           template_piece("<script id=\"tools\">", "</script>") + "</body>\n</html>\n";
 }
 
 std::string section(const std::string& id, const std::string& heading, const std::string& intro,

@@ -23,6 +23,9 @@ std::string make_page(const PageParts& parts);
 /// Beginning of another page up to <body>, in the look of the report. @param title plain text
 std::string open_page(const std::string& title);
 
+/// Its end from </main> on: origin, and the script of the buttons that save charts and tables.
+std::string close_page();
+
 /// <section> with a heading. @param id for links; @param intro plain text, may be empty
 std::string section(const std::string& id, const std::string& heading, const std::string& intro,
                     const std::string& body);

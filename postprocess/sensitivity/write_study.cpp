@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/base/version.hpp"
 #include "postprocess/report/page.hpp"
 #include "postprocess/sensitivity/tornado.hpp"
+#include "postprocess/sweep/sweep_columns.hpp"
 #include "postprocess/sweep/sweep_tables.hpp"
 #include "postprocess/sweep/write_sweep.hpp"
 #include "postprocess/views/svg.hpp"
@@ -183,9 +183,7 @@ std::string make_study_page(const Study& study) {
                            "* the 95 % interval of the difference leaves out zero.",
                            table_of_changes(r));
     out += report::section("ranges", "Where the ranges come from", "", table_of_sources(study, r));
-    return out + "</main>\n<footer><div class=\"inner\">Made by icepost " + escape(version()) +
-           " (" + escape(git_commit()) +
-           "). Forces are those of the ice on the ship.</div></footer>\n</body>\n</html>\n";
+    return out + "</main>\n" + report::close_page();
 }
 
 }  // namespace ice::sensitivity

@@ -19,7 +19,18 @@ namespace {
 
 constexpr const char* kRemedy = "give the folder whose subfolders icesolve wrote";
 
+// A folder whose summary is that of its members, which lie in it and are the runs.
+bool is_ensemble(const fs::path& folder) {
+    try {
+        return fs::exists(folder / "summary.json") &&
+               read_summary(folder / "summary.json").ensemble.has_value();
+    } catch (const Error&) {
+        return false;  // a run that cannot be read
+    }
+}
+
 bool is_run(const fs::path& folder) {
+    if (is_ensemble(folder)) return false;
     return fs::exists(folder / "summary.json") || fs::exists(folder / "case.resolved.cfg");
 }
 
@@ -39,6 +50,24 @@ std::vector<fs::path> find_runs(const fs::path& folder) {
     }
     std::sort(found.begin(), found.end());
     return found;
+}
+
+// What differs between the members of an ensemble is the seed's doing: no setting of theirs.
+void unite_members(std::vector<SweepRun>& runs) {
+    std::map<fs::path, std::vector<SweepRun*>> ensembles;
+    for (SweepRun& run : runs)
+        if (is_ensemble(run.folder.parent_path()))
+            ensembles[run.folder.parent_path()].push_back(&run);
+    for (const auto& [folder, members] : ensembles) {
+        const std::map<std::string, Setting> first = members.front()->settings;
+        for (const auto& [key, setting] : first) {
+            const bool same = std::all_of(members.begin(), members.end(), [&](const SweepRun* run) {
+                return run->text(key) == setting.text;
+            });
+            if (!same && !is_seed(key))
+                for (SweepRun* run : members) run->settings.erase(key);
+        }
+    }
 }
 
 // The first complaint of a log, else its last line; "1 mistake" is only the heading of complaints.
@@ -100,6 +129,7 @@ void read_planned(const fs::path& file, Sweep& sweep) {
         if (!planned.contains(other.lexically_normal()))
             sweep.warnings.push_back(fs::relative(other, sweep.folder).string() +
                                      " is not in runs.toml: left out");
+    sweep.planned = plan.axes;
     choose_axes(sweep, plan.axes);
 }
 
@@ -135,6 +165,7 @@ Sweep read_sweep(const fs::path& folder) {
             read_outcome(path / "run.log", run);
             sweep.runs.push_back(std::move(run));
         }
+        unite_members(sweep.runs);
         if (sweep.runs.empty()) throw bad_input(folder.string(), "holds no runs", kRemedy);
         choose_axes(sweep, {});
     }

@@ -30,6 +30,7 @@ inline constexpr const char* kFieldSeedKey = "field.seed";
 bool is_seed(const std::string& key);
 
 inline constexpr const char* kSpeedKey = "hull.speed";
+inline constexpr double kKnot = 1852.0 / 3600.0;  ///< [m/s]
 
 /// Value of one setting: as text, and as a number where it is one (SI).
 struct Setting {
@@ -61,6 +62,7 @@ struct Sweep {
     std::vector<std::string> axes;      ///< keys that vary, without seeds and tied ones
     std::string x;                      ///< the axis curves run along; "" when none is a number
     std::vector<std::string> tied;      ///< keys that vary only together with x
+    std::vector<std::string> planned;   ///< axes that the plan names; empty: found from the runs
     std::vector<std::string> warnings;  ///< e.g. run folders that the plan does not name
 };
 
@@ -69,6 +71,8 @@ struct Sweep {
 /// With runs.toml its runs and axes count, and other run folders are left out with a warning;
 /// without, every folder that holds a summary.json or case.resolved.cfg is a run, and its resolved
 /// case says what varies. x is hull.speed where that varies, else the number with most values.
+/// An ensemble's folder (summary.json with `ensemble`) is no run: its members are, and what differs
+/// between them, such as the field that a seed made, counts as the seed.
 /// A run that cannot be read becomes a row with its fault, never an error.
 /// @throws Error (exit code 2) when there is no folder, no run, or runs.toml is faulty.
 Sweep read_sweep(const std::filesystem::path& folder);

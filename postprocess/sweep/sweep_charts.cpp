@@ -18,11 +18,14 @@ namespace {
 
 const std::vector<std::string> kColors{views::kBlue, views::kOrange, views::kGreen, views::kPurple,
                                        views::kBlack};
+constexpr char kMarks[] = {'o', 's', '^', 'd', 'v'};
 constexpr const char* kFormulaDash = "2 3";
+constexpr const char* kTwoRunsDash = "3 2";
 
 struct Style {
     std::string name, color, dash;
     double width = 1.8;
+    char mark = 0;
 };
 
 // Draws points of several curves into one chart, in the chart's unit.
@@ -39,38 +42,46 @@ public:
         // half a cap: 0.8 % of the axis, which a single place does not have
         cap_ = high > low ? 0.008 * (high - low) : 0.008 * std::max(std::abs(high), 1.0);
         ends_ = {low, high};
+        // an axis that would hold nothing in its first half does not begin at 0
+        from_zero_ = low >= 0.0 && (sweep.x == kSpeedKey || low <= 0.5 * high);
+    }
+
+    // names and scales of the x axis; invisible ends, so that all charts have the same one
+    void set_axis(views::Chart& chart) const {
+        chart.x_title = axis_title(sweep_.x);
+        chart.x_from_zero = from_zero_;
+        if (sweep_.x == kSpeedKey) chart.top_scale = {1.0 / kKnot, "speed [kn]"};
+        views::Curve ends{"", "none", {}, 0.0, "", 1.0};
+        ends.points = {Vec2(from_zero_ ? 0.0 : ends_.first - 2.0 * cap_, 0.0),
+                       Vec2(ends_.second + 2.0 * cap_, 0.0)};
+        chart.curves.push_back(ends);
+    }
+
+    // what the bars of two runs mean, where there are any
+    void add_note(views::Chart& chart) const {
+        if (two_runs_)
+            chart.curves.push_back({"two runs: t = 12.7", "#777777", {}, 1.2, kTwoRunsDash, 1.0});
     }
 
     // `value` gives the Estimate of a point
     template <class Value>
     void add(views::Chart& chart, const Curve& curve, const Style& style, const Value& value) {
-        views::Curve line{style.name, style.color, {}, style.width, style.dash, 1.0};
+        views::Curve line{style.name, style.color, {}, style.width, style.dash, 1.0, style.mark};
         std::vector<views::Curve> marks;
         for (const Point& point : curve.points) {
             const Estimate estimate = value(point);
             if (!std::isfinite(estimate.mean)) continue;
             const double x = point.x(sweep_), y = estimate.mean / unit_.newtons;
             line.points.emplace_back(x, y);
-            if (style.dash.empty())
-                marks.push_back({"",
-                                 style.color,
-                                 {Vec2(x - 0.6 * cap_, y), Vec2(x + 0.6 * cap_, y)},
-                                 6.0,
-                                 "",
-                                 1.0});
-            if (std::isfinite(estimate.half))
-                marks.push_back(interval(x, y, estimate.half / unit_.newtons, style.color));
+            if (!std::isfinite(estimate.half)) continue;
+            marks.push_back(interval(x, y, estimate.half / unit_.newtons, style.color));
+            if (point.runs.size() != 2) continue;
+            marks.back().dash = kTwoRunsDash;
+            two_runs_ = true;
         }
         if (line.points.empty()) return;
         chart.curves.push_back(std::move(line));
         chart.curves.insert(chart.curves.end(), marks.begin(), marks.end());
-    }
-
-    // invisible ends, so that all charts have the same axis
-    void add_ends(views::Chart& chart) const {
-        views::Curve ends{"", "none", {}, 0.0, "", 1.0};
-        ends.points = {Vec2(ends_.first - 2.0 * cap_, 0.0), Vec2(ends_.second + 2.0 * cap_, 0.0)};
-        chart.curves.push_back(ends);
     }
 
 private:
@@ -90,6 +101,7 @@ private:
     const report::ForceUnit& unit_;
     double cap_ = 0.0;
     std::pair<double, double> ends_;
+    bool from_zero_ = false, two_runs_ = false;
 };
 
 Estimate formula(const Point& p) { return {p.lindqvist, std::nan("")}; }
@@ -99,6 +111,13 @@ bool has_formula(const std::vector<Curve>& curves) {
         for (const Point& point : curve.points)
             if (std::isfinite(point.lindqvist)) return true;
     return false;
+}
+
+// Parts that nothing ever touches are not drawn.
+bool has_force(const Curve& curve, Part part) {
+    return std::any_of(curve.points.begin(), curve.points.end(), [&](const Point& point) {
+        return std::isfinite(point.part(part).mean) && point.part(part).mean != 0.0;
+    });
 }
 
 // What all charts show, so that they can be compared. Two seeds that disagree have an interval many
@@ -170,23 +189,22 @@ report::ForceUnit choose_sweep_unit(const std::vector<Point>& points) {
 }
 
 std::string draw_overview(const Sweep& sweep, const std::vector<Curve>& curves,
-                          const report::ForceUnit& unit) {
+                          const report::ForceUnit& unit, double width) {
     if (sweep.x.empty() || curves.empty() || curves.size() > kColors.size()) return "";
     views::Chart chart;
     chart.title = "Resistance";
-    chart.x_title = axis_title(sweep.x);
     chart.y_title = "resistance [" + unit.name + "]";
-    chart.width = 860.0;
-    chart.height = 360.0;
+    chart.width = width;
+    chart.height = 400.0;
     chart.y_range = common_range(curves, {Part::total}, unit);
     bool valued = false;
     const std::vector<std::string> names = name_curves(sweep, curves, valued);
     if (valued) chart.title = "Resistance by " + axis_title(other_axis(sweep));
     Plotter plotter(sweep, curves, unit);
-    plotter.add_ends(chart);
+    plotter.set_axis(chart);
     for (std::size_t k = 0; k < curves.size(); ++k) {
         const std::string name = names[k].empty() ? "computed" : names[k];
-        plotter.add(chart, curves[k], {name, kColors[k], "", 2.2},
+        plotter.add(chart, curves[k], {name, kColors[k], "", 2.2, kMarks[k]},
                     [](const Point& p) { return p.part(Part::total); });
         plotter.add(chart, curves[k],
                     {curves.size() == 1 ? "Lindqvist" : "", kColors[k], kFormulaDash, 1.8},
@@ -194,17 +212,55 @@ std::string draw_overview(const Sweep& sweep, const std::vector<Curve>& curves,
     }
     if (curves.size() > 1 && has_formula(curves))
         chart.curves.push_back({"Lindqvist", views::kBlack, {}, 1.8, kFormulaDash, 1.0});
+    plotter.add_note(chart);
+    return draw_chart(chart);
+}
+
+std::string draw_peaks(const Sweep& sweep, const std::vector<Curve>& curves, double width) {
+    if (sweep.x.empty() || curves.empty() || curves.size() > kColors.size()) return "";
+    double largest = 0.0;
+    for (const Curve& curve : curves)
+        for (const Point& point : curve.points)
+            if (std::isfinite(point.largest)) largest = std::max(largest, std::abs(point.largest));
+    if (!(largest > 0.0)) return "";
+    const auto unit = report::choose_unit(largest, curves.front().points.front().dimension);
+    views::Chart chart;
+    chart.title = "Largest resistance in a step";
+    chart.y_title = "resistance [" + unit.name + "]";
+    chart.width = width;
+    chart.height = 340.0;
+    chart.y_range = {0.0, 1.05 * largest / unit.newtons};
+    bool valued = false;
+    const std::vector<std::string> names = name_curves(sweep, curves, valued);
+    Plotter plotter(sweep, curves, unit);
+    plotter.set_axis(chart);
+    for (std::size_t k = 0; k < curves.size(); ++k) {
+        const std::string name = names[k].empty() ? "" : names[k] + ": ";
+        plotter.add(chart, curves[k],
+                    {name + "largest of all runs", kColors[k], "", 2.0, kMarks[k]},
+                    [](const Point& p) {
+                        return Estimate{p.largest, std::nan("")};
+                    });
+        plotter.add(chart, curves[k], {name + "mean of the runs' largest", kColors[k], "6 3", 1.6},
+                    [](const Point& p) {
+                        return Estimate{p.peak.mean, std::nan("")};
+                    });
+        plotter.add(chart, curves[k], {name + "mean", kColors[k], kFormulaDash, 1.6},
+                    [](const Point& p) {
+                        return Estimate{p.part(Part::total).mean, std::nan("")};
+                    });
+    }
     return draw_chart(chart);
 }
 
 std::vector<std::string> draw_parts(const Sweep& sweep, const std::vector<Curve>& curves,
-                                    const report::ForceUnit& unit) {
+                                    const report::ForceUnit& unit, double width) {
     static const std::vector<std::pair<Part, Style>> kStyles{
-        {Part::total, {"resistance", views::kBlack, "", 2.4}},
-        {Part::bow_contact, {"bow", views::kBlue, "", 1.8}},
-        {Part::sides_contact, {"sides", views::kGreen, "", 1.8}},
-        {Part::bottom_contact, {"bottom", views::kOrange, "", 1.8}},
-        {Part::rest_contact, {"rest", views::kPurple, "", 1.8}},
+        {Part::total, {"resistance", views::kBlack, "", 2.4, 'x'}},
+        {Part::bow_contact, {"bow", views::kBlue, "", 1.8, 'o'}},
+        {Part::sides_contact, {"sides", views::kGreen, "", 1.8, 's'}},
+        {Part::bottom_contact, {"bottom", views::kOrange, "", 1.8, '^'}},
+        {Part::rest_contact, {"rest", views::kPurple, "", 1.8, 'd'}},
         {Part::friction, {"friction", "#777777", "6 3", 1.8}}};
     std::vector<std::string> charts;
     if (sweep.x.empty()) return charts;
@@ -218,16 +274,17 @@ std::vector<std::string> draw_parts(const Sweep& sweep, const std::vector<Curve>
         views::Chart chart;
         chart.title = curve.label.empty() ? "Parts of the resistance" : curve.label;
         if (!valued && names[k] != curve.label) chart.title = names[k] + ": " + curve.label;
-        chart.x_title = axis_title(sweep.x);
         chart.y_title = "resistance [" + unit.name + "]";
-        chart.width = 690.0;  // the legend in one row
-        chart.height = 340.0;
+        chart.width = width;
+        chart.height = 380.0;
         chart.y_range = common_range(curves, parts, unit);
-        plotter.add_ends(chart);
+        plotter.set_axis(chart);
         for (const auto& [part, style] : kStyles)
-            plotter.add(chart, curve, style,
-                        [part = part](const Point& p) { return p.part(part); });
+            if (has_force(curve, part))
+                plotter.add(chart, curve, style,
+                            [part = part](const Point& p) { return p.part(part); });
         plotter.add(chart, curve, {"Lindqvist", views::kBlack, kFormulaDash, 1.8}, formula);
+        plotter.add_note(chart);
         charts.push_back(draw_chart(chart));
     }
     return charts;

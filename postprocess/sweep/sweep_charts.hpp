@@ -11,13 +11,19 @@ report::ForceUnit choose_sweep_unit(const std::vector<Point>& points);
 
 /// Resistance against x with intervals, a curve for each combination of the other axes' values,
 /// Lindqvist's formula dashed in the same colour. "" without x or points, or with so many curves
-/// that they could not be told apart.
+/// that they could not be told apart. Over the speed the axis begins at 0 and has knots above.
+/// Intervals of two runs, of which Student's is wide for want of runs, are dashed.
+/// @param width of the picture [px]
 std::string draw_overview(const Sweep& sweep, const std::vector<Curve>& curves,
-                          const report::ForceUnit& unit);
+                          const report::ForceUnit& unit, double width);
+
+/// The largest resistance in one step, of all runs of a point and in the mean over them, beside the
+/// mean resistance; "" as above.
+std::string draw_peaks(const Sweep& sweep, const std::vector<Curve>& curves, double width);
 
 /// One chart per curve, all on the same axes: resistance with intervals, normal forces on bow,
 /// sides, bottom and the rest, and friction in all, which add up to it, Lindqvist's formula.
 std::vector<std::string> draw_parts(const Sweep& sweep, const std::vector<Curve>& curves,
-                                    const report::ForceUnit& unit);
+                                    const report::ForceUnit& unit, double width);
 
 }  // namespace ice::sweep

@@ -59,7 +59,7 @@ double part_value(const Summary& s, Part part) {
 
 Point make_point(const Sweep& sweep, const std::map<std::string, Setting>& at,
                  const std::vector<std::size_t>& rows) {
-    Point point{at, {}, kNaN, 3, rows};
+    Point point{at, {}, kNaN, {kNaN, kNaN}, kNaN, 3, rows};
     const Summary& first = *sweep.runs[rows.front()].summary;
     point.dimension = first.dimension;
     for (std::size_t k = 0; k < kPartCount; ++k) {
@@ -73,6 +73,11 @@ Point make_point(const Sweep& sweep, const std::map<std::string, Setting>& at,
     for (const std::size_t row : rows)
         if (const auto& value = sweep.runs[row].summary->lindqvist_submersion)
             lindqvist.push_back(*value);
+    std::vector<double> peaks;
+    for (const std::size_t row : rows) peaks.push_back(sweep.runs[row].summary->resistance.max);
+    point.peak = estimate_mean(peaks);
+    if (std::isfinite(point.peak.mean))
+        point.largest = *std::max_element(peaks.begin(), peaks.end());
     point.lindqvist = estimate_mean(lindqvist).mean;
     return point;
 }
@@ -150,7 +155,8 @@ std::vector<Curve> make_curves(const Sweep& sweep, const std::vector<Point>& poi
     std::map<std::string, std::size_t> row_of, count_of;
     std::vector<Curve> curves;
     for (const Point& point : points) {
-        if (!point.at.at(sweep.x).number) continue;
+        const auto& x = point.at.at(sweep.x).number;
+        if (!x || !std::isfinite(*x)) continue;  // a pressure of inf has no place on an axis
         const auto [entry, added] = row_of.emplace(label_of(point, true), curves.size());
         if (added) curves.push_back({label_of(point, false), {}});
         if (added) ++count_of[curves.back().label];

@@ -54,6 +54,8 @@ struct Point {
     std::map<std::string, Setting> at;       ///< value of each axis
     std::array<Estimate, kPartCount> parts;  ///< by Part
     double lindqvist;  ///< mean of the runs' submersion resistance [N], or NaN
+    Estimate peak;     ///< of the runs' largest resistance in one step [N]
+    double largest;    ///< the largest of them [N], or NaN
     int dimension;
     std::vector<std::size_t> runs;  ///< rows of Sweep::runs
 

@@ -7,7 +7,8 @@
 #include <limits>
 
 #include "postprocess/sweep/key_names.hpp"
-#include "postprocess/sweep/share_work.hpp"
+#include "postprocess/sweep/split_sweep.hpp"
+#include "postprocess/sweep/sweep_columns.hpp"
 #include "postprocess/views/svg.hpp"
 
 namespace ice::sweep {
@@ -26,12 +27,12 @@ constexpr Part kParts[] = {Part::total,          Part::bow,
                            Part::rest_contact,   Part::bow_friction,
                            Part::sides_friction, Part::bottom_friction,
                            Part::rest_friction};
-constexpr std::pair<Part, const char*> kColumns[] = {
-    {Part::bow, "Bow"},         {Part::bow_friction, "Of it friction"},
-    {Part::sides, "Sides"},     {Part::sides_friction, "Of it friction"},
-    {Part::bottom, "Bottom"},   {Part::bottom_friction, "Of it friction"},
-    {Part::rest, "Rest"},       {Part::rest_friction, "Of it friction"},
-    {Part::contact, "Contact"}, {Part::friction, "Friction"}};
+const std::vector<std::pair<Part, std::string>> kColumns{
+    {Part::bow, "bow"},         {Part::bow_friction, "bow, friction"},
+    {Part::sides, "sides"},     {Part::sides_friction, "sides, friction"},
+    {Part::bottom, "bottom"},   {Part::bottom_friction, "bottom, friction"},
+    {Part::rest, "rest"},       {Part::rest_friction, "rest, friction"},
+    {Part::contact, "contact"}, {Part::friction, "friction"}};
 
 std::string head(const std::vector<std::string>& names) {
     std::string out = "<div class=\"wide\"><table>\n<thead><tr>";
@@ -60,70 +61,72 @@ std::string csv_text(const std::string& text) {
     return out + "\"";
 }
 
+std::vector<std::string> titles(const std::vector<Column>& columns) {
+    std::vector<std::string> out;
+    for (const Column& column : columns) out.push_back(column.title);
+    return out;
+}
+
+std::string cells(const std::vector<Column>& columns, std::size_t row) {
+    std::string out;
+    for (const Column& column : columns) out += cell(column.cells[row]);
+    return out;
+}
+
+// of a column's name: per metre of breadth in 2D
+const char* force_ending(int dimension) { return dimension == 2 ? "_N_per_m" : "_N"; }
+
 std::string csv_number(double value) {
     return std::isfinite(value) ? fmt::format("{}", value) : std::string();
 }
 
 }  // namespace
 
-std::string with_interval(const report::ForceUnit& unit, const Estimate& e) {
-    if (!std::isfinite(e.half)) return unit.text(e.mean);
-    return unit.text(e.mean) + " \u00b1 " + unit.text(e.half);
-}
-
 std::string point_table(const Sweep& sweep, const std::vector<Point>& points,
                         const report::ForceUnit& unit, const std::filesystem::path& page) {
-    std::vector<std::string> names;
-    for (const std::string& axis : sweep.axes) names.push_back(axis_title(axis));
-    names.insert(names.end(), {"Runs", "Resistance \u00b1 95 % [" + unit.name + "]"});
-    for (const auto& [part, title] : kColumns) names.push_back(title);
-    names.push_back("Lindqvist");
+    const auto axes = axis_columns(sweep, points, true);
+    const auto forces = force_columns(points, unit, kColumns, true);
+    std::vector<std::string> names = titles(axes);
+    names.push_back("runs");
+    for (const Column& column : forces) names.push_back(column.title);
     std::string out = head(names);
-    for (const Point& point : points) {
-        out += "<tr>";
-        for (const std::string& axis : sweep.axes) out += cell(short_text(point.at.at(axis)));
-        out += "<td>";
-        for (std::size_t k = 0; k < point.runs.size(); ++k)
-            out +=
-                (k > 0 ? " " : "") + link(sweep.runs[point.runs[k]], std::to_string(k + 1), page);
-        out += "</td>" + cell(with_interval(unit, point.part(Part::total)));
-        for (const auto& [part, title] : kColumns)
-            out += cell(with_interval(unit, point.part(part)));
-        out += cell(std::isfinite(point.lindqvist) ? unit.text(point.lindqvist) : "-") + "</tr>\n";
+    for (std::size_t row = 0; row < points.size(); ++row) {
+        const auto& runs = points[row].runs;
+        out += "<tr>" + cells(axes, row) + "<td>";
+        for (std::size_t k = 0; k < runs.size(); ++k)
+            out += (k > 0 ? " " : "") + link(sweep.runs[runs[k]], std::to_string(k + 1), page);
+        out += "</td>" + cells(forces, row) + "</tr>\n";
     }
     return out + "</tbody></table></div>\n";
 }
 
 std::string work_table(const Sweep& sweep, const std::vector<Point>& points,
                        const report::ForceUnit& unit) {
-    std::vector<std::string> names;
-    for (const std::string& axis : sweep.axes) names.push_back(axis_title(axis));
-    for (const auto& [title, force] : share_work(sweep, points.front())) names.push_back(title);
+    const auto axes = axis_columns(sweep, points, true), work = work_columns(sweep, points, unit);
+    if (work.empty()) return "";
+    std::vector<std::string> names = titles(axes);
+    for (const Column& column : work) names.push_back(column.title);
     std::string out = head(names);
-    for (const Point& point : points) {
-        out += "<tr>";
-        for (const std::string& axis : sweep.axes) out += cell(short_text(point.at.at(axis)));
-        for (const auto& [title, force] : share_work(sweep, point)) out += cell(unit.text(force));
-        out += "</tr>\n";
-    }
+    for (std::size_t row = 0; row < points.size(); ++row)
+        out += "<tr>" + cells(axes, row) + cells(work, row) + "</tr>\n";
     return out + "</tbody></table></div>\n";
 }
 
 std::string run_table(const Sweep& sweep, const report::ForceUnit& unit,
                       const std::filesystem::path& page) {
     std::string out = head({"Run", "Status", "Resistance \u00b1 95 % [" + unit.name + "]",
-                            "Friction", "Unconverged steps", "Warnings", "Wall time [s]"});
+                            "Friction [" + unit.name + "]", "Largest [" + unit.name + "]",
+                            "Unconverged steps", "Warnings", "Wall time [s]"});
     for (const SweepRun& run : sweep.runs) {
         out += "<tr><td>" + link(run, run.name, page) + "</td><td><span class=\"status" +
                (run.summary ? "" : " bad") + "\">" + escape(run.status) + "</span></td>";
         if (const auto& s = run.summary)
             out += cell(with_interval(unit, {s->resistance.mean, s->resistance.ci95})) +
                    cell(unit.text(s->resistance.friction_mean)) +
-                   cell(std::to_string(s->unconverged_steps)) +
+                   cell(unit.text(s->resistance.max)) + cell(std::to_string(s->unconverged_steps)) +
                    cell(std::to_string(s->warnings.size())) + cell(readable(s->wall_s));
         else
-            out += "<td colspan=\"5\" style=\"text-align:left;white-space:normal\">" +
-                   escape(run.fault) + "</td>";
+            out += "<td colspan=\"6\" class=\"text\">" + escape(run.fault) + "</td>";
         out += "</tr>\n";
     }
     return out + "</tbody></table></div>\n";
@@ -133,15 +136,16 @@ std::string point_csv(const Sweep& sweep, const std::vector<Point>& points) {
     std::string out;
     for (const std::string& axis : sweep.axes) out += csv_text(axis) + ",";
     out += "runs";
-    for (const Part part : kParts) out += fmt::format(",{0}_N,{0}_ci95_N", part_name(part));
-    out += ",lindqvist_submersion_N\r\n";
+    const char* in = force_ending(points.empty() ? 3 : points.front().dimension);
+    for (const Part part : kParts) out += fmt::format(",{0}{1},{0}_ci95{1}", part_name(part), in);
+    out += fmt::format(",largest{0},lindqvist_submersion{0}\r\n", in);
     for (const Point& point : points) {
         for (const std::string& axis : sweep.axes) out += csv_text(point.at.at(axis).text) + ",";
         out += std::to_string(point.runs.size());
         for (const Part part : kParts)
             out +=
                 "," + csv_number(point.part(part).mean) + "," + csv_number(point.part(part).half);
-        out += "," + csv_number(point.lindqvist) + "\r\n";
+        out += "," + csv_number(point.largest) + "," + csv_number(point.lindqvist) + "\r\n";
     }
     return out;
 }
@@ -149,9 +153,10 @@ std::string point_csv(const Sweep& sweep, const std::vector<Point>& points) {
 std::string run_csv(const Sweep& sweep) {
     std::string out = "run,status";
     for (const std::string& axis : sweep.axes) out += "," + csv_text(axis);
-    out += std::string(",") + kSeedKey +
-           ",resistance_N,ci95_N,contact_N,friction_N,lindqvist_submersion_N,unconverged_steps,"
-           "wall_s,remark\r\n";
+    out += fmt::format(
+        ",{0},resistance{1},ci95{1},contact{1},friction{1},largest{1},lindqvist_submersion{1},"
+        "unconverged_steps,wall_s,remark\r\n",
+        kSeedKey, force_ending(dimension_of(sweep)));
     for (const SweepRun& run : sweep.runs) {
         out += csv_text(run.name) + "," + run.status;
         for (const std::string& axis : sweep.axes) out += "," + csv_text(run.text(axis));
@@ -159,11 +164,11 @@ std::string run_csv(const Sweep& sweep) {
         if (const auto& s = run.summary)
             out += "," + csv_number(s->resistance.mean) + "," + csv_number(s->resistance.ci95) +
                    "," + csv_number(s->resistance.contact_mean) + "," +
-                   csv_number(s->resistance.friction_mean) + "," +
-                   csv_number(s->lindqvist_submersion.value_or(std::nan(""))) + "," +
+                   csv_number(s->resistance.friction_mean) + "," + csv_number(s->resistance.max) +
+                   "," + csv_number(s->lindqvist_submersion.value_or(std::nan(""))) + "," +
                    std::to_string(s->unconverged_steps) + "," + csv_number(s->wall_s);
         else
-            out += ",,,,,,,";
+            out += ",,,,,,,,";
         out += "," + csv_text(run.fault) + "\r\n";
     }
     return out;

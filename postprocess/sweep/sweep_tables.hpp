@@ -8,9 +8,6 @@
 
 namespace ice::sweep {
 
-/// "1284 \u00b1 83" in the unit, without the interval where there is none.
-std::string with_interval(const report::ForceUnit& unit, const Estimate& estimate);
-
 /// HTML: a row per point with the axes' values, resistance with interval, parts and Lindqvist's
 /// formula, and the runs as links to their reports (their folders, where they have none), relative
 /// to the folder of `page`.
@@ -18,7 +15,7 @@ std::string point_table(const Sweep& sweep, const std::vector<Point>& points,
                         const report::ForceUnit& unit, const std::filesystem::path& page);
 
 /// HTML: a row per point with what became of the ship's work, per metre of travel (share_work.hpp).
-/// @pre there are points
+/// "" where nothing is known. @pre there are points
 std::string work_table(const Sweep& sweep, const std::vector<Point>& points,
                        const report::ForceUnit& unit);
 
@@ -26,8 +23,8 @@ std::string work_table(const Sweep& sweep, const std::vector<Point>& points,
 std::string run_table(const Sweep& sweep, const report::ForceUnit& unit,
                       const std::filesystem::path& page);
 
-/// CSV (RFC 4180): points with all digits in newtons (2D: per metre), intervals as half widths;
-/// unknown values are empty.
+/// CSV (RFC 4180): points with all digits in newtons, columns ..._N (2D: ..._N_per_m), intervals as
+/// half widths; unknown values are empty.
 std::string point_csv(const Sweep& sweep, const std::vector<Point>& points);
 
 /// CSV: runs, also those that failed.

@@ -7,10 +7,11 @@
 #include <map>
 #include <set>
 
-#include "common/base/version.hpp"
 #include "postprocess/report/page.hpp"
 #include "postprocess/sweep/key_names.hpp"
+#include "postprocess/sweep/split_sweep.hpp"
 #include "postprocess/sweep/sweep_charts.hpp"
+#include "postprocess/sweep/sweep_head.hpp"
 #include "postprocess/sweep/sweep_tables.hpp"
 #include "postprocess/views/svg.hpp"
 
@@ -21,28 +22,38 @@ using views::escape;
 
 namespace {
 
-constexpr std::size_t kMostNamed = 12;    // runs without numbers in a message
-constexpr std::size_t kMostPanels = 200;  // small multiples drawn
+constexpr std::size_t kMostNamed = 12;                          // runs without numbers in a message
+constexpr std::size_t kMostPanels = 200;                        // small multiples drawn
+constexpr double kWide = 860.0, kHalf = 600.0, kPhone = 400.0;  // of charts [px]
 
 std::size_t count_completed(const Sweep& sweep) {
     return static_cast<std::size_t>(std::count_if(sweep.runs.begin(), sweep.runs.end(),
                                                   [](const SweepRun& r) { return r.summary; }));
 }
 
-std::string header(const Sweep& sweep) {
+std::string header(const Sweep& sweep, const std::vector<Sweep>& parts) {
     const std::size_t good = count_completed(sweep), all = sweep.runs.size();
-    std::string axes;
-    for (const std::string& axis : sweep.axes)
-        axes += (axes.empty() ? "" : ", ") + axis_title(axis);
+    std::set<std::string> axes;
+    for (const Sweep& part : parts)
+        for (const std::string& axis : part.axes) axes.insert(axis_title(axis));
     return "<header><div class=\"inner\">\n<h1>" + escape(sweep.title) +
            "</h1>\n<span class=\"status" + (good == all ? "" : " bad") + "\">" +
-           fmt::format("{} of {} runs completed", good, all) + "</span>\n<p>" +
-           escape(axes.empty() ? "Nothing but the seed varies." : "Over " + axes + ".") +
-           "</p>\n</div></header>\n";
+           fmt::format("{} of {} runs completed", good, all) +
+           "</span>\n<p>Ice resistance of a ship, simulated: " +
+           escape(axes.empty() ? "nothing but the seed varies"
+                               : fmt::format("over {}", fmt::join(axes, ", "))) +
+           ".</p>\n</div></header>\n";
+}
+
+// a wide drawing and a narrow one, whose text can be read on a phone: the page shows one of them
+std::string two_widths(const std::string& kind, const std::string& wide,
+                       const std::string& narrow) {
+    return "<div class=\"both\"><div class=\"" + kind + "desk\">" + wide + "</div><div class=\"" +
+           kind + "phone\">" + narrow + "</div></div>";
 }
 
 std::string download(const std::string& file, const std::string& csv) {
-    return "<p><a download=\"" + file + "\" href=\"data:text/csv;charset=utf-8," +
+    return "<p>All digits: <a download=\"" + file + "\" href=\"data:text/csv;charset=utf-8," +
            encode_address(csv) + "\">" + file + "</a></p>\n";
 }
 
@@ -52,7 +63,8 @@ std::string region_note(const Sweep& sweep) {
     for (const SweepRun& run : sweep.runs)
         if (run.summary)
             for (const auto& [name, region] : run.summary->regions)
-                names[part_of_region(name)].insert(name);
+                // parts without a name, of which there are none
+                if (name != "hull" || region.hits > 0) names[part_of_region(name)].insert(name);
     std::string out;
     for (const auto& [part, regions] : names)
         out += (out.empty() ? "Regions of the hull by name: " : "; ") +
@@ -61,7 +73,7 @@ std::string region_note(const Sweep& sweep) {
 }
 
 std::string parts_section(const Sweep& sweep, const std::vector<Curve>& curves,
-                          const report::ForceUnit& unit) {
+                          const report::ForceUnit& unit, const std::string& ending) {
     std::vector<Curve> drawn = curves;
     if (drawn.size() > kMostPanels) drawn.resize(kMostPanels);
     std::string intro =
@@ -72,29 +84,46 @@ std::string parts_section(const Sweep& sweep, const std::vector<Curve>& curves,
     if (drawn.size() < curves.size())
         intro += fmt::format(" The first {} of {} combinations are drawn; the table has all.",
                              drawn.size(), curves.size());
-    return section("parts", "Where the resistance comes from", intro,
-                   report::figures(draw_parts(sweep, drawn, unit)));
+    const auto wide = draw_parts(sweep, drawn, unit, kHalf),
+               narrow = draw_parts(sweep, drawn, unit, kPhone);
+    std::vector<std::string> charts;
+    for (std::size_t k = 0; k < wide.size(); ++k)
+        charts.push_back(two_widths("", wide[k], narrow[k]));
+    return section("parts" + ending, "Where the resistance comes from", intro,
+                   report::figures(charts));
 }
 
 std::string curve_sections(const Sweep& sweep, const std::vector<Point>& points,
-                           const report::ForceUnit& unit) {
+                           const report::ForceUnit& unit, const std::string& ending) {
     if (points.empty()) return "";
     const std::string what =
         "Points are means over the runs of a combination. Bars: 95 % interval, "
-        "Student's over seeds; of a single run, from batch means. Long bars are cut off. "
+        "Student's over seeds, dashed where there are two runs only, which makes t = 12.7 and "
+        "says little; of a single run, its own. Long bars are cut off. "
         "Lindqvist (1989) is an estimate of the submersion part only.";
     if (sweep.x.empty())
-        return section("curve", "Resistance", "No number varies: there is no curve to draw.", "");
+        return section("curve" + ending, "Resistance",
+                       "No number varies: there is no curve to draw.", "");
     const auto curves = make_curves(sweep, points);
     std::string tied;
     for (const std::string& key : sweep.tied) tied += (tied.empty() ? "" : ", ") + key;
     if (!tied.empty()) tied = " Varying with it: " + tied + ".";
     std::string out;
-    const std::string overview = draw_overview(sweep, curves, unit);
+    const std::string overview = draw_overview(sweep, curves, unit, kWide);
     if (!overview.empty())
-        out += section("curve", "Resistance against " + axis_title(sweep.x), what + tied,
-                       "<div class=\"opening\">" + overview + "</div>\n");
-    return out + parts_section(sweep, curves, unit);
+        out +=
+            section("curve" + ending,
+                    "Resistance [" + unit.name + "] against " + axis_title(sweep.x), what + tied,
+                    two_widths("opening ", overview, draw_overview(sweep, curves, unit, kPhone)));
+    const std::string peaks = draw_peaks(sweep, curves, kWide);
+    if (!peaks.empty())
+        out +=
+            section("peaks" + ending, "Peaks",
+                    "A force is the sum of the impulses of a step divided by the time step, so "
+                    "the height of a single hit depends on the step; of more runs, and of longer "
+                    "ones, the largest is larger.",
+                    two_widths("opening ", peaks, draw_peaks(sweep, curves, kPhone)));
+    return out + parts_section(sweep, curves, unit, ending);
 }
 
 // runs without numbers and why; the table has the rest of a long list
@@ -113,6 +142,38 @@ std::string fault_list(const Sweep& sweep) {
     if (texts.size() < count)
         out += fmt::format("<li>and {} more: see \"All runs\"</li>\n", count - texts.size());
     return out + "</ul>\n</section>\n";
+}
+
+// charts and tables of runs of one dimension
+std::string part_of_page(const Sweep& sweep, const std::filesystem::path& page, bool one_of_two) {
+    const auto points = make_points(sweep);
+    const report::ForceUnit unit = choose_sweep_unit(points);
+    const bool flat = dimension_of(sweep) == 2;
+    const std::string ending = !one_of_two ? "" : flat ? "-2d" : "-3d";
+    std::string out;
+    if (one_of_two)
+        out += flat ? "<h2 class=\"part\" id=\"part-2d\">2D: forces per metre of breadth</h2>\n"
+                    : "<h2 class=\"part\" id=\"part-3d\">3D: forces on the whole ship</h2>\n";
+    const std::string facts = head_facts(sweep);
+    if (!facts.empty()) out += section("head" + ending, "Ship, ice and speed", "", facts);
+    out += curve_sections(sweep, points, unit, ending);
+    if (!points.empty())
+        out += section("points" + ending, "All points [" + unit.name + "]",
+                       "Intervals are those of 95 %. Lindqvist's formula (1989) is an empirical "
+                       "estimate of the submersion part of level ice; it is not fitted to these "
+                       "runs. \"largest\" is the largest resistance in one step of all runs.",
+                       point_table(sweep, points, unit, page) +
+                           download("points" + ending + ".csv", point_csv(sweep, points)));
+    const std::string work = points.empty() ? "" : work_table(sweep, points, unit);
+    if (!work.empty())
+        out += section("work" + ending, "Where the ship's work went",
+                       "Energy per metre of the ship's travel [" + unit.name +
+                           "], over the whole run with its start; the first column is the sum of "
+                           "the others.",
+                       work);
+    return out + section("runs" + ending, "All runs", "",
+                         run_table(sweep, unit, page) +
+                             download("runs" + ending + ".csv", run_csv(sweep)));
 }
 
 }  // namespace
@@ -135,32 +196,19 @@ std::string make_sweep_curve(const Sweep& sweep) {
     const auto points = make_points(sweep);
     return sweep.x.empty() || points.empty()
                ? ""
-               : draw_overview(sweep, make_curves(sweep, points), choose_sweep_unit(points));
+               : draw_overview(sweep, make_curves(sweep, points), choose_sweep_unit(points), kWide);
 }
 
 std::string make_sweep_page(const Sweep& sweep, const std::filesystem::path& page) {
-    const auto points = make_points(sweep);
-    const report::ForceUnit unit = choose_sweep_unit(points);
+    const auto parts = split_sweep(sweep);
     std::string out =
-        report::open_page(sweep.title) + header(sweep) + "<main>\n" + fault_list(sweep);
-    out += curve_sections(sweep, points, unit);
-    if (!points.empty())
-        out += section("points", "All points",
-                       "Lindqvist's formula (1989) is an empirical estimate of the submersion part "
-                       "of level ice; it is not fitted to these runs.",
-                       point_table(sweep, points, unit, page) +
-                           download("points.csv", point_csv(sweep, points)));
-    if (!points.empty())
-        out += section("work", "Where the ship's work went",
-                       "Energy per metre of the ship's travel [" + unit.name +
-                           "], over the whole run with its start; the first column is the sum of "
-                           "the others.",
-                       work_table(sweep, points, unit));
-    out += section("runs", "All runs", "",
-                   run_table(sweep, unit, page) + download("runs.csv", run_csv(sweep)));
-    return out + "</main>\n<footer><div class=\"inner\">Made by icepost " + escape(version()) +
-           " (" + escape(git_commit()) +
-           "). Forces are those of the ice on the ship.</div></footer>\n</body>\n</html>\n";
+        report::open_page(sweep.title) + header(sweep, parts) + "<main>\n" + fault_list(sweep);
+    if (parts.size() > 1)
+        out +=
+            "<p class=\"note\">Runs in 3D and in 2D: forces in newtons and in newtons per metre of "
+            "breadth cannot be compared, so each kind has charts and tables of its own.</p>\n";
+    for (const Sweep& part : parts) out += part_of_page(part, page, parts.size() > 1);
+    return out + "</main>\n" + report::close_page();
 }
 
 }  // namespace ice::sweep

@@ -30,6 +30,22 @@ TEST_CASE("runs are compared a line each, missing values as a dash", "[report]")
     CHECK(compare_text({}).find("mean_N") != std::string::npos);
 }
 
+TEST_CASE("runs in 3D and in 2D never share a column: two tables, and no CSV of both", "[report]") {
+    const Summary solid = *make_folder().summary;
+    Summary flat = *make_folder({.dimension = 2}).summary;
+    const std::string text = compare_text({{"flat", flat}, {"solid", solid}});
+    CHECK(count(text, "mean_N_per_m") == 1);
+    CHECK(count(text, " mean_N ") == 1);
+    CHECK(text.find("solid") < text.find("\n\n"));
+    CHECK(text.find("\n\n") < text.find("flat"));
+    CHECK(count(compare_text({{"flat", flat}}), "\n") == 2);
+    CHECK_THAT(compare_csv({{"flat", flat}}), Catch::StartsWith("run,mean_N_per_m,ci95_N_per_m,"));
+    CHECK_THAT(error_text([&] {
+                   compare_csv({{"flat", flat}, {"solid", solid}});
+               }),
+               Catch::Contains("newtons per metre"));
+}
+
 TEST_CASE(
     "the plot of a run has its forces, coverage, paths and tracked floes, in 2D no lateral ones",
     "[report]") {

@@ -63,4 +63,13 @@ inline std::string tag_fault(const std::string& text) {
     return open.empty() ? "" : "<" + open.back() + "> is not closed";
 }
 
+/// The page without what lies in its scripts, style and comments
+inline std::string markup_of(std::string html) {
+    for (const auto& [begin, end] : {std::pair("<script", "</script>"),
+                                     std::pair("<style", "</style>"), std::pair("<!--", "-->")})
+        for (std::size_t at = html.find(begin); at != std::string::npos; at = html.find(begin, at))
+            html.erase(at, html.find(end, at) + std::string(end).size() - at);
+    return html;
+}
+
 }  // namespace ice::test

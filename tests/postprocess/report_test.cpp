@@ -16,15 +16,6 @@ namespace {
 
 constexpr std::size_t kTwoMegabytes = 2000000;
 
-// the page without what lies in its scripts, style and comments
-std::string markup_of(std::string html) {
-    for (const auto& [begin, end] : {std::pair("<script", "</script>"),
-                                     std::pair("<style", "</style>"), std::pair("<!--", "-->")})
-        for (std::size_t at = html.find(begin); at != std::string::npos; at = html.find(begin, at))
-            html.erase(at, html.find(end, at) + std::string(end).size() - at);
-    return html;
-}
-
 // text of an element of the page
 std::string element_text(const std::string& html, const std::string& opening) {
     const std::size_t at = html.find(opening);

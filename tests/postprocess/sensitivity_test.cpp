@@ -115,7 +115,7 @@ TEST_CASE("a study's text and page give the interval beside the model uncertaint
     CHECK_THAT(page, Catch::Contains("3 of 15 runs have no result"));
     CHECK_THAT(page, Catch::Contains("there is none"));
     CHECK(page.find("nan") == std::string::npos);
-    CHECK(tag_fault(page) == "");
+    CHECK(tag_fault(markup_of(page)) == "");
 }
 
 TEST_CASE("bars of the tornado are as long as the differences and stay inside the chart",

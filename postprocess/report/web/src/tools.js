@@ -80,7 +80,7 @@ const fileName = (text, ending) => `${slug(document.title)}-${slug(text)}.${endi
 
 function addToDrawing(svg) {
   const holder = svg.closest('[data-chart]');
-  const place = holder ?? svg.parentElement;
+  const place = holder ?? svg.closest('.both') ?? svg.parentElement;
   const title = svg.querySelector(':scope > title')?.textContent ?? 'drawing';
   const row = buttonRow([
     ['PNG', () => savePng(svg, fileName(title, 'png'))],

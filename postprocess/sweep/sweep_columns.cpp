@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "postprocess/sweep/sweep_columns.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "postprocess/sweep/key_names.hpp"
+#include "postprocess/sweep/share_work.hpp"
+
+namespace ice::sweep {
+
+namespace {
+
+// no digit but 0: zero, or "n/a"
+bool says_something(const std::string& cell) {
+    return cell.find_first_of("123456789") != std::string::npos;
+}
+
+void drop_empty(std::vector<Column>& columns, std::size_t first) {
+    const auto begin = columns.begin() + static_cast<std::ptrdiff_t>(first);
+    columns.erase(std::remove_if(begin, columns.end(),
+                                 [](const Column& column) {
+                                     return std::none_of(column.cells.begin(), column.cells.end(),
+                                                         says_something);
+                                 }),
+                  columns.end());
+}
+
+}  // namespace
+
+std::string with_interval(const report::ForceUnit& unit, const Estimate& e, std::size_t runs) {
+    if (!std::isfinite(e.half)) return unit.text(e.mean);
+    return unit.text(e.mean) + " \u00b1 " + unit.text(e.half) +
+           (runs == 2 ? " (n = 2, t = 12.7)" : "");
+}
+
+std::vector<Column> axis_columns(const Sweep& sweep, const std::vector<Point>& points, bool knots) {
+    std::vector<Column> columns;
+    for (const std::string& axis : sweep.axes) {
+        columns.push_back({axis_title(axis), {}});
+        for (const Point& point : points)
+            columns.back().cells.push_back(short_text(point.at.at(axis)));
+        if (!knots || axis != kSpeedKey) continue;
+        columns.push_back({"speed [kn]", {}});
+        for (const Point& point : points) {
+            const auto& speed = point.at.at(axis).number;
+            columns.back().cells.push_back(speed ? fmt::format("{:.2f}", *speed / kKnot) : "-");
+        }
+    }
+    return columns;
+}
+
+std::vector<Column> force_columns(const std::vector<Point>& points, const report::ForceUnit& unit,
+                                  const std::vector<std::pair<Part, std::string>>& parts,
+                                  bool intervals) {
+    const std::string in = " [" + unit.name + "]";
+    std::vector<Column> columns{{"resistance" + in, {}}};
+    for (const auto& [part, title] : parts) columns.push_back({title + in, {}});
+    columns.push_back({"largest" + in, {}});
+    columns.push_back({"Lindqvist" + in, {}});
+    for (const Point& point : points) {
+        columns.front().cells.push_back(
+            with_interval(unit, point.part(Part::total), point.runs.size()));
+        for (std::size_t k = 0; k < parts.size(); ++k) {
+            const Estimate& estimate = point.part(parts[k].first);
+            columns[k + 1].cells.push_back(intervals ? with_interval(unit, estimate)
+                                                     : unit.text(estimate.mean));
+        }
+        columns[parts.size() + 1].cells.push_back(unit.text(point.largest));
+        columns.back().cells.push_back(unit.text(point.lindqvist));
+    }
+    drop_empty(columns, 1);
+    return columns;
+}
+
+std::vector<Column> work_columns(const Sweep& sweep, const std::vector<Point>& points,
+                                 const report::ForceUnit& unit) {
+    std::vector<Column> columns;
+    for (const auto& [title, force] : share_work(sweep, points.front()))
+        columns.push_back({std::string(title) + " [" + unit.name + "]", {}});
+    for (const Point& point : points) {
+        std::size_t k = 0;
+        for (const auto& [title, force] : share_work(sweep, point))
+            columns[k++].cells.push_back(unit.text(force));
+    }
+    drop_empty(columns, 0);
+    return columns;
+}
+
+}  // namespace ice::sweep

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Tables of a sweep as columns of text, for pages and for Markdown alike.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "postprocess/report/tables.hpp"
+#include "postprocess/sweep/sweep_points.hpp"
+
+namespace ice::sweep {
+
+struct Column {
+    std::string title;               ///< with its unit
+    std::vector<std::string> cells;  ///< a row for each point
+};
+
+/// "1284 \u00b1 83" in the unit, without the interval where there is none. Of two runs the interval
+/// is Student's with t = 12.7, which the text says: "1284 \u00b1 830 (n = 2, t = 12.7)".
+std::string with_interval(const report::ForceUnit& unit, const Estimate& estimate,
+                          std::size_t runs = 0);
+
+/// Values of the axes. @param knots after the speed also in knots
+std::vector<Column> axis_columns(const Sweep& sweep, const std::vector<Point>& points, bool knots);
+
+/// Resistance with its interval, the parts given, largest resistance and Lindqvist's formula; but
+/// for the first, columns without a number other than 0 are left out.
+/// @param intervals of the parts, too
+std::vector<Column> force_columns(const std::vector<Point>& points, const report::ForceUnit& unit,
+                                  const std::vector<std::pair<Part, std::string>>& parts,
+                                  bool intervals);
+
+/// What became of the ship's work, per metre of travel (share_work.hpp), without empty columns.
+std::vector<Column> work_columns(const Sweep& sweep, const std::vector<Point>& points,
+                                 const report::ForceUnit& unit);
+
+}  // namespace ice::sweep
