@@ -2,8 +2,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """make_completions.py OUT PROGRAM...: shell completions from the programs' own --help.
 
-Writes OUT/bash/NAME, OUT/zsh/_NAME and OUT/fish/NAME.fish for each program, so that they know what the
-program knows: options, subcommands and the words an option takes. Everything else is a file."""
+Writes OUT/bash/NAME, OUT/zsh/_NAME and OUT/fish/NAME.fish for each program, so that they know what
+the program knows: options, subcommands and the words an option takes; for --explain and --set the
+keys of --print-schema. Everything else is a file."""
+import json
 import pathlib
 import re
 import subprocess
@@ -11,7 +13,6 @@ import sys
 
 # "  -o,--output TEXT:{a,b} ...    words"; the words stand in a line of their own behind a long head
 ITEM = re.compile(r"^  (?P<head>\S+(?: \S+)*)(?:\s{2,}(?P<words>.*))?$")
-UNITS = re.compile(r"value in \{([^}]*)\}")
 CHOICES = re.compile(r":\{([^}]*)\}")
 
 
@@ -23,9 +24,8 @@ class Option:
         self.names = names.split(",")
         rest = re.sub(r"(REQUIRED|Excludes: .*)$", "", rest).strip()
         self.takes = bool(rest)
-        named, listed = UNITS.search(rest), CHOICES.search(rest)
-        self.choices = ([word.partition("->")[0] for word in named[1].split(",")] if named
-                        else listed[1].split(",") if listed else [])
+        listed = CHOICES.search(rest)
+        self.choices = listed[1].split(",") if listed else []
         self.text = text
 
 
@@ -50,6 +50,31 @@ def read_help(program, *subcommand):
     if not options:
         raise SystemExit(f"make_completions.py: {program} --help lists no options")
     return options, subcommands
+
+
+def read_keys(program):
+    """Keys of the file that the program reads, with their tables: hull.speed, floes.gap."""
+    def keys(schema, prefix):
+        for name, sub in schema["properties"].items():
+            table = sub if "properties" in sub else sub.get("items", {})
+            if "properties" in table:
+                yield from keys(table, f"{prefix}{name}.")
+            else:
+                yield prefix + name
+    text = subprocess.run([program, "--print-schema"], check=True, capture_output=True,
+                          text=True).stdout
+    return list(keys(json.loads(text), ""))
+
+
+def add_keys(options, program):
+    """--explain takes a key, --set a key and its value."""
+    if any("--print-schema" in option.names for option in options):
+        keys = read_keys(program)
+        for option in options:
+            if "--explain" in option.names:
+                option.choices = keys
+            elif "--set" in option.names:
+                option.choices = [f"{key}=" for key in keys]
 
 
 def bash_cases(options):
@@ -86,6 +111,7 @@ _{name}() {{
     esac
     if [[ -n $words ]]; then
         mapfile -t COMPREPLY < <(compgen -W "$words" -- "$word")
+        [[ ${{COMPREPLY[0]-}} == *= ]] && compopt -o nospace 2>/dev/null
     else
         mapfile -t COMPREPLY < <(compgen -f -- "$word")
     fi
@@ -103,7 +129,10 @@ def zsh_arguments(options):
     for option in options:
         follows = ""
         if option.takes:
-            follows = f":value:({' '.join(option.choices)})" if option.choices else ":value:_files"
+            words = " ".join(option.choices)
+            follows = f":value:({words})" if words else ":value:_files"
+            if "--set" in option.names and words:  # the value follows without a space
+                follows = f':value:{{compadd -S "" -- {words}}}'
         specs += [f"'*{n}[{zsh_quoted(option.text)}]{follows}'" for n in option.names]
     return " \\\n        ".join(specs + ["'*:file:_files'"])
 
@@ -153,6 +182,7 @@ def main():
     for program in sys.argv[2:]:
         name = pathlib.Path(program).name
         options, subcommands = read_help(program)
+        add_keys(options, program)
         subcommands = [(sub, words, read_help(program, sub)[0]) for sub, words in subcommands]
         for path, text in ((f"bash/{name}", bash(name, options, subcommands)),
                            (f"zsh/_{name}", zsh(name, options, subcommands)),

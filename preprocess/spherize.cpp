@@ -75,7 +75,7 @@ void declare(CLI::App& app, Options& o) {
     auto* unit = app.add_option("--units", o.read.scale,
                                 "Unit of the file: mm, cm, m, ft, in (from the file, or guessed)")
                      ->type_name("UNIT")
-                     ->transform(CLI::Validator(metres_per_unit, ""));
+                     ->transform(CLI::Validator(metres_per_unit, "{mm,cm,m,ft,in}"));
     app.add_option("--scale", o.read.scale, "Metres per file unit")
         ->transform(ice::positive_quantity(ice::Dimension::none, "0.001"))
         ->excludes(unit);

@@ -26,11 +26,39 @@ done
 [[ $(field Depends) != *-dev* ]] || fail "the programs should not depend on development packages"
 doc=$root/usr/share/doc/icesolve
 [[ -f $doc/copyright ]] || fail "no copyright"
-gzip -t "$doc/changelog.gz"
+gzip -t "$doc/changelog.gz" "$doc/changelog.Debian.gz"
+[[ $(field Maintainer) == *" <"*@*">" ]] || fail "no address in $(field Maintainer)"
+[[ $(field Maintainer) != *example* ]] || fail "a placeholder maintains the package: $(field Maintainer)"
+if command -v lintian >/dev/null; then
+    complaints=$(lintian --allow-root "$package" 2>/dev/null || true)
+    [[ -z $complaints ]] || fail "lintian: $complaints"
+fi
+# what the documents link to, and the READMEs that they name, are beside them
+while IFS=: read -r file link; do
+    [[ -e $(dirname "$file")/$link ]] || fail "$file links to $link, which is not there"
+done < <(cd "$doc" && grep -oE '\]\([^)#:]+\)' -r --include=*.md . | sed -E 's/\]\((.*)\)/\1/; s|^|'"$doc"'/|')
+for name in $(grep -oE '`[a-z/]+/README.md`' "$doc/README.md" | tr -d '`'); do
+    [[ $name == tests/* || -f $doc/$name ]] || fail "README.md names $name, which is not there"
+done
 [[ -z $(find "$root" -perm /o+w -not -type l) ]] || fail "files that anyone may write"
 [[ -z $(find "$root" -name '*.spheres.h5' -o -name node_modules) ]] || fail "built files are packed"
 grep -rqF "$build" "$root/usr/lib/"*/icesolve "$root/usr/lib/cmake" 2>/dev/null &&
     fail "the CMake configuration names the build folder"
+
+# every page has examples and tells where to go on; what they name exists; nothing is ill-formed
+for page in "$root"/usr/share/man/man?/*.gz; do
+    [[ -z $(zcat "$page" | man --warnings -E UTF-8 -l -Tutf8 -Z - 2>&1 >/dev/null) ]] || fail "$page is ill-formed"
+    for part in NAME EXAMPLES 'SEE ALSO'; do
+        zcat "$page" | grep -qE "^\.SH \"?$part" || fail "$page has no $part"
+    done
+    for other in $(zcat "$page" | sed -nE 's/^\.BR ((ice|spherize)[a-z-]*) \(([15])\).*/\1.\3/p'); do
+        [[ -f $root/usr/share/man/man${other##*.}/$other.gz ]] || fail "$page names $other, which is not there"
+    done
+done
+[[ $(find "$root"/usr/share/man -name '*.gz' | wc -l) -ge 14 ]] || fail "pages are missing"
+for key in average_from crushing_pressure concentration breaking_length; do
+    zcat "$root"/usr/share/man/man5/*.gz | grep -q "^\.B $key" || fail "no page explains $key"
+done
 
 for program in spherize icefield icesolve icepost; do
     [[ -x $root/usr/bin/$program ]] || fail "no $program"
@@ -67,6 +95,10 @@ expect "conforming lattice" spherize --arrangement ""
 expect "--radius --repair" spherize --r
 expect "view" icepost v
 expect "--every" icepost paraview run --e
+expect "mm m" spherize --units m
+expect "contact.restitution" icesolve --explain contact.rest
+expect "hull.position=" icesolve --set hull.posi
+expect "floes.jitter=" icefield --set floes.j
 touch "a mesh.obj"
 expect "a mesh.obj" spherize "a m"
 
@@ -76,6 +108,17 @@ export PATH=$root/usr/bin:$PATH
 cases/prepare.sh cases/paper-2d-u0.5 >prepare.log 2>&1 || fail "$(cat prepare.log)"
 icesolve cases/paper-2d-u0.5/case.cfg --out run -q --set simulation.duration=2 --set output.average_from=1
 [[ -f run/report.html ]] || fail "the run has no report"
+
+# a sweep with the workflow that the package brings, of a case that lies elsewhere
+if command -v snakemake >/dev/null; then
+    printf '%s\n' 'case = "cases/paper-2d-u0.5/case.cfg"' 'report = false' '[set]' \
+        'simulation.duration = 2.0' 'output.average_from = 1.0' '[axes]' 'hull.speed = [0.5, 1.0]' >own.toml
+    snakemake -s "$root/usr/share/icesolve/workflow/Snakefile" \
+        --profile "$root/usr/share/icesolve/workflow/local" --cores 1 --config sweep=own.toml >sweep.log 2>&1 ||
+        fail "$(cat sweep.log)"
+    [[ -f results/own/sweep.html ]] || fail "the sweep has no page"
+    [[ -z $(find "$root/usr/share" -name __pycache__) ]] || fail "the workflow leaves files where it is installed"
+fi
 
 # a program of one's own against the package
 cmake -S "$doc/examples/library" -B two_floes -G Ninja -DCMAKE_PREFIX_PATH="$root/usr" \
