@@ -1,9 +1,15 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # README's pictures, from the run that ./bootstrap.sh demo makes: docs/make_pictures.sh [RUN]
-# Needs Chromium (apt-get install chromium).
+# Needs Chromium (apt-get install chromium). --field makes only the one of icefield.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
+icefield=${ICEFIELD:-build/release/bin/icefield}
+field=$(mktemp)
+trap 'rm -f "$field"' EXIT
+"$icefield" cases/icebreaker-100m/channel.toml --set "edges.overhang=[10,10]" -q \
+    -o "$field" --preview docs/field-cusps.svg
+[[ ${1:-} != --field ]] || exit 0
 run=$(realpath "${1:-results/paper-3d}")
 icepost=${ICEPOST:-build/release/bin/icepost}
 
