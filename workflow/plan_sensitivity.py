@@ -96,9 +96,18 @@ class StudyPlanner(Planner):
             recipe = self.recipe_of(key[:-len("spherize")] + "spheres")
             return " ".join(recipe.options) if recipe else None
         value = self.case_value(key) if key.count(".") else None
-        if value is None and not key.startswith("floes."):
-            value = flatten(self.defaults("icesolve")).get(key)
-        return value
+        return self.default_value(key) if value is None else value
+
+    def default_value(self, key):
+        """What icesolve takes for a key that the case does not give (solver/case/read_case.cpp)."""
+        if key.endswith(".hold") and self.case_value(key[:-len("hold")] + "pattern") == "file":
+            return "never"
+        if key == "contact.crushing_pressure" and self.case_value("simulation.dimension") == 2:
+            return math.inf
+        defaults = self.defaults("icesolve")
+        if key.endswith(".hold"):
+            return defaults["floes"][0].get("hold")
+        return None if key.startswith("floes.") else flatten(defaults).get(key)
 
     def keys_in_case(self, entry):
         """The range's keys, those of floes for each group that has them and may leave its place."""

@@ -130,6 +130,9 @@ with tempfile.TemporaryDirectory() as folder:
     assert "floes.gap=[\"50 mm\", \"50 mm\"]" in field.options, field.options
     assert not [o for o in cut.overrides if "seed" in o and o != "simulation.seed=1"]
 
+    # loose floes of a field are free by default, which the release rule is varied from
+    assert labels(p, "release rule") == ["until-hull-contact", "until-contact"]
+
     # a random field is another one for each seed
     write(f"{folder}/case/field.toml", """pattern = "voronoi"
 seed = 5
