@@ -65,7 +65,7 @@ std::string draw_trails(const RunFrame& frame, const std::vector<Trail>& trails,
             out += line_element(at.x(), at.y(), there.x(), there.y(),
                                 fmt::format("stroke=\"{}\" stroke-width=\"0.8\"", trail.color));
         out += text_element(there.x(), there.y() + 4.5, text, "middle",
-                            "font-weight=\"700\" font-size=\"12\" stroke=\"#fff\" "
+                            "font-weight=\"700\" stroke=\"#fff\" "
                             "stroke-width=\"3\" paint-order=\"stroke\"");
     }
     return out;

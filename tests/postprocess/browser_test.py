@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""browser_test.py WRITE_SAMPLE_RUN ICEPOST: the report in headless Chromium, used as people do.
+"""browser_test.py WRITE_SAMPLE_RUN ICEPOST: report and sweep in headless Chromium, used as people do.
 
 Skipped (exit code 77) where Chromium, its driver, Selenium or Pillow are not installed.
 """
 import io
+import json
 import os
 import shutil
 import subprocess
@@ -21,6 +22,8 @@ try:
 except ImportError as error:
     print(f"skipped: {error} (apt-get install python3-selenium python3-pil)")
     sys.exit(77)
+import page_layout
+
 DRIVER = shutil.which("chromedriver")
 BROWSER = shutil.which("chromium")
 if not DRIVER or not BROWSER:
@@ -33,22 +36,23 @@ END = 4.49  # s, of the made-up run (tests/common/fixtures.hpp); its last frame 
 
 
 class Page:
-    """A report in a browser of its own."""
+    """A report or another page in a browser of its own, in a window `width` px wide."""
 
-    def __init__(self, address, flags, phone=False):
+    def __init__(self, address, flags, width=1200):
         options = webdriver.ChromeOptions()
         options.binary_location = BROWSER
         # no name is resolved: whatever the page wanted from the network would fail
-        for flag in ["--headless=new", "--no-sandbox", "--window-size=1200,900",
+        for flag in ["--headless=new", "--no-sandbox", f"--window-size={width},900",
                      "--host-resolver-rules=MAP * ~NOTFOUND", *flags]:
             options.add_argument(flag)
-        if phone:
+        if width < 600:  # no window of a desk is so narrow
             options.add_experimental_option("mobileEmulation", {"deviceMetrics": {
-                "width": 390, "height": 844, "pixelRatio": 2.0}})
+                "width": width, "height": 844, "pixelRatio": 2.0}})
         options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
         self.driver = webdriver.Chrome(service=Service(DRIVER), options=options)
         self.driver.get(address)
-        self.wait(lambda: self.js("return document.documentElement.dataset.viewer || ''"))
+        self.wait(lambda: self.js("return !document.getElementById('run-meta')"
+                                  " || document.documentElement.dataset.viewer || ''"))
 
     def __enter__(self):
         return self
@@ -119,7 +123,9 @@ def check_time(page):
         page.click_at(page.find(f'[data-chart="{chart}"] .u-over'), share)
         span = 4.4 if chart == "coverage" else END
         assert abs(page.clock() - share * span) < 0.02 * END, (chart, page.clock())
-    assert page.js("return document.querySelectorAll('.now:not([hidden])').length") == 5
+    # every chart over time shows the instant
+    assert page.js("return icepost.charts.length") >= 5
+    assert page.js("return document.querySelectorAll('.now[hidden]').length") == 0
 
 
 def check_pictures(page):
@@ -168,12 +174,48 @@ def check_drawings(page):
                      ".filter((t) => t.parentElement.checkVisibility()).map((t) => t.textContent)")
     for view in ("From above", "From starboard", "From below"):
         assert any(title.startswith(view) for title in titles), titles
-    assert page.js("return document.querySelectorAll('.live canvas').length") == 5
+    charts = page.js("return icepost.charts.length")
+    assert page.js("return document.querySelectorAll('.live canvas').length") == charts >= 5
     assert page.find("#load").text and page.find("#origin table").text
+
+
+def check_layout(address, charts_with_numbers):
+    for width in page_layout.WIDTHS:
+        with Page(address, WEBGL, width) as page, tempfile.TemporaryDirectory() as folder:
+            faults = page_layout.layout_faults(page)
+            assert not faults, "\n".join([f"at {width} px:"] + faults)
+            if width in (1400, 400):
+                page_layout.check_buttons(page, folder, charts_with_numbers)
+            page.check_quiet()
+
+
+def write_sweep(folder, write_sample):
+    """Runs at three speeds with two seeds in 3D, and two runs in 2D, as summaries alone."""
+    subprocess.run([write_sample, os.path.join(folder, "run.h5"), "--summary"], check=True)
+    with open(os.path.join(folder, "summary.json"), encoding="utf-8") as file:
+        summary = json.load(file)
+    for dimension, speed, seed in [(3, u, s) for u in (0.5, 1.0, 1.5) for s in (1, 2)] + [
+            (2, 0.5, 1), (2, 1.0, 1)]:
+        run = os.path.join(folder, "sweep", f"d{dimension}u{speed}s{seed}")
+        os.makedirs(run)
+        summary["dimension"] = dimension
+        summary["resistance"]["mean_N"] = 100000.0 * speed + 1000.0 * seed
+        with open(os.path.join(run, "summary.json"), "w", encoding="utf-8") as file:
+            json.dump(summary, file)
+        with open(os.path.join(run, "case.resolved.cfg"), "w", encoding="utf-8") as file:
+            file.write(f"[simulation]\nseed = {seed}\ndimension = {dimension}\n"
+                       f"[hull]\nspeed = {speed}\n")
+    return os.path.join(folder, "sweep")
 
 
 def main():
     write_sample, icepost = sys.argv[1:3]
+    with tempfile.TemporaryDirectory() as folder:
+        sweep = write_sweep(folder, write_sample)
+        subprocess.run([icepost, "-q", "report", folder], check=True)
+        check_layout("file://" + os.path.join(folder, "report.html"), True)
+        subprocess.run([icepost, "-q", "sweep", sweep], check=True)
+        check_layout("file://" + os.path.join(sweep, "sweep.html"), False)
     with tempfile.TemporaryDirectory() as folder:
         subprocess.run([write_sample, os.path.join(folder, "run.h5")], check=True)
         subprocess.run([icepost, "-q", "report", folder], check=True)
@@ -185,7 +227,7 @@ def main():
             check_pictures(page)
             check_screenshot(page)
             page.check_quiet()
-        with Page(address + "#t=2&camera=top&ice=state", WEBGL, phone=True) as page:
+        with Page(address + "#t=2&camera=top&ice=state", WEBGL, width=390) as page:
             assert page.state() == "ready" and page.clock() == 2.0
             check_screenshot(page)
             page.check_quiet()
