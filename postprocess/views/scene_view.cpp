@@ -242,7 +242,9 @@ std::string SceneView::draw(const RunFrame& frame, const std::vector<Trail>& tra
         out += line_element(0.0, y, s.width, y,
                             "stroke=\"#2b7bb9\" stroke-width=\"1\" stroke-dasharray=\"8 3\"");
     }
-    out += draw_trails(frame, trails, [&](const Vec3& offset) { return s.place(offset); });
+    out += draw_trails(
+        frame, trails, [&](const Vec3& offset) { return s.place(offset); },
+        Vec2(s.width, s.height));
     out += "</svg>\n";
     out += fmt::format(
         "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"none\" "

@@ -49,8 +49,8 @@ Vec2 free_place(const Vec2& at, const std::string& text,
 
 }  // namespace
 
-std::string draw_trails(const RunFrame& frame, const std::vector<Trail>& trails,
-                        const Place& place) {
+std::string draw_trails(const RunFrame& frame, const std::vector<Trail>& trails, const Place& place,
+                        const Vec2& size) {
     std::string out;
     for (const Trail& trail : trails) out += draw_path(trail, frame.time, place);
     std::vector<Eigen::AlignedBox2d> taken;
@@ -59,6 +59,9 @@ std::string draw_trails(const RunFrame& frame, const std::vector<Trail>& trails,
         if (body >= frame.position.size()) continue;
         const std::string text = std::to_string(trail.floe);
         const Vec2 at = place(frame.position[body] - frame.ship_position);
+        // nor is there room for a number that would be cut at the edge
+        const Eigen::AlignedBox2d page(Vec2::Zero(), size);
+        if (!page.contains(box_around(at, text))) continue;
         const Vec2 there = free_place(at, text, taken);
         taken.push_back(box_around(there, text));
         if ((there - at).norm() > kLine)

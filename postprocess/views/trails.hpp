@@ -23,9 +23,10 @@ struct Trail {
 using Place = std::function<Vec2(const Vec3&)>;
 
 /// The paths up to the frame's time, then the floes' numbers. A number that would lie on another
-/// one moves up or down and keeps a line to its floe.
-std::string draw_trails(const RunFrame& frame, const std::vector<Trail>& trails,
-                        const Place& place);
+/// one moves up or down and keeps a line to its floe; floes outside have none.
+/// @param size of the picture [px]
+std::string draw_trails(const RunFrame& frame, const std::vector<Trail>& trails, const Place& place,
+                        const Vec2& size);
 
 /// Which line belongs to which floe, in rows of the given width; each row is 18 px high.
 /// No trails: "", no rows.

@@ -120,13 +120,17 @@ TEST_CASE("numbers of floes at one place stand above each other, and the legend 
         const TrailStyle style = trail_style(static_cast<std::size_t>(floe));
         trails.push_back({floe, style.color, style.dash, {}, {}});
     }
-    const std::string svg =
-        draw_trails(run.frames[0], trails, [](const Vec3&) { return Vec2(100.0, 50.0); });
+    const std::string svg = draw_trails(
+        run.frames[0], trails, [](const Vec3&) { return Vec2(100.0, 50.0); }, Vec2(200.0, 100.0));
     std::set<std::string> heights;
     for (std::size_t at = svg.find("<text"); at != std::string::npos;
          at = svg.find("<text", at + 1))
         heights.insert(svg.substr(svg.find(" y=", at), 9));
     CHECK(heights.size() == 6);
+    CHECK(draw_trails(
+              run.frames[0], trails, [](const Vec3&) { return Vec2(300.0, 50.0); },
+              Vec2(200.0, 100.0))
+              .empty());
     const TrailLegend wide = draw_trail_legend(trails, 800.0);
     CHECK(wide.rows == 1);
     CHECK(count(wide.svg, "<line") == 6);
