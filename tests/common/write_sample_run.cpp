@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// write_sample_run FILE [--killed | --summary]: writes a made-up run for open_run.py; killed: leaves
-// FILE.part; summary: with a summary.json beside it, of made-up numbers that are wide on a page.
+// write_sample_run FILE [--killed | --summary]: writes a made-up run for open_run.py.
+// --killed leaves FILE.part; --summary writes a summary.json, too, of numbers wide on a page.
 #include <filesystem>
 #include <string>
 
@@ -26,7 +26,7 @@ ice::Summary make_summary(const ice::RunData& run) {
         s.regions[region] = {37, 8.25, {-777.0, 5.0, 333.0}, {-700.0, 4.0, 300.0}, {-77, 1, 33}};
     s.energy = {{"ship_work_J", 8400.0}, {"drag_J", 1470.0}, {"residual_J", -6.0}};
     s.lindqvist_submersion = 1421.0;
-    s.warnings = {{.text = "a made-up warning with a_word_that_is_too_long_for_any_telephone_screen"}};
+    s.warnings = {{.text = "a made-up warning with a_word_too_long_for_any_telephone_screen"}};
     return s;
 }
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""browser_test.py WRITE_SAMPLE_RUN ICEPOST: report and sweep in headless Chromium, used as people do.
+"""browser_test.py WRITE_SAMPLE_RUN ICEPOST: report and sweep in headless Chromium.
 
 Skipped (exit code 77) where Chromium, its driver, Selenium or Pillow are not installed.
 """
