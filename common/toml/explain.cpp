@@ -56,6 +56,11 @@ std::string table_of(const Key& key) {
 std::string explain_key(const Schema& schema, const std::string& path) {
     const Key* key = schema.find(path);
     if (key == nullptr) {
+        std::string table;  // of which all keys are explained
+        for (const Key& inner : schema.keys)
+            if (inner.path.starts_with(path + "."))
+                table += explain_key(schema, std::string(inner.path));
+        if (!table.empty()) return table;
         const std::string near = schema.nearest(path);
         throw bad_input("--explain", "no key is called '" + path + "'",
                         near.empty() ? schema.program + " --print-defaults lists all keys"

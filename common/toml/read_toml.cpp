@@ -189,6 +189,12 @@ private:
     void read_key(const toml::key& name, const toml::node& node, const std::string& path,
                   const std::string& label, Values& values) {
         const Key* key = schema_.find(path);
+        if (key == nullptr && is_table(path)) {
+            complain(name.source(),
+                     fmt::format("'{0}' is a table: write [{0}], its keys below", path),
+                     name.str().size());
+            return;
+        }
         if (key == nullptr) {
             const std::string near = worth_a_guess(path) ? schema_.nearest(path) : "";
             complain(name.source(),
@@ -285,6 +291,13 @@ private:
         return true;
     }
 
+    static std::vector<std::string> choices_of(const Key& key) {
+        std::vector<std::string> out;
+        std::istringstream in{std::string(key.choices)};
+        for (std::string choice; std::getline(in, choice, '|');) out.push_back(choice);
+        return out;
+    }
+
     bool read_text(const Key& key, const toml::node& node, Value& out) {
         const auto text = node.value<std::string>();
         if (!node.is_string() || !text) {
@@ -293,8 +306,10 @@ private:
         }
         const std::string list = "|" + std::string(key.choices) + "|";
         if (key.kind == Kind::choice && list.find("|" + *text + "|") == std::string::npos) {
+            const std::string near = nearest_name(*text, choices_of(key));
             complain(node.source(),
-                     fmt::format("{} = \"{}\" is none of {}", key.path, *text, key.choices),
+                     fmt::format("{} = \"{}\" is none of {}{}", key.path, *text, key.choices,
+                                 near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near)),
                      text->size() + 2);
             return false;
         }

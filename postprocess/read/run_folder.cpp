@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <vector>
+
 #include "common/base/error.hpp"
 
 namespace ice::read {
@@ -19,6 +22,18 @@ fs::path folder_of(const fs::path& path) {
     return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
+// the remedy for a folder that is none of a run: the runs one level below
+std::string find_runs_in(const fs::path& folder) {
+    std::vector<std::string> runs;
+    std::error_code unreadable;
+    for (const auto& entry : fs::directory_iterator(folder, unreadable))
+        if (fs::exists(entry.path() / "run.h5")) runs.push_back(entry.path().string());
+    if (runs.empty()) return kRemedy;
+    std::sort(runs.begin(), runs.end());
+    return fmt::format("give one of the runs in it, e.g. {}; icepost sweep {} shows them all",
+                       runs.front(), folder.string());
+}
+
 }  // namespace
 
 RunFolder read_run_folder(const fs::path& path) {
@@ -26,7 +41,7 @@ RunFolder read_run_folder(const fs::path& path) {
     run.path = folder_of(path);
     const fs::path whole = run.path / "run.h5", part = run.path / "run.h5.part";
     if (!fs::exists(whole) && !fs::exists(part))
-        throw bad_input(run.path.string(), "holds no run.h5", kRemedy);
+        throw bad_input(run.path.string(), "holds no run.h5", find_runs_in(run.path));
     run.data = read_run(fs::exists(whole) ? whole : part);
     if (fs::exists(run.path / "summary.json"))
         run.summary = read_summary(run.path / "summary.json");

@@ -120,13 +120,13 @@ FieldSpec read_once(const std::filesystem::path& file, const std::vector<std::st
     std::size_t unused = 0;
     std::string text = read_input_text(file, "field specification", ".toml");
     Values values = read_toml(text, file.string(), field_schema(), mistakes, unused);
+    // with a syntax error the rest of the file was not seen: missing keys would mislead
+    const bool unreadable = !mistakes.texts.empty() && values.empty();
     for (const std::string& given : overrides) {
         for (auto& [key, value] : read_override(given, field_schema(), 0, mistakes))
             values[key] = value;
         text += fmt::format("# --set {}\n", given);
     }
-    // with a syntax error the rest of the file was not seen: missing keys would mislead
-    const bool unreadable = !mistakes.texts.empty() && values.empty();
     FieldSpec spec;
     if (!unreadable) spec = SpecBuilder(file, std::move(values), mistakes).build();
     throw_mistakes(mistakes, file, "icefield --explain KEY tells what a key takes");

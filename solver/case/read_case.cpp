@@ -11,6 +11,7 @@
 
 #include "common/base/error.hpp"
 #include "common/toml/input_file.hpp"
+#include "common/toml/recognise_input.hpp"
 #include "solver/case/case_schema.hpp"
 
 namespace ice {
@@ -162,7 +163,21 @@ private:
             complain_at(label,
                         fmt::format("{}: file {} not found; make it with {}",
                                     counted_from_one(label), path.string(), maker_of(path, label)));
+        else if (const std::string other = other_kind(path); !other.empty())
+            complain_at(label,
+                        fmt::format("{}: {} is {}", counted_from_one(label), path.string(), other));
         return path.string();
+    }
+
+    // what was given in place of a sphere set or a field, and what to do; "" where it may be one
+    static std::string other_kind(const std::filesystem::path& path) {
+        if (std::filesystem::is_directory(path)) return "a folder; name a file in it";
+        if (path.extension() == ".toml" || path.extension() == ".cfg")
+            return "a text; a specification becomes a field with icefield";
+        const auto mesh = recognise_file(path, "");
+        return mesh ? fmt::format("{}; spherize {} makes a sphere set of it", mesh->what,
+                                  path.string())
+                    : "";
     }
 
     // a shipped case brings the list of what makes its files
@@ -310,6 +325,8 @@ Case read_once(const std::filesystem::path& file, const std::vector<std::string>
     std::size_t groups = 0;
     Values values = read_toml(read_input_text(file, "case file", ".cfg"), file.string(),
                               case_schema(), mistakes, groups);
+    // with a syntax error the rest of the file was not seen: missing keys would mislead
+    const bool unreadable = !mistakes.texts.empty() && values.empty();
     for (const std::string& text : overrides) {
         Values given = read_override(text, case_schema(), groups, mistakes);
         spread_to_groups(given, groups);
@@ -318,8 +335,6 @@ Case read_once(const std::filesystem::path& file, const std::vector<std::string>
         if (given.contains("hull.speed_table")) values.erase("hull.speed");
         for (auto& [label, value] : given) values[label] = value;
     }
-    // with a syntax error the rest of the file was not seen: missing keys would mislead
-    const bool unreadable = !mistakes.texts.empty() && values.empty();
     Case result;
     if (!unreadable) result = Builder(file, std::move(values), groups, mistakes).build();
     throw_mistakes(mistakes, file, "icesolve --explain KEY tells what a key takes");
