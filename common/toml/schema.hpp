@@ -59,7 +59,8 @@ struct Schema {
     std::vector<std::string> tables() const;
 };
 
-/// Text of `--explain KEY`; of a table, all its keys. @throws Error (exit code 2) for an unknown key.
+/// Text of `--explain KEY`; of a table, all its keys.
+/// @throws Error (exit code 2) for an unknown key.
 std::string explain_key(const Schema& schema, const std::string& path);
 /// What a file's "#:schema" line calls its JSON schema: "case.schema.json".
 std::string schema_file_name(const Schema& schema);

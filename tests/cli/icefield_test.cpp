@@ -54,7 +54,7 @@ TEST_CASE("icefield refuses with exit code 2 and leaves nothing behind", "[cli][
     refuses("channel.toml --set floes.conut=3", "did you mean 'floes.count'?");
     refuses("channel.toml --set ice.thickness=0.09", "does not fit into ice of 0.09 m");
     refuses("channel.toml -o channel.toml", "--output: would overwrite the specification");
-    refuses("channel.toml --json x --preview x", "--preview: would overwrite --json");
+    refuses("channel.toml --json x.svg --preview x.svg", "--preview: would overwrite --json");
     refuses("channel.toml --explain gap", "did you mean 'floes.gap'");
     CHECK_FALSE(fs::exists(w / "channel.h5"));
     CHECK(slurp(w / "channel.toml") == kSpec);
