@@ -20,8 +20,9 @@
 #include "common/cli/start_threads.hpp"
 #include "solver/case/case_schema.hpp"
 #include "solver/case/read_case.hpp"
-#include "solver/record/energy_ledger.hpp"
+#include "solver/ensemble/run_ensemble.hpp"
 #include "solver/record/recorder.hpp"
+#include "solver/record/result_text.hpp"
 #include "solver/step/check_start.hpp"
 #include "solver/step/run.hpp"
 #include "solver/step/run_folder.hpp"
@@ -31,7 +32,7 @@ namespace {
 struct Options {
     std::string case_file, out, explain, restart, simd = "auto";
     std::vector<std::string> overrides;
-    int threads = 0;
+    int threads = 0, seeds = 0;
     std::int64_t hash_every = 0;
     double checkpoint_every = 0.0;
     bool check = false, schema = false, defaults = false, json = false, verify = false,
@@ -62,9 +63,17 @@ void declare(CLI::App& app, Options& o) {
                    "Go on from a checkpoint, in its folder (or --out), to the same bits; only "
                    "simulation.duration may have changed")
         ->type_name("FILE");
+    auto* restart = app.get_option("--restart");
     auto* hashes =
         app.add_option("--hash-every", o.hash_every, "Print step and state hash every N steps")
             ->check(CLI::PositiveNumber);
+    app.add_option("--seeds", o.seeds,
+                   "Run an ensemble of N members in turn, in seed-1, seed-2, ... of the run "
+                   "folder; the same command again goes on with it")
+        ->type_name("N")
+        ->check(CLI::Range(1, 10000))
+        ->excludes(restart)
+        ->excludes(hashes);
     app.add_flag("--check", o.check, "Read and build everything, run nothing");
     app.add_flag("--allow-overlap", o.allow_overlap,
                  "Run a case whose bodies overlap at the start, with a warning");
@@ -94,21 +103,12 @@ std::string command_to_go_on(const Options& o, const std::filesystem::path& fold
 }
 
 // `said`: warnings that the user has seen at the start
-int report(const ice::Summary& s, const Options& o, const std::string& folder,
+int report(const ice::Summary& s, const Options& o, const std::string& folder, double speed,
            const std::vector<ice::Warning>& said) {
     if (o.json) ice::write_data(ice::summary_text(s));
-    const char* unit = s.dimension == 2 ? "N/m" : "N";
-    const std::string interval = std::isfinite(s.resistance.ci95)
-                                     ? fmt::format("+- {:.1f} {} (95 %)", s.resistance.ci95, unit)
-                                     : std::string(unit) + " (too short for an interval)";
-    ice::say(fmt::format(
-        "resistance {:.1f} {}, contact {:.1f}, friction {:.1f}; {} of {} floes moved, deepest "
-        "overlap {:.1f} mm",
-        s.resistance.mean, interval, s.resistance.contact_mean, s.resistance.friction_mean,
-        s.floes_moved, s.floes_total, 1e3 * s.max_overlap));
+    ice::say(ice::resistance_line(s, speed));
     if (s.lindqvist_submersion)
-        ice::say(
-            fmt::format("Lindqvist's submersion resistance: {:.1f} N", *s.lindqvist_submersion));
+        ice::say("Lindqvist's submersion resistance: " + ice::force_text(*s.lindqvist_submersion));
     if (const std::string line = ice::energy_line(s); !line.empty()) ice::say(line);
     for (const ice::Warning& warning : s.warnings)
         if (std::find(said.begin(), said.end(), warning) == said.end())
@@ -194,8 +194,37 @@ int run_case(const Options& o, const std::string& command_line) {
     const ice::Summary summary = ice::run(
         world, {folder, command_line, o.checkpoint_every, going_on, warnings, o.verify, watch});
     progress.finish();
-    const int code = report(summary, o, folder.string(), warnings);
+    const double speed =
+        parameters.ship_speed(0.5 * (parameters.average_from + parameters.duration));
+    const int code = report(summary, o, folder.string(), speed, warnings);
     if (!o.no_report) write_report(folder);
+    return code;
+}
+
+// Options that every member of an ensemble gets as they were given.
+std::vector<std::string> member_words(const Options& o) {
+    std::vector<std::string> words{"--simd", o.simd, "--color", o.messages.colour};
+    if (o.threads > 0) words.insert(words.end(), {"--threads", std::to_string(o.threads)});
+    if (o.checkpoint_every > 0.0)
+        words.insert(words.end(), {"--checkpoint-every", fmt::format("{}", o.checkpoint_every)});
+    for (const auto& [given, word] :
+         {std::pair(o.allow_overlap, "--allow-overlap"), std::pair(o.verify, "--verify"),
+          std::pair(o.no_report, "--no-report"), std::pair(o.messages.quiet, "-q")})
+        if (given) words.emplace_back(word);
+    return words;
+}
+
+int run_seeds(const Options& o, const std::string& command_line) {
+    const auto folder = folder_of_run(o);
+    const auto [summary, code] = ice::run_ensemble(
+        {o.case_file, o.overrides, o.seeds, folder, o.overwrite, member_words(o), command_line});
+    if (summary.ensemble) {
+        if (o.json) ice::write_data(ice::summary_text(summary));
+        ice::say(ice::ensemble_line(summary));
+        ice::say(fmt::format("results in {}", folder.string()));
+    }
+    if (code == static_cast<int>(ice::ExitCode::interrupted))
+        ice::say_warning("interrupted; the same command goes on with the members that are missing");
     return code;
 }
 
@@ -208,6 +237,8 @@ int run_icesolve(const Options& o, const std::string& command_line) {
         ice::write_data(ice::default_text(ice::case_schema()));
     } else if (o.case_file.empty()) {
         throw ice::bad_input("", "no case file given", "icesolve --help lists what it takes");
+    } else if (o.seeds > 0 && !o.check) {
+        return run_seeds(o, command_line);
     } else {
         return run_case(o, command_line);
     }

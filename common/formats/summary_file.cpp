@@ -176,7 +176,8 @@ std::string summary_text(const Summary& s) {
     json["contacts"] = {{"mean", s.contacts_mean},
                         {"max", s.contacts_max},
                         {"max_overlap_m", s.max_overlap},
-                        {"unconverged_steps", s.unconverged_steps}};
+                        {"unconverged_steps", s.unconverged_steps},
+                        {"residual_share", s.residual_share}};
     json["energy"] = s.energy;
     if (!s.imbalance.empty()) json["imbalance"] = s.imbalance;
     json["lindqvist_submersion_N"] = or_null(s.lindqvist_submersion);
@@ -222,6 +223,7 @@ Summary read_summary(const std::filesystem::path& path) {
     s.contacts_max = in.number("contacts.max");
     s.max_overlap = in.number("contacts.max_overlap_m");
     s.unconverged_steps = in.get<std::int64_t>("contacts.unconverged_steps");
+    s.residual_share = in.number_if_there("contacts", "residual_share");
     s.energy = read_energy(in);
     s.imbalance = in.numbers("imbalance");
     s.lindqvist_submersion = in.get<std::optional<double>>("lindqvist_submersion_N");

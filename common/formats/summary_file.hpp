@@ -67,6 +67,8 @@ struct Summary {
     std::map<std::string, RegionStatistics> regions;
     double contacts_mean = 0.0, contacts_max = 0.0, max_overlap = 0.0;
     std::int64_t unconverged_steps = 0;
+    /// Impulses that unconverged steps owe, as a share of all in the averaged time; NaN: unknown.
+    double residual_share = std::numeric_limits<double>::quiet_NaN();
     std::map<std::string, double> energy;         ///< [J], keys end in _J; residual_share [-]
     std::map<std::string, double> imbalance;      ///< worst step's, per kind; empty: not asked for
     std::map<std::string, double> stage_seconds;  ///< wall time per stage of the step

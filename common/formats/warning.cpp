@@ -5,6 +5,13 @@
 
 namespace ice {
 
+Warning judged(std::string text, std::optional<double> share) {
+    Warning out{std::move(text)};
+    if (share) out.affects_mean = *share > kMatters;
+    out.share = share;
+    return out;
+}
+
 std::string with_verdict(const Warning& w) {
     const std::string much =
         w.share ? fmt::format("about {:.2g} % of it", 100.0 * *w.share) : std::string();

@@ -17,6 +17,13 @@ struct Warning {
     bool operator==(const Warning&) const = default;
 };
 
+/// From this share on the mean counts as affected: a fifth of the 10 % by which another model of
+/// contact differs from this one, and no more than the interval of a usual run.
+constexpr double kMatters = 0.02;
+
+/// A warning whose share of the mean was measured, or is unknown; kMatters decides.
+Warning judged(std::string text, std::optional<double> share);
+
 /// The text with the verdict behind it, as a terminal or a report shows it.
 std::string with_verdict(const Warning& warning);
 

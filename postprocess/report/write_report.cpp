@@ -41,13 +41,13 @@ std::string page_header(const read::RunFolder& run) {
 }
 
 std::string statistics_sections(const Summary& s) {
-    std::string out =
-        section("forces", "Force of the ice on the ship",
-                fmt::format("Means over t \u2265 {} s. \u00b1 is the half width of the 95 % "
-                            "confidence interval from batch means. Lindqvist's formula is an "
-                            "empirical estimate and covers the submersion of ice only.",
-                            readable(s.average_from)),
-                force_table(s));
+    std::string out = section(
+        "forces", "Force of the ice on the ship",
+        fmt::format("Means over t \u2265 {} s. \u00b1 is the half width of the 95 % "
+                    "confidence interval from the autocorrelation. Lindqvist's formula is an "
+                    "empirical estimate and covers the submersion of ice only.",
+                    readable(s.average_from)),
+        force_table(s));
     const std::string regions = region_table(s);
     if (!regions.empty())
         out += section(

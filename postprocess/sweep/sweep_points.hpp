@@ -67,8 +67,8 @@ struct Point {
 /// Points in the order of the axes' values, the first axis slowest.
 ///
 /// Over several seeds intervals are Student's; of one run the resistance has the run's own interval
-/// from batch means, its parts have none. Runs from before summary.json split regions into contact
-/// and friction have NaN for these parts.
+/// from its autocorrelation, its parts have none. Runs from before summary.json split regions into
+/// contact and friction have NaN for these parts.
 std::vector<Point> make_points(const Sweep& sweep);
 
 /// Points that differ along x only, x rising: a curve. Label: values of the other axes.

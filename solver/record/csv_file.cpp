@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <sstream>
 #include <system_error>
 
 #include "common/base/error.hpp"
@@ -38,17 +39,31 @@ const char* const kFloeColumns =
     "time_s,x_m,y_m,z_m,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz,contact_fx_N,contact_fy_N,contact_fz_N,"
     "friction_fx_N,friction_fy_N,friction_fz_N,ice_fx_N,ice_fy_N,ice_fz_N";
 
-CsvFile::CsvFile(std::filesystem::path path, const std::string& header)
+std::string CsvFile::whole_header(const std::string& columns, int dimension) {
+    if (dimension != 2) return columns;
+    std::string header = columns;
+    std::istringstream names(columns);
+    std::size_t column = 0;
+    for (std::string name; std::getline(names, name, ','); ++column) {
+        if (!name.ends_with("_N") && !name.ends_with("_J")) continue;
+        header += "," + name + "_per_m";
+        per_metre_.push_back(column);
+    }
+    return header;
+}
+
+CsvFile::CsvFile(std::filesystem::path path, const std::string& columns, int dimension)
     : path_(std::move(path)), out_(part_of(path_), std::ios::binary) {
-    out_ << header << '\n';
+    out_ << whole_header(columns, dimension) << '\n';
     if (!out_)
         throw run_failed(path_.string(), "cannot be written",
                          "check that the folder is writable and the disk is not full");
 }
 
-CsvFile::CsvFile(std::filesystem::path path, const std::string& header,
+CsvFile::CsvFile(std::filesystem::path path, const std::string& columns, int dimension,
                  const std::filesystem::path& earlier, std::int64_t bytes)
     : path_(std::move(path)) {
+    const std::string header = whole_header(columns, dimension);
     std::string text = first_bytes(part_of(earlier), bytes);
     if (text.empty()) text = first_bytes(earlier, bytes);
     begins_late_ = !text.starts_with(header + "\n");
@@ -69,6 +84,7 @@ std::int64_t CsvFile::flush() {
 void CsvFile::add(const std::vector<double>& row) {
     std::string line;
     for (const double value : row) line += fmt::format("{}{:.9g}", line.empty() ? "" : ",", value);
+    for (const std::size_t column : per_metre_) line += fmt::format(",{:.9g}", row[column]);
     out_ << line << '\n';
     if (!out_)
         throw run_failed(path_.string(), "cannot be written", "check that the disk is not full");

@@ -10,23 +10,31 @@
 namespace ice {
 
 /// A growing CSV table with a header line; named x.part until finish() renames it.
+///
+/// In 2D forces and energies are per metre of breadth: columns that end in _N or _J stand once more
+/// behind the others, with _per_m at the end of their names.
 /// @throws Error (exit code 1) naming the file when the disk is full.
 class CsvFile {
 public:
-    CsvFile(std::filesystem::path path, const std::string& header);
+    CsvFile(std::filesystem::path path, const std::string& columns, int dimension);
     /// Goes on from the first `bytes` of an earlier file of the same table: `earlier` or
     /// `earlier`.part, which this one may replace. Without them the rows begin here.
-    CsvFile(std::filesystem::path path, const std::string& header,
+    CsvFile(std::filesystem::path path, const std::string& columns, int dimension,
             const std::filesystem::path& earlier, std::int64_t bytes);
     /// True when the earlier rows were not found.
     bool begins_late() const { return begins_late_; }
     /// Writes what is buffered to disk and tells how long the file is [bytes].
     std::int64_t flush();
+    /// @param row  a value for each of `columns`
     void add(const std::vector<double>& row);
     void finish();
 
 private:
+    // Adds the columns per metre to a header.
+    std::string whole_header(const std::string& columns, int dimension);
+
     std::filesystem::path path_;
+    std::vector<std::size_t> per_metre_;  // columns that stand once more at the end
     std::ofstream out_;
     bool begins_late_ = false;
 };

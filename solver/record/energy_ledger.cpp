@@ -84,31 +84,13 @@ void fill_energy(const EnergyLedger& ledger, double potential_now, Summary& summ
     out["buoyancy_moment_J"] = ledger.buoyancy_moment;
     out["residual_J"] = residual;
     out["residual_share"] = share;
-    if (std::abs(residual) > kWorryingResidual * turnover)
+    if (work > 0.0 && std::abs(residual) > kWorryingResidual * turnover)
         summary.warnings.push_back(
-            {fmt::format("energy: {:.2g} % of the ship's work is not explained by motion, height, "
-                         "friction, "
-                         "impacts, crushing and drag: lower simulation.time_step",
-                         100.0 * residual / turnover)});
-}
-
-std::string energy_line(const Summary& summary) {
-    const auto& energy = summary.energy;
-    const auto work = energy.find("ship_work_J");
-    if (work == energy.end() || work->second == 0.0) return "";
-    const auto share = [&](const char* key, const char* name, int digits = 1) {
-        const double scale = std::pow(10.0, digits);
-        const double percent = std::round(100.0 * scale * energy.at(key) / work->second) / scale;
-        return fmt::format(", {} {:.{}f} %", name, percent + 0.0, digits);  // no -0
-    };
-    return fmt::format("work of the ship {:.5g} {}: ", work->second,
-                       summary.dimension == 2 ? "J/m" : "J") +
-           share("potential_J", "potential").substr(2) + share("kinetic_change_J", "kinetic") +
-           share("friction_J", "friction") + share("restitution_J", "impacts") +
-           share("crushing_J", "crushing") + share("drag_J", "drag") +
-           share("buoyancy_moment_J", "left-out buoyancy moment") +
-           share("separation_J", "put in by opened overlaps", 2) +
-           share("residual_J", "unexplained", 3);
+            judged(fmt::format("energy: {:.2g} % of the ship's work is not explained by motion, "
+                               "height, friction, impacts, crushing and drag: lower "
+                               "simulation.time_step",
+                               100.0 * residual / turnover),
+                   std::abs(residual) / turnover));
 }
 
 }  // namespace ice

@@ -71,7 +71,4 @@ void book_step(const Scene& scene, const Case& parameters,
 /// where they are larger, is not explained.
 void fill_energy(const EnergyLedger& ledger, double potential_now, Summary& summary);
 
-/// The ship's work and where it went in percent of it, one line; "" when the ship did none.
-std::string energy_line(const Summary& summary);
-
 }  // namespace ice

@@ -61,6 +61,7 @@ StepRecord measure_step(const Scene& scene, const std::vector<Contact>& contacts
         if (ship) find_jam(scene, c, dt, out);
         if (normal <= 0.0) continue;
         ++out.contacts;
+        out.impulse += normal;
         if (!ship) continue;
         // impulses act on the floe; the ship feels the opposite
         const Vec3 push = -normal * c.normal, rub = -c.total_tangent();

@@ -22,6 +22,7 @@ struct StepRecord {
     Vec3 friction_force = Vec3::Zero();  ///< on the ship, tangential parts [N]
     Vec3 moment = Vec3::Zero();          ///< on the ship about its mesh origin [N m]
     int contacts = 0;                    ///< that carried an impulse
+    double impulse = 0.0;                ///< sum of all contacts' normal impulses [N s]
     int moving_floes = 0;
     double max_overlap = 0.0;            ///< [m]
     double kinetic_energy = 0.0;         ///< [J]

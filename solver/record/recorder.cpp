@@ -10,6 +10,7 @@
 #include "common/base/error.hpp"
 #include "common/base/state_hash.hpp"
 #include "common/base/version.hpp"
+#include "solver/record/residual_impulse.hpp"
 #include "solver/scene/tunnelling_speed.hpp"
 
 namespace ice {
@@ -113,7 +114,7 @@ void Recorder::open(const std::filesystem::path& folder, const std::string& comm
                     const Scene& scene) {
     run_.emplace(folder / "run.h5", make_header(parameters_, scene, command_line));
     for (const CsvTable& table : csv_tables(parameters_))
-        csv_files_.emplace_back(folder / table.name, table.columns);
+        csv_files_.emplace_back(folder / table.name, table.columns, parameters_.dimension);
     const std::vector<Contact> no_contacts;
     const std::vector<Constraint> no_constraints;
     add_frame({scene, no_contacts, no_constraints, {}, 0.0, true});
@@ -130,7 +131,8 @@ std::vector<std::string> Recorder::resume(const std::filesystem::path& folder,
     const auto tables = csv_tables(parameters_);
     for (std::size_t k = 0; k < tables.size(); ++k) {
         const auto& [name, columns] = tables[k];
-        csv_files_.emplace_back(folder / name, columns, earlier / name, position.csv_bytes.at(k));
+        csv_files_.emplace_back(folder / name, columns, parameters_.dimension, earlier / name,
+                                position.csv_bytes.at(k));
         if (csv_files_.back().begins_late()) late.push_back(name);
     }
     return late;
@@ -144,7 +146,10 @@ RecordPosition Recorder::save_rows() {
 
 void Recorder::add(const StepView& view) {
     const StepRecord record = measure_step(view.scene, view.contacts, view.constraints, dt_);
-    tally_.add(record, view.time, dt_, view.converged);
+    const std::optional<double> residual =
+        view.converged ? std::nullopt
+                       : std::optional(residual_impulse(view.scene.bodies, view.constraints, dt_));
+    tally_.add(record, view.time, dt_, residual);
     measure_floe_forces(view.constraints, dt_, track_of_, tracked_);
     for (const RegionImpulse& r : record.regions) frame_impulse_[r.floe] -= r.impulse;
     hull_contacts_.add(view.contacts, view.constraints);
@@ -231,8 +236,8 @@ void Recorder::finish(const StepView& view, Summary& summary) {
     if (view.time > last_frame_) add_frame(view);
     run_->finish();
     for (CsvFile& file : csv_files_) file.finish();
-    tally_.fill(summary);
     fill_energy(view.ledger, potential_energy(view.scene, parameters_), summary);
+    tally_.fill(summary);  // after the energies: its warnings look at them
     summary.state_hash = state_hash(view.scene, view.constraints);
     const Bodies& b = view.scene.bodies;
     summary.floes_total = static_cast<std::int64_t>(b.size()) - 1;

@@ -1,21 +1,81 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solver/record/statistics.hpp"
 
+#include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <numeric>
-#include <vector>
+
+#include "solver/record/periodogram.hpp"
 
 namespace ice {
 
 namespace {
 
-constexpr std::size_t kBatches = 20;
-constexpr double kStudent = 2.093;  // t(0.975, 19)
+constexpr std::size_t kFewest = 40;    // samples
+constexpr std::size_t kMost = 8192;    // samples that are looked at one by one
+constexpr double kTrendChance = 0.01;  // that a series without a trend is said to have one
 
 double mean_of(std::span<const double> series) {
     return series.empty() ? std::nan("")
                           : std::accumulate(series.begin(), series.end(), 0.0) /
                                 static_cast<double>(series.size());
+}
+
+// Student's t that a share `chance` of all exceed to either side.
+double student(double degrees, double chance) {
+    return boost::math::quantile(
+        boost::math::complement(boost::math::students_t(degrees), 0.5 * chance));
+}
+
+// Means of blocks, so that no more than kMost are left; what is over at the end is left out.
+std::vector<double> blocks_of(std::span<const double> series, std::size_t length) {
+    std::vector<double> blocks(series.size() / length);
+    for (std::size_t b = 0; b < blocks.size(); ++b)
+        blocks[b] = mean_of(series.subspan(b * length, length));
+    return blocks;
+}
+
+double sum_of_squares(std::span<const double> x) {
+    return std::inner_product(x.begin(), x.end(), x.begin(), 0.0);
+}
+
+void subtract_mean(std::vector<double>& x) {
+    const double mean = mean_of(x);
+    for (double& value : x) value -= mean;
+}
+
+// Takes the least-squares line out of a series with mean 0.
+// @return its rise from the first sample's beginning to the last one's end
+double subtract_line(std::vector<double>& x) {
+    const auto n = static_cast<double>(x.size());
+    const double middle = 0.5 * (n - 1.0);
+    double sum = 0.0;
+    for (std::size_t t = 0; t < x.size(); ++t) sum += (static_cast<double>(t) - middle) * x[t];
+    const double slope = sum / (n * (n * n - 1.0) / 12.0);
+    for (std::size_t t = 0; t < x.size(); ++t) x[t] -= slope * (static_cast<double>(t) - middle);
+    return slope * n;
+}
+
+// The low end of the spectrum of a series with mean 0; none where the autocorrelation has not died
+// out within half of the series. @pre not all values are 0
+std::optional<Band> low_band(const std::vector<double>& x) {
+    const std::size_t window = correlation_window(x);
+    if (x.size() < 2 * window) return std::nullopt;
+    const auto widest = std::max<std::size_t>(2, (x.size() + 3 * window) / (6 * window));
+    const std::vector<double> ordinates = low_periodogram(x, widest);
+    return without_lines(std::span(ordinates).first(flat_band(ordinates)));
+}
+
+// Is a rise more than a line through what is left without it has by chance?
+std::optional<bool> is_significant(double rise, const std::vector<double>& detrended) {
+    if (sum_of_squares(detrended) == 0.0) return rise != 0.0;
+    const std::optional<Band> band = low_band(detrended);
+    if (!band) return std::nullopt;
+    const auto n = static_cast<double>(detrended.size());
+    const double degrees = 2.0 * static_cast<double>(band->stay) - 1.0;  // one is the slope's
+    return std::abs(rise) >
+           student(degrees, kTrendChance) * std::sqrt(12.0 * (band->mean + band->line_trend) / n);
 }
 
 }  // namespace
@@ -28,15 +88,37 @@ double standard_deviation(std::span<const double> series) {
     return std::sqrt(sum / static_cast<double>(series.size() - 1));
 }
 
-MeanInterval batch_means(std::span<const double> series) {
-    MeanInterval out{mean_of(series), std::nan("")};
-    const std::size_t length = series.size() / kBatches;
-    if (length < 2) return out;
-    std::vector<double> means(kBatches);
-    for (std::size_t b = 0; b < kBatches; ++b)
-        means[b] = mean_of(series.subspan(b * length, length));
-    out.half_width =
-        kStudent * standard_deviation(means) / std::sqrt(static_cast<double>(kBatches));
+MeanInterval student_interval(std::span<const double> values) {
+    const auto n = static_cast<double>(values.size());
+    const double unknown = std::nan("");
+    MeanInterval out{mean_of(values), unknown, 1.0, n, unknown, std::nullopt};
+    if (values.size() >= 2)
+        out.half_width = student(n - 1.0, 0.05) * standard_deviation(values) / std::sqrt(n);
+    return out;
+}
+
+MeanInterval mean_interval(std::span<const double> series) {
+    const double unknown = std::nan("");
+    MeanInterval out{mean_of(series), unknown, unknown, unknown, unknown, std::nullopt};
+    if (series.size() < kFewest) return out;
+    const std::size_t length = (series.size() + kMost - 1) / kMost;
+    std::vector<double> x = blocks_of(series, length);
+    subtract_mean(x);
+    const auto n = static_cast<double>(x.size());
+    const double variance = sum_of_squares(x) / n;
+    if (variance == 0.0) {
+        out.half_width = out.trend = 0.0;
+        return out;
+    }
+    const std::optional<Band> band = low_band(x);
+    if (band) {
+        out.half_width =
+            student(2.0 * static_cast<double>(band->stay), 0.05) * std::sqrt(band->mean / n);
+        out.effective_samples = n * variance / band->mean;
+        out.correlation_time = static_cast<double>(series.size()) / out.effective_samples;
+    }
+    out.trend = subtract_line(x);
+    out.trend_significant = is_significant(out.trend, x);
     return out;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -27,10 +28,11 @@ class Tally {
 public:
     explicit Tally(TallyOptions options);
 
-    /// @param converged  of both solver stages
-    void add(const StepRecord& record, double time, double dt, bool converged);
+    /// @param residual  residual_impulse() of a step of which a solver stage did not converge
+    void add(const StepRecord& record, double time, double dt, std::optional<double> residual);
 
     /// Fills in forces, regions, contacts, energy and warnings of a summary.
+    /// @pre the summary holds the ledger's energies
     void fill(Summary& summary) const;
 
 private:
@@ -43,11 +45,22 @@ private:
         Vec3 friction = Vec3::Zero();  ///< the part of friction in it
     };
 
+    /// Averaged steps of a doubtful kind.
+    struct Doubtful {
+        double force = 0.0;  ///< sum of their forces along x [N]
+        std::int64_t steps = 0;
+    };
+
+    void add_averaged(const StepRecord& record, double dt);
     void add_regions(const StepRecord& record, bool averaged);
     void add_jam(const StepRecord& record, double time);
 
+    // tally_warnings.cpp
     void warn(Summary& summary) const;
-    void warn_of_tunnelling(Summary& summary) const;
+    Warning warn_of_jam(const Summary& summary) const;
+    Warning warn_of_overlap(const Summary& summary) const;
+    Warning warn_of_tunnelling(const Summary& summary) const;
+    std::optional<double> change_without(const Doubtful& steps, double mean) const;
 
     TallyOptions options_;
     double averaged_time_ = 0.0;
@@ -58,6 +71,8 @@ private:
     std::int64_t steps_ = 0, unconverged_ = 0, jammed_steps_ = 0;
     double contacts_ = 0.0, contacts_max_ = 0.0, max_overlap_ = 0.0;
     double kinetic_ = 0.0, kinetic_max_ = 0.0;
+    double impulse_ = 0.0, residual_ = 0.0;  ///< sums over the averaged time [N s]
+    Doubtful jam_, fast_;
     double first_jam_time_ = 0.0, deepest_time_ = 0.0, closing_speed_ = 0.0, closing_time_ = 0.0;
     std::int32_t first_jam_floe_ = 0, closing_a_ = 0, closing_b_ = 0;
     Vec3 first_jam_point_ = Vec3::Zero();

@@ -104,6 +104,12 @@ void StateFields::carry(CheckpointFile& file, Tally& t) {
 
     file.carry("tally.steps", t.steps_);
     file.carry("tally.unconverged", t.unconverged_);
+    file.carry("tally.impulse", t.impulse_);
+    file.carry("tally.residual", t.residual_);
+    file.carry("tally.jam_force", t.jam_.force);
+    file.carry("tally.jam_averaged", t.jam_.steps);
+    file.carry("tally.fast_force", t.fast_.force);
+    file.carry("tally.fast_averaged", t.fast_.steps);
     file.carry("tally.jammed_steps", t.jammed_steps_);
     file.carry("tally.contacts", t.contacts_);
     file.carry("tally.contacts_max", t.contacts_max_);

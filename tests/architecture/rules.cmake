@@ -7,7 +7,7 @@ set(order_common common/base common/toml common/geometry common/formats common/c
 set(order_preprocess preprocess/load preprocess/clean preprocess/measure preprocess/repair
   preprocess/slice preprocess/fill preprocess/field preprocess/write preprocess)
 set(order_solver solver/case solver/shape solver/water solver/scene solver/broad solver/narrow
-  solver/contact solver/integrate solver/record solver/step solver)
+  solver/contact solver/integrate solver/record solver/step solver/ensemble solver)
 set(order_postprocess postprocess/read postprocess/views postprocess/statistics postprocess/report
   postprocess/sweep postprocess/sensitivity postprocess/paraview postprocess/check postprocess)
 set(tools preprocess solver postprocess)
@@ -21,7 +21,7 @@ set(quarantine
   "<toml"            "^(common/toml|postprocess/(check|sweep|sensitivity))/"
   "<(hdf5|H5)"       "^common/formats/"
   "<nlohmann/"       "^(common/(formats|toml)|preprocess/field|postprocess/report)/"
-  "<boost/"          "^postprocess/(sweep|sensitivity)/"
+  "<boost/"          "^(postprocess/(sweep|sensitivity)|solver/record)/"
   "<hwy/"            "(_simd\\.cpp|_lanes-inl\\.hpp)$"
   "<omp\\.h>"        "^common/base/parallel\\.hpp$"
   "<spdlog/"         "^common/cli/"

@@ -31,7 +31,9 @@ TEST_CASE("icesolve writes the run folder of the contract", "[cli]") {
     std::getline(forces, header);
     CHECK(header ==
           "time_s,contact_fx_N,contact_fy_N,contact_fz_N,friction_fx_N,friction_fy_N,friction_fz_N,"
-          "contacts,moving_floes,max_overlap_m,kinetic_energy_J");
+          "contacts,moving_floes,max_overlap_m,kinetic_energy_J,contact_fx_N_per_m,"
+          "contact_fy_N_per_m,contact_fz_N_per_m,friction_fx_N_per_m,friction_fy_N_per_m,"
+          "friction_fz_N_per_m,kinetic_energy_J_per_m");  // 2D: the old names and the right ones
     int rows = 0;
     while (std::getline(forces, row)) ++rows;
     CHECK(rows == 600);

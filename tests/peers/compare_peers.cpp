@@ -148,7 +148,7 @@ void print_checks(const std::vector<Row>& rows) {
 }
 
 void print_tables(const std::vector<Row>& rows, std::size_t engines) {
-    fmt::print("The case as it stands, 95 % intervals from batch means:\n\n");
+    fmt::print("The case as it stands, 95 % intervals from the autocorrelation:\n\n");
     print_forces(rows, engines, of_first);
     const std::size_t runs = rows[0].runs.size();
     if (runs > 1) {

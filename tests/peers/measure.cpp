@@ -72,8 +72,8 @@ Outcome measure(Engine& engine) {
         force_x.push_back(force.x());
         force_z.push_back(force.z());
     }
-    out.force_x = batch_means(force_x);
-    out.force_z = batch_means(force_z);
+    out.force_x = mean_interval(force_x);
+    out.force_z = mean_interval(force_z);
     const Scene& scene = engine.world().scene;
     for (std::size_t i = 1; i < scene.bodies.size(); ++i) {
         if (!scene.bodies.held[i]) ++out.moved;

@@ -247,9 +247,6 @@ TEST_CASE("more than 0.5 % of unexplained work is worth a warning, less is not",
     CHECK(good.energy.at("residual_J") == Approx(4.0));
     CHECK(good.energy.at("residual_share") == Approx(0.004));
     CHECK(good.warnings.empty());
-    CHECK_THAT(energy_line(good), Catch::Contains("potential 10.0 %") &&
-                                      Catch::Contains("friction 70.0 %") &&
-                                      Catch::Contains("unexplained 0.400 %"));
 
     fill_energy(ledger, 148.0, bad);
     REQUIRE(bad.warnings.size() == 1);
@@ -258,5 +255,4 @@ TEST_CASE("more than 0.5 % of unexplained work is worth a warning, less is not",
     fill_energy({}, 0.0, idle);  // a ship that met no ice
     CHECK(idle.warnings.empty());
     CHECK(idle.energy.at("residual_share") == 0.0);
-    CHECK(energy_line(idle).empty());
 }

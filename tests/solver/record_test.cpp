@@ -3,13 +3,11 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
-#include <random>
 
 #include "solver/record/hull_contacts.hpp"
 #include "solver/record/lindqvist.hpp"
 #include "solver/record/measure_step.hpp"
 #include "solver/record/recorder.hpp"
-#include "solver/record/statistics.hpp"
 #include "solver/record/tally.hpp"
 #include "solver/step/run.hpp"
 #include "tests/common/fixtures.hpp"
@@ -22,34 +20,6 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180.0;
 
 }  // namespace
-
-TEST_CASE("the mean of a constant series is that constant, with no width", "[record][analytic]") {
-    const std::vector<double> series(1000, 3.5);
-    CHECK(batch_means(series).mean == 3.5);
-    CHECK(batch_means(series).half_width == 0.0);
-    CHECK(std::isnan(batch_means({}).mean));
-    CHECK(std::isnan(batch_means(std::vector<double>(39, 1.0)).half_width));
-}
-
-TEST_CASE("the 95 % interval covers the mean of an autocorrelated series at least 9 times in 10",
-          "[record][property]") {
-    // first-order autoregression, correlation time 20 samples, 4000 samples: batches of 200
-    std::mt19937 random(11);
-    std::normal_distribution<double> normal;
-    int covered = 0;
-    for (int trial = 0; trial < 500; ++trial) {
-        std::vector<double> series;
-        double x = normal(random) / std::sqrt(1.0 - 0.95 * 0.95);
-        for (int k = 0; k < 4000; ++k) {
-            x = 0.95 * x + normal(random);
-            series.push_back(x + 7.0);
-        }
-        const MeanInterval m = batch_means(series);
-        covered += std::abs(m.mean - 7.0) <= m.half_width;
-    }
-    CHECK(covered >= 450);
-    CHECK(covered < 500);
-}
 
 TEST_CASE("Lindqvist's submersion resistance of the paper's ship is 1.4 kN at 0.5 m/s",
           "[record][analytic]") {

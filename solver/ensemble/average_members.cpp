@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/ensemble/average_members.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "solver/record/statistics.hpp"
+
+namespace ice {
+
+namespace {
+
+using Members = std::vector<Member>;
+
+template <class Value>
+std::vector<double> column(const Members& members, const Value& value) {
+    std::vector<double> out;
+    for (const Member& m : members) out.push_back(static_cast<double>(value(m.summary)));
+    return out;
+}
+
+template <class Value>
+double mean_over(const Members& members, const Value& value) {
+    return student_interval(column(members, value)).mean;
+}
+
+template <class Value>
+double largest(const Members& members, const Value& value) {
+    const auto all = column(members, value);
+    return *std::max_element(all.begin(), all.end());
+}
+
+template <class Value>
+std::int64_t rounded_mean(const Members& members, const Value& value) {
+    return std::llround(mean_over(members, value));
+}
+
+ForceStatistics average(const Members& members, ForceStatistics Summary::*force) {
+    const auto mean = [&](double ForceStatistics::*part) {
+        return mean_over(members, [&](const Summary& s) { return s.*force.*part; });
+    };
+    ForceStatistics out;
+    const MeanInterval interval =
+        student_interval(column(members, [&](const Summary& s) { return (s.*force).mean; }));
+    out.mean = interval.mean;
+    out.ci95 = interval.half_width;
+    out.contact_mean = mean(&ForceStatistics::contact_mean);
+    out.friction_mean = mean(&ForceStatistics::friction_mean);
+    out.std = mean(&ForceStatistics::std);
+    for (const Member& m : members)
+        if (const double peak = (m.summary.*force).max; std::abs(peak) > std::abs(out.max))
+            out.max = peak;
+    out.effective_samples = static_cast<double>(members.size());
+    return out;
+}
+
+void add_share(std::array<double, 3>& sum, const std::array<double, 3>& value, double share) {
+    for (std::size_t d = 0; d < 3; ++d) sum[d] += share * value[d];
+}
+
+std::map<std::string, RegionStatistics> average_regions(const Members& members) {
+    std::map<std::string, RegionStatistics> out;
+    const double share = 1.0 / static_cast<double>(members.size());
+    for (const Member& m : members)
+        for (const auto& [name, region] : m.summary.regions) {
+            RegionStatistics& sum = out[name];
+            sum.hits += region.hits;
+            sum.max_impulse = std::max(sum.max_impulse, region.max_impulse);
+            add_share(sum.mean, region.mean, share);
+            add_share(sum.contact_mean, region.contact_mean, share);
+            add_share(sum.friction_mean, region.friction_mean, share);
+        }
+    return out;
+}
+
+std::map<std::string, double> average_numbers(const Members& members,
+                                              std::map<std::string, double> Summary::*numbers,
+                                              double share) {
+    std::map<std::string, double> out;
+    for (const Member& m : members)
+        for (const auto& [key, value] : m.summary.*numbers) out[key] += share * value;
+    return out;
+}
+
+void average_counts(const Members& all, Summary& out) {
+    const auto sum = static_cast<double>(all.size());
+    const auto mean = [&](auto member) {
+        return rounded_mean(all, [&](const Summary& s) { return s.*member; });
+    };
+    out.steps = std::llround(sum * mean_over(all, [](const Summary& s) { return s.steps; }));
+    out.simulated_s = sum * mean_over(all, [](const Summary& s) { return s.simulated_s; });
+    out.wall_s = sum * mean_over(all, [](const Summary& s) { return s.wall_s; });
+    out.unconverged_steps =
+        std::llround(sum * mean_over(all, [](const Summary& s) { return s.unconverged_steps; }));
+    out.ice_spheres = mean(&Summary::ice_spheres);
+    out.floes_total = mean(&Summary::floes_total);
+    out.floes_moved = mean(&Summary::floes_moved);
+    out.floes_behind = mean(&Summary::floes_behind);
+    out.contacts_mean = mean_over(all, [](const Summary& s) { return s.contacts_mean; });
+    out.contacts_max = largest(all, [](const Summary& s) { return s.contacts_max; });
+    out.max_overlap = largest(all, [](const Summary& s) { return s.max_overlap; });
+    out.residual_share = mean_over(all, [](const Summary& s) { return s.residual_share; });
+}
+
+}  // namespace
+
+Summary average_members(const std::vector<Member>& members) {
+    Summary out = members.front().summary;
+    const double share = 1.0 / static_cast<double>(members.size());
+    average_counts(members, out);
+    out.resistance = average(members, &Summary::resistance);
+    out.lateral = average(members, &Summary::lateral);
+    out.vertical = average(members, &Summary::vertical);
+    out.regions = average_regions(members);
+    out.energy = average_numbers(members, &Summary::energy, share);
+    out.stage_seconds = average_numbers(members, &Summary::stage_seconds, 1.0);
+    out.state_hash = 0;  // no one state
+    out.ensemble = Ensemble{out.resistance.mean, out.resistance.ci95, {}, {}};
+    out.warnings.clear();
+    for (const Member& m : members) {
+        out.ensemble->means.push_back(m.summary.resistance.mean);
+        out.ensemble->seeds.push_back(m.seed);
+        for (Warning warning : m.summary.warnings) {
+            warning.text = fmt::format("seed {}: {}", m.seed, warning.text);
+            out.warnings.push_back(warning);
+        }
+    }
+    return out;
+}
+
+}  // namespace ice

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "common/formats/summary_file.hpp"
+
+namespace ice {
+
+/// A finished run of an ensemble.
+struct Member {
+    std::int64_t seed = 0;
+    Summary summary;
+};
+
+/// The members as one summary: means of their means, Student's interval of the mean of each force
+/// component (its ci95; NaN for one member), counts of floes and contacts as means, extremes as
+/// extremes, times as sums. Correlation time and trend are those of single runs: unknown here.
+/// What all members share, such as the title, is the first one's. Warnings begin with their seed.
+/// @pre at least one member
+Summary average_members(const std::vector<Member>& members);
+
+}  // namespace ice

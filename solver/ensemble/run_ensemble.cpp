@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/ensemble/run_ensemble.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "common/base/error.hpp"
+#include "common/base/part_file.hpp"
+#include "common/cli/console.hpp"
+#include "common/cli/sibling_program.hpp"
+#include "common/toml/input_file.hpp"
+#include "solver/case/read_case.hpp"
+#include "solver/ensemble/average_members.hpp"
+#include "solver/ensemble/member_field.hpp"
+#include "solver/scene/build_scene.hpp"
+#include "solver/step/run_folder.hpp"
+
+namespace ice {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kJitter = 0.01;  // of the smallest ice sphere's radius
+
+// Where no field changes with the seed and the case moves no floe, jitter makes the difference.
+double default_jitter(const Case& parameters) {
+    const Scene scene = build_scene(parameters);
+    double smallest = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 1; k < scene.shapes.size(); ++k)
+        for (const double radius : scene.shapes[k].radius) smallest = std::min(smallest, radius);
+    return kJitter * smallest;
+}
+
+// What makes a member: its overrides behind those of the case.
+std::vector<std::string> member_overrides(const EnsembleOptions& o, const Case& parameters,
+                                          std::int64_t seed) {
+    std::vector<std::string> out = o.overrides;
+    out.push_back(fmt::format("simulation.seed={}", seed));
+    const auto fields = make_member_fields(parameters, seed, o.folder / "fields");
+    out.insert(out.end(), fields.begin(), fields.end());
+    if (fields.empty() && parameters.jitter == 0.0)
+        out.push_back(fmt::format("simulation.jitter={:g}", default_jitter(parameters)));
+    return out;
+}
+
+// The case of a run folder as it was resolved, without the two comments above it.
+std::string resolved_case_in(const fs::path& folder) {
+    std::string text = read_input_text(folder / "case.resolved.cfg", "resolved case", ".cfg");
+    for (int line = 0; line < 2; ++line) text.erase(0, text.find('\n') + 1);
+    return text;
+}
+
+// A finished member of this ensemble, if the folder holds one.
+std::optional<Summary> finished_member(const EnsembleOptions& o, const fs::path& folder,
+                                       const std::vector<std::string>& overrides) {
+    if (o.overwrite || !fs::exists(folder / "summary.json")) return std::nullopt;
+    Summary summary = read_summary(folder / "summary.json");
+    if (summary.status != "completed") return std::nullopt;
+    if (resolved_case_in(folder) != read_case(o.case_file, overrides).resolved)
+        throw bad_input(folder.string(), "holds a member of another case",
+                        "choose another folder with --out, or compute all anew with --overwrite");
+    return summary;
+}
+
+// Runs one member to its end. @return icesolve's exit code
+int run_member(const EnsembleOptions& o, const fs::path& folder,
+               const std::vector<std::string>& overrides) {
+    std::vector<std::string> words{o.case_file};
+    for (const std::string& text : overrides) words.insert(words.end(), {"--set", text});
+    words.insert(words.end(), o.member_words.begin(), o.member_words.end());
+    const fs::path checkpoint = folder / kCheckpointName;
+    if (!o.overwrite && fs::exists(checkpoint))
+        words.insert(words.end(), {"--restart", checkpoint.string()});
+    else
+        words.insert(words.end(), {"--out", folder.string(), "--overwrite"});
+    const auto code = run_sibling("icesolve", words);
+    if (!code)
+        throw run_failed("icesolve", "cannot be started for a member of the ensemble",
+                         "install it whole, with all programs in one folder");
+    return *code;
+}
+
+void write_ensemble(const EnsembleOptions& o, const std::vector<Member>& members,
+                    const std::string& status, Summary& summary) {
+    summary = average_members(members);
+    summary.status = status;
+    summary.command_line = o.command_line;
+    write_text_file(o.folder / "summary.json", summary_text(summary));
+}
+
+void make_folder(const EnsembleOptions& o) {
+    if (fs::exists(o.folder / "run.h5") && !o.overwrite)
+        throw bad_input(o.folder.string(), "holds a single run",
+                        "choose another folder with --out");
+    std::error_code error;
+    fs::create_directories(o.folder, error);
+    if (error)
+        throw run_failed(o.folder.string(), "cannot be created: " + error.message(),
+                         "choose another folder with --out");
+}
+
+}  // namespace
+
+EnsembleResult run_ensemble(const EnsembleOptions& o) {
+    const Case parameters = read_case(o.case_file, o.overrides);
+    make_folder(o);
+    catch_interrupts();
+    const std::int64_t first = std::max(1, parameters.seed);
+    std::vector<Member> members;
+    EnsembleResult result;
+    for (std::int64_t seed = first; seed < first + o.members && result.code == 0; ++seed) {
+        const fs::path folder = o.folder / fmt::format("seed-{}", seed);
+        const auto overrides = member_overrides(o, parameters, seed);
+        if (interrupted()) {
+            result.code = static_cast<int>(ExitCode::interrupted);
+            break;
+        }
+        std::optional<Summary> summary = finished_member(o, folder, overrides);
+        say(fmt::format("seed {}, member {} of {}{}", seed, seed - first + 1, o.members,
+                        summary ? ": finished before, kept" : ""));
+        if (!summary) {
+            result.code = run_member(o, folder, overrides);
+            if (result.code != 0) break;
+            summary = read_summary(folder / "summary.json");
+        }
+        members.push_back({seed, std::move(*summary)});
+        write_ensemble(
+            o, members,
+            members.size() < static_cast<std::size_t>(o.members) ? "interrupted" : "completed",
+            result.summary);
+    }
+    if (members.empty()) result.summary.status = "failed";
+    return result;
+}
+
+}  // namespace ice

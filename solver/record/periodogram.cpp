@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/record/periodogram.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+namespace ice {
+
+namespace {
+
+constexpr double kWindow = 5.0;       // in correlation times; 4 to 6 are usual (Sokal)
+constexpr double kLineChance = 0.01;  // that a band without a line is said to have one
+constexpr std::size_t kLeastOrdinates = 4;
+constexpr double kDeviations = 2.0;  // of a rise
+
+// Fisher's test of the largest of m exponential variables, against the mean of the others: with
+// k = m - 1 of them each exceeds x times that mean with the chance (1 + x / k)^-k.
+double largest_by_chance(std::size_t m) {
+    const auto k = static_cast<double>(m - 1);
+    return k * (std::pow(static_cast<double>(m) / kLineChance, 1.0 / k) - 1.0);
+}
+
+}  // namespace
+
+std::size_t correlation_window(std::span<const double> x) {
+    const auto covariance = [&](std::size_t lag) {
+        return std::inner_product(x.begin() + static_cast<std::ptrdiff_t>(lag), x.end(), x.begin(),
+                                  0.0);
+    };
+    const double variance = covariance(0);
+    double time = 0.5;
+    for (std::size_t lag = 1; lag < x.size(); ++lag) {
+        time += covariance(lag) / variance;
+        if (static_cast<double>(lag) >= kWindow * time) return lag;
+    }
+    return x.size();
+}
+
+std::vector<double> low_periodogram(std::span<const double> x, std::size_t count) {
+    const std::size_t n = x.size();
+    std::vector<double> cosine(n), sine(n);
+    for (std::size_t t = 0; t < n; ++t) {
+        const double angle =
+            2.0 * std::numbers::pi * static_cast<double>(t) / static_cast<double>(n);
+        cosine[t] = std::cos(angle);
+        sine[t] = std::sin(angle);
+    }
+    std::vector<double> out(count);
+    for (std::size_t j = 1; j <= count; ++j) {
+        double re = 0.0, im = 0.0;
+        for (std::size_t t = 0, turn = 0; t < n; ++t, turn = (turn + j) % n) {
+            re += x[t] * cosine[turn];
+            im += x[t] * sine[turn];
+        }
+        out[j - 1] = (re * re + im * im) / static_cast<double>(n);
+    }
+    return out;
+}
+
+Band without_lines(std::span<const double> ordinates, std::size_t first) {
+    std::vector<std::pair<double, std::size_t>> sorted;  // value, j
+    for (std::size_t k = 0; k < ordinates.size(); ++k) sorted.emplace_back(ordinates[k], first + k);
+    std::sort(sorted.begin(), sorted.end());
+    Band band{0.0, sorted.size(), 0.0};
+    for (const auto& [value, j] : sorted) band.mean += value;  // the sum, for now
+    while (band.stay > kLeastOrdinates) {
+        const auto [largest, j] = sorted[band.stay - 1];
+        const double others = (band.mean - largest) / static_cast<double>(band.stay - 1);
+        if (largest <= largest_by_chance(band.stay) * others) break;
+        band.mean -= largest;
+        --band.stay;
+        const double share = std::numbers::pi * static_cast<double>(j);
+        band.line_trend += 6.0 / (share * share) * largest;
+    }
+    band.mean /= static_cast<double>(band.stay);
+    return band;
+}
+
+std::size_t flat_band(std::span<const double> ordinates) {
+    std::size_t count = ordinates.size();
+    while (count >= 4) {
+        const std::size_t half = count / 2;
+        const Band lower = without_lines(ordinates.first(half));
+        const Band upper = without_lines(ordinates.subspan(half, count - half), half + 1);
+        // the logarithm of a mean of m exponential variables scatters by 1 / sqrt(m)
+        const double deviation = std::sqrt(1.0 / static_cast<double>(lower.stay) +
+                                           1.0 / static_cast<double>(upper.stay));
+        if (upper.mean <= lower.mean * std::exp(kDeviations * deviation)) break;
+        count = half;
+    }
+    return count;
+}
+
+}  // namespace ice

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// The low end of a series' spectrum and how far it is flat; statistics.hpp says what for.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace ice {
+
+/// Sokal's window of a series with mean 0: the first lag W >= 5 (1/2 + sum_{k <= W} c_k / c_0).
+/// @return its length when no lag is; @pre not all values are 0
+std::size_t correlation_window(std::span<const double> centred);
+
+/// I_j = |sum_t x_t exp(-2 pi i j t / n)|^2 / n for j = 1 ... count.
+/// @pre 2 count < n
+std::vector<double> low_periodogram(std::span<const double> centred, std::size_t count);
+
+/// A band of the periodogram without its lines.
+struct Band {
+    double mean = 0.0;        ///< of the ordinates that stay
+    std::size_t stay = 0;     ///< how many
+    double line_trend = 0.0;  ///< sum of 6 / (pi j)^2 I_j of those that go
+};
+
+/// Drops lines from ordinates first, first + 1, ... of a periodogram by Fisher's test at 1 %.
+Band without_lines(std::span<const double> ordinates, std::size_t first = 1);
+
+/// How many of the ordinates, the first ones, form a band that does not rise: halved while the
+/// upper half's mean is more than two standard deviations of its logarithm above the lower's.
+std::size_t flat_band(std::span<const double> ordinates);
+
+}  // namespace ice

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/record/residual_impulse.hpp"
+
+#include <algorithm>
+
+namespace ice {
+
+namespace {
+
+// k(n) = 1/m_a + 1/m_b + (r_a x n) . I_a^-1 (r_a x n) + (r_b x n) . I_b^-1 (r_b x n)
+double response(const Bodies& b, const Constraint& c) {
+    const Vec3 ta = c.arm_a.cross(c.normal), tb = c.arm_b.cross(c.normal);
+    return b.inverse_mass[c.a] + b.inverse_mass[c.b] + ta.dot(b.inverse_inertia_world[c.a] * ta) +
+           tb.dot(b.inverse_inertia_world[c.b] * tb);
+}
+
+}  // namespace
+
+double residual_impulse(const Bodies& bodies, const std::vector<Constraint>& constraints,
+                        double dt) {
+    double sum = 0.0;
+    for (const Constraint& c : constraints) {
+        if (!c.can_move) continue;
+        const double u = relative_velocity(bodies, c).dot(c.normal) + std::max(c.gap, 0.0) / dt;
+        if (u < 0.0 && !c.crushed())
+            sum -= u / response(bodies, c);
+        else if (u > 0.0 && c.rest_normal > 0.0 && c.impact_normal == 0.0)
+            sum += std::min(c.rest_normal, u / response(bodies, c));
+    }
+    return sum;
+}
+
+}  // namespace ice

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/record/result_text.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace ice {
+
+namespace {
+
+constexpr double kKilo = 1e4;              // from here on in kN, kJ
+constexpr double kKnot = 1852.0 / 3600.0;  // [m/s]
+constexpr double kShown = 0.01;            // of the work
+
+// Numbers in one unit and to one digit.
+struct Format {
+    double unit = 1.0;
+    std::string name;
+    double step = 1.0;  // of the last digit, in that unit
+    int decimals = 0;
+
+    std::string operator()(double value) const {
+        return fmt::format("{:.{}f}", std::round(value / unit / step) * step + 0.0, decimals);
+    }
+};
+
+// @param error  to two digits of which the value is shown
+Format format_for(double value, double error, int dimension, const char* unit) {
+    Format out;
+    const bool kilo = std::abs(value) >= kKilo;
+    out.unit = kilo ? 1e3 : 1.0;
+    out.name = fmt::format("{}{}{}", kilo ? "k" : "", unit, dimension == 2 ? "/m" : "");
+    if (!(error > 0.0) || !std::isfinite(error)) error = 0.01 * std::abs(value);
+    if (!(error > 0.0)) return out;
+    const int digit = static_cast<int>(std::floor(std::log10(error / out.unit))) - 1;
+    out.step = std::pow(10.0, digit);
+    out.decimals = std::clamp(-digit, 0, 9);
+    return out;
+}
+
+}  // namespace
+
+std::string force_text(double value, double half_width, int dimension) {
+    const Format format = format_for(value, half_width, dimension, "N");
+    if (!std::isfinite(half_width))
+        return fmt::format("{} {} (too short for an interval)", format(value), format.name);
+    return fmt::format("{} +- {} {}", format(value), format(half_width), format.name);
+}
+
+std::string force_text(double value) {
+    const Format format = format_for(value, 0.0, 3, "N");
+    return fmt::format("{} {}", format(value), format.name);
+}
+
+std::string resistance_line(const Summary& s, double speed) {
+    const ForceStatistics& r = s.resistance;
+    const Format format = format_for(r.mean, r.ci95, s.dimension, "N");
+    return fmt::format(
+        "resistance {}{} at {:.3g} m/s ({:.3g} kn): contact {}, friction {}; {} of {} floes moved",
+        force_text(r.mean, r.ci95, s.dimension), std::isfinite(r.ci95) ? " (95 %)" : "", speed,
+        speed / kKnot, format(r.contact_mean), format(r.friction_mean), s.floes_moved,
+        s.floes_total);
+}
+
+std::string energy_line(const Summary& s) {
+    const auto found = s.energy.find("ship_work_J");
+    if (found == s.energy.end() || found->second == 0.0) return "";
+    const double work = found->second;
+    std::vector<std::pair<double, const char*>> shares;
+    for (const auto& [key, name] :
+         {std::pair("potential_J", "raised or sunk"), std::pair("kinetic_change_J", "moving"),
+          std::pair("friction_J", "friction"), std::pair("restitution_J", "impacts"),
+          std::pair("crushing_J", "crushing"), std::pair("drag_J", "drag"),
+          std::pair("buoyancy_moment_J", "left-out buoyancy moment"),
+          std::pair("separation_J", "put in by opened overlaps"),
+          std::pair("residual_J", "unexplained")})
+        if (const double share = s.energy.at(key) / work; std::abs(share) >= kShown)
+            shares.emplace_back(share, name);
+    std::stable_sort(shares.begin(), shares.end(), [](const auto& l, const auto& r) {
+        return std::abs(l.first) > std::abs(r.first);
+    });
+    const Format format = format_for(work, 0.0, s.dimension, "J");
+    std::string line = fmt::format("work of the ship {} {}", format(work), format.name);
+    for (std::size_t k = 0; k < shares.size(); ++k)
+        line += fmt::format("{} {} {:.0f} %", k == 0 ? ":" : ",", shares[k].second,
+                            100.0 * shares[k].first);
+    return line;
+}
+
+std::string ensemble_line(const Summary& s) {
+    const Ensemble& e = *s.ensemble;
+    const Format format = format_for(e.mean, e.ci95, s.dimension, "N");
+    std::vector<std::string> means;
+    for (const double mean : e.means) means.push_back(format(mean));
+    const std::string mean =
+        std::isfinite(e.ci95)
+            ? force_text(e.mean, e.ci95, s.dimension) + " (95 %, Student)"
+            : fmt::format("{} {} (one member: no interval)", format(e.mean), format.name);
+    return fmt::format("ensemble of {}: resistance {}; members {} {}", e.means.size(), mean,
+                       fmt::join(means, ", "), format.name);
+}
+
+}  // namespace ice

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// A run's result as lines for a terminal: as many digits as the interval is worth.
+#pragma once
+
+#include <string>
+
+#include "common/formats/summary_file.hpp"
+
+namespace ice {
+
+/// "1410 +- 55 N": the interval with two significant digits, the value to its last one; kN from
+/// 10 kN on, per metre in 2D. Without an interval four digits, and why.
+std::string force_text(double value, double half_width, int dimension);
+/// "1.42 kN": three digits, of a whole ship.
+std::string force_text(double value);
+
+/// Mean resistance with interval, and what it consists of.
+/// @param speed  of the ship over the averaged time [m/s]; shown in knots as well
+std::string resistance_line(const Summary& summary, double speed);
+
+/// The ship's work and where at least 1 % of it went, largest share first; "" when it did none.
+/// All shares are in summary.json.
+std::string energy_line(const Summary& summary);
+
+/// Student's interval of an ensemble and its members' means. @pre the summary has an ensemble
+std::string ensemble_line(const Summary& summary);
+
+}  // namespace ice

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Ensembles as a user meets them: icesolve CASE --seeds N.
+#include <signal.h>
+
+#include <chrono>
+#include <thread>
+
+#include "common/formats/summary_file.hpp"
+#include "tests/cli/workshop.hpp"
+
+using namespace ice;
+using namespace ice::test;
+
+namespace {
+
+constexpr const char* kThree = "icesolve case.cfg --seeds 3 --no-report --out e";
+
+// Cells whose places the seed decides, before a block.
+constexpr const char* kField = R"(pattern = "voronoi"
+seed = 5
+[ice]
+thickness = 0.3
+[area]
+size = [4, 4]
+origin = [0.1, 0]
+[floes]
+concentration = 0.7
+mean_size = 0.9
+[spheres]
+radius = 0.1
+)";
+
+constexpr const char* kCase = R"([simulation]
+duration = 1.5
+time_step = 0.01
+[hull]
+spheres = "hull.h5"
+position = [-1.2, 0, 0]
+speed = 1.0
+[[floes]]
+pattern = "file"
+file = "field.h5"
+hold = "never"
+[output]
+average_from = 0.8
+)";
+
+}  // namespace
+
+TEST_CASE("an ensemble's summary holds its members' means, and a second call keeps them", "[cli]") {
+    const Workshop w;
+    w.make_case();
+    const Result r = w.run(kThree);
+    CAPTURE(r.err);
+    REQUIRE(r.code == 0);
+    CHECK_THAT(r.err, Catch::Contains("ensemble of 3: resistance"));
+    const Summary s = read_summary(w / "e/summary.json");
+    REQUIRE(s.ensemble);
+    CHECK(s.status == "completed");
+    CHECK(s.ensemble->seeds == std::vector<std::int64_t>{1, 2, 3});
+    double sum = 0.0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const auto member = w / ("e/seed-" + std::to_string(k + 1));
+        const Summary one = read_summary(member / "summary.json");
+        CHECK(one.resistance.mean == s.ensemble->means[k]);
+        sum += one.resistance.mean;
+    }
+    CHECK(s.resistance.mean == Approx(sum / 3.0).epsilon(1e-12));
+    CHECK(s.ensemble->means[0] != s.ensemble->means[1]);
+    // a hundredth of the spheres' radius, 0.1 m
+    CHECK_THAT(slurp(w / "e/seed-2/case.resolved.cfg"),
+               Catch::Contains("jitter = 0.001") && Catch::Contains("seed = 2"));
+    CHECK(w.run("icepost table e e/seed-1").code == 0);
+
+    // a member that is missing is computed, the others are kept; one more may be asked for
+    fs::remove_all(w / "e/seed-2");
+    const Result again = w.run("icesolve case.cfg --seeds 4 --no-report --out e");
+    CAPTURE(again.err);
+    REQUIRE(again.code == 0);
+    CHECK_THAT(again.err, Catch::Contains("seed 1, member 1 of 4: finished before, kept") &&
+                              Catch::Contains("seed 3, member 3 of 4: finished before, kept"));
+    const Summary four = read_summary(w / "e/summary.json");
+    CHECK(four.ensemble->means.size() == 4);
+    CHECK(four.ensemble->means[1] == s.ensemble->means[1]);
+
+    // another case may not mix with them
+    const Result other = w.run(std::string(kThree) + " --set contact.friction_ship_ice=0.2");
+    CHECK(other.code == 2);
+    CHECK_THAT(other.err,
+               Catch::Contains("holds a member of another case") && Catch::Contains("--overwrite"));
+    CHECK(read_summary(w / "e/summary.json").ensemble->means.size() == 4);
+    CHECK(w.run(std::string(kThree) + " --overwrite --set contact.friction_ship_ice=0.2").code ==
+          0);
+    CHECK(read_summary(w / "e/summary.json").ensemble->means != s.ensemble->means);
+}
+
+TEST_CASE("an ensemble refuses the folder of a single run", "[cli]") {
+    const Workshop w;
+    w.make_case();
+    REQUIRE(w.run("icesolve case.cfg -q --no-report --out e").code == 0);
+    const Result r = w.run(kThree);
+    CHECK(r.code == 2);
+    CHECK_THAT(r.err, Catch::Contains("holds a single run"));
+}
+
+TEST_CASE("a member that fails ends the ensemble with its code and keeps the others", "[cli]") {
+    const Workshop w;
+    w.make_case();
+    REQUIRE(w.run("icesolve case.cfg --seeds 1 -q --no-report --out e").code == 0);
+    fs::create_directories(w / "e");
+    w.write("e/seed-2", "in the way");
+    const Result r = w.run(kThree);
+    CAPTURE(r.err);
+    CHECK(r.code == 1);
+    const Summary s = read_summary(w / "e/summary.json");
+    CHECK(s.ensemble->means.size() == 1);
+    CHECK(s.status == "interrupted");
+}
+
+TEST_CASE("the seeds of a field from a specification make new fields", "[cli]") {
+    const Workshop w;
+    w.write("field.toml", kField);
+    w.write("case.cfg", kCase);
+    REQUIRE(w.run("icefield field.toml -q --set floes.mean_size=0.8").code == 0);
+    REQUIRE(w.run("spherize " ICE_MESHES "/paper-floe-3d.obj -r 0.1 -s 0.2 -o hull.h5 -q").code ==
+            0);
+    const Result r = w.run("icesolve case.cfg --seeds 2 --no-report --out e");
+    CAPTURE(r.err);
+    REQUIRE(r.code == 0);
+    const std::string first = slurp(w / "e/fields/group-1-seed-1.h5"),
+                      second = slurp(w / "e/fields/group-1-seed-2.h5");
+    CHECK_FALSE(first.empty());
+    CHECK_FALSE(second.empty());
+    CHECK(first != second);
+    // the override that made the field makes its members, and no floe is jittered
+    CHECK_THAT(first, Catch::Contains("# --set floes.mean_size=0.8"));
+    CHECK_THAT(slurp(w / "e/seed-2/case.resolved.cfg"),
+               Catch::Contains("group-1-seed-2.h5") && Catch::Contains("jitter = 0.0"));
+    // the same command keeps both
+    const Result again = w.run("icesolve case.cfg --seeds 2 --no-report --out e");
+    CAPTURE(again.err);
+    CHECK(again.code == 0);
+    CHECK_THAT(again.err, Catch::Contains("member 2 of 2: finished before, kept"));
+}
+
+TEST_CASE("Ctrl-C in an ensemble keeps what is finished, and the command goes on", "[cli]") {
+    const Workshop w;
+    w.make_case();
+    const std::string long_run = " --set simulation.duration=10 --threads 1";
+    // what a terminal does: the signal goes to the whole group
+    std::thread interrupt([&] {
+        for (int k = 0; k < 600 && !fs::exists(w / "e/seed-2/run.h5.part"); ++k)
+            std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        std::ifstream file(w / "group");
+        int group = 0;
+        if (file >> group) kill(-group, SIGINT);
+    });
+    w.write("go", "echo $$ > group\nexec " ICE_BIN "/" + std::string(kThree) + long_run + "\n");
+    const std::string line =
+        "cd '" + (w / "").string() + "' && setsid -w bash ./go >/dev/null 2>err.txt";
+    const int status = std::system(line.c_str());
+    interrupt.join();
+    CAPTURE(slurp(w / "err.txt"));
+    REQUIRE(WIFEXITED(status));
+    CHECK(WEXITSTATUS(status) == 130);
+    CHECK_THAT(slurp(w / "err.txt"), Catch::Contains("the same command goes on"));
+    const Summary s = read_summary(w / "e/summary.json");
+    CHECK(s.status == "interrupted");
+    CHECK(s.ensemble->means.size() == 1);
+
+    const Result r = w.run(kThree + long_run);
+    CAPTURE(r.err);
+    REQUIRE(r.code == 0);
+    CHECK_THAT(r.err, Catch::Contains("seed 1, member 1 of 3: finished before, kept") &&
+                          Catch::Contains("--restart"));
+    CHECK(read_summary(w / "e/summary.json").ensemble->means.size() == 3);
+}

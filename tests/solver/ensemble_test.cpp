@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Members of an ensemble as one summary, and results as lines for a terminal.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+
+#include "solver/ensemble/average_members.hpp"
+#include "solver/record/result_text.hpp"
+
+using namespace ice;
+
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+Member member(std::int64_t seed, double mean) {
+    Member m;
+    m.seed = seed;
+    m.summary.resistance.mean = mean;
+    m.summary.resistance.contact_mean = 0.7 * mean;
+    m.summary.resistance.max = 10.0 * mean;
+    m.summary.steps = 1000;
+    m.summary.simulated_s = 20.0;
+    m.summary.floes_moved = seed;
+    m.summary.energy["drag_J"] = mean;
+    m.summary.regions["bow"].hits = 3;
+    m.summary.regions["bow"].mean = {-mean, 0.0, 0.0};
+    return m;
+}
+
+}  // namespace
+
+TEST_CASE("an ensemble's mean is its members', its interval Student's", "[ensemble][analytic]") {
+    std::vector<Member> members{member(1, 100.0), member(2, 110.0), member(3, 120.0)};
+    members[1].summary.warnings = {{"floe 3 fell off", true, 0.25}};
+    const Summary s = average_members(members);
+    const double half_width = 4.302653 * 10.0 / std::sqrt(3.0);  // t(0.975, 2), s = 10
+    CHECK(s.resistance.mean == Approx(110.0));
+    CHECK(s.resistance.ci95 == Approx(half_width).epsilon(1e-6));
+    CHECK(s.resistance.contact_mean == Approx(77.0));
+    CHECK(s.resistance.max == 1200.0);
+    CHECK(s.resistance.effective_samples == 3.0);
+    REQUIRE(s.ensemble);
+    CHECK(s.ensemble->mean == Approx(110.0));
+    CHECK(s.ensemble->means == std::vector<double>{100.0, 110.0, 120.0});
+    CHECK(s.ensemble->seeds == std::vector<std::int64_t>{1, 2, 3});
+    CHECK(s.steps == 3000);
+    CHECK(s.simulated_s == Approx(60.0));
+    CHECK(s.floes_moved == 2);
+    CHECK(s.energy.at("drag_J") == Approx(110.0));
+    CHECK(s.regions.at("bow").hits == 9);
+    CHECK(s.regions.at("bow").mean[0] == Approx(-110.0));
+    REQUIRE(s.warnings.size() == 1);
+    CHECK(s.warnings[0] == Warning{"seed 2: floe 3 fell off", true, 0.25});
+}
+
+TEST_CASE("one member alone has a mean and no interval", "[ensemble]") {
+    const Summary s = average_members({member(7, 100.0)});
+    CHECK(s.resistance.mean == 100.0);
+    CHECK(std::isnan(s.ensemble->ci95));
+    CHECK_THAT(ensemble_line(s), Catch::Contains("100.0 N (one member: no interval)"));
+}
+
+TEST_CASE("a force is printed to two digits of its interval, in kN from 10 kN on",
+          "[record][analytic]") {
+    CHECK(force_text(1406.31, 55.4, 3) == "1406 +- 55 N");
+    CHECK(force_text(439593.7, 47203.7, 3) == "440 +- 47 kN");
+    CHECK(force_text(2003.6, 104.6, 3) == "2000 +- 100 N");
+    CHECK(force_text(1810.05, 107.4, 2) == "1810 +- 110 N/m");
+    CHECK(force_text(0.1234, 0.0123, 3) == "0.123 +- 0.012 N");
+    CHECK(force_text(24391.0, 812.0, 3) == "24.39 +- 0.81 kN");
+    CHECK(force_text(1406.31, kNaN, 3) == "1406 N (too short for an interval)");
+    CHECK(force_text(1421.4) == "1421 N");
+}
+
+TEST_CASE("the resistance's line has both units of speed, the energy's the shares worth a word",
+          "[record]") {
+    Summary s;
+    s.resistance = {439593.7, 300000.0, 139593.7, 1.0, 1.0, 47203.7};
+    s.floes_moved = 60;
+    s.floes_total = 84;
+    CHECK(resistance_line(s, 2.05778) ==
+          "resistance 440 +- 47 kN (95 %) at 2.06 m/s (4 kn): contact 300, friction 140; 60 of 84 "
+          "floes moved");
+    CHECK(energy_line(s).empty());
+    for (const char* key : {"potential_J", "kinetic_change_J", "crushing_J", "buoyancy_moment_J",
+                            "separation_J", "residual_J"})
+        s.energy[key] = 0.0;
+    s.energy["ship_work_J"] = 42643.0;
+    s.energy["friction_J"] = 0.37 * 42643.0;
+    s.energy["drag_J"] = 0.146 * 42643.0;
+    s.energy["restitution_J"] = 0.484 * 42643.0;
+    s.energy["residual_J"] = 0.004 * 42643.0;
+    CHECK(energy_line(s) == "work of the ship 42.64 kJ: impacts 48 %, friction 37 %, drag 15 %");
+}

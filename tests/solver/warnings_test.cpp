@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a run warns of, and the verdict on the mean that each warning carries.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+
+#include "solver/record/residual_impulse.hpp"
+#include "solver/record/tally.hpp"
+#include "solver/step/step.hpp"
+#include "tests/support/make_worlds.hpp"
+
+using namespace ice;
+
+namespace {
+
+TallyOptions options(bool rigid = false) { return {{"bow"}, 1.005, rigid, 0.05, 4.0}; }
+
+// A step that slows the ship by `force` [N].
+StepRecord step_of(double force) {
+    StepRecord r;
+    r.contacts = 1;
+    r.impulse = 2.0;
+    r.contact_force = Vec3(-force, 0, 0);
+    return r;
+}
+
+// 100 steps before the averaged time and 1000 in it, forces 90 and 110 N in turn
+template <class Change>
+Summary summary_of(Tally tally, const Change& change) {
+    for (int k = 0; k < 1100; ++k) {
+        StepRecord r = step_of(k % 2 == 0 ? 90.0 : 110.0);
+        const std::optional<double> residual = change(k - 100, r);
+        tally.add(r, 0.01 * (k + 1), 0.01, residual);
+    }
+    Summary s;
+    s.energy["ship_work_J"] = 1000.0;
+    s.energy["separation_J"] = -6.0;
+    tally.fill(s);
+    return s;
+}
+
+constexpr auto kNothing = std::optional<double>();
+
+}  // namespace
+
+TEST_CASE("a run without a fault warns of nothing", "[record]") {
+    const Summary s = summary_of(Tally(options()), [](int, StepRecord&) { return kNothing; });
+    CHECK(s.warnings.empty());
+    CHECK(s.resistance.mean == Approx(100.0));
+    CHECK(s.residual_share == 0.0);
+}
+
+TEST_CASE("unconverged steps are warned of when they owe more than 2 % of the impulses",
+          "[record][analytic]") {
+    const auto owing = [](double residual) {
+        return summary_of(Tally(options()), [=](int k, StepRecord&) {
+            return k % 2 == 0 ? std::optional(residual) : std::nullopt;
+        });
+    };
+    const Summary little = owing(0.04);  // of every other step's 2 N s: 1 %
+    CHECK(little.residual_share == Approx(0.01));
+    CHECK(little.unconverged_steps == 550);
+    CHECK(little.warnings.empty());
+    const Summary much = owing(0.2);
+    REQUIRE(much.warnings.size() == 1);
+    CHECK_THAT(much.warnings[0].text,
+               Catch::Contains("550 of 1100 steps did not reach contact.tolerance"));
+    CHECK(much.warnings[0].affects_mean == true);
+    CHECK(much.warnings[0].share.value() == Approx(0.05));
+}
+
+TEST_CASE("a jam's share of the mean is what the mean loses without its steps",
+          "[record][analytic]") {
+    const auto jammed = [](double force, int from) {
+        return summary_of(Tally(options(true)), [=](int k, StepRecord& r) {
+            if (k < from || k >= from + 10) return kNothing;
+            r.contact_force.x() = -force;
+            r.jammed_contacts = 1;
+            r.jammed_floe = 7;
+            return kNothing;
+        });
+    };
+    const Summary s = jammed(5000.0, 500);
+    const double mean = (990 * 100.0 + 10 * 5000.0) / 1000.0;
+    CHECK(s.resistance.mean == Approx(mean));
+    REQUIRE_FALSE(s.warnings.empty());
+    CHECK_THAT(s.warnings[0].text, Catch::Contains("jam: in 10 of 1100 steps") &&
+                                       Catch::Contains("first floe 7 at t = 6.01 s"));
+    CHECK(s.warnings[0].affects_mean == true);
+    CHECK(s.warnings[0].share.value() == Approx((mean - 100.0) / mean));
+    CHECK(jammed(200.0, 500).warnings.empty());    // 1 % of the mean
+    CHECK(jammed(50000.0, -50).warnings.empty());  // before the averaged time
+}
+
+TEST_CASE("a deep overlap is said with the share of work that opening overlaps put in",
+          "[record][analytic]") {
+    const Summary s = summary_of(Tally(options()), [](int k, StepRecord& r) {
+        r.max_overlap = k == 300 ? 0.06 : 0.04;
+        return kNothing;
+    });
+    REQUIRE(s.warnings.size() == 1);
+    CHECK_THAT(s.warnings[0].text, Catch::Contains("overlap reached 60.0 mm at t = 4.01 s"));
+    CHECK(s.warnings[0].affects_mean == false);
+    CHECK(s.warnings[0].share.value() == Approx(0.006));
+}
+
+TEST_CASE("a mean that few hits decide is warned of, with the share of the largest",
+          "[record][analytic]") {
+    const Summary s = summary_of(Tally(options()), [](int k, StepRecord& r) {
+        if (k % 200 == 0 && k >= 0) r.contact_force.x() = -50000.0;
+        return kNothing;
+    });
+    REQUIRE(s.warnings.size() == 1);
+    CHECK_THAT(s.warnings[0].text, Catch::Contains("comes from 1 % of the steps"));
+    CHECK(s.warnings[0].affects_mean == true);
+    CHECK(s.warnings[0].share.value() ==
+          Approx(50000.0 / (995 * 100.0 + 5 * 50000.0)).epsilon(1e-3));
+}
+
+TEST_CASE("a resistance that rises over the averaged time is warned of with its share",
+          "[record][analytic]") {
+    const Summary s = summary_of(Tally(options()), [](int k, StepRecord& r) {
+        r.contact_force.x() -= 0.05 * (k - 499.5);  // 50 N over 1000 steps, mean as before
+        return kNothing;
+    });
+    CHECK(s.resistance.trend == Approx(50.0).epsilon(0.01));
+    CHECK(s.resistance.trend_significant == true);
+    REQUIRE(s.warnings.size() == 1);
+    CHECK_THAT(s.warnings[0].text, Catch::Contains("rises by 50 % of its mean"));
+    CHECK(s.warnings[0].affects_mean == true);
+    CHECK(s.warnings[0].share.value() == Approx(0.5).epsilon(0.01));
+}
+
+TEST_CASE("bodies that meet too fast are warned of with what their steps do to the mean",
+          "[record][analytic]") {
+    const Summary s = summary_of(Tally(options()), [](int k, StepRecord& r) {
+        r.closing_speed = k == 700 ? 5.0 : 1.0;
+        return kNothing;
+    });
+    REQUIRE(s.warnings.size() == 1);
+    CHECK_THAT(s.warnings[0].text, Catch::Contains("met at 5 m/s at t = 8.01 s"));
+    CHECK(s.warnings[0].affects_mean == false);
+    CHECK(s.warnings[0].share.value() < 0.001);
+}
+
+TEST_CASE("what a contact owes is the floe's mass times the speed at which it still closes",
+          "[record][analytic]") {
+    World w = test::plate_world(test::empty_space(0.01), Vec3(4, 4, 0.4), 0.1, 0.1, 0.0);
+    const auto box = test::add_shape(w, test::make_box_set(Vec3(1, 0.8, 0.3), 0.05, 0.1));
+    const std::size_t i =
+        add_floe(w.scene, box, 900.0, Vec3(0, 0, -0.5), Quaternion::Identity(), 0, false);
+    Bodies& b = w.scene.bodies;
+    const auto moving_at = [&](double speed) {
+        b.momentum[i] = b.mass[i] * Vec3(0, 0, speed);
+        update_derived(b, i);
+    };
+    Constraint c{};
+    c.a = 0;
+    c.b = static_cast<std::int32_t>(i);
+    c.can_move = true;
+    c.normal = -Vec3::UnitZ();  // the floe lies under the plate
+    c.arm_a.setZero();
+    c.arm_b = Vec3(0, 0, 0.15);  // through the centre: k(n) = 1 / m
+    c.strength = std::numeric_limits<double>::infinity();
+
+    moving_at(0.2);
+    CHECK(residual_impulse(b, {c}, 0.01) == Approx(0.2 * b.mass[i]));
+    c.gap = 0.001;  // room for 0.1 m/s within the step
+    CHECK(residual_impulse(b, {c}, 0.01) == Approx(0.1 * b.mass[i]));
+    c.gap = 0.0;
+    c.strength = c.rest_normal = 3.0;  // it crushes: it may close
+    CHECK(residual_impulse(b, {c}, 0.01) == 0.0);
+    c.strength = std::numeric_limits<double>::infinity();
+    moving_at(-0.2);  // pushed apart by 3 N s where less would do
+    CHECK(residual_impulse(b, {c}, 0.01) == Approx(std::min(3.0, 0.2 * b.mass[i])));
+    c.impact_normal = 1.0;  // unless it rebounds
+    CHECK(residual_impulse(b, {c}, 0.01) == 0.0);
+    c.can_move = false;
+    moving_at(0.2);
+    CHECK(residual_impulse(b, {c}, 0.01) == 0.0);
+}
