@@ -67,12 +67,13 @@ def read_keys(program):
 
 
 def add_keys(options, program):
-    """--explain takes a key, --set a key and its value."""
+    """--explain takes a key or a table, --set a key and its value."""
     if any("--print-schema" in option.names for option in options):
         keys = read_keys(program)
         for option in options:
             if "--explain" in option.names:
-                option.choices = keys
+                tables = dict.fromkeys(key.rpartition(".")[0] for key in keys if "." in key)
+                option.choices = [*tables, *keys]
             elif "--set" in option.names:
                 option.choices = [f"{key}=" for key in keys]
 

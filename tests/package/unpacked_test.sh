@@ -97,6 +97,7 @@ expect "view" icepost v
 expect "--every" icepost paraview run --e
 expect "mm m" spherize --units m
 expect "contact.restitution" icesolve --explain contact.rest
+expect "environment environment.gravity environment.water_density" icesolve --explain env
 expect "hull.position=" icesolve --set hull.posi
 expect "floes.jitter=" icefield --set floes.j
 touch "a mesh.obj"
