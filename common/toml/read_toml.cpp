@@ -1,19 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "common/toml/read_toml.hpp"
 
-// Debian's libtomlplusplus.so holds the version that throws
-#define TOML_HEADER_ONLY 0
 #include <fmt/format.h>
-#include <toml++/toml.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
-#include <sstream>
+#include <cctype>
+#include <cstdlib>
 #include <stdexcept>
 
 #include "common/base/nearest_name.hpp"
 #include "common/toml/quote_line.hpp"
+#include "common/toml/read_value.hpp"
 #include "common/toml/recognise_input.hpp"
 
 namespace ice {
@@ -26,10 +23,10 @@ constexpr std::size_t kMostTables = 10000;  // [[floes]]
 class Document {
 public:
     Document(const std::string& text, std::string name, const Schema& schema, Mistakes& mistakes)
-        : name_(std::move(name)), schema_(schema), mistakes_(mistakes) {
-        std::istringstream in(text);
-        for (std::string line; std::getline(in, line);) lines_.push_back(line);
-    }
+        : complaints_(text, name, mistakes),
+          name_(std::move(name)),
+          schema_(schema),
+          mistakes_(mistakes) {}
 
     // `whole`: a file, not an override
     Values read(const std::string& text, bool whole, std::size_t& groups) {
@@ -48,21 +45,14 @@ public:
 
 private:
     void complain(const toml::source_region& where, const std::string& what, std::size_t width) {
-        const auto line = where.begin.line, column = where.begin.column;
-        std::string text = fmt::format("{}:{}:{}: error: {}", name_, line, column, shorten(what));
-        if (line >= 1 && line <= lines_.size())
-            text += quote_line(lines_[line - 1], line, column > 0 ? column - 1 : 0, width);
-        mistakes_.add(text);
+        complaints_.add(where, what, width);
     }
 
     void complain_of_syntax(const toml::parse_error& error) {
         const std::string what(error.description());
-        const auto line = error.source().begin.line;
-        std::string hint;
-        if (what.find("utf-8") != std::string::npos)
-            hint = "; save the file as UTF-8";
-        else if (line >= 1 && line <= lines_.size())
-            hint = explain_value(lines_[line - 1]);
+        const std::string hint = what.find("utf-8") != std::string::npos
+                                     ? "; save the file as UTF-8"
+                                     : explain_value(complaints_.line(error.source().begin.line));
         complain(error.source(), what + hint, 1);
     }
 
@@ -76,10 +66,6 @@ private:
             fmt::format("{}: error: this is {}, no {}", name_, other->what, schema_.title));
         mistakes_.remedy = other->remedy;
         return true;
-    }
-
-    static std::string shorten(const std::string& what) {
-        return what.size() <= 3 * kMostShown ? what : what.substr(0, 3 * kMostShown) + "...";
     }
 
     // `path` is the schema's name of a table, `label` the one with the group's number
@@ -207,173 +193,16 @@ private:
         mistakes_.places[label] =
             fmt::format("{}:{}:{}", name_, name.source().begin.line, name.source().begin.column);
         Value value;
-        if (read_value(*key, node, value))
+        if (read_value(*key, node, complaints_, value))
             values[label] = value;
         else
             mistakes_.bad_keys.insert(label);
     }
 
-    bool read_value(const Key& key, const toml::node& node, Value& out) {
-        switch (key.kind) {
-            case Kind::number:
-                return read_number(key, node, out);
-            case Kind::integer:
-                return read_integer(key, node, out);
-            case Kind::text:
-            case Kind::path:
-            case Kind::choice:
-                return read_text(key, node, out);
-            case Kind::vector:
-            case Kind::counts:
-            case Kind::place:
-            case Kind::integer_list:
-                return read_list(key, node, out);
-            case Kind::pair_list:
-                return read_pairs(key, node, out);
-        }
-        return false;
-    }
-
-    // a number in SI, or a text with a unit; range checked
-    bool read_scalar(const Key& key, Dimension dimension, const toml::node& node, double& out) {
-        if (const auto text = node.value<std::string_view>(); text && node.is_string()) {
-            const auto quantity = parse_quantity(*text, dimension);
-            if (!quantity) {
-                const std::string units = unit_names(dimension);
-                complain(node.source(),
-                         fmt::format(
-                             "{} = \"{}\" is not a number with a unit it can have ({}){}", key.path,
-                             *text, units.empty() ? "it has none" : "use " + units,
-                             has_decimal_comma(*text) ? "; the decimal point is '.', not ','" : ""),
-                         text->size() + 2);
-                return false;
-            }
-            out = quantity->value;
-        } else if (const auto number = node.value<double>(); number && node.is_number()) {
-            out = *number;
-        } else {
-            complain(node.source(),
-                     fmt::format("{} must be a number{}", key.path,
-                                 !has_unit(dimension) ? ""
-                                                      : " in " + std::string(si_unit(dimension)) +
-                                                            " or a text with a unit"),
-                     1);
-            return false;
-        }
-        if (out >= key.low && out <= key.high) return true;
-        const bool percent = dimension == Dimension::share && out > 1.0 && 0.01 * out >= key.low &&
-                             0.01 * out <= key.high;
-        complain(
-            node.source(),
-            fmt::format("{} = {:g} is outside [{:g}, {:g}] {}", key.path, out, key.low, key.high,
-                        percent ? fmt::format("; {0:g} % is {1:g}, or \"{0:g} %\"", out, 0.01 * out)
-                        : has_unit(dimension) ? si_unit(dimension)
-                                              : ""),
-            1);
-        return false;
-    }
-
-    bool read_number(const Key& key, const toml::node& node, Value& out) {
-        double number = 0.0;
-        if (!read_scalar(key, key.dimension, node, number)) return false;
-        out = number;
-        return true;
-    }
-
-    bool read_integer(const Key& key, const toml::node& node, Value& out) {
-        double number = 0.0;
-        if (!node.is_integer()) {
-            complain(node.source(), fmt::format("{} must be a whole number", key.path), 1);
-            return false;
-        }
-        if (!read_scalar(key, Dimension::none, node, number)) return false;
-        out = static_cast<std::int64_t>(number);
-        return true;
-    }
-
-    static std::vector<std::string> choices_of(const Key& key) {
-        std::vector<std::string> out;
-        std::istringstream in{std::string(key.choices)};
-        for (std::string choice; std::getline(in, choice, '|');) out.push_back(choice);
-        return out;
-    }
-
-    bool read_text(const Key& key, const toml::node& node, Value& out) {
-        const auto text = node.value<std::string>();
-        if (!node.is_string() || !text) {
-            complain(node.source(), fmt::format("{} must be a text in quotes", key.path), 1);
-            return false;
-        }
-        const std::string list = "|" + std::string(key.choices) + "|";
-        if (key.kind == Kind::choice && list.find("|" + *text + "|") == std::string::npos) {
-            const std::string near = nearest_name(*text, choices_of(key));
-            complain(node.source(),
-                     fmt::format("{} = \"{}\" is none of {}{}", key.path, *text, key.choices,
-                                 near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near)),
-                     text->size() + 2);
-            return false;
-        }
-        out = *text;
-        return true;
-    }
-
-    bool read_list(const Key& key, const toml::node& node, Value& out) {
-        const auto* list = node.as_array();
-        const bool any_length = key.kind == Kind::integer_list;
-        const std::size_t least = key.kind == Kind::place ? key.length - 1 : key.length;
-        if (!list || (!any_length && (list->size() < least || list->size() > key.length))) {
-            complain(node.source(),
-                     any_length
-                         ? fmt::format("{} must be a list", key.path)
-                         : fmt::format("{} must be a list of {} numbers", key.path, key.length),
-                     1);
-            return false;
-        }
-        const bool whole = key.kind == Kind::integer_list || key.kind == Kind::counts;
-        std::vector<double> values;
-        for (const toml::node& item : *list) {
-            double number = 0.0;
-            if (whole && !item.is_integer()) {
-                complain(item.source(), fmt::format("{} holds whole numbers", key.path), 1);
-                return false;
-            }
-            if (!read_scalar(key, key.dimension, item, number)) return false;
-            values.push_back(number);
-        }
-        out = values;
-        return true;
-    }
-
-    bool read_pairs(const Key& key, const toml::node& node, Value& out) {
-        std::vector<std::pair<double, double>> rows;
-        const auto* list = node.as_array();
-        for (std::size_t k = 0; list && k < list->size(); ++k) {
-            const auto* row = list->get(k)->as_array();
-            std::pair<double, double> pair;
-            if (!row || row->size() != 2 ||
-                !read_scalar(key, Dimension::time, *row->get(0), pair.first) ||
-                !read_scalar(key, key.dimension, *row->get(1), pair.second) ||
-                (!rows.empty() && pair.first <= rows.back().first)) {
-                complain(list->get(k)->source(),
-                         fmt::format("{} row {} must be [t, u] with t above the row before",
-                                     key.path, k + 1),
-                         1);
-                return false;
-            }
-            rows.push_back(pair);
-        }
-        if (rows.empty()) {
-            complain(node.source(), fmt::format("{} must be a list of [t, u]", key.path), 1);
-            return false;
-        }
-        out = rows;
-        return true;
-    }
-
+    Complaints complaints_;
     std::string name_;
     const Schema& schema_;
     Mistakes& mistakes_;
-    std::vector<std::string> lines_;
 };
 
 bool parses(const std::string& text) {

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "common/toml/read_value.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "common/base/nearest_name.hpp"
+#include "common/toml/quote_line.hpp"
+
+namespace ice {
+
+namespace {
+
+constexpr std::size_t kMostWords = 360;  // characters of what is wrong
+
+class ValueReader {
+public:
+    explicit ValueReader(Complaints& complaints) : complaints_(complaints) {}
+
+    bool read(const Key& key, const toml::node& node, Value& out) {
+        switch (key.kind) {
+            case Kind::number:
+                return read_number(key, node, out);
+            case Kind::integer:
+                return read_integer(key, node, out);
+            case Kind::text:
+            case Kind::path:
+            case Kind::choice:
+                return read_text(key, node, out);
+            case Kind::vector:
+            case Kind::counts:
+            case Kind::place:
+            case Kind::integer_list:
+                return read_list(key, node, out);
+            case Kind::pair_list:
+                return read_pairs(key, node, out);
+        }
+        return false;
+    }
+
+private:
+    void complain(const toml::source_region& where, const std::string& what, std::size_t width) {
+        complaints_.add(where, what, width);
+    }
+
+    // a number in SI, or a text with a unit; range checked
+    bool read_scalar(const Key& key, Dimension dimension, const toml::node& node, double& out) {
+        if (const auto text = node.value<std::string_view>(); text && node.is_string()) {
+            const auto quantity = parse_quantity(*text, dimension);
+            if (!quantity) {
+                const std::string units = unit_names(dimension);
+                complain(node.source(),
+                         fmt::format(
+                             "{} = \"{}\" is not a number with a unit it can have ({}){}", key.path,
+                             *text, units.empty() ? "it has none" : "use " + units,
+                             has_decimal_comma(*text) ? "; the decimal point is '.', not ','" : ""),
+                         text->size() + 2);
+                return false;
+            }
+            out = quantity->value;
+        } else if (const auto number = node.value<double>(); number && node.is_number()) {
+            out = *number;
+        } else {
+            complain(node.source(),
+                     fmt::format("{} must be a number{}", key.path,
+                                 !has_unit(dimension) ? ""
+                                                      : " in " + std::string(si_unit(dimension)) +
+                                                            " or a text with a unit"),
+                     1);
+            return false;
+        }
+        if (out >= key.low && out <= key.high) return true;
+        const bool percent = dimension == Dimension::share && out > 1.0 && 0.01 * out >= key.low &&
+                             0.01 * out <= key.high;
+        complain(
+            node.source(),
+            fmt::format("{} = {:g} is outside [{:g}, {:g}] {}", key.path, out, key.low, key.high,
+                        percent ? fmt::format("; {0:g} % is {1:g}, or \"{0:g} %\"", out, 0.01 * out)
+                        : has_unit(dimension) ? si_unit(dimension)
+                                              : ""),
+            1);
+        return false;
+    }
+
+    bool read_number(const Key& key, const toml::node& node, Value& out) {
+        double number = 0.0;
+        if (!read_scalar(key, key.dimension, node, number)) return false;
+        out = number;
+        return true;
+    }
+
+    bool read_integer(const Key& key, const toml::node& node, Value& out) {
+        double number = 0.0;
+        if (!node.is_integer()) {
+            complain(node.source(), fmt::format("{} must be a whole number", key.path), 1);
+            return false;
+        }
+        if (!read_scalar(key, Dimension::none, node, number)) return false;
+        out = static_cast<std::int64_t>(number);
+        return true;
+    }
+
+    static std::vector<std::string> choices_of(const Key& key) {
+        std::vector<std::string> out;
+        std::istringstream in{std::string(key.choices)};
+        for (std::string choice; std::getline(in, choice, '|');) out.push_back(choice);
+        return out;
+    }
+
+    bool read_text(const Key& key, const toml::node& node, Value& out) {
+        const auto text = node.value<std::string>();
+        if (!node.is_string() || !text) {
+            complain(node.source(), fmt::format("{} must be a text in quotes", key.path), 1);
+            return false;
+        }
+        const std::string list = "|" + std::string(key.choices) + "|";
+        if (key.kind == Kind::choice && list.find("|" + *text + "|") == std::string::npos) {
+            const std::string near = nearest_name(*text, choices_of(key));
+            complain(node.source(),
+                     fmt::format("{} = \"{}\" is none of {}{}", key.path, *text, key.choices,
+                                 near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near)),
+                     text->size() + 2);
+            return false;
+        }
+        out = *text;
+        return true;
+    }
+
+    bool read_list(const Key& key, const toml::node& node, Value& out) {
+        const auto* list = node.as_array();
+        const bool any_length = key.kind == Kind::integer_list;
+        const std::size_t least = key.kind == Kind::place ? key.length - 1 : key.length;
+        if (!list || (!any_length && (list->size() < least || list->size() > key.length))) {
+            complain(node.source(),
+                     any_length
+                         ? fmt::format("{} must be a list", key.path)
+                         : fmt::format("{} must be a list of {} numbers", key.path, key.length),
+                     1);
+            return false;
+        }
+        const bool whole = key.kind == Kind::integer_list || key.kind == Kind::counts;
+        std::vector<double> values;
+        for (const toml::node& item : *list) {
+            double number = 0.0;
+            if (whole && !item.is_integer()) {
+                complain(item.source(), fmt::format("{} holds whole numbers", key.path), 1);
+                return false;
+            }
+            if (!read_scalar(key, key.dimension, item, number)) return false;
+            values.push_back(number);
+        }
+        out = values;
+        return true;
+    }
+
+    bool read_pairs(const Key& key, const toml::node& node, Value& out) {
+        std::vector<std::pair<double, double>> rows;
+        const auto* list = node.as_array();
+        for (std::size_t k = 0; list && k < list->size(); ++k) {
+            const auto* row = list->get(k)->as_array();
+            std::pair<double, double> pair;
+            if (!row || row->size() != 2 ||
+                !read_scalar(key, Dimension::time, *row->get(0), pair.first) ||
+                !read_scalar(key, key.dimension, *row->get(1), pair.second) ||
+                (!rows.empty() && pair.first <= rows.back().first)) {
+                complain(list->get(k)->source(),
+                         fmt::format("{} row {} must be [t, u] with t above the row before",
+                                     key.path, k + 1),
+                         1);
+                return false;
+            }
+            rows.push_back(pair);
+        }
+        if (rows.empty()) {
+            complain(node.source(), fmt::format("{} must be a list of [t, u]", key.path), 1);
+            return false;
+        }
+        out = rows;
+        return true;
+    }
+
+    Complaints& complaints_;
+};
+
+}  // namespace
+
+Complaints::Complaints(const std::string& text, std::string name, Mistakes& mistakes)
+    : name_(std::move(name)), mistakes_(mistakes) {
+    std::istringstream in(text);
+    for (std::string line; std::getline(in, line);) lines_.push_back(line);
+}
+
+void Complaints::add(const toml::source_region& where, const std::string& what, std::size_t width) {
+    const auto line = where.begin.line, column = where.begin.column;
+    std::vector<std::string> words = printable_characters(what);  // a text may hold an escape
+    if (words.size() > kMostWords) {
+        words.resize(kMostWords);
+        words.emplace_back("...");
+    }
+    std::string text =
+        fmt::format("{}:{}:{}: error: {}", name_, line, column, fmt::join(words, ""));
+    if (line >= 1 && line <= lines_.size())
+        text += quote_line(lines_[line - 1], line, column > 0 ? column - 1 : 0, width);
+    mistakes_.add(text);
+}
+
+std::string_view Complaints::line(std::size_t number) const {
+    return number >= 1 && number <= lines_.size() ? std::string_view(lines_[number - 1]) : "";
+}
+
+bool read_value(const Key& key, const toml::node& node, Complaints& complaints, Value& out) {
+    return ValueReader(complaints).read(key, node, out);
+}
+
+}  // namespace ice

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// One value of a TOML file, checked against its key. For read_toml.cpp: toml++ stays behind it.
+#pragma once
+
+// Debian's libtomlplusplus.so holds the version that throws
+#define TOML_HEADER_ONLY 0
+#include <toml++/toml.h>
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/toml/read_toml.hpp"
+
+namespace ice {
+
+/// Writes mistakes with the place and the line of the text they are in.
+class Complaints {
+public:
+    /// @param name  what messages call the text: the file, or "--set"
+    Complaints(const std::string& text, std::string name, Mistakes& mistakes);
+
+    /// Adds "name:line:column: error: what" with the line and carets under `width` characters.
+    void add(const toml::source_region& where, const std::string& what, std::size_t width);
+    /// A line of the text, from 1; "" where there is none.
+    std::string_view line(std::size_t number) const;
+
+private:
+    std::string name_;
+    Mistakes& mistakes_;
+    std::vector<std::string> lines_;
+};
+
+/// Reads a node as the value of a key: type, unit, range, length. Of one that does not fit it
+/// complains and returns false.
+bool read_value(const Key& key, const toml::node& node, Complaints& complaints, Value& out);
+
+}  // namespace ice
