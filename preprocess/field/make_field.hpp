@@ -30,7 +30,8 @@ Field make_field(const FieldSpec& spec, const FieldPlan& plan, FieldReport& repo
 /// The report as JSON (schema icefield/1).
 std::string field_report_text(const FieldReport& report);
 
-/// The field from above as SVG: x to the right, unbroken ice darker.
+/// The field from above as SVG: x, the ship's way, to the right, y to port up, with axes in metres,
+/// a scale bar and the colours' meaning; unbroken ice is darker.
 std::string field_svg(const FieldPlan& plan);
 
 }  // namespace ice
