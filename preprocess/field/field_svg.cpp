@@ -85,9 +85,10 @@ std::string draw_key(const Page& page, const FieldPlan& plan, double step) {
     if (!plan.fixed.empty()) add("#a9bccb", "unbroken ice");
     add("#20466b", "open water");
     out += fmt::format(
-        "<path d=\"M{0:.1f} {1:.1f}v10h{2:.1f}v-10\" fill=\"none\" "
+        "<polyline points=\"{0:.1f},{1:.1f} {0:.1f},{2:.1f} {3:.1f},{2:.1f} {3:.1f},{1:.1f}\" "
+        "fill=\"none\" "
         "stroke=\"#222\" stroke-width=\"2\"/>\n",
-        x, y - 12.0, page.scale * step);
+        x, y - 12.0, y - 2.0, x + page.scale * step);
     return out + text(x + page.scale * step + 10.0, y, "start", fmt::format("{:g} m", step));
 }
 

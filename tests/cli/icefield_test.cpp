@@ -38,6 +38,9 @@ TEST_CASE("icefield makes a field, a report and a picture", "[cli]") {
     std::size_t paths = 0;
     for (std::size_t at = 0; (at = svg.find("<path", at)) != std::string::npos; ++at) ++paths;
     CHECK(paths == 13);
+    for (const char* words : {"x [m], the ship's way", "y [m], to port", "9 loose floes",
+                              "unbroken ice", "<polyline", "Ice field from above, "})
+        CHECK_THAT(svg, Catch::Contains(words));
 }
 
 TEST_CASE("icefield refuses with exit code 2 and leaves nothing behind", "[cli][errors]") {
