@@ -178,9 +178,7 @@ std::string make_study_page(const Study& study) {
         "whether the model or the inputs are right: that is the grey band, stated and not "
         "computed, "
         "and the bars.",
-        // as wide as its words need: on a phone it scrolls
-        "<div style=\"overflow-x: auto\"><div class=\"opening\" style=\"min-width: 46rem\">" +
-            draw_tornado(r.inputs, r.base, r.unit) + "</div></div>\n");
+        "<div class=\"opening\">" + draw_tornado(r.inputs, r.base, r.unit) + "</div>\n");
     out += report::section("changes", "All values",
                            "* the 95 % interval of the difference leaves out zero.",
                            table_of_changes(r));
