@@ -115,6 +115,13 @@ int report(const ice::Summary& s, const Options& o, const std::string& folder, d
             ice::say_warning(ice::with_verdict(warning));
     ice::say(fmt::format("{} s simulated in {:.1f} s ({:.1f}x real time); results in {}",
                          s.simulated_s, s.wall_s, s.simulated_s / s.wall_s, folder));
+    if (s.status == "failed")
+        throw ice::run_failed(
+            folder,
+            fmt::format("the disk is almost full: the run stopped at t = {:g} s, all up to there "
+                        "is kept",
+                        s.simulated_s),
+            "make room, then go on with\n    " + command_to_go_on(o, folder));
     if (s.status != "interrupted") return 0;
     ice::say_warning(fmt::format("interrupted at t = {:g} s; go on with\n  {}", s.simulated_s,
                                  command_to_go_on(o, folder)));
@@ -151,6 +158,20 @@ ice::Existing may_exist(const Options& o, const std::filesystem::path& folder) {
                                     ignored))
         return ice::Existing::go_on;
     return o.overwrite ? ice::Existing::replace : ice::Existing::refuse;
+}
+
+// A run that ends with an error leaves what it wrote; the error says so, and how to go on.
+ice::Summary run_or_tell(ice::World& world, const ice::RunOptions& options, const Options& o) {
+    try {
+        return ice::run(world, options);
+    } catch (const ice::Error& error) {
+        const std::filesystem::path& folder = options.folder;
+        std::string rest = fmt::format("\n  what was written is kept: icepost report {}",
+                                       ice::shell_word(folder.string()));
+        if (std::filesystem::exists(folder / ice::kCheckpointName))
+            rest += "\n  go on from the last checkpoint with\n    " + command_to_go_on(o, folder);
+        throw ice::Error(error.code(), "", error.what() + rest, "");
+    }
 }
 
 int run_case(const Options& o, const std::string& command_line) {
@@ -191,8 +212,8 @@ int run_case(const Options& o, const std::string& command_line) {
                 fmt::format("{} {:016x}\n", w.steps, ice::state_hash(w.scene, w.constraints)));
         return !ice::interrupted();
     };
-    const ice::Summary summary = ice::run(
-        world, {folder, command_line, o.checkpoint_every, going_on, warnings, o.verify, watch});
+    const ice::Summary summary = run_or_tell(
+        world, {folder, command_line, o.checkpoint_every, going_on, warnings, o.verify, watch}, o);
     progress.finish();
     const double speed =
         parameters.ship_speed(0.5 * (parameters.average_from + parameters.duration));

@@ -251,6 +251,11 @@ void RunWriter::add(const RunFrame& frame) {
     if (++b.frames >= frames_per_chunk(b.bodies)) b.write_whole_chunks();
 }
 
+bool RunWriter::is_about_to_write() const {
+    return buffers_->samples + 1 >= kHistoryPerFlush ||
+           buffers_->frames + 1 >= frames_per_chunk(buffers_->bodies);
+}
+
 void RunWriter::finish() {
     Buffers& b = *buffers_;
     b.write_all();

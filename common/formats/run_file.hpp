@@ -62,6 +62,12 @@ public:
     /// Saves all rows so that a kill at any moment leaves them readable, in files
     /// checkpoint-rows-*.h5 beside run.h5, and tells how many there are.
     RunPosition save_rows();
+    /// Writes all rows to run.h5 itself and tells how many there are: for a run that ends here.
+    RunPosition write_rows();
+    /// Bytes of the rows that are not in the file yet, uncompressed.
+    std::uint64_t waiting_bytes() const;
+    /// Will the next sample or frame make it write to the disk?
+    bool is_about_to_write() const;
     /// Writes what is buffered, closes and renames. Nothing may be added afterwards.
     void finish();
 

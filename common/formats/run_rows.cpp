@@ -120,6 +120,20 @@ RunWriter::RunWriter(const std::filesystem::path& path, const RunHeader& header,
     buffers_->part_path = path.string() + ".part";
 }
 
+RunPosition RunWriter::write_rows() {
+    buffers_->write_all();
+    return buffers_->written;
+}
+
+std::uint64_t RunWriter::waiting_bytes() const {
+    std::uint64_t bytes = 0;
+    const auto count = [&](const auto& c) { bytes += c.rows.size() * sizeof(c.rows[0]); };
+    buffers_->for_history(count);
+    buffers_->for_frames(count);
+    buffers_->for_contacts(count);
+    return bytes;
+}
+
 RunPosition RunWriter::save_rows() {
     buffers_->write_all();
     buffers_->save_rows();

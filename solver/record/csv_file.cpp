@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <fstream>
 #include <sstream>
 #include <system_error>
 
@@ -53,11 +54,9 @@ std::string CsvFile::whole_header(const std::string& columns, int dimension) {
 }
 
 CsvFile::CsvFile(std::filesystem::path path, const std::string& columns, int dimension)
-    : path_(std::move(path)), out_(part_of(path_), std::ios::binary) {
-    out_ << whole_header(columns, dimension) << '\n';
-    if (!out_)
-        throw run_failed(path_.string(), "cannot be written",
-                         "check that the folder is writable and the disk is not full");
+    : path_(std::move(path)) {
+    open("wb");
+    waiting_ = whole_header(columns, dimension) + '\n';
 }
 
 CsvFile::CsvFile(std::filesystem::path path, const std::string& columns, int dimension,
@@ -69,30 +68,44 @@ CsvFile::CsvFile(std::filesystem::path path, const std::string& columns, int dim
     begins_late_ = !text.starts_with(header + "\n");
     if (begins_late_) text = header + "\n";
     write_text_file(part_of(path_), text);
-    out_.open(part_of(path_), std::ios::binary | std::ios::app);
-    out_.seekp(0, std::ios::end);
+    open("ab");
+    bytes_ = static_cast<std::int64_t>(text.size());
+}
+
+void CsvFile::open(const char* mode) {
+    out_.reset(std::fopen(part_of(path_).c_str(), mode));
+    if (!out_)
+        throw run_failed(path_.string(), "cannot be written",
+                         "check that the folder is writable and the disk is not full");
+    std::setvbuf(out_.get(), nullptr, _IONBF, 0);
+}
+
+// As much as the disk takes; true when that was all.
+bool CsvFile::write_waiting() {
+    const std::size_t taken = std::fwrite(waiting_.data(), 1, waiting_.size(), out_.get());
+    waiting_.erase(0, taken);
+    bytes_ += static_cast<std::int64_t>(taken);
+    return waiting_.empty();
 }
 
 std::int64_t CsvFile::flush() {
-    out_.flush();
-    if (!out_)
+    if (!write_waiting())
         throw run_failed(path_.string(), "cannot be written", "check that the disk is not full");
     bring_to_disk(part_of(path_));
-    return out_.tellp();
+    return bytes_;
 }
 
 void CsvFile::add(const std::vector<double>& row) {
+    constexpr std::size_t kEnough = 8192;  // bytes at a time
     std::string line;
     for (const double value : row) line += fmt::format("{}{:.9g}", line.empty() ? "" : ",", value);
     for (const std::size_t column : per_metre_) line += fmt::format(",{:.9g}", row[column]);
-    out_ << line << '\n';
-    if (!out_)
-        throw run_failed(path_.string(), "cannot be written", "check that the disk is not full");
+    waiting_ += line + '\n';
+    if (waiting_.size() >= kEnough) write_waiting();
 }
 
 void CsvFile::finish() {
-    out_.close();
-    if (!out_)
+    if (!write_waiting() || std::fclose(out_.release()) != 0)
         throw run_failed(path_.string(), "cannot be completed", "check that the disk is not full");
     keep_file(part_of(path_), path_);
 }

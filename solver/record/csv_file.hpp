@@ -2,8 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <cstdio>
 #include <filesystem>
-#include <fstream>
+#include <memory>
+#include <string>
+#include <vector>
 
 #include "common/formats/run_data.hpp"
 
@@ -13,7 +16,10 @@ namespace ice {
 ///
 /// In 2D forces and energies are per metre of breadth: columns that end in _N or _J stand once more
 /// behind the others, with _per_m at the end of their names.
-/// @throws Error (exit code 1) naming the file when the disk is full.
+///
+/// Rows that a full disk does not take wait in memory: only flush() and finish() fail for them, and
+/// may be tried again when there is room.
+/// @throws Error (exit code 1) naming the file when it cannot be created or the disk is full.
 class CsvFile {
 public:
     CsvFile(std::filesystem::path path, const std::string& columns, int dimension);
@@ -30,12 +36,19 @@ public:
     void finish();
 
 private:
+    struct Close {
+        void operator()(std::FILE* file) const { std::fclose(file); }
+    };
+    void open(const char* mode);
+    bool write_waiting();
     // Adds the columns per metre to a header.
     std::string whole_header(const std::string& columns, int dimension);
 
     std::filesystem::path path_;
-    std::vector<std::size_t> per_metre_;  // columns that stand once more at the end
-    std::ofstream out_;
+    std::vector<std::size_t> per_metre_;     // columns that stand once more at the end
+    std::unique_ptr<std::FILE, Close> out_;  // without a buffer of its own
+    std::string waiting_;                    // rows that are not on disk yet
+    std::int64_t bytes_ = 0;                 // on disk
     bool begins_late_ = false;
 };
 

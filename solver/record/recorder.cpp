@@ -138,8 +138,11 @@ std::vector<std::string> Recorder::resume(const std::filesystem::path& folder,
     return late;
 }
 
-RecordPosition Recorder::save_rows() {
-    RecordPosition position{run_->save_rows(), {}};
+RecordPosition Recorder::save_rows() { return position_of(run_->save_rows()); }
+RecordPosition Recorder::write_rows() { return position_of(run_->write_rows()); }
+
+RecordPosition Recorder::position_of(RunPosition run) {
+    RecordPosition position{std::move(run), {}};
     for (CsvFile& file : csv_files_) position.csv_bytes.push_back(file.flush());
     return position;
 }

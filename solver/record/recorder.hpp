@@ -57,6 +57,13 @@ public:
                                     const RecordPosition& position);
     /// Puts all rows up to now where a kill does not harm them, and tells how many there are.
     RecordPosition save_rows();
+    /// Writes all rows up to now into their own files, and tells how many there are: for a run that
+    /// ends here.
+    RecordPosition write_rows();
+    /// Bytes of the rows of run.h5 that wait to be written.
+    std::uint64_t waiting_bytes() const { return run_->waiting_bytes(); }
+    /// Will the next rows make it write them?
+    bool is_about_to_write() const { return run_->is_about_to_write(); }
 
     void add(const StepView& view);
 
@@ -66,6 +73,7 @@ public:
 private:
     friend struct StateFields;  // step/state_fields.cpp: tally_, row_ and what follows it
 
+    RecordPosition position_of(RunPosition run);
     void add_history(const StepView& view, const StepRecord& record);
     void flush_history(const StepView& view);
     void add_frame(const StepView& view);

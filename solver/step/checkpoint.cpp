@@ -137,9 +137,10 @@ void check_numbers(const std::filesystem::path& path, const Bodies& b) {
 }  // namespace
 
 void write_checkpoint(const std::filesystem::path& path, World& world, Recorder& recorder,
-                      RunProgress& progress) {
+                      RunProgress& progress, SavedRows rows) {
     Identity identity = identity_of(world);
-    RecordPosition position = recorder.save_rows();
+    RecordPosition position =
+        rows == SavedRows::beside ? recorder.save_rows() : recorder.write_rows();
     CheckpointFile file(path, Direction::write);
     carry(file, identity);
     StateFields::carry(file, world);

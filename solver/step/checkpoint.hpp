@@ -18,11 +18,17 @@ struct SavedRun {
     std::string created_by;        ///< the program that wrote it
 };
 
+/// Where the rows of run.h5 are that a checkpoint counts.
+enum class SavedRows {
+    beside,      ///< in files of their own, which a kill at any later moment leaves whole
+    in_run_file  ///< in run.h5 only, which takes less room: for a run that ends here
+};
+
 /// Writes all that a run carries on to `path`. The recorder's files are flushed first, so that they
 /// hold what the checkpoint counts. A kill at any moment leaves the older checkpoint whole.
 /// @throws Error (exit code 1) naming the file when the disk is full
 void write_checkpoint(const std::filesystem::path& path, World& world, Recorder& recorder,
-                      RunProgress& progress);
+                      RunProgress& progress, SavedRows rows = SavedRows::beside);
 
 /// Reads a checkpoint into a world just built from the case. Touches no other file.
 ///

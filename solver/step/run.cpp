@@ -16,6 +16,7 @@
 #include "solver/record/recorder.hpp"
 #include "solver/scene/build_scene.hpp"
 #include "solver/step/balance.hpp"
+#include "solver/step/disk_room.hpp"
 #include "solver/step/run_folder.hpp"
 
 namespace ice {
@@ -74,13 +75,6 @@ void write_summary(const World& w, const RunOptions& options, double wall_second
     write_text_file(options.folder / "summary.json", summary_text(summary));
 }
 
-// Nothing half-written stays of a run that failed, unless a checkpoint can still make use of it.
-void remove_unfinished(const std::filesystem::path& folder) {
-    if (std::filesystem::exists(folder / kCheckpointName)) return;
-    remove_parts(folder);
-    remove_saved_rows(folder);
-}
-
 void create_folder(const std::filesystem::path& folder) {
     std::error_code error;
     std::filesystem::create_directories(folder, error);
@@ -100,6 +94,7 @@ struct Job {
     double wall_before = 0.0;  // of the programs that worked on the run before
     Timer timer = {};
     std::int64_t saved_step = -1;  // of the last checkpoint
+    DiskRoom room{options.folder};
 
     double wall_seconds() const { return wall_before + timer.seconds(); }
 };
@@ -132,11 +127,33 @@ void go_on(Job& job, const SavedRun& saved) {
                          saved.created_by, here)});
 }
 
-void save(Job& job) {
+void save(Job& job, SavedRows rows = SavedRows::beside) {
     if (job.saved_step == job.world.steps) return;
     job.progress.wall_seconds = job.wall_seconds();
-    write_checkpoint(job.options.folder / kCheckpointName, job.world, job.recorder, job.progress);
+    write_checkpoint(job.options.folder / kCheckpointName, job.world, job.recorder, job.progress,
+                     rows);
     job.saved_step = job.world.steps;
+}
+
+// Ends the run while its files can still be completed; it goes on from here when there is room.
+void stop_for_room(Job& job) {
+    job.summary.status = "failed";
+    job.summary.warnings.push_back(
+        {fmt::format("the disk is almost full: the run stopped at t = {:g} of {:g} s",
+                     job.world.time, job.world.parameters.duration),
+         true});
+    job.room.release();
+    save(job, SavedRows::in_run_file);
+}
+
+// False when the rows of run.h5 and the checkpoint no longer fit; the older checkpoint is whole.
+bool could_save(Job& job) {
+    try {
+        save(job);
+        return true;
+    } catch (const Error&) {
+        return false;
+    }
 }
 
 // Checkpoints are due in the step nearest to a multiple of checkpoint_every, and in the last one.
@@ -151,13 +168,15 @@ bool is_due(const Job& job) {
 void advance(Job& job) {
     World& w = job.world;
     while (w.steps < job.steps) {
+        if (job.room.is_short(job.recorder, w)) return stop_for_room(job);
         if (job.options.verify)
             verified_step(w, job.summary);
         else
             step(w);
         check_finite(w);
         job.recorder.add(view_of(w));
-        if (is_due(job)) save(job);
+        if (is_due(job) && (job.room.is_short(job.recorder, w, true) || !could_save(job)))
+            return stop_for_room(job);
         const double done = static_cast<double>(w.steps) / static_cast<double>(job.steps);
         // an interruption in the last step comes too late to be one
         if (!job.options.keep_going(done, w) && w.steps < job.steps) {
@@ -208,16 +227,13 @@ Summary run(World& world, const RunOptions& options) {
         write_summary(world, options, job.wall_seconds(), job.recorder, summary);
     } catch (const Error& error) {
         // what was computed up to here is kept where it can be written, and says that it failed
+        job.room.release();
         summary.status = "failed";
         summary.warnings.push_back({error.what(), true});
         try {
             write_summary(world, options, job.wall_seconds(), job.recorder, summary);
-        } catch (const Error&) {
-            remove_unfinished(options.folder);
+        } catch (const Error&) {  // the .part files stay: icepost reads what is whole of them
         }
-        throw;
-    } catch (...) {  // out of memory
-        remove_unfinished(options.folder);
         throw;
     }
     remove_parts(options.folder);  // of a program that was killed here before

@@ -38,6 +38,10 @@ World build_world(const Case& parameters);
 /// are missing begin at the checkpoint, with a warning; the summary is of the whole run all the
 /// same. Only wall times (sums over the programs) and the warnings of that kind differ.
 ///
+/// Where the disk is almost full the run stops in time: files, summary (status "failed") and a
+/// checkpoint are complete. Where that comes too late (another program took the room) an Error
+/// (exit code 1) names the file; the .part files and the last checkpoint stay.
+///
 /// A body whose position is no longer finite ends the run with an Error (exit code 1) naming step
 /// and floe; the folder then holds what was computed, with the status "failed".
 Summary run(World& world, const RunOptions& options);

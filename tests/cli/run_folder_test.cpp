@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Run folders that exist: refused, replaced on request, never written by two programs.
 #include <signal.h>
+#include <sys/stat.h>
 
 #include <chrono>
 #include <thread>
 
 #include "common/formats/summary_file.hpp"
 #include "tests/cli/workshop.hpp"
+#include "tests/support/compare_runs.hpp"
 
 using namespace ice;
 using namespace ice::test;
@@ -188,4 +190,44 @@ TEST_CASE("of runs begun at the same time into one folder one is computed, the o
         CHECK(fs::exists(w / "r/run.h5"));
         for (const std::string& name : w.files()) CHECK(name.find(".part") == std::string::npos);
     }
+}
+
+TEST_CASE(
+    "a run that comes near the limit of a file stops in time, complete, and the printed command "
+    "goes on to the same files",
+    "[cli][checkpoint]") {
+    const std::string checkpoints = GENERATE("", " --checkpoint-every 0.5");
+    CAPTURE(checkpoints);
+    const Workshop w;
+    w.make_case();
+    const std::string run = "icesolve case.cfg -q --no-report --set simulation.duration=30";
+    REQUIRE(w.run(run + " --out whole").code == 0);
+    const Result r = w.run("icesolve --version >/dev/null; (ulimit -f 3500; " ICE_BIN "/" + run +
+                           checkpoints + " --out r)");
+    CAPTURE(r.err);
+    REQUIRE(r.code == 1);
+    CHECK_THAT(r.err, Catch::Contains("r: the disk is almost full: the run stopped at t = "));
+    const Summary stopped = read_summary(w / "r/summary.json");
+    CHECK(stopped.status == "failed");
+    CHECK(stopped.steps > 0);
+    CHECK(stopped.steps < 6000);
+    CHECK(w.run("icepost plot r -q -o r.svg").code == 0);
+    for (const std::string& name : w.files()) CHECK(name.find(".part") == std::string::npos);
+
+    const auto at = r.err.find(ICE_BIN "/icesolve case.cfg");
+    REQUIRE(at != std::string::npos);
+    const std::string command = r.err.substr(at, r.err.find('\n', at) - at);
+    const Result rest = w.run(command.substr(std::string(ICE_BIN "/").size()) + " -q --no-report");
+    CAPTURE(rest.err);
+    REQUIRE(rest.code == 0);
+    check_same_runs(w / "whole", w / "r", {1});
+}
+
+TEST_CASE("a run that has ended holds no more of the disk than its files are long", "[cli]") {
+    const Workshop w;
+    w.make_case();
+    REQUIRE(w.run("icesolve case.cfg -q --no-report --out r").code == 0);
+    struct stat state {};
+    REQUIRE(stat((w / "r/run.h5").c_str(), &state) == 0);
+    CHECK(512 * state.st_blocks <= state.st_size + (1 << 17));  // blocks of up to 128 kB
 }

@@ -15,11 +15,13 @@ import stat
 import subprocess
 import sys
 import tempfile
+import time
 
-from jobs import JOBS, MESHES, Workshop, has_remedy
+from jobs import JOBS, MESHES, Result, Workshop, files_of, has_remedy, read
 from kills import sigkill, sigterm
 
 NOBODY = 65534
+THIEVES = 4  # runs of each kind beside a program that fills the disk
 SKIPPED = 77  # ctest's SKIP_RETURN_CODE
 FAULTS = {}
 
@@ -83,10 +85,7 @@ def disk_full(shop, _):
         for share in (0.05, 0.3, 0.6, 0.9, 20.0):
             folder = shop.new_folder()
             size = max(int(share * total) // 4096, 2) * 4096 + (1 << 21 if share > 1 else 0)
-            mount = subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={size}", "tmpfs", folder],
-                                   capture_output=True, check=False)
-            if mount.returncode != 0:
-                raise Skip("mount: " + mount.stderr.decode("utf-8", "replace").strip())
+            mount(folder, size)
             try:
                 done = shop.run(job.words, folder)
                 found = faults_of_room(shop, job, folder, done, size < total, share > 1)
@@ -94,6 +93,87 @@ def disk_full(shop, _):
                 subprocess.run(["umount", folder], check=True)
             wrong += [f"{job.name} on {size} bytes: {text}" for text in found]
     return wrong
+
+
+@fault
+def disk_full_goes_on(shop, _):
+    """A run on a small file system, alone and beside somebody who takes the rest of it: what was
+    computed stays, and goes on to the same bits when there is room."""
+    wrong, in_time = [], 0
+    words = ["icesolve", "../in/case.cfg", "-q", "--no-report", "--set", "simulation.duration=40"]
+    whole = shop.new_folder()
+    shop.must([*words, "--out", "run"], whole)
+    trials = [(False, []), (False, ["--checkpoint-every", "1"])]
+    trials += THIEVES * [(True, []), (True, ["--checkpoint-every", "0.5"])]
+    for thief, options in trials:
+        folder = shop.new_folder()
+        mount(folder, 3 << 20)
+        try:
+            command = [*words, *options, "--out", "run"]
+            done = (run_beside_thief if thief else Workshop.run)(shop, command, folder)
+            found = [] if done.code == 1 and has_remedy(done.message) else [
+                f"exit code {done.code}: {done.message!r}"]
+            stopped = "almost full" in done.message
+            in_time += stopped
+            # a thief may come between the look at the disk and the writing: HDF5's file is torn
+            if stopped and not shop.can_be_read(os.path.join(folder, "run")):
+                found.append("what was computed cannot be read")
+            remove(os.path.join(folder, "thief"))
+            subprocess.run(["mount", "-o", "remount,size=40m", folder], check=True)
+            if stopped or os.path.exists(os.path.join(folder, "run", "checkpoint.h5")):
+                found += goes_on(shop, [*words, *options], folder, whole, done)
+            elif not thief or "what was written is kept" not in done.message:
+                found.append(f"not stopped in time: {done.message!r}")
+        finally:
+            subprocess.run(["umount", folder], check=True)
+        wrong += [f"{'beside a thief' if thief else 'alone'} {options}: {text}" for text in found]
+    print(f"disk-full-goes-on: {in_time} of {len(trials)} runs stopped in time")
+    if in_time < 2 + THIEVES:
+        wrong.append("too few of the runs beside a thief stopped in time")
+    return wrong
+
+
+def goes_on(shop, words, folder, whole, done):
+    """What is wrong with the way on from a run's checkpoint, now that there is room."""
+    found = []
+    if "--restart run/checkpoint.h5" not in done.message:
+        found.append(f"no command to go on in {done.message!r}")
+    rest = shop.run([*words, "--restart", "run/checkpoint.h5"], folder)
+    if rest.code != 0:
+        return [*found, f"the restart ends with {rest.code}: {rest.message}"]
+    for name in ("run/forces.csv", "run/floe_1.csv"):
+        if read(os.path.join(folder, name)) != read(os.path.join(whole, name)):
+            found.append(f"after the restart {name} differs")
+    return found + [f"{name} is left" for name in files_of(folder) if name.endswith(".part")]
+
+
+def mount(folder, size):
+    done = subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={size}", "tmpfs", folder],
+                          capture_output=True, check=False)
+    if done.returncode != 0:
+        raise Skip("mount: " + done.stderr.decode("utf-8", "replace").strip())
+
+
+def remove(path):
+    if os.path.exists(path):
+        os.remove(path)
+
+
+def run_beside_thief(shop, words, folder):
+    """A run of which another program takes all room once it is on its way."""
+    with subprocess.Popen(shop.command(words), cwd=folder, stdin=subprocess.DEVNULL,
+                          stdout=subprocess.DEVNULL, stderr=subprocess.PIPE) as child:
+        while child.poll() is None and not os.path.exists(f"{folder}/run/forces.csv.part"):
+            time.sleep(0.002)
+        time.sleep(0.05)
+        try:
+            with open(os.path.join(folder, "thief"), "wb", buffering=0) as file:
+                while file.write(bytes(4096)):
+                    pass
+        except OSError:  # no room is left
+            pass
+        _, message = child.communicate(timeout=300)
+    return Result(child.returncode, message.decode("utf-8", "replace"))
 
 
 @fault

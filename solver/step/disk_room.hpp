@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// When to stop before the disk is full.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+
+#include "solver/record/recorder.hpp"
+#include "solver/step/step.hpp"
+
+namespace ice {
+
+/// Tells a run when to stop for want of room. A file that a full disk cuts while it is written is
+/// past mending; a run that stops with some room left completes its files and writes a checkpoint.
+///
+/// Other programs may fill the disk at once, so that room is held where the file system can
+/// (fallocate): for rows within run.h5 itself, for the rest by a file without a name, which goes with
+/// the program, however that ends. Elsewhere the free space is asked for, which knows no quotas. The
+/// limit of a single file (ulimit -f) counts, too.
+class DiskRoom {
+public:
+    explicit DiskRoom(std::filesystem::path folder) : folder_(std::move(folder)) {}
+    ~DiskRoom();
+    DiskRoom(const DiskRoom&) = delete;
+    DiskRoom& operator=(const DiskRoom&) = delete;
+
+    /// Is there less room than the waiting rows, a checkpoint and the end of the files may take? To
+    /// be asked before every step; looks at the disk before rows are written and once per some
+    /// 64 kB of them, or on request.
+    bool is_short(const Recorder& recorder, const World& world, bool look = false);
+    /// Gives back what is held for a checkpoint and the end of the files: for a run that ends.
+    void release();
+
+private:
+    bool could_hold(std::uint64_t rows, std::uint64_t end);
+
+    std::filesystem::path folder_;
+    int held_ = -1;  // the file
+    std::uint64_t held_bytes_ = 0;
+    bool looked_ = false, can_hold_ = true;
+    std::uint64_t waiting_ = 0;  // when it looked
+};
+
+}  // namespace ice
