@@ -14,9 +14,9 @@ namespace ice {
 /// past mending; a run that stops with some room left completes its files and writes a checkpoint.
 ///
 /// Other programs may fill the disk at once, so that room is held where the file system can
-/// (fallocate): for rows within run.h5 itself, for the rest by a file without a name, which goes with
-/// the program, however that ends. Elsewhere the free space is asked for, which knows no quotas. The
-/// limit of a single file (ulimit -f) counts, too.
+/// (fallocate): for rows within run.h5 itself, for the rest by a file without a name, which goes
+/// with the program, however that ends. Elsewhere the free space is asked for, which knows no
+/// quotas. The limit of a single file (ulimit -f) counts, too.
 class DiskRoom {
 public:
     explicit DiskRoom(std::filesystem::path folder) : folder_(std::move(folder)) {}
