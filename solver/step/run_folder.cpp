@@ -76,6 +76,14 @@ std::vector<std::string> names_in(const fs::path& folder) {
                     "wait until it has ended, or choose another folder with --out");
 }
 
+// A single run beside an ensemble's members would replace their summary.json alone.
+void refuse_ensemble(const fs::path& folder) {
+    for (const std::string& name : names_in(folder))
+        if (is_numbered(name, "seed-", "") && fs::is_directory(folder / name))
+            throw bad_input(folder.string(), "holds an ensemble: " + name,
+                            "choose another folder with --out, or go on with it: --seeds N");
+}
+
 void refuse_taken(const fs::path& folder, const FolderCommands& commands) {
     const std::vector<std::string> names = names_in(folder);
     if (names.empty()) return;
@@ -119,6 +127,7 @@ RunFolder::RunFolder(fs::path folder, Existing existing, const FolderCommands& c
     if (error)
         throw run_failed(path_.string(), "cannot be created: " + error.message(),
                          "choose another folder with --out");
+    if (existing != Existing::go_on) refuse_ensemble(path_);
     // twice: a folder of somebody else gets no run.log, and two programs may come at once
     std::error_code ignored;
     if (existing == Existing::refuse && !fs::exists(path_ / kLogName, ignored))
