@@ -13,14 +13,11 @@ Warning judged(std::string text, std::optional<double> share) {
 }
 
 std::string with_verdict(const Warning& w) {
-    const std::string much =
-        w.share ? fmt::format("about {:.2g} % of it", 100.0 * *w.share) : std::string();
     if (!w.affects_mean) return w.text + " (effect on the mean resistance: not measured)";
-    if (!*w.affects_mean)
-        return fmt::format("{} (the mean resistance is not affected{})", w.text,
-                           much.empty() ? much : ": " + much);
-    return fmt::format("{} (the mean resistance is affected{})", w.text,
-                       much.empty() ? much : ": " + much);
+    const std::string about =
+        w.share ? fmt::format(": about {:.2g} % of it", 100.0 * *w.share) : std::string();
+    const char* verb = *w.affects_mean ? "affects" : w.share ? "hardly affects" : "does not affect";
+    return fmt::format("{} ({} the mean resistance{})", w.text, verb, about);
 }
 
 }  // namespace ice

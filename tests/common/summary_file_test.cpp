@@ -98,11 +98,11 @@ TEST_CASE("warnings that are plain texts, as version 0.1 wrote them, are read", 
 
 TEST_CASE("a warning says behind its text what it does to the mean", "[formats]") {
     CHECK(with_verdict({"jam", true, 0.125}) ==
-          "jam (the mean resistance is affected: about 12 % of it)");
-    CHECK(with_verdict({"jam", true}) == "jam (the mean resistance is affected)");
+          "jam (affects the mean resistance: about 12 % of it)");
+    CHECK(with_verdict({"jam", true}) == "jam (affects the mean resistance)");
     CHECK(with_verdict({"jam", false, 0.003}) ==
-          "jam (the mean resistance is not affected: about 0.3 % of it)");
-    CHECK(with_verdict({"jam", false}) == "jam (the mean resistance is not affected)");
+          "jam (hardly affects the mean resistance: about 0.3 % of it)");
+    CHECK(with_verdict({"jam", false}) == "jam (does not affect the mean resistance)");
 }
 
 TEST_CASE("an ensemble and the figures of its interval come back", "[formats]") {
