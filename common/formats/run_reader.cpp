@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Reader of run.h5: checks everything it indexes with, because a file may be damaged or foreign.
+#include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <thread>
 
 #include "common/base/error.hpp"
 #include "common/formats/hdf5_file.hpp"
@@ -13,7 +16,13 @@ namespace {
 class Reader {
 public:
     explicit Reader(const std::filesystem::path& path)
-        : path_(path), file_(path, Hdf5File::Mode::read) {}
+        : path_(path), file_(path, Hdf5File::Mode::read), growing_(is_growing(path)) {}
+
+    // A run on its way, or one that was killed, may have written more rows of one array than of the
+    // next: what all of them have is read.
+    static bool is_growing(const std::filesystem::path& path) {
+        return path.extension() == ".part";
+    }
 
     RunData read() {
         RunData run;
@@ -37,7 +46,13 @@ private:
     // values of a dataset whose shape must be `shape`
     template <class T>
     std::vector<T> read_as(const std::string& name, const std::vector<std::uint64_t>& shape) const {
-        check(file_.shape(name) == shape, name, "has another shape than the arrays beside it");
+        std::vector<std::uint64_t> whole = file_.shape(name);
+        if (growing_ && !whole.empty() && !shape.empty() && whole[0] > shape[0]) {
+            whole[0] = shape[0];
+            check(whole == shape, name, "has another shape than the arrays beside it");
+            return shape[0] == 0 ? std::vector<T>() : file_.read_rows<T>(name, 0, shape[0]);
+        }
+        check(whole == shape, name, "has another shape than the arrays beside it");
         return file_.read<T>(name);
     }
 
@@ -55,6 +70,14 @@ private:
         const auto shape = file_.shape(name);
         check(!shape.empty(), name, "is a single value");
         return shape[0];
+    }
+
+    // rows of the first array, of a growing file what all have
+    std::uint64_t common_rows(const std::vector<std::string>& names) const {
+        std::uint64_t rows = rows_of(names[0]);
+        if (growing_)
+            for (const std::string& name : names) rows = std::min(rows, rows_of(name));
+        return rows;
     }
 
     std::uint64_t length(const std::string& name) const {
@@ -159,8 +182,14 @@ private:
     }
 
     void read_history(RunData& run) const {
-        const auto time = file_.read<double>("/time");
-        const std::uint64_t n = time.size();
+        std::vector<std::string> names{"/time"};
+        for (const char* name : {"contact_force", "friction_force", "moment", "pose", "contacts",
+                                 "moving_floes", "max_overlap", "kinetic_energy"})
+            names.push_back(std::string("/ship/") + name);
+        for (const std::int32_t id : run.header.tracked)
+            names.push_back("/tracked/" + std::to_string(id));
+        const std::uint64_t n = common_rows(names);
+        const auto time = read_as<double>("/time", {n});
         const auto contact = points("/ship/contact_force", {n});
         const auto friction = points("/ship/friction_force", {n});
         const auto moment = points("/ship/moment", {n});
@@ -205,8 +234,12 @@ private:
     }
 
     void read_frames(RunData& run) const {
-        const auto time = file_.read<double>("/frames/frame_time");
-        const std::uint64_t frames = time.size(), n = run.header.body_shape.size();
+        const std::uint64_t frames =
+            common_rows({"/frames/frame_time", "/frames/ship_position", "/frames/position",
+                         "/frames/orientation", "/frames/velocity", "/frames/angular_velocity",
+                         "/frames/contact_force", "/frames/state"});
+        const std::uint64_t n = run.header.body_shape.size();
+        const auto time = read_as<double>("/frames/frame_time", {frames});
         const auto ship = points("/frames/ship_position", {frames});
         const auto position = points("/frames/position", {frames, n});
         const auto orientation = read_as<double>("/frames/orientation", {frames, n, 4});
@@ -240,8 +273,10 @@ private:
 
     void read_contacts(RunData& run) const {
         if (!file_.has("/contacts")) return;  // a run of a version that did not record them
-        const auto frame = file_.read<std::int32_t>("/contacts/frame");
-        const std::uint64_t n = frame.size();
+        const std::uint64_t n =
+            common_rows({"/contacts/frame", "/contacts/floe", "/contacts/sphere", "/contacts/point",
+                         "/contacts/normal_force", "/contacts/friction_force"});
+        const auto frame = read_as<std::int32_t>("/contacts/frame", {n});
         const auto floe = read_as<std::int32_t>("/contacts/floe", {n});
         const auto sphere = read_as<std::int32_t>("/contacts/sphere", {n});
         const auto point = points("/contacts/point", {n});
@@ -249,6 +284,7 @@ private:
         const auto rub = points("/contacts/friction_force", {n});
         const auto floes = static_cast<std::int32_t>(run.header.body_shape.size());
         for (std::size_t k = 0; k < n; ++k) {
+            if (growing_ && static_cast<std::size_t>(frame[k]) >= run.frames.size()) break;
             check(frame[k] >= 0 && static_cast<std::size_t>(frame[k]) < run.frames.size(),
                   "/contacts/frame", "points outside the frames");
             check(floe[k] >= 1 && floe[k] <= floes, "/contacts/floe",
@@ -260,6 +296,7 @@ private:
 
     std::filesystem::path path_;
     Hdf5File file_;
+    bool growing_;
 };
 
 }  // namespace
@@ -273,6 +310,16 @@ const std::vector<std::string>& track_columns() {
     return names;
 }
 
-RunData read_run(const std::filesystem::path& path) { return Reader(path).read(); }
+RunData read_run(const std::filesystem::path& path) {
+    // one that is being written just now is whole a moment later
+    for (int left = Reader::is_growing(path) ? 5 : 0;; --left) {
+        try {
+            return Reader(path).read();
+        } catch (const Error&) {
+            if (left == 0) throw;
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    }
+}
 
 }  // namespace ice

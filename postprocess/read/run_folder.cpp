@@ -42,7 +42,12 @@ RunFolder read_run_folder(const fs::path& path) {
     const fs::path whole = run.path / "run.h5", part = run.path / "run.h5.part";
     if (!fs::exists(whole) && !fs::exists(part))
         throw bad_input(run.path.string(), "holds no run.h5", find_runs_in(run.path));
-    run.data = read_run(fs::exists(whole) ? whole : part);
+    try {
+        run.data = read_run(fs::exists(whole) ? whole : part);
+    } catch (const Error&) {  // the run may just have ended
+        if (!fs::exists(whole) || fs::exists(part)) throw;
+        run.data = read_run(whole);
+    }
     if (fs::exists(run.path / "summary.json"))
         run.summary = read_summary(run.path / "summary.json");
     return run;

@@ -231,3 +231,16 @@ TEST_CASE("a run that has ended holds no more of the disk than its files are lon
     REQUIRE(stat((w / "r/run.h5").c_str(), &state) == 0);
     CHECK(512 * state.st_blocks <= state.st_size + (1 << 17));  // blocks of up to 128 kB
 }
+
+TEST_CASE("a run that is on its way can be looked at, at any time", "[cli]") {
+    const Workshop w;
+    w.make_case();
+    LongRun run(w);
+    for (int k = 0; k < 400 && fs::file_size(w / "r/forces.csv.part") < 100000; ++k)
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    for (int k = 0; k < 15; ++k) {
+        const Result r = w.run("icepost plot r -q -o r.svg");
+        CAPTURE(k, r.err);
+        CHECK(r.code == 0);
+    }
+}
