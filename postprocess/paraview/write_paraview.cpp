@@ -148,17 +148,25 @@ void write_shapes(const RunHeader& header, const fs::path& folder) {
 
 }  // namespace
 
-std::size_t write_paraview(const RunData& run, const fs::path& folder,
-                           const ParaviewOptions& options) {
+namespace {
+
+// Removes the frames, of which a full disk would leave thousands without a list that names them.
+void remove_frames(const fs::path& folder) {
+    std::error_code ignored;
+    std::vector<fs::path> frames;
+    for (const auto& entry : fs::directory_iterator(folder / "frames", ignored))
+        if (entry.path().extension() == ".vtp") frames.push_back(entry.path());
+    for (const fs::path& frame : frames) fs::remove(frame, ignored);
+    for (const char* name : {"hull_load.vtp", "shapes.vtm", "bodies.pvd", "contacts.pvd",
+                             "floes.pvd", "hull.pvd", "run.pvd"})
+        fs::remove(folder / name, ignored);
+    fs::remove(folder / "frames", ignored);  // both only where nothing else is in them
+    fs::remove(folder, ignored);
+}
+
+std::size_t write_files(const RunData& run, const fs::path& folder,
+                        const ParaviewOptions& options) {
     const RunHeader& header = run.header;
-    if (run.frames.empty() || header.shapes.empty())
-        throw bad_input(header.title, "the run has no frames to export",
-                        "set output.frames_every in the case and run it again");
-    std::error_code error;
-    fs::create_directories(folder / "frames", error);
-    if (error)
-        throw run_failed(folder.string(), "cannot be created: " + error.message(),
-                         "check that the folder is writable");
     Collection both, floes, hull, bodies, contacts;
     std::size_t count = 0;
     const std::size_t step = std::max<std::size_t>(1, options.every);
@@ -186,6 +194,26 @@ std::size_t write_paraview(const RunData& run, const fs::path& folder,
     hull.write(folder / "hull.pvd");
     both.write(folder / "run.pvd");
     return count;
+}
+
+}  // namespace
+
+std::size_t write_paraview(const RunData& run, const fs::path& folder,
+                           const ParaviewOptions& options) {
+    if (run.frames.empty() || run.header.shapes.empty())
+        throw bad_input(run.header.title, "the run has no frames to export",
+                        "set output.frames_every in the case and run it again");
+    std::error_code error;
+    fs::create_directories(folder / "frames", error);
+    if (error)
+        throw run_failed(folder.string(), "cannot be created: " + error.message(),
+                         "check that the folder is writable");
+    try {
+        return write_files(run, folder, options);
+    } catch (...) {
+        remove_frames(folder);
+        throw;
+    }
 }
 
 }  // namespace ice::paraview
