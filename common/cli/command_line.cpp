@@ -85,6 +85,9 @@ Error usage_error(const CLI::App& app, const CLI::ParseError& error) {
         what = fmt::format("no {} given", what.substr(0, end));
     else if (const auto colon = what.find(": "); what.ends_with(" missing"))
         what = what.substr(0, colon) + " needs a value";
+    else if (const auto list = what.find(" not in {"); list != std::string::npos)
+        what =
+            what.substr(0, list) + " is none of " + what.substr(list + 9, what.size() - list - 10);
     return bad_input("", what, help);
 }
 
