@@ -6,9 +6,9 @@
 
 namespace ice::report {
 
-/// Address, relative to a page in `folder`, of the sweep page that the run belongs to: sweep.html in
-/// the folder above or the one above that, also where only the sweep's plan (runs.toml) is there
-/// yet, because the page follows when all runs are done. "" for a run by itself.
+/// Address, relative to a page in `folder`, of the sweep page that the run belongs to: sweep.html
+/// one or two folders above, also where only the sweep's plan (runs.toml) is there yet, because the
+/// page follows when all runs are done. "" for a run by itself.
 std::string find_sweep(const std::filesystem::path& folder);
 
 }  // namespace ice::report
