@@ -146,9 +146,10 @@ class StudyPlanner(Planner):
         except NothingToVary:
             if "values" not in entry:
                 raise
+        changes = [c for c in changes if c != base]
         if not changes:
             changes = [{key: value for key in base} for value in entry.get("values", [])]
-        changes = [c for c in changes if c != base]
+            changes = [c for c in changes if c != base]
         if not changes:
             raise NothingToVary(f"every value is the case's own, {label(base)}")
         return base, changes
@@ -166,6 +167,8 @@ class StudyPlanner(Planner):
             if not entry.get("keys") or not {"values", "factors", "add"} & set(entry):
                 self.fail(f"{path}: a range without keys, or without values, factors or add",
                           'write keys = ["contact.restitution"] and values = [0.1, 0.5]')
+            for key in entry["keys"] if "ranges" in self.file else ():  # ours are tested
+                self.explain(key)
         for key, values in flatten(self.get("vary", dict, {})).items():
             self.explain(key)
             if not isinstance(values, list):

@@ -154,6 +154,10 @@ floes.mean_size = 1.0
     expect_fault(STUDY.replace("seeds = 2", "seeds = 0"), "'seeds' is wrong")
     write(f"{folder}/ranges.toml", '[[range]]\nkeys = ["floes.gap"]\nfactor = [2.0]\n')
     expect_fault('ranges = "ranges.toml"\n' + STUDY, "unknown key 'factor'")
+    write(f"{folder}/ranges.toml", '[[range]]\nkeys = ["floes.gpa"]\nfactors = [2.0]\n')
+    expect_fault('ranges = "ranges.toml"\n' + STUDY, "did you mean 'floes.gap'?")
+    ours = f'ranges = "{SOURCE}/workflow/sensitivity/ranges.toml"\n' + STUDY
+    assert list(plan(ours).runs) == list(plan(STUDY).runs)  # every key of ours exists
     write(f"{folder}/ranges.toml", '[[range]]\nkeys = ["field.floes.gap"]\nfactors = [2.0]\n')
     expect_fault('ranges = "ranges.toml"\n' + STUDY, "nothing to vary")
     print("ok", len(direct.runs), "runs of a case")
