@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "common/base/part_file.hpp"
+#include "postprocess/report/find_sweep.hpp"
 #include "postprocess/report/page.hpp"
 #include "postprocess/report/pictures.hpp"
 #include "postprocess/report/tables.hpp"
@@ -129,7 +130,15 @@ std::string make_report(const read::RunFolder& run, std::size_t frames) {
 
 void write_report(const read::RunFolder& run, const std::filesystem::path& file,
                   std::size_t frames) {
-    write_text_file(file, make_report(run, frames));
+    std::string page = make_report(run, frames);
+    // a page that lies elsewhere has another way to the sweep
+    const bool beside = std::filesystem::absolute(file).parent_path().lexically_normal() ==
+                        std::filesystem::absolute(run.path).lexically_normal();
+    const std::string sweep = beside ? find_sweep(run.path) : "";
+    if (const auto end = page.find("</div></header>"); !sweep.empty() && end != std::string::npos)
+        page.insert(end,
+                    "<p><a href=\"" + sweep + "\">The sweep that this run belongs to</a></p>\n");
+    write_text_file(file, page);
 }
 
 }  // namespace ice::report

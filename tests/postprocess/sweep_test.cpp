@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "postprocess/report/write_report.hpp"
 #include "postprocess/sweep/share_work.hpp"
 #include "postprocess/sweep/split_sweep.hpp"
 #include "postprocess/sweep/sweep_head.hpp"
@@ -303,6 +304,23 @@ TEST_CASE("members of an ensemble count once, whatever their seeds changed", "[s
     CHECK(points[0].runs.size() == 3);
     CHECK(points[0].part(Part::total).mean == Approx(1002.0));
     CHECK(read_sweep(folder / "u0.5").runs.size() == 3);
+}
+
+TEST_CASE("a run's report links to the sweep above it, one by itself to none", "[sweep][report]") {
+    const TempFolder folder;
+    read::RunFolder run = make_folder();
+    run.path = folder / "runs/u=1";
+    std::filesystem::create_directories(run.path);
+    const auto page = [&](const std::filesystem::path& file) {
+        report::write_report(run, file);
+        return read_bytes(file);
+    };
+    CHECK_THAT(page(run.path / "report.html"), !Catch::Contains("sweep.html"));
+    write_bytes(folder / "runs.toml", "");
+    CHECK_THAT(page(run.path / "report.html"), Catch::Contains("href=\"../../sweep.html\""));
+    write_bytes(folder / "runs/sweep.html", "");
+    CHECK_THAT(page(run.path / "report.html"), Catch::Contains("href=\"../sweep.html\""));
+    CHECK_THAT(page(folder / "elsewhere.html"), !Catch::Contains("sweep.html"));
 }
 
 TEST_CASE("the head of a sweep tells ship, ice and speeds that the summaries have", "[sweep]") {

@@ -101,8 +101,10 @@ function addToTable(wide) {
   const title = wide.previousElementSibling?.tagName === 'H3' ? wide.previousElementSibling
     : section?.querySelector('h2');
   const name = fileName(title?.textContent ?? 'table', 'csv');
-  wide.after(buttonRow([['CSV', () => save(name,
-    new Blob([csvText(tableRows(table))], { type: 'text/csv' }))]]));
+  // names and values are for reading
+  if (!table.classList.contains('facts'))
+    wide.after(buttonRow([['CSV', () => save(name,
+      new Blob([csvText(tableRows(table))], { type: 'text/csv' }))]]));
   const hint = document.createElement('p');
   hint.className = 'hint';
   hint.textContent = 'scroll the table sideways for more columns →';
