@@ -21,6 +21,7 @@ with h5py.File(path) as run:  # what there is: common/formats/run_file.hpp
     average_from = run.attrs.get("average_from")
     if average_from is None:  # an older run: the case with all its keys is inside
         average_from = tomllib.loads(run.attrs["case_toml"])["output"]["average_from"]
+    has_regions = "regions" in run
 root = xarray.open_dataset(path, engine="h5netcdf")  # labels: time, x y z, ...
 ship = xarray.open_dataset(path, group="ship", engine="h5netcdf").assign_coords(root.coords)
 frames = xarray.open_dataset(path, group="frames", engine="h5netcdf").assign_coords(xyz=root.xyz)
@@ -29,9 +30,16 @@ contacts = xarray.open_dataset(path, group="contacts", engine="h5netcdf")
 late = ship.sel(time=slice(float(average_from) - 1e-9, None))  # times carry rounding errors
 if not late.time.size:
     sys.exit(f"read_run.py: the run ended before {float(average_from):g} s, where its mean begins")
-print(f"resistance {-float(late.force.sel(xyz=b'x').mean()):.1f} {ship.force.units}")
+x, z = 0, 2  # labels of xyz are text, in older runs bytes
+print(f"resistance {-float(late.force.isel(xyz=x).mean()):.1f} {ship.force.units}")
+if has_regions:
+    regions = xarray.open_dataset(path, group="regions", engine="h5netcdf")
+    force = (regions.contact_force + regions.friction_force).assign_coords(root.coords)
+    means = -force.isel(xyz=x).sel(time=late.time).mean("time")
+    for name, part in zip(means.hull_regions.values, means.values):
+        print(f"    of it on {name}: {part:.1f}")
 print(f"floes that moved: {int((frames.state > 0).any('frame_time').sum())}")
-deepest = frames.position.sel(xyz=b"z").min("body")
+deepest = frames.position.isel(xyz=z).min("body")
 print(f"deepest floe at {float(deepest.min()):.2f} m, t = {float(deepest.idxmin()):.1f} s")
 push = (contacts.normal_force**2).sum("xyz")**0.5  # at contacts.point, in the ship's frame
 print(f"hardest place: {contacts.point[int(push.argmax())].values} m" if push.size else "no hits")

@@ -174,6 +174,7 @@ std::vector<T> Hdf5File::read_rows(const std::string& name, std::uint64_t first,
     std::vector<hsize_t> block = to_hsize(shape(name)), start(block.size(), 0);
     start.at(0) = first;
     block[0] = count;
+    take_from_limit(name, product({block.begin(), block.end()}), sizeof(T));
     const Handle dataset(open_dataset(name), H5Dclose);
     const Handle file_space(H5Dget_space(dataset), H5Sclose);
     const Handle memory(H5Screate_simple(static_cast<int>(block.size()), block.data(), nullptr),

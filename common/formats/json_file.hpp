@@ -47,6 +47,7 @@ public:
     /// An object of numbers, or nothing where the file has none.
     std::map<std::string, double> numbers(const std::string& key) const;
 
+    const Json& whole() const { return json_; }
     const Json& at(const std::string& key) const;
     const Json& child(const Json& parent, const std::string& name, const std::string& key) const;
     std::array<double, 3> vector(const Json& json, const std::string& key) const;

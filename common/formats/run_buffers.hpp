@@ -32,6 +32,7 @@ struct RunWriter::Buffers {
             const RunHeader& header);
     void create_history(const RunHeader& header);
     void create_frames(const RunHeader& header);
+    void create_regions(const RunHeader& header);
     void create_contacts(const RunHeader& header);
     void write_whole_chunks();
     void write_all();
@@ -48,6 +49,8 @@ struct RunWriter::Buffers {
         for (Column<double>* column : {&time, &contact, &friction, &total, &moment, &pose,
                                        &contacts, &moving, &overlap, &energy})
             work(*column);
+        work(region_contact);
+        work(region_friction);
         for (Column<double>& column : tracks) work(column);
     }
     template <class Work>
@@ -71,6 +74,7 @@ struct RunWriter::Buffers {
 
     std::filesystem::path final_path, part_path;
     Hdf5File file;
+    int dimension = 3;
     std::size_t bodies = 0;
     std::uint64_t samples = 0, frames = 0, contact_rows = 0;  // buffered, not on disk yet
     RunPosition written;                                      // in `file`
@@ -80,6 +84,8 @@ struct RunWriter::Buffers {
     // history: time, forces and moment [S,3], pose [S,7], scalars, then one table per tracked floe
     Column<double> time, contact, friction, total, moment, pose;
     Column<double> contacts, moving, overlap, energy;
+    Column<float> region_contact, region_friction;  // [S,R,3]
+    std::size_t regions = 0;                        // of the hull
     std::vector<Column<double>> tracks;
     // frames
     Column<double> frame_time, ship_position;

@@ -4,10 +4,11 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
-#include "common/geometry/triangle_mesh.hpp"
+#include "common/formats/load_statistics.hpp"
 
 namespace ice {
 
@@ -23,6 +24,8 @@ struct RunHeader {
     int dimension = 3;
     std::string title, created_by, git_commit, command_line;
     std::string case_toml;  ///< the resolved case, verbatim
+    /// Start of the statistics [s]; NaN in files of versions that did not store it.
+    double average_from = std::numeric_limits<double>::quiet_NaN();
     std::vector<RunShape> shapes;
     std::vector<std::int32_t>
         body_shape;  ///< [Nb] row of shapes, one per floe; floe k has id k + 1
@@ -43,6 +46,17 @@ struct HistoryRow {
     double moving_floes = 0.0;
     double max_overlap = 0.0;     ///< deepest overlap of the steps [m]
     double kinetic_energy = 0.0;  ///< of the floes [J]
+};
+
+/// Force of the ice on one region of the hull, world axes [N] (2D: N per metre).
+struct RegionForce {
+    Vec3 contact = Vec3::Zero(), friction = Vec3::Zero();
+};
+
+/// Forces on one region of the hull, one row per history sample [N] (2D: N per metre).
+struct RegionHistory {
+    std::string name;
+    std::vector<Eigen::Vector3f> contact, friction;
 };
 
 /// One history sample of a tracked floe.

@@ -3,6 +3,7 @@
 #include "common/formats/run_file.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "common/base/error.hpp"
 #include "common/base/part_file.hpp"
@@ -45,6 +46,28 @@ void write_attributes(Hdf5File& file, const RunHeader& header) {
     file.write_attribute("/", "command_line", header.command_line);
     file.write_attribute("/", "case_toml", header.case_toml);
     file.write_attribute("/", "units", std::string("SI"));
+    file.write_attribute("/", "average_from", {header.average_from}, {});
+}
+
+// what the names alone do not say
+void name_history(Hdf5File& file) {
+    const auto say = [&](const char* name, const char* text) {
+        file.write_attribute(name, "long_name", text);
+    };
+    say("/time", "time at the end of the row's steps");
+    say("/ship/contact_force", "force of the ice on the ship, normal parts, world axes");
+    say("/ship/friction_force", "force of the ice on the ship, tangential parts, world axes");
+    say("/ship/force", "force of the ice on the ship, world axes; resistance is -x");
+    say("/ship/moment", "moment of the ice on the ship about its reference point, world axes");
+    say("/ship/pose", "position of the hull mesh's origin and orientation of the ship");
+    say("/ship/contacts", "hull and floe contacts that carried an impulse, mean of the steps");
+    say("/ship/moving_floes", "floes that are not held");
+    say("/ship/max_overlap", "deepest overlap of two bodies in the row's steps");
+    say("/ship/kinetic_energy", "kinetic energy of the floes");
+    say("/regions/contact_force", "force of the ice on a region of the hull, normal parts");
+    say("/regions/friction_force", "force of the ice on a region of the hull, tangential parts");
+    file.write_attribute("/ship/moment", "reference_point",
+                         "origin of the hull's mesh (ship frame 0, 0, 0), which is at /ship/pose");
 }
 
 }  // namespace
@@ -89,6 +112,8 @@ void RunWriter::Buffers::create_history(const RunHeader& header) {
     create(moving, "/ship/moving_floes", {}, "1", {"/time"});
     create(overlap, "/ship/max_overlap", {}, "m", {"/time"});
     create(energy, "/ship/kinetic_energy", {}, header.dimension == 2 ? "J/m" : "J", {"/time"});
+    create_regions(header);
+    name_history(file);
 
     write_labels(file, "/track_columns", track_columns());
     file.create_group("/tracked");
@@ -101,6 +126,22 @@ void RunWriter::Buffers::create_history(const RunHeader& header) {
         create(tracks[k], "/tracked/" + std::to_string(header.tracked[k]), {track_columns().size()},
                "SI", {"/time", "/track_columns"});
         file.write_attribute(tracks[k].name, "columns", joined);
+        file.write_attribute(tracks[k].name, "column_units", run_parts::track_units(force));
+    }
+}
+
+void RunWriter::Buffers::create_regions(const RunHeader& header) {
+    const std::vector<std::string> names = run_parts::hull_regions(header);
+    dimension = header.dimension;
+    regions = names.size();
+    file.create_group("/regions");
+    write_labels(file, "/hull_regions", names);
+    for (auto& [column, name] : {std::pair(&region_contact, "/regions/contact_force"),
+                                 std::pair(&region_friction, "/regions/friction_force")}) {
+        column->name = name;
+        create_column<float>(file, name, {regions, 3}, kHistoryChunk,
+                             header.dimension == 2 ? "N/m" : "N",
+                             {"/time", "/hull_regions", "/xyz"});
     }
 }
 
@@ -185,8 +226,11 @@ RunWriter::RunWriter(const std::filesystem::path& path, const RunHeader& header)
 RunWriter::RunWriter(RunWriter&&) noexcept = default;
 RunWriter::~RunWriter() = default;
 
-void RunWriter::add(const HistoryRow& row) {
+void RunWriter::add(const HistoryRow& row, const std::vector<RegionForce>& regions) {
     Buffers& b = *buffers_;
+    if (!regions.empty() && regions.size() != b.regions)
+        throw run_failed(b.final_path.string(), "got another number of regions than promised",
+                         "this is a fault of the program: please report it");
     // before the new row, when the tracked floes' rows of the last one are complete
     if (b.samples >= kHistoryPerFlush) b.write_whole_chunks();
     b.time.add_value(row.time);
@@ -200,6 +244,11 @@ void RunWriter::add(const HistoryRow& row) {
     b.moving.add_value(row.moving_floes);
     b.overlap.add_value(row.max_overlap);
     b.energy.add_value(row.kinetic_energy);
+    const Vec3 unknown = Vec3::Constant(std::nan(""));
+    for (std::size_t r = 0; r < b.regions; ++r) {
+        b.region_contact.add(regions.empty() ? unknown : regions[r].contact);
+        b.region_friction.add(regions.empty() ? unknown : regions[r].friction);
+    }
     ++b.samples;
 }
 
@@ -256,9 +305,10 @@ bool RunWriter::is_about_to_write() const {
            buffers_->frames + 1 >= frames_per_chunk(buffers_->bodies);
 }
 
-void RunWriter::finish() {
+void RunWriter::finish(const HullPanels& panels) {
     Buffers& b = *buffers_;
     b.write_all();
+    if (!panels.panels.empty()) run_parts::write_panels(b.file, panels, b.dimension);
     b.file.close();
     keep_file(b.part_path, b.final_path);
     remove_saved_rows(b.final_path.parent_path());  // the finished file has them all

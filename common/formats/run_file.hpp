@@ -5,6 +5,9 @@
 ///
 ///     /time [S] s                    /ship/contact_force, friction_force, force, moment [S,3]
 ///     /ship/pose [S,7] m, w x y z    /ship/contacts, moving_floes, max_overlap, kinetic_energy [S]
+///     /regions/contact_force, friction_force [S,R,3]   of the ice on each region of the hull
+///     /panels/center, normal [P,3]  /panels/area, length, force_mean, force_p99, force_max [P]
+///     /panels/panel, region [P]     /shapes/hull_panel [hull spheres]   by finish() only
 ///     /frames/frame_time [F] s         /frames/body [B]  (ids, from 1)
 ///     /frames/position [F,B,3]         /frames/orientation [F,B,4] w x y z, body to world
 ///     /frames/velocity, angular_velocity, contact_force [F,B,3]   /frames/state [F,B]
@@ -14,10 +17,11 @@
 ///     /contacts/normal_force, friction_force [C,3]
 ///     /shapes/vertex_offset, vertices, triangle_offset, triangles, region, sphere_offset, spheres
 ///     /tracked/floe [K] ids            /tracked/<id> [S,22], columns named in track_columns()
-///     /region_names, /xyz, /wxyz, /pose_parts, /track_columns   labels
+///     /region_names, /hull_regions, /xyz, /wxyz, /pose_parts, /track_columns   labels
 ///
 /// Every dimension outside /shapes is labelled by a dimension scale, so that xarray knows it.
-/// Times, histories and masses are double, poses and meshes float.
+/// Times, histories and masses are double; poses, meshes and forces on regions float. Datasets have
+/// `units` and, where the name does not say all, `long_name`; "/" has `average_from` [s].
 #pragma once
 
 #include <filesystem>
@@ -54,7 +58,8 @@ public:
     RunWriter(RunWriter&&) noexcept;
     ~RunWriter();  ///< without finish() the .part file stays, readable up to its last flush
 
-    void add(const HistoryRow& row);
+    /// @param regions one per region of the hull (header.shapes[0]); without them NaN is stored
+    void add(const HistoryRow& row, const std::vector<RegionForce>& regions = {});
     /// Call once after each add(HistoryRow) when floes are tracked.
     /// @param rows one per tracked floe, in the order of header.tracked
     void add_tracked(const std::vector<TrackRow>& rows);
@@ -69,7 +74,7 @@ public:
     /// Will the next sample or frame make it write to the disk?
     bool is_about_to_write() const;
     /// Writes what is buffered, closes and renames. Nothing may be added afterwards.
-    void finish();
+    void finish(const HullPanels& panels = {});
 
 private:
     struct Buffers;
@@ -87,11 +92,14 @@ const std::vector<std::string>& track_columns();
 struct RunData {
     RunHeader header;
     std::vector<HistoryRow> history;
+    std::vector<RegionHistory> regions;         ///< of the hull; none in files of before
     std::vector<std::vector<TrackRow>> tracks;  ///< per tracked floe
     std::vector<RunFrame> frames;
+    HullPanels panels;  ///< empty in files of before and of killed runs
 };
 
-/// Reads run.h5 (or run.h5.part of a killed run).
+/// Reads run.h5, or run.h5.part of a run that was killed or goes on: of arrays that belong together
+/// as many rows as the shortest has.
 /// @throws Error (exit code 2) naming the file and the dataset.
 RunData read_run(const std::filesystem::path& path);
 

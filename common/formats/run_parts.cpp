@@ -9,6 +9,7 @@ namespace ice::run_parts {
 
 void write_labels(Hdf5File& file, const std::string& name, const std::vector<std::string>& texts) {
     file.write_strings(name, texts);
+    file.write_attribute(name, "_Encoding", std::string("utf-8"));  // xarray: str, not bytes
     file.make_scale(name);
 }
 
@@ -71,6 +72,65 @@ void write_bodies(Hdf5File& file, const RunHeader& header) {
     for (const char* name : {"/frames/body_shape", "/frames/body_group", "/frames/mass"})
         attach_scales(file, name, {"/frames/body"});
     attach_scales(file, "/frames/inertia", {"/frames/body", "/xyz"});
+}
+
+std::vector<std::string> hull_regions(const RunHeader& header) {
+    if (header.shapes.empty() || header.shapes[0].mesh.region_names.empty()) return {"hull"};
+    return header.shapes[0].mesh.region_names;
+}
+
+void write_panels(Hdf5File& file, const HullPanels& hull, int dimension) {
+    const std::uint64_t count = hull.panels.size();
+    const auto name_of = [](const char* name) { return std::string("/panels/") + name; };
+    const auto describe = [&](const char* name, const std::string& units, const char* text) {
+        file.write_attribute(name_of(name), "units", units);
+        file.write_attribute(name_of(name), "long_name", std::string(text));
+    };
+    std::vector<std::int32_t> ids, region;
+    std::vector<Vec3> center, normal;
+    for (const PanelLoad& panel : hull.panels) {
+        ids.push_back(static_cast<std::int32_t>(ids.size()));
+        region.push_back(panel.region);
+        center.push_back(panel.center);
+        normal.push_back(panel.normal);
+    }
+    file.create_group("/panels");
+    file.write(name_of("panel"), ids);
+    file.make_scale(name_of("panel"));
+    file.write(name_of("region"), region);
+    attach_scales(file, name_of("region"), {"/panels/panel"});
+    describe("region", "1", "row of /hull_regions");
+    for (const auto& [name, points] : {std::pair("center", &center), std::pair("normal", &normal)}) {
+        file.write(name_of(name), flatten<double>(*points).data(), {count, 3});
+        attach_scales(file, name_of(name), {"/panels/panel", "/xyz"});
+    }
+    describe("center", "m", "middle of the panel, ship frame");
+    describe("normal", "1", "mean outward normal");
+    const std::string force = dimension == 2 ? "N/m" : "N";
+    const auto column = [&](const char* name, double PanelLoad::*member, const std::string& units,
+                            const char* text) {
+        std::vector<double> values;
+        for (const PanelLoad& panel : hull.panels) values.push_back(panel.*member);
+        file.write(name_of(name), values);
+        attach_scales(file, name_of(name), {"/panels/panel"});
+        describe(name, units, text);
+    };
+    column("area", &PanelLoad::area, dimension == 2 ? "m2/m" : "m2", "area of the panel");
+    column("length", &PanelLoad::length, "m", "length of the panel along the waterline");
+    column("force_mean", &PanelLoad::mean, force, "normal force, mean");
+    column("force_p99", &PanelLoad::p99, force, "normal force, 99 % of the windows are below");
+    column("force_max", &PanelLoad::max, force, "normal force, largest of the windows");
+    file.write_attribute("/panels", "size", {hull.size}, {});
+    file.write_attribute("/panels", "window", {hull.window}, {});
+    file.write("/shapes/hull_panel", hull.of_sphere);
+    file.write_attribute("/shapes/hull_panel", "long_name",
+                         std::string("row of /panels of each surface sphere of the hull"));
+}
+
+std::string track_units(const std::string& force) {
+    std::string units = "m,m,m,1,1,1,1,m/s,m/s,m/s,rad/s,rad/s,rad/s";
+    for (int column = 0; column < 9; ++column) units += "," + force;
+    return units;
 }
 
 }  // namespace ice::run_parts

@@ -23,4 +23,13 @@ void write_labels(Hdf5File& file, const std::string& name, const std::vector<std
 /// Labels the dimensions of a dataset, in order.
 void attach_scales(Hdf5File& file, const std::string& name, const std::vector<std::string>& scales);
 
+/// Names of the hull's regions; {"hull"} where the mesh has none.
+std::vector<std::string> hull_regions(const RunHeader& header);
+
+/// /panels/* and /shapes/hull_panel; needs /hull_regions and /xyz.
+void write_panels(Hdf5File& file, const HullPanels& panels, int dimension);
+
+/// Units of the columns of /tracked/<id>. @param force "N" or "N/m"
+std::string track_units(const std::string& force);
+
 }  // namespace ice::run_parts

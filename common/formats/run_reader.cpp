@@ -13,6 +13,8 @@ namespace ice {
 
 namespace {
 
+constexpr const char* kRegionForces[] = {"/regions/contact_force", "/regions/friction_force"};
+
 class Reader {
 public:
     explicit Reader(const std::filesystem::path& path)
@@ -30,9 +32,11 @@ public:
         read_shapes(run.header.shapes);
         read_bodies(run.header);
         read_history(run);
+        read_regions(run);
         read_tracks(run);
         read_frames(run);
         read_contacts(run);
+        read_panels(run);
         return run;
     }
 
@@ -99,6 +103,8 @@ private:
         header.git_commit = file_.read_text_attribute("/", "git_commit");
         header.command_line = file_.read_text_attribute("/", "command_line");
         header.case_toml = file_.read_text_attribute("/", "case_toml");
+        if (file_.has_attribute("/", "average_from"))
+            header.average_from = file_.read_number_attribute("/", "average_from")[0];
         header.tracked = file_.read<std::int32_t>("/tracked/floe");
     }
 
@@ -188,6 +194,8 @@ private:
             names.push_back(std::string("/ship/") + name);
         for (const std::int32_t id : run.header.tracked)
             names.push_back("/tracked/" + std::to_string(id));
+        if (file_.has("/regions"))
+            for (const char* name : kRegionForces) names.emplace_back(name);
         const std::uint64_t n = common_rows(names);
         const auto time = read_as<double>("/time", {n});
         const auto contact = points("/ship/contact_force", {n});
@@ -209,6 +217,23 @@ private:
                               moving[k],
                               overlap[k],
                               energy[k]};
+    }
+
+    void read_regions(RunData& run) const {
+        if (!file_.has("/regions")) return;  // a run of a version that did not record them
+        const auto names = file_.read_strings("/hull_regions");
+        const std::size_t n = run.history.size(), regions = names.size();
+        const auto contact = read_as<float>(kRegionForces[0], {n, regions, 3});
+        const auto friction = read_as<float>(kRegionForces[1], {n, regions, 3});
+        for (std::size_t r = 0; r < regions; ++r) {
+            RegionHistory history{names[r], {}, {}};
+            for (std::size_t k = 0; k < n; ++k) {
+                const std::size_t at = 3 * (k * regions + r);
+                history.contact.emplace_back(contact[at], contact[at + 1], contact[at + 2]);
+                history.friction.emplace_back(friction[at], friction[at + 1], friction[at + 2]);
+            }
+            run.regions.push_back(std::move(history));
+        }
     }
 
     void read_tracks(RunData& run) const {
@@ -292,6 +317,35 @@ private:
             run.frames[static_cast<std::size_t>(frame[k])].hull_contacts.push_back(
                 {floe[k], sphere[k], point[k], push[k], rub[k]});
         }
+    }
+
+    void read_panels(RunData& run) const {
+        if (!file_.has("/panels")) return;  // a killed run, or of a version that had none
+        HullPanels& hull = run.panels;
+        hull.size = file_.read_number_attribute("/panels", "size")[0];
+        hull.window = file_.read_number_attribute("/panels", "window")[0];
+        const auto region = file_.read<std::int32_t>("/panels/region");
+        const std::uint64_t n = region.size();
+        const auto center = points("/panels/center", {n}), normal = points("/panels/normal", {n});
+        const auto regions = static_cast<std::int32_t>(length("/hull_regions"));
+        for (std::size_t k = 0; k < n; ++k) {
+            check(region[k] >= 0 && region[k] < regions, "/panels/region",
+                  "points outside /hull_regions");
+            hull.panels.push_back({region[k], center[k], normal[k]});
+        }
+        const auto column = [&](const char* name, double PanelLoad::*member) {
+            const auto values = read_as<double>(std::string("/panels/") + name, {n});
+            for (std::size_t k = 0; k < n; ++k) hull.panels[k].*member = values[k];
+        };
+        column("area", &PanelLoad::area);
+        column("length", &PanelLoad::length);
+        column("force_mean", &PanelLoad::mean);
+        column("force_p99", &PanelLoad::p99);
+        column("force_max", &PanelLoad::max);
+        hull.of_sphere = file_.read<std::int32_t>("/shapes/hull_panel");
+        for (const std::int32_t row : hull.of_sphere)
+            check(row >= 0 && row < static_cast<std::int32_t>(n), "/shapes/hull_panel",
+                  "points outside the panels");
     }
 
     std::filesystem::path path_;

@@ -71,7 +71,8 @@ void RunWriter::Buffers::save_rows() {
     if (saved.samples == written.samples && saved.frames == written.frames) return;
     PartFile part(saved_rows(final_path.parent_path(), saved.samples, saved.frames));
     Hdf5File to(part.path(), Hdf5File::Mode::create);
-    for (const char* group : {"/ship", "/tracked", "/frames", "/contacts"}) to.create_group(group);
+    for (const char* group : {"/ship", "/regions", "/tracked", "/frames", "/contacts"})
+        to.create_group(group);
     const auto save = [&](auto& column, std::int64_t first, std::int64_t end, std::uint64_t chunk) {
         column.create_like(file, to, chunk);
         column.copy(file, static_cast<std::uint64_t>(first),

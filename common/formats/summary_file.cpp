@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "common/formats/json_file.hpp"
+#include "common/formats/load_statistics_json.hpp"
 #include "common/formats/particulars_json.hpp"
 
 namespace ice {
@@ -32,12 +33,14 @@ Json force_json(const ForceStatistics& force) {
 
 Json regions_json(const std::map<std::string, RegionStatistics>& regions) {
     Json out = Json::object();
-    for (const auto& [name, region] : regions)
+    for (const auto& [name, region] : regions) {
         out[name] = {{"hits", region.hits},
                      {"max_impulse_Ns", region.max_impulse},
                      {"mean_N", region.mean},
                      {"contact_mean_N", region.contact_mean},
                      {"friction_mean_N", region.friction_mean}};
+        add_peaks(region, out[name]);
+    }
     return out;
 }
 
@@ -87,6 +90,16 @@ ForceStatistics read_force(const JsonReader& in, const std::string& key) {
     return out;
 }
 
+// what the JSON library finds wrong, as an error that names the file
+template <class Work>
+void guarded(const JsonReader& in, const std::string& key, const Work& work) {
+    try {
+        work();
+    } catch (const Json::exception&) {
+        throw in.fault(key, "has a missing key or the wrong type");
+    }
+}
+
 std::map<std::string, RegionStatistics> read_regions(const JsonReader& in) {
     std::map<std::string, RegionStatistics> out;
     for (const auto& [name, region] : in.at("regions").items()) {
@@ -99,6 +112,7 @@ std::map<std::string, RegionStatistics> read_regions(const JsonReader& in) {
         const Json unknown = Json::array({nullptr, nullptr, nullptr});
         row.contact_mean = in.vector(region.value("contact_mean_N", unknown), key);
         row.friction_mean = in.vector(region.value("friction_mean_N", unknown), key);
+        guarded(in, key, [&, &from = region] { read_peaks(from, row); });
     }
     return out;
 }
@@ -173,6 +187,7 @@ std::string summary_text(const Summary& s) {
     json["lateral"] = force_json(s.lateral);
     json["vertical"] = force_json(s.vertical);
     json["regions"] = regions_json(s.regions);
+    if (s.panels.size > 0.0) add_panels(s.panels, json);
     json["contacts"] = {{"mean", s.contacts_mean},
                         {"max", s.contacts_max},
                         {"max_overlap_m", s.max_overlap},
@@ -219,6 +234,7 @@ Summary read_summary(const std::filesystem::path& path) {
     s.lateral = read_force(in, "lateral");
     s.vertical = read_force(in, "vertical");
     s.regions = read_regions(in);
+    guarded(in, "panels", [&] { s.panels = read_panels(in.whole()); });
     s.contacts_mean = in.number("contacts.mean");
     s.contacts_max = in.number("contacts.max");
     s.max_overlap = in.number("contacts.max_overlap_m");

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "common/formats/load_statistics.hpp"
 #include "common/formats/particulars.hpp"
 #include "common/formats/warning.hpp"
 
@@ -39,6 +40,15 @@ struct RegionStatistics {
     std::array<double, 3> mean{};           ///< mean force of the ice on the region, world axes [N]
     std::array<double, 3> contact_mean{};   ///< of it normal forces; NaN in files without them
     std::array<double, 3> friction_mean{};  ///< of it friction; likewise
+    /// None in files without them; line_load: of the hardest panel at each instant.
+    std::optional<PeakStatistics> force_peaks = std::nullopt, line_load_peaks = std::nullopt;
+};
+
+/// Loads on the hull's panels.
+struct PanelSummary {
+    double size = 0.0, window = 0.0;       ///< [m], [s]; 0 in files without panels
+    std::int64_t count = 0, touched = 0;   ///< of the hull; with a load
+    std::vector<std::pair<std::string, PanelLoad>> hardest;  ///< region's name, panel
 };
 
 /// Several runs of one case that differ in a seed (`icesolve --seeds`).
@@ -65,6 +75,7 @@ struct Summary {
     TravelParticulars travel;
     ForceStatistics resistance, lateral, vertical;
     std::map<std::string, RegionStatistics> regions;
+    PanelSummary panels;
     double contacts_mean = 0.0, contacts_max = 0.0, max_overlap = 0.0;
     std::int64_t unconverged_steps = 0;
     /// Impulses that unconverged steps owe, as a share of all in the averaged time; NaN: unknown.

@@ -10,6 +10,7 @@
 #include "common/base/error.hpp"
 #include "common/base/state_hash.hpp"
 #include "common/base/version.hpp"
+#include "solver/record/divide_hull.hpp"
 #include "solver/record/residual_impulse.hpp"
 #include "solver/scene/tunnelling_speed.hpp"
 
@@ -25,6 +26,7 @@ RunHeader make_header(const Case& parameters, const Scene& scene, const std::str
     header.git_commit = git_commit();
     header.command_line = command;
     header.case_toml = parameters.resolved;
+    header.average_from = parameters.average_from;
     for (const Shape& shape : scene.shapes)
         header.shapes.push_back({shape.mesh, shape.center, shape.radius});
     const Bodies& b = scene.bodies;
@@ -95,8 +97,11 @@ Recorder::Recorder(const Case& parameters, const Scene& scene)
       tally_({scene.shapes[0].region_names, parameters.average_from,
               std::isinf(parameters.crushing_pressure), worrying_overlap(scene),
               tunnelling_speed(scene, parameters.time_step)}),
+      panel_loads_(divide_hull(scene.shapes[0], panel_size(scene), -parameters.hull_position.z()),
+                   scene.shapes[0].region_names, parameters.average_from, parameters.time_step),
       track_of_(scene.bodies.size(), -1),
       tracked_(parameters.track.size()),
+      row_regions_(scene.shapes[0].region_names.size()),
       tracked_sum_(parameters.track.size()),
       frame_impulse_(scene.bodies.size(), Vec3::Zero()) {
     for (std::size_t k = 0; k < parameters.track.size(); ++k) {
@@ -153,6 +158,7 @@ void Recorder::add(const StepView& view) {
         view.converged ? std::nullopt
                        : std::optional(residual_impulse(view.scene.bodies, view.constraints, dt_));
     tally_.add(record, view.time, dt_, residual);
+    panel_loads_.add(view.contacts, view.constraints, view.time);
     measure_floe_forces(view.constraints, dt_, track_of_, tracked_);
     for (const RegionImpulse& r : record.regions) frame_impulse_[r.floe] -= r.impulse;
     hull_contacts_.add(view.contacts, view.constraints);
@@ -171,6 +177,11 @@ void Recorder::add_history(const StepView& view, const StepRecord& record) {
     row_.moving_floes = record.moving_floes;
     row_.max_overlap = std::max(row_.max_overlap, record.max_overlap);
     row_.kinetic_energy = record.kinetic_energy;
+    for (const RegionImpulse& r : record.regions) {
+        RegionForce& sum = row_regions_[static_cast<std::size_t>(r.region)];
+        sum.contact += r.impulse - r.friction;
+        sum.friction += r.friction;
+    }
     for (std::size_t k = 0; k < tracked_sum_.size(); ++k) {
         tracked_sum_[k].contact += tracked_[k].contact;
         tracked_sum_[k].friction += tracked_[k].friction;
@@ -189,7 +200,12 @@ void Recorder::flush_history(const StepView& view) {
     row_.moment *= share;
     row_.contacts *= share;
     row_.ship_position = view.scene.bodies.position[kShip];
-    run_->add(row_);
+    for (RegionForce& sum : row_regions_) {
+        sum.contact *= share / dt_;
+        sum.friction *= share / dt_;
+    }
+    run_->add(row_, row_regions_);
+    std::fill(row_regions_.begin(), row_regions_.end(), RegionForce{});
     csv_files_[0].add(csv_row(row_));
 
     std::vector<TrackRow> tracks(tracked_sum_.size());
@@ -237,10 +253,11 @@ void Recorder::add_frame(const StepView& view) {
 void Recorder::finish(const StepView& view, Summary& summary) {
     flush_history(view);
     if (view.time > last_frame_) add_frame(view);
-    run_->finish();
+    run_->finish(panel_loads_.panels());
     for (CsvFile& file : csv_files_) file.finish();
     fill_energy(view.ledger, potential_energy(view.scene, parameters_), summary);
     tally_.fill(summary);  // after the energies: its warnings look at them
+    panel_loads_.fill(summary);
     summary.state_hash = state_hash(view.scene, view.constraints);
     const Bodies& b = view.scene.bodies;
     summary.floes_total = static_cast<std::int64_t>(b.size()) - 1;

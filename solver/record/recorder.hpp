@@ -14,6 +14,7 @@
 #include "solver/record/csv_file.hpp"
 #include "solver/record/energy_ledger.hpp"
 #include "solver/record/hull_contacts.hpp"
+#include "solver/record/panel_loads.hpp"
 #include "solver/record/tally.hpp"
 
 namespace ice {
@@ -71,7 +72,7 @@ public:
     void finish(const StepView& view, Summary& summary);
 
 private:
-    friend struct StateFields;  // step/state_fields.cpp: tally_, row_ and what follows it
+    friend struct StateFields;  // step/state_fields.cpp: tally_ and what follows it
 
     RecordPosition position_of(RunPosition run);
     void add_history(const StepView& view, const StepRecord& record);
@@ -83,10 +84,12 @@ private:
     std::optional<RunWriter> run_;    ///< from open() or resume() on
     std::vector<CsvFile> csv_files_;  ///< forces.csv, then the tracked floes'
     Tally tally_;
+    PanelLoads panel_loads_;
     std::vector<std::int32_t> track_of_;  ///< per body, its number among the tracked floes, or -1
     std::vector<FloeForces> tracked_;     ///< per tracked floe, in the last step
 
     HistoryRow row_;
+    std::vector<RegionForce> row_regions_;  ///< impulses on the hull's regions in the row [N s]
     int row_steps_ = 0;
     std::vector<FloeForces> tracked_sum_;  ///< per tracked floe, since the last row
     std::vector<Vec3> frame_impulse_;      ///< ship on floe since the last frame [N s]

@@ -56,6 +56,8 @@ void StateFields::carry(CheckpointFile& file, Recorder& r) {
     file.carry("row.moving_floes", r.row_.moving_floes);
     file.carry("row.max_overlap", r.row_.max_overlap);
     file.carry("row.kinetic_energy", r.row_.kinetic_energy);
+    file.column("row.region_contact", r.row_regions_, &RegionForce::contact);
+    file.column("row.region_friction", r.row_regions_, &RegionForce::friction);
     file.carry("row.steps", r.row_steps_);
     file.column("row.tracked_contact", r.tracked_sum_, &FloeForces::contact);
     file.column("row.tracked_friction", r.tracked_sum_, &FloeForces::friction);
@@ -66,6 +68,18 @@ void StateFields::carry(CheckpointFile& file, Recorder& r) {
     file.carry("frame.count", r.frames_);
     file.carry("row.count", r.rows_);
     carry(file, r.tally_);
+    carry(file, r.panel_loads_);
+}
+
+void StateFields::carry(CheckpointFile& file, PanelLoads& p) {
+    file.carry("panels.steps", p.steps_);
+    file.carry("panels.windows", p.windows_);
+    file.carry_each("panels.on_panel", p.on_panel_);
+    file.carry_each("panels.on_region", p.on_region_);
+    file.column("panels.load_window", p.loads_, &PanelLoads::Load::window);
+    file.column("panels.load_panel", p.loads_, &PanelLoads::Load::panel);
+    file.column("panels.load_force", p.loads_, &PanelLoads::Load::force);
+    file.carry("panels.regions", p.regions_);
 }
 
 void StateFields::carry(CheckpointFile& file, HullContacts& h) {

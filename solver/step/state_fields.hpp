@@ -31,6 +31,7 @@ struct StateFields {
 private:
     static void carry(CheckpointFile& file, Tally& tally);
     static void carry(CheckpointFile& file, HullContacts& contacts);
+    static void carry(CheckpointFile& file, PanelLoads& loads);
 };
 
 }  // namespace ice

@@ -82,6 +82,15 @@ struct RunSize {
     std::size_t floes = 6, frames = 45, samples_per_frame = 10;
 };
 
+/// Two panels of the box hull of make_run(), each with half of its spheres.
+inline HullPanels make_panels(int dimension) {
+    HullPanels hull{0.5, 0.1, {0, 0, 0, 0, 1, 1, 1, 1}, {}};
+    const double length = dimension == 2 ? 1.0 : 0.5;
+    hull.panels = {{1, Vec3(7.0, 0, -0.7), -Vec3::UnitZ(), 0.25, length, 300.0, 850.0, 900.0},
+                   {0, Vec3(8.0, 0, 0), Vec3::UnitX(), 0.2, length, 10.0, 20.0, 25.0}};
+    return hull;
+}
+
 /// A made-up run: a box hull of 8 x 2 x 1.2 m at 1 m/s among boxes of 1 x 0.8 x 0.2 m that slide
 /// along its bottom, rotating; forces are sines with known means (see the code).
 inline RunData make_run(const RunSize& size = {}) {
@@ -93,6 +102,7 @@ inline RunData make_run(const RunSize& size = {}) {
     header.git_commit = "abc123";
     header.command_line = "icesolve box.cfg --out box";
     header.case_toml = "title = \"Box among floes\"\n[ice]\ndensity = 900.0\n";
+    header.average_from = 1.5;
     const double breadth = size.dimension == 2 ? 1.0 : 2.0;
     header.shapes.resize(2);
     header.shapes[0].mesh = make_box({8.0, breadth, 1.2}, {4.0, 0.0, -0.1});
@@ -112,6 +122,8 @@ inline RunData make_run(const RunSize& size = {}) {
     }
     if (size.floes > 1) header.tracked = {1, static_cast<std::int32_t>(size.floes)};
     run.tracks.resize(header.tracked.size());
+    run.regions = {{"hull", {}, {}}, {"bottom", {}, {}}};  // a quarter and the rest of all forces
+    run.panels = make_panels(size.dimension);
 
     const double pi = std::numbers::pi;
     for (std::size_t f = 0; f < size.frames; ++f) {
@@ -151,6 +163,11 @@ inline RunData make_run(const RunSize& size = {}) {
             row.max_overlap = 1e-4;
             row.kinetic_energy = 12.5;
             run.history.push_back(row);
+            for (const float share : {0.25f, 0.75f}) {
+                RegionHistory& region = run.regions[share > 0.5f ? 1 : 0];
+                region.contact.emplace_back(share * row.contact_force.cast<float>());
+                region.friction.emplace_back(share * row.friction_force.cast<float>());
+            }
             for (std::size_t k = 0; k < run.tracks.size(); ++k) {
                 const auto body = static_cast<std::size_t>(header.tracked[k] - 1);
                 TrackRow track;
@@ -175,7 +192,10 @@ inline void add_frames(RunWriter& writer, const RunData& run, std::size_t frames
     const std::size_t per_frame = run.history.size() / run.frames.size();
     for (std::size_t f = 0; f < frames; ++f) {
         for (std::size_t s = f * per_frame; s < (f + 1) * per_frame; ++s) {
-            writer.add(run.history[s]);
+            std::vector<RegionForce> regions;
+            for (const RegionHistory& r : run.regions)
+                regions.push_back({r.contact[s].cast<double>(), r.friction[s].cast<double>()});
+            writer.add(run.history[s], regions);
             std::vector<TrackRow> rows;
             for (const auto& track : run.tracks) rows.push_back(track[s]);
             writer.add_tracked(rows);
@@ -187,7 +207,7 @@ inline void add_frames(RunWriter& writer, const RunData& run, std::size_t frames
 inline void write_run(const std::filesystem::path& path, const RunData& run) {
     RunWriter writer(path, run.header);
     add_frames(writer, run, run.frames.size());
-    writer.finish();
+    writer.finish(run.panels);
 }
 
 }  // namespace ice::test

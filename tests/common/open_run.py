@@ -25,6 +25,10 @@ with tempfile.TemporaryDirectory() as folder:
         assert run["frames/position"].shape == (45, 6, 3)
         assert run["ship/force"].dims[0].keys() == ["time"]
         assert run["tracked/6"].shape == (450, 22)
+        assert run.attrs["average_from"] == 1.5
+        assert run["regions/contact_force"].shape == (450, 2, 3)
+        assert "origin of the hull's mesh" in run["ship/moment"].attrs["reference_point"]
+        assert len(run["tracked/6"].attrs["column_units"].split(",")) == 22
         contacts = run["contacts/floe"].shape[0]
         assert contacts > 40 and run["contacts/point"].shape == (contacts, 3), contacts
 
@@ -44,6 +48,8 @@ with tempfile.TemporaryDirectory() as folder:
     for group, variable, dims in [("ship", "force", ("time", "xyz")),
                                   ("frames", "orientation", ("frame_time", "body", "wxyz")),
                                   ("contacts", "normal_force", ("contact_time", "xyz")),
+                                  ("regions", "friction_force", ("time", "hull_regions", "xyz")),
+                                  ("panels", "force_max", ("panel",)),
                                   ("tracked", "6", ("time", "track_columns"))]:
         for engine in ("h5netcdf", "netcdf4"):
             try:
@@ -55,3 +61,6 @@ with tempfile.TemporaryDirectory() as folder:
             assert data[variable].dims == dims, (engine, data[variable].dims)
             assert abs(float(data[variable].sum())) >= 0.0
             print(engine, group, "ok")
+    root = xarray.open_dataset(path, engine="h5netcdf")
+    assert list(root.xyz.values) == ["x", "y", "z"], root.xyz.values  # text, not bytes
+    assert list(root.hull_regions.values) == ["hull", "bottom"], root.hull_regions.values

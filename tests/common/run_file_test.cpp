@@ -4,6 +4,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <hdf5.h>
+
 #include <catch2/catch.hpp>
 #include <csignal>
 
@@ -61,6 +63,16 @@ void check_history(const RunData& a, const RunData& b, std::size_t rows) {
         REQUIRE(x.max_overlap == y.max_overlap);
         REQUIRE(x.kinetic_energy == y.kinetic_energy);
     }
+    REQUIRE(b.regions.size() == a.regions.size());
+    for (std::size_t r = 0; r < a.regions.size(); ++r) {
+        CHECK(b.regions[r].name == a.regions[r].name);
+        REQUIRE(b.regions[r].contact.size() == rows);
+        REQUIRE(b.regions[r].friction.size() == rows);
+        for (std::size_t k = 0; k < rows; ++k) {
+            REQUIRE(b.regions[r].contact[k] == a.regions[r].contact[k]);
+            REQUIRE(b.regions[r].friction[k] == a.regions[r].friction[k]);
+        }
+    }
 }
 
 }  // namespace
@@ -81,7 +93,18 @@ TEST_CASE("a run of 6 floes, 45 frames and 450 samples comes back", "[formats]")
     CHECK(back.header.body_mass == run.header.body_mass);
     CHECK(back.header.body_inertia == run.header.body_inertia);
     CHECK(back.header.tracked == run.header.tracked);
+    CHECK(back.header.average_from == 1.5);
     check_history(run, back, 450);
+    CHECK(back.panels.size == 0.5);
+    CHECK(back.panels.window == 0.1);
+    CHECK(back.panels.of_sphere == run.panels.of_sphere);
+    REQUIRE(back.panels.panels.size() == 2);
+    const PanelLoad &a = run.panels.panels[0], &b = back.panels.panels[0];
+    CHECK(a.region == b.region);
+    CHECK(a.center == b.center);
+    CHECK(a.normal == b.normal);
+    CHECK(std::array{a.area, a.length, a.mean, a.p99, a.max} ==
+          std::array{b.area, b.length, b.mean, b.p99, b.max});
     REQUIRE(back.frames.size() == 45);
     for (std::size_t f = 0; f < 45; ++f) check_frame(run.frames[f], back.frames[f]);
     REQUIRE(back.tracks.size() == 2);
@@ -156,6 +179,31 @@ TEST_CASE("a copy of the .part file taken during the run can be read", "[formats
     add_frames(writer, run, frames);
     std::filesystem::copy(folder / "run.h5.part", folder / "copy.h5");
     CHECK(read_run(folder / "copy.h5").frames.size() == frames / 20 * 20);
+}
+
+TEST_CASE("of arrays that are written while they are read, as many rows come as all have",
+          "[formats]") {
+    const TempFolder folder;
+    const RunData run = make_run();
+    write_run(folder / "run.h5", run);
+    const auto with_one_longer = [&](const char* name) {
+        std::filesystem::copy(folder / "run.h5", folder / name);
+        const hid_t file = H5Fopen((folder / name).c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+        for (const auto& [dataset, rows] :
+             {std::pair("/ship/contact_force", 460), std::pair("/frames/ship_position", 50)}) {
+            const hid_t longer = H5Dopen2(file, dataset, H5P_DEFAULT);
+            const hsize_t shape[] = {static_cast<hsize_t>(rows), 3};
+            REQUIRE(H5Dset_extent(longer, shape) >= 0);
+            H5Dclose(longer);
+        }
+        H5Fclose(file);
+        return folder / name;
+    };
+    CHECK_THAT(error_text([&] { read_run(with_one_longer("ended.h5")); }),
+               Catch::Contains("/ship/contact_force: has another shape"));
+    const RunData alive = read_run(with_one_longer("run.h5.part"));
+    check_history(run, alive, 450);
+    CHECK(alive.frames.size() == 45);
 }
 
 TEST_CASE("a run without frames is flushed with every 16384th sample", "[formats]") {

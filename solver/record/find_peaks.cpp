@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/record/find_peaks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numeric>
+
+namespace ice {
+
+namespace {
+
+constexpr std::size_t kDenseRanks = 10;  // levels: all of the highest peaks, then every 1.25th rank
+constexpr double kRankFactor = 1.25;
+constexpr double kHour = 3600.0;
+
+std::vector<double> peaks_above(std::span<const double> series, double level) {
+    std::vector<double> peaks;
+    bool above = true;  // what begins above the level has no up-crossing
+    bool counts = false;
+    for (const double value : series) {
+        if (value > level && !above) {
+            peaks.push_back(value);
+            counts = true;
+        }
+        above = value > level;
+        if (counts) peaks.back() = std::max(peaks.back(), value);
+    }
+    return peaks;
+}
+
+}  // namespace
+
+double quantile(std::vector<double> series, double share) {
+    if (series.empty()) return 0.0;
+    const auto rank = static_cast<std::size_t>(
+        std::max(0.0, std::ceil(share * static_cast<double>(series.size())) - 1.0));
+    const auto place = series.begin() + static_cast<std::ptrdiff_t>(rank);
+    std::nth_element(series.begin(), place, series.end());
+    return *place;
+}
+
+PeakStatistics find_peaks(std::span<const double> series, double window) {
+    PeakStatistics out;
+    if (series.empty()) return out;
+    const auto count = static_cast<double>(series.size());
+    out.mean = std::accumulate(series.begin(), series.end(), 0.0) / count;
+    out.max = *std::max_element(series.begin(), series.end());
+    out.p99 = quantile({series.begin(), series.end()}, 0.99);
+    std::vector<double> peaks = peaks_above(series, out.mean);
+    std::sort(peaks.begin(), peaks.end(), std::greater<>());
+    out.count = static_cast<std::int64_t>(peaks.size());
+    const double hours = count * window / kHour;
+    for (std::size_t rank = 1; rank <= peaks.size();) {
+        out.exceeded.push_back({peaks[rank - 1], static_cast<double>(rank) / hours});
+        if (rank == peaks.size()) break;
+        const auto next = static_cast<std::size_t>(kRankFactor * static_cast<double>(rank));
+        rank = std::min(peaks.size(), rank < kDenseRanks ? rank + 1 : next);
+    }
+    return out;
+}
+
+}  // namespace ice
