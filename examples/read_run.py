@@ -34,8 +34,8 @@ x, z = 0, 2  # labels of xyz are text, in older runs bytes
 print(f"resistance {-float(late.force.isel(xyz=x).mean()):.1f} {ship.force.units}")
 if has_regions:
     regions = xarray.open_dataset(path, group="regions", engine="h5netcdf")
-    force = (regions.contact_force + regions.friction_force).assign_coords(root.coords)
-    means = -force.isel(xyz=x).sel(time=late.time).mean("time")
+    regions = regions.assign_coords(root.coords).isel(xyz=x).sel(time=late.time)
+    means = -(regions.contact_force + regions.friction_force).mean("time")
     for name, part in zip(means.hull_regions.values, means.values):
         print(f"    of it on {name}: {part:.1f}")
 print(f"floes that moved: {int((frames.state > 0).any('frame_time').sum())}")

@@ -30,17 +30,17 @@ struct PeakStatistics {
 
 /// A patch of the hull. Its line load is force / length, its mean pressure force / area.
 struct PanelLoad {
-    std::int32_t region = 0;  ///< row of the hull's region names
+    std::int32_t region = 0;                            ///< row of the hull's region names
     Vec3 center = Vec3::Zero(), normal = Vec3::Zero();  ///< ship frame [m]; outward, unit
     double area = 0.0;                                  ///< [m2]; 2D: per metre of breadth
-    double length = 0.0;  ///< along the waterline [m]; 2D: the metre of breadth
+    double length = 0.0;                      ///< along the waterline [m]; 2D: the metre of breadth
     double mean = 0.0, p99 = 0.0, max = 0.0;  ///< of the force
 };
 
 /// All panels of a hull. Empty in files of versions that had none.
 struct HullPanels {
-    double size = 0.0;    ///< edge of a whole panel [m]
-    double window = 0.0;  ///< [s]
+    double size = 0.0;                    ///< edge of a whole panel [m]
+    double window = 0.0;                  ///< [s]
     std::vector<std::int32_t> of_sphere;  ///< row of `panels` per surface sphere of the hull
     std::vector<PanelLoad> panels;
 };

@@ -56,7 +56,8 @@ void add_peaks(const RegionStatistics& region, Json& out) {
 }
 
 void read_peaks(const Json& region, RegionStatistics& out) {
-    if (region.contains("force_peaks")) out.force_peaks = peaks_of(region.at("force_peaks"), kForce);
+    if (region.contains("force_peaks"))
+        out.force_peaks = peaks_of(region.at("force_peaks"), kForce);
     if (region.contains("line_load_peaks"))
         out.line_load_peaks = peaks_of(region.at("line_load_peaks"), kLineLoad);
 }

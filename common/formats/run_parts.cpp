@@ -100,7 +100,8 @@ void write_panels(Hdf5File& file, const HullPanels& hull, int dimension) {
     file.write(name_of("region"), region);
     attach_scales(file, name_of("region"), {"/panels/panel"});
     describe("region", "1", "row of /hull_regions");
-    for (const auto& [name, points] : {std::pair("center", &center), std::pair("normal", &normal)}) {
+    for (const auto& [name, points] :
+         {std::pair("center", &center), std::pair("normal", &normal)}) {
         file.write(name_of(name), flatten<double>(*points).data(), {count, 3});
         attach_scales(file, name_of(name), {"/panels/panel", "/xyz"});
     }

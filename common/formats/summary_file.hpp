@@ -46,8 +46,8 @@ struct RegionStatistics {
 
 /// Loads on the hull's panels.
 struct PanelSummary {
-    double size = 0.0, window = 0.0;       ///< [m], [s]; 0 in files without panels
-    std::int64_t count = 0, touched = 0;   ///< of the hull; with a load
+    double size = 0.0, window = 0.0;      ///< [m], [s]; 0 in files without panels
+    std::int64_t count = 0, touched = 0;  ///< of the hull; with a load
     std::vector<std::pair<std::string, PanelLoad>> hardest;  ///< region's name, panel
 };
 

@@ -36,7 +36,8 @@ std::string draw_plot(const read::RunFolder& run) {
     const double from = run.summary ? run.summary->average_from : 0.0;
     const double mean =
         run.summary ? run.summary->resistance.mean : std::numeric_limits<double>::quiet_NaN();
-    const auto histories = force_histories(run.data, from, mean);
+    const ForceUnit unit = page_unit(run);
+    const auto histories = force_histories(run.data, from, mean, unit);
     if (histories.empty())
         throw bad_input(run.path.string(), "the run has no histories to plot",
                         "it ended before its first samples were written");
@@ -50,7 +51,8 @@ std::string draw_plot(const read::RunFolder& run) {
         charts.push_back(draw_paths(trails, 2));
     }
     for (std::size_t track = 0; track < run.data.tracks.size(); ++track)
-        for (const History& h : track_histories(run.data, track)) charts.push_back(draw_history(h));
+        for (const History& h : track_histories(run.data, track, unit))
+            charts.push_back(draw_history(h));
     const views::Chart size;  // all charts have the default size
     const auto rows = (charts.size() + kColumns - 1) / kColumns;
     const double gap = 12.0, title = 30.0;

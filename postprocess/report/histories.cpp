@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "postprocess/statistics/thin_series.hpp"
 #include "postprocess/views/chart.hpp"
@@ -17,6 +18,11 @@ constexpr std::size_t kBins = 1000;      // of a curve: about two per pixel
 constexpr std::size_t kTrackBins = 120;  // of each floe's curves, which are many
 constexpr double kShown = 0.96;          // of the averages lie inside the axis
 constexpr std::size_t kFew = 20;         // averages: then all are shown
+constexpr std::size_t kMostRegions = 7;  // in one chart: as many as can be told apart
+constexpr const char* kColours[kMostRegions] = {views::kBlue,   views::kOrange, views::kGreen,
+                                                views::kPurple, views::kBlack,  "#e69f00",
+                                                "#56b4e9"};
+constexpr const char* kTrackColours[] = {views::kBlue, views::kGreen, views::kOrange};
 
 // Forces over one time, before they are thinned [N].
 struct Series {
@@ -26,12 +32,13 @@ struct Series {
 };
 
 struct Style {
-    double window;      // of the averages [s]
-    std::size_t bins;   // of a curve
-    bool samples;       // drawn beside the averages
-    double shown_from;  // averages from here on set the axis [s]
-    double shown;       // share of them that the axis shows
-    double mean;        // [N], NaN: none
+    double window;  // of the averages [s]
+    ForceUnit unit;
+    double shown_from = 0.0;  // averages from here on set the axis [s]
+    std::size_t bins = kBins;
+    bool samples = false;   // drawn beside the averages
+    double shown = kShown;  // share of the averages that the axis shows
+    double mean = std::numeric_limits<double>::quiet_NaN();  // [N], NaN: none
 };
 
 // Range that the middle `share` of some values lies in, with zero.
@@ -53,8 +60,7 @@ double largest_of(const std::vector<std::vector<double>>& lists) {
 }
 
 History make_history(const std::string& id, const std::string& title, const std::string& axis,
-                     const std::vector<double>& time, const Series& series, const Style& style,
-                     int dimension) {
+                     const std::vector<double>& time, const Series& series, const Style& style) {
     const auto thin = statistics::thin_series(time, series.force, style.bins);
     std::vector<std::vector<double>> average;
     std::vector<double> shown;
@@ -69,7 +75,7 @@ History make_history(const std::string& id, const std::string& title, const std:
     History h;
     h.id = id;
     h.title = title;
-    h.unit = choose_unit(std::max(-low, high), dimension);
+    h.unit = style.unit;
     h.y_title = fmt::format("{} [{}]", axis, h.unit.name);
     h.low = low / h.unit.newtons;
     h.high = high / h.unit.newtons;
@@ -90,29 +96,53 @@ History make_history(const std::string& id, const std::string& title, const std:
     return h;
 }
 
-// a thirtieth of the run, cut to one digit
-double long_window(const std::vector<double>& time) {
-    const double raw = std::max((time.back() - time.front()) / 30.0, 1e-9);
-    const double digit = std::pow(10.0, std::floor(std::log10(raw)));
-    return std::floor(raw / digit) * digit;
+std::vector<double> times_of(const RunData& run) {
+    std::vector<double> time;
+    for (const HistoryRow& row : run.history) time.push_back(row.time);
+    return time;
+}
+
+// 2D lives in the x-z plane
+std::vector<std::size_t> axes_of(const RunData& run) {
+    return run.header.dimension == 2 ? std::vector<std::size_t>{0, 2}
+                                     : std::vector<std::size_t>{0, 1, 2};
+}
+
+// rows of the regions with the largest mean forces, in the hull's order
+std::vector<std::size_t> choose_regions(const RunData& run) {
+    std::vector<std::pair<double, std::size_t>> by_size;
+    for (std::size_t r = 0; r < run.regions.size(); ++r) {
+        Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+        for (const Eigen::Vector3f& f : run.regions[r].contact)
+            if (f.allFinite()) sum += f.cast<double>();
+        if (sum.squaredNorm() > 0.0) by_size.emplace_back(-sum.norm(), r);
+    }
+    std::sort(by_size.begin(), by_size.end());
+    if (by_size.size() > kMostRegions) by_size.resize(kMostRegions);
+    std::vector<std::size_t> rows;
+    for (const auto& [size, row] : by_size) rows.push_back(row);
+    std::sort(rows.begin(), rows.end());
+    return rows;
 }
 
 }  // namespace
 
 double average_window(const std::vector<HistoryRow>& history) {
-    if (history.size() < 2) return 0.5;
-    const double step =
-        (history.back().time - history.front().time) / static_cast<double>(history.size() - 1);
-    return std::max(0.5, 5.0 * step);
+    if (history.size() < 2) return 1.0;
+    const double span = history.back().time - history.front().time;
+    const double raw =
+        std::max({span / 30.0, 5.0 * span / static_cast<double>(history.size() - 1), 1e-9});
+    const double digit = std::pow(10.0, std::floor(std::log10(raw)));
+    return std::floor(raw / digit * (1.0 + 1e-9)) * digit;
 }
 
-std::vector<History> force_histories(const RunData& run, double average_from, double mean) {
+std::vector<History> force_histories(const RunData& run, double average_from, double mean,
+                                     const ForceUnit& unit) {
     std::vector<History> out;
     if (run.history.size() < 2) return out;
-    std::vector<double> time;
+    const std::vector<double> time = times_of(run);
     std::vector<std::vector<double>> contact(3), friction(3), resistance(2);
     for (const HistoryRow& row : run.history) {
-        time.push_back(row.time);
         for (int axis = 0; axis < 3; ++axis) {
             contact[static_cast<std::size_t>(axis)].push_back(row.contact_force[axis]);
             friction[static_cast<std::size_t>(axis)].push_back(row.friction_force[axis]);
@@ -120,15 +150,15 @@ std::vector<History> force_histories(const RunData& run, double average_from, do
         resistance[0].push_back(-(row.contact_force.x() + row.friction_force.x()));
         resistance[1].push_back(-row.friction_force.x());
     }
-    Style style{long_window(time), kBins, false, average_from, kShown, mean};
+    Style style{average_window(run.history), unit, average_from};
+    style.mean = mean;
     out.push_back(make_history(
         "resistance", fmt::format("Resistance, moving average over {:g} s", style.window),
         "resistance", time,
-        {{"contact + friction", "friction"}, {views::kBlue, views::kOrange}, resistance}, style,
-        run.header.dimension));
-    style = {average_window(run.history), kBins, true, average_from, kShown, std::nan("")};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        if (run.header.dimension == 2 && axis == 1) continue;
+        {{"contact + friction", "friction"}, {views::kBlue, views::kOrange}, resistance}, style));
+    style.mean = std::nan("");
+    style.samples = true;
+    for (const std::size_t axis : axes_of(run)) {
         const char name = "xyz"[axis];
         out.push_back(make_history(fmt::format("force-{}", name),
                                    fmt::format("Force of the ice on the ship, {}", name),
@@ -136,12 +166,62 @@ std::vector<History> force_histories(const RunData& run, double average_from, do
                                    {{"contact", "friction"},
                                     {views::kBlue, views::kOrange},
                                     {contact[axis], friction[axis]}},
-                                   style, run.header.dimension));
+                                   style));
     }
     return out;
 }
 
-std::vector<History> track_histories(const RunData& run, std::size_t track) {
+std::vector<History> region_histories(const RunData& run, double average_from,
+                                      const ForceUnit& unit) {
+    std::vector<History> out;
+    const auto rows = choose_regions(run);
+    if (run.history.size() < 2 || rows.empty()) return out;
+    const std::vector<double> time = times_of(run);
+    const Style style{average_window(run.history), unit, average_from};
+    static constexpr const char* kTitles[] = {"Resistance by region", "Lateral force by region",
+                                              "Vertical force by region"};
+    static constexpr const char* kAxes[] = {"resistance", "fy, to port", "fz, up"};
+    for (const std::size_t axis : axes_of(run)) {
+        Series series;
+        for (const std::size_t r : rows) {
+            const RegionHistory& region = run.regions[r];
+            series.names.push_back(region.name);
+            series.colors.push_back(kColours[series.colors.size()]);
+            series.force.emplace_back();
+            const auto d = static_cast<Eigen::Index>(axis);
+            for (std::size_t k = 0; k < time.size(); ++k) {
+                const double f = double{region.contact[k][d]} + double{region.friction[k][d]};
+                series.force.back().push_back(axis == 0 ? -f : f);
+            }
+        }
+        out.push_back(make_history(fmt::format("region-{}", "xyz"[axis]), kTitles[axis],
+                                   kAxes[axis], time, series, style));
+    }
+    return out;
+}
+
+std::vector<History> moment_histories(const RunData& run, double average_from,
+                                      const ForceUnit& unit) {
+    std::vector<History> out;
+    if (run.history.size() < 2) return out;
+    Series series;
+    static constexpr const char* kNames[] = {"heel, to starboard", "trim, bow down",
+                                             "yaw, to port"};
+    static constexpr const char* kMomentColours[] = {views::kGreen, views::kBlue, views::kOrange};
+    for (int axis = 0; axis < 3; ++axis) {
+        if (run.header.dimension == 2 && axis != 1) continue;
+        series.names.emplace_back(kNames[axis]);
+        series.colors.push_back(kMomentColours[axis]);
+        series.force.emplace_back();
+        for (const HistoryRow& row : run.history) series.force.back().push_back(row.moment[axis]);
+    }
+    const Style style{average_window(run.history), moment_unit(unit), average_from};
+    out.push_back(make_history("moments", "Moments of the ice on the ship", "moment", times_of(run),
+                               series, style));
+    return out;
+}
+
+std::vector<History> track_histories(const RunData& run, std::size_t track, const ForceUnit& unit) {
     std::vector<History> out;
     const auto& rows = run.tracks[track];
     const bool touched = std::any_of(rows.begin(), rows.end(), [](const TrackRow& r) {
@@ -150,22 +230,24 @@ std::vector<History> track_histories(const RunData& run, std::size_t track) {
     if (rows.size() < 2 || !touched) return out;
     std::vector<double> time;
     for (const TrackRow& row : rows) time.push_back(row.time);
-    const Style style{average_window(run.history), kTrackBins, true, 0.0, 1.0, std::nan("")};
+    Style style{average_window(run.history), unit};
+    style.bins = kTrackBins;
+    style.samples = true;
+    style.shown = 1.0;
     const std::string floe = std::to_string(run.header.tracked[track]);
     for (const auto& [name, force] : {std::pair("contact", &TrackRow::contact_force),
                                       std::pair("friction", &TrackRow::friction_force)}) {
         Series series;
-        const char* colors[] = {views::kBlue, views::kGreen, views::kOrange};
-        for (int axis = 0; axis < 3; ++axis) {
-            if (run.header.dimension == 2 && axis == 1) continue;
+        for (const std::size_t axis : axes_of(run)) {
             series.names.emplace_back(1, "xyz"[axis]);
-            series.colors.push_back(colors[axis]);
+            series.colors.push_back(kTrackColours[axis]);
             series.force.emplace_back();
-            for (const TrackRow& row : rows) series.force.back().push_back((row.*force)[axis]);
+            for (const TrackRow& row : rows)
+                series.force.back().push_back((row.*force)[static_cast<Eigen::Index>(axis)]);
         }
         out.push_back(make_history("floe-" + floe + "-" + name,
                                    "Floe " + floe + " on the ship, " + name, "force", time, series,
-                                   style, run.header.dimension));
+                                   style));
     }
     return out;
 }

@@ -29,22 +29,34 @@ struct History {
     std::optional<double> mean;    ///< a line across, in `unit`
 };
 
-/// Histories of the force on the ship: the resistance as moving averages over a thirtieth of the
-/// run, then contact and friction along x, y and z (2D: x and z) as samples and moving averages
-/// over average_window().
+/// Histories of the force on the ship: the resistance, then contact and friction along x, y and z
+/// (2D: x and z) as samples and moving averages.
 ///
 /// A one-step peak is an impulse divided by the time step and leaves nothing else to see where it
 /// is shown whole. So the axes show what 96 % of the averages from `average_from` on lie in, and
 /// `peak` tells what is beyond. Samples are thinned with every peak kept.
-/// @param mean of the resistance [N], NaN if unknown
+/// @param mean of the resistance [N], NaN if unknown; @param unit of all charts
 /// A run with fewer than 2 samples gives none.
-std::vector<History> force_histories(const RunData& run, double average_from, double mean);
+std::vector<History> force_histories(const RunData& run, double average_from, double mean,
+                                     const ForceUnit& unit);
+
+/// Moving averages of the force on each region of the hull: the part of the resistance that each
+/// bears, lateral (3D) and vertical force. Of more than 7 regions those with the largest mean
+/// forces are shown. A run that did not record them gives none.
+std::vector<History> region_histories(const RunData& run, double average_from,
+                                      const ForceUnit& unit);
+
+/// Moving averages of the moments of the ice on the ship about the hull mesh's origin, heel, trim
+/// and yaw (2D: trim), in `unit` times metre.
+std::vector<History> moment_histories(const RunData& run, double average_from,
+                                      const ForceUnit& unit);
 
 /// Contact and friction of a tracked floe (row of run.tracks) on the ship, two charts, coarser; the
 /// axes show all averages. A floe that never touched the ship gives none.
-std::vector<History> track_histories(const RunData& run, std::size_t track);
+std::vector<History> track_histories(const RunData& run, std::size_t track, const ForceUnit& unit);
 
-/// Window of the moving averages [s]: 0.5 s, or 5 samples where these are rare.
+/// Window of all moving averages [s]: a thirtieth of the run, cut to one digit, but at least 5
+/// samples.
 double average_window(const std::vector<HistoryRow>& history);
 
 }  // namespace ice::report

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
-#include <limits>
-
 #include "postprocess/report/page.hpp"
 #include "postprocess/report/pictures.hpp"
 #include "postprocess/views/chart.hpp"
@@ -15,7 +13,7 @@ using views::Curve;
 
 namespace {
 
-constexpr std::size_t kDrawnBins = 350;  // of a curve: nearly one per pixel
+constexpr std::size_t kDrawnBins = 250;  // of a curve: one in two pixels
 
 }  // namespace
 
@@ -50,34 +48,44 @@ std::string draw_history(const History& h) {
     if (room > 0.0)
         chart.y_range = {h.low < 0.0 ? h.low - room : 0.0, h.high > 0.0 ? h.high + room : 0.0};
     chart.level = h.mean;
-    chart.level_name = "mean of the run";
+    chart.level_name = "mean";
     return draw_chart(chart);
 }
 
 namespace {
 
-std::string axes_note(const RunFigures& figures, double window) {
+std::string axes_note(const RunData& run, const RunFigures& figures) {
     std::string peaks;
     for (const History& h : figures.histories)
-        if (!h.mean) {
-            const double peak = h.peak * h.unit.newtons;
-            const ForceUnit unit = choose_unit(peak, figures.dimension);
-            peaks += fmt::format("{}{} {} {}", peaks.empty() ? "" : ", ", h.id.back(),
-                                 views::readable(peak / unit.newtons), unit.name);
-        }
+        if (h.id.starts_with("force-"))
+            peaks += fmt::format("{}{} {}", peaks.empty() ? "" : ", ", h.id.back(),
+                                 figures.unit.text(h.peak * h.unit.newtons));
     return fmt::format(
-        "Thin: samples; thick: moving averages over {} s. A force is the sum of the impulses of a "
-        "step divided by the time step, so the height of a single hit depends on the step: axes "
-        "show what 96 % of the averages after {} s lie in, hits reach {}. The bottom's coverage is "
-        "the share of the wetted hull, seen from below, that ice hides.",
-        views::readable(window), views::readable(figures.average_from), peaks);
+        "Thick: moving averages, weighted with a bell (Hann's window) that is {} s wide at half "
+        "its height, here and in all charts of this page. Thin: samples. The shaded time is the "
+        "averaged one. A force is the sum of the impulses of a step divided by the time step, so "
+        "the height of a single hit depends on the step: axes show what 96 % of the averages after "
+        "{} s lie in, hits reach {} {}. The bottom's coverage is the share of the wetted hull, "
+        "seen "
+        "from below, that ice hides.",
+        views::readable(average_window(run.history)), views::readable(figures.average_from), peaks,
+        figures.unit.name);
+}
+
+std::string chart_section(const std::string& id, const std::string& heading,
+                          const std::string& intro, const std::vector<History>& histories,
+                          const std::string& before) {
+    std::vector<std::string> charts;
+    for (const History& h : histories) charts.push_back(chart_holder(h.id, draw_history(h)));
+    return section(id, heading, intro, before + report::figures(charts));
 }
 
 }  // namespace
 
 std::string history_section(const RunData& run, const RunFigures& figures) {
     if (figures.histories.empty())
-        return section("histories", "Force histories", "", "<p>The run recorded no history.</p>\n");
+        return section("histories", "Forces against time", "",
+                       "<p>The run recorded no history.</p>\n");
     std::vector<std::string> charts;
     for (const History& h : figures.histories)
         charts.push_back(chart_holder(h.id, draw_history(h)));
@@ -86,15 +94,25 @@ std::string history_section(const RunData& run, const RunFigures& figures) {
     const std::string toggle =
         "<p class=\"peaks\"><label hidden=\"hidden\"><input type=\"checkbox\" name=\"peaks\" /> "
         "show single peaks to their full height</label></p>\n";
-    return section("histories", "Force histories", axes_note(figures, average_window(run.history)),
+    return section("histories", "Forces against time", axes_note(run, figures),
                    toggle + report::figures(charts));
 }
 
-std::string track_section(const RunData& run) {
+std::string region_section(const RunFigures& figures, const std::string& table) {
+    if (table.empty() && figures.regions.empty()) return "";
+    return chart_section(
+        "regions", "Regions of the hull",
+        "Means of the same time as above. A hit is counted when a floe begins to touch the region; "
+        "an impulse is that of one floe in one step. Charts: moving averages of contact and "
+        "friction together.",
+        figures.regions, table);
+}
+
+std::string track_section(const RunData& run, const ForceUnit& unit) {
     std::string body, untouched;
     for (std::size_t k = 0; k < run.tracks.size(); ++k) {
         const std::string id = std::to_string(run.header.tracked[k]);
-        const auto histories = track_histories(run, k);
+        const auto histories = track_histories(run, k, unit);
         if (histories.empty()) {
             untouched += (untouched.empty() ? "" : ", ") + id;
             continue;
@@ -105,10 +123,13 @@ std::string track_section(const RunData& run) {
     }
     if (!untouched.empty()) body += "<p>Never touched by the ship: floe " + untouched + ".</p>\n";
     if (body.empty()) return "";
-    return section("tracked", "Tracked floes",
-                   "Force of each floe on the ship, world axes; thin: samples, cut where they are "
-                   "far higher than the moving averages, thick.",
-                   body);
+    return section(
+        "tracked", "Tracked floes",
+        "Force of each floe on the ship, world axes; samples are cut where they are far higher "
+        "than "
+        "the moving averages.",
+        fmt::format("<details><summary>Forces of {} floes</summary>\n", run.tracks.size()) + body +
+            "</details>\n");
 }
 
 }  // namespace ice::report

@@ -11,10 +11,8 @@ namespace ice::report {
 using views::readable;
 using views::ViewFrom;
 
-std::string load_section(const RunData& run, const RunFigures& figures) {
-    const statistics::LoadMap& map = figures.load;
-    if (!(map.force > 0.0)) return "";
-    const double end = statistics::scale_end(map);
+std::string draw_hull_loads(const RunData& run, const statistics::LoadMap& map, double end,
+                            const std::string& what) {
     const PressureUnit unit = choose_pressure_unit(end);
     const views::HullLoad hull{run.header.shapes[0].mesh, map.mesh, map.load, end,
                                -run.frames.front().ship_position.z()};
@@ -24,9 +22,19 @@ std::string load_section(const RunData& run, const RunFigures& figures) {
                                                           ViewFrom::side, ViewFrom::port};
     std::vector<std::string> pictures;
     for (const ViewFrom from : sides) pictures.push_back(views::draw_load_view(hull, from, 560.0));
+    return "<div class=\"natural\"><div class=\"legend\">" +
+           views::draw_load_legend(readable(0.5 * end / unit.pascals), readable(end / unit.pascals),
+                                   unit.name, what) +
+           "</div>\n" + report::figures(pictures) + "</div>\n";
+}
+
+std::string load_section(const RunData& run, const RunFigures& figures) {
+    const statistics::LoadMap& map = figures.load;
+    if (!(map.force > 0.0)) return "";
+    const double end = statistics::scale_end(map);
+    const PressureUnit unit = choose_pressure_unit(end);
     double largest = 0.0;
     for (const double p : map.load) largest = std::max(largest, p);
-    const ForceUnit force = choose_unit(map.force, run.header.dimension);
     return section(
         "load", "Load map of the hull",
         fmt::format(
@@ -35,12 +43,9 @@ std::string load_section(const RunData& run, const RunFigures& figures) {
             "below; the largest is {} {}. The sum of all normal forces is {} {} on the "
             "average (their amounts: forces from port and starboard do not cancel).",
             readable(map.from), readable(map.to), map.radius, readable(end / unit.pascals),
-            unit.name, readable(largest / unit.pascals), unit.name, force.text(map.force),
-            force.name),
-        "<div class=\"natural\"><div class=\"legend\">" +
-            views::draw_load_legend(readable(0.5 * end / unit.pascals),
-                                    readable(end / unit.pascals), unit.name) +
-            "</div>\n" + report::figures(pictures) + "</div>\n");
+            unit.name, readable(largest / unit.pascals), unit.name, figures.unit.text(map.force),
+            figures.unit.name),
+        draw_hull_loads(run, map, end, "mean normal load"));
 }
 
 }  // namespace ice::report

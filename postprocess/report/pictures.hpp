@@ -10,6 +10,16 @@
 
 namespace ice::report {
 
+/// Mean speed of the ship over the samples from `from` on [m/s]; NaN for fewer than two.
+double mean_speed(const RunData& run, double from);
+
+/// The answer as cards: resistance with interval and model uncertainty, formulas, release rule,
+/// speed, effective power. @param speed [m/s], NaN if unknown
+std::string key_numbers(const Summary& summary, const ForceUnit& unit, double speed);
+
+/// Ship, ice and travel in three short tables; what older summaries do not have is left out.
+std::string particulars_section(const Summary& summary, double speed);
+
 /// Views of hull and ice at several instants spread over the run: in 3D from below, above,
 /// starboard and ahead; in 2D from the side. "" for a run without frames.
 /// @param budget bytes; when a field is so large that the views need more, the least telling ones
@@ -25,11 +35,28 @@ std::string draw_coverage(const statistics::BottomCoverage& coverage);
 /// Histories of the ship: resistance, each force component, coverage of the bottom.
 std::string history_section(const RunData& run, const RunFigures& figures);
 
+/// Regions of the hull: their table, then forces against time. "" without both.
+std::string region_section(const RunFigures& figures, const std::string& table);
+
+/// Point of attack of the mean force and moments against time; "" for a run without histories.
+std::string moment_section(const RunData& run, const RunFigures& figures);
+
+/// Peaks of the force on regions, line load and pressure on hull panels, with the hardest-loaded
+/// panels drawn; "" for a run without them.
+/// @param lengths that the ship travelled in the averaged time, NaN if unknown
+std::string local_load_section(const read::RunFolder& run, const RunFigures& figures,
+                               double lengths);
+
+/// Loads on the hull's triangles from several sides, with their legend.
+/// @param end load of the darkest colour [Pa]; @param what the colours mean
+std::string draw_hull_loads(const RunData& run, const statistics::LoadMap& map, double end,
+                            const std::string& what);
+
 /// The hull's load map from below, starboard and ahead; "" for a run without hull contacts.
 std::string load_section(const RunData& run, const RunFigures& figures);
 
-/// Force histories of the tracked floes, those never touched by name only; "" without any.
-std::string track_section(const RunData& run);
+/// Force histories of the tracked floes, folded, those never touched by name only; "" without any.
+std::string track_section(const RunData& run, const ForceUnit& unit);
 
 /// One picture by itself, with legend: the frame nearest to `time`.
 /// @throws Error (exit code 2) for a run without frames.

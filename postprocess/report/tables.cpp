@@ -18,25 +18,6 @@ namespace {
 
 double size_of(double value) { return std::isfinite(value) ? std::abs(value) : 0.0; }
 
-double largest_of(const ForceStatistics& f) {
-    return std::max(
-        {size_of(f.mean), size_of(f.contact_mean), size_of(f.friction_mean), size_of(f.std)});
-}
-
-std::string with_interval(const ForceUnit& unit, const ForceStatistics& force) {
-    // two digits of the interval say all that the mean is worth
-    ForceUnit fine = unit;
-    const double interval = size_of(force.ci95) / unit.newtons;
-    if (interval > 0.0)
-        fine.decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(interval))), 0, 4);
-    return fine.text(force.mean) + " \u00b1 " + fine.text(force.ci95);
-}
-
-std::string card(const std::string& value, const std::string& name) {
-    return "<div class=\"card\"><b>" + escape(value) + "</b><span>" + escape(name) +
-           "</span></div>\n";
-}
-
 std::string spelled(std::string key) {
     if (key.size() > 2 && key.ends_with("_J")) key.resize(key.size() - 2);
     std::replace(key.begin(), key.end(), '_', ' ');
@@ -72,60 +53,92 @@ PressureUnit choose_pressure_unit(double largest) {
     return {"Pa", 1.0};
 }
 
-std::string key_numbers(const Summary& s) {
-    const ForceUnit unit = choose_unit(s.resistance.mean, s.dimension);
-    std::string out = "<div class=\"cards\">\n";
-    out += card(with_interval(unit, s.resistance) + " " + unit.name, "mean ice resistance, 95 %");
-    if (s.lindqvist_submersion)
-        out += card(unit.text(*s.lindqvist_submersion) + " " + unit.name,
-                    "Lindqvist (1989), submersion part");
-    out += card(fmt::format("{} / {}", s.floes_moved, s.floes_total), "floes moved / in all");
-    out += card(readable(s.simulated_s) + " s", "simulated");
-    out += card(readable(s.simulated_s / s.wall_s) + " \u00d7", "real time");
-    return out + "</div>\n";
+namespace {
+
+// two digits of an interval say all that a mean is worth; without interval 4 digits of the mean
+int decimals_for(double mean, double interval, double newtons) {
+    const double size = size_of(interval) > 0.0 ? size_of(interval) : 1e-2 * size_of(mean);
+    if (!(size > 0.0)) return 0;
+    return std::clamp(1 - static_cast<int>(std::floor(std::log10(size / newtons))), 0, 4);
 }
 
-std::string force_table(const Summary& s) {
-    const ForceUnit unit = choose_unit(
-        std::max({largest_of(s.resistance), largest_of(s.lateral), largest_of(s.vertical)}),
-        s.dimension);
+// NaN without samples in the second half
+double recorded_resistance(const RunData& run) {
+    double sum = 0.0, count = 0.0;
+    for (const HistoryRow& row : run.history) {
+        if (row.time < 0.5 * run.history.back().time) continue;
+        sum -= row.contact_force.x() + row.friction_force.x();
+        ++count;
+    }
+    return sum / count;
+}
+
+}  // namespace
+
+ForceUnit page_unit(const read::RunFolder& run) {
+    const double mean = run.summary ? run.summary->resistance.mean : recorded_resistance(run.data);
+    const double interval = run.summary ? run.summary->resistance.ci95 : std::nan("");
+    ForceUnit unit = choose_unit(mean, run.data.header.dimension);
+    unit.decimals = decimals_for(mean, interval, unit.newtons);
+    return unit;
+}
+
+ForceUnit moment_unit(const ForceUnit& force) {
+    ForceUnit unit = force;
+    const bool per_metre = unit.name.ends_with("/m");
+    if (per_metre) unit.name.resize(unit.name.size() - 2);
+    unit.name += per_metre ? " m/m" : " m";
+    return unit;
+}
+
+std::string mean_and_interval(const ForceUnit& unit, const ForceStatistics& force) {
+    return unit.text(force.mean) + " \u00b1 " + unit.text(force.ci95);
+}
+
+std::vector<FormulaValue> formulas_of(const Summary& s) {
+    if (!s.formulas.empty() || !s.lindqvist_submersion) return s.formulas;
+    return {{"Lindqvist (1989)", "submersion", *s.lindqvist_submersion, false}};
+}
+
+std::string force_table(const Summary& s, const ForceUnit& unit) {
     const auto row = [&](const std::string& name, const ForceStatistics& f) {
         return std::vector<std::string>{name,
-                                        with_interval(unit, f),
+                                        mean_and_interval(unit, f),
                                         unit.text(f.contact_mean),
                                         unit.text(f.friction_mean),
                                         unit.text(f.std),
                                         unit.text(f.max)};
     };
     std::vector<std::vector<std::string>> rows{row("Resistance (\u2212x)", s.resistance)};
-    if (s.lindqvist_submersion)
-        rows.push_back({"  Lindqvist (1989), submersion part only",
-                        unit.text(*s.lindqvist_submersion), "", "", "", ""});
+    for (const FormulaValue& formula : formulas_of(s))
+        rows.push_back({"  " + formula.name + ", " + formula.part + " part only",
+                        unit.text(formula.value), "", "", "", ""});
     if (s.dimension == 3) rows.push_back(row("Lateral (y, to port)", s.lateral));
     rows.push_back(row("Vertical (z, up)", s.vertical));
     return table({"Component [" + unit.name + "]", "Mean \u00b1 95 %", "Contact", "Friction",
-                  "Std. deviation", "Largest"},
+                  "Std. deviation", "Largest in a step"},
                  rows);
 }
 
-std::string region_table(const Summary& s) {
+std::string region_table(const Summary& s, const ForceUnit& unit) {
     if (s.regions.empty()) return "";
-    double largest = 0.0;
-    for (const auto& [name, region] : s.regions)
-        for (const double v : region.mean) largest = std::max(largest, size_of(v));
-    const ForceUnit unit = choose_unit(largest, s.dimension);
-    const std::string impulse =
-        s.dimension == 2 ? "Largest impulse [N s/m]" : "Largest impulse [N s]";
+    const bool flat = s.dimension == 2;
+    const std::string in = " [" + unit.name + "]";
+    std::vector<std::string> header{"Region", "Hits",
+                                    flat ? "Largest impulse [N s/m]" : "Largest impulse [N s]",
+                                    "Mean x" + in, "Of it friction"};
+    if (!flat) header.push_back("Mean y" + in);
+    header.push_back("Mean z" + in);
     std::vector<std::vector<std::string>> rows;
     for (const auto& [name, r] : s.regions) {
         if (name == "hull" && r.hits == 0)
             continue;  // parts without a name, of which there are none
         rows.push_back({name, std::to_string(r.hits), readable(r.max_impulse), unit.text(r.mean[0]),
-                        unit.text(r.friction_mean[0]), unit.text(r.mean[1]), unit.text(r.mean[2])});
+                        unit.text(r.friction_mean[0])});
+        if (!flat) rows.back().push_back(unit.text(r.mean[1]));
+        rows.back().push_back(unit.text(r.mean[2]));
     }
-    return table({"Region", "Hits", impulse, "Mean x [" + unit.name + "]", "Of it friction",
-                  "Mean y [" + unit.name + "]", "Mean z [" + unit.name + "]"},
-                 rows);
+    return table(header, rows);
 }
 
 std::string energy_table(const Summary& s) {

@@ -15,6 +15,14 @@ struct ForceUnit {
     std::string text(double force) const;  ///< number in this unit, without the unit's name
 };
 
+/// The unit of all forces of a page: that in which the mean resistance reads best, with the
+/// decimals that its interval is worth (two digits of it). Of a run without summary that of the
+/// mean over the second half of what was recorded, with 4 digits.
+ForceUnit page_unit(const read::RunFolder& run);
+
+/// The same times metre. In 2D moments are per metre of breadth, too.
+ForceUnit moment_unit(const ForceUnit& force);
+
 /// @param largest magnitude the unit is chosen for [N]; NaN counts as 0
 ForceUnit choose_unit(double largest, int dimension);
 
@@ -25,12 +33,17 @@ struct PressureUnit {
 };
 PressureUnit choose_pressure_unit(double largest);
 
-/// The key numbers as cards: resistance, Lindqvist, speed-up, floes.
-std::string key_numbers(const Summary& summary);
-/// Mean with its interval, parts, scatter and maximum of the three components, and Lindqvist.
-std::string force_table(const Summary& summary);
+/// Mean with the half width of its interval, "1107 \u00b1 12".
+std::string mean_and_interval(const ForceUnit& unit, const ForceStatistics& force);
+
+/// What empirical formulas say of the same ship and ice; older summaries have Lindqvist's alone.
+std::vector<FormulaValue> formulas_of(const Summary& summary);
+
+/// Mean with its interval, parts, scatter and maximum of the three components, formulas, and
+/// whether the resistance is steady.
+std::string force_table(const Summary& summary, const ForceUnit& unit);
 /// One row per region of the hull; "" when there are none.
-std::string region_table(const Summary& summary);
+std::string region_table(const Summary& summary, const ForceUnit& unit);
 /// Where the ship's work went, in joules and as shares of it; "" for a run without a ledger.
 std::string energy_table(const Summary& summary);
 /// Contacts, overlap, computing time: whether the numbers can be trusted.

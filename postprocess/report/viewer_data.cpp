@@ -43,8 +43,8 @@ public:
         meta_ = {{"dimension", run_.header.dimension},
                  {"floes", floes},
                  {"frames", chosen_.size()},
-                 {"charts", pack_charts(figures_.histories, figures_.coverage,
-                                        figures_.average_from, pack_)}};
+                 {"charts",
+                  pack_charts(all_histories(), figures_.coverage, figures_.average_from, pack_)}};
         add_ship();
         add_shapes();
         add_positions(floes);
@@ -64,6 +64,13 @@ private:
                    : c == '&' ? std::string("\\u0026")
                               : std::string(1, c);
         return out;
+    }
+
+    std::vector<History> all_histories() const {
+        std::vector<History> all = figures_.histories;
+        all.insert(all.end(), figures_.regions.begin(), figures_.regions.end());
+        all.insert(all.end(), figures_.moments.begin(), figures_.moments.end());
+        return all;
     }
 
     void add_ship() {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "common/base/part_file.hpp"
@@ -28,35 +29,44 @@ constexpr std::size_t kMostCaseText = 200000;  // bytes of the case shown
 
 std::string page_header(const read::RunFolder& run) {
     const std::string status = run.summary ? run.summary->status : "interrupted";
-    std::string line = run.data.header.dimension == 2 ? "2D, per metre of breadth" : "3D";
-    if (run.summary)
-        line +=
-            fmt::format(", {} s in {} steps, {} threads, {}", readable(run.summary->simulated_s),
-                        run.summary->steps, run.summary->threads, run.summary->simd);
-    else if (!run.data.history.empty())
+    std::string line = run.data.header.dimension == 2 ? "2D, forces per metre of breadth" : "3D";
+    if (!run.summary && !run.data.history.empty())
         line += fmt::format(", recorded up to {} s", readable(run.data.history.back().time));
     return "<header><div class=\"inner\">\n<h1>" + escape(run.data.header.title) +
            "</h1>\n<span class=\"status" + (status == "completed" ? "" : " bad") + "\">" +
-           escape(status) + "</span>\n<p>Ship-ice sliding: forces of ice pieces on a hull. " +
-           escape(line) + ".</p>\n</div></header>\n";
+           escape(status) + "</span>\n<p>Ice resistance of a ship, simulated. " + escape(line) +
+           ".</p>\n</div></header>\n";
 }
 
-std::string statistics_sections(const Summary& s) {
-    std::string out = section(
+// whether the mean is steady, in a sentence
+std::string steadiness(const ForceStatistics& f, const ForceUnit& unit) {
+    if (!std::isfinite(f.correlation_time)) return "";
+    std::string text = fmt::format(
+        " Samples farther apart than {} s are independent, which makes "
+        "{} of them.",
+        readable(f.correlation_time), std::lround(f.effective_samples));
+    if (std::isfinite(f.trend))
+        text += fmt::format(
+            " A straight line through the averaged time changes by {} {}, which is "
+            "{}.",
+            unit.text(f.trend), unit.name,
+            f.trend_significant.value_or(false)
+                ? "more than chance: the resistance is not steady, average later "
+                  "or longer"
+                : "no more than chance");
+    return text;
+}
+
+std::string force_section(const Summary& s, const ForceUnit& unit) {
+    return section(
         "forces", "Force of the ice on the ship",
-        fmt::format("Means over t \u2265 {} s. \u00b1 is the half width of the 95 % "
-                    "confidence interval from the autocorrelation. Lindqvist's formula is an "
-                    "empirical estimate and covers the submersion of ice only.",
-                    readable(s.average_from)),
-        force_table(s));
-    const std::string regions = region_table(s);
-    if (!regions.empty())
-        out += section(
-            "regions", "Regions of the hull",
-            "A hit is counted when a floe begins to touch the region; an impulse is that of "
-            "one floe in one step.",
-            regions);
-    return out;
+        fmt::format(
+            "Means over t \u2265 {} s. \u00b1 is the half width of the 95 % confidence interval "
+            "from the autocorrelation of this run; the model is uncertain by about 10 % beside "
+            "it. Formulas are empirical estimates of the part that they name.",
+            readable(s.average_from)) +
+            steadiness(s.resistance, unit),
+        force_table(s, unit));
 }
 
 std::string balance_sections(const Summary& s) {
@@ -76,7 +86,10 @@ std::string origin(const read::RunFolder& run) {
     if (run.summary) {
         rows.emplace_back("Case file", run.summary->case_file);
         rows.emplace_back("State hash", fmt::format("{:016x}", run.summary->state_hash));
-        rows.emplace_back("Wall time", readable(run.summary->wall_s) + " s");
+        rows.emplace_back(
+            "Computed in",
+            fmt::format("{} s, {} steps, {} threads, {}", readable(run.summary->wall_s),
+                        run.summary->steps, run.summary->threads, run.summary->simd));
     }
     std::string text = header.case_toml.substr(0, kMostCaseText);
     if (text.size() < header.case_toml.size()) text += "\n# ... see case.resolved.cfg\n";
@@ -97,34 +110,72 @@ RunData with_few_tracks(const RunData& run) {
     return few;
 }
 
+// links to the headings of a page's sections
+std::string contents(const std::string& html) {
+    std::string links;
+    const std::string opening = "<section id=\"", heading = "<h2>";
+    for (std::size_t at = html.find(opening); at != std::string::npos;
+         at = html.find(opening, at + 1)) {
+        const std::size_t id = at + opening.size(), title = html.find(heading, at);
+        if (title == std::string::npos || title > html.find("</section>", at)) continue;
+        const std::size_t text = title + heading.size();
+        links += "<li><a href=\"#" + html.substr(id, html.find('"', id) - id) + "\">" +
+                 html.substr(text, html.find("</h2>", text) - text) + "</a></li>\n";
+    }
+    return links.empty() ? "" : "<nav class=\"contents\"><ul>\n" + links + "</ul></nav>\n";
+}
+
+RunFigures make_figures(const read::RunFolder& run, const RunData& data, std::size_t frames) {
+    const double from = run.summary                               ? run.summary->average_from
+                        : std::isfinite(data.header.average_from) ? data.header.average_from
+                                                                  : 0.0;
+    const double mean =
+        run.summary ? run.summary->resistance.mean : std::numeric_limits<double>::quiet_NaN();
+    const ForceUnit unit = page_unit(run);
+    return {statistics::make_load_map(data, from),
+            statistics::measure_bottom_coverage(data, frames),
+            force_histories(data, from, mean, unit),
+            region_histories(data, from, unit),
+            moment_histories(data, from, unit),
+            unit,
+            from,
+            data.header.dimension};
+}
+
 }  // namespace
 
 std::string make_report(const read::RunFolder& run, std::size_t frames) {
     const RunData data = with_few_tracks(run.data);
-    const double from = run.summary ? run.summary->average_from : 0.0;
-    const double mean =
-        run.summary ? run.summary->resistance.mean : std::numeric_limits<double>::quiet_NaN();
-    const RunFigures figures{statistics::make_load_map(data, from),
-                             statistics::measure_bottom_coverage(data, frames),
-                             force_histories(data, from, mean), from, data.header.dimension};
+    const RunFigures figures = make_figures(run, data, frames);
     const ViewerData viewer = make_viewer_data(data, figures, frames);
     PageParts page{data.header.title, page_header(run), "", "", viewer.meta, viewer.arrays};
-    if (run.summary)
-        page.summary = key_numbers(*run.summary) + warning_list(run.summary->warnings);
-    else
+    const double speed = mean_speed(data, figures.average_from);
+    std::string head;
+    if (run.summary) {
+        page.summary =
+            key_numbers(*run.summary, figures.unit, speed) + warning_list(run.summary->warnings);
+        head = particulars_section(*run.summary, speed);
+    } else {
         page.summary =
             warning_list({{"The run ended before it wrote summary.json: there are no statistics, "
                            "and pictures and histories end with the last flush"}});
-    page.body = history_section(data, figures);
-    if (run.summary) page.body += statistics_sections(*run.summary);
+    }
+    if (run.summary) page.body += force_section(*run.summary, figures.unit);
+    page.body += history_section(data, figures);
+    page.body +=
+        region_section(figures, run.summary ? region_table(*run.summary, figures.unit) : "");
+    page.body += local_load_section(
+        run, figures, run.summary ? run.summary->travel.averaged_lengths : std::nan(""));
     page.body += load_section(data, figures);
-    std::string rest = track_section(data);
+    page.body += moment_section(data, figures);
+    std::string rest = track_section(data, figures.unit);
     if (run.summary) rest += balance_sections(*run.summary);
     rest += origin(run);
-    const std::size_t used = make_page(page).size() + rest.size();
+    const std::size_t used = make_page(page).size() + head.size() + rest.size();
     page.body += scene_section(
         data, std::clamp(kPageSize - std::min(kPageSize, used), kLeastBudget, kMostBudget));
     page.body += rest;
+    page.summary += contents(head + page.body) + head;
     return make_page(page);
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace ice::statistics {
 
@@ -27,21 +28,45 @@ ThinSeries thin_series(const std::vector<double>& time,
     return out;
 }
 
+namespace {
+
+// Sums of w, w cos(k x), w sin(k x) over the first n samples, for every n: the window's sums at any
+// place are differences of these, by cos(k (x - p)) = cos(k x) cos(k p) + sin(k x) sin(k p).
+struct WindowSums {
+    std::vector<double> plain{0.0}, cosine{0.0}, sine{0.0};
+
+    void add(double weight, double c, double s) {
+        plain.push_back(plain.back() + weight);
+        cosine.push_back(cosine.back() + weight * c);
+        sine.push_back(sine.back() + weight * s);
+    }
+    double over(std::size_t first, std::size_t last, double c, double s) const {
+        return plain[last] - plain[first] + c * (cosine[last] - cosine[first]) +
+               s * (sine[last] - sine[first]);
+    }
+};
+
+}  // namespace
+
 std::vector<double> moving_average(const std::vector<double>& x, const std::vector<double>& y,
                                    double width, const std::vector<double>& places) {
-    std::vector<double> sum(y.size() + 1, 0.0);
-    for (std::size_t k = 0; k < y.size(); ++k)
-        sum[k + 1] = sum[k] + (std::isfinite(y[k]) ? y[k] : 0.0);
+    const double k = std::numbers::pi / width;
+    WindowSums ones, values;
+    for (std::size_t n = 0; n < y.size(); ++n) {
+        const double c = std::cos(k * x[n]), s = std::sin(k * x[n]);
+        ones.add(1.0, c, s);
+        values.add(std::isfinite(y[n]) ? y[n] : 0.0, c, s);
+    }
     std::vector<double> out;
     for (const double at : places) {
-        // half a millionth of slack: times are multiples of a step up to rounding
-        const double half = 0.5 * width * (1.0 + 1e-6);
-        const auto first = std::lower_bound(x.begin(), x.end(), at - half) - x.begin();
-        const auto last = std::upper_bound(x.begin(), x.end(), at + half) - x.begin();
-        out.push_back(last > first ? (sum[static_cast<std::size_t>(last)] -
-                                      sum[static_cast<std::size_t>(first)]) /
-                                         static_cast<double>(last - first)
-                                   : 0.0);
+        const auto first =
+            static_cast<std::size_t>(std::lower_bound(x.begin(), x.end(), at - width) - x.begin());
+        const auto last =
+            static_cast<std::size_t>(std::upper_bound(x.begin(), x.end(), at + width) - x.begin());
+        const double c = std::cos(k * at), s = std::sin(k * at);
+        const double weight = ones.over(first, last, c, s);
+        // a window with samples at its very ends alone weighs nothing but rounding
+        out.push_back(weight > 1e-6 ? values.over(first, last, c, s) / weight : 0.0);
     }
     return out;
 }

@@ -21,8 +21,13 @@ struct ThinSeries {
 ThinSeries thin_series(const std::vector<double>& time,
                        const std::vector<std::vector<double>>& series, std::size_t bins);
 
-/// Means of y over a window of `width` around each of the given places, cut at the ends of x.
-/// Values that are not finite count as 0. @param x rising; @param y as many values
+/// Smoothed values of y at the given places: means weighted with Hann's window
+///
+///     w(t) = (1 + cos(pi (t - place) / width)) / 2   for |t - place| < width, else 0,
+///
+/// which is `width` wide at half its height, cut at the ends of x. Its slope is continuous: a hit
+/// of one sample becomes a bell, not a box. Values that are not finite count as 0; where no x is
+/// within reach the result is 0. @param x rising; @param y as many values
 std::vector<double> moving_average(const std::vector<double>& x, const std::vector<double>& y,
                                    double width, const std::vector<double>& places);
 

@@ -79,8 +79,11 @@ std::string draw_axes(const Axis& x, const Axis& y, const std::string& x_title,
         return ticks.size() > 1 ? ticks[1] - ticks[0] : 1.0;
     };
     for (const double v : xs) {
+        if (x.logarithmic && v != std::round(v)) continue;
         out += line_element(x.pixel(v), y.from, x.pixel(v), y.to, kGrid);
-        out += text_element(x.pixel(v), y.from + 16.0, tick_label(v, step(xs)), "middle");
+        const std::string label =
+            x.logarithmic ? fmt::format("{:g}", std::pow(10.0, v)) : tick_label(v, step(xs));
+        out += text_element(x.pixel(v), y.from + 16.0, label, "middle");
     }
     for (const auto& [v, label] : upright_ticks(y)) {
         out += line_element(x.from, y.pixel(v), x.to, y.pixel(v), kGrid);

@@ -11,6 +11,7 @@ namespace ice::views {
 /// A straight scale: value `low` at pixel `from`, value `high` at pixel `to`; low > high turns it.
 struct Axis {
     double low = 0.0, high = 1.0, from = 0.0, to = 1.0;
+    bool logarithmic = false;  ///< values are exponents: ticks at whole ones, as powers of ten
     double pixel(double value) const { return from + (value - low) / (high - low) * (to - from); }
 };
 

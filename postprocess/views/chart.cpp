@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "postprocess/views/axis.hpp"
@@ -126,6 +127,13 @@ std::string draw_curve(const Curve& curve, const Axis& x, const Axis& y) {
                        curve.opacity < 1.0 ? fmt::format(" opacity=\"{}\"", curve.opacity) : "");
 }
 
+// the same chart over the exponents of x
+Chart over_exponents(Chart chart) {
+    for (Curve& curve : chart.curves)
+        for (Vec2& p : curve.points) p.x() = std::log10(p.x());
+    return chart;
+}
+
 // What the axes show: all points, zero, and what the chart asks for.
 std::pair<Range, Range> find_ranges(const Chart& chart) {
     Range xs, ys;
@@ -143,12 +151,17 @@ std::pair<Range, Range> find_ranges(const Chart& chart) {
     // a history begins one step after 0: the axis begins at 0
     if (xs.low > 0.0 && xs.low < 0.02 * xs.high) xs.low = 0.0;
     if (chart.x_from_zero) xs.add(0.0);
+    if (chart.x_logarithmic) {
+        xs.low = std::floor(xs.low);
+        xs.high = std::max(std::ceil(xs.high), xs.low + 1.0);
+    }
     return {xs, ys};
 }
 
 }  // namespace
 
-std::string draw_chart(const Chart& chart) {
+std::string draw_chart(const Chart& given) {
+    const Chart chart = given.x_logarithmic ? over_exponents(given) : given;
     std::string out = svg_open(chart.width, chart.height, chart.title);
     out += text_element(8.0, 16.0, chart.title, "start", "font-weight=\"600\"");
     auto [xs, ys] = find_ranges(chart);
@@ -156,12 +169,13 @@ std::string draw_chart(const Chart& chart) {
         return out + text_element(0.5 * chart.width, 0.5 * chart.height, "no data", "middle") +
                "</svg>\n";
 
-    const double right = chart.width - 14.0;
+    // the last label of a logarithmic axis stands at its very end
+    const double right = chart.width - (chart.x_logarithmic ? 30.0 : 14.0);
     const auto keys = fill_rows(list_keys(chart), right - kLegendLeft);
     const double legend = 22.0 + kRow * static_cast<double>(keys.size());
     const double top = legend + (chart.top_scale ? 48.0 : 8.0);
     const Axis y{ys.low, ys.high, chart.height - 42.0, top};
-    const Axis x{xs.low, xs.high, 34.0 + label_width(y), right};
+    const Axis x{xs.low, xs.high, 34.0 + label_width(y), right, chart.x_logarithmic};
     if (chart.averaged) {
         const double from = std::clamp(x.pixel(chart.averaged->first), x.from, x.to);
         const double to = std::clamp(x.pixel(chart.averaged->second), x.from, x.to);

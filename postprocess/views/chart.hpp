@@ -34,6 +34,7 @@ struct Chart {
     bool x_from_zero = false;                           ///< the x axis includes 0
     /// A second scale above the chart: x times this, with this title, e.g. knots.
     std::optional<std::pair<double, std::string>> top_scale;
+    bool x_logarithmic = false;  ///< decades; points need x > 0
 };
 
 /// Draws axes with units, legend and curves as one SVG element; empty charts say "no data". The

@@ -33,24 +33,4 @@ std::vector<Vec2> decimate(const std::vector<double>& x, const std::vector<doubl
     return kept;
 }
 
-std::vector<Vec2> moving_average(const std::vector<double>& x, const std::vector<double>& y,
-                                 double half_width, std::size_t count) {
-    std::vector<Vec2> curve;
-    if (x.size() < 2 || y.size() != x.size() || count < 2) return curve;
-    std::vector<double> sum(y.size() + 1, 0.0);
-    for (std::size_t k = 0; k < y.size(); ++k)
-        sum[k + 1] = sum[k] + (std::isfinite(y[k]) ? y[k] : 0.0);
-    for (std::size_t k = 0; k < count; ++k) {
-        const double at = x.front() + (x.back() - x.front()) * static_cast<double>(k) /
-                                          static_cast<double>(count - 1);
-        const auto first = std::lower_bound(x.begin(), x.end(), at - half_width) - x.begin();
-        const auto last = std::upper_bound(x.begin(), x.end(), at + half_width) - x.begin();
-        if (last > first)
-            curve.emplace_back(
-                at, (sum[static_cast<std::size_t>(last)] - sum[static_cast<std::size_t>(first)]) /
-                        static_cast<double>(last - first));
-    }
-    return curve;
-}
-
 }  // namespace ice::views

@@ -16,9 +16,4 @@ namespace ice::views {
 std::vector<Vec2> decimate(const std::vector<double>& x, const std::vector<double>& y,
                            std::size_t bins);
 
-/// Mean of y over a window of +- half_width around each of `count` evenly spaced places.
-/// @param x rising; @param y as many values. Fewer than 2 points give an empty curve.
-std::vector<Vec2> moving_average(const std::vector<double>& x, const std::vector<double>& y,
-                                 double half_width, std::size_t count);
-
 }  // namespace ice::views

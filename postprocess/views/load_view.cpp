@@ -122,10 +122,10 @@ std::string draw_load_view(const HullLoad& hull, ViewFrom from, double width) {
 }
 
 std::string draw_load_legend(const std::string& half, const std::string& end,
-                             const std::string& unit) {
+                             const std::string& unit, const std::string& what) {
     const double left = 20.0, box = 12.0;
     std::string out = svg_open(340.0, 60.0, "Meaning of the colours");
-    out += text_element(left, 14.0, "mean normal load [" + unit + "], linear scale", "start");
+    out += text_element(left, 14.0, what + " [" + unit + "], linear scale", "start");
     for (int k = 0; k <= kSteps; ++k)
         out += fmt::format("<rect x=\"{}\" y=\"22\" width=\"{}\" height=\"14\" fill=\"{}\"/>\n",
                            pixels(left + k * box), pixels(box), step_colour(k));

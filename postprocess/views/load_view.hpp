@@ -23,8 +23,8 @@ struct HullLoad {
 std::string draw_load_view(const HullLoad& hull, ViewFrom from, double width);
 
 /// The colours with their loads.
-/// @param half, end loads as text: half of the scale's end, and the end
+/// @param half, end loads as text: half of the scale's end, and the end; @param what is coloured
 std::string draw_load_legend(const std::string& half, const std::string& end,
-                             const std::string& unit);
+                             const std::string& unit, const std::string& what);
 
 }  // namespace ice::views

@@ -11,9 +11,9 @@ namespace ice {
 
 namespace {
 
-constexpr double kSmall = 0.5;       // of size^2: such panels join others, or count as that large
-constexpr double kSameSide = 0.5;    // cosine of normals
-constexpr double kNeighbours = 2.0;  // sizes between centres
+constexpr double kSmall = 0.5;        // of size^2: such panels join others, or count as that large
+constexpr double kSameSide = 0.5;     // cosine of normals
+constexpr double kNeighbours = 2.0;   // sizes between centres
 constexpr double kLeastShare = 1e-9;  // of a panel: spheres without area have a place, too
 
 // region; axis that the normal points along most; its sign; cell along the other two axes

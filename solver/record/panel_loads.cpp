@@ -11,9 +11,9 @@ namespace ice {
 
 namespace {
 
-constexpr double kWindow = 0.1;           // [s]
-constexpr std::int64_t kLeastSteps = 5;   // a window of fewer would still be single hits
-constexpr std::size_t kMostPanels = 40;   // in summary.json; run.h5 has all
+constexpr double kWindow = 0.1;          // [s]
+constexpr std::int64_t kLeastSteps = 5;  // a window of fewer would still be single hits
+constexpr std::size_t kMostPanels = 40;  // in summary.json; run.h5 has all
 
 }  // namespace
 
@@ -51,8 +51,7 @@ void PanelLoads::close_window() {
     }
     for (std::size_t k = 0; k < on_panel_.size(); ++k) {
         if (on_panel_[k] > 0.0)
-            loads_.push_back(
-                {windows_, static_cast<std::int32_t>(k), on_panel_[k] / hull_.window});
+            loads_.push_back({windows_, static_cast<std::int32_t>(k), on_panel_[k] / hull_.window});
         on_panel_[k] = 0.0;
     }
     steps_ = 0;

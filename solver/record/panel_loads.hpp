@@ -45,7 +45,7 @@ private:
     double average_from_, dt_;
     std::int64_t steps_per_window_;
 
-    std::int64_t steps_ = 0, windows_ = 0;     ///< steps: of the window that is not whole yet
+    std::int64_t steps_ = 0, windows_ = 0;      ///< steps: of the window that is not whole yet
     std::vector<double> on_panel_, on_region_;  ///< impulses in it [N s]
     std::vector<Load> loads_;      ///< of whole windows, by window and panel, those above zero
     std::vector<double> regions_;  ///< [window x region], force [N]

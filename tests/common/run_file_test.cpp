@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "common/formats/run_file.hpp"
 
+#include <hdf5.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
-#include <hdf5.h>
 
 #include <catch2/catch.hpp>
 #include <csignal>

@@ -40,11 +40,21 @@ TEST_CASE("short curves stay whole, NaN is left out, all at one time does not di
     CHECK(decimate(std::vector<double>(100, 1.0), std::vector<double>(100, 2.0), 10).size() == 1);
 }
 
-TEST_CASE("the moving average of a constant is the constant, of one sample nothing", "[views]") {
-    const auto curve = moving_average({0, 1, 2, 3}, {5, 5, 5, 5}, 0.6, 7);
-    REQUIRE(curve.size() == 7);
-    for (const auto& p : curve) CHECK(p.y() == Approx(5.0));
-    CHECK(moving_average({0}, {5}, 1.0, 7).empty());
+TEST_CASE("a logarithmic axis has whole decades, equally far apart", "[views]") {
+    Chart chart;
+    chart.x_logarithmic = true;
+    chart.curves = {{"a", kBlue, {{20.0, 1.0}, {2000.0, 2.0}}, 1.0, "", 1.0}};
+    const std::string svg = draw_chart(chart);
+    std::vector<double> places;
+    for (const char* label : {">10<", ">100<", ">1000<", ">10000<"}) {
+        CAPTURE(label);
+        const std::size_t at = svg.find(label);
+        REQUIRE(at != std::string::npos);
+        places.push_back(std::stod(svg.substr(svg.rfind("x=\"", at) + 3)));
+    }
+    // pixels are written to a tenth
+    CHECK(places[1] - places[0] == Approx(places[2] - places[1]).margin(0.21));
+    CHECK(places[3] - places[2] == Approx(places[2] - places[1]).margin(0.21));
 }
 
 TEST_CASE("ticks of 0 to 30 are 0, 10, 20, 30, labels have no needless decimals", "[views]") {

@@ -53,10 +53,13 @@ with tempfile.TemporaryDirectory() as folder:
     shutil.copy("whole/run.h5", "older.h5")
     with h5py.File("older.h5", "a") as run:
         run.attrs.pop("average_from", None)
+        del run["regions"]
     assert f"resistance {force:.1f} N/m" in read("older.h5")
     bare = subprocess.run([sys.executable, "-IS", f"{source}/examples/read_run.py", "older.h5"],
                           capture_output=True, text=True, check=False)
     assert bare.returncode == 1 and "apt-get install" in bare.stderr, bare
+    parts = [float(part) for part in re.findall(r"of it on .*: (-?[\d.]+)", text)]
+    assert parts and abs(sum(parts) - force) < 0.1 * (1 + len(parts)), text
     assert "short by icesolve" in text and "hardest place: [" in text, text
 
     # A kill while HDF5 writes may tear the file (tests/faults has such kills), and so short a run

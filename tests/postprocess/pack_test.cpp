@@ -83,7 +83,8 @@ TEST_CASE("the page's poses, states and loads are those of the run to the promis
           "[report]") {
     RunData run = make_run();
     run.frames[20].state[2] = FloeState::behind;
-    RunFigures figures{statistics::make_load_map(run, 0.0), {}, {}, 0.0, 3};
+    RunFigures figures;
+    figures.load = statistics::make_load_map(run, 0.0);
     const ViewerData page = make_viewer_data(run, figures, 400);
     const auto meta = nlohmann::json::parse(page.meta);
     const std::string bytes = unpack(page.arrays);
@@ -130,18 +131,30 @@ TEST_CASE("thinned series keep every peak and their time's ends", "[statistics]"
     CHECK(statistics::thin_series(time, {a, b}, 500).values[0] == a);
 }
 
-TEST_CASE("a moving average of a straight line is that line, of one peak its share",
+TEST_CASE("a moving average of a straight line is that line, of one peak Hann's window",
           "[statistics][analytic]") {
     std::vector<double> x, line, peak(101, 0.0);
     for (int k = 0; k <= 100; ++k) {
         x.push_back(0.1 * k);
         line.push_back(3.0 * x.back() - 1.0);
     }
-    peak[50] = 11.0;
+    peak[50] = 10.0;
     const auto mean = statistics::moving_average(x, line, 1.0, {2.0, 5.0});
     CHECK(mean[0] == Approx(5.0));
     CHECK(mean[1] == Approx(14.0));
-    // 1 s at 0.1 s: 11 samples with both ends
-    const auto share = statistics::moving_average(x, peak, 1.0, {4.4, 5.0, 5.6});
-    CHECK(share == std::vector<double>{0.0, 1.0, 0.0});
+    // weights (1 + cos(pi t)) / 2 at 0.1 s sum to 1 s / 0.1 s = 10
+    const auto share = statistics::moving_average(x, peak, 1.0, {3.9, 4.5, 5.0, 5.5, 6.1});
+    CHECK(share[0] == Approx(0.0).margin(1e-12));
+    CHECK(share[1] == Approx(0.5));
+    CHECK(share[2] == Approx(1.0));
+    CHECK(share[3] == Approx(0.5));
+    CHECK(share[4] == Approx(0.0).margin(1e-12));
+}
+
+TEST_CASE("at the ends a moving average is that of what is there", "[statistics][degenerate]") {
+    const std::vector<double> x{0.0, 0.1, 0.2}, y{4.0, 4.0, 4.0};
+    for (const double mean : statistics::moving_average(x, y, 1.0, {0.0, 0.2}))
+        CHECK(mean == Approx(4.0));
+    CHECK(statistics::moving_average(x, y, 1.0, {9.0}) == std::vector<double>{0.0});
+    CHECK(statistics::moving_average({}, {}, 1.0, {0.0}) == std::vector<double>{0.0});
 }

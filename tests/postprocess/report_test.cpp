@@ -33,7 +33,7 @@ TEST_CASE("the report of a 3D run contains its numbers, pictures and origin", "[
                              "101",
                              "1320",
                              "954",
-                             "Lindqvist (1989), submersion part",  // forces
+                             "Lindqvist 1989, submersion part",  // forces
                              "bottom",
                              "37",
                              "8.25",
@@ -52,7 +52,20 @@ TEST_CASE("the report of a 3D run contains its numbers, pictures and origin", "[
                              "Where the ship's work went",
                              "17.50",  // % of the work lost to drag
                              "-0.07",
-                             "completed"}) {
+                             "completed",
+                             "8.00 m",
+                             "0.200 m",
+                             "1.25 MPa",
+                             "until-hull-contact",  // ship and ice
+                             "1.00 m/s = 1.94 kn",
+                             "0.56 lengths",
+                             "\u00b1 111 N",  // 10 % of the mean
+                             "1107 W",        // at 1 m/s
+                             "923",
+                             "Resistance by region",
+                             "Moments of the ice on the ship",
+                             "Peaks of the force on a region",
+                             "Largest pressure on each panel"}) {
         CAPTURE(text);
         CHECK(html.find(text) != std::string::npos);
     }
@@ -85,7 +98,8 @@ TEST_CASE("the report's markup loads nothing and has all numbers without script"
 TEST_CASE("every chart of the viewer has its place in the page, with a drawing", "[report]") {
     const std::string html = make_report(make_folder({.dimension = GENERATE(2, 3)}));
     const auto meta = nlohmann::json::parse(element_text(html, "id=\"run-meta\""));
-    CHECK(meta["charts"].size() == (meta["dimension"] == 3 ? 5 : 4));
+    // resistance, axes, regions by axis, moments, coverage
+    CHECK(meta["charts"].size() == (meta["dimension"] == 3 ? 9 : 7));
     for (const auto& chart : meta["charts"]) {
         const std::string holder = "data-chart=\"" + chart["id"].get<std::string>() + "\"><svg";
         CAPTURE(holder);
@@ -190,10 +204,68 @@ TEST_CASE("a killed run is reported without statistics, one without samples too"
 TEST_CASE("NaN in the summary shows as n/a", "[report]") {
     read::RunFolder folder = make_folder();
     folder.summary->resistance.ci95 = std::nan("");
-    folder.summary->lindqvist_submersion.reset();
     const std::string html = make_report(folder);
     CHECK_THAT(html, Catch::Contains("1107 \u00b1 n/a"));
-    CHECK(html.find("Lindqvist (1989)") == std::string::npos);
+}
+
+TEST_CASE("a run folder of an older version has its report, without what it did not record",
+          "[report]") {
+    read::RunFolder folder = make_folder();
+    folder.data.regions.clear();
+    folder.data.panels = {};
+    folder.data.header.average_from = std::nan("");
+    Summary& s = *folder.summary;
+    s.panels = {};
+    s.ship = {};
+    s.ice = {};
+    s.travel = {};
+    s.formulas.clear();
+    s.regions["bottom"].force_peaks.reset();
+    s.regions["bottom"].line_load_peaks.reset();
+    const std::string html = make_report(folder);
+    CHECK(tag_fault(markup_of(html)).empty());
+    CHECK_THAT(html, Catch::Contains("1107 \u00b1 12 N") &&
+                         Catch::Contains("Lindqvist (1989), submersion part") &&
+                         Catch::Contains("1.00 m/s = 1.94 kn") &&
+                         Catch::Contains("Moments of the ice on the ship"));
+    for (const char* text : {"by region", "id=\"local\"", "Thickness", "nan"}) {
+        CAPTURE(text);
+        CHECK(markup_of(html).find(text) == std::string::npos);
+    }
+    s.lindqvist_submersion.reset();
+    CHECK(make_report(folder).find("Lindqvist") == std::string::npos);
+}
+
+TEST_CASE("forces have one unit on the page, with the digits that the interval is worth",
+          "[report]") {
+    read::RunFolder folder = make_folder();
+    CHECK(page_unit(folder).name == "N");
+    CHECK(page_unit(folder).decimals == 0);
+    folder.summary->resistance.mean = 440123.0;
+    folder.summary->resistance.ci95 = 4720.0;
+    CHECK(page_unit(folder).name == "kN");
+    CHECK(page_unit(folder).decimals == 1);
+    CHECK(moment_unit(page_unit(folder)).name == "kN m");
+    const std::string html = markup_of(make_report(folder));
+    CHECK_THAT(html, Catch::Contains("440.1 \u00b1 4.7 kN"));
+    CHECK_THAT(html, Catch::Contains("[kN]"));
+    CHECK(html.find("[N]") == std::string::npos);
+    folder.summary.reset();  // the mean over the second half of the samples is 1100 N
+    CHECK(page_unit(folder).name == "N");
+    CHECK(moment_unit(choose_unit(12345.0, 2)).name == "kN m/m");
+}
+
+TEST_CASE("the contents link to every section behind them", "[report]") {
+    const std::string html = markup_of(make_report(make_folder()));
+    const std::size_t begin = html.find("<nav class=\"contents\">");
+    REQUIRE(begin != std::string::npos);
+    const std::string nav = html.substr(begin, html.find("</nav>", begin) - begin);
+    for (const char* id : {"particulars", "forces", "histories", "regions", "local", "load",
+                           "moments", "drawings", "tracked", "energy", "numerics", "origin"}) {
+        CAPTURE(id);
+        CHECK(count(nav, std::string("href=\"#") + id + "\"") == 1);
+        CHECK(count(html, std::string("<section id=\"") + id + "\"") == 1);
+    }
 }
 
 TEST_CASE("forces of 5 N, 12 kN and 30 MN get units and 4 digits, 2D is per metre", "[report]") {

@@ -6,7 +6,9 @@
 
 #include "postprocess/statistics/bottom_coverage.hpp"
 #include "postprocess/statistics/choose_frames.hpp"
+#include "postprocess/statistics/line_of_action.hpp"
 #include "postprocess/statistics/load_map.hpp"
+#include "postprocess/statistics/panel_map.hpp"
 #include "tests/common/fixtures.hpp"
 
 using namespace ice;
@@ -159,4 +161,60 @@ TEST_CASE("chosen frames are evenly spread, with the first and the last", "[stat
     CHECK(choose_frames(3, 5) == std::vector<std::size_t>{0, 1, 2});
     CHECK(choose_frames(9, 5) == std::vector<std::size_t>{0, 2, 4, 6, 8});
     CHECK(choose_frames(1000, 0) == std::vector<std::size_t>{0, 999});
+}
+
+TEST_CASE("a constant force at a known place acts along the line through it",
+          "[statistics][analytic]") {
+    const Vec3 at(6.0, 0.5, -0.4), force(-900.0, 60.0, 250.0);
+    RunData run = run_with_contact(at, Vec3(0, 0, 300));
+    for (HistoryRow& row : run.history) {
+        row.contact_force = 0.8 * force;
+        row.friction_force = 0.2 * force;
+        row.moment = at.cross(force);
+    }
+    const LineOfAction load = find_line_of_action(run, 0.0);
+    CHECK((load.force - force).norm() < 1e-9);
+    REQUIRE(load.center);
+    CHECK((*load.center - at).norm() < 1e-12);
+    REQUIRE(load.point);
+    CHECK((*load.point - at).norm() < 1e-9);  // the centre lies on the line
+    CHECK(std::abs(load.couple) < 1e-9 * load.moment.norm());
+}
+
+TEST_CASE("a couple about the force stays, one across it moves the point of attack",
+          "[statistics][analytic]") {
+    RunData run = run_with_contact(Vec3(6, 0, -0.5), Vec3(-100, 0, 0));
+    for (HistoryRow& row : run.history) {
+        row.contact_force = Vec3(-100.0, 0, 0);
+        row.friction_force = Vec3::Zero();
+        // about the centre of load: 30 N m about the force's line and 50 N m of yaw to starboard,
+        // which is the force 0.5 m to starboard
+        row.moment = Vec3(6, 0, -0.5).cross(Vec3(-100, 0, 0)) + Vec3(-30.0, 0.0, -50.0);
+    }
+    const LineOfAction load = find_line_of_action(run, 0.0);
+    REQUIRE(load.point);
+    CHECK((*load.point - Vec3(6.0, -0.5, -0.5)).norm() < 1e-12);
+    CHECK(load.couple == Approx(30.0));
+    for (RunFrame& frame : run.frames) frame.hull_contacts.clear();
+    CHECK_FALSE(find_line_of_action(run, 0.0).center);
+    run.history.clear();
+    CHECK_FALSE(find_line_of_action(run, 0.0).point);
+}
+
+TEST_CASE("every triangle has the largest pressure of the panel of its nearest sphere",
+          "[statistics][analytic]") {
+    RunData run = make_run();
+    // two panels: spheres at the bow and at the stern
+    run.header.shapes[0].centers = {Vec3(7.9, 0, 0), Vec3(0.1, 0, 0)};
+    run.header.shapes[0].radii = {0.05, 0.05};
+    run.panels.of_sphere = {0, 1};
+    const TriangleMesh fine = refine_mesh(run.header.shapes[0].mesh, 0.5, 100000);
+    const LoadMap map = make_panel_map(run, fine);
+    REQUIRE(map.load.size() == fine.triangles.size());
+    for (std::size_t t = 0; t < map.load.size(); ++t) {
+        const double x = (fine.corner(t, 0) + fine.corner(t, 1) + fine.corner(t, 2)).x() / 3.0;
+        CHECK(map.load[t] == Approx(x > 4.0 ? 900.0 / 0.25 : 25.0 / 0.2));
+    }
+    run.panels = {};
+    CHECK(make_panel_map(run, fine).load.empty());
 }

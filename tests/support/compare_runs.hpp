@@ -44,8 +44,8 @@ inline void check_same_run_file(const std::filesystem::path& expected,
         names.push_back(std::string("/frames/") + name);
     for (const char* name : {"contact_force", "friction_force"})
         names.push_back(std::string("/regions/") + name);
-    for (const char* name : {"center", "normal", "area", "length", "force_mean", "force_p99",
-                             "force_max", "region"})
+    for (const char* name :
+         {"center", "normal", "area", "length", "force_mean", "force_p99", "force_max", "region"})
         names.push_back(std::string("/panels/") + name);
     for (const int id : tracked) names.push_back("/tracked/" + std::to_string(id));
     for (const std::string& name : names) {
