@@ -122,6 +122,10 @@ std::vector<FieldKey> edge_keys() {
         {"edges.piece", Kind::number, D::length, "-", kTiny, kFar, 0, "",
          "Length of its pieces along x, all alike; default four times the breadth.",
          [](S& s, const Value& v) { s.edge_piece = number(v); }},
+        {"edges.ahead", Kind::number, D::length, "-", 0, kFar, 0, "",
+         "Length along x of the unbroken ice across the field's far end; default the breadth, 0 "
+         "leaves the end open: free floes are then pushed out ahead of the ship.",
+         [](S& s, const Value& v) { s.edge_ahead = number(v); }},
         {"edges.gap", Kind::number, D::length, "0.0", 0, kFar, 0, "",
          "Open water between the field and the unbroken ice.",
          [](S& s, const Value& v) { s.edge_gap = number(v); }},

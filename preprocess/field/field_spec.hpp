@@ -46,9 +46,10 @@ struct FieldSpec {
     std::filesystem::path file;  ///< polygons
     double scale = 1.0;          ///< polygons: metres per unit of the file
 
-    double edge_breadth = 0.0;                  ///< unbroken ice beside the field [m]; 0: none
-    double edge_piece = 0.0;                    ///< length of its pieces [m]
-    double edge_gap = 0.0;                      ///< between field and edge [m]
+    double edge_breadth = 0.0;  ///< unbroken ice beside the field [m]; 0: none
+    double edge_piece = 0.0;    ///< length of its pieces [m]
+    double edge_gap = 0.0;      ///< between field and edge [m]
+    double edge_ahead = 0.0;    ///< unbroken ice across the far end, along x [m]; 0: open
     std::array<double, 2> edge_overhang{0, 0};  ///< beyond the field's first and last x [m]
 
     std::string text;  ///< the file, verbatim, overrides behind it as comments

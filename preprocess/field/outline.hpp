@@ -22,6 +22,11 @@ struct FieldPlan {
     std::vector<Outline> fixed;  ///< unbroken ice
 };
 
+/// The rectangle from (x, y) to (x + length, y + breadth).
+inline Outline rectangle(double x, double y, double length, double breadth) {
+    return {{x, y}, {x + length, y}, {x + length, y + breadth}, {x, y + breadth}};
+}
+
 /// Area inside [m2]; negative for clockwise outlines.
 double area_of(const Outline& outline);
 

@@ -41,7 +41,11 @@ FieldPlan plan_cells(const FieldSpec& spec);
 ///         over another one by more than a thousandth of its size; and what is no such file
 FieldPlan plan_polygons(const FieldSpec& spec, std::vector<std::string>& warnings);
 
-/// Unbroken ice along both sides of the field: equal rectangles.
+/// Unbroken ice: equal rectangles along both sides of the field, the side at low y first, and then
+/// across its far end from side to side, unless edges.ahead is 0. The pieces touch each other and
+/// overlap nowhere; the sides go on to the end of the ice ahead at least, so that nothing leaves
+/// through a corner. Behind a row that is no straight line (cusps with an entrance angle) water
+/// stays between it and the end.
 void add_edges(const FieldSpec& spec, FieldPlan& plan);
 
 }  // namespace ice

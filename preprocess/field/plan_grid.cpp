@@ -1,18 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <cmath>
-
 #include "common/base/error.hpp"
 #include "preprocess/field/plan_floes.hpp"
 
 namespace ice {
-
-namespace {
-
-Outline rectangle(double x, double y, double length, double breadth) {
-    return {{x, y}, {x + length, y}, {x + length, y + breadth}, {x, y + breadth}};
-}
-
-}  // namespace
 
 FieldPlan plan_grid(const FieldSpec& s) {
     const auto [columns, rows] = s.count;
@@ -48,23 +38,6 @@ FieldPlan plan_grid(const FieldSpec& s) {
         plan.loose.push_back(rectangle(x, low + whole - half, length, half));
     }
     return plan;
-}
-
-void add_edges(const FieldSpec& s, FieldPlan& plan) {
-    if (s.edge_breadth == 0.0) return;
-    const double first = plan.area.min().x() - s.edge_overhang[0];
-    const double length = plan.area.max().x() + s.edge_overhang[1] - first;
-    if (!(length > 0.0))
-        throw bad_input("edges.overhang", "leaves nothing of the edges", "use larger numbers");
-    const double count = std::max(1.0, std::ceil(length / s.edge_piece - 1e-9));
-    if (count > kMostFloes)
-        throw bad_input("edges.piece", "asks for more than a million pieces", "use longer ones");
-    const int pieces = static_cast<int>(count);
-    for (const double y :
-         {plan.area.min().y() - s.edge_gap - s.edge_breadth, plan.area.max().y() + s.edge_gap})
-        for (int k = 0; k < pieces; ++k)
-            plan.fixed.push_back(
-                rectangle(first + k * length / pieces, y, length / pieces, s.edge_breadth));
 }
 
 }  // namespace ice

@@ -85,6 +85,11 @@ private:
         if (!given("spheres.spacing")) s.spacing = 2.0 * s.radius;
         if (!given("floes.breaking_depth")) s.breaking_depth = 0.5 * s.breaking_length;
         if (!given("edges.piece")) s.edge_piece = 4.0 * s.edge_breadth;
+        if (!given("edges.ahead")) s.edge_ahead = s.edge_breadth;
+        if (s.edge_ahead > 0.0 && s.edge_breadth == 0.0)
+            complain_at("edges.ahead",
+                        "edges.ahead closes a channel, but edges.breadth is 0: there "
+                        "are no sides; state edges.breadth as well");
         if (!(2.0 * s.radius < s.thickness))
             complain_at("spheres.radius",
                         fmt::format("spheres.radius {:g} m does not fit into ice of {:g} m; use "

@@ -77,10 +77,11 @@ std::string polygons(const std::string& suffix, const std::string& text, std::si
 TEST_CASE("equal floes share a shape, wherever they lie", "[field]") {
     FieldReport report;
     const Field field = make(kBrick, report);
-    CHECK(field.shapes.size() == 3);        // whole, half, edge
-    REQUIRE(field.floes.size() == 14 + 4);  // edges 4.3 m long in pieces of up to 4 m
+    CHECK(field.shapes.size() == 4);  // whole, half, side, end
+    // sides 5.3 m long in pieces of up to 4 m, an end of 2.8 m
+    REQUIRE(field.floes.size() == 14 + 4 + 1);
     CHECK(report.floes == 14);
-    CHECK(report.fixed == 4);
+    CHECK(report.fixed == 5);
     CHECK_FALSE(field.floes[13].fixed);
     CHECK(field.floes[14].fixed);
     // first column of three whole floes, then a half one

@@ -61,13 +61,78 @@ TEST_CASE("bricks are shifted by half a floe and the channel's sides stay straig
 TEST_CASE("edges lie beside the field, in equal pieces, with their overhang", "[field][analytic]") {
     const FieldPlan plan = field_plan("pattern = \"grid\"\n" + kIce + kGrid +
                                       "[edges]\nbreadth = 2\npiece = 3\ngap = 0.5\n"
-                                      "overhang = [4, 1]\n");
+                                      "overhang = [4, 1]\nahead = 0\n");
     // x from 1.0 to 10.3 m: four pieces of 2.325 m on each side
     REQUIRE(plan.fixed.size() == 8);
     CHECK((plan.fixed[0][0] - Vec2(1.0, -2.9)).norm() < 1e-14);
     CHECK((plan.fixed[3][2] - Vec2(10.3, -0.9)).norm() < 1e-14);
     CHECK((plan.fixed[4][0] - Vec2(1.0, 2.9)).norm() < 1e-14);
     for (const Outline& piece : plan.fixed) CHECK(area_of(piece) == Approx(2.325 * 2.0));
+}
+
+TEST_CASE("unbroken ice closes a channel's far end from side to side, without overlap or leak",
+          "[field][analytic]") {
+    // the grid's area: x 5.0 to 9.3, y -0.4 to 2.4 m; sides from 1.0 to 10.8 m, the end from 9.8 m
+    const FieldPlan plan = field_plan("pattern = \"grid\"\n" + kIce + kGrid +
+                                      "[edges]\nbreadth = 2\npiece = 3\ngap = 0.5\n"
+                                      "overhang = [4, 0]\nahead = 1\n");
+    REQUIRE(plan.fixed.size() == 4 + 4 + 2);
+    for (std::size_t side : {0u, 4u})
+        CHECK(plan.fixed[side + 3][2].x() == Approx(10.8).epsilon(1e-14));
+    CHECK((plan.fixed[8][0] - Vec2(9.8, -0.9)).norm() < 1e-14);
+    CHECK((plan.fixed[8][2] - plan.fixed[9][1]).norm() < 1e-14);
+    CHECK((plan.fixed[9][2] - Vec2(10.8, 2.9)).norm() < 1e-14);
+    // flush with both sides: floes find no way round, and nothing lies over anything
+    CHECK(plan.fixed[8][0].y() == Approx(plan.fixed[0][2].y()).epsilon(1e-14));
+    CHECK(plan.fixed[9][2].y() == Approx(plan.fixed[4][0].y()).epsilon(1e-14));
+    std::vector<Outline> all = plan.loose;
+    all.insert(all.end(), plan.fixed.begin(), plan.fixed.end());
+    for (std::size_t i = 0; i < all.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j) CHECK(overlap_depth(all[i], all[j]) < kTouch);
+}
+
+TEST_CASE("a longer overhang stays as it is beside a closed end", "[field]") {
+    const std::string edges = "[edges]\nbreadth = 2\noverhang = [0, 7]\n";
+    const FieldPlan plan = field_plan("pattern = \"grid\"\n" + kIce + kGrid + edges);
+    CHECK(plan.fixed[0][1].x() < 16.3);
+    CHECK(plan.fixed[1][1].x() == Approx(16.3));
+    CHECK(plan.fixed.back()[0].x() == Approx(9.3));
+    CHECK(plan.fixed.back()[1].x() == Approx(11.3));  // as long as the sides are broad
+}
+
+TEST_CASE("channels of every pattern are closed ahead unless the specification says 0", "[field]") {
+    const std::string pattern =
+        GENERATE_COPY("pattern = \"grid\"\n" + kIce + kGrid, "pattern = \"brick\"\n" + kIce + kGrid,
+                      cusps(""), cusps("entrance_angle = \"35 deg\"\n"),
+                      "pattern = \"voronoi\"\n" + kIce +
+                          "[area]\nsize = [30, 10]\n[floes]\nconcentration = 0.8\nmean_size = 2\n");
+    const std::string edges = "[edges]\nbreadth = 1.5\ngap = 0.25\n";
+    const FieldPlan open = field_plan(pattern + edges + "ahead = 0\n");
+    const FieldPlan closed = field_plan(pattern + edges);
+    CHECK(open.loose == closed.loose);
+    double far = 0.0;
+    for (const Outline& floe : closed.loose)
+        for (const Vec2& corner : floe) far = std::max(far, corner.x());
+    const double end = std::max(far, closed.area.max().x()) + 0.25;
+    // the last pieces lie across the end, from side to side
+    double breadth = 0.0;
+    for (const Outline& piece : closed.fixed) {
+        if (piece[0].x() != Approx(end)) continue;
+        breadth += piece[2].y() - piece[0].y();
+        CHECK(piece[1].x() == Approx(end + 1.5));
+    }
+    CHECK(breadth == Approx(closed.area.sizes().y() + 0.5));
+    for (const Outline& piece : open.fixed) CHECK(piece[0].x() < end);
+    for (const Outline& floe : closed.loose)
+        for (const Outline& piece : closed.fixed) REQUIRE(overlap_depth(floe, piece) < kTouch);
+    CHECK(field_plan(pattern + edges).fixed == closed.fixed);  // the same every time
+}
+
+TEST_CASE("a closed end without sides is refused; without edges there is none", "[field][errors]") {
+    const std::string grid = "pattern = \"grid\"\n" + kIce + kGrid;
+    CHECK(field_plan(grid).fixed.empty());
+    CHECK_THROWS_WITH(field_plan(grid + "[edges]\nahead = 2\n"),
+                      Catch::Contains("edges.ahead closes a channel, but edges.breadth is 0"));
 }
 
 TEST_CASE("cusps fill the channel: each row is as long as the breaking length", "[field]") {
