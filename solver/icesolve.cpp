@@ -20,10 +20,14 @@
 #include "common/cli/start_threads.hpp"
 #include "solver/case/case_schema.hpp"
 #include "solver/case/read_case.hpp"
+#include "solver/draft/draw_start.hpp"
+#include "solver/draft/new_case.hpp"
 #include "solver/ensemble/run_ensemble.hpp"
 #include "solver/record/recorder.hpp"
 #include "solver/record/result_text.hpp"
+#include "solver/step/check_course.hpp"
 #include "solver/step/check_start.hpp"
+#include "solver/step/describe_case.hpp"
 #include "solver/step/run.hpp"
 #include "solver/step/run_folder.hpp"
 
@@ -31,7 +35,8 @@ namespace {
 
 struct Options {
     std::string case_file, out, explain, restart, simd = "auto";
-    std::vector<std::string> overrides;
+    std::string picture, fresh_case;
+    std::vector<std::string> overrides, fresh;
     int threads = 0, seeds = 0;
     std::int64_t hash_every = 0;
     double checkpoint_every = 0.0;
@@ -74,7 +79,20 @@ void declare(CLI::App& app, Options& o) {
         ->check(CLI::Range(1, 10000))
         ->excludes(restart)
         ->excludes(hashes);
-    app.add_flag("--check", o.check, "Read and build everything, run nothing");
+    auto* check = app.add_flag("--check", o.check,
+                               "Read and build everything, run nothing: ship, ice, course, "
+                               "clearance and spheres in numbers");
+    app.add_option("--picture", o.picture, "With --check: draw the start from the side")
+        ->type_name("FILE.svg")
+        ->needs(check);
+    auto* fresh = app.add_option("--new", o.fresh,
+                                 "Write a commented case for a hull (mesh or sphere set) and an "
+                                 "ice field (.h5, or specification .toml), and what they lack")
+                      ->type_name("HULL [FIELD]")
+                      ->expected(1, 2);
+    app.add_option("-o", o.fresh_case, "With --new: the case file (default HULL-stem.cfg)")
+        ->type_name("CASE.cfg")
+        ->needs(fresh);
     app.add_flag("--allow-overlap", o.allow_overlap,
                  "Run a case whose bodies overlap at the start, with a warning");
     app.add_flag("--verify", o.verify,
@@ -107,6 +125,7 @@ int report(const ice::Summary& s, const Options& o, const std::string& folder, d
            const std::vector<ice::Warning>& said) {
     if (o.json) ice::write_data(ice::summary_text(s));
     ice::say(ice::resistance_line(s, speed));
+    ice::say(ice::describe_rules(s));
     if (s.lindqvist_submersion)
         ice::say("Lindqvist's submersion resistance: " + ice::force_text(*s.lindqvist_submersion));
     if (const std::string line = ice::energy_line(s); !line.empty()) ice::say(line);
@@ -184,13 +203,23 @@ int run_case(const Options& o, const std::string& command_line) {
     if (!o.restart.empty()) saved.emplace(ice::read_checkpoint(o.restart, world));
     ice::SavedRun* going_on = saved ? &*saved : nullptr;
     std::vector<ice::Warning> warnings;
-    if (!saved) warnings = ice::check_start(world, o.allow_overlap);
+    if (!saved) {
+        warnings = ice::check_start(world, o.allow_overlap);
+        const auto course = ice::check_course(world);
+        warnings.insert(warnings.end(), course.begin(), course.end());
+    }
     const auto say_warnings = [&] {
         for (const ice::Warning& warning : warnings) ice::say_warning(ice::with_verdict(warning));
     };
     if (o.check) {
         say_warnings();
-        ice::say(fmt::format("{}: good, {} floes", o.case_file, world.scene.bodies.size() - 1));
+        ice::say(fmt::format("{}: {}, {} floes\n{}", o.case_file,
+                             warnings.empty() ? "good" : "runs, with warnings",
+                             world.scene.bodies.size() - 1, ice::describe_case(world)));
+        if (!o.picture.empty()) {
+            ice::draw_start(world, o.picture);
+            ice::say(fmt::format("wrote {}", o.picture));
+        }
         return 0;
     }
     const ice::RunFolder claimed(
@@ -256,6 +285,12 @@ int run_icesolve(const Options& o, const std::string& command_line) {
         ice::write_data(ice::json_schema(ice::case_schema()));
     } else if (o.defaults) {
         ice::write_data(ice::default_text(ice::case_schema()));
+    } else if (!o.fresh.empty()) {
+        const auto file = ice::write_new_case(
+            {o.fresh[0], o.fresh.size() > 1 ? o.fresh[1] : std::string(), o.fresh_case});
+        ice::say(
+            fmt::format("wrote {}: look at the lines marked CHECK, then\n  icesolve {} --check",
+                        file.string(), ice::shell_word(file.string())));
     } else if (o.case_file.empty()) {
         throw ice::bad_input("", "no case file given", "icesolve --help lists what it takes");
     } else if (o.seeds > 0 && !o.check) {

@@ -17,6 +17,11 @@ Vec3 vector3(const Value& v) {
     const auto& x = std::get<std::vector<double>>(v);
     return Vec3(x[0], x[1], x[2]);
 }
+// z is NaN where it is left out
+Vec3 place3(const Value& v) {
+    const auto& x = std::get<std::vector<double>>(v);
+    return Vec3(x[0], x[1], x.size() > 2 ? x[2] : std::nan(""));
+}
 std::array<double, 2> vector2(const Value& v) {
     const auto& x = std::get<std::vector<double>>(v);
     return {x[0], x[1]};
@@ -69,9 +74,14 @@ std::vector<CaseKey> run_keys() {
         {"hull.spheres", Kind::path, D::none, "", 0, 0, 0, "",
          "Sphere set of the hull, made by spherize; relative to the case file.",
          [](Case& c, G&, const Value& v) { c.hull_spheres = text(v); }},
-        {"hull.position", Kind::vector, D::length, "[0.0, 0.0, 0.0]", -1e6, 1e6, 3, "",
-         "World position of the hull mesh's origin at t = 0; calm water is z = 0.",
-         [](Case& c, G&, const Value& v) { c.hull_position = vector3(v); }},
+        {"hull.position", Kind::place, D::length, "[0.0, 0.0, 0.0]", -1e6, 1e6, 3, "",
+         "World position of the hull mesh's origin at t = 0; calm water is z = 0; z left out (two "
+         "numbers) where hull.draught is given.",
+         [](Case& c, G&, const Value& v) { c.hull_position = place3(v); }},
+        {"hull.draught", Kind::number, D::length, "-", 0, 1e3, 0, "",
+         "Height of the water above the hull mesh's lowest point, wherever the mesh's origin is; "
+         "instead of z in hull.position.",
+         [](Case& c, G&, const Value& v) { c.hull_draught = number(v); }},
         {"hull.speed", Kind::number, D::speed, "-", -50, 50, 0, "",
          "Constant speed along +x; give this or hull.speed_table.",
          [](Case& c, G&, const Value& v) {
@@ -114,14 +124,12 @@ std::vector<CaseKey> floe_keys() {
          "Open water between neighbours along x and y.",
          [](Case&, G& g, const Value& v) { g.gap = vector2(v); }},
         {"floes.hold", Kind::choice, D::none, "\"until-hull-contact\"", 0, 0, 0, kHolds,
-         "Until when the floes are immovable; the paper holds them until the ship touches them.",
+         "Until when the floes are immovable; the paper holds them until the ship touches them; "
+         "pattern file: never unless stated, and its unbroken ice always.",
          [](Case&, G& g, const Value& v) { g.hold = choice<Hold>(v, kHolds); }},
         {"floes.position", Kind::place, D::length, "-", -1e6, 1e6, 3, "",
          "Pattern single: centre of mass; z left out (two numbers) gives floating equilibrium.",
-         [](Case&, G& g, const Value& v) {
-             const auto& x = std::get<std::vector<double>>(v);
-             g.position = Vec3(x[0], x[1], x.size() > 2 ? x[2] : std::nan(""));
-         }},
+         [](Case&, G& g, const Value& v) { g.position = place3(v); }},
         {"floes.orientation", Kind::vector, D::none, "[1.0, 0.0, 0.0, 0.0]", -1, 1, 4, "",
          "Pattern single: quaternion w, x, y, z, body to world; normalised.",
          [](Case&, G& g, const Value& v) {
@@ -152,9 +160,9 @@ std::vector<CaseKey> model_keys() {
          "Contact normal: of the surfaces the spheres stand for, or from centre to centre (the "
          "paper).",
          [](Case& c, G&, const Value& v) { c.normal = choice<NormalRule>(v, kNormals); }},
-        {"contact.crushing_pressure", Kind::number, D::pressure, "inf", 0, kInf, 0, "",
+        {"contact.crushing_pressure", Kind::number, D::pressure, "1e6", 0, kInf, 0, "",
          "Largest normal impulse of a contact is this pressure x the section cut x time_step, and "
-         "ice so crushed is gone; inf is rigid.",
+         "ice so crushed is gone; inf is rigid, which jams; in 2D the default is inf (the paper).",
          [](Case& c, G&, const Value& v) { c.crushing_pressure = number(v); }},
         {"contact.iterations", Kind::integer, D::none, "30", 1, 100000, 0, "",
          "Upper bound of the contact solver's iterations for a solution; a step takes a few.",

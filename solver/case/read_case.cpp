@@ -188,7 +188,31 @@ private:
         return label.ends_with(".file") ? "icefield" : "spherize";
     }
 
+    // The hull's height comes from its draught or from z.
+    void check_hull_place() {
+        if (mistakes_.bad_keys.contains("hull.position")) return;
+        const bool draught = values_.contains("hull.draught");
+        const auto position = values_.find("hull.position");
+        if (position == values_.end()) {
+            if (draught) values_["hull.position"] = std::vector<double>{0.0, 0.0};
+            return;
+        }
+        const bool has_z = std::get<std::vector<double>>(position->second).size() == 3;
+        if (has_z && draught)
+            complain_at("hull.draught",
+                        "hull.draught and the z of hull.position both say how deep the hull lies; "
+                        "write hull.position = [x, y], or leave hull.draught out");
+        if (!has_z && !draught && !mistakes_.bad_keys.contains("hull.draught"))
+            complain_at("hull.position",
+                        "hull.position has no z; add hull.draught, or the z of the mesh's origin");
+    }
+
     void check_choices() {
+        check_hull_place();
+        if (const auto dimension = values_.find("simulation.dimension");
+            dimension != values_.end() && std::get<std::int64_t>(dimension->second) == 2)
+            values_.try_emplace("contact.crushing_pressure",
+                                std::numeric_limits<double>::infinity());
         const bool speed = values_.contains("hull.speed");
         const bool table = values_.contains("hull.speed_table");
         const bool bad = mistakes_.bad_keys.contains("hull.speed") ||
@@ -212,6 +236,7 @@ private:
         const auto pattern = values_.find(label("pattern"));
         const bool field =
             pattern != values_.end() && std::get<std::string>(pattern->second) == "file";
+        if (field && !given("hold")) values_[label("hold")] = std::string("never");
         const char* const needed = field ? "file" : "spheres";
         const char* const other = field ? "spheres" : "file";
         if (!given(needed))
@@ -333,6 +358,13 @@ Case read_once(const std::filesystem::path& file, const std::vector<std::string>
         // a speed replaces a table and the other way round
         if (given.contains("hull.speed")) values.erase("hull.speed_table");
         if (given.contains("hull.speed_table")) values.erase("hull.speed");
+        // so does a draught a height
+        const auto position = values.find("hull.position");
+        if (given.contains("hull.draught") && position != values.end())
+            std::get<std::vector<double>>(position->second).resize(2);
+        if (const auto place = given.find("hull.position");
+            place != given.end() && std::get<std::vector<double>>(place->second).size() == 3)
+            values.erase("hull.draught");
         for (auto& [label, value] : given) values[label] = value;
     }
     Case result;

@@ -60,6 +60,13 @@ struct Bodies {
     }
 };
 
+/// Where the ice of a case lay before the first step, seen from above.
+struct IceAtStart {
+    Eigen::AlignedBox2d loose;  ///< around the floes that may move; empty where there are none
+    bool walls = false;         ///< unbroken ice on both sides of them: a channel
+    bool closed = false;        ///< unbroken ice across their far end (largest x)
+};
+
 /// Everything a step needs of the bodies.
 struct Scene {
     int dimension = 3;
@@ -68,6 +75,7 @@ struct Scene {
     CrushedIce crushed;
     Vec3 ship_velocity = Vec3::Zero();
     /// Area of the floes over the field's; NaN unless all come from one field file.
+    IceAtStart start;  ///< set by build_scene()
     double concentration = std::numeric_limits<double>::quiet_NaN();
 };
 

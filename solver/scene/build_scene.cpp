@@ -9,7 +9,9 @@
 #include "common/base/error.hpp"
 #include "common/formats/field_file.hpp"
 #include "common/formats/spheres_file.hpp"
+#include "solver/scene/ice_extent.hpp"
 #include "solver/scene/jitter.hpp"
+#include "solver/scene/place_hull.hpp"
 #include "solver/water/hydrostatics.hpp"
 
 namespace ice {
@@ -192,8 +194,9 @@ std::size_t add_floe(Scene& scene, std::int32_t shape_row, double density, const
 }
 
 Scene build_scene(const Case& parameters) {
-    Scene scene = make_scene(read_shape(parameters.hull_spheres, parameters.dimension, false),
-                             parameters.hull_position, Vec3(parameters.ship_speed(0.0), 0.0, 0.0));
+    Shape hull = read_shape(parameters.hull_spheres, parameters.dimension, false);
+    const Vec3 place = place_hull(parameters, hull.mesh);
+    Scene scene = make_scene(std::move(hull), place, Vec3(parameters.ship_speed(0.0), 0.0, 0.0));
     ShapeRows rows;
     for (std::size_t g = 0; g < parameters.floes.size(); ++g) {
         if (parameters.floes[g].pattern == Pattern::file)
@@ -204,6 +207,7 @@ Scene build_scene(const Case& parameters) {
     if (rows.of_set.empty() && rows.of_field.size() == 1)
         scene.concentration = rows.of_field.begin()->second.first.concentration;
     apply_jitter(scene, parameters);
+    scene.start = find_ice_at_start(scene, parameters);
     for (const int id : parameters.track)
         if (id >= static_cast<int>(scene.bodies.size()))
             throw bad_input(

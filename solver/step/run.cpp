@@ -12,6 +12,7 @@
 #include "common/base/part_file.hpp"
 #include "common/base/timer.hpp"
 #include "common/base/version.hpp"
+#include "solver/record/open_end.hpp"
 #include "solver/record/particulars.hpp"
 #include "solver/record/recorder.hpp"
 #include "solver/scene/build_scene.hpp"
@@ -71,6 +72,8 @@ void write_summary(const World& w, const RunOptions& options, double wall_second
                    Recorder& recorder, Summary& summary) {
     recorder.finish(view_of(w), summary);
     fill_particulars(w.scene, w.parameters, w.time, summary);
+    if (auto warning = warn_of_open_end(w.scene, w.parameters))
+        summary.warnings.push_back(*warning);
     fill_run(w, wall_seconds, summary);
     write_text_file(options.folder / "summary.json", summary_text(summary));
 }

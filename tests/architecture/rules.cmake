@@ -7,7 +7,7 @@ set(order_common common/base common/toml common/geometry common/formats common/c
 set(order_preprocess preprocess/load preprocess/clean preprocess/measure preprocess/repair
   preprocess/slice preprocess/fill preprocess/field preprocess/write preprocess)
 set(order_solver solver/case solver/shape solver/water solver/scene solver/broad solver/narrow
-  solver/contact solver/integrate solver/record solver/step solver/ensemble solver)
+  solver/contact solver/integrate solver/record solver/step solver/draft solver/ensemble solver)
 set(order_postprocess postprocess/read postprocess/views postprocess/statistics postprocess/report
   postprocess/sweep postprocess/sensitivity postprocess/paraview postprocess/check postprocess)
 set(tools preprocess solver postprocess)

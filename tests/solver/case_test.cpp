@@ -297,3 +297,65 @@ TEST_CASE("the ship's speed between, on and beyond the rows of its table", "[cas
     CHECK(p.ship_speed(4.0) == 0.0);
     CHECK(p.ship_speed(9.0) == 0.0);
 }
+
+TEST_CASE("a hull is placed by its draught or by z, and never by both", "[case][errors]") {
+    const auto hull = [](const std::string& lines) {
+        return with("speed = \"2 kn\"", "speed = 1\n" + lines);
+    };
+    const auto read = [&](const std::string& lines,
+                          const std::vector<std::string>& overrides = {}) {
+        const CaseFolder folder(hull(lines));
+        return read_case(folder.file(), overrides);
+    };
+    const Case both = read("draught = \"80 cm\"\nposition = [-3, 1]");
+    CHECK(both.hull_draught == 0.8);
+    CHECK(both.hull_position.head<2>() == Eigen::Vector2d(-3, 1));
+    CHECK(read("draught = 2").hull_position.head<2>() == Eigen::Vector2d::Zero());
+    CHECK(std::isnan(read("position = [-3, 1, -0.5]").hull_draught));
+    CHECK(read("").hull_position == Vec3::Zero());
+    CHECK(contains(complaint(hull("draught = 2\nposition = [0, 0, -1]")),
+                   "hull.draught and the z of hull.position both say how deep the hull lies"));
+    CHECK(
+        contains(complaint(hull("position = [0, 0]")), "hull.position has no z; add hull.draught"));
+    CHECK(contains(complaint(hull("draught = -1")), "hull.draught"));
+
+    // an override of one takes the place of the other
+    CHECK(read("position = [-3, 1, -0.5]", {"hull.draught=2"}).hull_draught == 2.0);
+    CHECK(read("draught = 2", {"hull.position=[0, 0, -3]"}).hull_position.z() == -3.0);
+    // what is resolved is a case again
+    const CaseFolder again(read("draught = 2").resolved);
+    CHECK(read_case(again.file(), {}).hull_draught == 2.0);
+}
+
+TEST_CASE("ice crushes at 1 MPa in 3D and is rigid in 2D unless a case says otherwise", "[case]") {
+    const auto pressure = [](const std::string& line, int dimension) {
+        std::string text = with("crushing_pressure = \"1.5 MPa\"\n", line);
+        const std::string flat = "dimension = 2\ntime_step";
+        if (dimension == 2) {
+            text.replace(text.find("time_step"), 9, flat);
+            text.replace(text.find("[20, 9]"), 7, "[20, 1]");
+        }
+        const CaseFolder folder(text);
+        return read_case(folder.file(), {}).crushing_pressure;
+    };
+    CHECK(pressure("", 3) == kCrushingPressure);
+    CHECK(std::isinf(pressure("", 2)));
+    CHECK(std::isinf(pressure("crushing_pressure = inf\n", 3)));
+    CHECK(pressure("crushing_pressure = 2e5\n", 2) == 2e5);
+    CHECK(contains(explain_key(case_schema(), "contact.crushing_pressure"), "default 1e6"));
+}
+
+TEST_CASE("floes of a field are free unless stated, those of a grid held until the ship comes",
+          "[case]") {
+    const auto hold = [](const std::string& pattern, const std::string& line) {
+        std::string text = with("hold = \"always\"\n", line);
+        if (pattern == "file")
+            text.replace(text.find("spheres = \"floe"), 7, "pattern = \"file\"\nfile");
+        const CaseFolder folder(text);
+        return read_case(folder.file(), {}).floes[0].hold;
+    };
+    CHECK(hold("file", "") == Hold::never);
+    CHECK(hold("grid", "") == Hold::until_hull_contact);
+    CHECK(hold("file", "hold = \"until-contact\"\n") == Hold::until_contact);
+    CHECK(hold("file", "hold = \"until-hull-contact\"\n") == Hold::until_hull_contact);
+}

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/draft/draft_case.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "common/base/error.hpp"
+#include "common/formats/spheres_file.hpp"
+#include "solver/record/particulars.hpp"
+#include "solver/scene/build_scene.hpp"
+#include "solver/scene/ice_extent.hpp"
+#include "solver/step/check_course.hpp"
+
+namespace ice {
+
+namespace {
+
+constexpr double kWaterDensity = 1025.0;  // sea water [kg/m3]
+constexpr double kDraughtShare = 0.6;     // of the depth
+constexpr double kFroude = 0.0657;        // 4 kn at 100 m: V / sqrt(g L)
+constexpr double kLengths = 1.5;          // of travel
+constexpr double kStepShare = 0.2;        // of a sphere's radius
+constexpr double kFieldShare = 0.95;      // of the way through the field
+constexpr double kFewest = 0.1;           // lengths of travel that make a run
+
+// The number rounded to a count of digits.
+double rounded(double x, int digits) { return std::stod(fmt::format("{:.{}g}", x, digits)); }
+
+// Rounded down to 1, 2 or 5 of a decade.
+double round_step(double x) {
+    const double decade = std::pow(10.0, std::floor(std::log10(x)));
+    const double lead = x / decade * (1.0 + 1e-12);
+    return rounded(decade * (lead >= 5.0 ? 5.0 : lead >= 2.0 ? 2.0 : 1.0), 1);
+}
+
+Case first_case(const std::filesystem::path& hull, const std::filesystem::path& field) {
+    Case p;
+    p.file = "--new";
+    p.hull_spheres = hull;
+    p.water_density = kWaterDensity;
+    p.duration = 1.0;
+    p.speed_table = {{0.0, 1.0}};
+    p.floes.resize(2);
+    for (FloeGroup& group : p.floes) {
+        group.pattern = Pattern::file;
+        group.file = field;
+        group.hold = Hold::never;
+    }
+    p.floes[1].unbroken_part = true;
+    p.floes[1].hold = Hold::always;
+    return p;
+}
+
+double smallest_radius(const Scene& scene) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const Shape& shape : scene.shapes)
+        for (const double radius : shape.radius) least = std::min(least, radius);
+    return least;
+}
+
+// Draught from the mesh: its own water line, or a share of the depth.
+void guess_draught(const TriangleMesh& hull, Draft& draft) {
+    Eigen::AlignedBox3d box;
+    for (const Vec3& v : hull.vertices) box.extend(v);
+    const double keel = box.min().z(), depth = box.sizes().z();
+    draft.draught_from_mesh = -keel > 0.05 * depth && -keel < 0.95 * depth;
+    draft.draught = rounded(draft.draught_from_mesh ? -keel : kDraughtShare * depth, 3);
+}
+
+// Bow before the first ice, on the centre line of the loose floes.
+void place_ship(World& w, Draft& draft) {
+    Vec3& place = w.scene.bodies.position[kShip];
+    const Eigen::AlignedBox3d ship = box_of(w.scene, kShip);
+    const Eigen::AlignedBox2d ice = w.scene.start.loose;
+    place.y() += ice.center().y() - ship.center().y();
+    place.x() += ice.min().x() - ship.max().x() - ship.sizes().x();  // a length before it
+    const Course course = measure_course(w);
+    if (!std::isfinite(course.clearance))
+        throw bad_input("--new", "no ice of the field lies on the ship's way",
+                        "use a field whose thickness reaches the hull, on both sides of its line");
+    const double gap = 2.0 * w.scene.shapes[0].spacing;
+    draft.x = std::floor(100.0 * (place.x() + course.clearance - gap)) / 100.0;
+    const double step = rounded(0.01 * ship.sizes().y(), 1);  // no digits nobody means
+    draft.y = step * std::round(place.y() / step);
+    place.x() = draft.x;
+    place.y() = draft.y;
+}
+
+void plan_course(const World& w, Draft& draft) {
+    const ShipParticulars ship = measure_ship(w.scene, w.parameters);
+    if (!(ship.length > 0.0))
+        throw bad_input("--new", "the hull does not cross the water", "check its mesh");
+    const Course course = measure_course(w);
+    draft.length = ship.length;
+    draft.clearance = course.clearance;
+    const double room = kFieldShare * std::min(course.through, course.clearance_fixed);
+    const double travel = std::min(kLengths * ship.length + course.clearance, room);
+    if (travel < kFewest * ship.length)
+        throw bad_input("--new",
+                        fmt::format("the field has room for {:.3g} m of travel, {:.2g} of the "
+                                    "ship's {:.4g} m",
+                                    room, room / ship.length, ship.length),
+                        "use a field of 1.5 ship lengths or more (area.size)");
+    draft.speed = rounded(kFroude * std::sqrt(w.parameters.gravity * ship.length), 2);
+    draft.time_step = round_step(kStepShare * smallest_radius(w.scene) / draft.speed);
+    draft.duration = draft.time_step * std::ceil(travel / (draft.speed * draft.time_step));
+    draft.duration = rounded(draft.duration, 6);
+    const double averaged = std::min(ship.length, travel * 2.0 / 3.0);
+    draft.average_from = rounded(draft.duration - averaged / draft.speed, 3);
+    draft.lengths = draft.speed * draft.duration / ship.length;
+    draft.averaged_lengths = draft.speed * (draft.duration - draft.average_from) / ship.length;
+}
+
+}  // namespace
+
+Draft draft_case(const std::filesystem::path& hull, const std::filesystem::path& field) {
+    Draft draft;
+    guess_draught(read_spheres(hull).mesh, draft);
+    World world;
+    world.parameters = first_case(hull, field);
+    world.parameters.hull_draught = draft.draught;
+    world.scene = build_scene(world.parameters);
+    place_ship(world, draft);
+    plan_course(world, draft);
+    return draft;
+}
+
+}  // namespace ice

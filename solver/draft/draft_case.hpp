@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// A first case for a ship and an ice field: everything that follows from them, computed.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace ice {
+
+/// What a drafted case says that its files do not. SI.
+struct Draft {
+    double draught = 0.0;
+    bool draught_from_mesh = false;  ///< the mesh crosses z = 0, which is taken for its water line
+    double x = 0.0, y = 0.0;         ///< of the mesh's origin
+    double speed = 0.0, duration = 0.0, time_step = 0.0, average_from = 0.0;
+    double length = 0.0;            ///< of the waterline
+    double lengths = 0.0;           ///< travelled
+    double averaged_lengths = 0.0;  ///< of them averaged
+    double clearance = 0.0;         ///< between the bow and the first ice
+};
+
+/// Computes a case from its sphere sets.
+///
+/// - Draught: down to the keel from z = 0 where the mesh crosses it, else 0.6 of its depth.
+/// - Place: on the field's centre line, the bow two sphere spacings before the first ice.
+/// - Speed: 4 kn at 100 m, by Froude's rule, to two digits.
+/// - Travel: 1.5 lengths of the waterline, or what the field has room for; averages over the last
+///   length of it, or its last two thirds.
+/// - Time step: in it the ship goes a fifth of the smallest sphere's radius, rounded down to 1, 2 or
+///   5 of a decade.
+/// @throws Error (exit code 2) for a field that is too short to be entered, and what building a
+///         scene throws
+Draft draft_case(const std::filesystem::path& hull, const std::filesystem::path& field);
+
+/// The case file: commented TOML, guesses marked CHECK.
+/// @param hull, field  as the case names them, relative to its folder
+std::string draft_text(const Draft& draft, const std::string& hull, const std::string& field);
+
+/// Specification of a field for a ship where the user has none: floes of a twelfth of its length in
+/// a channel three times as broad as it, 80 % cover, a hundredth of the length thick.
+std::string draft_field(double length, double breadth);
+
+}  // namespace ice

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "solver/draft/draft_case.hpp"
+
+namespace ice {
+
+namespace {
+
+// A line with its comment in a column.
+std::string line(const std::string& assignment, const std::string& comment) {
+    return fmt::format("{:<30} # {}\n", assignment, comment);
+}
+
+// A TOML string.
+std::string quoted(const std::string& text) {
+    std::string out = "\"";
+    for (const char c : text) {
+        if (c == '"' || c == '\\') out += '\\';
+        out += c;
+    }
+    return out + "\"";
+}
+
+}  // namespace
+
+std::string draft_text(const Draft& d, const std::string& hull, const std::string& field) {
+    std::string out =
+        "# Drafted by icesolve --new: it runs as it is. Lines marked CHECK are guesses.\n"
+        "# icesolve --check CASE tells what it makes of the numbers, --explain KEY what a key "
+        "takes.\n";
+    out += fmt::format("title = {}\n", quoted(hull + " in " + field));
+    out += "\n[simulation]\ndimension = 3\n";
+    out += line(
+        fmt::format("duration = {:g}", d.duration),
+        fmt::format("s: {:.4g} m of travel, {:.2f} ship lengths", d.speed * d.duration, d.lengths));
+    out += line(fmt::format("time_step = {:g}", d.time_step),
+                "s: the ship goes a fifth of a sphere's radius, or less");
+    out += "\n[environment]\n" + line("water_density = 1025.0", "kg/m3: sea water");
+    out += fmt::format("\n[hull]\nspheres = {}\n", quoted(hull));
+    out += line(fmt::format("draught = {:g}", d.draught),
+                d.draught_from_mesh ? "m, CHECK: from the mesh's keel up to its z = 0"
+                                    : "m, CHECK: 0.6 of the depth");
+    out += line(fmt::format("position = [{:g}, {:g}]", d.x, d.y),
+                fmt::format("m: the bow {:.2g} m before the first ice", d.clearance));
+    out += line(fmt::format("speed = {:g}", d.speed),
+                fmt::format("m/s, CHECK: {:.2g} kn", d.speed / 0.514444));
+    out += "\n[ice]\n" + line("density = 900.0", "kg/m3, CHECK");
+    out += fmt::format("\n[[floes]]\npattern = \"file\"\nfile = {}\n", quoted(field));
+    out +=
+        line("hold = \"never\"", "broken ice; \"until-hull-contact\" where the bow breaks it off");
+    out += "\n[contact]\n" + line("friction_ship_ice = 0.1", "CHECK: 0.05 new paint, 0.2 old");
+    out += line("friction_ice_ice = 0.3", "CHECK");
+    out += line("crushing_pressure = \"1 MPa\"", "CHECK: 0.5 to 3 MPa");
+    out += "\n[output]\n";
+    out += line(fmt::format("average_from = {:g}", d.average_from),
+                fmt::format("s: forces are averaged over the last {:.2f} ship lengths",
+                            d.averaged_lengths));
+    out += line(fmt::format("frames_every = {:.1g}", std::max(d.time_step, d.duration / 200.0)),
+                "s between stored poses");
+    return out;
+}
+
+std::string draft_field(double length, double breadth) {
+    return fmt::format(
+        "# Drafted by icesolve --new: broken ice for a ship of {:.3g} x {:.3g} m. CHECK all of "
+        "it.\n"
+        "pattern = \"voronoi\"\n"
+        "[ice]\nthickness = {:.2g}\n"
+        "[spheres]\nradius = {:.2g}\nspacing = {:.2g}\n"
+        "[area]\nsize = [{:.3g}, {:.3g}]\n"
+        "[floes]\nconcentration = 0.8\nmean_size = {:.2g}\n"
+        "[edges]\nbreadth = {:.2g}\npiece = {:.2g}\noverhang = [{:.3g}, 0]\n",
+        length, breadth, 0.01 * length, 0.0025 * length, 0.0075 * length, 2.0 * length,
+        3.0 * breadth, length / 12.0, 0.1 * length, 0.3 * length, length);
+}
+
+}  // namespace ice

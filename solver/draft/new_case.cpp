@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/draft/new_case.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "common/base/error.hpp"
+#include "common/base/part_file.hpp"
+#include "common/cli/console.hpp"
+#include "common/cli/sibling_program.hpp"
+#include "common/formats/spheres_file.hpp"
+#include "common/formats/summary_file.hpp"
+#include "solver/draft/draft_case.hpp"
+
+namespace ice {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kSpheres = 12000.0;  // on a hull
+constexpr double kSpacing = 1.4;      // in radii
+
+void refuse_existing(const fs::path& file, const std::string& remedy) {
+    if (fs::exists(file)) throw bad_input(file.string(), "exists already", remedy);
+}
+
+void require_file(const fs::path& file, const std::string& what) {
+    if (!fs::is_regular_file(file))
+        throw bad_input(file.string(), what + " not found", "check the path");
+}
+
+void run_program_beside(const std::string& name, const std::vector<std::string>& words) {
+    const auto code = run_sibling(name, words);
+    if (!code)
+        throw run_failed("--new", name + " does not lie beside icesolve", "make its file yourself");
+    if (*code == 2) throw bad_input("--new", name + " did not take its input", "see above");
+    if (*code != 0)
+        throw run_failed("--new", fmt::format("{} ended with code {}", name, *code), "see above");
+}
+
+// The mesh as spheres that some 12000 of cover it: the area decides.
+fs::path make_spheres(const fs::path& mesh, const fs::path& folder) {
+    const fs::path out = folder / (mesh.stem().string() + ".spheres.h5");
+    refuse_existing(out, "give it in place of the mesh, or remove it");
+    const fs::path report = folder / (mesh.stem().string() + ".json.part");
+    run_program_beside("spherize", {mesh.string(), "--check", "-q", "--json", report.string()});
+    const double area = read_json_numbers(report).at("area_m2");
+    fs::remove(report);
+    const double spacing = std::stod(fmt::format("{:.2g}", std::sqrt(1.155 * area / kSpheres)));
+    run_program_beside("spherize",
+                       {mesh.string(), "-q", "-r", fmt::format("{:.2g}", spacing / kSpacing), "-s",
+                        fmt::format("{:g}", spacing), "--mode", "surface", "-o", out.string()});
+    say(fmt::format("wrote {}", out.string()));
+    return out;
+}
+
+fs::path make_field_file(const fs::path& specification, const fs::path& folder) {
+    const fs::path out = folder / (specification.stem().string() + ".h5");
+    refuse_existing(out, "give it in place of the specification, or remove it");
+    run_program_beside("icefield", {specification.string(), "-q", "-o", out.string()});
+    say(fmt::format("wrote {}", out.string()));
+    return out;
+}
+
+fs::path make_specification(const fs::path& hull, const fs::path& folder) {
+    const fs::path out = folder / "ice.toml";
+    refuse_existing(out, "give it behind the hull, or remove it");
+    Eigen::AlignedBox3d box;
+    for (const Vec3& v : read_spheres(hull).mesh.vertices) box.extend(v);
+    write_text_file(out, draft_field(box.sizes().x(), box.sizes().y()));
+    say(fmt::format("wrote {}", out.string()));
+    return out;
+}
+
+// A file as a case in `folder` names it.
+std::string seen_from(const fs::path& folder, const fs::path& file) {
+    return fs::absolute(file).lexically_normal().lexically_relative(folder).string();
+}
+
+}  // namespace
+
+fs::path write_new_case(const NewCase& wish) {
+    require_file(wish.hull, "hull");
+    if (!wish.field.empty()) require_file(wish.field, "field");
+    std::string stem = wish.hull.stem().string();
+    if (stem.ends_with(".spheres")) stem.resize(stem.size() - sizeof(".spheres") + 1);
+    const fs::path out = wish.out.empty() ? fs::path(stem + ".cfg") : wish.out;
+    refuse_existing(out, "give another name with -o, or remove it");
+    const fs::path folder = fs::absolute(out).lexically_normal().parent_path();
+
+    const fs::path hull =
+        wish.hull.extension() == ".h5" ? wish.hull : make_spheres(wish.hull, folder);
+    fs::path field = wish.field.empty() ? make_specification(hull, folder) : wish.field;
+    if (field.extension() == ".toml") field = make_field_file(field, folder);
+    const Draft draft = draft_case(hull, field);
+    write_text_file(out, draft_text(draft, seen_from(folder, hull), seen_from(folder, field)));
+    if (draft.averaged_lengths < 0.95)
+        say_warning(fmt::format(
+            "the field is short: forces are averaged over {:.2f} ship lengths; area.size of {:.3g} "
+            "m along x makes it one",
+            draft.averaged_lengths, 1.6 * draft.length));
+    return out;
+}
+
+}  // namespace ice

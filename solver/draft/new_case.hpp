@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+
+namespace ice {
+
+/// What `icesolve --new HULL [FIELD] [-o CASE]` is given.
+struct NewCase {
+    std::filesystem::path hull;   ///< a mesh, or a sphere set (.h5)
+    std::filesystem::path field;  ///< a field (.h5), a specification (.toml), or empty
+    std::filesystem::path out;    ///< the case; empty: named after the hull, in the working folder
+};
+
+/// Writes a case for a hull and an ice field, and beside it what they lack: a mesh becomes a sphere
+/// set (by spherize, of some 12000 spheres), a specification a field (by icefield), no field one for
+/// a ship of this size.
+/// @return the case file
+/// @throws Error (exit code 2) where one of those files exists, or the two do not make a case;
+///         (1) where a program fails or a file cannot be written
+std::filesystem::path write_new_case(const NewCase& wish);
+
+}  // namespace ice

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/record/open_end.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "solver/scene/ice_extent.hpp"
+
+namespace ice {
+
+namespace {
+
+constexpr double kOut = 0.1;  // of a floe's length: less is jitter, or neighbours that settle
+
+}  // namespace
+
+std::optional<Warning> warn_of_open_end(const Scene& scene, const Case& parameters) {
+    const IceAtStart& start = scene.start;
+    if (!start.walls || start.closed) return std::nullopt;
+    const double end = start.loose.max().x(), bow = box_of(scene, kShip).max().x();
+    int count = 0;
+    double farthest = 0.0;
+    for (const std::int32_t floe : scene.bodies.moving) {
+        const auto i = static_cast<std::size_t>(floe);
+        if (is_unbroken(scene, parameters, i) || scene.bodies.position[i].x() < bow) continue;
+        const Eigen::AlignedBox3d box = box_of(scene, i);
+        const double out = box.max().x() - end;
+        if (out <= kOut * box.sizes().x()) continue;
+        ++count;
+        farthest = std::max(farthest, out);
+    }
+    if (count == 0) return std::nullopt;
+    return Warning{
+        fmt::format("the ship pushed {} floe{} out of the channel's open far end at x = {:.4g} m, "
+                    "the farthest by {:.3g} m: ice that gives way ahead lowers the resistance, by "
+                    "almost half in a pre-sawn channel; close the end (edges.ahead of the field's "
+                    "specification), or hold floes \"until-hull-contact\"",
+                    count, count == 1 ? "" : "s", end, farthest),
+        true};
+}
+
+}  // namespace ice
