@@ -82,8 +82,9 @@ void declare(CLI::App& app, Options& o) {
     auto* check = app.add_flag("--check", o.check,
                                "Read and build everything, run nothing: ship, ice, course, "
                                "clearance and spheres in numbers");
-    app.add_option("--picture", o.picture, "With --check: draw the start from the side")
-        ->type_name("FILE.svg")
+    app.add_option("--picture", o.picture,
+                   "With --check: draw the start from the side (.svg, .png or .pdf)")
+        ->type_name("FILE")
         ->needs(check);
     auto* fresh = app.add_option("--new", o.fresh,
                                  "Write a commented case for a hull (mesh or sphere set) and an "

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include "common/base/error.hpp"
+#include "common/cli/picture_file.hpp"
 #include "common/cli/sibling_program.hpp"
 #include "solver/record/recorder.hpp"
 
@@ -38,9 +39,7 @@ private:
 }  // namespace
 
 void draw_start(const World& w, const fs::path& picture) {
-    if (picture.extension() != ".svg")
-        throw bad_input("--picture", picture.string() + " is no name of an SVG file",
-                        "end it in .svg");
+    check_picture_name(picture);
     const ScratchFolder folder;
     Recorder recorder(w.parameters, w.scene);
     recorder.open(folder.path(), "icesolve --check", w.scene);

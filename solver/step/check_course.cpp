@@ -40,23 +40,29 @@ public:
         }
     }
 
-    // How far the ship goes until it meets a sphere; infinite where that is not in its way.
+    // How far the ship goes until it meets the cube around a sphere, in whose corners the edges and
+    // corners of its floe lie; infinite where that is not in its way.
     double distance_to(const Vec3& centre, double radius) const {
-        const double y = (centre.y() - low_.y()) / cell_, z = (centre.z() - low_.z()) / cell_;
-        if (y < -1.0 || z < -1.0 || y > static_cast<double>(columns_) + 1.0 ||
-            z > static_cast<double>(rows_) + 1.0)
-            return kNever;
-        const double column = std::floor(y), row = std::floor(z);
+        double least = kNever;
+        for (int k = 0; k < 9; ++k)
+            least = std::min(
+                least, distance_to_point(centre + radius * Vec3(-way_, k % 3 - 1, k / 3 - 1)));
+        return least;
+    }
+
+private:
+    double distance_to_point(const Vec3& p) const {
+        const double column = std::floor((p.y() - low_.y()) / cell_);
+        const double row = std::floor((p.z() - low_.z()) / cell_);
         double x = foremost(column, row);
         // a cell without a sphere among others: its neighbours tell
         for (int k = 0; x == -kNever && k < 9; ++k)
             x = std::max(x, foremost(column + k % 3 - 1, row + k / 3 - 1));
-        const double distance = way_ * centre.x() - radius - x;
+        const double distance = way_ * p.x() - x;
         // beside or behind the ship, whose bodies do not overlap the ice: passed already
         return distance < -2.0 * cell_ ? kNever : std::max(distance, 0.0);
     }
 
-private:
     // -infinity outside the section
     double foremost(double column, double row) const {
         if (column < 0 || row < 0 || column >= static_cast<double>(columns_) ||

@@ -25,14 +25,14 @@ TEST_CASE("icefield makes a field, a report and a picture", "[cli]") {
     const Result r = w.run("icefield channel.toml --json field.json --preview field.svg");
     CAPTURE(r.err);
     CHECK(r.code == 0);
-    CHECK_THAT(r.out, Catch::Contains("9 of 2 shapes, and 4 pieces of unbroken ice"));
+    CHECK_THAT(r.out, Catch::Contains("9 of 3 shapes, and 5 pieces of unbroken ice"));
     const Field field = read_field(w / "channel.h5");
-    CHECK(field.floes.size() == 13);
+    CHECK(field.floes.size() == 14);
     CHECK_THAT(field.command_line, Catch::Contains("--preview field.svg"));
     CHECK_THAT(field.created_by, Catch::StartsWith("icefield "));
     const auto json = read_json_numbers(w / "field.json");
     CHECK(json.at("floes") == 9);
-    CHECK(json.at("unbroken_pieces") == 4);
+    CHECK(json.at("unbroken_pieces") == 5);
     CHECK(json.at("concentration") == Approx(9 * 0.8 / (3.2 * 2.6)));
     const std::string svg = slurp(w / "field.svg");
     std::size_t paths = 0;
@@ -88,7 +88,7 @@ TEST_CASE("icesolve runs a field: loose floes move, unbroken ice stays", "[cli]"
     CAPTURE(r.err);
     REQUIRE(r.code == 0);
     const auto summary = read_json_numbers(w / "run" / "summary.json");
-    CHECK(summary.at("floes.total") == 13);
+    CHECK(summary.at("floes.total") == 14);
     CHECK(summary.at("floes.moved") >= 1);
     CHECK(summary.at("floes.moved") <= 9);  // not the edges
 }

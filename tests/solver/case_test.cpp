@@ -323,7 +323,8 @@ TEST_CASE("a hull is placed by its draught or by z, and never by both", "[case][
     CHECK(read("position = [-3, 1, -0.5]", {"hull.draught=2"}).hull_draught == 2.0);
     CHECK(read("draught = 2", {"hull.position=[0, 0, -3]"}).hull_position.z() == -3.0);
     // what is resolved is a case again
-    const CaseFolder again(read("draught = 2").resolved);
+    const CaseFolder first(hull("draught = 2"));
+    const CaseFolder again(read_case(first.file(), {}).resolved);
     CHECK(read_case(again.file(), {}).hull_draught == 2.0);
 }
 
