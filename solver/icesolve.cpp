@@ -194,35 +194,37 @@ ice::Summary run_or_tell(ice::World& world, const ice::RunOptions& options, cons
     }
 }
 
+void say_warnings(const std::vector<ice::Warning>& warnings) {
+    for (const ice::Warning& warning : warnings) ice::say_warning(ice::with_verdict(warning));
+}
+
+// All that --check does.
+int describe(const Options& o, const ice::World& world, const std::vector<ice::Warning>& warnings) {
+    say_warnings(warnings);
+    ice::say(fmt::format("{}: {}, {} floes\n{}", o.case_file,
+                         warnings.empty() ? "good" : "runs, with warnings",
+                         world.scene.bodies.size() - 1, ice::describe_case(world)));
+    if (o.picture.empty()) return 0;
+    ice::draw_start(world, o.picture);
+    ice::say(fmt::format("wrote {}", o.picture));
+    return 0;
+}
+
 int run_case(const Options& o, const std::string& command_line) {
     ice::set_thread_count(o.threads);
     ice::start_threads();
     ice::set_instruction_set(o.simd);
     const ice::Case parameters = ice::read_case(o.case_file, o.overrides);
     ice::World world = ice::build_world(parameters);
+    const std::vector<ice::Warning> course = ice::check_course(world);  // before the ice moves
     std::optional<ice::SavedRun> saved;
     if (!o.restart.empty()) saved.emplace(ice::read_checkpoint(o.restart, world));
     ice::SavedRun* going_on = saved ? &*saved : nullptr;
     std::vector<ice::Warning> warnings;
-    if (!saved) {
-        warnings = ice::check_start(world, o.allow_overlap);
-        const auto course = ice::check_course(world);
-        warnings.insert(warnings.end(), course.begin(), course.end());
-    }
-    const auto say_warnings = [&] {
-        for (const ice::Warning& warning : warnings) ice::say_warning(ice::with_verdict(warning));
-    };
-    if (o.check) {
-        say_warnings();
-        ice::say(fmt::format("{}: {}, {} floes\n{}", o.case_file,
-                             warnings.empty() ? "good" : "runs, with warnings",
-                             world.scene.bodies.size() - 1, ice::describe_case(world)));
-        if (!o.picture.empty()) {
-            ice::draw_start(world, o.picture);
-            ice::say(fmt::format("wrote {}", o.picture));
-        }
-        return 0;
-    }
+    if (!saved) warnings = ice::check_start(world, o.allow_overlap);
+    const std::vector<ice::Warning> of_start = warnings;
+    warnings.insert(warnings.end(), course.begin(), course.end());
+    if (o.check) return describe(o, world, warnings);
     const ice::RunFolder claimed(
         folder_of_run(o), may_exist(o, folder_of_run(o)),
         {ice::typed_program() + command_line.substr(command_line.find(' ')) + " --overwrite",
@@ -230,7 +232,7 @@ int run_case(const Options& o, const std::string& command_line) {
     const std::filesystem::path& folder = claimed.path();
     ice::log_to_file(folder / "run.log", going_on != nullptr);
     ice::say(fmt::format("icesolve {} ({}): {}", ice::version(), ice::git_commit(), command_line));
-    say_warnings();
+    say_warnings(warnings);
     ice::catch_interrupts();
     ice::Progress progress("icesolve", o.messages.quiet);
     const ice::Timer timer;
@@ -243,7 +245,8 @@ int run_case(const Options& o, const std::string& command_line) {
         return !ice::interrupted();
     };
     const ice::Summary summary = run_or_tell(
-        world, {folder, command_line, o.checkpoint_every, going_on, warnings, o.verify, watch}, o);
+        world,
+        {folder, command_line, o.checkpoint_every, going_on, of_start, o.verify, watch, course}, o);
     progress.finish();
     const double speed =
         parameters.ship_speed(0.5 * (parameters.average_from + parameters.duration));

@@ -15,11 +15,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// mkdtemp() wants six of them at the end
+const std::string kScratchName = "icesolve-" + std::string(6, 'X');
+
 // A folder of its own that goes with the object.
 class ScratchFolder {
 public:
     ScratchFolder() {
-        std::string name = (fs::temp_directory_path() / "icesolve-XXXXXX").string();
+        std::string name = (fs::temp_directory_path() / kScratchName).string();
         if (mkdtemp(name.data()) == nullptr)
             throw run_failed(name, "cannot be created", "check the temporary folder (TMPDIR)");
         path_ = name;

@@ -13,8 +13,8 @@ struct NewCase {
 };
 
 /// Writes a case for a hull and an ice field, and beside it what they lack: a mesh becomes a sphere
-/// set (by spherize, of some 12000 spheres), a specification a field (by icefield), no field one for
-/// a ship of this size.
+/// set (by spherize, of some 12000 spheres), a specification a field (by icefield), no field one
+/// for a ship of this size.
 /// @return the case file
 /// @throws Error (exit code 2) where one of those files exists, or the two do not make a case;
 ///         (1) where a program fails or a file cannot be written

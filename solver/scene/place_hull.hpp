@@ -8,8 +8,8 @@ namespace ice {
 /// World position of the hull's origin at t = 0 [m], from hull.draught or hull.position.
 ///
 /// The draught is measured from the mesh's lowest point, wherever its origin is.
-/// @throws Error (exit code 2) with the numbers where no ship floats so: a draught that is not above
-///         0, or a hull wholly under water
+/// @throws Error (exit code 2) with the numbers where no ship floats so: a draught that is not
+///         above 0, or a hull wholly under water
 Vec3 place_hull(const Case& parameters, const TriangleMesh& hull);
 
 }  // namespace ice

@@ -21,9 +21,9 @@ struct Course {
     double leaves_at = 0.0;        ///< when its foremost point is beyond all loose floes [s]
 };
 
-/// Measures the course from the contact spheres: ice lies in the way where the hull's cross section,
-/// in cells of one sphere spacing, passes over it. Distances are right to about a spacing. Loose
-/// floes beyond which the ship "leaves" are those within its breadth.
+/// Measures the course from the contact spheres: ice lies in the way where the hull's cross
+/// section, in cells of one sphere spacing, passes over it. Distances are right to about a spacing.
+/// Loose floes beyond which the ship "leaves" are those within its breadth.
 Course measure_course(const World& world);
 
 /// Warns of a ship that never meets the ice, meets it after the averages began, leaves it before

@@ -225,6 +225,8 @@ Summary run(World& world, const RunOptions& options) {
         start(job);
     summary.warnings.insert(summary.warnings.end(), job.progress.warnings.begin(),
                             job.progress.warnings.end());
+    summary.warnings.insert(summary.warnings.end(), options.course_warnings.begin(),
+                            options.course_warnings.end());
     try {
         advance(job);
         write_summary(world, options, job.wall_seconds(), job.recorder, summary);

@@ -26,6 +26,8 @@ struct RunOptions {
     std::function<bool(double, const World&)> keep_going = [](double, const World&) {
         return true;
     };
+    /// Of check_course(), for the summary: of this duration, so that no checkpoint carries them.
+    std::vector<Warning> course_warnings = {};
 };
 
 /// A case made ready: sphere sets read, floes placed.
