@@ -128,7 +128,8 @@ TEST_CASE("channels of every pattern are closed ahead unless the specification s
     CHECK(field_plan(pattern + edges).fixed == closed.fixed);  // the same every time
 }
 
-TEST_CASE("a closed end without sides is refused, and without edges there is none", "[field][errors]") {
+TEST_CASE("a closed end without sides is refused, and without edges there is none",
+          "[field][errors]") {
     const std::string grid = "pattern = \"grid\"\n" + kIce + kGrid;
     CHECK(field_plan(grid).fixed.empty());
     CHECK_THROWS_WITH(field_plan(grid + "[edges]\nahead = 2\n"),
