@@ -48,12 +48,12 @@ std::string release_rule(const Summary& s) {
 
 Rows ship_rows(const Summary& s) {
     Rows rows;
-    add(rows, "Length on the waterline, L", fixed(s.ship.length, 2, "m"));
-    if (s.dimension == 3) add(rows, "Breadth on the waterline, B", fixed(s.ship.breadth, 2, "m"));
+    add(rows, "Length, L", fixed(s.ship.length, 2, "m"));
+    if (s.dimension == 3) add(rows, "Breadth, B", fixed(s.ship.breadth, 2, "m"));
     add(rows, "Draught, T", fixed(s.ship.draught, 2, "m"));
     add(rows, "Displacement", fixed(1e-3 * s.ship.displacement, 1, "t"));
-    add(rows, "Stem angle from the horizontal", fixed(s.ship.stem_angle_deg, 1, "°"));
-    add(rows, "Half angle of entrance", fixed(s.ship.entrance_angle_deg, 1, "°"));
+    add(rows, "Stem angle", fixed(s.ship.stem_angle_deg, 1, "°"));
+    add(rows, "Entrance, half angle", fixed(s.ship.entrance_angle_deg, 1, "°"));
     return rows;
 }
 
@@ -63,7 +63,7 @@ Rows ice_rows(const Summary& s) {
     add(rows, "Thickness", fixed(ice.thickness, 3, "m"));
     if (std::isfinite(ice.floe_size_mean)) {
         const bool alike = ice.floe_size_max - ice.floe_size_min < 0.005;
-        add(rows, s.dimension == 2 ? "Lengths of floes" : "Sizes of floes (circles of their areas)",
+        add(rows, s.dimension == 2 ? "Lengths of floes" : "Diameters of floes",
             alike ? fixed(ice.floe_size_mean, 2, "m")
                   : fmt::format("{:.2f} m, {:.2f} to {:.2f} m", ice.floe_size_mean,
                                 ice.floe_size_min, ice.floe_size_max));
@@ -73,31 +73,29 @@ Rows ice_rows(const Summary& s) {
         add(rows, "Concentration", fmt::format("{:.0f} %", 100.0 * ice.concentration));
     add(rows, "Density", fixed(ice.density, 0, "kg/m³"));
     if (std::isfinite(ice.friction_ship_ice))
-        add(rows, "Friction, ship on ice; ice on ice",
+        add(rows, "Friction on ship; ice",
             readable(ice.friction_ship_ice) + "; " + readable(ice.friction_ice_ice));
     if (std::isfinite(ice.density))
         add(rows, "Crushing pressure",
             std::isfinite(ice.crushing_pressure) ? readable(1e-6 * ice.crushing_pressure) + " MPa"
                                                  : "none: rigid ice");
-    add(rows, "Floes are held", release_rule(s));
+    add(rows, "Held", release_rule(s));
     return rows;
 }
 
 Rows travel_rows(const Summary& s, double speed) {
     Rows rows;
-    add(rows, "Speed, mean over the averaged time", speed_text(speed));
+    add(rows, "Mean speed", speed_text(speed));
     add(rows, "Simulated", readable(s.simulated_s) + " s");
     add(rows, "Averaged",
         fmt::format("{} to {} s", readable(s.average_from), readable(s.simulated_s)));
     if (std::isfinite(s.travel.distance))
         add(rows, "Travelled",
             fixed(s.travel.distance, 1, "m") +
-                (std::isfinite(s.travel.lengths)
-                     ? fmt::format(" = {:.2f} lengths of the ship", s.travel.lengths)
-                     : ""));
+                (std::isfinite(s.travel.lengths) ? fmt::format(", {:.2f} lengths", s.travel.lengths)
+                                                 : ""));
     if (std::isfinite(s.travel.averaged_lengths))
-        add(rows, "Averaged over",
-            fmt::format("{:.2f} lengths of the ship", s.travel.averaged_lengths));
+        add(rows, "Averaged over", fmt::format("{:.2f} lengths", s.travel.averaged_lengths));
     add(rows, "Floes moved", fmt::format("{} of {}", s.floes_moved, s.floes_total));
     return rows;
 }
@@ -148,7 +146,9 @@ std::string particulars_section(const Summary& s, double speed) {
     std::string body;
     for (const auto& [heading, rows] : parts)
         if (!rows.empty()) body += "<div>" + column(heading, rows) + "</div>\n";
-    return section("particulars", "Ship, ice and run", "",
+    return section("particulars", "Ship, ice and run",
+                   "L and B on the waterline, stem angle from the horizontal, floes as circles of "
+                   "their areas, travel in lengths of the ship.",
                    "<div class=\"figures\">\n" + body + "</div>\n");
 }
 
