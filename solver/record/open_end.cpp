@@ -11,11 +11,12 @@ namespace ice {
 
 namespace {
 
-constexpr double kOut = 0.1;  // of a floe's length: less is jitter, or neighbours that settle
+constexpr double kOut = 0.1;       // of a floe's length: less is jitter, or neighbours that settle
+constexpr double kWithShip = 0.1;  // of the ship's way
 
 }  // namespace
 
-std::optional<Warning> warn_of_open_end(const Scene& scene, const Case& parameters) {
+std::optional<Warning> warn_of_open_end(const Scene& scene, const Case& parameters, double travel) {
     const IceAtStart& start = scene.start;
     if (!start.walls || start.closed) return std::nullopt;
     const double end = start.loose.max().x(), bow = box_of(scene, kShip).max().x();
@@ -30,13 +31,14 @@ std::optional<Warning> warn_of_open_end(const Scene& scene, const Case& paramete
         ++count;
         farthest = std::max(farthest, out);
     }
-    if (count == 0) return std::nullopt;
+    if (count == 0 || farthest < kWithShip * travel) return std::nullopt;
     return Warning{
         fmt::format("the ship pushed {} floe{} out of the channel's open far end at x = {:.4g} m, "
-                    "the farthest by {:.3g} m: ice that gives way ahead lowers the resistance, by "
+                    "the farthest by {:.3g} m while it went {:.3g} m: ice that gives way ahead "
+                    "lowers the resistance, by "
                     "almost half in a pre-sawn channel; close the end (edges.ahead of the field's "
                     "specification), or hold floes \"until-hull-contact\"",
-                    count, count == 1 ? "" : "s", end, farthest),
+                    count, count == 1 ? "" : "s", end, farthest, travel),
         true};
 }
 

@@ -72,7 +72,7 @@ void write_summary(const World& w, const RunOptions& options, double wall_second
                    Recorder& recorder, Summary& summary) {
     recorder.finish(view_of(w), summary);
     fill_particulars(w.scene, w.parameters, w.time, summary);
-    if (auto warning = warn_of_open_end(w.scene, w.parameters))
+    if (auto warning = warn_of_open_end(w.scene, w.parameters, summary.travel.distance))
         summary.warnings.push_back(*warning);
     fill_run(w, wall_seconds, summary);
     write_text_file(options.folder / "summary.json", summary_text(summary));

@@ -181,25 +181,27 @@ TEST_CASE("floes pushed out of a channel's open end are warned of, with count an
     for (const double y : {-1.2, 1.2}) add_unbroken(w, Vec3(10, y, -0.1));
     list_moving(w.scene.bodies);
     w.scene.start = find_ice_at_start(w.scene, w.parameters);
-    CHECK_FALSE(warn_of_open_end(w.scene, w.parameters));
+    CHECK_FALSE(warn_of_open_end(w.scene, w.parameters, 10.0));
     w.scene.bodies.position[10].x() += 0.09;  // settled: less than a tenth of a floe
-    CHECK_FALSE(warn_of_open_end(w.scene, w.parameters));
+    CHECK_FALSE(warn_of_open_end(w.scene, w.parameters, 10.0));
     w.scene.bodies.position[10].x() += 2.0;
     w.scene.bodies.position[9].x() += 1.5;
-    const auto warning = warn_of_open_end(w.scene, w.parameters);
+    const auto warning = warn_of_open_end(w.scene, w.parameters, 10.0);
     REQUIRE(warning);
     CHECK(warning->affects_mean == true);
-    CHECK_THAT(warning->text, Catch::Contains("pushed 2 floes out") &&
-                                  Catch::Contains("x = 15.5 m, the farthest by 2.09 m") &&
-                                  Catch::Contains("edges.ahead"));
+    CHECK_THAT(warning->text,
+               Catch::Contains("pushed 2 floes out") &&
+                   Catch::Contains("x = 15.5 m, the farthest by 2.09 m while it went 10 m") &&
+                   Catch::Contains("edges.ahead"));
+    CHECK_FALSE(warn_of_open_end(w.scene, w.parameters, 30.0));  // they only spread
     // behind the bow they have only let the ship pass
     w.scene.bodies.position[kShip].x() += 15.0;
-    CHECK_FALSE(warn_of_open_end(w.scene, w.parameters));
+    CHECK_FALSE(warn_of_open_end(w.scene, w.parameters, 10.0));
     w.scene.bodies.position[kShip].x() -= 15.0;
     w.scene.start.closed = true;
-    CHECK_FALSE(warn_of_open_end(w.scene, w.parameters));
+    CHECK_FALSE(warn_of_open_end(w.scene, w.parameters, 10.0));
     w.scene.start.closed = w.scene.start.walls = false;
-    CHECK_FALSE(warn_of_open_end(w.scene, w.parameters));
+    CHECK_FALSE(warn_of_open_end(w.scene, w.parameters, 10.0));
 }
 
 TEST_CASE("a case described names draught, displacement, travel, clearance and spheres", "[step]") {
