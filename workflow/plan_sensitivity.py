@@ -91,12 +91,19 @@ class StudyPlanner(Planner):
         if key in self.constant:
             return self.constant[key]
         if key.startswith("field."):
-            return self.specification().get(key[len("field."):])
+            return self.field_value(key[len("field."):])
         if key.endswith(".spherize"):
             recipe = self.recipe_of(key[:-len("spherize")] + "spheres")
             return " ".join(recipe.options) if recipe else None
         value = self.case_value(key) if key.count(".") else None
         return self.default_value(key) if value is None else value
+
+    def field_value(self, key):
+        """What the specification has; a channel's far end is closed as broadly as its sides."""
+        specification = self.specification()
+        if key == "edges.ahead" and key not in specification:
+            return specification.get("edges.breadth")
+        return specification.get(key)
 
     def default_value(self, key):
         """What icesolve takes for a key that the case does not give (solver/case/read_case.cpp)."""

@@ -134,8 +134,10 @@ private:
         const std::size_t least = key.kind == Kind::place ? key.length - 1 : key.length;
         if (!list || (!any_length && (list->size() < least || list->size() > key.length))) {
             complain(node.source(),
-                     any_length
-                         ? fmt::format("{} must be a list", key.path)
+                     any_length ? fmt::format("{} must be a list", key.path)
+                     : least < key.length
+                         ? fmt::format("{} must be a list of {} or {} numbers", key.path, least,
+                                       key.length)
                          : fmt::format("{} must be a list of {} numbers", key.path, key.length),
                      1);
             return false;

@@ -97,8 +97,9 @@ Recorder::Recorder(const Case& parameters, const Scene& scene)
       tally_({scene.shapes[0].region_names, parameters.average_from,
               std::isinf(parameters.crushing_pressure), worrying_overlap(scene),
               tunnelling_speed(scene, parameters.time_step)}),
-      panel_loads_(divide_hull(scene.shapes[0], panel_size(scene), -parameters.hull_position.z()),
-                   scene.shapes[0].region_names, parameters.average_from, parameters.time_step),
+      panel_loads_(
+          divide_hull(scene.shapes[0], panel_size(scene), -scene.bodies.position[kShip].z()),
+          scene.shapes[0].region_names, parameters.average_from, parameters.time_step),
       track_of_(scene.bodies.size(), -1),
       tracked_(parameters.track.size()),
       row_regions_(scene.shapes[0].region_names.size()),

@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "common/base/error.hpp"
 
@@ -13,18 +15,28 @@ namespace {
 
 constexpr double kLeast = 1e-6;  // of the depth: what rounding of a mesh makes of a draught of 0
 
+// z of the lowest and the highest vertex
+std::pair<double, double> heights_of(const TriangleMesh& mesh) {
+    const auto [low, high] =
+        std::minmax_element(mesh.vertices.begin(), mesh.vertices.end(),
+                            [](const Vec3& a, const Vec3& b) { return a.z() < b.z(); });
+    return {low->z(), high->z()};
+}
+
 }  // namespace
 
+Vec3 hull_place(const Case& parameters, const TriangleMesh& hull) {
+    Vec3 place = parameters.hull_position;
+    if (!std::isnan(parameters.hull_draught))
+        place.z() = -heights_of(hull).first - parameters.hull_draught;
+    return place;
+}
+
 Vec3 place_hull(const Case& parameters, const TriangleMesh& hull) {
-    double keel = hull.vertices.front().z(), top = keel;
-    for (const Vec3& v : hull.vertices) {
-        keel = std::min(keel, v.z());
-        top = std::max(top, v.z());
-    }
+    const auto [keel, top] = heights_of(hull);
     const double depth = top - keel;
     const bool by_draught = !std::isnan(parameters.hull_draught);
-    Vec3 place = parameters.hull_position;
-    if (by_draught) place.z() = -keel - parameters.hull_draught;
+    const Vec3 place = hull_place(parameters, hull);
     const double draught = by_draught ? parameters.hull_draught : 0.0 - (place.z() + keel);
     if (draught > kLeast * depth && draught < depth) return place;
 

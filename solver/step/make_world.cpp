@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "common/base/error.hpp"
 #include "solver/scene/build_scene.hpp"
+#include "solver/scene/place_hull.hpp"
 #include "solver/water/hydrostatics.hpp"
 
 namespace ice {
@@ -60,8 +62,10 @@ World make_world(const Case& parameters, const SphereSet& hull) {
     world.parameters = parameters;
     world.parameters.floes.clear();
     if (world.parameters.speed_table.empty()) world.parameters.speed_table = {{0.0, 0.0}};
-    world.scene = make_scene(build_shape(hull, false), parameters.hull_position,
-                             Vec3(world.parameters.ship_speed(0.0), 0.0, 0.0));
+    Shape shape = build_shape(hull, false);
+    const Vec3 place = hull_place(parameters, shape.mesh);
+    world.scene =
+        make_scene(std::move(shape), place, Vec3(world.parameters.ship_speed(0.0), 0.0, 0.0));
     return world;
 }
 

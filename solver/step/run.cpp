@@ -150,12 +150,16 @@ void stop_for_room(Job& job) {
 }
 
 // False when the rows of run.h5 and the checkpoint no longer fit; the older checkpoint is whole.
+// @throws Error when they cannot be written for another reason, which it names
 bool could_save(Job& job) {
+    if (job.room.is_short(job.recorder, job.world, true)) return false;
     try {
         save(job);
         return true;
     } catch (const Error&) {
-        return false;
+        // somebody else may have taken the room meanwhile
+        if (job.room.is_short(job.recorder, job.world, true)) return false;
+        throw;
     }
 }
 
@@ -178,8 +182,7 @@ void advance(Job& job) {
             step(w);
         check_finite(w);
         job.recorder.add(view_of(w));
-        if (is_due(job) && (job.room.is_short(job.recorder, w, true) || !could_save(job)))
-            return stop_for_room(job);
+        if (is_due(job) && !could_save(job)) return stop_for_room(job);
         const double done = static_cast<double>(w.steps) / static_cast<double>(job.steps);
         // an interruption in the last step comes too late to be one
         if (!job.options.keep_going(done, w) && w.steps < job.steps) {

@@ -90,7 +90,7 @@ TEST_CASE("a hull that glides over the ice or lies under water is refused with t
                                             Catch::Contains("between 0 and 3 m"));
     p.hull_draught = GENERATE(3.0, 5.0);
     CHECK_THAT(complaint_about(p, 0.0), Catch::Contains("wholly under water"));
-    Case q;  // NEWCOMER's ship: keel at z = 0, no height given
+    Case q;  // keel at z = 0, no height given
     q.hull_position = Vec3(-102, 0, 0);
     CHECK_THAT(complaint_about(q, 0.0),
                Catch::Contains("case.cfg: hull.position: z = 0 m gives a draught of 0 m") &&

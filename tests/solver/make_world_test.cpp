@@ -55,6 +55,7 @@ TEST_CASE("a world made in code moves bit for bit as the case file's") {
 
     Case p = good_case();
     p.time_step = 0.02;
+    p.crushing_pressure = 1e6;  // case files have it unless they say otherwise
     p.hull_position = Vec3(0.0, 0.0, 0.2);
     World made = make_world(p, read_spheres(hull.path()));
     const auto form = add_form(made, read_spheres(floe.path()));

@@ -7,6 +7,7 @@
 
 #include "solver/record/divide_hull.hpp"
 #include "solver/record/find_peaks.hpp"
+#include "solver/step/make_world.hpp"
 #include "solver/step/run.hpp"
 #include "tests/common/fixtures.hpp"
 #include "tests/support/make_worlds.hpp"
@@ -239,4 +240,38 @@ TEST_CASE("forces on the regions, row by row, are together the force on the ship
           Approx(summary.vertical.contact_mean).epsilon(0.02));  // 4 windows of 41 steps
     CHECK(read_summary(folder / "run" / "summary.json").panels.hardest.size() ==
           summary.panels.hardest.size());
+}
+
+TEST_CASE("a hull placed by its draught has the same panels as one placed by z",
+          "[record][invariant]") {
+    const SphereSet hull = make_box_set(Vec3(3, 2, 1.0), 0.1, 0.2);  // z from -0.5 to 0.5
+    const double draught = 0.65;
+    Case by_draught = empty_space(kStep);
+    by_draught.duration = 2 * kStep;
+    by_draught.hull_position = Vec3(0, 0, std::nan(""));  // as a case file leaves it
+    by_draught.hull_draught = draught;
+    Case by_z = by_draught;
+    by_z.hull_draught = std::nan("");
+    by_z.hull_position.z() = 0.5 - draught;
+    const auto panels_of = [&](const Case& p) {
+        World w = make_world(p, hull);
+        CHECK(w.scene.bodies.position[kShip].z() == Approx(0.5 - draught));
+        add_form(w, make_box_set(Vec3(0.5, 0.4, 0.2), 0.05, 0.1));
+        add_floe(w, 1, {.position = Vec3(9, 0, 0)});
+        const TempFolder folder;
+        run(w, {folder / "run", "command"});
+        return read_run(folder / "run" / "run.h5").panels;
+    };
+    const HullPanels a = panels_of(by_draught), b = panels_of(by_z);
+    CHECK(a.of_sphere == b.of_sphere);
+    REQUIRE(a.panels.size() == b.panels.size());
+    // more than one row over the height: panels of 0.2 m on a side 1 m high
+    double top = -9.0, low = 9.0;
+    for (std::size_t k = 0; k < a.panels.size(); ++k) {
+        CHECK(a.panels[k].area == Approx(b.panels[k].area));
+        CHECK(a.panels[k].center.isApprox(b.panels[k].center));
+        top = std::max(top, a.panels[k].center.z());
+        low = std::min(low, a.panels[k].center.z());
+    }
+    CHECK(top - low > 0.5);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A run that is stopped and continued is the run that was never stopped.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
@@ -246,6 +247,29 @@ TEST_CASE("checkpoints are written at the multiples of checkpoint_every and at t
           std::vector<std::int64_t>{35, 70, 106, 120});  // nearest to 0.352, 0.704, 1.056; 1.2 s
     for (const auto& entry : std::filesystem::directory_iterator(folder / "r"))
         CHECK_FALSE(entry.path().filename().string().starts_with("checkpoint-rows"));
+}
+
+TEST_CASE("a checkpoint that cannot be written ends the run with the reason, not with a full disk",
+          "[step][checkpoint][errors]") {
+    const TempFolder folder;
+    World w = make_world(pressed_row(kSoft));
+    RunOptions options{folder / "run", "first"};
+    options.checkpoint_every = 0.3;
+    options.keep_going = [&](double, const World& now) {
+        // a folder in the checkpoint's place
+        if (now.steps == 10) std::filesystem::create_directories(folder / "run/checkpoint.h5/in");
+        return true;
+    };
+    const std::string text = error_text([&] { run(w, options); });
+    CHECK_THAT(text, Catch::Contains("checkpoint.h5") && !Catch::Contains("disk is almost full"));
+    const Summary kept = read_summary(folder / "run" / "summary.json");
+    CHECK(kept.status == "failed");
+    REQUIRE(!kept.warnings.empty());
+    for (const Warning& warning : kept.warnings)
+        CHECK_THAT(warning.text, !Catch::Contains("disk is almost full"));
+    CHECK(std::any_of(kept.warnings.begin(), kept.warnings.end(), [](const Warning& warning) {
+        return warning.text.find("checkpoint.h5") != std::string::npos;
+    }));
 }
 
 TEST_CASE("files that are lost begin at the checkpoint, and the summary says so",

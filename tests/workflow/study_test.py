@@ -93,7 +93,7 @@ with tempfile.TemporaryDirectory() as folder:
     assert all(entry["source"] for entry in stored["input"])
     # a slice has no breadth, and the page says so
     left_out = {entry["name"]: entry["why"] for entry in stored["left_out"]}
-    assert set(left_out) == {"concentration", "breadth"}, left_out
+    assert set(left_out) == {"concentration", "breadth", "far end of the channel"}, left_out
     assert stored["run"][0]["input"] == "" and stored["run"][1]["label"] == "0.2 MPa"
     write_plan(p)
     assert tomllib.loads(read(f"{folder}/out/runs.toml")) == stored
@@ -129,6 +129,12 @@ with tempfile.TemporaryDirectory() as folder:
     field = next(i for i in p.inputs if f"floes.file={i.output}" in cut.overrides)
     assert "floes.gap=[\"50 mm\", \"50 mm\"]" in field.options, field.options
     assert not [o for o in cut.overrides if "seed" in o and o != "simulation.seed=1"]
+
+    # a channel: its far end is closed where nothing else is said, so it is opened
+    write(f"{folder}/case/field.toml", BRICK + 'edges.breadth = "2 m"\n')
+    assert labels(plan(field_study), "far end of the channel") == ["0 m"]
+    write(f"{folder}/case/field.toml", BRICK + "edges.breadth = 2.0\nedges.ahead = 0.0\n")
+    assert labels(plan(field_study), "far end of the channel") == ["2.0"]
 
     # loose floes of a field are free by default, which the release rule is varied from
     assert labels(p, "release rule") == ["until-hull-contact", "until-contact"]
