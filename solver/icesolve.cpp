@@ -257,7 +257,9 @@ int run_case(const Options& o, const std::string& command_line) {
 
 // Options that every member of an ensemble gets as they were given.
 std::vector<std::string> member_words(const Options& o) {
-    std::vector<std::string> words{"--simd", o.simd, "--color", o.messages.colour};
+    std::vector<std::string> words;
+    if (o.simd != "auto") words.insert(words.end(), {"--simd", o.simd});
+    if (o.messages.colour != "auto") words.insert(words.end(), {"--color", o.messages.colour});
     if (o.threads > 0) words.insert(words.end(), {"--threads", std::to_string(o.threads)});
     if (o.checkpoint_every > 0.0)
         words.insert(words.end(), {"--checkpoint-every", fmt::format("{}", o.checkpoint_every)});
@@ -268,17 +270,37 @@ std::vector<std::string> member_words(const Options& o) {
     return words;
 }
 
+// The command of an ensemble in a folder, which also goes on with it.
+std::string command_of_seeds(const Options& o, const std::filesystem::path& folder) {
+    std::vector<std::string> words{o.case_file, "--seeds", std::to_string(o.seeds), "--out",
+                                   folder.string()};
+    for (const std::string& text : o.overrides) words.insert(words.end(), {"--set", text});
+    for (const std::string& word : member_words(o)) words.push_back(word);
+    std::string line = ice::typed_program();
+    for (const std::string& word : words) line += " " + ice::shell_word(word);
+    return line;
+}
+
 int run_seeds(const Options& o, const std::string& command_line) {
     const auto folder = folder_of_run(o);
+    if (o.overwrite) {  // a case that cannot start removes nothing
+        ice::World world = ice::build_world(ice::read_case(o.case_file, o.overrides));
+        ice::check_start(world, o.allow_overlap);
+    }
     const auto [summary, code] = ice::run_ensemble(
-        {o.case_file, o.overrides, o.seeds, folder, o.overwrite, member_words(o), command_line});
+        {o.case_file, o.overrides, o.seeds, folder, o.overwrite, member_words(o), command_line,
+         command_of_seeds(o, (folder / "").parent_path().string() + "-seeds"),
+         command_of_seeds(o, folder) + " --overwrite"});
     if (summary.ensemble) {
         if (o.json) ice::write_data(ice::summary_text(summary));
         ice::say(ice::ensemble_line(summary));
+        ice::say(ice::describe_rules(summary));
+        say_warnings(summary.warnings);
         ice::say(fmt::format("results in {}", folder.string()));
     }
     if (code == static_cast<int>(ice::ExitCode::interrupted))
-        ice::say_warning("interrupted; the same command goes on with the members that are missing");
+        ice::say_warning("interrupted; go on with the members that are missing with\n  " +
+                         command_of_seeds(o, folder));
     return code;
 }
 

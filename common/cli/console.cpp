@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "common/cli/console.hpp"
 
+#include <signal.h>
 #include <spdlog/sinks/basic_file_sink.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 #include <sys/ioctl.h>
+#include <time.h>
 #include <unistd.h>
 
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <csignal>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -40,9 +44,30 @@ void check_stdout() {
                      "check that the disk is not full");
 }
 
-void on_interrupt(int) {
-    if (interrupt_flag) _exit(static_cast<int>(ExitCode::interrupted));
-    interrupt_flag = 1;
+std::atomic<int> waited_for = 0;               // the program that interrupts are passed on to
+std::atomic<std::int64_t> interrupted_at = 0;  // [ns]
+static_assert(std::atomic<int>::is_always_lock_free);  // as a signal handler needs it
+static_assert(std::atomic<std::int64_t>::is_always_lock_free);
+
+// A terminal and `timeout` signal a whole group of programs, of which one may pass the signal on to
+// the other: what comes within this time is the same interrupt.
+constexpr std::int64_t kOneInterrupt = 500'000'000;  // [ns]
+
+void on_interrupt(int signal) {
+    const int before = errno;
+    timespec now{};
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    const std::int64_t time = now.tv_sec * std::int64_t{1'000'000'000} + now.tv_nsec;
+    const pid_t child = waited_for;
+    if (interrupt_flag == 0) {
+        interrupted_at = time;
+        interrupt_flag = 1;
+        if (child > 0) kill(child, signal);
+    } else if (time - interrupted_at > kOneInterrupt) {
+        if (child > 0) kill(child, SIGKILL);
+        _exit(static_cast<int>(ExitCode::interrupted));
+    }
+    errno = before;
 }
 
 }  // namespace
@@ -146,6 +171,8 @@ void catch_interrupts() {
 }
 
 bool interrupted() { return interrupt_flag != 0; }
+
+void pass_interrupts_to(int program) { waited_for = program; }
 
 std::string typed_program() { return shell_word(program_word); }
 void set_typed_program(const std::string& word) { program_word = word; }

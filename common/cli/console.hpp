@@ -35,9 +35,13 @@ void write_data(const std::string& text);
 int run_program(const std::string& name, const std::function<int()>& body,
                 const std::string& to_save_memory = "use a smaller case");
 
-/// From now on Ctrl-C and SIGTERM only set a flag; a second one ends the program at once (130).
+/// From now on Ctrl-C and SIGTERM only set a flag; a second one, half a second later or more, ends
+/// the program at once (130).
 void catch_interrupts();
 bool interrupted();
+/// A caught interrupt goes on to this process as well, one that ends the program kills it.
+/// @param program  that this one waits for; 0: none
+void pass_interrupts_to(int program);
 
 /// The words of the command line joined, quoted where a shell needs it.
 std::string command_line(int argc, const char* const* argv);

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "common/cli/sibling_program.hpp"
 
+#include <signal.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <filesystem>
+
+#include "common/cli/console.hpp"
 
 namespace ice {
 
@@ -17,8 +20,15 @@ std::optional<int> run_child(const std::string& program, const std::vector<std::
     for (std::string& text : texts) argv.push_back(text.data());
     argv.push_back(nullptr);
     pid_t child = 0;
+    const bool before = interrupted();
     if (posix_spawnp(&child, program.c_str(), nullptr, nullptr, argv.data(), environ) != 0)
         return std::nullopt;
+    pass_interrupts_to(child);
+    if (interrupted() && !before) kill(child, SIGTERM);  // came while the program was started
+    // its number is not given away before nothing is passed on to it any longer
+    siginfo_t ended{};
+    while (waitid(P_PID, child, &ended, WEXITED | WNOWAIT) < 0 && errno == EINTR) continue;
+    pass_interrupts_to(0);
     int status = 0;
     while (waitpid(child, &status, 0) < 0)
         if (errno != EINTR) return std::nullopt;

@@ -106,6 +106,59 @@ void average_counts(const Members& all, Summary& out) {
     out.residual_share = mean_over(all, [](const Summary& s) { return s.residual_share; });
 }
 
+// Ship, ice and travel: one case, but fields of their own.
+void average_particulars(const Members& all, Summary& out) {
+    const auto mean = [&](auto particulars, auto member) {
+        return mean_over(all, [&](const Summary& s) { return s.*particulars.*member; });
+    };
+    for (auto member : {&IceParticulars::thickness, &IceParticulars::floe_size_mean,
+                        &IceParticulars::concentration})
+        out.ice.*member = mean(&Summary::ice, member);
+    out.ice.floes = rounded_mean(all, [](const Summary& s) { return s.ice.floes; });
+    out.ice.floe_size_min = -largest(all, [](const Summary& s) { return -s.ice.floe_size_min; });
+    out.ice.floe_size_max = largest(all, [](const Summary& s) { return s.ice.floe_size_max; });
+    out.ship.speed_mean = mean(&Summary::ship, &ShipParticulars::speed_mean);
+    for (auto member : {&TravelParticulars::distance, &TravelParticulars::lengths,
+                        &TravelParticulars::averaged_lengths})
+        out.travel.*member = mean(&Summary::travel, member);
+}
+
+// A warning that all members share once, any other one with the seed of its member.
+std::vector<Warning> gather_warnings(const Members& members) {
+    const auto find = [](const Member& m, const std::string& text) {
+        return std::find_if(m.summary.warnings.begin(), m.summary.warnings.end(),
+                            [&](const Warning& w) { return w.text == text; });
+    };
+    std::vector<Warning> shared, single;
+    for (const Member& m : members)
+        for (Warning warning : m.summary.warnings) {
+            const bool everywhere =
+                std::all_of(members.begin(), members.end(), [&](const Member& other) {
+                    return find(other, warning.text) != other.summary.warnings.end();
+                });
+            if (!everywhere) {
+                warning.text = fmt::format("seed {}: {}", m.seed, warning.text);
+                single.push_back(warning);
+            } else if (&m == &members.front()) {
+                for (const Member& other : members)  // the worst verdict of all
+                    if (const Warning& w = *find(other, warning.text);
+                        w.share.value_or(0.0) > warning.share.value_or(0.0))
+                        warning = w;
+                shared.push_back(warning);
+            }
+        }
+    shared.insert(shared.end(), single.begin(), single.end());
+    return shared;
+}
+
+std::map<std::string, double> worst_imbalance(const Members& members) {
+    std::map<std::string, double> out;
+    for (const Member& m : members)
+        for (const auto& [kind, value] : m.summary.imbalance)
+            out[kind] = std::max(out[kind], value);
+    return out;
+}
+
 }  // namespace
 
 Summary average_members(const std::vector<Member>& members) {
@@ -119,15 +172,14 @@ Summary average_members(const std::vector<Member>& members) {
     out.energy = average_numbers(members, &Summary::energy, share);
     out.stage_seconds = average_numbers(members, &Summary::stage_seconds, 1.0);
     out.state_hash = 0;  // no one state
+    out.panels = {};     // maxima and rates of single histories
+    out.imbalance = worst_imbalance(members);
+    average_particulars(members, out);
     out.ensemble = Ensemble{out.resistance.mean, out.resistance.ci95, {}, {}};
-    out.warnings.clear();
+    out.warnings = gather_warnings(members);
     for (const Member& m : members) {
         out.ensemble->means.push_back(m.summary.resistance.mean);
         out.ensemble->seeds.push_back(m.seed);
-        for (Warning warning : m.summary.warnings) {
-            warning.text = fmt::format("seed {}: {}", m.seed, warning.text);
-            out.warnings.push_back(warning);
-        }
     }
     return out;
 }

@@ -16,8 +16,10 @@ struct Member {
 
 /// The members as one summary: means of their means, Student's interval of the mean of each force
 /// component (its ci95; NaN for one member), counts of floes and contacts as means, extremes as
-/// extremes, times as sums. Correlation time and trend are those of single runs: unknown here.
-/// What all members share, such as the title, is the first one's. Warnings begin with their seed.
+/// extremes, times as sums; of the ice's particulars means, of floe sizes also the extremes.
+/// Correlation time, trend, panels and peaks are those of single runs: unknown here, left out.
+/// What all members share, such as the title, is the first one's. A warning that all members have
+/// stands once, with the largest share; any other begins with its seed.
 /// @pre at least one member
 Summary average_members(const std::vector<Member>& members);
 

@@ -46,42 +46,74 @@ bool same_floes(const Field& a, const Field& b) {
                [](const SphereSet& s, const SphereSet& t) { return s.centers == t.centers; });
 }
 
-// The new field's file, or "" where there is none to be had.
-fs::path make_field_again(const fs::path& file, std::int64_t seed, const fs::path& stem) {
-    const Field old = read_field(file);
-    if (old.specification.empty()) return {};
-    std::error_code ignored;
-    fs::create_directories(stem.parent_path(), ignored);
-    const fs::path spec = stem.string() + ".toml";
-    const fs::path out = fs::absolute(fmt::format("{}-seed-{}.h5", stem.string(), seed));
-    write_text_file(spec, old.specification);
-    const auto code = run_sibling("icefield", icefield_words(old.specification, seed, spec, out));
-    if (code != 0) {
-        say_warning(fmt::format(
-            "{}: {}; its floes are moved by simulation.jitter instead", file.string(),
-            code ? fmt::format("icefield made no other field with seed {} (code {})", seed, *code)
-                 : std::string("icefield does not lie beside icesolve")));
-        return {};
-    }
-    if (!same_floes(old, read_field(out)) || seed == old.seed) return out;
-    fs::remove(out, ignored);
-    return {};
+constexpr int kNoProgram = -1;
+
+std::string reason(int code) {
+    return code == kNoProgram ? std::string("icefield does not lie beside icesolve")
+                              : fmt::format("icefield ended with code {}", code);
 }
 
 }  // namespace
 
-std::vector<std::string> make_member_fields(const Case& parameters, std::int64_t seed,
-                                            const fs::path& folder) {
-    std::vector<std::string> overrides;
+MemberFields::MemberFields(const Case& parameters, std::int64_t first, fs::path folder) {
     for (std::size_t k = 0; k < parameters.floes.size(); ++k) {
-        const FloeGroup& group = parameters.floes[k];
-        if (group.pattern != Pattern::file || group.unbroken_part) continue;
-        const fs::path made =
-            make_field_again(group.file, seed, folder / fmt::format("group-{}", k + 1));
-        if (!made.empty())
-            overrides.push_back(fmt::format("floes.{}.file={}", k + 1, made.string()));
+        const FloeGroup& of_case = parameters.floes[k];
+        if (of_case.pattern != Pattern::file || of_case.unbroken_part) continue;
+        const Group group{k + 1, of_case.file, folder / fmt::format("group-{}", k + 1),
+                          read_field(of_case.file).specification};
+        if (!group.specification.empty() && changes_with_seed(group, first))
+            groups_.push_back(group);
     }
-    return overrides;
+}
+
+fs::path MemberFields::file_of(const Group& group, std::int64_t seed) const {
+    return fs::absolute(fmt::format("{}-seed-{}.h5", group.stem.string(), seed));
+}
+
+// @return 0, or icefield's exit code
+int MemberFields::make(const Group& group, std::int64_t seed) {
+    const fs::path out = file_of(group, seed), spec = group.stem.string() + ".toml";
+    if (made_.contains(out)) return 0;
+    std::error_code ignored;
+    fs::create_directories(group.stem.parent_path(), ignored);
+    write_text_file(spec, group.specification);
+    const int code = run_sibling("icefield", icefield_words(group.specification, seed, spec, out))
+                         .value_or(kNoProgram);
+    if (code == 0) made_.insert(out);
+    return code;
+}
+
+bool MemberFields::changes_with_seed(const Group& group, std::int64_t first) {
+    for (const std::int64_t seed : {first, first + 1}) {
+        const int code = make(group, seed);
+        if (code == 0) continue;
+        if (!interrupted())
+            say_warning(
+                fmt::format("{}: makes no other field with seed {}: {}; the floes of all "
+                            "members are moved by simulation.jitter instead",
+                            group.file.string(), seed, reason(code)));
+        return false;
+    }
+    const fs::path one = file_of(group, first), other = file_of(group, first + 1);
+    if (!same_floes(read_field(one), read_field(other))) return true;
+    std::error_code ignored;
+    for (const fs::path& made : {one, other}) fs::remove(made, ignored);
+    return false;
+}
+
+std::vector<std::string> MemberFields::overrides(std::int64_t seed) {
+    std::vector<std::string> out;
+    for (const Group& group : groups_) {
+        const int code = make(group, seed);
+        if (interrupted()) return {};
+        if (code != 0)
+            throw run_failed(
+                group.file.string(),
+                fmt::format("makes no field for the member with seed {}: {}", seed, reason(code)),
+                "choose seeds from another number on: --set simulation.seed=100");
+        out.push_back(fmt::format("floes.{}.file={}", group.number, file_of(group, seed).string()));
+    }
+    return out;
 }
 
 }  // namespace ice

@@ -2,7 +2,9 @@
 /// Another ice field of the same specification, for a member of an ensemble.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -10,15 +12,36 @@
 
 namespace ice {
 
-/// Makes the field files of a case anew with another seed: icefield is run with the specification
-/// that each field file holds.
+/// The field files of a case, made anew with the seeds of an ensemble: icefield is run with the
+/// specification that each field file holds.
 ///
-/// A file is left alone where it holds no specification, where icefield cannot make it again (e.g.
-/// polygons whose file lies elsewhere; said as a warning), and where the seed changes nothing, as
-/// in brick patterns.
-/// @param folder  for the specifications and the new files; created when needed
-/// @return overrides of the case, "floes.1.file=/path"; none where no field changes
-std::vector<std::string> make_member_fields(const Case& parameters, std::int64_t seed,
-                                            const std::filesystem::path& folder);
+/// A file is left alone, for all members alike, where it holds no specification, where icefield
+/// cannot make it again (e.g. polygons whose file lies elsewhere; said as a warning), and where the
+/// seed changes nothing, as in brick patterns: two seeds are tried.
+class MemberFields {
+public:
+    /// @param first   seed of the first member; it and the next one are tried
+    /// @param folder  for the specifications and the new files; created when needed
+    MemberFields(const Case& parameters, std::int64_t first, std::filesystem::path folder);
+
+    /// Makes the fields of one member.
+    /// @return overrides of the case, "floes.1.file=/path"; none where no field changes with the
+    ///         seed, or after an interrupt
+    /// @throws Error (exit code 1) when icefield fails with this seed
+    std::vector<std::string> overrides(std::int64_t seed);
+
+private:
+    struct Group {
+        std::size_t number = 0;            ///< in the case, from 1 on
+        std::filesystem::path file, stem;  ///< of the case; of the new files
+        std::string specification;
+    };
+    std::filesystem::path file_of(const Group& group, std::int64_t seed) const;
+    int make(const Group& group, std::int64_t seed);
+    bool changes_with_seed(const Group& group, std::int64_t first);
+
+    std::vector<Group> groups_;             ///< that change with the seed
+    std::set<std::filesystem::path> made_;  ///< by this object
+};
 
 }  // namespace ice

@@ -8,6 +8,7 @@
 
 #include "common/base/error.hpp"
 #include "common/base/part_file.hpp"
+#include "common/base/version.hpp"
 #include "common/cli/console.hpp"
 #include "common/cli/sibling_program.hpp"
 #include "common/toml/input_file.hpp"
@@ -36,10 +37,10 @@ double default_jitter(const Case& parameters) {
 
 // What makes a member: its overrides behind those of the case.
 std::vector<std::string> member_overrides(const EnsembleOptions& o, const Case& parameters,
-                                          std::int64_t seed) {
+                                          std::int64_t seed, MemberFields& made) {
     std::vector<std::string> out = o.overrides;
     out.push_back(fmt::format("simulation.seed={}", seed));
-    const auto fields = make_member_fields(parameters, seed, o.folder / "fields");
+    const auto fields = made.overrides(seed);
     out.insert(out.end(), fields.begin(), fields.end());
     if (fields.empty() && parameters.jitter == 0.0)
         out.push_back(fmt::format("simulation.jitter={:g}", default_jitter(parameters)));
@@ -56,7 +57,7 @@ std::string resolved_case_in(const fs::path& folder) {
 // A finished member of this ensemble, if the folder holds one.
 std::optional<Summary> finished_member(const EnsembleOptions& o, const fs::path& folder,
                                        const std::vector<std::string>& overrides) {
-    if (o.overwrite || !fs::exists(folder / "summary.json")) return std::nullopt;
+    if (!fs::exists(folder / "summary.json")) return std::nullopt;
     Summary summary = read_summary(folder / "summary.json");
     if (summary.status != "completed") return std::nullopt;
     if (resolved_case_in(folder) != read_case(o.case_file, overrides).resolved)
@@ -72,7 +73,7 @@ int run_member(const EnsembleOptions& o, const fs::path& folder,
     for (const std::string& text : overrides) words.insert(words.end(), {"--set", text});
     words.insert(words.end(), o.member_words.begin(), o.member_words.end());
     const fs::path checkpoint = folder / kCheckpointName;
-    if (!o.overwrite && fs::exists(checkpoint))
+    if (fs::exists(checkpoint))
         words.insert(words.end(), {"--restart", checkpoint.string()});
     else
         words.insert(words.end(), {"--out", folder.string(), "--overwrite"});
@@ -80,7 +81,8 @@ int run_member(const EnsembleOptions& o, const fs::path& folder,
     if (!code)
         throw run_failed("icesolve", "cannot be started for a member of the ensemble",
                          "install it whole, with all programs in one folder");
-    return *code;
+    // a member may end before it can catch the signal
+    return interrupted() && *code != 0 ? static_cast<int>(ExitCode::interrupted) : *code;
 }
 
 void write_ensemble(const EnsembleOptions& o, const std::vector<Member>& members,
@@ -91,29 +93,40 @@ void write_ensemble(const EnsembleOptions& o, const std::vector<Member>& members
     write_text_file(o.folder / "summary.json", summary_text(summary));
 }
 
-void make_folder(const EnsembleOptions& o) {
-    if (fs::exists(o.folder / "run.h5") && !o.overwrite)
-        throw bad_input(o.folder.string(), "holds a single run",
-                        "choose another folder with --out");
-    std::error_code error;
-    fs::create_directories(o.folder, error);
-    if (error)
-        throw run_failed(o.folder.string(), "cannot be created: " + error.message(),
-                         "choose another folder with --out");
+// Makes room in the folder, which this program has locked: for the same ensemble nothing need go.
+void make_room(const EnsembleOptions& o) {
+    if (!o.overwrite) {
+        if (holds_single_run(o.folder))
+            throw bad_input(o.folder.string(), "holds a single run",
+                            "run the ensemble beside it with\n    " + o.command_beside +
+                                "\n  or replace that run with\n    " + o.command_replace);
+        return;
+    }
+    remove_run(o.folder);
+    std::vector<fs::path> members;
+    for (const auto& entry : fs::directory_iterator(o.folder))
+        if (is_member_folder(entry.path())) members.push_back(entry.path());
+    for (const fs::path& member : members) {
+        const RunFolder emptied(member, Existing::replace);
+    }
 }
 
 }  // namespace
 
 EnsembleResult run_ensemble(const EnsembleOptions& o) {
     const Case parameters = read_case(o.case_file, o.overrides);
-    make_folder(o);
+    const RunFolder claimed(o.folder, Existing::go_on);
+    make_room(o);
+    log_to_file(o.folder / "run.log", !o.overwrite);
+    say(fmt::format("icesolve {} ({}): {}", version(), git_commit(), o.command_line));
     catch_interrupts();
     const std::int64_t first = std::max(1, parameters.seed);
+    MemberFields fields(parameters, first, o.folder / "fields");
     std::vector<Member> members;
     EnsembleResult result;
     for (std::int64_t seed = first; seed < first + o.members && result.code == 0; ++seed) {
         const fs::path folder = o.folder / fmt::format("seed-{}", seed);
-        const auto overrides = member_overrides(o, parameters, seed);
+        const auto overrides = member_overrides(o, parameters, seed, fields);
         if (interrupted()) {
             result.code = static_cast<int>(ExitCode::interrupted);
             break;

@@ -16,9 +16,10 @@ struct EnsembleOptions {
     std::vector<std::string> overrides;  ///< of the case, "key=value"
     int members = 0;
     std::filesystem::path folder;           ///< members in seed-1, seed-2, ...
-    bool overwrite = false;                 ///< compute finished members again
+    bool overwrite = false;                 ///< remove what the folder holds of runs first
     std::vector<std::string> member_words;  ///< of the command line, for every member
     std::string command_line;
+    std::string command_beside, command_replace;  ///< printed where the folder holds a single run
 };
 
 struct EnsembleResult {
@@ -29,6 +30,8 @@ struct EnsembleResult {
 /// Runs the members one after the other, each a program icesolve of its own, and writes the
 /// folder's summary.json after each: an interrupt, or a member that fails, keeps what is finished.
 ///
+/// The folder is locked as a run's is (RunFolder), its run.log holds the messages.
+///
 /// Seeds count from simulation.seed, or from 1 where that is 0. A field whose specification makes
 /// another one with another seed is made anew for every member (member_field.hpp). Where no field
 /// is, floes are moved by simulation.jitter; where that is 0, by a hundredth of the smallest ice
@@ -37,9 +40,9 @@ struct EnsembleResult {
 ///
 /// In a folder that holds an ensemble of the same case the command goes on: finished members are
 /// kept, one with a checkpoint goes on from it, so `members` may also have grown.
-/// @throws Error (exit code 2) for a folder with a run, or with members of another case, unless
-///         `overwrite`; for a bad case. (exit code 1) when icesolve or a file cannot be started or
-///         written.
+/// @throws Error (exit code 2) for a folder with a single run, or with members of another case,
+///         unless `overwrite`; for one that another program writes; for a bad case. (exit code 1)
+///         when icesolve or a file cannot be started or written.
 EnsembleResult run_ensemble(const EnsembleOptions& options);
 
 }  // namespace ice

@@ -79,7 +79,7 @@ std::vector<std::string> names_in(const fs::path& folder) {
 // A single run beside an ensemble's members would replace their summary.json alone.
 void refuse_ensemble(const fs::path& folder) {
     for (const std::string& name : names_in(folder))
-        if (is_numbered(name, "seed-", "") && fs::is_directory(folder / name))
+        if (is_member_folder(folder / name))
             throw bad_input(folder.string(), "holds an ensemble: " + name,
                             "choose another folder with --out, or go on with it: --seeds N");
 }
@@ -139,10 +139,7 @@ RunFolder::RunFolder(fs::path folder, Existing existing, const FolderCommands& c
         ::close(lock_);
         throw;
     }
-    if (existing == Existing::replace)
-        remove_where(path_, [](const std::string& name) {
-            return is_of_a_run(name) && name != kLogName;  // the lock; the new log replaces it
-        });
+    if (existing == Existing::replace) remove_run(path_);
 }
 
 RunFolder::~RunFolder() {
@@ -154,6 +151,22 @@ fs::path default_run_folder(const fs::path& case_file) {
     const fs::path folder = fs::absolute(case_file).lexically_normal().parent_path().filename();
     if (name == "case" && !folder.empty()) name = folder;
     return fs::path("results") / name;
+}
+
+bool holds_single_run(const fs::path& folder) {
+    constexpr std::array<const char*, 4> names{"run.h5", "run.h5.part", "case.resolved.cfg",
+                                               kCheckpointName};
+    return std::any_of(names.begin(), names.end(),
+                       [&](const char* name) { return fs::exists(folder / name); });
+}
+
+bool is_member_folder(const fs::path& path) {
+    return is_numbered(path.filename().string(), "seed-", "") && fs::is_directory(path);
+}
+
+void remove_run(const fs::path& folder) {
+    remove_where(folder,
+                 [](const std::string& name) { return is_of_a_run(name) && name != kLogName; });
 }
 
 void remove_results(const fs::path& folder) { remove_where(folder, is_result); }

@@ -50,6 +50,15 @@ private:
 /// where the file is called case.cfg.
 std::filesystem::path default_run_folder(const std::filesystem::path& case_file);
 
+/// True where a folder holds a run of its own, whole or not; an ensemble's summary is none.
+bool holds_single_run(const std::filesystem::path& folder);
+
+/// True for the folder of a member of an ensemble, "seed-3".
+bool is_member_folder(const std::filesystem::path& path);
+
+/// Removes all that icesolve writes into a run folder, but for run.log, which holds the lock.
+void remove_run(const std::filesystem::path& folder);
+
 /// Removes what a finished run consists of, for one that goes on: its summary would be out of date.
 void remove_results(const std::filesystem::path& folder);
 

@@ -54,6 +54,41 @@ TEST_CASE("an ensemble's mean is its members', its interval Student's", "[ensemb
     CHECK(s.warnings[0] == Warning{"seed 2: floe 3 fell off", true, 0.25});
 }
 
+TEST_CASE("an ensemble's summary has no numbers of one member alone", "[ensemble][analytic]") {
+    std::vector<Member> members{member(1, 100.0), member(2, 110.0)};
+    for (std::size_t k = 0; k < 2; ++k) {
+        Summary& s = members[k].summary;
+        s.panels.size = 1.0;
+        s.panels.hardest.emplace_back("bow", PanelLoad{});
+        s.regions["bow"].force_peaks = PeakStatistics{};
+        s.imbalance["momentum"] = k == 0 ? 1e-12 : 3e-12;
+        s.ice.floe_size_min = 2.0 + static_cast<double>(k);
+        s.ice.floe_size_mean = 4.0 + static_cast<double>(k);
+        s.ice.floe_size_max = 8.0 + static_cast<double>(k);
+        s.ice.concentration = 0.7 + 0.1 * static_cast<double>(k);
+        s.ice.floes = 10 + 2 * static_cast<std::int64_t>(k);
+    }
+    const Summary s = average_members(members);
+    CHECK(s.panels.size == 0.0);
+    CHECK(s.panels.hardest.empty());
+    CHECK_FALSE(s.regions.at("bow").force_peaks);
+    CHECK(s.imbalance.at("momentum") == 3e-12);
+    CHECK(s.ice.floe_size_min == 2.0);
+    CHECK(s.ice.floe_size_mean == Approx(4.5));
+    CHECK(s.ice.floe_size_max == 9.0);
+    CHECK(s.ice.concentration == Approx(0.75));
+    CHECK(s.ice.floes == 11);
+    CHECK(std::isnan(s.ice.thickness));  // unknown in both
+}
+
+TEST_CASE("a warning that all members share stands once, with the largest share", "[ensemble]") {
+    std::vector<Member> members{member(1, 100.0), member(2, 110.0)};
+    members[0].summary.warnings = {{"short", false, 0.01}, {"jam", true, 0.5}};
+    members[1].summary.warnings = {{"short", true, 0.03}};
+    CHECK(average_members(members).warnings ==
+          std::vector<Warning>{{"short", true, 0.03}, {"seed 1: jam", true, 0.5}});
+}
+
 TEST_CASE("one member alone has a mean and no interval", "[ensemble]") {
     const Summary s = average_members({member(7, 100.0)});
     CHECK(s.resistance.mean == 100.0);
