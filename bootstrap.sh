@@ -6,19 +6,20 @@ set -euo pipefail
 readonly packages=(
     build-essential cmake ninja-build git ca-certificates
     libeigen3-dev libboost-dev libcgal-dev libassimp-dev catch2 libhwy-dev libtomlplusplus-dev libcli11-dev
-    libmeshoptimizer-dev libfmt-dev libspdlog-dev libhdf5-dev libssl-dev nlohmann-json3-dev zlib1g-dev python3 python3-h5py help2man)
+    libmeshoptimizer-dev libfmt-dev libspdlog-dev libhdf5-dev libssl-dev nlohmann-json3-dev zlib1g-dev python3 python3-h5py help2man
+    librsvg2-bin)
 
 # only the tests use these: the report in a browser, its page built again, run.h5 in xarray, fuzzing
 readonly test_packages=(chromium chromium-driver python3-selenium python3-pil python3-xarray
-    python3-h5netcdf clang-14 libclang-rt-14-dev libomp-14-dev)
+    python3-h5netcdf python3-jsonschema lintian snakemake clang-14 libclang-rt-14-dev libomp-14-dev)
 
 usage() {
     cat <<'END'
 usage: ./bootstrap.sh COMMAND
   deps   installs the Debian packages that are missing (as root or with sudo)
   build  deps, then the programs: build/release/bin/{spherize,icefield,icesolve,icepost}
-  demo   build, then the paper's 3D case from mesh to report
-  test   build, then the whole test suite (CI=true: compiler warnings are errors)
+  demo   build, then the paper's 3D case at three speeds: resistance curve and report
+  test   build with the tests, then the whole test suite (CI=true: compiler warnings are errors)
 END
 }
 
@@ -65,24 +66,10 @@ preset() {
     [[ ${CI:-} == true ]] && echo ci || echo release
 }
 
+# $1: ON with the tests and benches, which take longer to compile than the programs
 build_programs() {
-    cmake --preset "$(preset)"
+    cmake --preset "$(preset)" -DICE_TESTS="$1"
     cmake --build --preset "$(preset)" --parallel "$(job_count)"
-}
-
-run_demo() {
-    local bin=build/release/bin run=results/paper-3d
-    cases/prepare.sh cases/paper-3d
-    "$bin/icesolve" cases/paper-3d/case.cfg --out "$run"
-    python3 - "$run/summary.json" <<'END'
-import json
-import sys
-with open(sys.argv[1], encoding="utf-8") as file:
-    resistance = json.load(file)["resistance"]
-print(f"\nresistance  {resistance['mean_N']:.0f} N +- {resistance['ci95_N'] or 0:.0f} N (95 %), "
-      f"contact {resistance['contact_mean_N']:.0f} N, friction {resistance['friction_mean_N']:.0f} N")
-END
-    echo "report      $PWD/$run/report.html"
 }
 
 run_tests() {
@@ -108,18 +95,18 @@ case $1 in
         ;;
     build)
         install_packages "${packages[@]}"
-        build_programs
+        build_programs OFF
         ;;
     demo)
         install_packages "${packages[@]}"
-        build_programs
-        run_demo
+        build_programs OFF
+        cases/demo.sh
         ;;
     test)
         # another source's Node has its own npm, which Debian's package would replace
         if command -v npm >/dev/null; then node=(); else node=(nodejs npm); fi
         install_packages "${packages[@]}" "${test_packages[@]}" "${node[@]}"
-        build_programs
+        build_programs ON
         run_tests
         ;;
     -h | --help | help) usage ;;
