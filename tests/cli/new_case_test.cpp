@@ -93,7 +93,7 @@ TEST_CASE("the same ship in the same ice gives one answer, or an error that name
     for (const double mean : {deep, draught, crushed}) CHECK(mean == Approx(stated).epsilon(0.15));
 }
 
-TEST_CASE("--check says draught, displacement, travel, steps, clearance and draws the start",
+TEST_CASE("the option --check says draught, displacement, travel, steps, clearance, and draws",
           "[cli]") {
     const Workshop w;
     REQUIRE(w.run("spherize " ICE_MESHES "/paper-hull-3d.obj -r 0.1 -s 0.2 -o hull.h5 -q").code ==
@@ -121,7 +121,8 @@ TEST_CASE("--check says draught, displacement, travel, steps, clearance and draw
     CHECK(w.run("icesolve case.cfg --picture start.svg").code == 2);
 }
 
-TEST_CASE("--new writes a case that runs as it is, from a mesh and a specification", "[cli]") {
+TEST_CASE("the option --new writes a case that runs as it is, from a mesh and a specification",
+          "[cli]") {
     const Workshop w;
     fs::create_directories(w / "my ship");
     fs::copy_file(ICE_MESHES "/paper-hull-3d.obj", w / "my ship" / "hull.obj");
@@ -162,7 +163,7 @@ TEST_CASE("--new writes a case that runs as it is, from a mesh and a specificati
     CHECK(w.files().size() >= 5);
 }
 
-TEST_CASE("--new without ice drafts some of the ship's size", "[cli]") {
+TEST_CASE("the option --new without ice drafts some of the ship's size", "[cli]") {
     const Workshop w;
     w.write("ship.stl", hull_stl());
     const Result r = w.run("icesolve --new ship.stl");

@@ -24,5 +24,5 @@ with tempfile.TemporaryDirectory() as folder:
     assert done.returncode == 0, done.stderr
     subprocess.run(["icepost", "-q", "sweep", "out"], cwd=folder, env=env, check=True)
     page = read(f"{folder}/out/sweep.html")
-    assert "4 of 4 runs completed" in page and "Resistance against speed [m/s]" in page
+    assert "4 of 4 runs completed" in page and "Resistance [N/m] against speed [m/s]" in page
     print("ok")
