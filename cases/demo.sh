@@ -22,9 +22,9 @@ for program in spherize icesolve icepost; do
 done
 export SPHERIZE=$bin/spherize bin seed=${2:-1}
 
-# Runs of the table, one each line, the longest first: folder; case; speed [m/s]; the times [s] in which
-# the ship goes 21 m, to the end, and 10 m, from where pieces lie along the whole hull; further
-# options. Pieces moved by up to 3 mm take other ways: that makes the seeds.
+# Runs of the table, one each line, the longest first: folder; case; speed [m/s]; the times [s] in
+# which the ship goes 21 m, to the end, and 10 m, from where pieces lie along the whole hull;
+# further options. Pieces moved by up to 3 mm take other ways: that makes the seeds.
 readonly runs="\
 '$out/speed-0.25' paper-3d-defaults 0.25 84 40 --seeds 3 --set simulation.jitter=0.003
 '$out/speed-0.5' paper-3d-defaults 0.5 42 20 --seeds 3 --set simulation.jitter=0.003

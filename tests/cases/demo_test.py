@@ -2,9 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the demo must show: demo_test.py DEMO ICESOLVE
 
-DEMO is a copy of the repository's cases and meshes in which cases/demo.sh has run into results/demo.
-Three more seeds are computed here, of which the demo knows nothing.
-"""
+DEMO is a copy of cases and meshes in which cases/demo.sh has run into results/demo. Three more
+seeds are computed here, of which the demo knows nothing.
 import json
 import pathlib
 import subprocess
@@ -24,8 +23,8 @@ def other_seeds(demo, icesolve):
     settings = [word for word in command if word.startswith(("hull.", "simulation.", "output."))]
     settings = [word for word in settings if not word.startswith("simulation.seed")]
     out = demo / "results/others"
-    line = [icesolve, "cases/paper-3d-defaults/case.cfg", "--out", out, "--overwrite", "-q", "--no-report"]
-    line += ["--seeds", "3", "--set", "simulation.seed=4"]
+    line = [icesolve, "cases/paper-3d-defaults/case.cfg", "--out", out, "--overwrite", "--quiet"]
+    line += ["--no-report", "--seeds", "3", "--set", "simulation.seed=4"]
     for setting in settings:
         line += ["--set", setting]
     subprocess.run(line, check=True, cwd=demo)
@@ -35,7 +34,7 @@ def other_seeds(demo, icesolve):
 def main():
     demo = pathlib.Path(sys.argv[1])
     results = demo / "results/demo"
-    summaries = sorted(results.glob("speed-*/summary.json")) + sorted(results.glob("speed-*/*/summary.json"))
+    summaries = [*results.glob("speed-*/summary.json"), *results.glob("speed-*/*/summary.json")]
     assert len(summaries) == 12, f"three ensembles of three members, but {len(summaries)} summaries"
     for path in summaries:
         warnings = json.loads(path.read_text(encoding="utf-8"))["warnings"]
@@ -52,7 +51,8 @@ def main():
     assert paper["ci95_N"] > 5 * half, "the paper's rules are no reason for the defaults any more"
     for name in ["sweep.html", f"{HEADLINE}/seed-1/report.html"]:
         assert (results / name).is_file(), f"the demo names {name}, which is not there"
-    print(f"headline {mean:.1f} +- {half:.1f} N; other seeds {[round(other, 1) for other in others]}")
+    others = ", ".join(f"{other:.1f}" for other in others)
+    print(f"headline {mean:.1f} +- {half:.1f} N; other seeds {others} N")
 
 
 main()
