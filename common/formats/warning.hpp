@@ -11,8 +11,9 @@ namespace ice {
 struct Warning {
     std::string text;  ///< what was seen and what to do; begins small, no full stop
     std::optional<bool> affects_mean = std::nullopt;  ///< none: unknown, nothing was measured
-    std::optional<double> share =
-        std::nullopt;  ///< at most about this share of the mean; none: not measured
+    /// At most about this share of the mean: what the doubtful steps bring in; of a trend half of
+    /// its change, as the mean of its end is that far off. None: not measured.
+    std::optional<double> share = std::nullopt;
 
     bool operator==(const Warning&) const = default;
 };

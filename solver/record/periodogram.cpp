@@ -13,7 +13,8 @@ namespace {
 constexpr double kWindow = 5.0;       // in correlation times; 4 to 6 are usual (Sokal)
 constexpr double kLineChance = 0.01;  // that a band without a line is said to have one
 constexpr std::size_t kLeastOrdinates = 4;
-constexpr double kDeviations = 2.0;  // of a rise
+constexpr double kDeviations = 2.0;        // of a slope
+constexpr std::size_t kFewestPeriods = 5;  // of a line; swings held more seldom move the mean
 
 // Fisher's test of the largest of m exponential variables, against the mean of the others: with
 // k = m - 1 of them each exceeds x times that mean with the chance (1 + x / k)^-k.
@@ -68,7 +69,7 @@ Band without_lines(std::span<const double> ordinates, std::size_t first) {
     while (band.stay > kLeastOrdinates) {
         const auto [largest, j] = sorted[band.stay - 1];
         const double others = (band.mean - largest) / static_cast<double>(band.stay - 1);
-        if (largest <= largest_by_chance(band.stay) * others) break;
+        if (j < kFewestPeriods || largest <= largest_by_chance(band.stay) * others) break;
         band.mean -= largest;
         --band.stay;
         const double share = std::numbers::pi * static_cast<double>(j);
@@ -87,7 +88,8 @@ std::size_t flat_band(std::span<const double> ordinates) {
         // the logarithm of a mean of m exponential variables scatters by 1 / sqrt(m)
         const double deviation = std::sqrt(1.0 / static_cast<double>(lower.stay) +
                                            1.0 / static_cast<double>(upper.stay));
-        if (upper.mean <= lower.mean * std::exp(kDeviations * deviation)) break;
+        const auto [less, more] = std::minmax(lower.mean, upper.mean);
+        if (more <= less * std::exp(kDeviations * deviation)) break;
         count = half;
     }
     return count;

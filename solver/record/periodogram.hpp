@@ -24,11 +24,12 @@ struct Band {
     double line_trend = 0.0;  ///< sum of 6 / (pi j)^2 I_j of those that go
 };
 
-/// Drops lines from ordinates first, first + 1, ... of a periodogram by Fisher's test at 1 %.
+/// Drops lines from ordinates first, first + 1, ... of a periodogram by Fisher's test at 1 %; never
+/// j < 5, periods that the series holds so seldom that they move its mean.
 Band without_lines(std::span<const double> ordinates, std::size_t first = 1);
 
-/// How many of the ordinates, the first ones, form a band that does not rise: halved while the
-/// upper half's mean is more than two standard deviations of its logarithm above the lower's.
+/// How many of the ordinates, the first ones, form a band that neither rises nor falls: halved
+/// while its halves' means differ by more than two standard deviations of their logarithm.
 std::size_t flat_band(std::span<const double> ordinates);
 
 }  // namespace ice

@@ -15,6 +15,11 @@ namespace {
 constexpr std::size_t kFewest = 40;    // samples
 constexpr std::size_t kMost = 8192;    // samples that are looked at one by one
 constexpr double kTrendChance = 0.01;  // that a series without a trend is said to have one
+constexpr std::size_t kNarrowest = 2;  // ordinates of a band
+
+// White noise has a window of 3 samples, so an ordinate for 18: with more blocks than that, the
+// second look narrows no band that is flat.
+constexpr std::size_t kBlocksPerOrdinate = 24;
 
 double mean_of(std::span<const double> series) {
     return series.empty() ? std::nan("")
@@ -28,7 +33,7 @@ double student(double degrees, double chance) {
         boost::math::complement(boost::math::students_t(degrees), 0.5 * chance));
 }
 
-// Means of blocks, so that no more than kMost are left; what is over at the end is left out.
+// Means of blocks; what is over at the end is left out.
 std::vector<double> blocks_of(std::span<const double> series, std::size_t length) {
     std::vector<double> blocks(series.size() / length);
     for (std::size_t b = 0; b < blocks.size(); ++b)
@@ -57,14 +62,30 @@ double subtract_line(std::vector<double>& x) {
     return slope * n;
 }
 
-// The low end of the spectrum of a series with mean 0; none where the autocorrelation has not died
+// How many ordinates the autocorrelation of a series with mean 0 allows; none where it has not died
 // out within half of the series. @pre not all values are 0
-std::optional<Band> low_band(const std::vector<double>& x) {
+std::optional<std::size_t> bandwidth(const std::vector<double>& x) {
     const std::size_t window = correlation_window(x);
     if (x.size() < 2 * window) return std::nullopt;
-    const auto widest = std::max<std::size_t>(2, (x.size() + 3 * window) / (6 * window));
-    const std::vector<double> ordinates = low_periodogram(x, widest);
-    return without_lines(std::span(ordinates).first(flat_band(ordinates)));
+    return std::max(kNarrowest, (x.size() + 3 * window) / (6 * window));
+}
+
+// The low end of the spectrum of a series with mean 0; none where it is too short for one.
+// @pre not all values are 0
+std::optional<Band> low_band(const std::vector<double>& x) {
+    const std::optional<std::size_t> widest = bandwidth(x);
+    if (!widest) return std::nullopt;
+    const std::vector<double> ordinates = low_periodogram(x, *widest);
+    std::size_t count = flat_band(ordinates);
+    if (count < *widest) {
+        // noise hid slow correlation: look again at means that the noise has mostly left
+        std::vector<double> slow =
+            blocks_of(x, std::max<std::size_t>(1, x.size() / (kBlocksPerOrdinate * count)));
+        subtract_mean(slow);
+        if (sum_of_squares(slow) > 0.0)
+            count = std::min(count, bandwidth(slow).value_or(kNarrowest));
+    }
+    return without_lines(std::span(ordinates).first(count));
 }
 
 // Is a rise more than a line through what is left without it has by chance?
@@ -105,8 +126,7 @@ MeanInterval mean_interval(std::span<const double> series) {
     std::vector<double> x = blocks_of(series, length);
     subtract_mean(x);
     const auto n = static_cast<double>(x.size());
-    const double variance = sum_of_squares(x) / n;
-    if (variance == 0.0) {
+    if (sum_of_squares(x) == 0.0) {
         out.half_width = out.trend = 0.0;
         return out;
     }
@@ -114,7 +134,9 @@ MeanInterval mean_interval(std::span<const double> series) {
     if (band) {
         out.half_width =
             student(2.0 * static_cast<double>(band->stay), 0.05) * std::sqrt(band->mean / n);
-        out.effective_samples = n * variance / band->mean;
+        // S of single samples is that of blocks times their length
+        const double spread = standard_deviation(series);
+        out.effective_samples = n * spread * spread / band->mean;
         out.correlation_time = static_cast<double>(series.size()) / out.effective_samples;
     }
     out.trend = subtract_line(x);

@@ -34,11 +34,14 @@ struct MeanInterval {
 /// 1. Window W (Sokal, Monte Carlo Methods in Statistical Mechanics, 1997, section 3): the first
 ///    lag with W >= 5 tau(W), tau(W) = 1/2 + sum_{k <= W} c_k / c_0. Then J = n / (6 W), at least
 ///    2: up to there the spectrum of exp(-k / tau) falls by less than a twentieth.
-/// 2. A spectrum that rises from zero on, as that of bodies that meet in turn does, has a narrower
-///    band: J is halved while the upper half's mean exceeds the lower's by two standard deviations.
+/// 2. A spectrum that rises from zero on, as that of bodies that meet in turn does, or falls, as
+///    that of slow changes under fast hits, has a narrower band: J is halved while the halves'
+///    means differ by two standard deviations. Then step 1 once more with means of blocks, 24 per
+///    ordinate that is left: in these slow correlation shows that noise hid.
 /// 3. Lines are left out. A period that the series holds many times leaves next to nothing in the
 ///    mean, but all its power in one I_j: the largest is dropped while it fails Fisher's test for a
-///    hidden period at 1 % (Proceedings of the Royal Society A 125, 1929), four ordinates stay.
+///    hidden period at 1 % (Proceedings of the Royal Society A 125, 1929), four ordinates stay. One
+///    that it holds fewer than five times stays: it may as well be slow noise.
 ///
 /// So negative lobes of the autocorrelation make the interval narrower, which batch means cannot
 /// do. For white noise it is the classical one. Series beyond 8192 samples are averaged in blocks

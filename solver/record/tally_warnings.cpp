@@ -19,35 +19,29 @@ namespace {
 // by more than it, with 0.24 (its 2D case at 1 m/s) they do not.
 constexpr double kWorryingPeaks = 0.5;
 
-// Shares of sum |f| that the largest |f| carry.
-struct Peaks {
-    double hundredth = 0.0;  // the 1 % of steps with the largest; 0 for fewer than 100 steps
-    double single = 0.0;     // the largest alone
-};
-
-Peaks measure_peaks(std::vector<double> force) {
-    if (force.size() < 100) return {};
+// The share of sum |f| that the 1 % of steps with the largest |f| carry; 0 below 100 steps.
+double share_of_peaks(std::vector<double> force) {
     for (double& f : force) f = std::abs(f);
     std::sort(force.begin(), force.end(), std::greater<>());
     const auto few = force.begin() + static_cast<std::ptrdiff_t>(force.size() / 100);
     const double all = std::accumulate(force.begin(), force.end(), 0.0);
-    if (all == 0.0) return {};
-    return {std::accumulate(force.begin(), few, 0.0) / all, force.front() / all};
+    return all == 0.0 ? 0.0 : std::accumulate(force.begin(), few, 0.0) / all;
 }
 
 // A share that was not measured counts as unknown, and is worth a warning.
 bool matters(std::optional<double> share) { return !share || *share > kMatters; }
 
-// The straight line through the averaged time, when it is no chance.
+// The straight line through the averaged time, when it is no chance. Its end is half of its change
+// away from the mean: so far off may the mean be that of a state which lasts.
 void warn_of_trend(Summary& summary) {
     const ForceStatistics& r = summary.resistance;
-    if (!r.trend_significant.value_or(false)) return;
+    if (!r.trend_significant.value_or(false) || r.mean == 0.0) return;
     const double share = std::abs(r.trend / r.mean);
     summary.warnings.push_back(judged(
         fmt::format("the resistance {} by {:.0f} % of its mean over the averaged time: begin later "
                     "(output.average_from) or run longer (simulation.duration)",
                     r.trend > 0.0 ? "rises" : "falls", 100.0 * share),
-        share));
+        0.5 * share));
 }
 
 }  // namespace
@@ -72,13 +66,13 @@ void Tally::warn(Summary& summary) const {
             summary.residual_share));
     if (jammed_steps_ > 0 && matters(change_without(jam_, mean)))
         warnings.push_back(warn_of_jam(summary));
-    if (const Peaks peaks = measure_peaks(total_[0]); peaks.hundredth > kWorryingPeaks)
+    if (const double peaks = share_of_peaks(total_[0]); peaks > kWorryingPeaks)
         warnings.push_back(judged(
-            fmt::format("{:.0f} % of the force along x comes from 1 % of the steps, {:.2g} % from "
-                        "the largest alone: hits decide the mean, and its interval may be too "
-                        "narrow; run several seeds (icesolve --seeds)",
-                        100.0 * peaks.hundredth, 100.0 * peaks.single),
-            peaks.single));
+            fmt::format(
+                "hits in 1 % of the steps carry {:.0f} % of the force along x, and "
+                "the mean's interval may be too narrow: run several seeds (icesolve --seeds)",
+                100.0 * peaks),
+            peaks));
     if (max_overlap_ > options_.worrying_overlap) warnings.push_back(warn_of_overlap(summary));
     if (closing_speed_ > options_.tunnelling_speed) warnings.push_back(warn_of_tunnelling(summary));
     warn_of_trend(summary);
