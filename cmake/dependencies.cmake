@@ -17,7 +17,7 @@ find_package(CLI11 2.1 CONFIG REQUIRED)          # common/cli and the four progr
 find_package(assimp 5.2 CONFIG REQUIRED)         # preprocess/load
 find_package(OpenSSL REQUIRED COMPONENTS Crypto) # preprocess/load: SHA-256
 find_package(CGAL 5.5 CONFIG REQUIRED)           # preprocess/clean, repair, slice, field
-find_package(Boost 1.74 REQUIRED)                # postprocess/sweep, sensitivity: Student
+find_package(Boost 1.74 REQUIRED)                # common/base/uncertainty: Student
 find_package(ZLIB REQUIRED)                      # preprocess/load, postprocess/paraview
 find_package(meshoptimizer 0.18 CONFIG REQUIRED) # postprocess/views: large hulls in pictures
 find_package(tomlplusplus 3.3 CONFIG REQUIRED)   # common/toml, postprocess/check, sweep, sensitivity

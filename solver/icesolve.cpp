@@ -122,10 +122,10 @@ std::string command_to_go_on(const Options& o, const std::filesystem::path& fold
 }
 
 // `said`: warnings that the user has seen at the start
-int report(const ice::Summary& s, const Options& o, const std::string& folder, double speed,
+int report(const ice::Summary& s, const Options& o, const std::string& folder,
            const std::vector<ice::Warning>& said) {
     if (o.json) ice::write_data(ice::summary_text(s));
-    ice::say(ice::resistance_line(s, speed));
+    ice::say(ice::resistance_line(s));
     ice::say(ice::describe_rules(s));
     if (s.lindqvist_submersion)
         ice::say("Lindqvist's submersion resistance: " + ice::force_text(*s.lindqvist_submersion));
@@ -248,9 +248,7 @@ int run_case(const Options& o, const std::string& command_line) {
         world,
         {folder, command_line, o.checkpoint_every, going_on, of_start, o.verify, watch, course}, o);
     progress.finish();
-    const double speed =
-        parameters.ship_speed(0.5 * (parameters.average_from + parameters.duration));
-    const int code = report(summary, o, folder.string(), speed, warnings);
+    const int code = report(summary, o, folder.string(), warnings);
     if (!o.no_report) write_report(folder);
     return code;
 }

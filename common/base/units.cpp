@@ -32,7 +32,7 @@ constexpr std::array kUnits{
     Unit{"h", 3600.0, Dimension::time},
     Unit{"m/s", 1.0, Dimension::speed},
     Unit{"km/h", 1.0 / 3.6, Dimension::speed},
-    Unit{"kn", 1852.0 / 3600.0, Dimension::speed},
+    Unit{"kn", kKnot, Dimension::speed},
     Unit{"rad/s", 1.0, Dimension::angular_speed},
     Unit{"deg/s", kDegree, Dimension::angular_speed},
     Unit{"m/s2", 1.0, Dimension::acceleration},

@@ -43,6 +43,10 @@ struct TravelParticulars {
     double averaged_lengths = kUnknown;  ///< of it while forces are averaged
 };
 
+/// "1.20 ship lengths", with ", less than one" where the averages are of less than a length, which
+/// floes need about to pass along the hull.
+std::string averaged_text(double averaged_lengths);
+
 /// What an empirical formula says of the same ship and ice.
 struct FormulaValue {
     std::string name;       ///< author and year

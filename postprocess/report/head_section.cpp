@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "common/base/uncertainty.hpp"
+#include "common/base/units.hpp"
 #include "postprocess/report/page.hpp"
 #include "postprocess/report/pictures.hpp"
 #include "postprocess/report/tables.hpp"
@@ -15,12 +17,6 @@ using views::escape;
 using views::readable;
 
 namespace {
-
-constexpr double kKnot = 1852.0 / 3600.0;  // [m/s]
-
-// An independent model of the same cases (exact convex solids, compliant contact) has means 3 to
-// 12 % below these; see README's limitations.
-constexpr double kModelUncertainty = 0.1;
 
 using Rows = std::vector<std::pair<std::string, std::string>>;
 
@@ -95,7 +91,7 @@ Rows travel_rows(const Summary& s, double speed) {
                 (std::isfinite(s.travel.lengths) ? fmt::format(", {:.2f} lengths", s.travel.lengths)
                                                  : ""));
     if (std::isfinite(s.travel.averaged_lengths))
-        add(rows, "Averaged over", fmt::format("{:.2f} lengths", s.travel.averaged_lengths));
+        add(rows, "Averaged over", averaged_text(s.travel.averaged_lengths));
     add(rows, "Floes moved", fmt::format("{} of {}", s.floes_moved, s.floes_total));
     return rows;
 }
@@ -123,7 +119,8 @@ std::string key_numbers(const Summary& s, const ForceUnit& unit, double speed) {
     out += card(mean_and_interval(unit, s.resistance) + " " + unit.name,
                 "mean ice resistance with the 95 % interval of this run");
     out += card("± " + unit.text(kModelUncertainty * std::abs(s.resistance.mean)) + " " + unit.name,
-                "uncertainty of the model, 10 %, beside that interval");
+                fmt::format("uncertainty of the model, {:.0f} %, beside that interval",
+                            100.0 * kModelUncertainty));
     for (const FormulaValue& formula : formulas_of(s))
         out += card(unit.text(formula.value) + " " + unit.name,
                     formula.name + ", " + formula.part + " part");

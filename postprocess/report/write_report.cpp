@@ -149,7 +149,9 @@ std::string make_report(const read::RunFolder& run, std::size_t frames) {
     const RunFigures figures = make_figures(run, data, frames);
     const ViewerData viewer = make_viewer_data(data, figures, frames);
     PageParts page{data.header.title, page_header(run), "", "", viewer.meta, viewer.arrays};
-    const double speed = mean_speed(data, figures.average_from);
+    const bool stated = run.summary && std::isfinite(run.summary->ship.speed_mean);
+    const double speed =
+        stated ? run.summary->ship.speed_mean : mean_speed(data, figures.average_from);
     std::string head;
     if (run.summary) {
         page.summary =

@@ -2,7 +2,6 @@
 #include "postprocess/sensitivity/rank_inputs.hpp"
 
 #include <algorithm>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <limits>
 
@@ -40,8 +39,7 @@ Estimate estimate_difference(const Seeds& a, const Seeds& b) {
     const double freedom = (qa + qb) * (qa + qb) /
                            (qa * qa / static_cast<double>(a.resistance.size() - 1) +
                             qb * qb / static_cast<double>(b.resistance.size() - 1));
-    const boost::math::students_t student(freedom);
-    return {mean, quantile(complement(student, 0.025)) * std::sqrt(qa + qb)};
+    return {mean, student_quantile(freedom, 0.05) * std::sqrt(qa + qb)};
 }
 
 bool Change::significant() const { return std::abs(difference.mean) > difference.half; }

@@ -2,17 +2,13 @@
 /// Which input moves the resistance most, and whether the seeds allow to say so.
 #pragma once
 
+#include "common/base/uncertainty.hpp"
 #include "postprocess/sensitivity/read_study.hpp"
 #include "postprocess/sweep/sweep_points.hpp"
 
 namespace ice::sensitivity {
 
 using sweep::Estimate;
-
-/// What the model itself may be wrong by, as a share of the resistance: stated, not computed. An
-/// independent model of the same problem, convex solids with compliant contact, lay 3 to 12 % below
-/// this one on the pre-sawn channel.
-inline constexpr double kModelUncertainty = 0.10;
 
 /// Mean of an ensemble: Student's interval over its seeds; of a single run the run's own.
 Estimate estimate_ensemble(const Seeds& ensemble);

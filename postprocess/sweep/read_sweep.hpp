@@ -19,6 +19,7 @@
 #include <string>
 #include <vector>
 
+#include "common/base/units.hpp"
 #include "common/formats/summary_file.hpp"
 
 namespace ice::sweep {
@@ -30,7 +31,6 @@ inline constexpr const char* kFieldSeedKey = "field.seed";
 bool is_seed(const std::string& key);
 
 inline constexpr const char* kSpeedKey = "hull.speed";
-inline constexpr double kKnot = 1852.0 / 3600.0;  ///< [m/s]
 
 /// Value of one setting: as text, and as a number where it is one (SI).
 struct Setting {

@@ -2,11 +2,11 @@
 #include "postprocess/sweep/sweep_points.hpp"
 
 #include <algorithm>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <limits>
 #include <numeric>
 
+#include "common/base/uncertainty.hpp"
 #include "postprocess/sweep/key_names.hpp"
 
 namespace ice::sweep {
@@ -121,8 +121,7 @@ Estimate estimate_mean(const std::vector<double>& values) {
     if (values.size() == 1 || !std::isfinite(mean)) return {mean, kNaN};
     double square = 0.0;
     for (const double value : values) square += (value - mean) * (value - mean);
-    const boost::math::students_t student(n - 1.0);
-    return {mean, quantile(complement(student, 0.025)) * std::sqrt(square / (n - 1.0) / n)};
+    return {mean, student_quantile(n - 1.0, 0.05) * std::sqrt(square / (n - 1.0) / n)};
 }
 
 std::vector<Point> make_points(const Sweep& sweep) {

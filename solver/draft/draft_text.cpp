@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/base/units.hpp"
+#include "common/toml/schema.hpp"
+#include "solver/case/case_schema.hpp"
 #include "solver/draft/draft_case.hpp"
 
 namespace ice {
@@ -29,6 +32,9 @@ std::string quoted(const std::string& text) {
 
 std::string draft_text(const Draft& d, const std::string& hull, const std::string& field) {
     std::string out =
+        fmt::format("#:schema {0}\n# for editors, made by: icesolve --print-schema > {0}\n",
+                    schema_file_name(case_schema()));
+    out +=
         "# Drafted by icesolve --new: it runs as it is. Lines marked CHECK are guesses.\n"
         "# icesolve --check CASE tells what it makes of the numbers, --explain KEY what a key "
         "takes.\n";
@@ -47,7 +53,7 @@ std::string draft_text(const Draft& d, const std::string& hull, const std::strin
     out += line(fmt::format("position = [{:g}, {:g}]", d.x, d.y),
                 fmt::format("m: the bow {:.2g} m before the first ice", d.clearance));
     out += line(fmt::format("speed = {:g}", d.speed),
-                fmt::format("m/s, CHECK: {:.2g} kn", d.speed / 0.514444));
+                fmt::format("m/s, CHECK: {:.2g} kn", d.speed / kKnot));
     out += "\n[ice]\n" + line("density = 900.0", "kg/m3, CHECK");
     out += fmt::format("\n[[floes]]\npattern = \"file\"\nfile = {}\n", quoted(field));
     out +=
@@ -66,6 +72,8 @@ std::string draft_text(const Draft& d, const std::string& hull, const std::strin
 
 std::string draft_field(double length, double breadth) {
     return fmt::format(
+        "#:schema specification.schema.json\n"
+        "# for editors, made by: icefield --print-schema > specification.schema.json\n"
         "# Drafted by icesolve --new: broken ice for a ship of {:.3g} x {:.3g} m. CHECK all of "
         "it.\n"
         "pattern = \"voronoi\"\n"

@@ -9,13 +9,14 @@
 #include <utility>
 #include <vector>
 
+#include "common/base/units.hpp"
+
 namespace ice {
 
 namespace {
 
-constexpr double kKilo = 1e4;              // from here on in kN, kJ
-constexpr double kKnot = 1852.0 / 3600.0;  // [m/s]
-constexpr double kShown = 0.01;            // of the work
+constexpr double kKilo = 1e4;    // from here on in kN, kJ
+constexpr double kShown = 0.01;  // of the work
 
 // Numbers in one unit and to one digit.
 struct Format {
@@ -57,7 +58,8 @@ std::string force_text(double value) {
     return fmt::format("{} {}", format(value), format.name);
 }
 
-std::string resistance_line(const Summary& s, double speed) {
+std::string resistance_line(const Summary& s) {
+    const double speed = s.ship.speed_mean;
     const ForceStatistics& r = s.resistance;
     const Format format = format_for(r.mean, r.ci95, s.dimension, "N");
     return fmt::format(

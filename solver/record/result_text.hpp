@@ -14,9 +14,8 @@ std::string force_text(double value, double half_width, int dimension);
 /// "1.42 kN": three digits, of a whole ship.
 std::string force_text(double value);
 
-/// Mean resistance with interval, and what it consists of.
-/// @param speed  of the ship over the averaged time [m/s]; shown in knots as well
-std::string resistance_line(const Summary& summary, double speed);
+/// Mean resistance with interval, at the mean speed of the averaged time, and what it consists of.
+std::string resistance_line(const Summary& summary);
 
 /// The ship's work and where at least 1 % of it went, largest share first; "" when it did none.
 /// All shares are in summary.json.

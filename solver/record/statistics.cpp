@@ -2,10 +2,10 @@
 #include "solver/record/statistics.hpp"
 
 #include <algorithm>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <numeric>
 
+#include "common/base/uncertainty.hpp"
 #include "solver/record/periodogram.hpp"
 
 namespace ice {
@@ -25,12 +25,6 @@ double mean_of(std::span<const double> series) {
     return series.empty() ? std::nan("")
                           : std::accumulate(series.begin(), series.end(), 0.0) /
                                 static_cast<double>(series.size());
-}
-
-// Student's t that a share `chance` of all exceed to either side.
-double student(double degrees, double chance) {
-    return boost::math::quantile(
-        boost::math::complement(boost::math::students_t(degrees), 0.5 * chance));
 }
 
 // Means of blocks; what is over at the end is left out.
@@ -95,8 +89,8 @@ std::optional<bool> is_significant(double rise, const std::vector<double>& detre
     if (!band) return std::nullopt;
     const auto n = static_cast<double>(detrended.size());
     const double degrees = 2.0 * static_cast<double>(band->stay) - 1.0;  // one is the slope's
-    return std::abs(rise) >
-           student(degrees, kTrendChance) * std::sqrt(12.0 * (band->mean + band->line_trend) / n);
+    return std::abs(rise) > student_quantile(degrees, kTrendChance) *
+                                std::sqrt(12.0 * (band->mean + band->line_trend) / n);
 }
 
 }  // namespace
@@ -114,7 +108,8 @@ MeanInterval student_interval(std::span<const double> values) {
     const double unknown = std::nan("");
     MeanInterval out{mean_of(values), unknown, 1.0, n, unknown, std::nullopt};
     if (values.size() >= 2)
-        out.half_width = student(n - 1.0, 0.05) * standard_deviation(values) / std::sqrt(n);
+        out.half_width =
+            student_quantile(n - 1.0, 0.05) * standard_deviation(values) / std::sqrt(n);
     return out;
 }
 
@@ -132,8 +127,8 @@ MeanInterval mean_interval(std::span<const double> series) {
     }
     const std::optional<Band> band = low_band(x);
     if (band) {
-        out.half_width =
-            student(2.0 * static_cast<double>(band->stay), 0.05) * std::sqrt(band->mean / n);
+        out.half_width = student_quantile(2.0 * static_cast<double>(band->stay), 0.05) *
+                         std::sqrt(band->mean / n);
         // S of single samples is that of blocks times their length
         const double spread = standard_deviation(series);
         out.effective_samples = n * spread * spread / band->mean;

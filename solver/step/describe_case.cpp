@@ -49,11 +49,11 @@ std::string course_line(const World& w, const ShipParticulars& ship, const Cours
     const Case& p = w.parameters;
     const TravelParticulars travel = measure_travel(p, ship, p.duration);
     return fmt::format(
-        "  course     {:.4g} m, {:.2f} ship lengths, in {} steps of {:g} s; averaged over {:.2f} "
-        "lengths from {:g} s\n"
+        "  course     {:.4g} m, {:.2f} ship lengths, in {} steps of {:g} s; averaged over {}, "
+        "from {:g} s\n"
         "  clearance  {} to the first ice, {} to unbroken ice",
         travel.distance, travel.lengths, std::llround(p.duration / p.time_step), p.time_step,
-        travel.averaged_lengths, p.average_from, distance_text(course.clearance),
+        averaged_text(travel.averaged_lengths), p.average_from, distance_text(course.clearance),
         distance_text(course.clearance_fixed));
 }
 
@@ -85,9 +85,9 @@ std::string describe_case(const World& w) {
 }
 
 std::string describe_rules(const Summary& s) {
-    return fmt::format("floes held: {}; crushing {}; averaged over {:.2f} ship lengths",
-                       fmt::join(s.ice.hold, ", "), pressure_text(s.ice.crushing_pressure),
-                       s.travel.averaged_lengths);
+    return fmt::format("floes held: {}; crushing {}; averaged over {}", fmt::join(s.ice.hold, ", "),
+                       pressure_text(s.ice.crushing_pressure),
+                       averaged_text(s.travel.averaged_lengths));
 }
 
 }  // namespace ice

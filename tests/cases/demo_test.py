@@ -4,6 +4,7 @@
 
 DEMO is a copy of cases and meshes in which cases/demo.sh has run into results/demo. Three more
 seeds are computed here, of which the demo knows nothing.
+"""
 import json
 import pathlib
 import subprocess

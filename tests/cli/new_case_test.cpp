@@ -135,6 +135,7 @@ TEST_CASE("the option --new writes a case that runs as it is, from a mesh and a 
     REQUIRE(r.code == 0);
     const std::string text = slurp(w / "my ship" / "first.cfg");
     CAPTURE(text);
+    CHECK_THAT(text, Catch::StartsWith("#:schema case.schema.json\n"));
     CHECK_THAT(text, Catch::Contains("spheres = \"hull.spheres.h5\"") &&
                          Catch::Contains("file = \"ice.h5\"") &&
                          Catch::Contains("draught = 1.44") && Catch::Contains("CHECK") &&

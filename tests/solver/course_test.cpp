@@ -213,8 +213,25 @@ TEST_CASE("a case described names draught, displacement, travel, clearance and s
                          Catch::Contains("25 floes of 1.13 to 1.13 m, 0.4 m thick") &&
                          Catch::Contains("held: never") &&
                          Catch::Contains("20 m, 2.00 ship lengths, in 2000 steps of 0.01 s") &&
-                         Catch::Contains("averaged over 1.20 lengths") &&
+                         Catch::Contains("averaged over 1.20 ship lengths, from 8 s") &&
                          Catch::Contains("none to unbroken ice") &&
                          Catch::Contains("hull 0.1 m, 0.2 m apart; ice 0.05 m, 0.1 m apart") &&
                          Catch::Contains("crushing 1 MPa"));
+}
+
+TEST_CASE("averages of less than a ship's length say so in words, of a length or more do not",
+          "[step][analytic]") {
+    World w = field_of(25);  // 1 m/s for 20 s, a ship of 10 m
+    const auto [from, words, less] = GENERATE(
+        table<double, const char*, bool>({{8.0, "1.20 ship lengths", false},
+                                          {10.0, "1.00 ship lengths", false},
+                                          {13.7, "0.63 ship lengths, less than one", true}}));
+    w.parameters.average_from = from;
+    CHECK(check_course(w).empty());
+    Summary s;
+    s.travel.averaged_lengths = (20.0 - from) / 10.0;
+    for (const std::string& text : {describe_case(w), describe_rules(s)}) {
+        CHECK_THAT(text, Catch::Contains(std::string("averaged over ") + words));
+        CHECK((text.find("less than one") != std::string::npos) == less);
+    }
 }

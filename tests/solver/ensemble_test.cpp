@@ -112,9 +112,10 @@ TEST_CASE("the resistance's line has both units of speed, the energy's the share
           "[record]") {
     Summary s;
     s.resistance = {439593.7, 300000.0, 139593.7, 1.0, 1.0, 47203.7};
+    s.ship.speed_mean = 2.05778;
     s.floes_moved = 60;
     s.floes_total = 84;
-    CHECK(resistance_line(s, 2.05778) ==
+    CHECK(resistance_line(s) ==
           "resistance 440 +- 47 kN (95 %) at 2.06 m/s (4 kn): contact 300, friction 140; 60 of 84 "
           "floes moved");
     CHECK(energy_line(s).empty());
