@@ -18,7 +18,7 @@ icepost=${ICEPOST:-build/release/bin/icepost}
 [[ -f $run/report.html ]] || "$icepost" report "$run"
 # the clock of the page runs ahead of the real one until everything is drawn
 chromium --headless=new --no-sandbox --use-angle=swiftshader --enable-unsafe-swiftshader \
-    --hide-scrollbars --window-size=1100,1560 --virtual-time-budget=10000 \
+    --hide-scrollbars --window-size=1100,1700 --virtual-time-budget=10000 \
     --screenshot="$PWD/docs/report.png" "file://$run/report.html#t=21&camera=keel&hull=load"
 
 # the sweep's own curve, where Snakemake is installed: 24 runs
