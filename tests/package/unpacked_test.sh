@@ -49,7 +49,7 @@ grep -rqF "$build" "$root/usr/lib/"*/icesolve "$root/usr/lib/cmake" 2>/dev/null 
 for page in "$root"/usr/share/man/man?/*.gz; do
     [[ -z $(zcat "$page" | man --warnings -E UTF-8 -l -Tutf8 -Z - 2>&1 >/dev/null) ]] || fail "$page is ill-formed"
     for part in NAME EXAMPLES 'SEE ALSO'; do
-        zcat "$page" | grep -qE "^\.SH \"?$part" || fail "$page has no $part"
+        [[ -n $(zcat "$page" | grep -E "^\.SH \"?$part") ]] || fail "$page has no $part"
     done
     for other in $(zcat "$page" | sed -nE 's/^\.BR ((ice|spherize)[a-z-]*) \(([15])\).*/\1.\3/p'); do
         [[ -f $root/usr/share/man/man${other##*.}/$other.gz ]] || fail "$page names $other, which is not there"
@@ -57,7 +57,7 @@ for page in "$root"/usr/share/man/man?/*.gz; do
 done
 [[ $(find "$root"/usr/share/man -name '*.gz' | wc -l) -ge 14 ]] || fail "pages are missing"
 for key in average_from crushing_pressure concentration breaking_length; do
-    zcat "$root"/usr/share/man/man5/*.gz | grep -q "^\.B $key" || fail "no page explains $key"
+    [[ -n $(zcat "$root"/usr/share/man/man5/*.gz | grep "^\.B $key") ]] || fail "no page explains $key"
 done
 
 for program in spherize icefield icesolve icepost; do
