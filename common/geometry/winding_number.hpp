@@ -7,20 +7,29 @@
 
 namespace ice {
 
+/// Signed solid angle of a triangle seen from p, of the whole sphere: -0.5 to 0.5, positive from
+/// behind (van Oosterom and Strackee, IEEE Trans. Biomed. Eng. 30(2), 1983).
+double solid_angle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
+
 /// Generalised winding number of any set of triangles: the solid angle they cover seen from a
 /// point, over 4 pi. 1 inside and 0 outside a closed outward surface, in between near openings.
 ///
 /// Jacobson et al., "Robust inside-outside segmentation using generalized winding numbers",
-/// SIGGRAPH 2013; far triangles together as one dipole, Barill et al., "Fast winding numbers
-/// for soups and clouds", SIGGRAPH 2018 (first order, beta = 2: errors of up to 0.04, far from
-/// the 0.5 that decides). A triangle without area counts nothing. Thread-safe once built. Build
-/// O(T log T).
+/// SIGGRAPH 2013; triangles farther than beta times their reach together as one dipole, Barill et
+/// al., "Fast winding numbers for soups and clouds", SIGGRAPH 2018 (first order). A triangle
+/// without area counts nothing. Thread-safe once built. Build O(T log T).
 class WindingNumber {
 public:
+    static constexpr double kBeta = 2.0;  ///< errors of up to 0.04
+
     /// Keeps what it needs of the mesh.
     explicit WindingNumber(const TriangleMesh& mesh);
 
-    double at(const Vec3& p) const;
+    /// @param beta  accuracy: errors of up to 0.16 / beta^2; infinity adds up all solid angles
+    double at(const Vec3& p, double beta = kBeta) const;
+
+    /// Whether |at(p)| > 0.5, as the exact sum says: beta grows while 0.5 is within the error.
+    bool contains(const Vec3& p) const;
 
 private:
     struct Node {

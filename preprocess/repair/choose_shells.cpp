@@ -3,8 +3,8 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <numbers>
 
+#include "common/geometry/winding_number.hpp"
 #include "preprocess/clean/find_parts.hpp"
 #include "preprocess/clean/keep_triangles.hpp"
 
@@ -46,19 +46,14 @@ std::vector<Shell> find_shells(const TriangleMesh& mesh) {
     return shells;
 }
 
-// Winding number of a shell around a point not on it: the solid angles of its triangles add up
-// (van Oosterom and Strackee, IEEE Trans. Biomed. Eng. 30(2), 1983).
+// Winding number of a shell around a point not on it.
 int winding(const TriangleMesh& mesh, const Shell& shell, const Vec3& p) {
-    double angle = 0.0;
+    double sum = 0.0;
     for (const std::int32_t t : shell.triangles) {
         const auto tt = static_cast<std::size_t>(t);
-        const Vec3 a = mesh.corner(tt, 0) - p, b = mesh.corner(tt, 1) - p,
-                   c = mesh.corner(tt, 2) - p;
-        const double la = a.norm(), lb = b.norm(), lc = c.norm();
-        const double below = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
-        angle += 2.0 * std::atan2(a.dot(b.cross(c)), below);
+        sum += solid_angle(p, mesh.corner(tt, 0), mesh.corner(tt, 1), mesh.corner(tt, 2));
     }
-    return static_cast<int>(std::lround(angle / (4.0 * std::numbers::pi)));
+    return static_cast<int>(std::lround(sum));
 }
 
 bool is_flat(const Shell& shell) {

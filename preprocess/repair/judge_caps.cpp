@@ -103,7 +103,7 @@ public:
             for (const Vec3& p : {middle, Vec3(0.2 * middle + 0.8 * mesh_.corner(tt, 0)),
                                   Vec3(0.2 * middle + 0.8 * mesh_.corner(tt, 1)),
                                   Vec3(0.2 * middle + 0.8 * mesh_.corner(tt, 2))})
-                if (winding_->at(p + kJustOutside * size_ * normal(t)) < 0.5) return false;
+                if (!winding_->contains(p + kJustOutside * size_ * normal(t))) return false;
         }
         return true;
     }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "common/base/error.hpp"
 #include "common/geometry/mass_properties.hpp"
@@ -15,7 +16,7 @@
 #include "preprocess/measure/row_volumes.hpp"
 #include "preprocess/repair/check_solid.hpp"
 #include "preprocess/repair/close_surface.hpp"
-#include "preprocess/repair/unite_parts.hpp"
+#include "preprocess/repair/resolve_crossings.hpp"
 #include "preprocess/repair/verify_solid.hpp"
 #include "preprocess/repair/winding_solid.hpp"
 #include "preprocess/repair/wrap_solid.hpp"
@@ -28,11 +29,13 @@ constexpr double kWindingDiffers = 0.02;  // of the volume: caps against the ope
 // Over a sheer line the surface where the winding number is a half sags between the ends: 3.7 % of
 // the volume at a sheer of a quarter of the depth.
 constexpr double kDeckDiffers = 0.05;
-constexpr double kCapsMatter = 0.005;    // of the surface: below, caps need no second opinion
-constexpr double kWorthWarning = 0.002;  // of the surface: one cap
-constexpr double kContourError = 0.01;   // of the volume
-constexpr double kWrapOffset = 1000.0;   // of which the diagonal is a multiple
-constexpr double kCollapsed = 0.5;       // of the volume the winding number gives
+constexpr double kCapsMatter = 0.005;       // of the surface: below, caps need no second opinion
+constexpr double kWorthWarning = 0.002;     // of the surface: one cap
+constexpr double kContourError = 0.01;      // of the volume
+constexpr double kWrapOffset = 1000.0;      // of which the diagonal is a multiple
+constexpr std::size_t kMostPairs = 100000;  // each costs about 0.1 ms
+constexpr int kRounds = 3;                  // rounding may let cut pieces cross again
+constexpr double kCollapsed = 0.5;          // of the volume the winding number gives
 
 const char* const kRemedy =
     "close and orient it in the program that made it, then export again; or try --repair wrap";
@@ -139,7 +142,7 @@ private:
             return solid;
         }
         turn_outward(mesh);
-        if (auto solid = unite(mesh, pairs)) return std::move(*solid);
+        if (auto solid = resolve(mesh, pairs)) return std::move(*solid);
         if (verify_solid(mesh).good) {
             note("crossing pairs of triangles left, without effect on the volume",
                  static_cast<std::int64_t>(pairs.size()));
@@ -161,22 +164,40 @@ private:
         }
     }
 
-    std::optional<TriangleMesh> unite(const TriangleMesh& mesh, const CrossingPairs& pairs) {
-        for (const double volume : part_volumes(mesh, find_parts(mesh)))
-            if (volume <= 0.0) return std::nullopt;
-        std::int64_t united = 0;
-        auto sum = unite_parts(mesh, pairs, &united);
-        if (!sum) return std::nullopt;
+    // Crossing triangles cut where they meet, and what lies inside left out; all else stays.
+    std::optional<TriangleMesh> resolve(const TriangleMesh& mesh, const CrossingPairs& pairs) {
+        if (pairs.size() > kMostPairs) return std::nullopt;
+        TriangleMesh solid = mesh;
+        CrossingPairs left = pairs;
+        for (int round = 0; round < kRounds && !left.empty(); ++round) {
+            auto sum = resolve_crossings(solid, left);
+            if (!sum) return std::nullopt;
+            solid = std::move(*sum);
+            left = find_self_intersections(solid);
+        }
         const double expected = measure_rows(mesh, 300)[0].by_winding;
-        const auto left = static_cast<std::int64_t>(find_self_intersections(*sum).size());
-        const ShellCounts shells = choose_shells(*sum, options_.kind);
-        const SolidProof proof = verify_solid(*sum);
+        const ShellCounts shells = choose_shells(solid, options_.kind);
+        const SolidProof proof = verify_solid(solid);
         // the envelope may have gained voids between the parts
         if (!proof.good || proof.volume < (1.0 - kContourError) * expected) return std::nullopt;
-        note("overlapping parts united", united);
+        say_resolved(mesh, pairs);
         note_shells(shells);
-        note("crossing pairs of triangles left, without effect on the volume", left);
-        return sum;
+        note("crossing pairs of triangles left, without effect on the volume",
+             static_cast<std::int64_t>(left.size()));
+        return solid;
+    }
+
+    void say_resolved(const TriangleMesh& mesh, const CrossingPairs& pairs) {
+        const Parts parts = find_parts(mesh);
+        std::set<std::int32_t> united;
+        std::set<std::size_t> cut;
+        for (const auto& [s, t] : pairs) {
+            cut.insert({s, t});
+            if (parts.of_triangle[s] != parts.of_triangle[t])
+                united.insert({parts.of_triangle[s], parts.of_triangle[t]});
+        }
+        note("overlapping parts united", static_cast<std::int64_t>(united.size()));
+        note("crossing triangles cut where they meet", static_cast<std::int64_t>(cut.size()));
     }
 
     std::optional<TriangleMesh> contour(const TriangleMesh& mesh) {

@@ -78,8 +78,8 @@ WindingComparison compare_windings(const TriangleMesh& open, const TriangleMesh&
                         radical_inverse(k + 1, 5));
         const Vec3 p = box.min() + box.sizes().cwiseProduct(unit);
         const double w = std::abs(first.at(p));
-        found[k] = static_cast<std::uint8_t>((w > 0.5 ? in_first : 0) |
-                                             (std::abs(second.at(p)) > 0.5 ? in_second : 0) |
+        found[k] = static_cast<std::uint8_t>((first.contains(p) ? in_first : 0) |
+                                             (second.contains(p) ? in_second : 0) |
                                              (w > 0.2 && w < 0.8 ? vague : 0));
     });
     std::array<double, 8> count{};

@@ -3,6 +3,7 @@
 #include "common/geometry/winding_number.hpp"
 
 #include <catch2/catch.hpp>
+#include <limits>
 #include <random>
 
 #include "tests/support/make_meshes.hpp"
@@ -70,4 +71,31 @@ TEST_CASE("without triangles nothing is inside, without one face of a cube five 
     const TriangleMesh cube = test::make_box_mesh(Vec3(1, 1, 1));
     const WindingNumber open(part_of(cube, [](const Vec3& p) { return p.z() + 0.49; }));
     CHECK(open.at(Vec3::Zero()) == Approx(5.0 / 6.0).epsilon(1e-12));
+}
+
+TEST_CASE("just under a wide flat opening of a fine mesh, what is inside is said exactly",
+          "[winding][analytic]") {
+    // A globe without what lies above z = 0.29: from below the flat cut, which covers up to half of
+    // all directions, the winding number is barely above a half; from above it is below.
+    const double rim = std::cos(std::numbers::pi * 61 / 150);  // a parallel of the globe
+    const TriangleMesh bowl =
+        part_of(test::make_globe(1, 150), [&](const Vec3& p) { return rim - p.z(); });
+    const WindingNumber winding(bowl);
+    constexpr double kExact = std::numeric_limits<double>::infinity();
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> unit(-0.6, 0.6);
+    int fooled = 0;
+    double worst[2] = {0.0, 0.0};
+    for (int k = 0; k < 2000; ++k) {
+        const bool inside = k % 2 == 0;
+        const Vec3 p(unit(random), unit(random), rim + (inside ? -1e-3 : 1e-3));
+        REQUIRE(winding.contains(p) == inside);
+        fooled += (winding.at(p) > 0.5) != inside;
+        const double exact = winding.at(p, kExact);
+        worst[0] = std::max(worst[0], std::abs(winding.at(p) - exact));
+        worst[1] = std::max(worst[1], std::abs(winding.at(p, 8.0) - exact));
+    }
+    CHECK(fooled > 0);
+    CHECK(worst[0] < 0.16 / 4);
+    CHECK(worst[1] < 0.16 / 64);
 }

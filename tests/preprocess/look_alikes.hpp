@@ -23,7 +23,7 @@ inline constexpr double kShipLength = 230.0, kShipBreadth = 32.2, kShipDepth = 1
 /// but for its diagonals. About 4 stations * levels triangles.
 TriangleMesh container_ship(Stern stern, int stations = 120, int levels = 40);
 
-/// A naval combatant, 142 x 19 x 13.5 m, T 6.2 m: a fine raked bow, hollow waterlines, rise of floor.
+/// A naval combatant, 142 x 19 x 13.5 m, T 6.2 m: a fine raked bow and rise of floor.
 /// @param fold  the sides change places within this breadth along the keel [m]: they cross there
 TriangleMesh combatant(double fold = 0.0, int stations = 160, int levels = 40);
 

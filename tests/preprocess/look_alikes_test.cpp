@@ -50,7 +50,7 @@ TEST_CASE("look-alike: the container ship is a solid, and crosses itself at the 
     CHECK(own < pairs.size());
 }
 
-TEST_CASE("look-alike: the combatant is a solid with a fine bow; a fold crosses at its keel only",
+TEST_CASE("look-alike: the combatant is a solid with a fine bow, and crosses itself at its keel",
           "[support][look-alikes]") {
     const TriangleMesh hull = test::combatant();
     const SolidDiagnosis d = diagnose_solid(hull);

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Hulls as they come (look_alikes): what is wrong is mended where it is.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <set>
+
+#include "common/geometry/mass_properties.hpp"
+#include "preprocess/clean/self_intersections.hpp"
+#include "preprocess/measure/row_volumes.hpp"
+#include "preprocess/repair/check_solid.hpp"
+#include "preprocess/repair/make_solid.hpp"
+#include "tests/preprocess/look_alikes.hpp"
+#include "tests/support/make_hull.hpp"
+#include "tests/support/make_meshes.hpp"
+
+using namespace ice;
+
+namespace {
+
+struct Mended {
+    TriangleMesh mesh;
+    Repairs repairs;
+    std::vector<std::string> warnings;
+    double volume = 0.0;
+
+    std::int64_t count(const std::string& step) const {
+        for (const auto& [name, number] : repairs)
+            if (name == step) return number;
+        return 0;
+    }
+    std::string said() const {
+        std::string out;
+        for (const auto& [name, number] : repairs) out += fmt::format("{}: {}\n", name, number);
+        for (const auto& warning : warnings) out += warning + "\n";
+        return out;
+    }
+};
+
+Mended mend(const TriangleMesh& mesh, const SolidOptions& options = {}) {
+    Mended out;
+    out.mesh = make_solid(mesh, "ship.obj", options, out.repairs, &out.warnings);
+    out.volume = measure_mass(out.mesh).volume;
+    CHECK(diagnose_solid(out.mesh).text() == "");
+    return out;
+}
+
+using Place = std::array<double, 3>;
+
+std::set<Place> places_ahead(const TriangleMesh& mesh, double x) {
+    std::set<Place> out;
+    for (const Vec3& v : mesh.vertices)
+        if (v.x() > x) out.insert({v.x(), v.y(), v.z()});
+    return out;
+}
+
+}  // namespace
+
+TEST_CASE("crossings at the stern leave every vertex forward of 0.1 L where it was, bit for bit",
+          "[repair][mend]") {
+    const TriangleMesh ship = test::container_ship(test::Stern::crossing);
+    const Mended mended = mend(ship);
+    INFO(mended.said());
+    const double aft = -0.4 * test::kShipLength;
+    CHECK(places_ahead(mended.mesh, aft) == places_ahead(ship, aft));
+    CHECK(mended.warnings.empty());
+    CHECK(mended.count("overlapping parts united") == 2);
+    // every place of positive winding number counts once: the sampling error of 1000 x 1000 rows
+    CHECK(mended.volume == Approx(measure_rows(ship, 1000)[0].by_winding).epsilon(1e-4));
+}
+
+TEST_CASE("sides that cross along a keel, and plates through a deck edge, are cut where they cross",
+          "[repair][mend]") {
+    const TriangleMesh mesh = GENERATE(test::combatant(0.3), test::ship_with_bulwark());
+    const Mended mended = mend(mesh);
+    INFO(mended.said());
+    CHECK(mended.warnings.empty());
+    CHECK(mended.count("crossing triangles cut where they meet") > 50);
+    CHECK(mended.volume == Approx(measure_rows(mesh, 1000)[0].by_winding).epsilon(1e-4));
+}
+
+TEST_CASE("hulls of 1e5 triangles cut at their waterline are closed there", "[repair][mend]") {
+    const TriangleMesh cut = test::cut_at(
+        GENERATE(test::container_ship(test::Stern::clean, 460, 80), test::combatant(0.0, 500, 85)),
+        0.0);
+    REQUIRE(cut.triangles.size() > 90000);
+    double below = 0.0;  // cones from the origin, which lies in the cut
+    for (std::size_t t = 0; t < cut.triangles.size(); ++t)
+        below += cut.corner(t, 0).dot(cut.corner(t, 1).cross(cut.corner(t, 2))) / 6.0;
+    const Mended mended = mend(cut);
+    CHECK(mended.volume == Approx(below).epsilon(1e-9));
+    CHECK(mended.count("deck closed by a cap") == 1);
+}
