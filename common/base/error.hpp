@@ -7,7 +7,7 @@
 
 namespace ice {
 
-/// Exit codes of all programs (CONTRACT.md, section 2).
+/// Exit codes of all programs (docs/contract.md, section 2).
 enum class ExitCode { ok = 0, failed = 1, bad_input = 2, interrupted = 130 };
 
 /// Thrown by the libraries; printed only by the programs' main functions.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// `*.spheres.h5`: the contract between spherize and icesolve (CONTRACT.md, section 3).
+/// `*.spheres.h5`: the contract between spherize and icesolve (docs/contract.md, section 3).
 #pragma once
 
 #include <filesystem>

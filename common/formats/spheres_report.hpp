@@ -17,7 +17,7 @@ struct ThinFeature {
     double size = 0.0;           ///< extent of the unfilled surface there [m]
 };
 
-/// Certificate of a sphere set (schema spherize/1, CONTRACT.md section 2).
+/// Certificate of a sphere set (schema spherize/1, docs/contract.md, section 2).
 struct SpheresReport {
     int dimension = 3;
     double radius = 0.0, spacing = 0.0;

@@ -59,7 +59,7 @@ struct Ensemble {
     std::vector<std::int64_t> seeds;  ///< of each member
 };
 
-/// Content of summary.json (schema icesolve-summary/1, CONTRACT.md section 5).
+/// Content of summary.json (schema icesolve-summary/1, docs/contract.md, section 5).
 struct Summary {
     std::string status = "completed";  ///< completed | interrupted | failed
     std::string title, simd = "scalar";

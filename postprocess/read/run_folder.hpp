@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// A run folder as icesolve leaves it (CONTRACT.md, section 5).
+/// A run folder as icesolve leaves it (docs/contract.md, section 5).
 #pragma once
 
 #include <filesystem>

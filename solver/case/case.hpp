@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// The parameters of a run, as the case file states them (CONTRACT.md, section 4).
+/// The parameters of a run, as the case file states them (docs/contract.md, section 4).
 #pragma once
 
 #include <Eigen/Geometry>

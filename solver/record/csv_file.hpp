@@ -52,7 +52,7 @@ private:
     bool begins_late_ = false;
 };
 
-/// Columns of forces.csv and floe_<id>.csv (CONTRACT.md, section 5).
+/// Columns of forces.csv and floe_<id>.csv (docs/contract.md, section 5).
 extern const char* const kForceColumns;
 extern const char* const kFloeColumns;
 std::vector<double> csv_row(const HistoryRow& row);

@@ -24,7 +24,7 @@ struct Inertia {
 
 /// Structure of arrays, one entry per body but for those of inertias.
 ///
-/// Momentum and angular momentum are the state (CONTRACT.md, section 6); velocities and world
+/// Momentum and angular momentum are the state (docs/method.md, section 1); velocities and world
 /// inverse inertias are derived from them at known points of a step. A held floe and the ship have
 /// inverse mass and inertia zero: no impulse moves them.
 struct Bodies {
