@@ -3,7 +3,9 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "common/base/parallel.hpp"
@@ -43,27 +45,50 @@ private:
     std::vector<double> weight_;
 };
 
-// Groups unfilled samples: those within `distance` of each other are of one feature.
+// The points of a small cube, which are one feature.
+struct Clump {
+    Eigen::AlignedBox3d box;
+    bool taken = false;
+};
+
+// Groups unfilled samples: cubes of them that are within `distance` of each other are of one
+// feature. Cubes, because a fine mesh has a sample in each triangle.
 std::vector<ThinFeature> group(const std::vector<Vec3>& points, double distance) {
+    std::map<std::array<std::int64_t, 3>, std::size_t> known;
+    std::vector<Clump> clumps;
+    std::vector<Vec3> first_points;
+    const double cube = 0.25 * distance;
+    for (const Vec3& p : points) {
+        std::array<std::int64_t, 3> at;
+        for (int d = 0; d < 3; ++d)
+            at[static_cast<std::size_t>(d)] = static_cast<std::int64_t>(std::floor(p[d] / cube));
+        const auto [found, fresh] = known.try_emplace(at, clumps.size());
+        if (fresh) {
+            clumps.emplace_back();
+            first_points.push_back(p);
+        }
+        clumps[found->second].box.extend(p);
+    }
     std::vector<ThinFeature> out;
-    if (points.empty()) return out;
-    const PointCells cells(points, distance);
-    std::vector<std::uint8_t> taken(points.size(), 0);
+    if (clumps.empty()) return out;
+    const PointCells cells(first_points, distance);
+    const double reach = distance + 2.0 * std::sqrt(3.0) * cube;
     std::vector<std::size_t> front;
-    for (std::size_t first = 0; first < points.size(); ++first) {
-        if (taken[first] != 0) continue;
-        taken[first] = 1;
+    for (std::size_t first = 0; first < clumps.size(); ++first) {
+        if (clumps[first].taken) continue;
+        clumps[first].taken = true;
         front.assign(1, first);
-        Eigen::AlignedBox3d box(points[first]);
+        Eigen::AlignedBox3d box = clumps[first].box;
         while (!front.empty()) {
-            const Vec3 p = points[front.back()];
+            const std::size_t here = front.back();
             front.pop_back();
-            cells.visit(p, distance, [&](std::int32_t k, double) {
+            cells.visit(first_points[here], reach, [&](std::int32_t k, double) {
                 const auto near = static_cast<std::size_t>(k);
-                if (taken[near] != 0) return;
-                taken[near] = 1;
+                Clump& other = clumps[near];
+                if (other.taken || clumps[here].box.exteriorDistance(other.box) > distance) return;
+                other.taken = true;
                 front.push_back(near);
-                box.extend(points[near]);
+                box.extend(other.box);
             });
         }
         const Vec3 at = box.center();

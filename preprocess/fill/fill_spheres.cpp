@@ -11,6 +11,7 @@
 #include "common/base/error.hpp"
 #include "common/base/timer.hpp"
 #include "preprocess/fill/certificate.hpp"
+#include "preprocess/fill/inscribed.hpp"
 #include "preprocess/fill/lattice.hpp"
 #include "preprocess/fill/shares.hpp"
 #include "preprocess/fill/shell.hpp"
@@ -25,42 +26,17 @@ namespace {
 constexpr double kCentroidMiss = 1e-6;
 constexpr double kLineStep = 0.2;   // of the spacing: between the points that edges are followed by
 constexpr double kQuickStep = 0.5;  // where they are straight
+constexpr double kSettled = 1e-6;   // of the radius: how nearly a sphere that just fits must
 constexpr double kMostSpheres = 3e7;  // 250 bytes each while they are made
 
-// Radius of the largest sphere found inside [m]: the deepest point of a coarse grid, then uphill.
-double inscribed_radius(const SurfaceTree& tree, int dimension) {
-    Eigen::AlignedBox3d box;
-    for (const Vec3& v : tree.mesh().vertices) box.extend(v);
-    constexpr int kPoints = 24;
-    Vec3 best = box.center();
-    double depth = 0.0;
-    std::int32_t last = -1;
-    const auto depth_at = [&](const Vec3& p) {
-        const Foot foot = tree.closest(p, last);
-        last = foot.triangle;
-        return foot.inside ? foot.distance : -foot.distance;
-    };
-    for (int k = 0; k < kPoints * kPoints * kPoints; ++k) {
-        Vec3 p = box.min() +
-                 box.sizes().cwiseProduct(Vec3(k % kPoints + 0.5, k / kPoints % kPoints + 0.5,
-                                               k / (kPoints * kPoints) + 0.5)) /
-                     kPoints;
-        if (dimension == 2) p.y() = 0.0;
-        if (const double now = depth_at(p); now > depth) {
-            depth = now;
-            best = p;
-        }
-    }
-    for (double step = 0.5 * box.sizes().maxCoeff() / kPoints; step > 1e-4 * depth; step *= 0.5)
-        for (int d = 0; d < 6; ++d) {
-            const Vec3 p = best + (d % 2 ? step : -step) * Vec3::Unit(d / 2);
-            if (dimension == 2 && d / 2 == 1) continue;
-            if (const double now = depth_at(p); now > depth) {
-                depth = now;
-                best = p;
-            }
-        }
-    return depth;
+// Before minutes go into a layer that stays empty.
+void refuse_too_large(const SurfaceTree& tree, int dimension, double radius) {
+    const Inscribed largest = find_inscribed(tree, dimension, radius);
+    if (largest.bound >= radius * (1.0 - kSettled)) return;
+    throw bad_input("--radius",
+                    fmt::format("no {} of radius {:g} m fits into the solid",
+                                dimension == 2 ? "disc" : "sphere", radius),
+                    fmt::format("the largest that fits has {:.3g} m; use less", largest.radius));
 }
 
 // An absurd number of spheres is a wrong unit more often than a wish.
@@ -112,7 +88,7 @@ void place_surface(const SurfaceTree& tree, const FillOptions& o, bool mirror, S
         throw bad_input("--radius",
                         fmt::format("no sphere of radius {:g} m fits into the solid", o.radius),
                         fmt::format("the largest that fits has {:.3g} m; use less",
-                                    inscribed_radius(tree, set.dimension)));
+                                    find_inscribed(tree, set.dimension).radius));
 }
 
 // Volume of an interior sphere's cell: hexagonal close packing, in 2D squares.
@@ -168,6 +144,7 @@ SphereSet fill(const TriangleMesh& solid, const TriangleMesh& space, int dimensi
     const SurfaceTree tree(space);
     const bool mirror = dimension == 3 && is_mirror_symmetric(tree);
     report.seconds["tree"] = timer.seconds();
+    if (!o.quick) refuse_too_large(tree, dimension, o.radius);
     place_surface(tree, o, mirror, set, report);
     set.radii.assign(set.size(), o.radius);
 

@@ -20,6 +20,7 @@ constexpr int kSmoothSteps = 3;       // along the foot's direction, before crea
 constexpr double kExact = 1e-10;      // of the radius: when a distance counts as reached
 constexpr double kRounding = 8.0 * std::numeric_limits<double>::epsilon();  // of the coordinates
 constexpr std::size_t kMostConditions = 200;  // the worst of them decide
+constexpr double kFine = 8.0;                 // edges of the mesh that are short beside the radius
 constexpr std::size_t kMostDirections = 500;  // of a sphere that fits a round solid exactly
 constexpr double kSameDirection = 0.9999995;  // cosine of 1e-3 rad: conditions that are one
 
@@ -36,11 +37,9 @@ void sort_by_distance(std::vector<Foot>& feet) {
     });
 }
 
-// Conditions of all faces nearer than the radius, the worst first, equal directions once.
-void collect(const SurfaceTree& tree, const Vec3& c, double radius, std::vector<Foot>& feet,
-             std::vector<Condition>& out) {
-    tree.within(c, radius, feet);
-    sort_by_distance(feet);
+// Conditions of the feet, which are sorted, equal directions once.
+void add_conditions(const SurfaceTree& tree, const Vec3& c, double radius,
+                    const std::vector<Foot>& feet, std::vector<Condition>& out) {
     out.clear();
     for (const Foot& foot : feet) {
         // a centre on the surface itself has no direction but the face's
@@ -51,6 +50,25 @@ void collect(const SurfaceTree& tree, const Vec3& c, double radius, std::vector<
         });
         if (!seen) out.push_back({g, radius - foot.distance});
         if (out.size() == kMostConditions) return;
+    }
+}
+
+// Conditions of all faces nearer than the radius, the worst first. In a mesh that is fine beside
+// the radius, where thousands of triangles are that near, the range grows from the nearest one's
+// distance until it holds as many conditions as may decide: the same ones.
+void collect(const SurfaceTree& tree, const Vec3& c, double radius, double nearest,
+             std::vector<Foot>& feet, std::vector<Condition>& out) {
+    const double edge = tree.mean_edge();
+    // over a plane at this distance there are as many triangles within this much more
+    double width = is_fine_for(tree, radius)
+                       ? kMostConditions * edge * edge / (4.0 * std::max(nearest, edge))
+                       : radius;
+    for (;; width *= 2.0) {
+        const double range = std::min(nearest + width, radius);
+        tree.within(c, range, feet);
+        sort_by_distance(feet);
+        add_conditions(tree, c, radius, feet, out);
+        if (range == radius || out.size() == kMostConditions) return;
     }
 }
 
@@ -140,7 +158,7 @@ std::optional<Seat> settle_from(const SurfaceTree& tree, const Vec3& start, doub
             c += (foot.distance - radius) / foot.distance * (foot.point - c);
             continue;
         }
-        collect(tree, c, radius, feet, conditions);
+        collect(tree, c, radius, foot.distance, feet, conditions);
         const Vec3 move = smallest_move(conditions);
         if (!(move.norm() < 4.0 * radius)) return std::nullopt;  // a wedge too sharp to fit in
         c += move;
@@ -149,6 +167,10 @@ std::optional<Seat> settle_from(const SurfaceTree& tree, const Vec3& start, doub
 }
 
 }  // namespace
+
+bool is_fine_for(const SurfaceTree& tree, double radius) {
+    return radius > kFine * tree.mean_edge();
+}
 
 double exact_distance(const Vec3& center, double radius) {
     return std::max(kExact * radius, kRounding * center.cwiseAbs().maxCoeff());

@@ -34,6 +34,9 @@ struct Seat {
     }
 };
 
+/// Thousands of triangles touch a sphere's surroundings: the mesh is fine beside the radius.
+bool is_fine_for(const SurfaceTree& tree, double radius);
+
 /// The distance from `radius` [m] at which a centre counts as settled: 1e-10 of the radius, or far
 /// from the origin what the rounding of coordinates leaves.
 double exact_distance(const Vec3& center, double radius);

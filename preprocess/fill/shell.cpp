@@ -22,6 +22,7 @@ constexpr double kTile = 32.0;     // a tile's edge
 constexpr double kSeedSize = 0.7;  // between the samples that fronts may start from
 constexpr double kLineSize = 0.1;  // the same in 2D, where samples alone close the gaps
 constexpr double kCovered = 0.62;  // in 2D a sample that has no seat this near gets one
+constexpr double kDeep = 0.75;     // radii that a seed of use is from the surface
 constexpr std::size_t kManySeeds = 20000;
 
 struct Tile {
@@ -71,11 +72,16 @@ private:
     void make_seeds() {
         const double size = (o_.dimension == 2 ? kLineSize : kSeedSize) * o_.spacing;
         const SurfaceSampler sampler(tree_.mesh(), size, o_.dimension, o_.mirror);
+        // small triangles have many seeds, of which one that comes to nothing takes long: where a
+        // sphere touches, the sample beside it has its seat beside the sphere's centre, deep inside
+        const bool fine = is_fine_for(tree_, o_.radius);
         std::vector<SurfaceSample> samples;
         for (std::size_t t = 0; t < sampler.triangle_count(); ++t) {
             sampler.sample(t, samples);
             for (const SurfaceSample& sample : samples) {
                 const Vec3 seat = sample.point - o_.radius * sample.normal;
+                const double aside = 2.0 * std::sqrt(sample.area);
+                if (fine && !tree_.is_clear(seat, kDeep * o_.radius - aside)) continue;
                 tile_at(tile_of(seat)).seeds.push_back({seat, sample.triangle});
                 ++seed_count_;
             }

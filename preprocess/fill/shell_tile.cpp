@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/base/parallel.hpp"
 #include "preprocess/fill/mirror_seat.hpp"
 
 namespace ice {
@@ -27,10 +28,12 @@ constexpr double kGapSeparation = 0.61;
 constexpr double kGapMirror = 0.15;
 constexpr double kCovered = 0.62;         // a seed farther from all seats gets one
 constexpr double kCoverSeparation = 0.4;  // where it had to move into the centre plane
+constexpr double kAlike = 0.25;           // cube of seeds that end alike, of radius and spacing
 constexpr double kCellReach = 1.75;       // neighbours that bound a Voronoi cell
 constexpr double kCellSize = 0.9;         // half the edge of the square a cell starts as
 constexpr double kOutside = 0.02;         // beyond a plane: not settled in a convex solid
 
+constexpr std::size_t kFewFine = 16;  // seats of a fine mesh that one thread settles alone
 constexpr std::size_t kMostConvexTests = 10000;
 constexpr double kFlat = 1e-9;  // of the largest extent: faces of one plane
 
@@ -57,6 +60,7 @@ ShellTile::ShellTile(const ShellSolid& solid, const ShellOptions& options,
                      const Eigen::AlignedBox3d& box)
     : tree_(solid.tree),
       convex_(solid.convex),
+      fine_(is_fine_for(solid.tree, options.radius)),
       o_(options),
       box_(box),
       grid_(around(box, kHalo * options.spacing).intersection(solid.box),
@@ -74,6 +78,21 @@ void ShellTile::know(const Seat& seat) {
 void ShellTile::add(const Seat& seat) {
     placed_.push_back(seat);
     know(seat);
+}
+
+// In a fine mesh: a seed as this one was tried before; from now on this one was.
+bool ShellTile::tried_near(const Seed& seed) {
+    if (!fine_) return false;
+    const double cube = kAlike * std::min(o_.spacing, o_.radius);
+    const Vec3& normal = tree_.normal(seed.triangle);
+    std::array<std::int32_t, 4> key{};
+    for (int d = 0; d < 3; ++d)
+        key[static_cast<std::size_t>(d)] =
+            static_cast<std::int32_t>(std::floor((seed.seat[d] - box_.min()[d]) / cube));
+    int axis = 0;
+    normal.cwiseAbs().maxCoeff(&axis);
+    key[3] = normal[axis] > 0.0 ? axis : -1 - axis;
+    return !tried_.insert(key).second;
 }
 
 bool ShellTile::place(const Vec3& start, std::int32_t hint, double separation, double mirror_gap,
@@ -185,6 +204,7 @@ void ShellTile::advance_front(const std::vector<Seed>& seeds) {
     for (const Seed& seed : seeds) {
         if (grid_.any_within(seed.seat, kUnreached * o_.spacing, tree_.normal(seed.triangle)))
             continue;
+        if (tried_near(seed)) continue;
         if (place(seed.seat, seed.triangle, kSeparation, kMirrorGap, false)) run();
     }
 }
@@ -242,10 +262,19 @@ void ShellTile::close_gaps() {
 
 void ShellTile::cover(const std::vector<Seed>& seeds) {
     const double range = kCovered * o_.spacing;
-    for (const Seed& seed : seeds) {
-        if (grid_.any_within(seed.seat, range, tree_.normal(seed.triangle))) continue;
-        const auto seat = settle(tree_, seed.seat, o_.radius, seed.triangle);
-        if (!seat ||
+    const auto is_covered = [&](const Seed& seed) {
+        return grid_.any_within(seed.seat, range, tree_.normal(seed.triangle));
+    };
+    std::vector<const Seed*> open;
+    for (const Seed& seed : seeds)
+        if (!is_covered(seed) && !tried_near(seed)) open.push_back(&seed);
+    std::vector<std::optional<Seat>> seats(open.size());
+    parallel_for(open.size(), fine_ ? kFewFine : open.size() + 1, [&](std::size_t k) {
+        seats[k] = settle(tree_, open[k]->seat, o_.radius, open[k]->triangle);
+    });
+    for (std::size_t k = 0; k < open.size(); ++k) {
+        const auto& seat = seats[k];
+        if (!seat || is_covered(*open[k]) ||
             grid_.any_within(seat->center, range, normals_at(tree_, o_.radius, *seat, found_)))
             continue;
         place(seat->center, seat->triangle, kCoverSeparation, kGapMirror, true);

@@ -4,6 +4,8 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <array>
+#include <set>
 #include <vector>
 
 #include "preprocess/fill/seat_grid.hpp"
@@ -37,7 +39,8 @@ public:
     void know(const Seat& seat);
 
     /// Advancing front over faces: round every seat the free places of a hexagon are tried, then
-    /// round those, and so on; seeds that no front reached start their own.
+    /// round those, and so on; seeds that no front reached start their own. Of the seeds of a fine
+    /// mesh in one small cube that face the same way the first free one is tried.
     void advance_front(const std::vector<Seed>& seeds);
 
     /// Places a sphere in every gap: at the corners of the seats' Voronoi cells, in the plane of
@@ -63,6 +66,7 @@ private:
     };
 
     void add(const Seat& seat);
+    bool tried_near(const Seed& seed);
     bool place(const Vec3& start, std::int32_t hint, double separation, double mirror_gap,
                bool outside_too);
     const std::vector<Plane>& planes_at(const Seat& seat);
@@ -74,10 +78,12 @@ private:
 
     const SurfaceTree& tree_;
     bool convex_;
+    bool fine_;  // the mesh, beside the radius
     ShellOptions o_;
     Eigen::AlignedBox3d box_;
     SeatGrid grid_;
     std::vector<Seat> placed_;
+    std::set<std::array<std::int32_t, 4>> tried_;        // cubes and directions of seeds
     std::vector<Vec3> found_;                            // scratch: normals
     std::vector<Plane> planes_;                          // of the seat whose places are tried
     std::vector<Neighbour> neighbours_;                  // scratch

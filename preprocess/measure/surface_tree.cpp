@@ -114,8 +114,11 @@ void SurfaceTree::build_normals() {
     normals_.resize(mesh_.triangles.size());
     corner_normals_.assign(mesh_.vertices.size(), Vec3::Zero());
     edge_normals_.resize(mesh_.triangles.size());
+    double area = 0.0;
     for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
-        normals_[t] = mesh_.area_vector(t).normalized();
+        const Vec3 vector = mesh_.area_vector(t);
+        area += vector.norm();
+        normals_[t] = vector.normalized();
         for (int k = 0; k < 3; ++k) {
             const double angle = corner_angle(mesh_.corner(t, k), mesh_.corner(t, (k + 1) % 3),
                                               mesh_.corner(t, (k + 2) % 3));
@@ -123,6 +126,7 @@ void SurfaceTree::build_normals() {
             corner_normals_[static_cast<std::size_t>(v)] += angle * normals_[t];
         }
     }
+    mean_edge_ = std::sqrt(area / static_cast<double>(std::max<std::size_t>(normals_.size(), 1)));
     for (const MeshEdge& edge : edge_table(mesh_)) {
         Vec3 sum = Vec3::Zero();
         for (const std::int32_t t : edge.triangles)

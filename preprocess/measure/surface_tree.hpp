@@ -39,6 +39,8 @@ public:
     bool is_clear(const Vec3& p, double range) const;
 
     const TriangleMesh& mesh() const { return mesh_; }
+    /// Root of the mean area of the triangles [m].
+    double mean_edge() const { return mean_edge_; }
     const Vec3& normal(std::int32_t triangle) const {
         return normals_[static_cast<std::size_t>(triangle)];
     }
@@ -67,6 +69,7 @@ private:
     std::vector<Node> nodes_;
     Vec3 middle_ = Vec3::Zero();  ///< the boxes' origin: floats are finest near it
     double grain_ = 0.0;          ///< by how much boxes are widened [m]
+    double mean_edge_ = 0.0;
     std::vector<std::int32_t> order_;
     std::vector<std::int32_t> rank_;    ///< of each triangle in order_
     std::vector<Corners> corners_;      ///< of the triangles in the order of order_: read in a row
