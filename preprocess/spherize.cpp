@@ -25,6 +25,7 @@
 #include "preprocess/load/gunzip.hpp"
 #include "preprocess/load/half_hull.hpp"
 #include "preprocess/load/read_mesh.hpp"
+#include "preprocess/load/symmetry.hpp"
 #include "preprocess/repair/check_solid.hpp"
 #include "preprocess/repair/make_solid.hpp"
 #include "preprocess/write/report_text.hpp"
@@ -223,6 +224,29 @@ void warn_of_gaps(const ice::SphereSet& set, ice::SpheresReport& report) {
             set.spacing, ice::kWidestSpacing, widest));
 }
 
+// A line on stderr every few seconds while a step takes long.
+void tell_progress(ice::FillOptions& fill) {
+    constexpr double kEvery = 3.0;  // [s]
+    fill.progress = [timer = ice::Timer(), next = kEvery](const std::string& step,
+                                                          double share) mutable {
+        if (timer.seconds() < next) return;
+        next = timer.seconds() + kEvery;
+        ice::say(share > 0.0 ? fmt::format("{}: {:.0f} %", step, 100.0 * share) : step);
+    };
+}
+
+// No solid in a mesh is thicker than the mesh: said before minutes go into its repair.
+void refuse_thin_mesh(const Options& o, const ice::TriangleMesh& surface) {
+    const ice::Vec3 size = ice::bounding_box(surface).sizes();
+    const double most = 0.5 * (o.slice.empty() ? size.minCoeff() : std::min(size.x(), size.z()));
+    if (o.fill.radius <= most * 1.001 || most == 0.0) return;
+    throw ice::bad_input("--radius",
+                         fmt::format("no sphere of radius {:g} m fits into the solid: the mesh is "
+                                     "{:.4g} x {:.4g} x {:.4g} m",
+                                     o.fill.radius, size.x(), size.y(), size.z()),
+                         fmt::format("none over {:.3g} m fits; use less, or see --units", most));
+}
+
 int run_spherize(Options& o, const std::string& command_line) {
     const ice::Timer timer;
     ice::set_thread_count(o.threads);
@@ -242,6 +266,8 @@ int run_spherize(Options& o, const std::string& command_line) {
     if (o.check) return report_check(o, report);
     ice::TriangleMesh surface = read_surface(o, report);
     report.seconds["read"] = timer.seconds();
+    refuse_thin_mesh(o, surface);
+    tell_progress(o.fill);
     const ice::TriangleMesh mesh = read_solid(o, std::move(surface), report);
     report.seconds["repair"] = timer.seconds() - report.seconds["read"];
     ice::SphereSet set = fill_solid(o, mesh, report);

@@ -29,6 +29,10 @@ constexpr double kQuickStep = 0.5;  // where they are straight
 constexpr double kSettled = 1e-6;   // of the radius: how nearly a sphere that just fits must
 constexpr double kMostSpheres = 3e7;  // 250 bytes each while they are made
 
+void tell(const FillOptions& o, const char* step, double share = 0.0) {
+    if (o.progress) o.progress(step, share);
+}
+
 // Before minutes go into a layer that stays empty.
 void refuse_too_large(const SurfaceTree& tree, int dimension, double radius) {
     const Inscribed largest = find_inscribed(tree, dimension, radius);
@@ -78,9 +82,9 @@ void place_surface(const SurfaceTree& tree, const FillOptions& o, bool mirror, S
     if (o.arrangement == Arrangement::lattice) {
         place_lattice(tree, o, mirror, set);
     } else {
-        set.centers =
-            make_shell(tree, {o.radius, set.spacing, set.dimension, mirror,
-                              o.quick ? kQuickStep : kLineStep, o.sharp, o.edges_by_ends});
+        set.centers = make_shell(tree, {o.radius, set.spacing, set.dimension, mirror,
+                                        o.quick ? kQuickStep : kLineStep, o.sharp, o.edges_by_ends,
+                                        [&](double share) { tell(o, "surface layer", share); }});
         set.surface_count = set.size();
     }
     report.seconds["surface_layer"] = timer.seconds();
@@ -148,6 +152,7 @@ SphereSet fill(const TriangleMesh& solid, const TriangleMesh& space, int dimensi
     place_surface(tree, o, mirror, set, report);
     set.radii.assign(set.size(), o.radius);
 
+    tell(o, "certificate");
     const Timer measuring;
     const std::vector<std::int32_t> twins = mirror ? find_twins(set) : std::vector<std::int32_t>();
     set_normals(tree, twins, set);
@@ -158,6 +163,7 @@ SphereSet fill(const TriangleMesh& solid, const TriangleMesh& space, int dimensi
     if (!o.quick) certify(tree, finder, sights, mirror, set, report);
     report.seconds["certificate"] = measuring.seconds() - report.seconds["shares"];
 
+    tell(o, "interior");
     const double cell = place_interior(tree, o, mirror, set, report);
     const Timer sharing;
     set.radii.resize(set.size(), o.radius);

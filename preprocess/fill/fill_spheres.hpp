@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
+#include <string>
+
 #include "common/formats/sphere_set.hpp"
 #include "common/formats/spheres_report.hpp"
 #include "preprocess/slice/slice_solid.hpp"
@@ -21,6 +24,8 @@ struct FillOptions {
     /// many facets.
     double sharp = 0.94;
     bool edges_by_ends = false;  ///< settle two points at each end of a straight edge, none between
+    /// Where given, told now and then what is being done and the share of it that is done.
+    std::function<void(const std::string& step, double share)> progress = {};
 };
 
 /// Fills a closed solid with contact spheres of one radius: surface spheres first, then interior.
@@ -29,6 +34,9 @@ struct FillOptions {
 /// hexagonal close packing (in 2D a square lattice) whose sphere lies inside; the two overlap.
 /// Lattice: a cubic one alone (fill/lattice.hpp). Shares, normals and the certificate are filled
 /// in; names and provenance are the caller's.
+///
+/// The largest sphere inside is looked for first. The time falls as the radius grows: what takes
+/// time are places on the surface some part of the radius apart, not the mesh's triangles.
 ///
 /// @throws Error (exit code 2) when no sphere fits, naming the largest radius that does
 SphereSet fill_spheres(const TriangleMesh& solid, const FillOptions& options,

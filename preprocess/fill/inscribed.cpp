@@ -10,9 +10,9 @@ namespace ice {
 
 namespace {
 
-constexpr double kMostCells = 4096.0;           // to begin with
+constexpr double kMostCells = 4096.0;  // to begin with
 constexpr std::size_t kMostQuestions = 1000000;
-constexpr double kKnown = 0.01;                 // of the largest radius
+constexpr double kKnown = 0.01;  // of the largest radius
 
 struct Cell {
     Vec3 center;

@@ -93,6 +93,7 @@ private:
     template <class Fill>
     void fill_tiles(const Fill& fill) {
         for (int colour = 0; colour < 8; ++colour) {
+            if (o_.progress) o_.progress(steps_done_++ / 16.0);
             std::vector<std::size_t> now;
             for (const auto& [at, k] : index_)
                 if ((at[0] & 1) + 2 * (at[1] & 1) + 4 * (at[2] & 1) == colour) now.push_back(k);
@@ -167,6 +168,7 @@ private:
     ShellOptions o_;
     double width_;
     std::size_t seed_count_ = 0;
+    int steps_done_ = 0;  // of two times eight colours
     std::vector<Seat> lines_;
     std::vector<Tile> tiles_;
     std::map<std::array<int, 3>, std::size_t> index_;
