@@ -15,7 +15,7 @@ struct CreaseNormal {
     Vec3 normal;  ///< outward, unit
 };
 
-/// A solid as contact spheres: what spherize makes and icesolve reads (docs/contract.md, section 3).
+/// A solid as contact spheres: made by spherize, read by icesolve (docs/contract.md, section 3).
 ///
 /// N spheres, the first S of them ("surface spheres") stand for the surface, the others for the
 /// interior: arrays that only concern the surface have S rows. In 2D a sphere is a disc in the

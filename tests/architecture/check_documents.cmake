@@ -1,0 +1,80 @@
+# No file names a document that does not exist: Markdown files by their names, sections of docs/ by
+# their numbers ("docs/method.md, section 4"), files and pictures that Markdown links to, and files
+# of the source tree that a document names with their folder. docs/design-notes.md tells of what is
+# no more, and CHANGELOG.md of what was.
+#   cmake -DROOT=<repository> -P tests/architecture/check_documents.cmake
+cmake_minimum_required(VERSION 3.25)
+include(${CMAKE_CURRENT_LIST_DIR}/rules.cmake)
+
+set(source_path "(common|preprocess|solver|postprocess|tests)/[a-z0-9_/]+\\.(hpp|cpp|py)")
+
+# Lines that name a document or, in Markdown, link to something: there "](" becomes "@(", since
+# brackets mean something in a CMake list.
+function(read_naming_lines source out)
+  file(READ ${ROOT}/${source} text)
+  if(NOT text MATCHES "\\.md" AND NOT source MATCHES "\\.md$")
+    set(${out} "" PARENT_SCOPE)
+    return()
+  endif()
+  if(source MATCHES "\\.md$")
+    string(REPLACE "@" "_" text "${text}")
+    string(REPLACE "](" "@(" text "${text}")
+  endif()
+  string(REGEX REPLACE "[][;\\]" "_" text "${text}")
+  string(REPLACE "\n" ";" text "${text}")
+  list(FILTER text INCLUDE REGEX "\\.md|@\\(|${source_path}")
+  set(${out} "${text}" PARENT_SCOPE)
+endfunction()
+
+# Relative to the file that names it, or to the repository.
+function(check_exists source name)
+  get_filename_component(folder ${source} DIRECTORY)
+  if(NOT EXISTS "${ROOT}/${folder}/${name}" AND NOT EXISTS "${ROOT}/${name}")
+    fault("${source} names ${name}, which does not exist")
+  endif()
+endfunction()
+
+function(check_section source name number)
+  if(NOT EXISTS "${ROOT}/${name}") # a fault of its own
+    return()
+  endif()
+  file(STRINGS "${ROOT}/${name}" found ENCODING UTF-8 REGEX "^#+ ${number}\\. ")
+  if(NOT found)
+    fault("${source} names section ${number} of ${name}, which does not exist")
+  endif()
+endfunction()
+
+find_sources(sources hpp cpp cpp.in py sh js mjs cmake txt toml cfg md)
+list(FILTER sources EXCLUDE REGEX "^expected\\.txt$|/check_documents\\.cmake$")
+foreach(source IN LISTS sources)
+  read_naming_lines(${source} lines)
+  foreach(line IN LISTS lines)
+    # what a variable of a script holds is the repository, or a folder that the build writes
+    string(REGEX REPLACE "\\\${[A-Z_]*BINARY_DIR}[A-Za-z0-9_./-]*" "" line "${line}")
+    string(REGEX REPLACE "(\\\${[A-Za-z_]*}|\\\$[A-Za-z_]+)/" "" line "${line}")
+    string(REGEX MATCHALL "[A-Za-z0-9_./-]*[A-Za-z0-9_-]\\.md" names "${line}")
+    if(source MATCHES "\\.md$")
+      string(REGEX MATCHALL "@\\([^) ]+\\)" links "${line}")
+      foreach(link IN LISTS links)
+        string(REGEX REPLACE "^@\\(([^)#]*)(#.*)?\\)$" "\\1" target "${link}")
+        if(target AND NOT target MATCHES "^[a-z]+:")
+          list(APPEND names "${target}")
+        endif()
+      endforeach()
+    endif()
+    if(source MATCHES "\\.md$" AND NOT source MATCHES "^(docs/design-notes|CHANGELOG)")
+      string(REGEX MATCHALL "${source_path}" paths "${line}")
+      list(APPEND names ${paths})
+    endif()
+    list(REMOVE_DUPLICATES names)
+    foreach(name IN LISTS names)
+      check_exists(${source} "${name}")
+    endforeach()
+    string(REGEX MATCHALL "docs/[a-z-]+\\.md`?,? section [0-9]+" sections "${line}")
+    foreach(place IN LISTS sections)
+      string(REGEX MATCH "^(docs/[a-z-]+\\.md).* ([0-9]+)$" ignored "${place}")
+      check_section(${source} "${CMAKE_MATCH_1}" "${CMAKE_MATCH_2}")
+    endforeach()
+  endforeach()
+endforeach()
+finish("documents")
