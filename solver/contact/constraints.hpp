@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Contacts as the solver sees them: lever arms, effective masses, bounds and impulses.
+/// Contacts as the solver sees them: lever arms, effective masses, bounds and impulses
+/// (docs/method.md, section 4).
 #pragma once
 
 #include <Eigen/Geometry>

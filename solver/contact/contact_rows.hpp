@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Contacts as the sweeps of the solver read them: eight body pairs beside each other.
+/// Contacts as the sweeps of the solver read them: eight body pairs beside each other
+/// (docs/method.md, section 4).
 #pragma once
 
 #include <array>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+/// Conjugate gradients between the sweeps: docs/method.md, section 4.
 #pragma once
 
 #include "solver/contact/sweep_memory.hpp"

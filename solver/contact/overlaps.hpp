@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// What becomes of overlap that a step's velocities leave: bodies move apart, or ice is crushed.
+/// What becomes of overlap that a step's velocities leave: bodies move apart, or ice is crushed
+/// (docs/method.md, section 5).
 #pragma once
 
 #include <vector>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+/// Effective masses of contacts: docs/method.md, section 4.
 #pragma once
 
 #include <array>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Many contacts at once: impulses that satisfy all contact conditions together.
+/// Many contacts at once: impulses that satisfy all contact conditions together
+/// (docs/method.md, section 4).
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+/// Momenta and poses at the end of a step: docs/method.md, sections 2 and 7.
 #pragma once
 
 #include <span>

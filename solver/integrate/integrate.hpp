@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Loads change momenta; momenta move bodies.
+/// Loads change momenta; momenta move bodies (docs/method.md, section 2).
 #pragma once
 
 #include <vector>

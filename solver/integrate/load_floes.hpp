@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+/// Gravity, buoyancy and drag on floes: docs/method.md, section 6.
 #pragma once
 
 #include <span>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+/// The rotation of a body in a step: docs/method.md, section 7.
 #pragma once
 
 #include <Eigen/Geometry>

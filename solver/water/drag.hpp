@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+/// The water's drag on a body: docs/method.md, section 6.
 #pragma once
 
 #include "solver/shape/shape.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// The submerged part of a floe: volume, centre of buoyancy, floating equilibrium.
+/// The submerged part of a floe: volume, centre of buoyancy, floating equilibrium
+/// (docs/method.md, section 6).
 #pragma once
 
 #include <Eigen/Geometry>

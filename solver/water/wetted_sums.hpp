@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Sums over the part of a surface that is under water, in body axes.
+/// Sums over the part of a surface that is under water, in body axes (docs/method.md, section 6).
 #pragma once
 
 #include "solver/shape/surface_blocks.hpp"
