@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "common/base/error.hpp"
+#include "common/base/file_turn.hpp"
 #include "common/base/part_file.hpp"
 #include "common/formats/run_buffers.hpp"
 #include "common/formats/run_parts.hpp"
@@ -82,6 +83,7 @@ RunWriter::Buffers::Buffers(const std::filesystem::path& path, const std::filesy
         header.body_inertia.size() != bodies)
         throw run_failed(path.string(), "the floes' shapes, groups, masses differ in number",
                          "this is a fault of the program: please report it");
+    const FileTurn turn(part_path, FileTurn::Kind::write);
     write_attributes(file, header);
     write_labels(file, "/xyz", {"x", "y", "z"});
     write_labels(file, "/wxyz", {"w", "x", "y", "z"});
@@ -199,6 +201,7 @@ void RunWriter::Buffers::write_rows(bool all) {
     if (torn)
         throw run_failed(final_path.string(), "cannot be written",
                          "check that the disk is not full");
+    const FileTurn turn(part_path, FileTurn::Kind::write);
     torn = true;  // until all went well
     // of the buffered rows: all, or as many as complete the file's last chunk and whole ones
     const auto take = [all](std::uint64_t& buffered, std::int64_t& on_disk, std::uint64_t chunk) {
@@ -308,6 +311,7 @@ bool RunWriter::is_about_to_write() const {
 void RunWriter::finish(const HullPanels& panels) {
     Buffers& b = *buffers_;
     b.write_all();
+    const FileTurn turn(b.part_path, FileTurn::Kind::write);
     if (!panels.panels.empty()) run_parts::write_panels(b.file, panels, b.dimension);
     b.file.close();
     keep_file(b.part_path, b.final_path);

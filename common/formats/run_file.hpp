@@ -41,7 +41,8 @@ struct RunPosition {
 ///
 /// Rows are buffered and flushed to disk with every 20th frame, so that a killed run can be read up
 /// to there (without frames, with every 16384th sample), its histories and contacts up to the last
-/// whole 64 rows: what is compressed cannot safely be written again with more rows. Quaternions are
+/// whole 64 rows: what is compressed cannot safely be written again with more rows. A FileTurn keeps
+/// read_run() out while rows are written, and a flush waits until it has read. Quaternions are
 /// stored with the sign nearer to the frame before.
 ///
 /// All functions throw Error (exit code 1) naming the file when the disk is full.
@@ -98,8 +99,9 @@ struct RunData {
     HullPanels panels;  ///< empty in files of before and of killed runs
 };
 
-/// Reads run.h5, or run.h5.part of a run that was killed or goes on: of arrays that belong together
-/// as many rows as the shortest has.
+/// Reads run.h5, or run.h5.part of a run that was killed or goes on. A run that goes on is read as
+/// its last flush left it; where a kill tore a flush, arrays that belong together give as many rows
+/// as the shortest has.
 /// @throws Error (exit code 2) naming the file and the dataset.
 RunData read_run(const std::filesystem::path& path);
 

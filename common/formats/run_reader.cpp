@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
 #include <thread>
 
 #include "common/base/error.hpp"
+#include "common/base/file_turn.hpp"
 #include "common/formats/hdf5_file.hpp"
 #include "common/formats/run_file.hpp"
 
@@ -20,8 +22,8 @@ public:
     explicit Reader(const std::filesystem::path& path)
         : path_(path), file_(path, Hdf5File::Mode::read), growing_(is_growing(path)) {}
 
-    // A run on its way, or one that was killed, may have written more rows of one array than of the
-    // next: what all of them have is read.
+    // A kill may have come when more rows of one array than of the next were written: what all of
+    // them have is read.
     static bool is_growing(const std::filesystem::path& path) {
         return path.extension() == ".part";
     }
@@ -365,9 +367,11 @@ const std::vector<std::string>& track_columns() {
 }
 
 RunData read_run(const std::filesystem::path& path) {
-    // one that is being written just now is whole a moment later
+    // one that is being created just now is whole a moment later
     for (int left = Reader::is_growing(path) ? 5 : 0;; --left) {
         try {
+            std::optional<FileTurn> turn;
+            if (Reader::is_growing(path)) turn.emplace(path, FileTurn::Kind::read);
             return Reader(path).read();
         } catch (const Error&) {
             if (left == 0) throw;

@@ -170,6 +170,36 @@ TEST_CASE("a run of 45 frames so far, alive or killed, can be read up to the flu
     }
 }
 
+TEST_CASE("a run that writes without a pause is read whole at any moment", "[formats]") {
+    const TempFolder folder;
+    const RunData run = make_run();
+    const pid_t child = fork();
+    if (child == 0) {
+        RunWriter busy(folder / "busy.h5", run.header);
+        for (int k = 0; k < 1'000'000; ++k) {
+            busy.add(run.history[0]);
+            busy.add_tracked({run.tracks[0][0], run.tracks[1][0]});
+            busy.add(run.frames[1]);
+        }
+        _exit(1);
+    }
+    const auto part = folder / "busy.h5.part";
+    for (int k = 0; k < 600 && !std::filesystem::exists(part); ++k) usleep(10'000);
+    std::size_t before = 0;
+    for (int k = 0; k < 20; ++k) {
+        const RunData now = read_run(part);
+        CHECK(now.frames.size() % 20 == 0);  // a flush, no part of one
+        CHECK(now.history.size() == now.frames.size() / 64 * 64);
+        CHECK(now.frames.size() >= before);
+        before = now.frames.size();
+    }
+    CHECK(before > 0);
+    kill(child, SIGKILL);
+    int status = 0;
+    waitpid(child, &status, 0);
+    CHECK(WIFSIGNALED(status));  // it was writing all the while
+}
+
 TEST_CASE("a copy of the .part file taken during the run can be read", "[formats]") {
     const TempFolder folder;
     const RunData run = make_run();

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+
+namespace ice {
+
+/// A file that one program writes again and again while others read it: the writer waits for
+/// readers to end, and readers for the writer, so that a reader never sees half of a change.
+///
+/// An advisory lock on the open file (fcntl, F_OFD_SETLK), which the system ends with the program,
+/// however that ends. It binds only programs that take a FileTurn; HDF5's own locks are others.
+/// Nobody waits longer than ten seconds: a stopped reader must not stop a run of days. Files that
+/// are missing and file systems without locks are served without one.
+class FileTurn {
+public:
+    enum class Kind { read, write };
+    FileTurn(const std::filesystem::path& file, Kind kind);
+    ~FileTurn();
+    FileTurn(const FileTurn&) = delete;
+    FileTurn& operator=(const FileTurn&) = delete;
+
+private:
+    int file_ = -1;
+};
+
+}  // namespace ice
