@@ -8,17 +8,22 @@
 
 namespace ice::test {
 
-/// The surface layer of a box centred at the origin, its axes turned by `turn`.
-inline SphereSet fill_box(const Vec3& size, double radius, double spacing,
-                          const Quaternion& turn = Quaternion::Identity()) {
-    TriangleMesh mesh = make_box_mesh(size);
-    for (Vec3& v : mesh.vertices) v = turn * v;
+/// The surface layer of a closed mesh.
+inline SphereSet fill_surface(const TriangleMesh& mesh, double radius, double spacing) {
     SpheresReport report;
     FillOptions options;
     options.radius = radius;
     options.spacing = spacing;
     options.surface_only = true;
     return fill_spheres(mesh, options, report);
+}
+
+/// The surface layer of a box centred at the origin, its axes turned by `turn`.
+inline SphereSet fill_box(const Vec3& size, double radius, double spacing,
+                          const Quaternion& turn = Quaternion::Identity()) {
+    TriangleMesh mesh = make_box_mesh(size);
+    for (Vec3& v : mesh.vertices) v = turn * v;
+    return fill_surface(mesh, radius, spacing);
 }
 
 }  // namespace ice::test

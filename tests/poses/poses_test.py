@@ -1,0 +1,146 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""check_poses.py against overlaps that are known: poses_test.py FOLDER"""
+import pathlib
+import subprocess
+import sys
+
+import h5py
+import numpy as np
+
+from clip_columns import overlap_volume
+from deepest_point import Samples, deepest, is_inside
+
+HERE = pathlib.Path(__file__).resolve().parent
+
+
+def prism(outline, low, high):
+    """Vertices and outward triangles of the prism over a counterclockwise star-shaped outline,
+    seen from its first corner."""
+    n = len(outline)
+    vertices = np.array([(x, y, z) for z in (low, high) for x, y in outline], dtype=float)
+    after = [(k + 1) % n for k in range(n)]
+    sides = [t for k, m in enumerate(after) for t in ((k, m, n + k), (m, n + m, n + k))]
+    caps = [t for k in range(1, n - 1) for t in ((0, k + 1, k), (n, n + k, n + k + 1))]
+    return vertices, np.array(sides + caps)
+
+
+def box(size, centre=(0.0, 0.0, 0.0)):
+    x, y, z = (0.5 * s for s in size)
+    vertices, triangles = prism([(-x, -y), (x, -y), (x, y), (-x, y)], -z, z)
+    return vertices + centre, triangles
+
+
+def turned(vertices, angle, axis):
+    axis = np.array(axis) / np.linalg.norm(axis)
+    cross = np.cross(np.eye(3), axis)
+    turn = np.eye(3) - np.sin(angle) * cross + (1.0 - np.cos(angle)) * cross @ cross
+    return vertices @ turn.T
+
+
+def shared(a, b):
+    return overlap_volume(a[0][a[1]], b[0][b[1]])
+
+
+def close(got, expected, tolerance, what):
+    assert abs(got - expected) <= tolerance, f"{what}: {got}, not {expected}"
+
+
+def volumes():
+    """Rounding of coordinates of order 1: 1e-12 m3."""
+    one = box((1, 1, 1))
+    close(shared(one, box((1, 1, 1), (0.7, 0.6, 0.9))), 0.3 * 0.4 * 0.1, 1e-12, "two boxes")
+    close(shared(one, box((1, 1, 1), (1, 0, 0))), 0.0, 1e-12, "two boxes face to face")
+    close(shared(one, box((1, 1, 1), (0, 0, 1))), 0.0, 1e-12, "a box on a box")
+    close(shared(one, one), 1.0, 1e-12, "a box and itself")
+    close(shared(one, box((0.2, 0.3, 0.4), (0.1, 0, 0))), 0.024, 1e-12, "a box in a box")
+    octagon = turned(one[0], np.pi / 4, (0, 0, 1)), one[1]
+    close(shared(one, octagon), 2 * (np.sqrt(2) - 1), 1e-12, "a box turned by 45 degrees")
+    corner = np.array([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], dtype=float)
+    tetrahedron = corner, np.array([(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)])
+    # the plane x + y + z = 1 cuts a corner of 0.5 off the cube of 0.5: 1/8 - (1/2)^3/6
+    close(shared(box((1, 1, 1)), tetrahedron), 0.125 - 0.125 / 6, 1e-12, "a tetrahedron in a box")
+    notched = prism([(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)], 0, 1)
+    close(shared(notched, box((1, 1, 1), (1.5, 1.5, 0.5))), 0.0, 1e-12, "a box in a notch")
+    close(shared(notched, box((1, 1, 1), (1.4, 1.3, 0.5))), 0.1 * 1 + 0.9 * 0.2, 1e-12,
+          "a box in both arms of an angle")
+
+
+def turned_together():
+    """The volume does not depend on the axes, nor on which solid comes first."""
+    dice = np.random.default_rng(5)
+    notched = prism([(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)], 0, 1)
+    for _ in range(20):
+        b = box((1.1, 0.7, 0.9))
+        b = turned(b[0], dice.uniform(0, 6), dice.normal(size=3)) + dice.uniform(0, 1.5, 3), b[1]
+        expected = shared(notched, b)
+        angle, axis = dice.uniform(0, 6), dice.normal(size=3)
+        both = [(turned(body[0], angle, axis), body[1]) for body in (b, notched)]
+        close(shared(*both), expected, 1e-11, "turned together")
+        # two boxes make the angle: their shares add up
+        arms = box((2, 1, 1), (1, 0.5, 0.5)), box((1, 1, 1), (0.5, 1.5, 0.5))
+        close(sum(shared(arm, b) for arm in arms), expected, 1e-11, "in parts")
+
+
+def depths():
+    """Sampled at h / 5, near the deepest sample at h / 50: 2 % of h; corners and faces exact."""
+    def depth(a, b, most=1.0):
+        return deepest(Samples(a[0], a[1], 0.2), lambda points: points, b[0][b[1]], most)
+
+    one = box((1, 1, 1))
+    close(depth(one, box((1, 1, 1), (0.87, 0.1, 0.2))), 0.13, 1e-9, "a box's face")
+    close(depth(one, box((1, 1, 1), (0, 0, 1.01))), 0.0, 0.0, "apart")
+    pointed = turned(turned(one[0], np.pi / 4, (0, 0, 1)), np.arctan(np.sqrt(0.5)), (1, 1, 0))
+    pointed = pointed - (0, 0, pointed[:, 2].min() + 0.07), one[1]
+    close(depth(pointed, box((9, 9, 1), (0, 0, -0.5))), 0.07, 1e-9, "a corner in a face")
+    close(depth(box((0.2, 0.2, 0.2)), box((3, 3, 3)), 0.5), 0.5, 1e-12, "deeper than asked for")
+    # two edges that cross, each a right angle: at the crossing either is 0.05 below the other,
+    # where the nearest faces are 0.05 sqrt(1/2) away
+    roof = turned(one[0], np.pi / 4, (1, 0, 0)), one[1]
+    top = roof[0][:, 2].max()
+    keel = turned(roof[0], np.pi / 2, (0, 0, 1)) + (0.03, 0.02, 2 * top - 0.05), one[1]
+    close(depth(roof, keel), 0.05 * np.sqrt(0.5), 0.02, "an edge across an edge")
+    points = np.array([(0.1, 0.2, 0.3), (0.6, 0.0, 0.0)])
+    assert list(is_inside(points, one[0][one[1]])) == [True, False]
+
+
+def write_run(path, centres):
+    """A run of one frame: a hull far away and floes of 2 x 1 x 0.5 m at these places."""
+    floe, hull = box((2, 1, 0.5)), box((1, 1, 1))
+    with h5py.File(path, "w") as file:
+        file.attrs["dimension"] = 3
+        file["shapes/vertices"] = np.concatenate([hull[0], floe[0]])
+        file["shapes/triangles"] = np.concatenate([hull[1], floe[1]])
+        file["shapes/vertex_offset"], file["shapes/triangle_offset"] = [0, 8, 16], [0, 12, 24]
+        n = len(centres)
+        file["frames/frame_time"], file["frames/body_shape"] = [1.5], [1] * n
+        file["frames/ship_position"] = np.array([[100.0, 0, 0]])
+        file["frames/position"] = np.array([centres], dtype=float)
+        file["frames/orientation"] = np.tile([1.0, 0, 0, 0], (1, n, 1))
+
+
+def program(folder):
+    folder.mkdir(parents=True, exist_ok=True)
+    path = folder / "two.h5"
+
+    def run(*options):
+        return subprocess.run([sys.executable, "-B", HERE / "check_poses.py", path, *options],
+                              capture_output=True, text=True)
+
+    write_run(path, [(0, 0, 0), (1.9, 0.2, 0)])
+    got = run()
+    # 0.1 x 0.8 x 0.5 of 1 m3, which is 0.1 m deep
+    assert got.returncode == 1 and got.stderr == "", got
+    expected = "floe 1 and floe 2, t = 1.50 s: 0.04 m3, 4.000 % of a floe, 100.0 mm deep"
+    assert expected in got.stdout, got
+    assert run("--max-share", "0.05").returncode == 0
+    assert run("--max-share", "0.05", "--max-depth", "0.09").returncode == 1
+    write_run(path, [(0, 0, 0), (2.0, 0.2, 0)])
+    got = run()
+    assert got.returncode == 0 and "0 pairs overlap" in got.stdout, got
+
+
+volumes()
+turned_together()
+depths()
+program(pathlib.Path(sys.argv[1]))
