@@ -18,18 +18,12 @@ namespace {
 // by one. Half a millimetre on a 50 m ship, far below what a contact sphere resolves.
 constexpr double kTolerances[] = {1e-6, 1e-5};
 
-// For each vertex of an open edge the first such within the tolerance; all others themselves.
-std::vector<std::int32_t> find_near(const TriangleMesh& mesh, const std::vector<MeshEdge>& edges,
-                                    double of_diagonal) {
-    const std::vector<Vec3>& vertices = mesh.vertices;
-    std::vector<std::uint8_t> on_border(vertices.size(), 0);
-    for (const MeshEdge& edge : edges)
-        if (edge.count == 1)
-            on_border[static_cast<std::size_t>(edge.a)] =
-                on_border[static_cast<std::size_t>(edge.b)] = 1;
+// For each vertex the first that is within both ones' reach; itself where it has none.
+std::vector<std::int32_t> find_near(const std::vector<Vec3>& vertices,
+                                    const std::vector<double>& reach) {
     Eigen::AlignedBox3d box;
     for (const Vec3& v : vertices) box.extend(v);
-    const double tolerance = std::max(of_diagonal * box.diagonal().norm(), 1e-300);
+    const double tolerance = std::max(*std::max_element(reach.begin(), reach.end()), 1e-300);
     // cells of twice the tolerance: near vertices lie in the same or a neighbouring cell
     const auto cell_of = [&](const Vec3& v) -> Key {
         Key cell;
@@ -43,14 +37,15 @@ std::vector<std::int32_t> find_near(const TriangleMesh& mesh, const std::vector<
     for (std::size_t k = 0; k < vertices.size(); ++k) {
         auto found = static_cast<std::int32_t>(k);
         representative[k] = found;
-        if (!on_border[k]) continue;
+        if (reach[k] <= 0.0) continue;
         const Key at = cell_of(vertices[k]);
         for (std::uint64_t n = 0; n < 27; ++n) {
             const auto near =
                 cells.find({at[0] + n % 3 - 1, at[1] + n / 3 % 3 - 1, at[2] + n / 9 - 1});
             if (near == cells.end()) continue;
             for (const std::int32_t other : near->second)
-                if ((vertices[static_cast<std::size_t>(other)] - vertices[k]).norm() <= tolerance)
+                if ((vertices[static_cast<std::size_t>(other)] - vertices[k]).norm() <=
+                    std::min(reach[k], reach[static_cast<std::size_t>(other)]))
                     found = std::min(found, other);
         }
         representative[k] = found;
@@ -94,15 +89,26 @@ std::int64_t merge(TriangleMesh& mesh, const std::vector<std::int32_t>& represen
 
 }  // namespace
 
+std::int64_t merge_near(TriangleMesh& mesh, const std::vector<double>& reach, WeldCounts& counts) {
+    return merge(mesh, find_near(mesh.vertices, reach), counts);
+}
+
 WeldCounts weld(TriangleMesh& mesh) {
     WeldCounts counts;
     counts.equal_vertices = merge(mesh, find_equal_vertices(mesh.vertices), counts);
+    Eigen::AlignedBox3d box;
+    for (const Vec3& v : mesh.vertices) box.extend(v);
     for (const double tolerance : kTolerances) {
-        const auto edges = edge_table(mesh);
-        const bool open = std::any_of(edges.begin(), edges.end(),
-                                      [](const MeshEdge& edge) { return edge.count == 1; });
+        std::vector<double> reach(mesh.vertices.size(), 0.0);
+        bool open = false;
+        for (const MeshEdge& edge : edge_table(mesh)) {
+            if (edge.count != 1) continue;
+            open = true;
+            reach[static_cast<std::size_t>(edge.a)] = reach[static_cast<std::size_t>(edge.b)] =
+                tolerance * box.diagonal().norm();
+        }
         if (!open) break;
-        counts.near_vertices += merge(mesh, find_near(mesh, edges, tolerance), counts);
+        counts.near_vertices += merge_near(mesh, reach, counts);
     }
     return counts;
 }

@@ -21,4 +21,8 @@ struct WeldCounts {
 /// keeps its position, so the result depends on nothing but the order in the file. Cost O(V + T).
 WeldCounts weld(TriangleMesh& mesh);
 
+/// Merges vertices that are within each other's reach, and drops what collapses or repeats.
+/// @param reach  per vertex [m]; 0: it stays   @return vertices merged
+std::int64_t merge_near(TriangleMesh& mesh, const std::vector<double>& reach, WeldCounts& counts);
+
 }  // namespace ice

@@ -12,6 +12,7 @@
 #include "preprocess/clean/find_parts.hpp"
 #include "preprocess/clean/orient_faces.hpp"
 #include "preprocess/clean/self_intersections.hpp"
+#include "preprocess/clean/stitch_borders.hpp"
 #include "preprocess/clean/weld.hpp"
 #include "preprocess/measure/row_volumes.hpp"
 #include "preprocess/repair/check_solid.hpp"
@@ -59,9 +60,10 @@ public:
         note("duplicate triangles dropped", welded.duplicate_triangles);
         if (mesh.triangles.empty()) throw refusal("the volume is zero");
         if (options_.mode == RepairMode::wrap) return wrap(std::move(mesh));
-        const SolidDiagnosis diagnosis = diagnose_edges(mesh);
         if (options_.mode == RepairMode::strict) return demand(std::move(mesh), welded);
-        open_edges_ = diagnosis.open_edges;
+        open_edges_ = diagnose_edges(mesh).open_edges;
+        if (open_edges_ > 0) stitch(mesh);
+        const SolidDiagnosis diagnosis = diagnose_edges(mesh);
         if (!diagnosis.closed()) mesh = close(std::move(mesh));
         return untangle(std::move(mesh));
     }
@@ -84,6 +86,13 @@ private:
             throw refusal(fmt::format("{} vertices only nearly meet", welded.near_vertices),
                           "mend it, or leave out --repair strict");
         return choose(std::move(mesh));
+    }
+
+    void stitch(TriangleMesh& mesh) {
+        const StitchCounts counts = stitch_borders(mesh);
+        note(fmt::format("open edges stitched across cracks of up to {:.2g} m", counts.widest),
+             counts.split);
+        note("vertices merged across cracks", counts.merged);
     }
 
     // Holes capped, faces turned, half hulls mirrored.

@@ -27,7 +27,7 @@ using Repairs = std::vector<std::pair<std::string, std::int64_t>>;
 
 /// Triangles as read -> the closed, outward surface of one solid.
 ///
-/// The ladder: closed as it is; a half hull mirrored; faces turned to agree, holes capped, parts
+/// The ladder: closed as it is; cracks stitched; a half hull mirrored; faces turned to agree, holes capped, parts
 /// turned outwards; crossings resolved where they are
 /// (resolve_crossings); contoured from the winding number; shrink-wrapped. A
 /// rung is left for the next when its result does not verify (verify_solid, three axes), or, where

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <iterator>
 #include <set>
 
 #include "common/geometry/mass_properties.hpp"
@@ -12,6 +13,7 @@
 #include "preprocess/repair/check_solid.hpp"
 #include "preprocess/repair/make_solid.hpp"
 #include "tests/preprocess/look_alikes.hpp"
+#include "tests/support/damage_mesh.hpp"
 #include "tests/support/make_hull.hpp"
 #include "tests/support/make_meshes.hpp"
 
@@ -89,6 +91,37 @@ TEST_CASE("hulls of 1e5 triangles cut at their waterline are closed there", "[re
     for (std::size_t t = 0; t < cut.triangles.size(); ++t)
         below += cut.corner(t, 0).dot(cut.corner(t, 1).cross(cut.corner(t, 2))) / 6.0;
     const Mended mended = mend(cut);
-    CHECK(mended.volume == Approx(below).epsilon(1e-9));
+    // in the stem the two sides' rims are nearer than a third of their edges: stitched there
+    CHECK(mended.volume == Approx(below).epsilon(1e-6));
     CHECK(mended.count("deck closed by a cap") == 1);
+}
+
+TEST_CASE("patches that were tessellated one by one are stitched, and stay where they were",
+          "[repair][mend]") {
+    const TriangleMesh patches = test::patchwise_ship(1e-4);
+    const double volume = measure_mass(test::container_ship(test::Stern::clean)).volume;
+    const Mended mended = mend(patches);
+    INFO(mended.said());
+    CHECK(mended.volume == Approx(volume).epsilon(1e-3));
+    CHECK(mended.warnings.empty());
+    REQUIRE(mended.repairs[0].first.starts_with("open edges stitched across cracks of up to 0.1"));
+    CHECK(mended.repairs[0].second > 3000);
+    // but for the corners of the few pieces that were cut, every vertex is one of the patches'
+    const auto before = places_ahead(patches, -1e9), after = places_ahead(mended.mesh, -1e9);
+    std::vector<Place> added;
+    std::set_difference(after.begin(), after.end(), before.begin(), before.end(),
+                        std::back_inserter(added));
+    CHECK(added.size() < 100);
+}
+
+TEST_CASE("triangles one by one with gaps of 1e-4 L become one surface", "[repair][mend]") {
+    TriangleMesh ship = test::container_ship(test::Stern::clean, 60, 20);
+    const double volume = measure_mass(ship).volume;
+    std::mt19937 random(4);
+    test::split_faces(
+        ship, [](std::size_t t) { return static_cast<std::int32_t>(t); },
+        0.5e-4 * test::kShipLength, random);
+    const Mended mended = mend(ship);
+    INFO(mended.said());
+    CHECK(mended.volume == Approx(volume).epsilon(2e-3));
 }

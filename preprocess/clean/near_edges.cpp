@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "preprocess/clean/near_edges.hpp"
+
+#include <CGAL/box_intersection_d.h>
+
+#include <algorithm>
+#include <tuple>
+
+namespace ice {
+
+namespace {
+
+using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::size_t>;
+
+Box box_around(const Vec3& a, const Vec3& b, double margin, std::size_t row) {
+    const Vec3 low = a.cwiseMin(b) - Vec3::Constant(margin);
+    const Vec3 high = a.cwiseMax(b) + Vec3::Constant(margin);
+    return Box(CGAL::Bbox_3(low.x(), low.y(), low.z(), high.x(), high.y(), high.z()), row);
+}
+
+}  // namespace
+
+std::vector<NearEdge> find_near_edges(const std::vector<Vec3>& points,
+                                      const std::vector<std::pair<Vec3, Vec3>>& edges,
+                                      double tolerance) {
+    std::vector<Box> of_points, of_edges;
+    for (std::size_t k = 0; k < points.size(); ++k)
+        of_points.push_back(box_around(points[k], points[k], 0.0, k));
+    for (std::size_t k = 0; k < edges.size(); ++k)
+        of_edges.push_back(box_around(edges[k].first, edges[k].second, tolerance, k));
+    std::vector<NearEdge> out;
+    CGAL::box_intersection_d(of_points.begin(), of_points.end(), of_edges.begin(), of_edges.end(),
+                             [&](const Box& point, const Box& edge) {
+                                 const auto& [a, b] = edges[edge.info()];
+                                 const Vec3 along = b - a, to = points[point.info()] - a;
+                                 const double part = along.dot(to) / along.squaredNorm();
+                                 const double distance = (to - part * along).norm();
+                                 if (part > 0.0 && part < 1.0 && distance <= tolerance)
+                                     out.push_back({point.info(), edge.info(), part, distance});
+                             });
+    std::sort(out.begin(), out.end(), [](const NearEdge& l, const NearEdge& r) {
+        return std::tie(l.point, l.distance, l.edge) < std::tie(r.point, r.distance, r.edge);
+    });
+    return out;
+}
+
+}  // namespace ice

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "preprocess/clean/stitch_borders.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <map>
+
+#include "preprocess/clean/edge_table.hpp"
+#include "preprocess/clean/near_edges.hpp"
+#include "preprocess/clean/weld.hpp"
+
+namespace ice {
+
+namespace {
+
+constexpr double kTolerances[] = {3e-4, 1e-3};  // of the diagonal
+constexpr double kOfEdge = 1.0 / 3.0;  // of an open edge: a crack beside it is not wider
+
+using Triple = std::array<std::int32_t, 3>;
+
+const Vec3& at(const TriangleMesh& mesh, std::int32_t v) {
+    return mesh.vertices[static_cast<std::size_t>(v)];
+}
+
+struct Borders {
+    std::vector<MeshEdge> edges;
+    std::vector<std::int32_t> vertices;
+    std::vector<double> reach;  // per vertex of the mesh: how wide a crack may be there; 0: none
+};
+
+Borders find_borders(const TriangleMesh& mesh, double tolerance) {
+    Borders out;
+    out.reach.assign(mesh.vertices.size(), 0.0);
+    for (const MeshEdge& edge : edge_table(mesh)) {
+        if (edge.count != 1) continue;
+        out.edges.push_back(edge);
+        const double most =
+            std::min(tolerance, kOfEdge * (at(mesh, edge.b) - at(mesh, edge.a)).norm());
+        for (const std::int32_t v : {edge.a, edge.b}) {
+            double& reach = out.reach[static_cast<std::size_t>(v)];
+            if (reach == 0.0) out.vertices.push_back(v);
+            reach = reach == 0.0 ? most : std::min(reach, most);
+        }
+    }
+    std::sort(out.vertices.begin(), out.vertices.end());
+    return out;
+}
+
+// Where the vertices lie that become the corners from one end of an open edge to the other.
+using Inserted =
+    std::map<std::pair<std::int32_t, std::int32_t>, std::vector<std::pair<double, std::int32_t>>>;
+
+// The triangles that fill a -> ... -> b -> ... -> c -> ..., with vertices on those of its three sides
+// that are sides of the mesh.
+void fill(const Triple& t, std::array<bool, 3> of_mesh, const Inserted& inserted,
+          std::vector<Triple>& out) {
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::int32_t a = t[k], b = t[(k + 1) % 3], c = t[(k + 2) % 3];
+        const auto found = of_mesh[k] ? inserted.find(std::minmax(a, b)) : inserted.end();
+        if (found == inserted.end()) continue;
+        std::vector<std::int32_t> walk;
+        for (const auto& [along, v] : found->second)
+            if (v != c) walk.push_back(v);
+        if (a > b) std::reverse(walk.begin(), walk.end());
+        walk.insert(walk.begin(), a);
+        walk.push_back(b);
+        for (std::size_t n = 0; n + 1 < walk.size(); ++n)
+            fill({walk[n], walk[n + 1], c},
+                 {false, n + 2 == walk.size() && of_mesh[(k + 1) % 3],
+                  n == 0 && of_mesh[(k + 2) % 3]},
+                 inserted, out);
+        return;
+    }
+    out.push_back(t);
+}
+
+bool split_edges(TriangleMesh& mesh, double tolerance, StitchCounts& counts) {
+    const Borders borders = find_borders(mesh, tolerance);
+    std::vector<Vec3> points;
+    std::vector<std::pair<Vec3, Vec3>> segments;
+    for (const std::int32_t v : borders.vertices) points.push_back(at(mesh, v));
+    for (const MeshEdge& edge : borders.edges)
+        segments.emplace_back(at(mesh, edge.a), at(mesh, edge.b));
+    Inserted inserted;
+    std::size_t last = points.size();  // a vertex goes into the nearest edge only
+    for (const NearEdge& near : find_near_edges(points, segments, tolerance)) {
+        const MeshEdge& edge = borders.edges[near.edge];
+        const std::int32_t v = borders.vertices[near.point];
+        const double length = (segments[near.edge].second - segments[near.edge].first).norm();
+        if (near.point == last || v == edge.a || v == edge.b) continue;
+        if (near.distance > kOfEdge * length) continue;
+        last = near.point;
+        inserted[{edge.a, edge.b}].emplace_back(near.along, v);
+        counts.widest = std::max(counts.widest, near.distance);
+    }
+    if (inserted.empty()) return false;
+    counts.split += static_cast<std::int64_t>(inserted.size());
+    for (auto& [edge, walk] : inserted) std::sort(walk.begin(), walk.end());
+    TriangleMesh out;
+    out.vertices = mesh.vertices;
+    out.region_names = mesh.region_names;
+    std::vector<Triple> pieces;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        pieces.clear();
+        fill(mesh.triangles[t], {true, true, true}, inserted, pieces);
+        for (const Triple& piece : pieces) {
+            out.triangles.push_back(piece);
+            out.region.push_back(mesh.region[t]);
+        }
+    }
+    mesh = std::move(out);
+    return true;
+}
+
+}  // namespace
+
+StitchCounts stitch_borders(TriangleMesh& mesh) {
+    StitchCounts counts;
+    Eigen::AlignedBox3d box;
+    for (const Vec3& v : mesh.vertices) box.extend(v);
+    for (const double of_diagonal : kTolerances) {
+        const double tolerance = of_diagonal * box.diagonal().norm();
+        const auto merge_ends = [&] {
+            WeldCounts dropped;
+            counts.merged += merge_near(mesh, find_borders(mesh, tolerance).reach, dropped);
+        };
+        merge_ends();
+        if (!split_edges(mesh, tolerance, counts)) continue;
+        merge_ends();  // drops pieces that repeat or collapse
+    }
+    return counts;
+}
+
+}  // namespace ice

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "common/geometry/triangle_mesh.hpp"
+
+namespace ice {
+
+/// What stitch_borders() did, for the report.
+struct StitchCounts {
+    std::int64_t merged = 0;  ///< vertices merged with a vertex across the crack
+    std::int64_t split = 0;   ///< open edges split at the vertices across the crack
+    double widest = 0.0;      ///< of the cracks [m]: as far as a vertex or an edge was moved
+};
+
+/// Closes cracks between patches that were tessellated one by one, whose vertices on a common
+/// curve differ (IGES exports): vertices of open edges that nearly meet become one, and an open edge
+/// runs through the vertices of other open edges beside it. Cracks may be as wide as 3e-4 of the
+/// diagonal, then as 1e-3, and nowhere wider than a third of the open edges there, so that no edge
+/// collapses. The first of merged vertices keeps its place, as do all others. Cost O(B log B) for B
+/// open edges.
+/// @pre the mesh is welded
+StitchCounts stitch_borders(TriangleMesh& mesh);
+
+}  // namespace ice
