@@ -50,8 +50,8 @@ Borders find_borders(const TriangleMesh& mesh, double tolerance) {
 using Inserted =
     std::map<std::pair<std::int32_t, std::int32_t>, std::vector<std::pair<double, std::int32_t>>>;
 
-// The triangles that fill a -> ... -> b -> ... -> c -> ..., with vertices on those of its three sides
-// that are sides of the mesh.
+// The triangles that fill a -> ... -> b -> ... -> c -> ..., with vertices on those of its three
+// sides that are sides of the mesh.
 void fill(const Triple& t, std::array<bool, 3> of_mesh, const Inserted& inserted,
           std::vector<Triple>& out) {
     for (std::size_t k = 0; k < 3; ++k) {

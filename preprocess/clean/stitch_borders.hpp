@@ -13,8 +13,8 @@ struct StitchCounts {
 };
 
 /// Closes cracks between patches that were tessellated one by one, whose vertices on a common
-/// curve differ (IGES exports): vertices of open edges that nearly meet become one, and an open edge
-/// runs through the vertices of other open edges beside it. Cracks may be as wide as 3e-4 of the
+/// curve differ (IGES exports): vertices of open edges that nearly meet become one, and an open
+/// edge runs through the vertices of others beside it. Cracks may be as wide as 3e-4 of the
 /// diagonal, then as 1e-3, and nowhere wider than a third of the open edges there, so that no edge
 /// collapses. The first of merged vertices keeps its place, as do all others. Cost O(B log B) for B
 /// open edges.
