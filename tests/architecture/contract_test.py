@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""contract_test.py REPOSITORY: docs/contract.md names every case key, column, JSON key and dataset.
+"""contract_test.py REPOSITORY: docs/contract.md names every option, case key, column, JSON key and dataset.
 
 Taken from the sources that write them, so that a new name comes into the contract with its code."""
 import json
@@ -38,6 +38,16 @@ def columns():
     return {c for block in lists for c in "".join(re.findall(r'"([^"]*)"', block)).split(",")}
 
 
+def options():
+    """Long options that the programs declare, as words: --print-schema is print-schema."""
+    names = set()
+    for name in ("preprocess/spherize.cpp", "preprocess/icefield.cpp", "solver/icesolve.cpp",
+                 "postprocess/icepost.cpp"):
+        text = (ROOT / name).read_text(encoding="utf-8")
+        names |= set(re.findall(r'"(?:-\w,)?--([a-z-]+)"', text))
+    return names
+
+
 def datasets(*files):
     """Last parts of the names of datasets, such as vertices of /mesh/vertices."""
     names = set()
@@ -48,12 +58,15 @@ def datasets(*files):
 
 
 def main():
-    words = set(re.findall(r"\[?\w+\]?", (ROOT / "docs/contract.md").read_text(encoding="utf-8")))
+    text = (ROOT / "docs/contract.md").read_text(encoding="utf-8")
+    words = set(re.findall(r"\[?\w+\]?", text))
     words |= {w.strip("[]") for w in words}
+    words |= set(re.findall(r"--([a-z-]+)", text))
     # line_load_{mean,p99,max}_N_per_m stands for three names
     for kind in ("mean", "p99", "max"):
         words |= {f"line_load_{kind}_N_per_m", f"pressure_{kind}_Pa"}
     sources = {
+        "options": options(),
         "case keys": case_keys(),
         "summary.json": json_keys("summary_file.cpp", "particulars_json.cpp",
                                   "load_statistics_json.cpp",
