@@ -125,6 +125,7 @@ ice::TriangleMesh read_solid(const Options& o, ice::TriangleMesh surface,
     options.mode = o.repair == "strict" ? ice::RepairMode::strict
                    : o.repair == "wrap" ? ice::RepairMode::wrap
                                         : ice::RepairMode::automatic;
+    options.radius = o.fill.radius;
     options.suspect = ice::looks_cut_off(o.mesh);
     if (!options.suspect.empty()) report.warnings.push_back(options.suspect);
     const ice::HalfHull half = ice::looks_like_half_hull(surface);

@@ -68,10 +68,13 @@ std::int64_t drop_scraps(TriangleMesh& mesh, std::vector<Cap>& caps) {
     return count;
 }
 
-TriangleMesh without_caps(const TriangleMesh& mesh, const std::vector<Cap>& caps) {
+template <class Condition>
+TriangleMesh without_caps(const TriangleMesh& mesh, const std::vector<Cap>& caps,
+                          const Condition& leave_out) {
     TriangleMesh out = mesh;
     std::vector<std::uint8_t> keep(mesh.triangles.size(), 1);
-    for (const Cap& cap : caps) std::fill_n(keep.begin() + cap.first, cap.count, std::uint8_t{0});
+    for (std::size_t k = 0; k < caps.size(); ++k)
+        if (leave_out(k)) std::fill_n(keep.begin() + caps[k].first, caps[k].count, std::uint8_t{0});
     keep_triangles(out, keep);
     return out;
 }
@@ -116,7 +119,7 @@ ClosedSurface close_surface(TriangleMesh mesh, const SolidOptions& options, Repa
     out.caps = judge_caps(mesh, caps, !options.suspect.empty());
     for (std::size_t k = 0; k < caps.size(); ++k) {
         if (out.caps[k].kind == CapKind::deck) name_deck(mesh, caps[k]);
-        if (caps[k].perimeter > 0.0)
+        if (out.caps[k].kind == CapKind::guess && caps[k].perimeter > 0.0)
             out.widest = std::max(out.widest, 4.0 * out.caps[k].area / caps[k].perimeter);
     }
     const auto count = [&](CapKind kind) {
@@ -127,7 +130,13 @@ ClosedSurface close_surface(TriangleMesh mesh, const SolidOptions& options, Repa
     note("openings inside other parts closed", count(CapKind::hidden));
     note("holes in flat faces closed", count(CapKind::continued));
     note("small holes closed", count(CapKind::small));
-    out.open = without_caps(mesh, caps);
+    out.open = without_caps(mesh, caps, [](std::size_t) { return true; });
+    out.unsure =
+        without_caps(mesh, caps, [&](std::size_t k) { return out.caps[k].kind == CapKind::guess; });
+    for (const double part : part_volumes(mesh, find_parts(mesh))) out.volume += std::abs(part);
+    for (const CapVerdict& cap : out.caps)
+        if (cap.kind != CapKind::deck && cap.kind != CapKind::hidden)
+            out.doubt += cap.doubt / out.volume;
     for (std::size_t t = 0; t < out.open.triangles.size(); ++t)
         out.surface += out.open.area_vector(t).norm();
     out.mesh = std::move(mesh);

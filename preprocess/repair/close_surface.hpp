@@ -13,9 +13,12 @@ namespace ice {
 struct ClosedSurface {
     TriangleMesh mesh;             ///< each edge has two triangles that agree; parts face outwards
     TriangleMesh open;             ///< the same without its caps
+    TriangleMesh unsure;           ///< the same without the caps that are a guess
     std::vector<CapVerdict> caps;  ///< one per hole
     double surface = 0.0;          ///< area without caps [m2]
-    double widest = 0.0;           ///< of the holes: 4 area / perimeter [m]
+    double widest = 0.0;           ///< of those that are a guess: 4 area / perimeter [m]
+    double volume = 0.0;           ///< of all parts [m3]
+    double doubt = 0.0;            ///< volume that depends on the caps, of the whole
 };
 
 /// Welded triangles -> a surface without boundary: copies and walls without thickness dropped, an

@@ -14,7 +14,7 @@ namespace ice {
 
 namespace {
 
-constexpr double kDoubt = 0.005;       // of the volume: all caps together
+constexpr double kDoubt = 0.005;       // of the volume: one cap
 constexpr double kTrifle = 0.0005;     // of the volume: one cap whose kind need not be known
 constexpr double kSuspect = 0.005;     // of the surface: largest cap in a file that seems cut off
 constexpr double kContinued = 0.2;     // of the surface: all continued faces together
@@ -232,7 +232,12 @@ std::vector<CapVerdict> judge_caps(const TriangleMesh& mesh, const std::vector<C
         doubt += cap_is.doubt;
         (cap_is.kind == CapKind::continued ? continued : loose) += cap_is.area;
     }
-    const bool stand = doubt <= kDoubt * judge.volume() && loose <= kLoose * judge.surface() &&
+    const bool each = std::all_of(out.begin(), out.end(), [&](const CapVerdict& cap) {
+        return cap.kind == CapKind::deck || cap.kind == CapKind::hidden ||
+               cap.doubt <= kDoubt * judge.volume();
+    });
+    const bool stand = each && doubt <= kMostDoubt * judge.volume() &&
+                       loose <= kLoose * judge.surface() &&
                        continued <= kContinued * judge.surface();
     if (stand) return out;
     // name those that weigh most: each that by itself takes a fair share of what is allowed

@@ -5,6 +5,9 @@
 
 namespace ice {
 
+/// Volume that may depend on how openings are closed, of the whole: all caps together.
+inline constexpr double kMostDoubt = 0.02;
+
 /// What a cap is taken for.
 enum class CapKind {
     small,      ///< whatever its form, the volume does not depend on it
@@ -27,13 +30,14 @@ struct CapVerdict {
 /// A cap of area A and perimeter P, at whose rim the surface turns by the angle a, leaves a
 /// doubt of A (2 A / P) tan(a) / 2 in the volume: the wedge or cone that goes on straight from
 /// its rim has half to two thirds of that, the lens of a sphere less. Triangles that go on in
-/// the plane of a neighbour leave none. Caps stand while their doubts add up to at most 0.5 % of
-/// the volume. Beyond that a cap stands where other parts cover it (a superstructure without a
-/// bottom, standing in the deck), or as a deck: it faces up, the walls at its rim stand (they
-/// lean inwards by less than 17 degrees, outwards by less than 37), its edge has no steps, it
-/// reaches over 60 % of the length and the breadth of its part, and nothing of the part stands
-/// above it. However small, a cap of guessed form may not make an end of the solid's length if it
-/// is more than 0.05 % of the surface and has more than eight edges: a stem may be missing there.
+/// the plane of a neighbour leave none. Caps stand while none leaves more than 0.5 % of the volume
+/// in doubt, and all together not more than kMostDoubt. Beyond that a cap stands where other parts
+/// cover it (a superstructure without a bottom, standing in the deck), or as a deck: it faces up,
+/// the walls at its rim stand (they lean inwards by less than 17 degrees, outwards by less than
+/// 37), its edge has no steps, it reaches over 60 % of the length and the breadth of its part, and
+/// nothing of the part stands above it. However small, a cap of guessed form may not make an end of
+/// the solid's length if it is more than 0.05 % of the surface and has more than eight edges: a stem
+/// may be missing there.
 ///
 /// @param mesh    closed by `caps`, each part facing outwards
 /// @param suspect the file seems cut off: no cap of more than 0.5 % of the surface may stand

@@ -8,13 +8,17 @@
 #include <set>
 
 #include "common/base/error.hpp"
+#include "common/base/parallel.hpp"
 #include "common/geometry/mass_properties.hpp"
+#include "preprocess/clean/drop_surroundings.hpp"
+#include "preprocess/clean/edge_table.hpp"
 #include "preprocess/clean/find_parts.hpp"
 #include "preprocess/clean/orient_faces.hpp"
 #include "preprocess/clean/self_intersections.hpp"
 #include "preprocess/clean/stitch_borders.hpp"
 #include "preprocess/clean/weld.hpp"
 #include "preprocess/measure/row_volumes.hpp"
+#include "preprocess/measure/surface_tree.hpp"
 #include "preprocess/repair/check_solid.hpp"
 #include "preprocess/repair/close_surface.hpp"
 #include "preprocess/repair/resolve_crossings.hpp"
@@ -30,13 +34,15 @@ constexpr double kWindingDiffers = 0.02;  // of the volume: caps against the ope
 // Over a sheer line the surface where the winding number is a half sags between the ends: 3.7 % of
 // the volume at a sheer of a quarter of the depth.
 constexpr double kDeckDiffers = 0.05;
-constexpr double kCapsMatter = 0.005;       // of the surface: below, caps need no second opinion
-constexpr double kWorthWarning = 0.002;     // of the surface: one cap
-constexpr double kContourError = 0.01;      // of the volume
-constexpr double kWrapOffset = 1000.0;      // of which the diagonal is a multiple
-constexpr std::size_t kMostPairs = 100000;  // each costs about 0.1 ms
-constexpr int kRounds = 3;                  // rounding may let cut pieces cross again
-constexpr double kCollapsed = 0.5;          // of the volume the winding number gives
+constexpr double kCapsMatter = 0.005;         // of the surface: below, caps need no second opinion
+constexpr double kWorthWarning = 0.002;       // of the surface: one cap
+constexpr double kDoubtWorthWarning = 0.005;  // of the volume: all caps together
+constexpr double kContourError = 0.01;        // of the volume
+constexpr double kVoid = 0.005;               // of the volume: what parts enclose together
+constexpr double kWrapOffset = 1000.0;        // of which the diagonal is a multiple
+constexpr std::size_t kMostPairs = 100000;    // each costs about 0.1 ms
+constexpr int kRounds = 3;                    // rounding may let cut pieces cross again
+constexpr double kCollapsed = 0.5;            // of the volume the winding number gives
 
 const char* const kRemedy =
     "close and orient it in the program that made it, then export again; or try --repair wrap";
@@ -59,13 +65,14 @@ public:
         note("degenerate triangles dropped", welded.degenerate_triangles);
         note("duplicate triangles dropped", welded.duplicate_triangles);
         if (mesh.triangles.empty()) throw refusal("the volume is zero");
-        if (options_.mode == RepairMode::wrap) return wrap(std::move(mesh));
+        leave_surroundings(mesh);
         if (options_.mode == RepairMode::strict) return demand(std::move(mesh), welded);
         open_edges_ = diagnose_edges(mesh).open_edges;
         if (open_edges_ > 0) stitch(mesh);
-        const SolidDiagnosis diagnosis = diagnose_edges(mesh);
-        if (!diagnosis.closed()) mesh = close(std::move(mesh));
-        return untangle(std::move(mesh));
+        if (options_.mode == RepairMode::wrap) return wrap(std::move(mesh));
+        if (auto solid = unite_touching(mesh)) return flood(std::move(*solid));
+        if (!diagnose_edges(mesh).closed()) mesh = close(std::move(mesh));
+        return flood(untangle(std::move(mesh)));
     }
 
 private:
@@ -88,6 +95,29 @@ private:
         return choose(std::move(mesh));
     }
 
+    void leave_surroundings(TriangleMesh& mesh) {
+        const auto dropped = drop_surroundings(mesh);
+        note("parts of a flow solver's domain dropped", static_cast<std::int64_t>(dropped.size()));
+        for (const std::string& what : dropped) {
+            if (options_.mode == RepairMode::strict)
+                throw refusal(what, "leave it out of the file, or leave out --repair strict");
+            warnings_.push_back(what + " was dropped: a flow solver's domain, not the ship");
+        }
+    }
+
+    // Closed parts that share edges and faces: more than two triangles on an edge, but as many
+    // that face one way as the other.
+    std::optional<TriangleMesh> unite_touching(const TriangleMesh& mesh) {
+        const auto edges = edge_table(mesh);
+        const auto balanced = [](const MeshEdge& e) { return 2 * e.forwards == e.count; };
+        if (!std::all_of(edges.begin(), edges.end(), balanced) ||
+            std::all_of(edges.begin(), edges.end(), [](const MeshEdge& e) { return e.count == 2; }))
+            return std::nullopt;
+        TriangleMesh outward = mesh;
+        if (measure_mass(mesh).volume < 0.0) flip(outward);
+        return resolve(outward, find_self_intersections(outward), true);
+    }
+
     void stitch(TriangleMesh& mesh) {
         const StitchCounts counts = stitch_borders(mesh);
         note(fmt::format("open edges stitched across cracks of up to {:.2g} m", counts.widest),
@@ -101,7 +131,7 @@ private:
         if (closed.mesh.triangles.empty()) throw refusal("the volume is zero");
         double caps = 0.0;
         for (const CapVerdict& cap : closed.caps) {
-            if (cap.kind == CapKind::guess) throw too_large(cap, closed.surface);
+            if (cap.kind == CapKind::guess) throw too_large(cap, closed);
             caps += cap.area;
             if (cap.kind == CapKind::deck)
                 warnings_.push_back(
@@ -113,6 +143,10 @@ private:
                     cap.kind == CapKind::continued ? "flat, in the plane of the faces beside it"
                                                    : "by the smallest surface"));
         }
+        if (closed.doubt > kDoubtWorthWarning)
+            warnings_.push_back(fmt::format(
+                "{} openings were closed by guess, which leaves {:.2g} % of the volume in doubt",
+                closed.caps.size(), 100.0 * closed.doubt));
         if (caps > kCapsMatter * closed.surface) {
             const WindingComparison c = compare_windings(closed.open, closed.mesh);
             const bool deck =
@@ -127,18 +161,23 @@ private:
         return std::move(closed.mesh);
     }
 
-    Error too_large(const CapVerdict& cap, double surface) const {
-        const std::string size = fmt::format(
-            "{} open edges; an opening of {:.3g} m2 ({:.3g} % of the surface) at {} is too large "
-            "to "
-            "guess",
-            open_edges_, cap.area, 100.0 * cap.area / surface, place(cap.at));
-        return refusal(
-            options_.suspect.empty() ? size : size + ", and " + options_.suspect,
-            options_.suspect.empty()
-                ? "close it in the program that made it; if it is the open deck, give --up; "
-                  "--repair wrap closes it whatever it is"
-                : "export or copy the file again");
+    Error too_large(const CapVerdict& cap, const ClosedSurface& closed) const {
+        std::string fault = fmt::format("{} open edges; ", open_edges_);
+        if (closed.doubt > kMostDoubt && cap.doubt < 0.5 * closed.doubt * closed.volume)
+            fault += fmt::format(
+                "closing its {} openings leaves {:.2g} % of the volume in doubt ({:g} % may be), "
+                "most of all that of {:.3g} m2 at {}",
+                closed.caps.size(), 100.0 * closed.doubt, 100.0 * kMostDoubt, cap.area,
+                place(cap.at));
+        else
+            fault += fmt::format(
+                "an opening of {:.3g} m2 ({:.3g} % of the surface) at {} is too large to guess",
+                cap.area, 100.0 * cap.area / closed.surface, place(cap.at));
+        if (!options_.suspect.empty())
+            return refusal(fault + ", and " + options_.suspect, "export or copy the file again");
+        return refusal(fault,
+                       "close it in the program that made it; if it is the open deck, give --up; "
+                       "--repair wrap closes it whatever it is");
     }
 
     // A closed surface -> one that crosses itself nowhere, or without effect.
@@ -157,7 +196,7 @@ private:
                  static_cast<std::int64_t>(pairs.size()));
             return choose(std::move(mesh));
         }
-        if (auto solid = contour(mesh)) return std::move(*solid);
+        if (auto solid = contour(mesh, "the mesh crosses itself")) return std::move(*solid);
         if (auto solid = wrap_last(mesh)) return std::move(*solid);
         throw refusal(fmt::format("{} pairs of triangles cross, the first at {}", pairs.size(),
                                   place(mesh.corner(pairs.front().first, 0))));
@@ -174,7 +213,8 @@ private:
     }
 
     // Crossing triangles cut where they meet, and what lies inside left out; all else stays.
-    std::optional<TriangleMesh> resolve(const TriangleMesh& mesh, const CrossingPairs& pairs) {
+    std::optional<TriangleMesh> resolve(const TriangleMesh& mesh, const CrossingPairs& pairs,
+                                        bool touching = false) {
         if (pairs.size() > kMostPairs) return std::nullopt;
         TriangleMesh solid = mesh;
         CrossingPairs left = pairs;
@@ -189,7 +229,10 @@ private:
         const SolidProof proof = verify_solid(solid);
         // the envelope may have gained voids between the parts
         if (!proof.good || proof.volume < (1.0 - kContourError) * expected) return std::nullopt;
-        say_resolved(mesh, pairs);
+        if (touching)
+            note("triangles at which parts touch joined", static_cast<std::int64_t>(pairs.size()));
+        else
+            say_resolved(mesh, pairs);
         note_shells(shells);
         note("crossing pairs of triangles left, without effect on the volume",
              static_cast<std::int64_t>(left.size()));
@@ -209,8 +252,8 @@ private:
         note("crossing triangles cut where they meet", static_cast<std::int64_t>(cut.size()));
     }
 
-    std::optional<TriangleMesh> contour(const TriangleMesh& mesh) {
-        WindingSolid solid = winding_solid(mesh, options_.kind);
+    std::optional<TriangleMesh> contour(const TriangleMesh& mesh, const std::string& why) {
+        WindingSolid solid = winding_solid(mesh, options_.kind, options_.radius);
         if (solid.unclear > kWindingDiffers || solid.mesh.triangles.empty()) return std::nullopt;
         const SolidProof proof = verify_solid(solid.mesh);
         const double expected = measure_rows(mesh, 300)[0].by_winding;
@@ -219,11 +262,44 @@ private:
             return std::nullopt;
         note("surface contoured anew from the winding number, triangles",
              static_cast<std::int64_t>(solid.mesh.triangles.size()));
+        const auto [cut_off, at] = farthest_outside(mesh, solid.mesh);
         warnings_.push_back(fmt::format(
-            "the mesh crosses itself; its surface was contoured anew with cells of {:.3g} m, and "
-            "edges and parts finer than that are rounded off",
-            solid.cell));
+            "{}; its surface was contoured anew with cells of {:.3g} m: parts finer than that are "
+            "rounded off, most at {}, by {:.3g} m",
+            why, solid.cell, place(at), cut_off));
         return std::move(solid.mesh);
+    }
+
+    // How far vertices of the mesh lie outside the solid, and where the farthest does.
+    static std::pair<double, Vec3> farthest_outside(const TriangleMesh& mesh,
+                                                    const TriangleMesh& solid) {
+        const SurfaceTree tree(solid);
+        std::vector<double> outside(mesh.vertices.size(), 0.0);
+        parallel_for(outside.size(), 100, [&](std::size_t k) {
+            const Foot foot = tree.closest(mesh.vertices[k]);
+            if (!foot.inside) outside[k] = foot.distance;
+        });
+        const auto most = std::max_element(outside.begin(), outside.end());
+        return {*most, mesh.vertices[static_cast<std::size_t>(most - outside.begin())]};
+    }
+
+    // The envelope's flood: parts that enclose a void together are filled, whatever gaps of less
+    // than a hundredth of the length are between them.
+    TriangleMesh flood(TriangleMesh solid) {
+        if (options_.kind != SolidKind::envelope || find_parts(solid).count < 2) return solid;
+        const EnclosedVoids voids = enclosed_voids(solid);
+        const double volume = measure_mass(solid).volume;
+        if (voids.volume < kVoid * volume) return solid;
+        const std::string why = fmt::format(
+            "voids of about {:.3g} m3 ({:.3g} % of the solid), to which gaps narrower than {:.2g} "
+            "m "
+            "lead, were filled",
+            voids.volume, 100.0 * voids.volume / volume, voids.passage);
+        if (auto filled = contour(solid, why)) return std::move(*filled);
+        warnings_.push_back(fmt::format(
+            "voids of about {:.3g} m3 ({:.3g} % of the solid) between its parts are not filled",
+            voids.volume, 100.0 * voids.volume / volume));
+        return solid;
     }
 
     // Last rung of `auto`: only where the winding number agrees.
@@ -244,7 +320,7 @@ private:
         if (closed.open.triangles.empty())
             throw refusal("the volume is zero", "export the surface of a body, not a flat sheet");
         const double alpha = std::max(diagonal(mesh) / 100.0, 0.75 * closed.widest);
-        TriangleMesh wrapped = wrap_solid(closed.open, alpha, diagonal(mesh) / kWrapOffset);
+        TriangleMesh wrapped = wrap_solid(closed.unsure, alpha, diagonal(mesh) / kWrapOffset);
         const SolidProof proof = verify_solid(wrapped);
         if (!proof.good) throw refusal("shrink-wrapping fails: " + proof.fault);
         const WindingComparison c = compare_windings(closed.open, wrapped);

@@ -19,6 +19,7 @@ enum class RepairMode {
 struct SolidOptions {
     SolidKind kind = SolidKind::envelope;
     RepairMode mode = RepairMode::automatic;
+    double radius = 0.0;  ///< of the spheres to come [m]: a contour's cells are no larger; 0: L/200
     std::string suspect;  ///< why the file seems cut off; empty: it does not
 };
 

@@ -15,17 +15,24 @@ namespace {
 
 constexpr double kCells = 200.0;        // along the longest side
 constexpr double kNodes = 2.0e6;        // at most, or cells grow
+constexpr double kFinestNodes = 8.0e6;  // at most, where finer cells are asked for
+constexpr double kCoarse = 100.0;       // cells along the longest side, to look for voids
+constexpr double kSealed = 0.6;         // of a cell: what is this near to a surface is no way out
 constexpr int kSteps = 16;              // towards the surface, at most
 constexpr double kReached = 1.0 / 256;  // of a cell
 
-Grid make_grid(const TriangleMesh& mesh) {
+Grid make_grid(const TriangleMesh& mesh, double cells, double finest) {
     Eigen::AlignedBox3d box;
     for (const Vec3& v : mesh.vertices) box.extend(v);
     const Vec3 size = box.sizes();
     Grid grid;
-    grid.step = size.maxCoeff() / kCells;
     const auto nodes_at = [&](double step) { return ((size / step).array() + 4.0).prod(); };
-    while (nodes_at(grid.step) > kNodes) grid.step *= 1.05;
+    const auto coarsen = [&](double step, double most) {
+        while (nodes_at(step) > most) step *= 1.05;
+        return step;
+    };
+    grid.step = coarsen(size.maxCoeff() / cells, kNodes);
+    if (finest > 0.0 && finest < grid.step) grid.step = coarsen(finest, kFinestNodes);
     // off the faces of the model, which lie at round numbers
     const Vec3 shift(0.3819660113, 0.4142135624, 0.4472135955);
     grid.origin = box.min() - grid.step * (Vec3::Ones() + shift);
@@ -67,6 +74,33 @@ std::vector<std::uint8_t> mark_inside(const TriangleMesh& mesh, const Grid& grid
     return inside;
 }
 
+// Nodes of voids that lead outside through nothing wider than about a cell.
+std::vector<std::size_t> find_voids(const Grid& grid, const std::vector<std::uint8_t>& inside,
+                                    const SurfaceTree& tree) {
+    std::vector<std::uint8_t> shut(inside.size());
+    parallel_for(inside.size(), 1000, [&](std::size_t k) {
+        shut[k] = inside[k] || !tree.is_clear(grid.at(k), kSealed * grid.step);
+    });
+    std::vector<std::uint8_t> filled = shut;
+    fill_voids(grid, filled);
+    std::vector<std::size_t> voids;
+    for (std::size_t k = 0; k < filled.size(); ++k)
+        if (filled[k] && !shut[k]) voids.push_back(k);
+    // what lies between them and the surface belongs to them
+    const auto nx = static_cast<std::size_t>(grid.nodes[0]);
+    const auto nxy = nx * static_cast<std::size_t>(grid.nodes[1]);
+    std::vector<std::uint8_t> known(inside);
+    for (const std::size_t k : voids) known[k] = 1;
+    for (std::size_t n = 0, core = voids.size(); n < core; ++n)
+        for (const std::size_t step : {std::size_t{1}, nx, nxy})
+            for (const std::size_t other : {voids[n] - step, voids[n] + step})
+                if (!known[other]) {
+                    known[other] = 1;
+                    voids.push_back(other);
+                }
+    return voids;
+}
+
 }  // namespace
 
 void copy_regions(const TriangleMesh& source, TriangleMesh& mesh) {
@@ -80,13 +114,28 @@ void copy_regions(const TriangleMesh& source, TriangleMesh& mesh) {
     });
 }
 
-WindingSolid winding_solid(const TriangleMesh& mesh, SolidKind kind) {
-    const Grid grid = make_grid(mesh);
+EnclosedVoids enclosed_voids(const TriangleMesh& mesh) {
+    const Grid grid = make_grid(mesh, kCoarse, 0.0);
+    double unclear = 0.0;
+    const std::vector<std::uint8_t> inside = mark_inside(mesh, grid, &unclear);
+    const SurfaceTree tree(mesh);
+    EnclosedVoids out;
+    out.passage = 2.0 * kSealed * grid.step;
+    out.volume =
+        static_cast<double>(find_voids(grid, inside, tree).size()) * std::pow(grid.step, 3);
+    return out;
+}
+
+WindingSolid winding_solid(const TriangleMesh& mesh, SolidKind kind, double finest) {
+    const Grid grid = make_grid(mesh, kCells, finest);
     WindingSolid out;
     out.cell = grid.step;
     std::vector<std::uint8_t> inside = mark_inside(mesh, grid, &out.unclear);
-    if (kind == SolidKind::envelope) fill_voids(grid, inside);
     const SurfaceTree tree(mesh);
+    if (kind == SolidKind::envelope) {
+        for (const std::size_t k : find_voids(grid, inside, tree)) inside[k] = 1;
+        fill_voids(grid, inside);
+    }
     out.mesh = contour_grid(grid, inside, [&](const Vec3& in, const Vec3& outer) {
         // from outside, a step as long as the distance to the surface cannot pass it
         const double length = (outer - in).norm();

@@ -14,12 +14,23 @@ struct WindingSolid {
 };
 
 /// Solid where the winding number of the surface is positive: whatever crosses, overlaps or repeats
-/// counts once. With `envelope`, voids that cannot be reached from outside are filled. The winding
-/// number is that of rows through the nodes of a grid, about 200 cells along the longest side and
-/// two million nodes in all; between nodes the surface is found by steps of its own distance from
-/// outside, so that smooth parts keep their place. Edges sharper than a cell are rounded off.
+/// counts once. With `envelope`, voids that cannot be reached from outside but through gaps
+/// narrower than a cell are filled. The winding number is that of rows through the nodes of a grid,
+/// about 200 cells along the longest side and two million nodes in all, or with cells of `finest`
+/// [m] and up to eight million; between nodes the surface is found by steps of its own distance
+/// from outside, so that smooth parts keep their place. Edges sharper than a cell are rounded off.
 /// @pre the surface has no boundary as a chain; parts face outwards. Cost: about a second.
-WindingSolid winding_solid(const TriangleMesh& mesh, SolidKind kind);
+WindingSolid winding_solid(const TriangleMesh& mesh, SolidKind kind, double finest = 0.0);
+
+/// What parts enclose together without being one surface.
+struct EnclosedVoids {
+    double volume = 0.0;   ///< [m3], within a layer of a hundredth of the length
+    double passage = 0.0;  ///< nothing wider leads there from outside [m]
+};
+
+/// Floods the outside of a closed surface on a grid of about 100 cells along the longest side and
+/// asks what it does not reach.
+EnclosedVoids enclosed_voids(const TriangleMesh& mesh);
 
 /// Gives each triangle of `mesh` the region of the nearest triangle of `source`, and its names.
 void copy_regions(const TriangleMesh& source, TriangleMesh& mesh);

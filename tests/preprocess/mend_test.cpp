@@ -125,3 +125,80 @@ TEST_CASE("triangles one by one with gaps of 1e-4 L become one surface", "[repai
     INFO(mended.said());
     CHECK(mended.volume == Approx(volume).epsilon(2e-3));
 }
+
+TEST_CASE("a ship of plates is filled, whether they touch or leave gaps", "[repair][mend]") {
+    double outer = 0.0, plates = 0.0;
+    SECTION("touching: exactly, in the envelope and in the material") {
+        const TriangleMesh mesh = test::double_skin(0.0, &outer, &plates);
+        CHECK(mend(mesh).volume == Approx(outer).epsilon(1e-9));
+        SolidOptions options;
+        options.kind = SolidKind::material;
+        CHECK(mend(mesh, options).volume == Approx(plates).epsilon(1e-9));
+    }
+    SECTION("gaps of 0.01 m: to the cells of a contour, and said") {
+        const TriangleMesh mesh = test::double_skin(0.01, &outer, &plates);
+        SolidOptions options;
+        options.radius = 0.4;
+        const Mended mended = mend(mesh, options);
+        CHECK(mended.volume == Approx(outer).epsilon(0.01));
+        REQUIRE(mended.warnings.size() == 1);
+        CHECK_THAT(mended.warnings[0],
+                   Catch::Contains("voids of about 5") && Catch::Contains("cells of 0.4 m"));
+    }
+}
+
+TEST_CASE("a catamaran with 57 planar holes is accepted, with the doubt that leaves",
+          "[repair][mend]") {
+    double whole = 0.0;
+    const Mended mended = mend(test::catamaran(&whole));
+    CHECK(mended.volume == Approx(whole).epsilon(1e-9));
+    REQUIRE(mended.warnings.size() == 1);
+    CHECK_THAT(mended.warnings[0], Catch::Contains("57 openings were closed by guess") &&
+                                       Catch::Contains("1.3 % of the volume in doubt"));
+}
+
+TEST_CASE("openings that leave too much in doubt together are refused with the sum and its limit",
+          "[repair][mend][errors]") {
+    TriangleMesh mesh;
+    for (int k = 0; k < 6; ++k) {  // six boats with 57 posts' holes each, and little hull
+        TriangleMesh boat = test::catamaran();
+        for (Vec3& v : boat.vertices)
+            v = Vec3(v.x(), v.y() + 30.0 * k, v.z() > 2.3 ? v.z() : 0.3 * v.z() + 1.61);
+        test::append(mesh, boat);
+    }
+    CHECK_THROWS_WITH(mend(mesh), Catch::Contains("342 openings") &&
+                                      Catch::Contains("% of the volume in doubt (2 % may be)"));
+}
+
+TEST_CASE("a flow solver's box and sea plane are dropped and named", "[repair][mend]") {
+    const TriangleMesh ship = test::container_ship(test::Stern::clean, 60, 20);
+    const Mended mended = mend(test::in_domain_box(ship, true, true));
+    CHECK(mended.volume == Approx(measure_mass(ship).volume).epsilon(1e-12));
+    CHECK(mended.count("parts of a flow solver's domain dropped") == 2);
+    REQUIRE(mended.warnings.size() == 2);
+    CHECK_THAT(mended.warnings[0], Catch::Contains("a box of 924 x 693 x 693 m"));
+    CHECK_THAT(mended.warnings[1], Catch::Contains("a flat sheet of 693 x 693 x 0 m"));
+    SolidOptions strict;
+    strict.mode = RepairMode::strict;
+    CHECK_THROWS_WITH(mend(test::in_domain_box(ship), strict), Catch::Contains("a box of"));
+    // a barge around its own small tank is no domain: nothing here is anything but a box
+    TriangleMesh barge = test::make_box_mesh(Vec3(60, 20, 5));
+    test::append(barge, test::make_box_mesh(Vec3(6, 4, 3)));
+    CHECK(mend(barge).volume == Approx(6000.0));
+}
+
+TEST_CASE("wrapping a hull with an open deck caps the deck first, and says what that gives",
+          "[repair][mend]") {
+    const TriangleMesh cut = test::cut_at(test::container_ship(test::Stern::clean, 60, 20), 0.0);
+    double below = 0.0;
+    for (std::size_t t = 0; t < cut.triangles.size(); ++t)
+        below += cut.corner(t, 0).dot(cut.corner(t, 1).cross(cut.corner(t, 2))) / 6.0;
+    SolidOptions options;
+    options.mode = RepairMode::wrap;
+    const Mended mended = mend(cut, options);
+    CHECK(mended.volume == Approx(below).epsilon(0.02));
+    REQUIRE(mended.warnings.size() == 2);
+    const double said = std::stod(mended.warnings[1].substr(mended.warnings[1].rfind('(') + 1));
+    // the winding number's volume is that of 20 000 places
+    CHECK(said == Approx(100.0 * (mended.volume / below - 1.0)).margin(1.0));
+}

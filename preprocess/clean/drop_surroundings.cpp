@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "preprocess/clean/drop_surroundings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "preprocess/clean/find_parts.hpp"
+#include "preprocess/clean/keep_triangles.hpp"
+
+namespace ice {
+
+namespace {
+
+constexpr double kFlat = 1e-6;       // of a part's diagonal
+constexpr double kBoxBeyond = 1.5;   // times what is within, in two directions at least
+constexpr double kFlatBeyond = 1.2;  // times what is beside it, in both directions
+
+using Box = Eigen::AlignedBox3d;
+
+enum class Form { other, box, flat };
+
+struct Piece {
+    Box box;
+    bool on_box = true;  // all triangles lie in faces of the box
+    bool gone = false;
+
+    Form form() const {
+        const double small = kFlat * box.diagonal().norm();
+        const auto thin = (box.sizes().array() <= small).count();
+        return thin == 1 ? Form::flat : thin == 0 && on_box ? Form::box : Form::other;
+    }
+};
+
+std::vector<Piece> measure_parts(const TriangleMesh& mesh, const Parts& parts) {
+    std::vector<Piece> pieces(static_cast<std::size_t>(parts.count));
+    const auto of = [&](std::size_t t) -> Piece& {
+        return pieces[static_cast<std::size_t>(parts.of_triangle[t])];
+    };
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+        for (int k = 0; k < 3; ++k) of(t).box.extend(mesh.corner(t, k));
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        Piece& piece = of(t);
+        if (!piece.on_box) continue;
+        const double small = kFlat * piece.box.diagonal().norm();
+        piece.on_box = false;
+        for (int d = 0; d < 3; ++d)
+            for (const double face : {piece.box.min()[d], piece.box.max()[d]}) {
+                bool all = true;
+                for (int k = 0; k < 3; ++k)
+                    all = all && std::abs(mesh.corner(t, k)[d] - face) <= small;
+                piece.on_box = piece.on_box || all;
+            }
+    }
+    return pieces;
+}
+
+// Whether a piece lies around, or reaches beyond, what fills a box.
+bool surrounds(const Piece& piece, const Box& rest) {
+    const bool flat = piece.form() == Form::flat;
+    const double times = flat ? kFlatBeyond : kBoxBeyond;
+    int beyond = 0;
+    for (int d = 0; d < 3; ++d) {
+        if (flat && piece.box.sizes()[d] <= kFlat * piece.box.diagonal().norm()) continue;
+        if (piece.box.min()[d] > rest.min()[d] || piece.box.max()[d] < rest.max()[d]) return false;
+        beyond += piece.box.sizes()[d] >= times * rest.sizes()[d];
+    }
+    return beyond >= 2;
+}
+
+}  // namespace
+
+std::vector<std::string> drop_surroundings(TriangleMesh& mesh) {
+    const Parts parts = find_parts(mesh);
+    std::vector<Piece> pieces = measure_parts(mesh, parts);
+    Box rest;
+    for (const Piece& piece : pieces)
+        if (piece.form() == Form::other) rest.extend(piece.box);
+    std::vector<std::string> dropped;
+    if (rest.isEmpty()) return dropped;
+    for (Piece& piece : pieces) {
+        if (piece.form() == Form::other || !surrounds(piece, rest)) continue;
+        piece.gone = true;
+        const Vec3 size = piece.box.sizes();
+        dropped.push_back(fmt::format("a {} of {:.3g} x {:.3g} x {:.3g} m around everything else",
+                                      piece.form() == Form::flat ? "flat sheet" : "box", size.x(),
+                                      size.y(), size.z()));
+    }
+    if (dropped.empty()) return dropped;
+    std::vector<std::uint8_t> keep(mesh.triangles.size());
+    for (std::size_t t = 0; t < keep.size(); ++t)
+        keep[t] = !pieces[static_cast<std::size_t>(parts.of_triangle[t])].gone;
+    keep_triangles(mesh, keep);
+    return dropped;
+}
+
+}  // namespace ice

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/geometry/triangle_mesh.hpp"
+
+namespace ice {
+
+/// Leaves out what a flow solver's domain is made of: parts that are a box along the axes around
+/// all else, at least half as large again in two directions, and flat parts along the axes that
+/// reach beyond all else by a fifth in both of their directions (a sea plane, a wall). Where
+/// nothing else is left, all stays.
+/// @return one text for each part left out: what it was and how large
+/// @pre the mesh is welded. Cost O(T)
+std::vector<std::string> drop_surroundings(TriangleMesh& mesh);
+
+}  // namespace ice
