@@ -13,9 +13,10 @@ namespace ice {
 
 namespace {
 
-constexpr double kFlat = 1e-6;       // of a part's diagonal
-constexpr double kBoxBeyond = 1.5;   // times what is within, in two directions at least
-constexpr double kFlatBeyond = 1.2;  // times what is beside it, in both directions
+constexpr double kFlat = 1e-6;           // of a part's diagonal
+constexpr double kBoxBeyond = 1.5;       // times what is within, in two directions at least
+constexpr double kBoxBeyondBoxes = 3.0;  // times boxes within, in all directions
+constexpr double kFlatBeyond = 1.2;      // times what is beside it, in both directions
 
 using Box = Eigen::AlignedBox3d;
 
@@ -69,6 +70,20 @@ bool surrounds(const Piece& piece, const Box& rest) {
     return beyond >= 2;
 }
 
+// Where there is nothing but boxes: those in the largest one, if that is far larger than they are.
+Box boxes_within(const std::vector<Piece>& pieces) {
+    const auto volume = [](const Piece& p) { return p.form() == Form::box ? p.box.volume() : 0.0; };
+    const auto largest =
+        std::max_element(pieces.begin(), pieces.end(),
+                         [&](const Piece& l, const Piece& r) { return volume(l) < volume(r); });
+    Box rest;
+    for (const Piece& piece : pieces)
+        if (piece.form() == Form::box && &piece != &*largest) rest.extend(piece.box);
+    if (rest.isEmpty()) return largest->box;  // there may be a sea plane about one box
+    const bool far = (largest->box.sizes().array() >= kBoxBeyondBoxes * rest.sizes().array()).all();
+    return far ? rest : Box();
+}
+
 }  // namespace
 
 std::vector<std::string> drop_surroundings(TriangleMesh& mesh) {
@@ -78,6 +93,7 @@ std::vector<std::string> drop_surroundings(TriangleMesh& mesh) {
     for (const Piece& piece : pieces)
         if (piece.form() == Form::other) rest.extend(piece.box);
     std::vector<std::string> dropped;
+    if (rest.isEmpty()) rest = boxes_within(pieces);
     if (rest.isEmpty()) return dropped;
     for (Piece& piece : pieces) {
         if (piece.form() == Form::other || !surrounds(piece, rest)) continue;

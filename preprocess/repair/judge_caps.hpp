@@ -36,8 +36,8 @@ struct CapVerdict {
 /// the walls at its rim stand (they lean inwards by less than 17 degrees, outwards by less than
 /// 37), its edge has no steps, it reaches over 60 % of the length and the breadth of its part, and
 /// nothing of the part stands above it. However small, a cap of guessed form may not make an end of
-/// the solid's length if it is more than 0.05 % of the surface and has more than eight edges: a stem
-/// may be missing there.
+/// the solid's length if it is more than 0.05 % of the surface and has more than eight edges: a
+/// stem may be missing there.
 ///
 /// @param mesh    closed by `caps`, each part facing outwards
 /// @param suspect the file seems cut off: no cap of more than 0.5 % of the surface may stand

@@ -13,6 +13,7 @@ import sys
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../meshes"))
 import check_meshes  # noqa: E402
+import hull_damage  # noqa: E402
 
 SHARE_DELETED = 0.02      # of the faces; at least one
 SHARE_DUPLICATED = 0.05
@@ -20,7 +21,8 @@ JITTER = 1e-6             # of the length of the bounding box
 
 REPAIRABLE = ["delete", "hole", "flip", "jitter", "crack", "duplicate", "split"]
 HOPELESS = ["nan", "truncate"]  # to be refused, unless what is left still determines the solid
-KINDS = REPAIRABLE + ["together"] + HOPELESS
+HULLS = ["rudder", "fold", "sheet", "waterline", "skin", "posts", "domain", "patches"]
+KINDS = REPAIRABLE + ["together"] + HOPELESS + HULLS  # all of HULLS are repairable
 FORMATS = ["obj", "obj", "ascii.stl", "stl"]
 
 
@@ -180,7 +182,9 @@ def nan(mesh, dice):
 
 DAMAGE = {"delete": delete, "hole": hole, "flip": flip, "jitter": jitter, "crack": crack,
           "duplicate": duplicate, "split": split, "together": together, "nan": nan,
-          "truncate": lambda mesh, dice: None}  # the file is cut, not the mesh
+          "truncate": lambda mesh, dice: None,  # the file is cut, not the mesh
+          "patches": lambda mesh, dice: hull_damage.patches(mesh, dice, split)}
+DAMAGE.update((kind, getattr(hull_damage, kind)) for kind in HULLS if kind not in DAMAGE)
 
 
 # --- files ----------------------------------------------------------------------------------------
@@ -215,17 +219,26 @@ def stl_bytes(mesh):
 WRITERS = {"obj": obj_bytes, "ascii.stl": ascii_stl_bytes, "stl": stl_bytes}
 
 
-def damaged_copy(mesh, name, seed, index):
-    """Kind, all that was done, file ending and bytes of a copy.
+def volume_of(surfaces):
+    return sum(check_meshes.volume(*surface) for surface in surfaces)
 
-    Kinds follow each other with the index; the format changes with every round of kinds.
+
+def damaged_copy(mesh, name, seed, index):
+    """Kind, all that was done, file ending and bytes of a copy, and what solid it stands for.
+
+    Kinds follow each other with the index; the format changes with every round of kinds. The solid
+    is the union of closed surfaces: vertices and triangles each.
     """
     dice = Dice(name, seed, index)
     kind = KINDS[index % len(KINDS)]
     ending = FORMATS[index // len(KINDS) % len(FORMATS)]
     copy = mesh.copy()
-    done = DAMAGE[kind](copy, dice) or [kind]
+    truth = [(mesh.vertices, mesh.triangles)]
+    answer = DAMAGE[kind](copy, dice)
+    done = answer if kind == "together" else [kind]
+    if kind in HULLS and answer:
+        truth = answer
     data = WRITERS[ending](copy)
     if kind == "truncate":
         data = data[:dice.between(0, len(data) - 2)]
-    return kind, done, ending, data
+    return kind, done, ending, data, truth

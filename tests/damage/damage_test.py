@@ -11,6 +11,7 @@ import unittest
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, HERE)
 import damage_mesh  # noqa: E402
+import hull_damage  # noqa: E402
 
 FLOE = os.path.join(HERE, "../../meshes/paper-floe-3d.obj")
 FLOE_VOLUME = 0.24
@@ -38,7 +39,7 @@ def run_damage(behaviour, *options):
         os.chmod(program, stat.S_IRWXU)
         done = subprocess.run(
             [sys.executable, "-B", os.path.join(HERE, "damage.py"), "--spherize", program,
-             "--meshes", FLOE, "--count", "10", "--jobs", "2", *options],
+             "--meshes", FLOE, "--count", "10", "--jobs", "2", "--places-every", "0", *options],
             capture_output=True, text=True, check=False)
     return done.returncode, done.stdout + done.stderr
 
@@ -149,6 +150,37 @@ class Copies(unittest.TestCase):
             spoilt = self.damaged("nan", seed)
             self.assertTrue(any(not math.isfinite(value) for t in spoilt.triangles
                                 for point in spoilt.corners(t) for value in point))
+
+    def test_each_kind_of_real_hulls_does_what_it_says(self):
+        for index in range(10):
+            copies = {kind: damage_mesh.damaged_copy(
+                self.mesh, "floe", 1, index * len(damage_mesh.KINDS)
+                + damage_mesh.KINDS.index(kind)) for kind in damage_mesh.HULLS}
+            for kind, (name, done, _, data, truth) in copies.items():
+                self.assertEqual((name, done), (kind, [kind]))
+                volume = damage_mesh.volume_of(truth)
+                if kind == "waterline":
+                    self.assertTrue(0.4 * FLOE_VOLUME < volume < 0.9 * FLOE_VOLUME)
+                elif kind in ("rudder", "posts"):
+                    self.assertTrue(FLOE_VOLUME < volume < 1.03 * FLOE_VOLUME)
+                else:
+                    self.assertAlmostEqual(volume, FLOE_VOLUME, 9)
+                self.assertNotEqual(data, damage_mesh.obj_bytes(self.mesh))
+        for kind, more in (("rudder", 12), ("sheet", 2), ("skin", 12)):
+            self.assertEqual(len(self.damaged(kind, 1).triangles), 12 + more)
+
+    def test_places_are_judged_by_exact_solid_angles_and_distances(self):
+        try:
+            import check_spheres  # pylint: disable=import-outside-toplevel
+            import numpy  # pylint: disable=import-outside-toplevel
+        except ImportError as missing:
+            self.skipTest(str(missing))
+        box = check_spheres.corners_of(hull_damage.make_box((0, 0, 0), (2, 2, 2)))
+        points = numpy.array([(0, 0, 0), (0.99, 0.99, 0.99), (1.01, 0, 0), (3, 4, 1)])
+        winding = check_spheres.winding_numbers(points, box)
+        self.assertTrue(numpy.allclose(winding, [1, 1, 0, 0], atol=1e-9))
+        far = check_spheres.distances(points, box)
+        self.assertTrue(numpy.allclose(far, [1, 0.01, 0.01, math.sqrt(4 + 9)], atol=1e-9))
 
     def test_binary_stl_is_as_long_as_its_count_says(self):
         data = damage_mesh.stl_bytes(self.mesh)

@@ -181,6 +181,8 @@ TEST_CASE("a flow solver's box and sea plane are dropped and named", "[repair][m
     SolidOptions strict;
     strict.mode = RepairMode::strict;
     CHECK_THROWS_WITH(mend(test::in_domain_box(ship), strict), Catch::Contains("a box of"));
+    const TriangleMesh floe = test::make_box_mesh(Vec3(2, 1, 0.5));
+    CHECK(mend(test::in_domain_box(floe, true, true)).volume == Approx(1.0));
     // a barge around its own small tank is no domain: nothing here is anything but a box
     TriangleMesh barge = test::make_box_mesh(Vec3(60, 20, 5));
     test::append(barge, test::make_box_mesh(Vec3(6, 4, 3)));
