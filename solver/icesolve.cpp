@@ -61,7 +61,8 @@ void declare(CLI::App& app, Options& o) {
     app.add_option("--simd", o.simd, "Instruction set; results have the same bits on all")
         ->check(CLI::IsMember({"auto", "scalar", "sse4", "avx2", "avx512"}));
     app.add_option("--checkpoint-every", o.checkpoint_every,
-                   "Write checkpoint.h5 in the run folder every T simulated seconds and at the end")
+                   "Write checkpoint.h5 in the run folder every T simulated seconds and at the end "
+                   "(default: every 5 minutes of work, until the run ends)")
         ->type_name("T")
         ->transform(ice::positive_quantity(ice::Dimension::time, "2.5"));
     app.add_option("--restart", o.restart,

@@ -2,8 +2,13 @@
 #include "common/formats/particulars.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace ice {
+
+std::string release_rule(const IceParticulars& ice) {
+    return fmt::format("{}", fmt::join(ice.hold, ", "));
+}
 
 std::string averaged_text(double averaged_lengths) {
     constexpr double kOne = 0.995;  // what is shown as 1.00

@@ -36,6 +36,10 @@ struct IceParticulars {
     std::vector<std::string> hold;  ///< release rules in use, as a case file names them
 };
 
+/// The release rules in use, "until-hull-contact, never": until when floes are held, which decides
+/// up to half of the resistance. "" where they are not known.
+std::string release_rule(const IceParticulars& ice);
+
 /// How far the ship goes.
 struct TravelParticulars {
     double distance = kUnknown;          ///< [m]

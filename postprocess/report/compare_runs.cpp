@@ -17,11 +17,11 @@ std::vector<std::string> columns_of(int dimension) {
     std::vector<std::string> names{"run"};
     for (const char* force : {"mean", "ci95", "contact", "friction", "std", "max", "lindqvist"})
         names.push_back(std::string(force) + (dimension == 2 ? "_N_per_m" : "_N"));
-    names.insert(names.end(), {"floes_moved", "unconverged_%", "status"});
+    names.insert(names.end(), {"floes_moved", "unconverged_%", "hold", "status"});
     return names;
 }
 
-// the columns' values between the first and the last
+// the columns' values between the first and the last two, which are texts
 std::vector<double> numbers_of(const Summary& s) {
     const double steps = std::max<double>(1.0, static_cast<double>(s.steps));
     return {s.resistance.mean,
@@ -64,6 +64,7 @@ std::string one_table(const std::vector<NamedSummary>& runs, int dimension) {
     for (const auto& [name, summary] : runs) {
         rows.push_back({name});
         for (const double value : numbers_of(summary)) rows.back().push_back(short_number(value));
+        rows.back().push_back(release_rule(summary.ice));
         rows.back().push_back(summary.status);
     }
     std::vector<std::size_t> width(columns.size(), 0);
@@ -72,10 +73,13 @@ std::string one_table(const std::vector<NamedSummary>& runs, int dimension) {
     std::string out;
     for (const auto& row : rows) {
         for (std::size_t k = 0; k < row.size(); ++k) {
-            const bool text = k == 0 || k + 1 == row.size();
+            const bool text = k == 0 || k + 2 >= row.size();
             if (k > 0) out += "  ";
-            out += text ? (k == 0 ? fmt::format("{:<{}}", row[k], width[k]) : row[k])
-                        : fmt::format("{:>{}}", row[k], width[k]);
+            if (k + 1 == row.size())
+                out += row[k];
+            else
+                out += text ? fmt::format("{:<{}}", row[k], width[k])
+                            : fmt::format("{:>{}}", row[k], width[k]);
         }
         out += '\n';
     }
@@ -101,7 +105,7 @@ std::string compare_csv(const std::vector<NamedSummary>& runs) {
         out += csv_text(name);
         for (const double value : numbers_of(summary))
             out += "," + (std::isfinite(value) ? fmt::format("{}", value) : std::string());
-        out += "," + summary.status + "\n";
+        out += "," + csv_text(release_rule(summary.ice)) + "," + summary.status + "\n";
     }
     return out;
 }

@@ -38,10 +38,6 @@ std::string speed_text(double speed) {
     return std::isfinite(speed) ? fmt::format("{:.2f} m/s = {:.2f} kn", speed, speed / kKnot) : "";
 }
 
-std::string release_rule(const Summary& s) {
-    return fmt::format("{}", fmt::join(s.ice.hold, ", "));
-}
-
 Rows ship_rows(const Summary& s) {
     Rows rows;
     add(rows, "Length, L", fixed(s.ship.length, 2, "m"));
@@ -75,7 +71,7 @@ Rows ice_rows(const Summary& s) {
         add(rows, "Crushing pressure",
             std::isfinite(ice.crushing_pressure) ? readable(1e-6 * ice.crushing_pressure) + " MPa"
                                                  : "none: rigid ice");
-    add(rows, "Held", release_rule(s));
+    add(rows, "Held", release_rule(s.ice));
     return rows;
 }
 
@@ -125,7 +121,7 @@ std::string key_numbers(const Summary& s, const ForceUnit& unit, double speed) {
         out += card(unit.text(formula.value) + " " + unit.name,
                     formula.name + ", " + formula.part + " part");
     if (!s.ice.hold.empty())
-        out += card(release_rule(s), "release rule: until when floes are held");
+        out += card(release_rule(s.ice), "release rule: until when floes are held");
     if (std::isfinite(speed)) {
         out += card(fmt::format("{:.2f} m/s", speed), fmt::format("{:.2f} knots", speed / kKnot));
         const double power = s.resistance.mean * speed;

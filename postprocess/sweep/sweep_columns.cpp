@@ -72,6 +72,9 @@ std::vector<Column> force_columns(const std::vector<Point>& points, const report
         columns.back().cells.push_back(unit.text(point.lindqvist));
     }
     drop_empty(columns, 1);
+    columns.push_back({"release rule", {}});
+    for (const Point& point : points)
+        columns.back().cells.push_back(point.hold.empty() ? "-" : point.hold);
     return columns;
 }
 

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "postprocess/sweep/sweep_points.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <set>
 
 #include "common/base/uncertainty.hpp"
 #include "postprocess/sweep/key_names.hpp"
@@ -124,6 +128,16 @@ Estimate estimate_mean(const std::vector<double>& values) {
     return {mean, student_quantile(n - 1.0, 0.05) * std::sqrt(square / (n - 1.0) / n)};
 }
 
+namespace {
+
+std::string release_rules(const Sweep& sweep, const std::vector<std::size_t>& rows) {
+    std::set<std::string> rules;
+    for (const std::size_t row : rows) rules.insert(release_rule(sweep.runs[row].summary->ice));
+    return fmt::format("{}", fmt::join(rules, "; "));
+}
+
+}  // namespace
+
 std::vector<Point> make_points(const Sweep& sweep) {
     std::map<std::map<std::string, Setting>, std::vector<std::size_t>, Before> groups(
         Before{sweep.axes});
@@ -138,7 +152,10 @@ std::vector<Point> make_points(const Sweep& sweep) {
         groups[at].push_back(row);
     }
     std::vector<Point> points;
-    for (const auto& [at, rows] : groups) points.push_back(make_point(sweep, at, rows));
+    for (const auto& [at, rows] : groups) {
+        points.push_back(make_point(sweep, at, rows));
+        points.back().hold = release_rules(sweep, rows);
+    }
     return points;
 }
 

@@ -58,6 +58,7 @@ struct Point {
     double largest;    ///< the largest of them [N], or NaN
     int dimension;
     std::vector<std::size_t> runs;  ///< rows of Sweep::runs
+    std::string hold = {};          ///< release rules of the runs, "; " between different ones
 
     const Estimate& part(Part p) const { return parts[static_cast<std::size_t>(p)]; }
     /// Value of x. @pre the sweep has an x and the point a number there

@@ -138,14 +138,15 @@ std::string point_csv(const Sweep& sweep, const std::vector<Point>& points) {
     out += "runs";
     const char* in = force_ending(points.empty() ? 3 : points.front().dimension);
     for (const Part part : kParts) out += fmt::format(",{0}{1},{0}_ci95{1}", part_name(part), in);
-    out += fmt::format(",largest{0},lindqvist_submersion{0}\r\n", in);
+    out += fmt::format(",largest{0},lindqvist_submersion{0},hold\r\n", in);
     for (const Point& point : points) {
         for (const std::string& axis : sweep.axes) out += csv_text(point.at.at(axis).text) + ",";
         out += std::to_string(point.runs.size());
         for (const Part part : kParts)
             out +=
                 "," + csv_number(point.part(part).mean) + "," + csv_number(point.part(part).half);
-        out += "," + csv_number(point.largest) + "," + csv_number(point.lindqvist) + "\r\n";
+        out += "," + csv_number(point.largest) + "," + csv_number(point.lindqvist) + "," +
+               csv_text(point.hold) + "\r\n";
     }
     return out;
 }
@@ -155,7 +156,7 @@ std::string run_csv(const Sweep& sweep) {
     for (const std::string& axis : sweep.axes) out += "," + csv_text(axis);
     out += fmt::format(
         ",{0},resistance{1},ci95{1},contact{1},friction{1},largest{1},lindqvist_submersion{1},"
-        "unconverged_steps,wall_s,remark\r\n",
+        "unconverged_steps,wall_s,hold,remark\r\n",
         kSeedKey, force_ending(dimension_of(sweep)));
     for (const SweepRun& run : sweep.runs) {
         out += csv_text(run.name) + "," + run.status;
@@ -166,9 +167,10 @@ std::string run_csv(const Sweep& sweep) {
                    "," + csv_number(s->resistance.contact_mean) + "," +
                    csv_number(s->resistance.friction_mean) + "," + csv_number(s->resistance.max) +
                    "," + csv_number(s->lindqvist_submersion.value_or(std::nan(""))) + "," +
-                   std::to_string(s->unconverged_steps) + "," + csv_number(s->wall_s);
+                   std::to_string(s->unconverged_steps) + "," + csv_number(s->wall_s) + "," +
+                   csv_text(release_rule(s->ice));
         else
-            out += ",,,,,,,,";
+            out += ",,,,,,,,,";
         out += "," + csv_text(run.fault) + "\r\n";
     }
     return out;

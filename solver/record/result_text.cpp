@@ -61,12 +61,17 @@ std::string force_text(double value) {
 std::string resistance_line(const Summary& s) {
     const double speed = s.ship.speed_mean;
     const ForceStatistics& r = s.resistance;
+    const auto moved = fmt::format("{} of {} floes moved", s.floes_moved, s.floes_total);
+    if (!std::isfinite(r.mean))
+        return "resistance unknown: the run ended before output.average_from; " + moved;
+    if (s.contacts_max == 0.0 && r.mean == 0.0)
+        return fmt::format("no contact: nothing touched the ship at {:.3g} m/s ({:.3g} kn); {}",
+                           speed, speed / kKnot, moved);
     const Format format = format_for(r.mean, r.ci95, s.dimension, "N");
-    return fmt::format(
-        "resistance {}{} at {:.3g} m/s ({:.3g} kn): contact {}, friction {}; {} of {} floes moved",
-        force_text(r.mean, r.ci95, s.dimension), std::isfinite(r.ci95) ? " (95 %)" : "", speed,
-        speed / kKnot, format(r.contact_mean), format(r.friction_mean), s.floes_moved,
-        s.floes_total);
+    return fmt::format("resistance {}{} at {:.3g} m/s ({:.3g} kn): contact {}, friction {}; {}",
+                       force_text(r.mean, r.ci95, s.dimension),
+                       std::isfinite(r.ci95) ? " (95 %)" : "", speed, speed / kKnot,
+                       format(r.contact_mean), format(r.friction_mean), moved);
 }
 
 std::string energy_line(const Summary& s) {

@@ -37,10 +37,15 @@ void warn_of_trend(Summary& summary) {
     const ForceStatistics& r = summary.resistance;
     if (!r.trend_significant.value_or(false) || r.mean == 0.0) return;
     const double share = std::abs(r.trend / r.mean);
+    const double lengths = summary.travel.averaged_lengths;
+    const std::string because =
+        lengths < 1.0
+            ? fmt::format(" ({}: floes still spread along the hull)", averaged_text(lengths))
+            : "";
     summary.warnings.push_back(judged(
-        fmt::format("the resistance {} by {:.0f} % of its mean over the averaged time: begin later "
-                    "(output.average_from) or run longer (simulation.duration)",
-                    r.trend > 0.0 ? "rises" : "falls", 100.0 * share),
+        fmt::format("the resistance {} by {:.0f} % of its mean over the averaged time{}: begin "
+                    "later (output.average_from) or run longer (simulation.duration)",
+                    r.trend > 0.0 ? "rises" : "falls", 100.0 * share, because),
         0.5 * share));
 }
 

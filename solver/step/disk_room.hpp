@@ -14,8 +14,8 @@ namespace ice {
 /// past mending; a run that stops with some room left completes its files and writes a checkpoint.
 ///
 /// Other programs may fill the disk at once, so that room is held where the file system can
-/// (fallocate): for rows within run.h5 itself, for the rest by a file without a name, which goes
-/// with the program, however that ends. Elsewhere the free space is asked for, which knows no
+/// (fallocate): for rows within run.h5 and the CSV files, for the rest by a file without a name,
+/// which goes with the program, however that ends. Elsewhere the free space is asked for, which knows no
 /// quotas. The limit of a single file (ulimit -f) counts, too.
 class DiskRoom {
 public:
@@ -26,17 +26,23 @@ public:
 
     /// Is there less room than the waiting rows, a checkpoint and the end of the files may take? To
     /// be asked before every step; looks at the disk before rows are written and once per some
-    /// 64 kB of them, or on request.
-    bool is_short(const Recorder& recorder, const World& world, bool look = false);
+    /// 64 kB of them.
+    /// @param saves  a checkpoint with a copy of its rows comes next: looks, and counts the copy
+    bool is_short(const Recorder& recorder, const World& world, bool saves = false);
+    /// A checkpoint was written: the next one copies the rows from here on.
+    void saved();
+    /// True where less is free than is held: what could not be written beside it fits into it.
+    bool is_used_up() const;
     /// Gives back what is held for a checkpoint and the end of the files: for a run that ends.
     void release();
 
 private:
-    bool could_hold(std::uint64_t rows, std::uint64_t end);
+    bool could_hold(std::uint64_t rows, std::uint64_t text_rows, std::uint64_t end);
 
     std::filesystem::path folder_;
     int held_ = -1;  // the file
     std::uint64_t held_bytes_ = 0;
+    std::uint64_t saved_bytes_ = 0;  // of run.h5.part at the last checkpoint
     bool looked_ = false, can_hold_ = true;
     std::uint64_t waiting_ = 0;  // when it looked
 };

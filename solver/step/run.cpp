@@ -70,8 +70,8 @@ void fill_run(const World& w, double wall_seconds, Summary& s) {
 
 void write_summary(const World& w, const RunOptions& options, double wall_seconds,
                    Recorder& recorder, Summary& summary) {
-    recorder.finish(view_of(w), summary);
     fill_particulars(w.scene, w.parameters, w.time, summary);
+    recorder.finish(view_of(w), summary);  // its warnings look at the travel
     if (auto warning = warn_of_open_end(w.scene, w.parameters, summary.travel.distance))
         summary.warnings.push_back(*warning);
     fill_run(w, wall_seconds, summary);
@@ -97,6 +97,7 @@ struct Job {
     double wall_before = 0.0;  // of the programs that worked on the run before
     Timer timer = {};
     std::int64_t saved_step = -1;  // of the last checkpoint
+    double saved_at = 0.0;         // [s] on the timer
     DiskRoom room{options.folder};
 
     double wall_seconds() const { return wall_before + timer.seconds(); }
@@ -136,6 +137,7 @@ void save(Job& job, SavedRows rows = SavedRows::beside) {
     write_checkpoint(job.options.folder / kCheckpointName, job.world, job.recorder, job.progress,
                      rows);
     job.saved_step = job.world.steps;
+    job.saved_at = job.timer.seconds();
 }
 
 // Ends the run while its files can still be completed; it goes on from here when there is room.
@@ -155,18 +157,22 @@ bool could_save(Job& job) {
     if (job.room.is_short(job.recorder, job.world, true)) return false;
     try {
         save(job);
+        job.room.saved();
         return true;
     } catch (const Error&) {
-        // somebody else may have taken the room meanwhile
-        if (job.room.is_short(job.recorder, job.world, true)) return false;
+        // somebody else may have taken the room meanwhile, but not what is held
+        if (job.room.is_used_up() || job.room.is_short(job.recorder, job.world, true)) return false;
         throw;
     }
 }
 
-// Checkpoints are due in the step nearest to a multiple of checkpoint_every, and in the last one.
+// Checkpoints are due in the step nearest to a multiple of checkpoint_every, and in the last one;
+// without it after some minutes of work, which a kill would otherwise lose.
 bool is_due(const Job& job) {
     const double every = job.options.checkpoint_every, dt = job.world.parameters.time_step;
-    if (every <= 0.0) return false;
+    if (every <= 0.0)
+        return job.world.steps < job.steps &&
+               job.timer.seconds() - job.saved_at > job.options.checkpoint_wall_seconds;
     if (job.world.steps == job.steps) return true;
     const double now = job.world.time + 0.5 * dt;  // times are multiples of dt up to rounding
     return std::floor(now / every) > std::floor((now - dt) / every);
@@ -245,6 +251,9 @@ Summary run(World& world, const RunOptions& options) {
         throw;
     }
     remove_parts(options.folder);  // of a program that was killed here before
+    const bool is_whole = world.steps == steps && summary.status == "completed";
+    if (is_whole && options.checkpoint_every <= 0.0 && job.saved_step >= 0)
+        std::filesystem::remove(options.folder / kCheckpointName);  // nobody asked to keep it
     return summary;
 }
 

@@ -17,7 +17,8 @@ struct RunOptions {
     std::filesystem::path folder;  ///< run folder; created. Claim it before (RunFolder): files of
                                    ///< an older run are replaced, not removed
     std::string command_line;
-    double checkpoint_every = 0.0;             ///< simulated seconds; 0: only when interrupted
+    /// Simulated seconds; 0: when interrupted, and every checkpoint_wall_seconds until the run ends
+    double checkpoint_every = 0.0;
     SavedRun* saved = nullptr;                 ///< go on with this run; its recorder is taken over
     std::vector<Warning> start_warnings = {};  ///< of check_start(), for the summary
     bool verify = false;  ///< every step must balance (balance.hpp); the worst is in the summary
@@ -28,6 +29,7 @@ struct RunOptions {
     };
     /// Of check_course(), for the summary: of this duration, so that no checkpoint carries them.
     std::vector<Warning> course_warnings = {};
+    double checkpoint_wall_seconds = 300.0;  ///< where checkpoint_every is 0
 };
 
 /// A case made ready: sphere sets read, floes placed.

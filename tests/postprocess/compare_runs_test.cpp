@@ -20,13 +20,15 @@ TEST_CASE("runs are compared a line each, missing values as a dash", "[report]")
     const std::string text = compare_text({{"results/a", a}, {"results/longer", b}});
     CHECK(count(text, "\n") == 3);
     CHECK_THAT(text, Catch::Contains("results/a         1107      12"));
-    CHECK_THAT(text, Catch::Contains("954            5              0  completed\n"));
+    CHECK_THAT(text,
+               Catch::Contains("954            5              0  until-hull-contact  completed\n"));
     CHECK_THAT(text, Catch::Contains("results/longer   -0.25       -"));
-    CHECK_THAT(text, Catch::Contains("10  interrupted\n"));  // 45 of 450 steps
+    CHECK_THAT(text, Catch::Contains("10  until-hull-contact  interrupted\n"));  // 45 of 450 steps
 
     const std::string csv = compare_csv({{"a, \"b\"", b}});
     CHECK_THAT(csv, Catch::StartsWith("run,mean_N,ci95_N,contact_N,friction_N,std_N,max_N,"));
-    CHECK_THAT(csv, Catch::Contains("\n\"a, \"\"b\"\"\",-0.25,,1006,101,143,1320,,5,10,interr"));
+    CHECK_THAT(csv, Catch::Contains("\n\"a, \"\"b\"\"\",-0.25,,1006,101,143,1320,,5,10,"
+                                    "until-hull-contact,interr"));
     CHECK(compare_text({}).find("mean_N") != std::string::npos);
 }
 

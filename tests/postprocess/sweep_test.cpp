@@ -238,6 +238,8 @@ TEST_CASE("the page of a sweep has curves, small multiples, tables and CSV", "[s
     CHECK_THAT(csv, Catch::StartsWith("contact.friction_ship_ice,hull.speed,runs,resistance_N,"
                                       "resistance_ci95_N,bow_N,"));
     CHECK_THAT(csv, Catch::Contains("\r\n0.1,0.5,3,510,"));
+    CHECK_THAT(csv, Catch::Contains(",hold\r\n") && Catch::Contains(",until-hull-contact\r\n"));
+    CHECK_THAT(page, Catch::Contains("<th scope=\"col\">release rule</th>"));
     CHECK(count(run_csv(sweep), "\r\n") == 13);
     CHECK(encode_address("a b/c=1,2%\u00e4") == "a%20b/c%3D1%2C2%25%C3%A4");
 }
@@ -377,9 +379,10 @@ TEST_CASE("the ship's work is shared out per metre of travel", "[sweep]") {
     const std::string text = sweep_markdown(sweep);
     CHECK_THAT(text, Catch::StartsWith("| friction ship-ice | speed [m/s] | runs | resistance [N] |"
                                        " bow [N] | bottom [N] | rest [N] | friction [N] | "
-                                       "largest [N] | Lindqvist [N] |\n|---|"));
-    CHECK_THAT(text, Catch::Contains(
-                         "\n| 0.1 | 0.5 | 3 | 510 \u00b1 2 | 255 | 102 | 51 | 102 | 2 | 550 |\n"));
+                                       "largest [N] | Lindqvist [N] | release rule |\n|---|"));
+    CHECK_THAT(
+        text, Catch::Contains("\n| 0.1 | 0.5 | 3 | 510 \u00b1 2 | 255 | 102 | 51 | 102 | 2 | 550 | "
+                              "until-hull-contact |\n"));
     CHECK_THAT(text, Catch::Contains("\n| 0.1 | 0.5 | 500 | 300 | 150 | 40 | 20 | -10 |\n"));
     CHECK_THAT(make_sweep_curve(sweep), Catch::StartsWith("<svg xmlns"));
 
