@@ -41,7 +41,7 @@ struct RunPosition {
 ///
 /// Rows are buffered and flushed to disk with every 20th frame, so that a killed run can be read up
 /// to there (without frames, with every 16384th sample), its histories and contacts up to the last
-/// whole 64 rows: what is compressed cannot safely be written again with more rows. A FileTurn keeps
+/// whole 64 rows: what is compressed cannot safely be written again with more rows. FileTurn keeps
 /// read_run() out while rows are written, and a flush waits until it has read. Quaternions are
 /// stored with the sign nearer to the frame before.
 ///

@@ -15,8 +15,8 @@ namespace ice {
 ///
 /// Other programs may fill the disk at once, so that room is held where the file system can
 /// (fallocate): for rows within run.h5 and the CSV files, for the rest by a file without a name,
-/// which goes with the program, however that ends. Elsewhere the free space is asked for, which knows no
-/// quotas. The limit of a single file (ulimit -f) counts, too.
+/// which goes with the program, however that ends. Elsewhere the free space is asked for, which
+/// knows no quotas. The limit of a single file (ulimit -f) counts, too.
 class DiskRoom {
 public:
     explicit DiskRoom(std::filesystem::path folder) : folder_(std::move(folder)) {}
