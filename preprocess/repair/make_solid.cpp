@@ -8,7 +8,6 @@
 #include <set>
 
 #include "common/base/error.hpp"
-#include "common/base/parallel.hpp"
 #include "common/geometry/mass_properties.hpp"
 #include "preprocess/clean/drop_surroundings.hpp"
 #include "preprocess/clean/edge_table.hpp"
@@ -18,7 +17,7 @@
 #include "preprocess/clean/stitch_borders.hpp"
 #include "preprocess/clean/weld.hpp"
 #include "preprocess/measure/row_volumes.hpp"
-#include "preprocess/measure/surface_tree.hpp"
+#include "preprocess/repair/cap_texts.hpp"
 #include "preprocess/repair/check_solid.hpp"
 #include "preprocess/repair/close_surface.hpp"
 #include "preprocess/repair/resolve_crossings.hpp"
@@ -34,24 +33,20 @@ constexpr double kWindingDiffers = 0.02;  // of the volume: caps against the ope
 // Over a sheer line the surface where the winding number is a half sags between the ends: 3.7 % of
 // the volume at a sheer of a quarter of the depth.
 constexpr double kDeckDiffers = 0.05;
-constexpr double kCapsMatter = 0.005;         // of the surface: below, caps need no second opinion
-constexpr double kWorthWarning = 0.002;       // of the surface: one cap
-constexpr double kDoubtWorthWarning = 0.005;  // of the volume: all caps together
-constexpr double kContourError = 0.01;        // of the volume
-constexpr double kVoid = 0.005;               // of the volume: what parts enclose together
-constexpr double kWrapOffset = 1000.0;        // of which the diagonal is a multiple
-constexpr std::size_t kMostPairs = 100000;    // each costs about 0.1 ms
-constexpr int kRounds = 3;                    // rounding may let cut pieces cross again
-constexpr double kCollapsed = 0.5;            // of the volume the winding number gives
+constexpr double kCapsMatter = 0.005;       // of the surface: below, caps need no second opinion
+constexpr double kNoisy = 0.05;             // of the triangles: they cross their own part
+constexpr std::size_t kNoisyCount = 100;    // at least: of a few large triangles all may cross
+constexpr double kContourError = 0.01;      // of the volume
+constexpr double kVoid = 0.005;             // of the volume: what parts enclose together
+constexpr double kWrapOffset = 1000.0;      // of which the diagonal is a multiple
+constexpr std::size_t kMostPairs = 100000;  // each costs about 0.1 ms
+constexpr int kRounds = 3;                  // rounding may let cut pieces cross again
+constexpr double kCollapsed = 0.5;          // of the volume the winding number gives
 
 const char* const kRemedy =
     "close and orient it in the program that made it, then export again; or try --repair wrap";
 
 using CrossingPairs = std::vector<std::pair<std::size_t, std::size_t>>;
-
-std::string place(const Vec3& at) {
-    return fmt::format("({:.4g}, {:.4g}, {:.4g})", at.x(), at.y(), at.z());
-}
 
 class Ladder {
 public:
@@ -133,20 +128,8 @@ private:
         for (const CapVerdict& cap : closed.caps) {
             if (cap.kind == CapKind::guess) throw too_large(cap, closed);
             caps += cap.area;
-            if (cap.kind == CapKind::deck)
-                warnings_.push_back(
-                    fmt::format("the open deck at {} was closed by a cap of {:.3g} m2",
-                                place(cap.at), cap.area));
-            else if (cap.kind != CapKind::hidden && cap.area > kWorthWarning * closed.surface)
-                warnings_.push_back(fmt::format(
-                    "an opening of {:.3g} m2 at {} was closed {}", cap.area, place(cap.at),
-                    cap.kind == CapKind::continued ? "flat, in the plane of the faces beside it"
-                                                   : "by the smallest surface"));
         }
-        if (closed.doubt > kDoubtWorthWarning)
-            warnings_.push_back(fmt::format(
-                "{} openings were closed by guess, which leaves {:.2g} % of the volume in doubt",
-                closed.caps.size(), 100.0 * closed.doubt));
+        for (std::string& warning : cap_warnings(closed)) warnings_.push_back(std::move(warning));
         if (caps > kCapsMatter * closed.surface) {
             const WindingComparison c = compare_windings(closed.open, closed.mesh);
             const bool deck =
@@ -162,17 +145,8 @@ private:
     }
 
     Error too_large(const CapVerdict& cap, const ClosedSurface& closed) const {
-        std::string fault = fmt::format("{} open edges; ", open_edges_);
-        if (closed.doubt > kMostDoubt && cap.doubt < 0.5 * closed.doubt * closed.volume)
-            fault += fmt::format(
-                "closing its {} openings leaves {:.2g} % of the volume in doubt ({:g} % may be), "
-                "most of all that of {:.3g} m2 at {}",
-                closed.caps.size(), 100.0 * closed.doubt, 100.0 * kMostDoubt, cap.area,
-                place(cap.at));
-        else
-            fault += fmt::format(
-                "an opening of {:.3g} m2 ({:.3g} % of the surface) at {} is too large to guess",
-                cap.area, 100.0 * cap.area / closed.surface, place(cap.at));
+        const std::string fault =
+            fmt::format("{} open edges; {}", open_edges_, fault_of(cap, closed));
         if (!options_.suspect.empty())
             return refusal(fault + ", and " + options_.suspect, "export or copy the file again");
         return refusal(fault,
@@ -242,14 +216,23 @@ private:
     void say_resolved(const TriangleMesh& mesh, const CrossingPairs& pairs) {
         const Parts parts = find_parts(mesh);
         std::set<std::int32_t> united;
-        std::set<std::size_t> cut;
+        std::set<std::size_t> cut, own;
         for (const auto& [s, t] : pairs) {
             cut.insert({s, t});
             if (parts.of_triangle[s] != parts.of_triangle[t])
                 united.insert({parts.of_triangle[s], parts.of_triangle[t]});
+            else
+                own.insert({s, t});
         }
         note("overlapping parts united", static_cast<std::int64_t>(united.size()));
         note("crossing triangles cut where they meet", static_cast<std::int64_t>(cut.size()));
+        const double share =
+            static_cast<double>(own.size()) / static_cast<double>(mesh.triangles.size());
+        if (share > kNoisy && own.size() > kNoisyCount)
+            warnings_.push_back(fmt::format(
+                "{:.2g} % of the triangles cross others of their own part: the surface is noisy or "
+                "folded, and only what it encloses once or more counts as solid",
+                100.0 * share));
     }
 
     std::optional<TriangleMesh> contour(const TriangleMesh& mesh, const std::string& why) {
@@ -268,19 +251,6 @@ private:
             "rounded off, most at {}, by {:.3g} m",
             why, solid.cell, place(at), cut_off));
         return std::move(solid.mesh);
-    }
-
-    // How far vertices of the mesh lie outside the solid, and where the farthest does.
-    static std::pair<double, Vec3> farthest_outside(const TriangleMesh& mesh,
-                                                    const TriangleMesh& solid) {
-        const SurfaceTree tree(solid);
-        std::vector<double> outside(mesh.vertices.size(), 0.0);
-        parallel_for(outside.size(), 100, [&](std::size_t k) {
-            const Foot foot = tree.closest(mesh.vertices[k]);
-            if (!foot.inside) outside[k] = foot.distance;
-        });
-        const auto most = std::max_element(outside.begin(), outside.end());
-        return {*most, mesh.vertices[static_cast<std::size_t>(most - outside.begin())]};
     }
 
     // The envelope's flood: parts that enclose a void together are filled, whatever gaps of less

@@ -114,6 +114,17 @@ void copy_regions(const TriangleMesh& source, TriangleMesh& mesh) {
     });
 }
 
+std::pair<double, Vec3> farthest_outside(const TriangleMesh& mesh, const TriangleMesh& solid) {
+    const SurfaceTree tree(solid);
+    std::vector<double> outside(mesh.vertices.size(), 0.0);
+    parallel_for(outside.size(), 100, [&](std::size_t k) {
+        const Foot foot = tree.closest(mesh.vertices[k]);
+        if (!foot.inside) outside[k] = foot.distance;
+    });
+    const auto most = std::max_element(outside.begin(), outside.end());
+    return {*most, mesh.vertices[static_cast<std::size_t>(most - outside.begin())]};
+}
+
 EnclosedVoids enclosed_voids(const TriangleMesh& mesh) {
     const Grid grid = make_grid(mesh, kCoarse, 0.0);
     double unclear = 0.0;

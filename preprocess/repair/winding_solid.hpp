@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <utility>
+
 #include "common/geometry/triangle_mesh.hpp"
 #include "preprocess/repair/choose_shells.hpp"
 
@@ -21,6 +23,9 @@ struct WindingSolid {
 /// from outside, so that smooth parts keep their place. Edges sharper than a cell are rounded off.
 /// @pre the surface has no boundary as a chain; parts face outwards. Cost: about a second.
 WindingSolid winding_solid(const TriangleMesh& mesh, SolidKind kind, double finest = 0.0);
+
+/// How far vertices of a mesh lie outside a solid made of it [m], and where the farthest does.
+std::pair<double, Vec3> farthest_outside(const TriangleMesh& mesh, const TriangleMesh& solid);
 
 /// What parts enclose together without being one surface.
 struct EnclosedVoids {

@@ -204,3 +204,16 @@ TEST_CASE("wrapping a hull with an open deck caps the deck first, and says what 
     // the winding number's volume is that of 20 000 places
     CHECK(said == Approx(100.0 * (mended.volume / below - 1.0)).margin(1.0));
 }
+
+TEST_CASE("a noisy surface is solid where it encloses, and is called noisy", "[repair][mend]") {
+    TriangleMesh ship = test::container_ship(test::Stern::clean);
+    const double volume = measure_mass(ship).volume;
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> unit(-0.6, 0.6);  // faces are about 2 m by 0.5 m
+    for (Vec3& v : ship.vertices) v += Vec3(unit(random), unit(random), unit(random));
+    const Mended mended = mend(ship);
+    CHECK(mended.volume == Approx(volume).epsilon(0.01));
+    CHECK(mended.volume == Approx(measure_rows(ship, 1000)[0].by_winding).epsilon(1e-4));
+    REQUIRE(mended.warnings.size() == 1);
+    CHECK_THAT(mended.warnings[0], Catch::Contains("% of the triangles cross others"));
+}

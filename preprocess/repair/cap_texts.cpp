@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "preprocess/repair/cap_texts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace ice {
+
+namespace {
+
+constexpr double kWorthWarning = 0.002;       // of the surface: one cap
+constexpr double kDoubtWorthWarning = 0.005;  // of the volume: all caps together
+constexpr std::size_t kMostNamed = 5;         // openings
+
+}  // namespace
+
+std::string place(const Vec3& at) {
+    return fmt::format("({:.4g}, {:.4g}, {:.4g})", at.x(), at.y(), at.z());
+}
+
+std::vector<std::string> cap_warnings(const ClosedSurface& closed) {
+    std::vector<std::string> out;
+    std::vector<CapVerdict> large;
+    for (const CapVerdict& cap : closed.caps) {
+        if (cap.kind == CapKind::deck)
+            out.push_back(fmt::format("the open deck at {} was closed by a cap of {:.3g} m2",
+                                      place(cap.at), cap.area));
+        else if (cap.kind != CapKind::hidden && cap.area > kWorthWarning * closed.surface)
+            large.push_back(cap);
+    }
+    std::stable_sort(large.begin(), large.end(),
+                     [](const CapVerdict& l, const CapVerdict& r) { return l.area > r.area; });
+    for (std::size_t k = 0; k < std::min(large.size(), kMostNamed); ++k)
+        out.push_back(fmt::format(
+            "an opening of {:.3g} m2 at {} was closed {}", large[k].area, place(large[k].at),
+            large[k].kind == CapKind::continued ? "flat, in the plane of the faces beside it"
+                                                : "by the smallest surface"));
+    if (large.size() > kMostNamed)
+        out.push_back(
+            fmt::format("{} smaller openings were closed, too", large.size() - kMostNamed));
+    if (closed.doubt > kDoubtWorthWarning)
+        out.push_back(fmt::format(
+            "{} openings were closed by guess, which leaves {:.2g} % of the volume in doubt",
+            closed.caps.size(), 100.0 * closed.doubt));
+    return out;
+}
+
+std::string fault_of(const CapVerdict& cap, const ClosedSurface& closed) {
+    if (closed.doubt > kMostDoubt && cap.doubt < 0.5 * closed.doubt * closed.volume)
+        return fmt::format(
+            "closing its {} openings leaves {:.2g} % of the volume in doubt ({:g} % may be), most "
+            "of all that of {:.3g} m2 at {}",
+            closed.caps.size(), 100.0 * std::min(closed.doubt, 1.0), 100.0 * kMostDoubt, cap.area,
+            place(cap.at));
+    return fmt::format(
+        "an opening of {:.3g} m2 ({:.3g} % of the surface) at {} is too large to guess", cap.area,
+        100.0 * cap.area / closed.surface, place(cap.at));
+}
+
+}  // namespace ice
