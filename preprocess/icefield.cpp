@@ -11,6 +11,7 @@
 #include "common/base/version.hpp"
 #include "common/cli/command_line.hpp"
 #include "common/cli/console.hpp"
+#include "common/cli/output_files.hpp"
 #include "common/cli/picture_file.hpp"
 #include "common/cli/start_threads.hpp"
 #include "common/formats/field_file.hpp"
@@ -46,20 +47,13 @@ void declare(CLI::App& app, Options& o) {
     app.footer("Exit codes: 0 ok; 1 failed; 2 bad command line or specification.");
 }
 
-void refuse_overwriting(const Options& o, const ice::FieldSpec& spec, const std::string& out) {
-    std::map<std::filesystem::path, std::string> taken{
-        {std::filesystem::weakly_canonical(o.spec), "the specification"}};
-    if (!spec.file.empty())
-        taken.emplace(std::filesystem::weakly_canonical(spec.file), "the polygons");
-    for (const auto& [option, file] : {std::pair{"--output", out}, std::pair{"--json", o.json},
-                                       std::pair{"--preview", o.preview}}) {
-        if (file.empty()) continue;
-        const auto [other, fresh] =
-            taken.try_emplace(std::filesystem::weakly_canonical(file), option);
-        if (!fresh)
-            throw ice::bad_input(option, "would overwrite " + other->second + ", " + file,
-                                 "give another name");
-    }
+void check_outputs(const Options& o, const ice::FieldSpec& spec, const std::string& out) {
+    ice::OutputFiles files;
+    files.protect(o.spec, "the specification");
+    if (!spec.file.empty()) files.protect(spec.file, "the polygons");
+    files.add("--output", out);
+    files.add("--json", o.json);
+    files.add("--preview", o.preview);
 }
 
 std::string report_text(const ice::FieldReport& r, const ice::Field& field,
@@ -98,7 +92,7 @@ int run_icefield(const Options& o, const std::string& command_line) {
     const ice::FieldSpec spec = ice::read_field_spec(o.spec, overrides);
     const std::string out =
         o.out.empty() ? std::filesystem::path(o.spec).stem().string() + ".h5" : o.out;
-    refuse_overwriting(o, spec, out);
+    check_outputs(o, spec, out);
 
     const ice::Timer timer;
     ice::FieldReport report;

@@ -5,7 +5,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <optional>
 
 #include "common/base/error.hpp"
@@ -16,6 +15,7 @@
 #include "common/base/version.hpp"
 #include "common/cli/command_line.hpp"
 #include "common/cli/console.hpp"
+#include "common/cli/output_files.hpp"
 #include "common/cli/quantity_option.hpp"
 #include "common/cli/start_threads.hpp"
 #include "common/formats/spheres_file.hpp"
@@ -182,21 +182,14 @@ double slice_offset(const std::string& slice) {
 }
 
 // A name given twice would cost the user the mesh, or one of the results.
-void refuse_overwriting(const Options& o, const std::string& out) {
-    std::map<std::filesystem::path, std::string> taken{
-        {std::filesystem::weakly_canonical(o.mesh), "the mesh"}};
-    const auto take = [&](const std::string& option, const std::filesystem::path& file) {
-        const auto [other, fresh] =
-            taken.try_emplace(std::filesystem::weakly_canonical(file), option);
-        if (!fresh)
-            throw ice::bad_input(option, "would overwrite " + other->second + ", " + file.string(),
-                                 "give another name");
-    };
-    take("--output", out);
-    if (!o.json.empty()) take("--json", o.json);
+void check_outputs(const Options& o, const std::string& out) {
+    ice::OutputFiles files;
+    files.protect(o.mesh, "the mesh");
+    files.add("--output", out);
+    files.add("--json", o.json);
     for (const auto& file :
          ice::export_files(o.exports, std::filesystem::path(out).replace_extension()))
-        take("--export", file);
+        files.add("--export", file);
 }
 
 ice::SphereSet fill_solid(const Options& o, const ice::TriangleMesh& mesh,
@@ -245,7 +238,9 @@ void refuse_thin_mesh(const Options& o, const ice::TriangleMesh& surface) {
                          fmt::format("no sphere of radius {:g} m fits into the solid: the mesh is "
                                      "{:.4g} x {:.4g} x {:.4g} m",
                                      o.fill.radius, size.x(), size.y(), size.z()),
-                         fmt::format("none over {:.3g} m fits; use less, or see --units", most));
+                         fmt::format("give --radius below {:.3g} m, or the unit of the file with "
+                                     "--units",
+                                     most));
 }
 
 int run_spherize(Options& o, const std::string& command_line) {
@@ -262,7 +257,7 @@ int run_spherize(Options& o, const std::string& command_line) {
                              "leave it out, or use --arrangement conforming");
 
     const std::string out = o.out.empty() ? ice::mesh_stem(o.mesh) + ".spheres.h5" : o.out;
-    refuse_overwriting(o, out);
+    check_outputs(o, out);
     ice::SpheresReport report;
     if (o.check) return report_check(o, report);
     ice::TriangleMesh surface = read_surface(o, report);

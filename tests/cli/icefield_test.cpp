@@ -63,6 +63,10 @@ TEST_CASE("icefield refuses with exit code 2 and leaves nothing behind", "[cli][
     CHECK(slurp(w / "channel.toml") == kSpec);
     const Result disk = w.run("icefield channel.toml -o no/such/folder/field.h5");
     CHECK(disk.code == 1);
+    CHECK_THAT(disk.err,
+               Catch::Contains("--output: cannot write no/such/folder/field.h5: no folder "
+                               "no/such/folder") &&
+                   Catch::Contains("make the folder"));
 }
 
 TEST_CASE("icefield prints and explains its keys", "[cli]") {

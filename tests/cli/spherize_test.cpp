@@ -47,6 +47,20 @@ TEST_CASE("spherize overwrites neither the mesh nor one result by another", "[cl
     CHECK(slurp(w / "floe.obj") == mesh);
 }
 
+TEST_CASE("spherize names an output's folder that is missing before it works", "[cli][errors]") {
+    const Workshop w;
+    w.write("text.obj", "this is no mesh\n");  // never read
+    for (const char* how : {"-o no/such/f", "-o f --json no/such/f", "-o no/such/f --export csv"}) {
+        const Result r = w.run(std::string("spherize text.obj ") + how);
+        CAPTURE(how, r.err);
+        CHECK(r.code == 1);
+        CHECK_THAT(r.err, Catch::Contains("cannot write no/such/f: no folder no/such\n") &&
+                              Catch::Contains("make the folder, or write to another one") &&
+                              !Catch::Contains(".part"));
+    }
+    CHECK(w.files() == std::vector<std::string>{"text.obj"});
+}
+
 TEST_CASE("spherize writes the same bytes for any number of threads", "[cli][determinism]") {
     // by the environment, because the file keeps the command line
     const Workshop w;
@@ -155,7 +169,7 @@ TEST_CASE("spherize refuses bad meshes by name with exit code 2 and leaves nothi
     refuses("", "no mesh given");
     refuses("open.obj --radius -1", "--radius");
     refuses("open.obj --frobnicate", "frobnicate");
-    refuses(ICE_MESHES "/paper-floe-3d.obj -r 0.2", "the largest that fits has 0.15 m");
+    refuses(ICE_MESHES "/paper-floe-3d.obj -r 0.2", "give --radius below 0.15 m");
     refuses(ICE_MESHES "/paper-floe-3d.obj --slice z=0", "--slice y=0");
     refuses(ICE_MESHES "/paper-floe-3d.obj --slice y=5", "does not cut");
     refuses(ICE_MESHES "/paper-floe-3d.obj --slice y=nan", "is not y=VALUE");
