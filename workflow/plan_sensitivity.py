@@ -20,9 +20,10 @@ from sweep_inputs import flatten, read_toml, set_text, toml_text
 HERE = os.path.dirname(os.path.abspath(__file__))
 FIELD_SEED = "field.seed"
 RANDOM_FIELDS = ("cusps", "voronoi", "power-law")  # patterns of icefield that a seed changes
-JITTER = 0.001  # m; enough for another member of the ensemble, too little to be another case
+JITTER = 0.01  # of the smallest ice sphere's radius, as icesolve --seeds (solver/ensemble)
 SEEDS = 3
-SPHERES = ("-r", "--radius", "-s", "--spacing")  # spherize's options that a study changes
+RADIUS, SPHERES = ("-r", "--radius"), ("-r", "--radius", "-s", "--spacing")  # spherize's options
+METRES = {"": 1.0, "m": 1.0, "cm": 0.01, "mm": 0.001, "ft": 0.3048, "in": 0.0254}
 RANGE_KEYS = ("name", "keys", "dimension", "values", "factors", "add", "source")
 
 
@@ -56,6 +57,12 @@ def change_options(options, factor):
     if words == list(options):
         raise NothingToVary("its list of inputs gives no radius (-r)")
     return " ".join(words)
+
+
+def metres(length):
+    """0.05, "50 mm" or "0.05 m" in m; None where it is no such length."""
+    found = re.fullmatch(r"\s*([-+0-9.eE]+)\s*(\w*)\s*", str(length))
+    return float(found[1]) * METRES[found[2]] if found and found[2] in METRES else None
 
 
 class StudyPlanner(Planner):
@@ -188,21 +195,45 @@ class StudyPlanner(Planner):
         return ranges
 
     def members(self):
-        """Settings of each seed: other offsets, and of a random ice field another field."""
-        count = self.get("seeds", int, SEEDS)
-        first = self.specification().get("seed", 0)
-        other_field = self.specification().get("pattern") in RANDOM_FIELDS
-        return [{SEED: k, **({FIELD_SEED: first + k - 1} if other_field else {})}
-                for k in range(1, count + 1)]
+        """Settings of each seed, those of icesolve --seeds: offsets, or a random field made anew."""
+        members = [{SEED: k} for k in range(1, self.get("seeds", int, SEEDS) + 1)]
+        if self.specification().get("pattern") in RANDOM_FIELDS:
+            return [{**member, FIELD_SEED: member[SEED]} for member in members]
+        if not self.base_value("simulation.jitter"):
+            self.constant["simulation.jitter"] = float(f"{JITTER * self.ice_radius():.6g}")
+        return members
+
+    def ice_radius(self):
+        """Radius of the smallest ice spheres [m], which need not be made yet."""
+        radii = []
+        for k in range(1, len(self.case_keys.get("floes", [])) + 1):
+            recipe = self.recipe_of(f"floes.{k}.spheres") or self.recipe_of(f"floes.{k}.file")
+            if recipe is None:
+                return self.measured_ice_radius()
+            if recipe.program == "icefield":
+                specification = self.specification()  # a quarter of the thickness by default
+                thickness = metres(specification.get("ice.thickness"))
+                radii.append(metres(specification.get("spheres.radius", 0.25 * thickness)))
+            else:
+                pairs = zip(recipe.options, recipe.options[1:] + [""])
+                radii.append(next((metres(value) for name, value in pairs if name in RADIUS), 0.1))
+        return self.measured_ice_radius() if None in radii else min(radii)
+
+    def measured_ice_radius(self):
+        """The same from the case's files, as icesolve reads them."""
+        done = subprocess.run([self.programs["icesolve"], self.case, "--check"],
+                              capture_output=True, text=True)
+        found = re.search(r"; ice ([0-9.e+-]+)", done.stderr)
+        if not found:
+            self.fail(f"the case's ice cannot be read: {done.stderr.strip()}",
+                      'or give the offset of the seeds, "simulation.jitter" = 0.001, in [set]')
+        return float(found[1])
 
     def plan(self):
         self.printed = {}
         self.constant = flatten(self.get("set", dict, {}))
         for key in self.constant:
             self.explain(key)
-        jitter = self.base_value("simulation.jitter")
-        if not jitter:
-            self.constant["simulation.jitter"] = JITTER
         inputs, left_out = [], {}
         for entry in self.read_ranges():
             name = entry.get("name", entry["keys"][0])
@@ -217,7 +248,7 @@ class StudyPlanner(Planner):
             self.fail("there is nothing to vary", "write e.g. \"contact.restitution\" = [0.1, 0.5] "
                       "below [vary]")
         runs = {}
-        for member in self.members():
+        for member in self.members():  # sets the jitter, too
             self.add_run(runs, None, {}, member)
             for name, _, changes, _ in inputs:
                 for settings in changes:

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """study_test.py SOURCE BIN: sensitivity studies and their plans; needs no Snakemake."""
 import os
+import subprocess
 import sys
 import tempfile
 import tomllib
@@ -98,6 +99,20 @@ with tempfile.TemporaryDirectory() as folder:
     write_plan(p)
     assert tomllib.loads(read(f"{folder}/out/runs.toml")) == stored
 
+    # seeds differ as the members of icesolve --seeds do; sets that no list makes are measured
+    environment = {**os.environ, "SPHERIZE": f"{BIN}/spherize", "ICEFIELD": f"{BIN}/icefield"}
+    subprocess.run([f"{SOURCE}/cases/prepare.sh", f"{folder}/case"], check=True, env=environment,
+                   capture_output=True)
+    subprocess.run([f"{BIN}/icesolve", f"{folder}/case/case.cfg", "--seeds", "1", "--no-report",
+                    "-q", "--set", "simulation.duration=0.02", "--set", "output.average_from=0",
+                    "--out", f"{folder}/members"], check=True, capture_output=True)
+    resolved = tomllib.loads(read(f"{folder}/members/seed-1/case.resolved.cfg"))["simulation"]
+    assert (resolved["seed"], resolved["jitter"]) == (1, 0.001), resolved
+    recipes = read(f"{folder}/case/spheres.txt")
+    write(f"{folder}/case/spheres.txt", "")
+    assert "simulation.jitter=0.001" in plan(STUDY).runs["case__seed=1"].overrides
+    write(f"{folder}/case/spheres.txt", recipes)
+
     # a case is a study with the default ranges
     os.chdir(folder)
     direct = plan_study("case/case.cfg", None, BIN)
@@ -129,6 +144,7 @@ with tempfile.TemporaryDirectory() as folder:
     field = next(i for i in p.inputs if f"floes.file={i.output}" in cut.overrides)
     assert "floes.gap=[\"50 mm\", \"50 mm\"]" in field.options, field.options
     assert not [o for o in cut.overrides if "seed" in o and o != "simulation.seed=1"]
+    assert "simulation.jitter=0.0005" in cut.overrides, cut.overrides
 
     # a channel: its far end is closed where nothing else is said, so it is opened
     write(f"{folder}/case/field.toml", BRICK + 'edges.breadth = "2 m"\n')
@@ -151,7 +167,8 @@ floes.mean_size = 1.0
     assert labels(p, "concentration") == ["0.75", "0.85"]
     assert labels(p, "breadth") == ["20 x 10", "20 x 12"]
     fields = [i for i in p.inputs if i.program == "icefield"]
-    assert [f.options[-1] for f in fields if len(f.options) == 2] == ["seed=5", "seed=6"], fields
+    assert [f.options[-1] for f in fields if len(f.options) == 2] == ["seed=1", "seed=2"], fields
+    assert not [o for run in p.runs.values() for o in run.overrides if "jitter" in o]
 
     expect_fault(STUDY.replace("title", "titel"), "unknown key 'titel'")
     expect_fault(STUDY.replace("case.cfg", "none.cfg"), "not readable")
