@@ -22,12 +22,12 @@ Box box_around(const Vec3& a, const Vec3& b, double margin, std::size_t row) {
 
 std::vector<NearEdge> find_near_edges(const std::vector<Vec3>& points,
                                       const std::vector<std::pair<Vec3, Vec3>>& edges,
-                                      double tolerance) {
+                                      const std::vector<double>& reach) {
     std::vector<Box> of_points, of_edges;
     for (std::size_t k = 0; k < points.size(); ++k)
         of_points.push_back(box_around(points[k], points[k], 0.0, k));
     for (std::size_t k = 0; k < edges.size(); ++k)
-        of_edges.push_back(box_around(edges[k].first, edges[k].second, tolerance, k));
+        of_edges.push_back(box_around(edges[k].first, edges[k].second, reach[k], k));
     std::vector<NearEdge> out;
     CGAL::box_intersection_d(of_points.begin(), of_points.end(), of_edges.begin(), of_edges.end(),
                              [&](const Box& point, const Box& edge) {
@@ -35,7 +35,7 @@ std::vector<NearEdge> find_near_edges(const std::vector<Vec3>& points,
                                  const Vec3 along = b - a, to = points[point.info()] - a;
                                  const double part = along.dot(to) / along.squaredNorm();
                                  const double distance = (to - part * along).norm();
-                                 if (part > 0.0 && part < 1.0 && distance <= tolerance)
+                                 if (part > 0.0 && part < 1.0 && distance <= reach[edge.info()])
                                      out.push_back({point.info(), edge.info(), part, distance});
                              });
     std::sort(out.begin(), out.end(), [](const NearEdge& l, const NearEdge& r) {

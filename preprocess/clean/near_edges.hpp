@@ -15,11 +15,11 @@ struct NearEdge {
     double distance = 0.0;            ///< [m]
 };
 
-/// All points within a distance of segments whose foot lies between the segment's ends (CGAL's box
+/// All points within reach of segments whose foot lies between the segment's ends (CGAL's box
 /// intersection finds the candidates). By point, then by distance.
-/// @param edges  pairs of points   @param tolerance [m]
+/// @param edges  pairs of points   @param reach  of each edge [m]
 std::vector<NearEdge> find_near_edges(const std::vector<Vec3>& points,
                                       const std::vector<std::pair<Vec3, Vec3>>& edges,
-                                      double tolerance);
+                                      const std::vector<double>& reach);
 
 }  // namespace ice

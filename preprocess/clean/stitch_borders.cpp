@@ -14,7 +14,7 @@ namespace ice {
 namespace {
 
 constexpr double kTolerances[] = {3e-4, 1e-3};  // of the diagonal
-constexpr double kOfEdge = 1.0 / 3.0;  // of an open edge: a crack beside it is not wider
+constexpr double kOfEdge = 1.0 / 3.0;           // of an open edge: a crack beside it is not wider
 
 using Triple = std::array<std::int32_t, 3>;
 
@@ -79,16 +79,18 @@ bool split_edges(TriangleMesh& mesh, double tolerance, StitchCounts& counts) {
     std::vector<Vec3> points;
     std::vector<std::pair<Vec3, Vec3>> segments;
     for (const std::int32_t v : borders.vertices) points.push_back(at(mesh, v));
-    for (const MeshEdge& edge : borders.edges)
+    std::vector<double> reach;
+    for (const MeshEdge& edge : borders.edges) {
         segments.emplace_back(at(mesh, edge.a), at(mesh, edge.b));
+        reach.push_back(
+            std::min(tolerance, kOfEdge * (segments.back().second - segments.back().first).norm()));
+    }
     Inserted inserted;
     std::size_t last = points.size();  // a vertex goes into the nearest edge only
-    for (const NearEdge& near : find_near_edges(points, segments, tolerance)) {
+    for (const NearEdge& near : find_near_edges(points, segments, reach)) {
         const MeshEdge& edge = borders.edges[near.edge];
         const std::int32_t v = borders.vertices[near.point];
-        const double length = (segments[near.edge].second - segments[near.edge].first).norm();
         if (near.point == last || v == edge.a || v == edge.b) continue;
-        if (near.distance > kOfEdge * length) continue;
         last = near.point;
         inserted[{edge.a, edge.b}].emplace_back(near.along, v);
         counts.widest = std::max(counts.widest, near.distance);

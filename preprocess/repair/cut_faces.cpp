@@ -10,6 +10,8 @@
 #include <exception>
 #include <map>
 
+#include "common/base/parallel.hpp"
+
 namespace ice {
 
 namespace {
@@ -19,16 +21,14 @@ using Point = Kernel::Point_3;
 using Flat = Kernel::Point_2;
 using Triple = std::array<std::int32_t, 3>;
 struct Number {
-    std::int32_t of_vertex = -1;  // in the mesh, where it is known
+    bool known = false;
+    std::int32_t of_vertex = 0;
 };
 using Vertex = CGAL::Triangulation_vertex_base_with_info_2<Number, Kernel>;
 using Face = CGAL::Constrained_triangulation_face_base_2<Kernel>;
 using Plan = CGAL::Constrained_Delaunay_triangulation_2<
     Kernel, CGAL::Triangulation_data_structure_2<Vertex, Face>, CGAL::Exact_intersections_tag>;
 using Place = std::array<double, 3>;
-
-// What others cut into a triangle: walks of one point and more, in its plane.
-using Cuts = std::vector<std::vector<Point>>;
 
 Point exact(const Vec3& v) { return Point(v.x(), v.y(), v.z()); }
 
@@ -65,11 +65,12 @@ public:
         const Kernel::FT w = origin_[drop_] - (normal_[u] * (p.x() - origin_[u]) +
                                                normal_[v] * (p.y() - origin_[v])) /
                                                   normal_[drop_];
-        Place out;
+        Place out{};
         // the exact value decides: however a point was made, equal points get equal bits
         out[static_cast<std::size_t>(u)] = CGAL::to_double(CGAL::exact(p.x()));
         out[static_cast<std::size_t>(v)] = CGAL::to_double(CGAL::exact(p.y()));
         out[static_cast<std::size_t>(drop_)] = CGAL::to_double(CGAL::exact(w));
+        for (double& x : out) x += 0.0;  // no -0
         return out;
     }
 
@@ -80,38 +81,69 @@ private:
     bool positive_ = true;
 };
 
+// What one triangle becomes.
+struct Pieces {
+    std::vector<Place> fresh;       // corners that the triangle did not have
+    std::vector<Triple> triangles;  // vertices of the mesh; -1, -2, ... are fresh ones
+};
+
+// CGAL's lazy numbers may be shared among threads, but are cheapest once their exact values are
+// known: each pair's points are made by one thread, exactly, and only read from then on.
 class Cutter {
 public:
     Cutter(const TriangleMesh& mesh, const std::vector<std::pair<std::size_t, std::size_t>>& pairs)
-        : mesh_(mesh) {
-        for (const auto& [s, t] : pairs) {
-            const auto common = CGAL::intersection(triangle(s), triangle(t));
-            if (!common) continue;
-            const std::vector<Point> walk = boost::apply_visitor(Walk(), *common);
-            cuts_[s].push_back(walk);
-            cuts_[t].push_back(walk);
+        : mesh_(mesh), walks_(pairs.size()) {
+        parallel_for(pairs.size(), 16, [&](std::size_t k) {
+            const auto common =
+                CGAL::intersection(triangle(pairs[k].first), triangle(pairs[k].second));
+            if (common) walks_[k] = boost::apply_visitor(Walk(), *common);
+            for (const Point& p : walks_[k]) CGAL::exact(p);
+        });
+        std::map<std::size_t, std::vector<std::size_t>> cuts;
+        for (std::size_t k = 0; k < pairs.size(); ++k) {
+            if (walks_[k].empty()) continue;
+            cuts[pairs[k].first].push_back(k);
+            cuts[pairs[k].second].push_back(k);
         }
-        for (const auto& [t, cuts] : cuts_)
-            for (const std::int32_t v : mesh.triangles[t])
-                known_.try_emplace(place(mesh.vertices[static_cast<std::size_t>(v)]), v);
+        cuts_.assign(cuts.begin(), cuts.end());
     }
 
     CutMesh cut() {
+        std::vector<Pieces> pieces(cuts_.size());
+        parallel_for(cuts_.size(), 16,
+                     [&](std::size_t k) { pieces[k] = cut_one(cuts_[k].first, cuts_[k].second); });
         CutMesh out;
         out.mesh.vertices = mesh_.vertices;
         out.mesh.region_names = mesh_.region_names;
         const auto add = [&](const Triple& piece, std::size_t t) {
+            if (piece[0] == piece[1] || piece[1] == piece[2] || piece[2] == piece[0]) return;
             out.mesh.triangles.push_back(piece);
             out.mesh.region.push_back(mesh_.region[t]);
             out.source.push_back(static_cast<std::int32_t>(t));
         };
+        std::map<Place, std::int32_t> known;  // corners of triangles that are cut, by their place
+        for (const auto& [t, cuts] : cuts_)
+            for (const std::int32_t v : mesh_.triangles[t])
+                known.try_emplace(place(mesh_.vertices[static_cast<std::size_t>(v)]), v);
+        std::size_t next = 0;
         for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
-            const auto at = cuts_.find(t);
-            if (at == cuts_.end()) {
+            if (next == cuts_.size() || cuts_[next].first != t) {
                 add(mesh_.triangles[t], t);
                 continue;
             }
-            for (const Triple& piece : pieces(t, at->second, out.mesh.vertices)) add(piece, t);
+            const Pieces& of = pieces[next++];
+            std::vector<std::int32_t> number;
+            for (const Place& at : of.fresh) {
+                const auto vertex = static_cast<std::int32_t>(out.mesh.vertices.size());
+                const auto [found, is_new] = known.try_emplace(at, vertex);
+                if (is_new) out.mesh.vertices.emplace_back(at[0], at[1], at[2]);
+                number.push_back(found->second);
+            }
+            for (Triple piece : of.triangles) {
+                for (std::int32_t& v : piece)
+                    if (v < 0) v = number[static_cast<std::size_t>(-1 - v)];
+                add(piece, t);
+            }
         }
         return out;
     }
@@ -122,47 +154,42 @@ private:
     }
     static Place place(const Vec3& v) { return {v.x() + 0.0, v.y() + 0.0, v.z() + 0.0}; }
 
-    std::vector<Triple> pieces(std::size_t t, const Cuts& cuts, std::vector<Vec3>& vertices) {
+    Pieces cut_one(std::size_t t, const std::vector<std::size_t>& cuts) const {
         const Kernel::Triangle_3 whole = triangle(t);
         const Projection look(whole[0], whole[1], whole[2]);
-        if (look.flat()) return {mesh_.triangles[t]};
+        if (look.flat()) return {{}, {mesh_.triangles[t]}};
         Plan plan;
         for (int k = 0; k < 3; ++k)
-            plan.insert(look.down(whole[k]))->info().of_vertex =
-                mesh_.triangles[t][static_cast<std::size_t>(k)];
-        const auto insert = [&](const Point& p) { return plan.insert(look.down(p)); };
-        for (const std::vector<Point>& walk : cuts) {
-            auto last = insert(walk.front());
+            plan.insert(look.down(whole[k]))->info() = {
+                true, mesh_.triangles[t][static_cast<std::size_t>(k)]};
+        for (const std::size_t cut : cuts) {
+            const std::vector<Point>& walk = walks_[cut];
+            auto last = plan.insert(look.down(walk.front()));
             for (std::size_t k = 1; k < walk.size(); ++k) {
-                const auto next = insert(walk[k]);
+                const auto next = plan.insert(look.down(walk[k]));
                 if (next != last) plan.insert_constraint(last, next);
                 last = next;
             }
         }
+        Pieces out;
         for (const auto v : plan.finite_vertex_handles()) {
-            if (v->info().of_vertex >= 0) continue;
-            const Place at = look.up(v->point());
-            const auto [known, fresh] =
-                known_.try_emplace({at[0] + 0.0, at[1] + 0.0, at[2] + 0.0},
-                                   static_cast<std::int32_t>(vertices.size()));
-            if (fresh) vertices.emplace_back(at[0], at[1], at[2]);
-            v->info().of_vertex = known->second;
+            if (v->info().known) continue;
+            out.fresh.push_back(look.up(v->point()));
+            v->info() = {true, -static_cast<std::int32_t>(out.fresh.size())};
         }
-        std::vector<Triple> out;
         for (const auto f : plan.finite_face_handles()) {
             Triple piece;
             for (int k = 0; k < 3; ++k)
                 piece[static_cast<std::size_t>(k)] = f->vertex(k)->info().of_vertex;
             if (!look.positive()) std::swap(piece[1], piece[2]);
-            if (piece[0] != piece[1] && piece[1] != piece[2] && piece[2] != piece[0])
-                out.push_back(piece);
+            out.triangles.push_back(piece);
         }
         return out;
     }
 
     const TriangleMesh& mesh_;
-    std::map<std::size_t, Cuts> cuts_;
-    std::map<Place, std::int32_t> known_;  // vertices of triangles that are cut, by their place
+    std::vector<std::vector<Point>> walks_;  // of each pair: one point and more, in both planes
+    std::vector<std::pair<std::size_t, std::vector<std::size_t>>> cuts_;  // triangle, pairs
 };
 
 }  // namespace

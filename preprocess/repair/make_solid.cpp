@@ -33,15 +33,15 @@ constexpr double kWindingDiffers = 0.02;  // of the volume: caps against the ope
 // Over a sheer line the surface where the winding number is a half sags between the ends: 3.7 % of
 // the volume at a sheer of a quarter of the depth.
 constexpr double kDeckDiffers = 0.05;
-constexpr double kCapsMatter = 0.005;       // of the surface: below, caps need no second opinion
-constexpr double kNoisy = 0.05;             // of the triangles: they cross their own part
-constexpr std::size_t kNoisyCount = 100;    // at least: of a few large triangles all may cross
-constexpr double kContourError = 0.01;      // of the volume
-constexpr double kVoid = 0.005;             // of the volume: what parts enclose together
-constexpr double kWrapOffset = 1000.0;      // of which the diagonal is a multiple
-constexpr std::size_t kMostPairs = 100000;  // each costs about 0.1 ms
-constexpr int kRounds = 3;                  // rounding may let cut pieces cross again
-constexpr double kCollapsed = 0.5;          // of the volume the winding number gives
+constexpr double kCapsMatter = 0.005;      // of the surface: below, caps need no second opinion
+constexpr double kNoisy = 0.05;            // of the triangles: they cross their own part
+constexpr std::size_t kNoisyCount = 100;   // at least: of a few large triangles all may cross
+constexpr double kContourError = 0.01;     // of the volume
+constexpr double kVoid = 0.005;            // of the volume: what parts enclose together
+constexpr double kWrapOffset = 1000.0;     // of which the diagonal is a multiple
+constexpr std::size_t kMostPairs = 50000;  // each costs about 0.2 ms
+constexpr int kRounds = 3;                 // rounding may let cut pieces cross again
+constexpr double kCollapsed = 0.5;         // of the volume the winding number gives
 
 const char* const kRemedy =
     "close and orient it in the program that made it, then export again; or try --repair wrap";

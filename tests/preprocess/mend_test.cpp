@@ -7,6 +7,7 @@
 #include <iterator>
 #include <set>
 
+#include "common/base/parallel.hpp"
 #include "common/geometry/mass_properties.hpp"
 #include "preprocess/clean/self_intersections.hpp"
 #include "preprocess/measure/row_volumes.hpp"
@@ -216,4 +217,17 @@ TEST_CASE("a noisy surface is solid where it encloses, and is called noisy", "[r
     CHECK(mended.volume == Approx(measure_rows(ship, 1000)[0].by_winding).epsilon(1e-4));
     REQUIRE(mended.warnings.size() == 1);
     CHECK_THAT(mended.warnings[0], Catch::Contains("% of the triangles cross others"));
+}
+
+TEST_CASE("what is mended has the same bits for any number of threads", "[repair][mend]") {
+    const TriangleMesh ship = test::container_ship(test::Stern::crossing);
+    const int threads = thread_count();
+    set_thread_count(1);
+    const Mended one = mend(ship);
+    set_thread_count(3);
+    const Mended three = mend(ship);
+    set_thread_count(threads);
+    CHECK(one.mesh.triangles == three.mesh.triangles);
+    CHECK(one.mesh.vertices == three.mesh.vertices);
+    CHECK(one.repairs == three.repairs);
 }
