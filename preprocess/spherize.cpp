@@ -19,13 +19,14 @@
 #include "common/cli/quantity_option.hpp"
 #include "common/cli/start_threads.hpp"
 #include "common/formats/spheres_file.hpp"
-#include "common/formats/widest_spacing.hpp"
+#include "preprocess/certify/certify_solid.hpp"
+#include "preprocess/certify/find_cut_back.hpp"
+#include "preprocess/certify/judge_spheres.hpp"
 #include "preprocess/fill/fill_spheres.hpp"
 #include "preprocess/load/cut_off.hpp"
 #include "preprocess/load/gunzip.hpp"
 #include "preprocess/load/half_hull.hpp"
 #include "preprocess/load/read_mesh.hpp"
-#include "preprocess/load/symmetry.hpp"
 #include "preprocess/repair/check_solid.hpp"
 #include "preprocess/repair/make_solid.hpp"
 #include "preprocess/write/report_text.hpp"
@@ -39,6 +40,7 @@ struct Options {
     std::string mesh, out, arrangement = "conforming", mode = "fill", slice, units, mirror, json;
     std::string repair = "auto", solid = "envelope";
     std::vector<std::string> exports;
+    std::optional<double> draught, ice_thickness;  // [m]
     std::optional<double> density;  // [kg/m3]; the sphere set itself keeps unit density
     ice::ReadOptions read;
     ice::FillOptions fill;
@@ -86,6 +88,12 @@ void declare(CLI::App& app, Options& o) {
         ->check(CLI::IsMember({"+x", "-x", "+y", "-y", "+z", "-z"}));
     app.add_option("--mirror", o.mirror, "y: the file holds one half of the hull")
         ->check(CLI::IsMember({"y"}));
+    app.add_option("--draught", o.draught,
+                   "Water over the lowest point, in m or with a unit: judges the ice belt")
+        ->transform(length);
+    app.add_option("--ice-thickness", o.ice_thickness,
+                   "Of the ice in that belt, in m or with a unit (a tenth of the draught)")
+        ->transform(length);
     app.add_option("--repair", o.repair,
                    "auto, strict (refuse what is not closed) or wrap (shrink-wrap)")
         ->check(CLI::IsMember({"auto", "strict", "wrap"}));
@@ -155,6 +163,8 @@ int report_check(const Options& o, ice::SpheresReport& report) {
         const ice::MassProperties mass = ice::measure_mass(mesh);
         report.volume = mass.volume;
         report.area = mass.area;
+        ice::set_ice_belt(mesh, o.draught, o.ice_thickness, report);
+        ice::certify_solid(o.mesh, surface, mesh, o.fill.radius, o.repair == "wrap", report);
         for (const auto& [what, value] : report.guessed)
             ice::write_data(fmt::format("  {:<18}{}: {}\n", "assumed", what, value));
         for (const auto& [step, count] : report.repairs)
@@ -205,19 +215,6 @@ ice::SphereSet fill_solid(const Options& o, const ice::TriangleMesh& mesh,
     }
 }
 
-// Where the spheres leave the solid open.
-void warn_of_gaps(const ice::SphereSet& set, ice::SpheresReport& report) {
-    if (!report.thin_features.empty())
-        report.warnings.push_back(fmt::format("parts too thin for a sphere of radius {:g} m: {}",
-                                              set.radius, report.thin_features.size()));
-    const double widest = ice::kWidestSpacing * set.radius;
-    if (set.spacing > widest * (1.0 + ice::kSpacingRounding))
-        report.warnings.push_back(fmt::format(
-            "the surface spheres are {:g} m apart: bodies may pass between them above {:g} radii; "
-            "use --spacing {:g} or less",
-            set.spacing, ice::kWidestSpacing, widest));
-}
-
 // A line on stderr every few seconds while a step takes long.
 void tell_progress(ice::FillOptions& fill) {
     constexpr double kEvery = 3.0;  // [s]
@@ -227,20 +224,6 @@ void tell_progress(ice::FillOptions& fill) {
         next = timer.seconds() + kEvery;
         ice::say(share > 0.0 ? fmt::format("{}: {:.0f} %", step, 100.0 * share) : step);
     };
-}
-
-// No solid in a mesh is thicker than the mesh: said before minutes go into its repair.
-void refuse_thin_mesh(const Options& o, const ice::TriangleMesh& surface) {
-    const ice::Vec3 size = ice::bounding_box(surface).sizes();
-    const double most = 0.5 * (o.slice.empty() ? size.minCoeff() : std::min(size.x(), size.z()));
-    if (o.fill.radius <= most * 1.001 || most == 0.0) return;
-    throw ice::bad_input("--radius",
-                         fmt::format("no sphere of radius {:g} m fits into the solid: the mesh is "
-                                     "{:.4g} x {:.4g} x {:.4g} m",
-                                     o.fill.radius, size.x(), size.y(), size.z()),
-                         fmt::format("give --radius below {:.3g} m, or the unit of the file with "
-                                     "--units",
-                                     most));
 }
 
 int run_spherize(Options& o, const std::string& command_line) {
@@ -262,17 +245,20 @@ int run_spherize(Options& o, const std::string& command_line) {
     if (o.check) return report_check(o, report);
     ice::TriangleMesh surface = read_surface(o, report);
     report.seconds["read"] = timer.seconds();
-    refuse_thin_mesh(o, surface);
+    ice::refuse_thin_mesh(surface, o.fill.radius, o.slice.empty() ? 3 : 2);
     tell_progress(o.fill);
-    const ice::TriangleMesh mesh = read_solid(o, std::move(surface), report);
+    const ice::TriangleMesh mesh = read_solid(o, surface, report);
     report.seconds["repair"] = timer.seconds() - report.seconds["read"];
+    ice::set_ice_belt(mesh, o.draught, o.ice_thickness, report);
+    ice::certify_solid(o.mesh, std::move(surface), mesh, o.fill.radius, o.repair == "wrap", report);
     ice::SphereSet set = fill_solid(o, mesh, report);
+    ice::find_cut_back(set, report);
     const std::filesystem::path source(o.mesh);
     set.source_mesh = report.source_mesh = source.filename().string();
     set.source_sha256 = ice::file_sha256(source);
     set.created_by = fmt::format("spherize {} ({})", ice::version(), ice::git_commit());
     set.command_line = report.command_line = command_line;
-    warn_of_gaps(set, report);
+    ice::judge_spheres(set, report);
     const auto export_base = std::filesystem::path(out).replace_extension();
     ice::check_exports(set, o.exports, export_base);
     const double density = o.density.value_or(kIceDensity);

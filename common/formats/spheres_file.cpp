@@ -222,6 +222,18 @@ void write_certificate(Hdf5File& file, SpheresReport& c) {
              {"normal_error_mean_deg", c.normal_error_mean_deg},
              {"normal_error_p99_deg", c.normal_error_p99_deg}})
         file.write_attribute("/", name, {value}, {});
+    file.write_attribute("/", "unfitted_share", {c.unfitted_share}, {});
+    if (c.source.known) {
+        file.write_attribute("/", "source_distance_max_m",
+                             {std::max(c.source.to_solid.max, c.source.to_source.max)}, {});
+        file.write_attribute("/", "source_distance_p99_m",
+                             {std::max(c.source.to_solid.p99, c.source.to_source.p99)}, {});
+    }
+    if (c.belt) {
+        file.write_attribute("/", "draught", {c.belt.draught}, {});
+        file.write_attribute("/", "ice_thickness", {c.belt.thickness}, {});
+        file.write_attribute("/", "ice_belt", ice_belt_text(c));
+    }
     for (const auto& [name, count] : std::initializer_list<std::pair<const char*, std::size_t>>{
              {"spheres", static_cast<std::size_t>(c.spheres)},
              {"surface_spheres", static_cast<std::size_t>(c.surface_spheres)},
@@ -292,6 +304,12 @@ void write_spheres(const std::filesystem::path& path, const SphereSet& set,
     write_mesh(file, set.mesh);
     file.close();
     part.keep();
+}
+
+std::string read_ice_belt(const std::filesystem::path& path) {
+    const Hdf5File file(path, Hdf5File::Mode::read);
+    return file.has_attribute("/", "ice_belt") ? file.read_text_attribute("/", "ice_belt")
+                                               : std::string();
 }
 
 SphereSet read_spheres(const std::filesystem::path& path) {

@@ -45,6 +45,43 @@ private:
     std::vector<double> weight_;
 };
 
+// The wetted surface that no sphere fits, and the gaps in the ice belt.
+class Unfitted {
+public:
+    Unfitted(const SphereSet& set, const IceBelt& belt)
+        : belt_(belt), least_(std::hypot(1.5 * set.radius, kAside * set.spacing) - set.radius) {}
+
+    void add(const Sight& sight) {
+        const auto z = static_cast<double>(sight.point.z());
+        if (belt_ && z > belt_.water()) return add_in_belt(sight, z);
+        area_ += sight.area;
+        if (sight.cover < 0.0f && sight.gap > least_) unfitted_ += sight.area;
+        add_in_belt(sight, z);
+    }
+    void tell(SpheresReport& report) {
+        report.unfitted_share = area_ > 0.0 ? unfitted_ / area_ : 0.0;
+        if (!belt_ || gaps_.empty()) return;
+        std::sort(gaps_.begin(), gaps_.end());
+        double total = 0.0, sum = 0.0;
+        for (const auto& [gap, area] : gaps_) total += area;
+        for (const auto& [gap, area] : gaps_) {
+            if (sum < 0.99 * total) report.belt.gap_p99 = gap;
+            sum += area;
+        }
+        report.belt.gap_max = gaps_.back().first;
+    }
+
+private:
+    void add_in_belt(const Sight& sight, double z) {
+        if (belt_.contains(z)) gaps_.emplace_back(static_cast<double>(sight.gap), sight.area);
+    }
+
+    const IceBelt belt_;
+    double least_;  // gap [m]
+    double area_ = 0.0, unfitted_ = 0.0;
+    std::vector<std::pair<double, double>> gaps_;  // in the belt, with their areas
+};
+
 // The points of a small cube, which are one feature.
 struct Clump {
     Eigen::AlignedBox3d box;
@@ -104,14 +141,16 @@ double measure_protrusion(const SurfaceTree& tree, const SphereSet& set, bool ha
     std::vector<double> beyond(set.surface_count, 0.0);
     parallel_for(set.surface_count, 512, [&](std::size_t k) {
         if (half && set.centers[k].y() < 0.0) return;
-        const Foot foot = tree.closest(set.centers[k]);
-        beyond[k] = set.radii[k] + (foot.inside ? -foot.distance : foot.distance);
+        // a conforming layer's centres are inside by their winding numbers (drop_outside), a
+        // lattice's by their rows', where a foot's normal may say otherwise
+        beyond[k] = set.radii[k] - tree.closest(set.centers[k]).distance;
     });
     return beyond.empty() ? 0.0 : std::max(0.0, *std::max_element(beyond.begin(), beyond.end()));
 }
 
-double measure_cover(const SurfaceTree& tree, const SphereSet& set, const SphereFinder& finder,
-                     const std::vector<Sight>& sights, double size) {
+// Sets report.covering_radius and where it is.
+void measure_cover(const SurfaceTree& tree, const SphereSet& set, const SphereFinder& finder,
+                   const std::vector<Sight>& sights, double size, SpheresReport& report) {
     std::vector<std::int32_t> worst;
     float found = 0.0f;
     for (const Sight& sight : sights) found = std::max(found, sight.cover);
@@ -128,11 +167,12 @@ double measure_cover(const SurfaceTree& tree, const SphereSet& set, const Sphere
     std::partial_sort(worst.begin(), worst.begin() + static_cast<std::ptrdiff_t>(count),
                       worst.end(), farther);
     std::vector<double> top(count, static_cast<double>(found));
+    std::vector<Vec3> places(count, Vec3::Zero());
     parallel_for(count, 16, [&](std::size_t k) {
         const Sight& sight = sights[static_cast<std::size_t>(worst[k])];
         const Vec3 normal = tree.normal(sight.triangle);
         Vec3 at = sight.point.cast<double>() - set.radius * normal;
-        double here = finder.agreeing(at, normal, finder.nearest(at)).distance;
+        double here = finder.covering(at, normal, finder.nearest(at)).distance;
         Vec3 e1 = set.dimension == 2 ? normal.cross(Vec3::UnitY()) : normal.unitOrthogonal();
         const Vec3 e2 = normal.cross(e1);
         for (double step = 0.5 * size; step > 0.04 * size; step *= 0.5)
@@ -144,15 +184,20 @@ double measure_cover(const SurfaceTree& tree, const SphereSet& set, const Sphere
                            set.radius, sight.triangle);
                 if (!seat) continue;
                 const auto any = finder.nearest(seat->center);
-                const double there = finder.agreeing(seat->center, seat->normal, any).distance;
+                const double there = finder.covering(seat->center, seat->normal, any).distance;
                 if (there <= here) continue;
                 here = there;
                 at = seat->center;
             }
         top[k] = here;
+        places[k] = tree.closest(at, sight.triangle).point;
     });
-    return std::max(static_cast<double>(found),
-                    top.empty() ? 0.0 : *std::max_element(top.begin(), top.end()));
+    report.covering_radius = std::max(static_cast<double>(found), 0.0);
+    for (std::size_t k = 0; k < count; ++k) {
+        if (top[k] < report.covering_radius) continue;
+        report.covering_radius = top[k];
+        report.covering_at = {places[k].x(), places[k].y(), places[k].z()};
+    }
 }
 
 }  // namespace
@@ -160,7 +205,7 @@ double measure_cover(const SurfaceTree& tree, const SphereSet& set, const Sphere
 void certify(const SurfaceTree& tree, const SphereFinder& finder, const std::vector<Sight>& sights,
              bool half, const SphereSet& set, SpheresReport& report) {
     report.protrusion_max = measure_protrusion(tree, set, half);
-    report.covering_radius = measure_cover(tree, set, finder, sights, survey_size(set, half));
+    measure_cover(tree, set, finder, sights, survey_size(set, half), report);
     double gap_max = 0.0, error_max = 0.0;
     for (const Sight& sight : sights) {
         gap_max = std::max(gap_max, static_cast<double>(sight.gap));
@@ -172,8 +217,10 @@ void certify(const SurfaceTree& tree, const SphereFinder& finder, const std::vec
     Histogram gaps(gap_max), errors(error_max);
     double error_sum = 0.0, error_area = 0.0;
     std::vector<Vec3> thin;
+    Unfitted unfitted(set, report.belt);
     for (const Sight& sight : sights) {
         gaps.add(sight.gap, sight.area);
+        unfitted.add(sight);
         if (sight.gap > thin_gap) {
             const Vec3 at = sight.point.cast<double>();
             thin.push_back(at);
@@ -188,6 +235,7 @@ void certify(const SurfaceTree& tree, const SphereFinder& finder, const std::vec
     report.gap_p50 = gaps.percentile(0.5);
     report.gap_p99 = gaps.percentile(0.99);
     report.gap_max = gap_max;
+    unfitted.tell(report);
     report.normal_error_mean_deg = error_area > 0.0 ? kDegrees * error_sum / error_area : 0.0;
     report.normal_error_p99_deg = kDegrees * errors.percentile(0.99);
     report.thin_features = group(thin, 3.0 * set.radius);

@@ -14,13 +14,16 @@ namespace ice {
 ///
 /// - protrusion: how far the worst surface sphere reaches beyond the surface;
 /// - covering radius: over places where a sphere of the set's radius can touch, the largest
-///   distance from its centre to the nearest surface sphere that stands for the same face: the
-///   samples, and a climb from the 512 worst;
+///   distance from its centre to the nearest surface sphere that covers it
+///   (SphereFinder::covering): the samples, and a climb from the 512 worst;
 /// - gap: from surface samples to the sphere they belong to, by share of the area;
 /// - normal error: between the surface and the stored normal of the nearest sphere, over the same
 ///   samples as the covering radius, on faces (spread below 5 degrees);
 /// - thin features: connected places, where no sphere fits, whose gap exceeds 2.5 radii (more where
-///   the spacing is wide, since the nearest sphere then stands aside).
+///   the spacing is wide, since the nearest sphere then stands aside);
+/// - unfitted share: of the wetted surface (all of it where no draught is given), where no sphere
+///   can touch and the gap exceeds half a radius;
+/// - gaps in the ice belt, where report.belt is given.
 ///
 /// @param sights  of survey_surface; @param half  as there
 void certify(const SurfaceTree& tree, const SphereFinder& finder, const std::vector<Sight>& sights,

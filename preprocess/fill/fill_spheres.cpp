@@ -11,6 +11,7 @@
 #include "common/base/error.hpp"
 #include "common/base/timer.hpp"
 #include "preprocess/fill/certificate.hpp"
+#include "preprocess/fill/drop_outside.hpp"
 #include "preprocess/fill/inscribed.hpp"
 #include "preprocess/fill/lattice.hpp"
 #include "preprocess/fill/shares.hpp"
@@ -85,6 +86,8 @@ void place_surface(const SurfaceTree& tree, const FillOptions& o, bool mirror, S
         set.centers = make_shell(tree, {o.radius, set.spacing, set.dimension, mirror,
                                         o.quick ? kQuickStep : kLineStep, o.sharp, o.edges_by_ends,
                                         [&](double share) { tell(o, "surface layer", share); }});
+        if (set.dimension == 3 && !o.quick)
+            report.outside_dropped = drop_outside(tree.mesh(), o.radius, set.centers);
         set.surface_count = set.size();
     }
     report.seconds["surface_layer"] = timer.seconds();

@@ -34,7 +34,7 @@ Sight look(const SurfaceTree& tree, const SphereSet& set, const SphereFinder& fi
     const Vec3& center = set.centers[static_cast<std::size_t>(near.index)];
     out.gap = static_cast<float>(std::max((sample.point - center).norm() - radius, 0.0));
     if (share_only || !tree.is_clear(seat, radius * (1.0 - kReachable))) return out;
-    out.cover = static_cast<float>(near.distance);
+    out.cover = static_cast<float>(finder.covering(seat, sample.normal, any).distance);
     const auto k = static_cast<std::size_t>(near.index);
     if (set.normal_spread[k] >= kFaceSpread) return out;
     const Vec3& n = set.normals[k];
@@ -63,15 +63,33 @@ PointCells::Nearest SphereFinder::nearest(const Vec3& p, std::int32_t known) con
     return cells_.nearest(p, {known, distance});
 }
 
-PointCells::Nearest SphereFinder::agreeing(const Vec3& p, const Vec3& normal,
-                                           const PointCells::Nearest& any) const {
-    if (agrees(any.index, normal) || any.distance > kFar * set_.spacing) return any;
+bool SphereFinder::covers(std::int32_t sphere, const Vec3& normal) const {
+    constexpr double kRightAngle = 0.5 * std::numbers::pi + 0.01;
+    const auto k = static_cast<std::size_t>(sphere);
+    const double most = std::min(set_.normal_spread[k] + kRightAngle, std::numbers::pi);
+    return set_.normals[k].dot(normal) >= std::cos(most);
+}
+
+template <class Accept>
+PointCells::Nearest SphereFinder::nearest_of(const Vec3& p, const PointCells::Nearest& any,
+                                             const Accept& accept) const {
+    if (accept(any.index) || any.distance > kFar * set_.spacing) return any;
     PointCells::Nearest best{-1, any.distance + 2.0 * set_.spacing};
     cells_.visit(p, best.distance, [&](std::int32_t k, double distance) {
         if (distance > best.distance || (distance == best.distance && k > best.index)) return;
-        if (agrees(k, normal)) best = {k, distance};
+        if (accept(k)) best = {k, distance};
     });
     return best.index >= 0 ? best : any;
+}
+
+PointCells::Nearest SphereFinder::agreeing(const Vec3& p, const Vec3& normal,
+                                           const PointCells::Nearest& any) const {
+    return nearest_of(p, any, [&](std::int32_t k) { return agrees(k, normal); });
+}
+
+PointCells::Nearest SphereFinder::covering(const Vec3& p, const Vec3& normal,
+                                           const PointCells::Nearest& any) const {
+    return nearest_of(p, any, [&](std::int32_t k) { return covers(k, normal); });
 }
 
 double survey_size(const SphereSet& set, bool half) {

@@ -15,7 +15,7 @@ struct Sight {
     double area = 0.0;           ///< that the sample stands for [m2]
     float gap = 0.0f;            ///< distance to the sphere it belongs to [m], >= 0
     float cover = -1.0f;         ///< from where a sphere would touch at the sample to the nearest
-                                 ///< centre that stands for it [m]; -1 where none can touch
+                                 ///< centre that covers it [m]; -1 where none can touch
     float normal_error = -1.0f;  ///< between the surface's normal and the nearest sphere's [rad];
                                  ///< -1 where none can touch or that sphere is in an edge
     std::int32_t owner = -1;     ///< surface sphere that the sample belongs to
@@ -38,11 +38,22 @@ public:
     PointCells::Nearest agreeing(const Vec3& p, const Vec3& normal,
                                  const PointCells::Nearest& any) const;
 
+    /// Nearest sphere that covers surface of this normal: it stands for surface that does not
+    /// face the other way (its normal is at most a right angle off, plus the spread), so that the
+    /// spheres round an edge cover each other's faces and those behind a thin plate do not. Where
+    /// none does within two spacings of `any`, `any`.
+    PointCells::Nearest covering(const Vec3& p, const Vec3& normal,
+                                 const PointCells::Nearest& any) const;
+
 private:
+    template <class Accept>
+    PointCells::Nearest nearest_of(const Vec3& p, const PointCells::Nearest& any,
+                                   const Accept& accept) const;
     bool agrees(std::int32_t sphere, const Vec3& normal) const {
         const auto k = static_cast<std::size_t>(sphere);
         return set_.normals[k].dot(normal) >= least_[k];
     }
+    bool covers(std::int32_t sphere, const Vec3& normal) const;
 
     const SphereSet& set_;
     PointCells cells_;

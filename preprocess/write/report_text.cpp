@@ -5,6 +5,16 @@
 
 namespace ice {
 
+namespace {
+
+std::string distance_text(const SurfaceDistance& d) {
+    if (d.max == 0.0) return "the same surface";
+    return fmt::format("{:.2g} m median, {:.2g} m p99, {:.2g} m at most, at {:.4g}, {:.4g}, {:.4g}",
+                       d.p50, d.p99, d.max, d.at[0], d.at[1], d.at[2]);
+}
+
+}  // namespace
+
 std::string report_text(const SpheresReport& r, const std::string& output) {
     const bool flat = r.dimension == 2;
     std::string out;
@@ -14,6 +24,11 @@ std::string report_text(const SpheresReport& r, const std::string& output) {
     out += fmt::format("{}: {} {} of radius {:g} m\n", output, r.spheres,
                        flat ? "discs" : "spheres", r.radius);
     line("on the surface", fmt::format("{}, spaced {:g} m", r.surface_spheres, r.spacing));
+    if (r.spheres > r.surface_spheres)
+        line("inside", fmt::format("{}, which no contact uses; --mode surface leaves them out and "
+                                   "saves {:.2g} MB",
+                                   r.spheres - r.surface_spheres,
+                                   1e-6 * static_cast<double>(interior_bytes(r))));
     line("volume", fmt::format("{:.9g} {}", r.volume, flat ? "m3 per metre of breadth" : "m3"));
     line("area", fmt::format("{:.9g} {}", r.area, flat ? "m2 per metre of breadth" : "m2"));
     line("centroid",
@@ -25,6 +40,13 @@ std::string report_text(const SpheresReport& r, const std::string& output) {
                                        r.gap_p99, r.gap_max));
     line("normal error", fmt::format("{:.2g} degrees mean, {:.2g} p99", r.normal_error_mean_deg,
                                      r.normal_error_p99_deg));
+    if (r.source.known) line("mesh to solid", distance_text(r.source.to_solid));
+    if (r.source.known) line("solid to mesh", distance_text(r.source.to_source));
+    if (r.unfitted_share > 0.0)
+        line("no sphere fits", fmt::format("{:.2g} % of the {}surface", 100.0 * r.unfitted_share,
+                                           r.belt ? "wetted " : ""));
+    for (const CutBack& cut : r.cut_back) line("cut back", cut_back_text(cut));
+    if (r.belt) line("ice belt", ice_belt_text(r));
     for (const auto& [step, count] : r.repairs)
         line("repaired", fmt::format("{}: {}", step, count));
     for (const auto& [what, value] : r.guessed) line("assumed", what + ": " + value);

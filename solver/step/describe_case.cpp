@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/formats/spheres_file.hpp"
 #include "solver/record/particulars.hpp"
 #include "solver/scene/ice_extent.hpp"
 #include "solver/step/check_course.hpp"
@@ -67,6 +68,14 @@ std::string spheres_line(const World& w) {
     return out;
 }
 
+// What spherize's certificate says of the hull where the ice meets it.
+std::string belt_line(const World& w) {
+    std::error_code none;
+    if (!std::filesystem::is_regular_file(w.parameters.hull_spheres, none)) return {};  // made here
+    const std::string belt = read_ice_belt(w.parameters.hull_spheres);
+    return belt.empty() ? belt : "\n  ice belt   " + belt;
+}
+
 std::string pressure_text(double pressure) {
     return std::isfinite(pressure) ? fmt::format("{:.3g} MPa", 1e-6 * pressure) : "rigid";
 }
@@ -77,10 +86,10 @@ std::string describe_case(const World& w) {
     const ShipParticulars ship = measure_ship(w.scene, w.parameters);
     const Case& p = w.parameters;
     return fmt::format(
-        "{}\n{}\n{}\n{}\n  contact    crushing {}, friction {:g} on the hull and {:g} between "
+        "{}\n{}\n{}\n{}{}\n  contact    crushing {}, friction {:g} on the hull and {:g} between "
         "floes",
         ship_line(w, ship), ice_line(w, measure_ice(w.scene, p)),
-        course_line(w, ship, measure_course(w)), spheres_line(w),
+        course_line(w, ship, measure_course(w)), spheres_line(w), belt_line(w),
         pressure_text(p.crushing_pressure), p.friction_ship_ice, p.friction_ice_ice);
 }
 

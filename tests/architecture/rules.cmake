@@ -5,7 +5,7 @@
 # another tool. The last entry of a tool is its top folder with the main program.
 set(order_common common/base common/toml common/geometry common/formats common/cli)
 set(order_preprocess preprocess/load preprocess/clean preprocess/measure preprocess/repair
-  preprocess/slice preprocess/fill preprocess/field preprocess/write preprocess)
+  preprocess/slice preprocess/fill preprocess/certify preprocess/field preprocess/write preprocess)
 set(order_solver solver/case solver/shape solver/water solver/scene solver/broad solver/narrow
   solver/contact solver/integrate solver/record solver/step solver/draft solver/ensemble solver)
 set(order_postprocess postprocess/read postprocess/views postprocess/statistics postprocess/report

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "preprocess/certify/certify_solid.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "common/base/error.hpp"
+#include "common/base/timer.hpp"
+#include "preprocess/certify/compare_with_source.hpp"
+#include "preprocess/load/half_hull.hpp"
+#include "preprocess/load/symmetry.hpp"
+
+namespace ice {
+
+namespace {
+
+constexpr double kRepaired = 1.01;     // of the mesh's size: a solid of it, wrapped
+constexpr double kWorthSaying = 1e-3;  // of the surface: parts left out
+
+std::string place(const std::array<double, 3>& at) {
+    return fmt::format("({:.4g}, {:.4g}, {:.4g})", at[0], at[1], at[2]);
+}
+
+void warn_of(const char* what, const SurfaceDistance& d, double radius, SpheresReport& report) {
+    if (d.max <= radius) return;
+    report.warnings.push_back(
+        fmt::format("{} up to {:.3g} m, {:.2g} radii, at {} ({:.2g} m at the 99th percentile)",
+                    what, d.max, d.max / radius, place(d.at), d.p99));
+}
+
+void judge_distances(const std::string& name, double radius, bool refuse, SpheresReport& report) {
+    const SourceCheck& s = report.source;
+    const IceBelt& belt = report.belt;
+    for (const SurfaceDistance* d : {&belt.to_solid, &belt.to_source})
+        if (belt && refuse && d->p99 > radius)
+            throw bad_input(
+                name,
+                fmt::format("was repaired to a solid that lies {:.3g} m from it in the ice belt "
+                            "(99th percentile; {:.3g} m at {}), more than the radius of {:g} m",
+                            d->p99, d->max, place(d->at), radius),
+                "mend it there in the program that made it; --repair wrap takes the solid as it "
+                "is");
+    warn_of("the mesh lies outside the solid that was filled by", s.to_solid, radius, report);
+    warn_of("the solid that was filled lies off the mesh by", s.to_source, radius, report);
+    if (belt && belt.to_solid.max > radius && s.to_solid.max > belt.to_solid.max)
+        warn_of("in the ice belt the mesh lies outside the solid by", belt.to_solid, radius,
+                report);
+    if (s.left_out_area > kWorthSaying * s.area)
+        report.warnings.push_back(
+            fmt::format("{:.3g} m2 of the mesh, at {}, bound nothing of the solid and were left "
+                        "out",
+                        s.left_out_area, place(s.left_out_at)));
+}
+
+}  // namespace
+
+void refuse_thin_mesh(const TriangleMesh& surface, double radius, int dimension) {
+    const Vec3 size = bounding_box(surface).sizes();
+    const double most = 0.5 * (dimension == 3 ? size.minCoeff() : std::min(size.x(), size.z()));
+    if (most == 0.0 || radius <= most * kRepaired) return;
+    throw bad_input(
+        "--radius",
+        fmt::format("no {} of radius {:g} m fits into the solid: the mesh is {:.4g} x "
+                    "{:.4g} x {:.4g} m",
+                    dimension == 3 ? "sphere" : "disc", radius, size.x(), size.y(), size.z()),
+        fmt::format("use less than {:.3g} m; if the mesh is larger, give --units", most));
+}
+
+void certify_solid(const std::string& name, TriangleMesh surface, const TriangleMesh& solid,
+                   double radius, bool wrapped, SpheresReport& report) {
+    const Timer timer;
+    if (std::any_of(report.repairs.begin(), report.repairs.end(), [](const auto& repair) {
+            return repair.first == "half hull mirrored across y = 0";
+        }))
+        add_mirror_image(surface);
+    compare_with_source(surface, solid, radius, report);
+    judge_distances(name, radius, !wrapped, report);
+    report.seconds["compare"] = timer.seconds();
+}
+
+}  // namespace ice

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include "common/formats/spheres_report.hpp"
+#include "common/geometry/triangle_mesh.hpp"
+
+namespace ice {
+
+/// Refuses a radius that no solid in a mesh can hold, before minutes go into the mesh's repair.
+/// @param surface  as read [m]   @param dimension  2: discs of a section along y
+/// @throws Error (exit code 2) naming the extents and the largest radius
+void refuse_thin_mesh(const TriangleMesh& surface, double radius, int dimension);
+
+/// Holds the solid against the mesh as it was read (compare_with_source; a half hull that the
+/// repairs mirrored is mirrored first) and says what that means: a warning with the number where a
+/// surface is more than a radius from the other, or where parts of more than 0.1 % of the surface
+/// were left out.
+///
+/// @param name     of the file, for messages
+/// @param surface  as read, in metres and ship axes
+/// @param wrapped  the user asked for --repair wrap: whatever comes is only warned of
+/// @throws Error (exit code 2) where the 99th percentile within the ice belt exceeds the radius,
+///         with the distance, its place and the remedy
+void certify_solid(const std::string& name, TriangleMesh surface, const TriangleMesh& solid,
+                   double radius, bool wrapped, SpheresReport& report);
+
+}  // namespace ice

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "preprocess/certify/judge_spheres.hpp"
+
+#include <fmt/format.h>
+
+#include "common/base/error.hpp"
+#include "common/formats/widest_spacing.hpp"
+
+namespace ice {
+
+namespace {
+
+constexpr double kIceOfDraught = 0.1;     // default thickness of the ice
+constexpr double kBelt = 2.0;             // ice thicknesses either side of the waterline
+constexpr double kMostProtrusion = 0.01;  // radii
+constexpr double kMostCover = 0.75;       // spacings: a layer's own is 0.61 to 0.66
+
+}  // namespace
+
+void set_ice_belt(const TriangleMesh& solid, std::optional<double> draught,
+                  std::optional<double> ice_thickness, SpheresReport& report) {
+    if (!draught) {
+        if (ice_thickness)
+            throw bad_input("--ice-thickness", "has no meaning without the waterline",
+                            "give --draught, from the lowest point to the water");
+        return;
+    }
+    Eigen::AlignedBox3d box;
+    for (const Vec3& v : solid.vertices) box.extend(v);
+    if (*draught >= box.sizes().z())
+        throw bad_input("--draught",
+                        fmt::format("{:g} m is not less than the solid's depth, {:.4g} m", *draught,
+                                    box.sizes().z()),
+                        "give the height of the water over the lowest point; see --units and --up");
+    IceBelt& belt = report.belt;
+    belt.draught = *draught;
+    belt.thickness = ice_thickness.value_or(kIceOfDraught * *draught);
+    const double water = box.min().z() + *draught;
+    belt.low = water - kBelt * belt.thickness;
+    belt.high = water + kBelt * belt.thickness;
+    if (!ice_thickness)
+        report.guessed["ice thickness"] =
+            fmt::format("{:.3g} m, a tenth of the draught, in the ice belt", belt.thickness);
+}
+
+void judge_spheres(const SphereSet& set, SpheresReport& report) {
+    std::vector<std::string>& out = report.warnings;
+    const double r = set.radius;
+    if (report.outside_dropped > 0)
+        out.push_back(fmt::format(
+            "{} spheres stood outside the solid, where its faces cross, and were dropped",
+            report.outside_dropped));
+    if (report.protrusion_max > kMostProtrusion * r)
+        out.push_back(fmt::format("a sphere reaches {:.2g} m out of the solid, {:.2g} radii",
+                                  report.protrusion_max, report.protrusion_max / r));
+    if (report.covering_radius > kMostCover * set.spacing)
+        out.push_back(fmt::format(
+            "a place of the surface that a sphere could touch is {:.3g} m, {:.2f} spacings, from "
+            "the nearest, at ({:.4g}, {:.4g}, {:.4g})",
+            report.covering_radius, report.covering_radius / set.spacing, report.covering_at[0],
+            report.covering_at[1], report.covering_at[2]));
+    for (const CutBack& cut : report.cut_back)
+        if (report.belt && cut.part != "keel" && cut.by > r)
+            out.push_back("in the ice belt " + cut_back_text(cut) +
+                          ": use a smaller --radius for loads there");
+    if (!report.thin_features.empty())
+        out.push_back(fmt::format("parts too thin for a sphere of radius {:g} m: {}", r,
+                                  report.thin_features.size()));
+    const double widest = kWidestSpacing * r;
+    if (set.spacing > widest * (1.0 + kSpacingRounding))
+        out.push_back(fmt::format(
+            "the surface spheres are {:g} m apart: bodies may pass between them above {:g} radii; "
+            "use --spacing {:g} or less",
+            set.spacing, kWidestSpacing, widest));
+}
+
+}  // namespace ice

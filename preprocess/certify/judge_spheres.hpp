@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+
+#include "common/formats/sphere_set.hpp"
+#include "common/formats/spheres_report.hpp"
+
+namespace ice {
+
+/// Sets report.belt for a draught, from the lowest point of the solid up to the water.
+/// @param ice_thickness  [m]; by default a tenth of the draught
+/// @throws Error (exit code 2) where the solid is not as deep as the draught, or an ice thickness
+///         comes without a draught
+void set_ice_belt(const TriangleMesh& solid, std::optional<double> draught,
+                  std::optional<double> ice_thickness, SpheresReport& report);
+
+/// What the certificate means, as warnings with their numbers: spheres that reach out by more than
+/// a hundredth of a radius or were dropped as outside; places without one within 0.75 spacings; a
+/// stem or stern cut back by more than a radius in the ice belt; thin parts; wide spacings.
+void judge_spheres(const SphereSet& set, SpheresReport& report);
+
+}  // namespace ice
