@@ -64,9 +64,7 @@ void refuse_thin_mesh(const TriangleMesh& surface, double radius, int dimension)
         fmt::format("no {} of radius {:g} m fits into the solid: the mesh is {:.4g} x "
                     "{:.4g} x {:.4g} m",
                     dimension == 3 ? "sphere" : "disc", radius, size.x(), size.y(), size.z()),
-        fmt::format("the largest that fits has {:.3g} m at most; if the mesh is larger, "
-                    "give --units",
-                    most));
+        fmt::format("give --radius below {:.3g} m, or the unit of the file with --units", most));
 }
 
 void certify_solid(const std::string& name, TriangleMesh surface, const TriangleMesh& solid,
