@@ -7,7 +7,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "solver/narrow/find_contacts.hpp"
+#include "solver/narrow/contact.hpp"
+#include "solver/scene/bodies.hpp"
 
 namespace ice {
 

@@ -164,7 +164,8 @@ CentresFinder::Found CentresFinder::look(std::size_t k, BodyPair pair, const Ste
     lists_.wake(k) = way + std::min(least - unsure - margin, row.range - margin - gone);
     measure(view, batch.touching, most, batch.candidates);
     found.count = batch.candidates.size() - found.first;
-    if (found.count > 0 && !(held && least + rounding + kRounding <= most) && are_apart(view, most))
+    if (found.count > 0 && !(held && least + rounding + kRounding <= most) &&
+        separation(view, most, row.axis) > most)
         found.count = 0;
     return found;
 }

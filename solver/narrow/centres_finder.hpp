@@ -5,12 +5,11 @@
 #include <cstdint>
 #include <vector>
 
+#include "solver/narrow/contact.hpp"
 #include "solver/narrow/sphere_lists.hpp"
 #include "solver/scene/bodies.hpp"
 
 namespace ice {
-
-struct Contact;
 
 /// ContactFinder's way under the rule "centres", where only distances count: spheres that may touch
 /// are listed in advance, pair by pair, and the lists measured many spheres at a time.

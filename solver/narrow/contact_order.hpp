@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "solver/narrow/find_contacts.hpp"
+#include "solver/narrow/contact.hpp"
 #include "solver/narrow/pair_view.hpp"
 
 namespace ice {

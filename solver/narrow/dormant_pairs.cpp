@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "solver/narrow/deep_pairs.hpp"
 #include "solver/narrow/separation.hpp"
 
 namespace ice {
@@ -73,13 +74,30 @@ void DormantPairs::settle(std::size_t k, const PairView& view, const Travel& tra
 void DormantPairs::remind(Row& row, BodyPair pair, const Travel& travel, double gone,
                           double turned) {
     const double now = travel.way(pair.a) + travel.way(pair.b);
-    row.soon_wake = now + row.free - gone;
+    // what lies deep in each other has contacts even where no spheres may touch
+    row.soon_wake =
+        row.deep ? -std::numeric_limits<double>::infinity() : now + row.free - gone;
     row.soon_unknown = now + row.leeway.distance - gone;
     row.turn_unknown = travel.turn(pair.a) + travel.turn(pair.b) + row.leeway.angle - turned;
 }
 
+double DormantPairs::part_solids(Row& row, const PairView& view, double enough) {
+    const ConvexPiece &a = view.shape_a.convex, &b = view.shape_b.convex;
+    const RelativePose pose{view.turn, view.shift};
+    // the plane that parted them last mostly still does
+    const SeparatingAxes& last = row.axes;
+    if (last.plane_a >= 0 || last.plane_b >= 0) {
+        const bool of_a = last.plane_b < 0 || last.face_a >= last.face_b;
+        const double gap = gap_along_plane(a, b, pose, of_a ? last.plane_a : -1, last.plane_b);
+        if (gap > enough) return gap;
+    }
+    row.axes = find_axes(a, b, pose, enough);
+    return row.axes.widest();
+}
+
 DormantPairs::State DormantPairs::look(std::size_t k, const Scene& scene, BodyPair pair,
-                                       const Travel& travel, double dt, double margin) {
+                                       const Travel& travel, double dt, double margin,
+                                       bool polygon) {
     Row& row = rows_[k];
     const double soon = travel.soon(pair.a) + travel.soon(pair.b);
     if (soon < std::min(row.soon_wake, row.soon_unknown) &&
@@ -87,12 +105,20 @@ DormantPairs::State DormantPairs::look(std::size_t k, const Scene& scene, BodyPa
         return State::asleep;
     const PairView view(scene, pair);
     const double closing = dt * closing_speed(scene, pair);
-    const double apart = separation(view, closing + margin, row.axis) - margin;
+    const double apart = (polygon ? part_solids(row, view, closing + margin)
+                                  : separation(view, closing + margin, row.axis)) -
+                         margin;
     if (apart > closing) {
         row.soon_wake = travel.way(pair.a) + travel.way(pair.b) + apart / separation_share(view);
         row.soon_unknown = row.turn_unknown = std::numeric_limits<double>::infinity();
         return State::asleep;
     }
+    if (polygon) {
+        row.soon_unknown = row.turn_unknown = std::numeric_limits<double>::infinity();
+        row.soon_wake = -row.soon_unknown;
+        return State::polygon;
+    }
+    row.deep = is_deep(view, apart + margin);
     if (row.leeway.distance < 0.0) return State::unknown;  // never settled
     // |R - R0| is sqrt(8) sin(angle / 2), below half a radian at least 0.99 sqrt(2) angle
     const double turned = (view.turn - row.turn).norm() / (0.99 * std::numbers::sqrt2);
@@ -101,8 +127,7 @@ DormantPairs::State DormantPairs::look(std::size_t k, const Scene& scene, BodyPa
     const double then = gone + closing;
     if (then >= row.leeway.distance || turned >= row.leeway.angle) return State::unknown;
     remind(row, pair, travel, gone, turned);
-    row.gone = gone;
-    return then >= row.free ? State::known : State::asleep;
+    return row.deep || then >= row.free ? State::known : State::asleep;
 }
 
 Leeway dormant_leeway(const Scene& scene, BodyPair pair, double dt) {

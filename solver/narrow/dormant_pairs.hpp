@@ -9,6 +9,7 @@
 #include "solver/broad/find_pairs.hpp"
 #include "solver/narrow/kind_bound.hpp"
 #include "solver/narrow/pair_view.hpp"
+#include "solver/narrow/separating_axis.hpp"
 #include "solver/scene/bodies.hpp"
 
 namespace ice {
@@ -16,8 +17,6 @@ namespace ice {
 /// Two spheres that may touch before their bodies have gone too far.
 struct SpherePair {
     std::int32_t a, b;
-    float least;  ///< [m] their gap is at least this less the way that the bodies have gone
-    PossibleNormals possible = PossibleNormals::all();  ///< of their kinds
 };
 
 /// What is known of pairs of bodies until they have gone too far: how far they may go before they
@@ -29,22 +28,28 @@ public:
 
     /// What row k's bodies may do within the coming step, as far as is known.
     enum class State {
-        asleep,  ///< they cannot touch
-        known,   ///< they may, with the spheres of near(k)
-        unknown  ///< they have gone too far
+        asleep,   ///< they cannot touch
+        polygon,  ///< they may, and meet along axes(k)
+        known,    ///< they may, with the spheres of near(k)
+        unknown   ///< they have gone too far
     };
     /// @param margin  [m] bodies that are further apart at the end of the step have no contact
+    /// @param polygon  the solids meet in a polygon (meets_in_polygon)
     /// @pre travel was updated with the present poses and dt
     State look(std::size_t k, const Scene& scene, BodyPair pair, const Travel& travel, double dt,
-               double margin);
+               double margin, bool polygon);
+
+    /// The separating axes of row k's solids. @pre look() found State::polygon
+    const SeparatingAxes& axes(std::size_t k) const { return rows_[k].axes; }
 
     /// Spheres of row k that may touch while it is known; good until the next keep() or match().
     std::span<const SpherePair> near(std::size_t k) const {
         return {near_.data() + rows_[k].first, rows_[k].count};
     }
 
-    /// How far row k's bodies have gone [m] since it was settled. @pre look() found it known
-    double gone(std::size_t k) const { return rows_[k].gone; }
+    /// Do row k's solids overlap so far that spheres may have lost each other (is_deep)?
+    /// @pre look() found it known or unknown
+    bool deep(std::size_t k) const { return rows_[k].deep; }
 
     /// From now on row k is known as far as `leeway`, and cannot touch before its bodies have gone
     /// `free` [m] relative to each other. Rows may be settled at the same time.
@@ -60,15 +65,18 @@ private:
         Mat3 turn = Mat3::Zero();
         Vec3 shift = Vec3::Zero();
         double crushed = 0.0;       // of both bodies then [m]
-        double gone = 0.0;          // since then, when last looked at [m]
         double free = 0.0;          // how far they may go until they touch, and until nothing is
         Leeway leeway{-1.0, -1.0};  // known any more
         // sums of the bodies' soon() and turn() at which to look at the poses again: going the same
         // way they come no nearer to each other
         double soon_wake = 0.0, soon_unknown = 0.0, turn_unknown = 0.0;
         std::size_t axis = 0;              // of separation(), when last looked at
+        SeparatingAxes axes;               // instead of it where the solids meet in a polygon
         std::size_t first = 0, count = 0;  // of near_
+        bool deep = false;
     };
+    // How far apart row k's solids are at least: exact where it is no more than `enough` [m].
+    static double part_solids(Row& row, const PairView& view, double enough);
     static void remind(Row& row, BodyPair pair, const Travel& travel, double gone, double turned);
     void close_gaps();
 

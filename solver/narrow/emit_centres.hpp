@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "solver/narrow/find_contacts.hpp"
+#include "solver/narrow/contact.hpp"
 #include "solver/narrow/pair_view.hpp"
 
 namespace ice {

@@ -84,6 +84,16 @@ const std::vector<ContactPlace>& places_of(const PairView& view,
 
 }  // namespace
 
+double crushed_depth(const PairView& view, std::int32_t j, const Vec3& n) {
+    return crushed_depth(view.scene, view.pair.b, j, view.turn.transpose() * -n);
+}
+
+Patch ice_patch(const PairView& view, std::int32_t j, const Vec3& n, double gap) {
+    Patch patch = patch_of(view.shape_b, j, view.turn.transpose() * -n);
+    patch.depth = -gap + crushed_depth(view, j, n);
+    return patch;
+}
+
 void emit_contacts(const PairView& view, std::span<const Candidate> candidates, Contact* out) {
     const bool ship = view.pair.a == static_cast<std::int32_t>(kShip);
     const std::vector<ContactPlace>& places = places_of(view, candidates);

@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "solver/narrow/find_contacts.hpp"
+#include "solver/narrow/contact.hpp"
 #include "solver/narrow/pair_view.hpp"
 
 namespace ice {
@@ -12,5 +12,11 @@ namespace ice {
 /// gives them: points, patches, keys and hull regions. @param out  room for as many
 /// @pre the candidates of a probe stand together
 void emit_contacts(const PairView& view, std::span<const Candidate> candidates, Contact* out);
+
+/// How deep contact along n, from a to b in a's axes, has crushed b's sphere j [m].
+double crushed_depth(const PairView& view, std::int32_t j, const Vec3& n);
+
+/// The patch of b's sphere j behind a contact along n with this gap [m].
+Patch ice_patch(const PairView& view, std::int32_t j, const Vec3& n, double gap);
 
 }  // namespace ice

@@ -7,10 +7,12 @@
 #include <numeric>
 
 #include "common/base/parallel.hpp"
-#include "solver/narrow/decisive_spheres.hpp"
-#include "solver/narrow/finish_pair.hpp"
+#include "solver/narrow/deep_pairs.hpp"
+#include "solver/narrow/emit_centres.hpp"
+#include "solver/narrow/emit_contacts.hpp"
+#include "solver/narrow/emit_polygon.hpp"
 #include "solver/narrow/measure_spheres.hpp"
-#include "solver/narrow/pair_kinds.hpp"
+#include "solver/narrow/one_per_face.hpp"
 #include "solver/narrow/search_pair.hpp"
 #include "solver/narrow/separation.hpp"
 #include "solver/narrow/thread_batch.hpp"
@@ -20,9 +22,11 @@ namespace ice {
 struct FoundBatch {
     std::vector<Candidate> candidates;  // that are contacts
     std::vector<SpherePair> spheres;
+    std::vector<PolygonCorner> corners;
 
     void forget() {
         candidates.clear();
+        corners.clear();
         spheres.clear();
     }
 };
@@ -36,71 +40,77 @@ constexpr std::size_t kSerialPairs = 64, kSerialLooks = 1024;
 // What the search of a pair needs; kept between pairs.
 struct Workspace {
     PairSearch search;
-    PairKinds kinds;
-    DecisiveSpheres decisive;
     std::vector<SpherePair> spheres;
     std::vector<Candidate> candidates;
 };
 
 // Sets work.candidates to those that are contacts.
 // @pre the bodies are apart (separation) by no more than the margin
-void search_contacts(const PairView& view, NormalRule rule, double margin, Workspace& work) {
-    const SphereRange range(view, rule, margin);
+void search_contacts(const PairView& view, double margin, Workspace& work) {
+    const SphereRange range(view, margin);
     work.spheres.clear();
     work.search.for_each_near(view, range.margin, range.reach, [&](std::int32_t i, std::int32_t j) {
-        work.spheres.push_back({i, j, 0.0f});
+        work.spheres.push_back({i, j});
     });
-    if (rule == NormalRule::surface) group_by_kinds(view, work.spheres);
-    measure_spheres(view, rule, range, work.spheres, work.candidates);
-    choose_contacts(view, rule, margin, work.candidates);
+    group_by_kinds(view, work.spheres);
+    measure_spheres(view, range, work.spheres, work.candidates);
+    keep_one_per_face(view, margin, work.candidates);
 }
 
-// The same of what is known to be near, under the rule "surface".
+// The same of what is known to be near.
 void measure_known(const PairView& view, double margin, std::span<const SpherePair> near,
-                   double gone, Workspace& work) {
-    constexpr NormalRule rule = NormalRule::surface;
-    work.decisive.begin(view.shape_a.center.size(), view.shape_b.center.size());
-    work.decisive.pick(near, gone, margin, work.spheres);
-    measure_spheres(view, rule, SphereRange(view, rule, margin), work.spheres, work.candidates);
-    choose_contacts(view, rule, margin, work.candidates);
-}
-
-// The least gap that two spheres may have while the pair moves within `leeway`, less that motion,
-// and along what normals; infinite where they will be no candidates.
-std::pair<double, PossibleNormals> least_gap(const SphereRange& range, const Leeway& leeway,
-                                             PairKinds& kinds, std::int32_t i, std::int32_t j) {
-    const PairKinds::Place &a = kinds.a(i), &b = kinds.b(j);
-    if (a.gone || b.gone) return {std::numeric_limits<double>::infinity(), PossibleNormals::none()};
-    return kinds.bound(i, j, a, b, range.reach, leeway);
-}
-
-float rounded_down(double value) {
-    return std::nextafter(static_cast<float>(value), -std::numeric_limits<float>::infinity());
+                   Workspace& work) {
+    measure_spheres(view, SphereRange(view, margin), near, work.candidates);
+    keep_one_per_face(view, margin, work.candidates);
 }
 
 // The spheres that may be candidates while the pair moves within `leeway`, and the least gap that
 // they may have, less that motion; appends them.
-double find_near(const PairView& view, double margin, const Leeway& leeway, Workspace& work,
+double find_near(const PairView& view, double margin, const Leeway& leeway, PairSearch& search,
                  std::vector<SpherePair>& out) {
     const std::size_t first = out.size();
-    work.kinds.begin(view, prefers_a(view));
-    const SphereRange range(view, NormalRule::surface, margin + leeway.distance);
-    double least = std::numeric_limits<double>::infinity();
-    work.search.for_each_near(
-        view, range.margin, range.reach + leeway.distance, [&](std::int32_t i, std::int32_t j) {
-            const auto [gap, possible] = least_gap(range, leeway, work.kinds, i, j);
-            if (gap == std::numeric_limits<double>::infinity()) return;
-            least = std::min(least, gap);
-            out.push_back({i, j, rounded_down(gap), possible});
-        });
-    group_by_kinds(view, std::span(out).subspan(first));
-    return least;
+    const SphereRange range(view, margin + leeway.distance);
+    search.for_each_near(view, range.margin, range.reach + leeway.distance,
+                         [&](std::int32_t i, std::int32_t j) {
+                             out.push_back({i, j});
+                         });
+    return bound_spheres(view, range.reach, leeway, first, out);
+}
+
+SeparatingAxes axes_of(const PairView& view, double enough) {
+    return find_axes(view.shape_a.convex, view.shape_b.convex, {view.turn, view.shift}, enough);
 }
 
 }  // namespace
 
-void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs, NormalRule rule,
+// Keeps the corners of the polygon in which two solids meet, if they do.
+void ContactFinder::meet(const PairView& view, const SeparatingAxes& axes, double most,
+                         Found& found, FoundBatch& batch) {
+    if (axes.widest() <= most) keep_polygon(&find_polygon(view, axes, most), found, batch);
+}
+
+void ContactFinder::keep_polygon(const ContactPolygon* polygon, Found& found, FoundBatch& batch) {
+    if (polygon == nullptr) return;
+    found.corner = batch.corners.size();
+    found.corners = polygon->corners.size();
+    found.normal = polygon->normal;
+    batch.corners.insert(batch.corners.end(), polygon->corners.begin(), polygon->corners.end());
+}
+
+void ContactFinder::keep_candidates(const std::vector<Candidate>& candidates, Found& found,
+                                    FoundBatch& batch) {
+    found.first = batch.candidates.size();
+    found.count = candidates.size();
+    batch.candidates.insert(batch.candidates.end(), candidates.begin(), candidates.end());
+}
+
+void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs, ContactRule rule,
                          double dt, double margin, std::vector<Contact>& out) {
+    if (rule.normal == NormalRule::centres) {
+        Travel travel;  // of which nothing is known: all pairs are looked at
+        travel.update(scene, dt);
+        return CentresFinder().find(scene, pairs, travel, dt, margin, out);
+    }
     awake_.resize(pairs.size());
     std::iota(awake_.begin(), awake_.end(), std::size_t{0});
     found_.assign(pairs.size(), Found{});
@@ -110,23 +120,31 @@ void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
         FoundBatch& batch = batch_of<FoundBatch>(call);
         const double most = dt * closing_speed(scene, pairs[k]) + margin;
         const PairView view(scene, pairs[k]);
+        found_[k].batch = &batch;
+        if (meets_in_polygon(scene, pairs[k], rule)) {
+            meet(view, axes_of(view, most), most, found_[k], batch);
+            return;
+        }
         work.candidates.clear();
-        if (separation(view) <= most) search_contacts(view, rule, most, work);
-        found_[k] = {&batch, batch.candidates.size(), work.candidates.size(), 0, 0, 0};
-        batch.candidates.insert(batch.candidates.end(), work.candidates.begin(),
-                                work.candidates.end());
+        const double apart = separation(view);
+        if (apart <= most) search_contacts(view, most, work);
+        keep_candidates(work.candidates, found_[k], batch);
+        if (is_deep(view, apart))
+            keep_polygon(find_lost_polygon(view, work.candidates, most), found_[k], batch);
     });
     emit(scene, pairs, rule, out);
 }
 
 void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
-                         const Travel& travel, NormalRule rule, double dt, double margin,
+                         const Travel& travel, ContactRule rule, double dt, double margin,
                          std::vector<Contact>& out) {
-    if (rule == NormalRule::centres) return centres_.find(scene, pairs, travel, dt, margin, out);
+    if (rule.normal == NormalRule::centres)
+        return centres_.find(scene, pairs, travel, dt, margin, out);
     dormant_.match(pairs);
     states_.resize(pairs.size());
     parallel_for(pairs.size(), kSerialLooks, [&](std::size_t k) {
-        states_[k] = dormant_.look(k, scene, pairs[k], travel, dt, margin);
+        states_[k] = dormant_.look(k, scene, pairs[k], travel, dt, margin,
+                                   meets_in_polygon(scene, pairs[k], rule));
     });
     awake_.clear();
     for (std::size_t k = 0; k < pairs.size(); ++k)
@@ -138,29 +156,35 @@ void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
         const std::size_t k = awake_[n];
         FoundBatch& batch = batch_of<FoundBatch>(call);
         Found& found = found_[n];
-        found = {&batch, batch.candidates.size(), 0, batch.spheres.size(), 0, 0};
-        std::span<const SpherePair> near = dormant_.near(k);
+        found.batch = &batch;
+        found.sphere = batch.spheres.size();
         auto state = states_[k];
+        if (state == DormantPairs::State::polygon) {
+            const double most = dt * closing_speed(scene, pairs[k]) + margin;
+            meet(PairView(scene, pairs[k]), dormant_.axes(k), most, found, batch);
+            return;
+        }
+        std::span<const SpherePair> near = dormant_.near(k);
         if (state == DormantPairs::State::unknown) {
             const PairView view(scene, pairs[k]);
             const Leeway leeway = dormant_leeway(scene, pairs[k], dt);
-            const double least = find_near(view, margin, leeway, work, batch.spheres);
+            const double least = find_near(view, margin, leeway, work.search, batch.spheres);
             near = std::span(batch.spheres).subspan(found.sphere);
             found.spheres = near.size();
             dormant_.settle(k, view, travel, leeway, std::min(least - margin, leeway.distance));
-            state = dormant_.look(k, scene, pairs[k], travel, dt, margin);
+            state = dormant_.look(k, scene, pairs[k], travel, dt, margin, false);
             if (state == DormantPairs::State::asleep) return;
         }
         const PairView view(scene, pairs[k]);
         const double most = dt * closing_speed(scene, pairs[k]) + margin;
         // a pair too fast for what can be known in advance is searched afresh
         if (state == DormantPairs::State::unknown)
-            search_contacts(view, rule, most, work);
+            search_contacts(view, most, work);
         else
-            measure_known(view, most, near, dormant_.gone(k), work);
-        found.count = work.candidates.size();
-        batch.candidates.insert(batch.candidates.end(), work.candidates.begin(),
-                                work.candidates.end());
+            measure_known(view, most, near, work);
+        keep_candidates(work.candidates, found, batch);
+        if (dormant_.deep(k))
+            keep_polygon(find_lost_polygon(view, work.candidates, most), found, batch);
     });
     for (std::size_t n = 0; n < awake_.size(); ++n) {
         const Found& found = found_[n];
@@ -171,43 +195,64 @@ void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
     emit(scene, pairs, rule, out);
 }
 
-void ContactFinder::emit(const Scene& scene, const std::vector<BodyPair>& pairs, NormalRule rule,
+void ContactFinder::emit(const Scene& scene, const std::vector<BodyPair>& pairs, ContactRule rule,
                          std::vector<Contact>& out) {
     std::size_t contacts = 0;
     for (Found& found : found_) {
         found.contact = contacts;
-        contacts += found.count;
+        contacts += found.count + found.corners;
     }
     out.resize(contacts);
     parallel_for(found_.size(), kSerialPairs, [&](std::size_t n) {
         const Found& found = found_[n];
+        if (found.corners > 0)
+            emit_polygon(PairView(scene, pairs[awake_[n]]), rule, found.normal,
+                         std::span(found.batch->corners).subspan(found.corner, found.corners),
+                         out.data() + found.contact + found.count);
         if (found.count > 0)
-            emit_pair(PairView(scene, pairs[awake_[n]]), rule,
-                      std::span(found.batch->candidates).subspan(found.first, found.count),
-                      out.data() + found.contact);
+            emit_contacts(PairView(scene, pairs[awake_[n]]),
+                          std::span(found.batch->candidates).subspan(found.first, found.count),
+                          out.data() + found.contact);
     });
 }
 
 namespace reference {
 
-void find_contacts(const Scene& scene, BodyPair pair, NormalRule rule, double margin,
+void find_contacts(const Scene& scene, BodyPair pair, ContactRule how, double margin,
                    std::vector<Contact>& out) {
     const PairView view(scene, pair);
-    if (separation(view) > margin) return;
-    const SphereRange range(view, rule, margin);
+    const auto append = [&](const ContactPolygon& polygon) {
+        out.resize(out.size() + polygon.corners.size());
+        emit_polygon(view, how, polygon.normal, polygon.corners,
+                     out.data() + (out.size() - polygon.corners.size()));
+    };
+    if (meets_in_polygon(scene, pair, how)) {
+        const SeparatingAxes axes = axes_of(view, margin);
+        if (axes.widest() <= margin) append(find_polygon(view, axes, margin));
+        return;
+    }
+    const double apart = separation(view);
+    if (apart > margin) return;
+    const bool centres = how.normal == NormalRule::centres;
     std::vector<Candidate> candidates;
-    for (std::int32_t i = 0; i < static_cast<std::int32_t>(view.shape_a.center.size()); ++i)
-        for (std::int32_t j = 0; j < static_cast<std::int32_t>(view.shape_b.center.size()); ++j) {
+    for (std::int32_t i = 0; i < std::ssize(view.shape_a.center); ++i)
+        for (std::int32_t j = 0; j < std::ssize(view.shape_b.center); ++j) {
+            if (view.is_gone_a(i) || view.is_gone_b(j)) continue;
             const SphereSurface a = view.sphere_a(i), b = view.sphere_b(j);
-            if (!range.holds(a, b) || view.is_gone_a(i) || view.is_gone_b(j)) continue;
-            const Gap gap = rule == NormalRule::centres
-                                ? measure_gap_centres(a.center, a.radius, b.center, b.radius)
-                                : measure_gap_surface(a, b, prefers_a(view));
-            if (is_candidate(view, rule, range, i, j, gap)) candidates.push_back({i, j, gap});
+            const Gap gap = centres ? measure_gap_centres(a.center, a.radius, b.center, b.radius)
+                                    : measure_gap_surface(a, b, prefers_a(view));
+            const bool counts =
+                centres ? gap.valid && gap.gap <= margin
+                        : SphereRange(view, margin).holds(a, b) && is_candidate(view, i, j, gap);
+            if (counts) candidates.push_back({i, j, gap});
         }
-    choose_contacts(view, rule, margin, candidates);
+    if (!centres) keep_one_per_face(view, margin, candidates);
     out.resize(out.size() + candidates.size());
-    emit_pair(view, rule, candidates, out.data() + (out.size() - candidates.size()));
+    Contact* first = out.data() + (out.size() - candidates.size());
+    centres ? emit_centres(view, candidates, first) : emit_contacts(view, candidates, first);
+    if (centres || !is_deep(view, apart)) return;
+    if (const ContactPolygon* polygon = find_lost_polygon(view, candidates, margin))
+        append(*polygon);
 }
 
 }  // namespace reference

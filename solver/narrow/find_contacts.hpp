@@ -8,24 +8,13 @@
 #include "solver/broad/find_pairs.hpp"
 #include "solver/case/case.hpp"
 #include "solver/narrow/centres_finder.hpp"
+#include "solver/narrow/contact.hpp"
+#include "solver/narrow/contact_polygon.hpp"
+#include "solver/narrow/contact_rule.hpp"
 #include "solver/narrow/dormant_pairs.hpp"
-#include "solver/narrow/patch.hpp"
 #include "solver/scene/bodies.hpp"
 
 namespace ice {
-
-/// A place where two bodies touch or may touch within the step.
-struct Contact {
-    std::int32_t a, b;                ///< bodies, a < b; a = 0 is the ship
-    std::int32_t sphere_a, sphere_b;  ///< surface spheres of their shapes
-    std::uint64_t key;                ///< the same contact has the same key in the next step
-    Vec3 point;                       ///< midway between the surfaces, world axes [m]
-    Vec3 normal;                      ///< unit, from a to b
-    double gap;                       ///< [m], negative where the surfaces overlap
-    Patch patch;                      ///< the surface that presses here
-    std::int32_t region;              ///< hull region; -1 between floes
-    bool crushes_a;                   ///< the ice that gives way is sphere_a's; else sphere_b's
-};
 
 /// What one thread finds of its pairs, one after the other; of use within find() only.
 struct FoundBatch;
@@ -41,6 +30,11 @@ struct FoundBatch;
 /// the shape's `reach`; of faces that meet in an outward edge only the one less deep. So a face's
 /// contacts are as many as its probes, not probes times spheres.
 ///
+/// Convex floes that cannot be crushed meet as solids instead: their contacts are the corners of
+/// the polygon in which they meet along their separating axis (contact_polygon), at most four.
+///
+/// Convex bodies that overlap deeper than their spheres tell of meet in that polygon, too.
+///
 /// Bodies that are apart (separation) by more than the margin have none.
 ///
 /// Crushed spheres stand where the crushing left them; driven out of their body they are gone. A
@@ -51,24 +45,31 @@ struct FoundBatch;
 /// @param margin  [m] per pair is dt times a bound of the pair's closing speed, plus this much
 class ContactFinder {
 public:
-    void find(const Scene& scene, const std::vector<BodyPair>& pairs, NormalRule rule, double dt,
+    void find(const Scene& scene, const std::vector<BodyPair>& pairs, ContactRule rule, double dt,
               double margin, std::vector<Contact>& out);
     /// The same contacts, to the last bit; pairs that cannot have come together since they were
     /// last seen apart are not looked at, and of the others only spheres that can.
     /// @pre travel was updated with the present poses and dt
     void find(const Scene& scene, const std::vector<BodyPair>& pairs, const Travel& travel,
-              NormalRule rule, double dt, double margin, std::vector<Contact>& out);
+              ContactRule rule, double dt, double margin, std::vector<Contact>& out);
 
 private:
     // What was found of a pair: pieces of what one thread found.
     struct Found {
         const FoundBatch* batch = nullptr;
         std::size_t first = 0, count = 0;     // candidates that are contacts
+        std::size_t corner = 0, corners = 0;  // or corners of a polygon that are
+        Vec3 normal = Vec3::Zero();           // and along what
         std::size_t sphere = 0, spheres = 0;  // what is newly known
         std::size_t contact = 0;              // where they begin among all pairs' contacts
     };
+    static void meet(const PairView& view, const SeparatingAxes& axes, double most, Found& found,
+                     FoundBatch& batch);
+    static void keep_polygon(const ContactPolygon* polygon, Found& found, FoundBatch& batch);
+    static void keep_candidates(const std::vector<Candidate>& candidates, Found& found,
+                                FoundBatch& batch);
     // Makes the contacts of all rows of found_.
-    void emit(const Scene& scene, const std::vector<BodyPair>& pairs, NormalRule rule,
+    void emit(const Scene& scene, const std::vector<BodyPair>& pairs, ContactRule rule,
               std::vector<Contact>& out);
 
     // kept between steps: no allocation once warm
@@ -81,7 +82,7 @@ private:
 
 namespace reference {
 /// The contacts of one pair by testing every sphere with every other: the definition for tests.
-void find_contacts(const Scene& scene, BodyPair pair, NormalRule rule, double margin,
+void find_contacts(const Scene& scene, BodyPair pair, ContactRule rule, double margin,
                    std::vector<Contact>& out);
 }  // namespace reference
 

@@ -33,7 +33,6 @@ void KindBound::list_faces() {
         const Faces &own = (of_a ? a_ : b_)->faces, &other = (of_a ? b_ : a_)->faces;
         const Vec3 outward = -own.normal[k];  // of the other
         if (!other.have(outward, kSlantOnEdge, leeway_.angle)) return;
-        possible_.add_face(of_a, k);
         certain_[faces_] = other.have(outward, kSlantOnEdge, -leeway_.angle);
         const Vec3 n = of_a ? own.normal[k] : outward;
         face_[faces_++] = {n, foothold(*a_, n), foothold(*b_, n)};
@@ -61,15 +60,9 @@ void KindBound::list_crossings() {
             const Faces::Ways of_a = a.have_either(n, kSlantOnEdge, turn);
             const Faces::Ways of_b = b.have_either(n, kSlantOnEdge, turn);
             const bool forth = of_a.forth && of_b.back, back = of_a.back && of_b.forth;
-            if (forth || back) possible_.add_crossing(ka, kb);
             if (back) crossing_[crossings_++] = {-n, turn, skew, ea};
             if (forth) crossing_[crossings_++] = {n, turn, skew, ea};
         }
-}
-
-PossibleNormals KindBound::possible() {
-    if (rule_ == KindRule::edges && crossings_ < 0) list_crossings();
-    return possible_;
 }
 
 double KindBound::least(const Vec3& center_a, const Vec3& center_b) {

@@ -30,9 +30,6 @@ public:
     /// @param center_a, center_b  of the two spheres, in the axes of a and b [m]
     double least(const Vec3& center_a, const Vec3& center_b);
 
-    /// The normals that may part them within the leeway.
-    PossibleNormals possible();
-
 private:
     // A normal across two edges, from a to b.
     struct Crossing {
@@ -53,7 +50,6 @@ private:
     Leeway leeway_;
     bool a_is_surface_;
     KindRule rule_;
-    PossibleNormals possible_ = PossibleNormals::none();  // as far as they are listed
     std::uint8_t faces_ = 0;
     std::int8_t crossings_ = -1;         // -1: not listed yet
     Vec3 offset_a_, offset_b_;           // from the centres to the foremost points [m]

@@ -29,8 +29,7 @@ KindMeeting find_meeting(const SphereSurface& a, const SphereSurface& b, bool pr
     return out;
 }
 
-KindPair::KindPair(const SphereSurface& a, const SphereSurface& b, bool prefer_a,
-                   PossibleNormals possible)
+KindPair::KindPair(const SphereSurface& a, const SphereSurface& b, bool prefer_a)
     : a_(&a), b_(&b), prefer_a_(prefer_a) {
     const KindMeeting meeting = find_meeting(a, b, prefer_a);
     rule_ = meeting.rule;
@@ -40,27 +39,26 @@ KindPair::KindPair(const SphereSurface& a, const SphereSurface& b, bool prefer_a
     offset_b_ = support_offset(b, -n);
     if (rule_ == KindRule::direction) face_[0].normal = meeting.normal;
     if (rule_ != KindRule::edges) return;
-    list_faces(possible);
-    list_crossings(possible);
+    list_faces();
+    list_crossings();
     if (faces_ + crossings_ == 0) rule_ = KindRule::never;
 }
 
 // A face's normal is one of its own edge's or corner's.
-void KindPair::list_faces(PossibleNormals possible) {
+void KindPair::list_faces() {
     const auto add = [&](const Vec3& n, const Faces& other, const Vec3& outward) {
         if (!other.have(outward, kSlantOnEdge)) return;
         face_[faces_++] = {n, foothold(*a_, n), foothold(*b_, n)};
     };
     for (std::size_t k = 0; k < static_cast<std::size_t>(a_->faces.count); ++k)
-        if (possible.has_face(true, k)) add(a_->faces.normal[k], b_->faces, -a_->faces.normal[k]);
+        add(a_->faces.normal[k], b_->faces, -a_->faces.normal[k]);
     for (std::size_t k = 0; k < static_cast<std::size_t>(b_->faces.count); ++k)
-        if (possible.has_face(false, k)) add(-b_->faces.normal[k], a_->faces, -b_->faces.normal[k]);
+        add(-b_->faces.normal[k], a_->faces, -b_->faces.normal[k]);
 }
 
-void KindPair::list_crossings(PossibleNormals possible) {
+void KindPair::list_crossings() {
     for (int ka = 0; ka < a_->faces.edges(); ++ka)
-        for (int kb = 0; kb < b_->faces.edges(); ++kb)
-            if (possible.has_crossing(ka, kb)) add_crossing(ka, kb);
+        for (int kb = 0; kb < b_->faces.edges(); ++kb) add_crossing(ka, kb);
 }
 
 void KindPair::add_crossing(int edge_a, int edge_b) {

@@ -28,38 +28,12 @@ struct KindDirection {
     Foothold under_a, under_b;  ///< what edges stand for there
 };
 
-/// Which of the normals that two edges or corners have may part them, of six faces' and nine across
-/// two edges; the others need not be tried.
-class PossibleNormals {
-public:
-    static PossibleNormals all() { return PossibleNormals(0x7fff); }
-    static PossibleNormals none() { return PossibleNormals(0); }
-
-    void add_face(bool of_a, std::size_t k) { set(face_bit(of_a, k)); }
-    void add_crossing(int edge_a, int edge_b) { set(crossing_bit(edge_a, edge_b)); }
-    bool has_face(bool of_a, std::size_t k) const { return has(face_bit(of_a, k)); }
-    bool has_crossing(int edge_a, int edge_b) const { return has(crossing_bit(edge_a, edge_b)); }
-
-private:
-    explicit PossibleNormals(std::uint16_t bits) : bits_(bits) {}
-    static std::size_t face_bit(bool of_a, std::size_t k) { return of_a ? k : 3 + k; }
-    static std::size_t crossing_bit(int edge_a, int edge_b) {
-        return static_cast<std::size_t>(6 + 3 * edge_a + edge_b);
-    }
-    void set(std::size_t bit) { bits_ = static_cast<std::uint16_t>(bits_ | 1u << bit); }
-    bool has(std::size_t bit) const { return (bits_ >> bit & 1u) != 0; }
-
-    std::uint16_t bits_;
-};
-
 /// measure_gap_surface for two kinds, to the last bit (but for edges that meet, to rounding, at
 /// their very ends).
 class KindPair {
 public:
     /// @param a, b  one sphere of each kind, whose centre does not matter; both outlive this
-    /// @param possible  all normals that may part them are among these
-    KindPair(const SphereSurface& a, const SphereSurface& b, bool prefer_a,
-             PossibleNormals possible = PossibleNormals::all());
+    KindPair(const SphereSurface& a, const SphereSurface& b, bool prefer_a);
 
     /// @param center_a, center_b  of the two spheres, in the axes of a and b [m]
     Gap measure(const Vec3& center_a, const Vec3& center_b) const {
@@ -88,8 +62,8 @@ private:
     };
     static inline const Gap kNone{Vec3::UnitZ(), 0.0, 0.0, true, false};
 
-    void list_faces(PossibleNormals possible);
-    void list_crossings(PossibleNormals possible);
+    void list_faces();
+    void list_crossings();
     void add_crossing(int edge_a, int edge_b);
     Gap measure_direction(const Vec3& center_a, const Vec3& center_b) const;
     Gap measure_edges(const Vec3& center_a, const Vec3& center_b) const;

@@ -1,32 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solver/narrow/measure_spheres.hpp"
 
+#include <limits>
 #include <optional>
 #include <tuple>
 
+#include "solver/narrow/kind_bound.hpp"
 #include "solver/narrow/kind_pair.hpp"
 #include "solver/narrow/within_borders.hpp"
 
 namespace ice {
 
 namespace {
-
-// What is compared before its root is taken is not lost to rounding.
-constexpr double kRoundedUp = 1.0 + 1e-12;
-
-void measure_centres(const PairView& view, const SphereRange& range,
-                     std::span<const SpherePair> spheres, std::vector<Candidate>& out) {
-    for (const SpherePair& s : spheres) {
-        const Vec3 center_a = view.center_a(s.a), center_b = view.center_b(s.b);
-        const double radius_a = view.shape_a.radius[s.a], radius_b = view.shape_b.radius[s.b];
-        const double most = (radius_a + radius_b + range.margin) * kRoundedUp;
-        if ((center_b - center_a).squaredNorm() > most * most) continue;
-        if (view.is_gone_a(s.a) || view.is_gone_b(s.b)) continue;
-        const Gap gap = measure_gap_centres(center_a, radius_a, center_b, radius_b);
-        if (is_candidate(view, NormalRule::centres, range, s.a, s.b, gap))
-            out.push_back({s.a, s.b, gap});
-    }
-}
 
 // The spheres and kinds measured last: the next ones are mostly the same.
 class LastMeasured {
@@ -48,8 +33,8 @@ public:
         if (s.b != sphere_b_) center_b_ = view_.center_b(sphere_b_ = s.b);
         return (center_a_ - center_b_).squaredNorm() <= near_sq_;
     }
-    Gap gap(PossibleNormals possible) {
-        if (!kinds_) kinds_.emplace(surface_a_, surface_b_, prefers_a(view_), possible);
+    Gap gap() {
+        if (!kinds_) kinds_.emplace(surface_a_, surface_b_, prefers_a(view_));
         return kinds_->measure(center_a_, center_b_);
     }
 
@@ -65,10 +50,8 @@ private:
 
 }  // namespace
 
-bool is_candidate(const PairView& view, NormalRule rule, const SphereRange& range, std::int32_t i,
-                  std::int32_t j, const Gap& gap) {
+bool is_candidate(const PairView& view, std::int32_t i, std::int32_t j, const Gap& gap) {
     if (!gap.valid) return false;
-    if (rule == NormalRule::centres) return gap.gap <= range.margin;
     const double a = view.shape_a.reach, b = view.shape_b.reach;
     const double reach = gap.a_is_surface ? a : b, of_probe = gap.a_is_surface ? b : a;
     return gap.lateral_sq <= reach * reach && gap.probe_sq <= of_probe * of_probe &&
@@ -83,18 +66,45 @@ void group_by_kinds(const PairView& view, std::span<SpherePair> spheres) {
               [&](const SpherePair& l, const SpherePair& r) { return key(l) < key(r); });
 }
 
-void measure_spheres(const PairView& view, NormalRule rule, const SphereRange& range,
+double bound_spheres(const PairView& view, double reach, const Leeway& leeway, std::size_t first,
+                     std::vector<SpherePair>& spheres) {
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    group_by_kinds(view, std::span(spheres).subspan(first));
+    std::optional<KindBound> bound;  // of the kinds met last; refers to both surfaces
+    SphereSurface surface_a, surface_b;
+    std::int32_t kind_a = -1, kind_b = -1;
+    double least = kInfinity;
+    std::size_t kept = first;
+    for (std::size_t k = first; k < spheres.size(); ++k) {
+        const auto [i, j] = spheres[k];
+        if (view.is_gone_a(i) || view.is_gone_b(j)) continue;
+        if (view.shape_a.kind[i] != kind_a || view.shape_b.kind[j] != kind_b) {
+            if (view.shape_a.kind[i] != kind_a) surface_a = view.sphere_a(i);
+            if (view.shape_b.kind[j] != kind_b) surface_b = view.sphere_b(j);
+            bound.emplace(surface_a, surface_b, prefers_a(view), reach, leeway);
+            kind_a = view.shape_a.kind[i];
+            kind_b = view.shape_b.kind[j];
+        }
+        const double gap = bound->least(view.center_a(i), view.center_b(j));
+        if (gap == kInfinity) continue;
+        least = std::min(least, gap);
+        spheres[kept++] = {i, j};
+    }
+    spheres.resize(kept);
+    return least;
+}
+
+void measure_spheres(const PairView& view, const SphereRange& range,
                      std::span<const SpherePair> spheres, std::vector<Candidate>& out) {
     out.clear();
-    if (rule == NormalRule::centres) return measure_centres(view, range, spheres, out);
     const bool whole =
         view.scene.crushed.is_whole(view.pair.a) && view.scene.crushed.is_whole(view.pair.b);
     LastMeasured last(view, range);
     for (const SpherePair& s : spheres) {
         if (!last.meet(s)) continue;
         if (!whole && (view.is_gone_a(s.a) || view.is_gone_b(s.b))) continue;
-        const Gap gap = last.gap(s.possible);
-        if (is_candidate(view, rule, range, s.a, s.b, gap)) out.push_back({s.a, s.b, gap});
+        const Gap gap = last.gap();
+        if (is_candidate(view, s.a, s.b, gap)) out.push_back({s.a, s.b, gap});
     }
 }
 

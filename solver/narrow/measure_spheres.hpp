@@ -7,7 +7,6 @@
 #include <span>
 #include <vector>
 
-#include "solver/case/case.hpp"
 #include "solver/narrow/dormant_pairs.hpp"
 #include "solver/narrow/pair_view.hpp"
 
@@ -20,8 +19,7 @@ namespace ice {
 struct SphereRange {
     double margin, reach;
 
-    SphereRange(const PairView& view, NormalRule rule, double m)
-        : margin(m), reach(rule == NormalRule::centres ? 0.0 : reach_of(view)) {}
+    SphereRange(const PairView& view, double m) : margin(m), reach(reach_of(view)) {}
 
     /// Largest squared distance of centres [m2].
     double squared(const Faces& a, const Faces& b) const {
@@ -44,18 +42,23 @@ inline bool prefers_a(const PairView& view) {
     return view.pair.a == static_cast<std::int32_t>(kShip);
 }
 
-/// Is it near enough to matter? Under the rule "surface" a face farther than the margin matters
-/// too: it may show that the probe is outside.
-bool is_candidate(const PairView& view, NormalRule rule, const SphereRange& range, std::int32_t i,
-                  std::int32_t j, const Gap& gap);
+/// Is it near enough to matter? A face farther than the margin matters, too: it may show that the
+/// probe is outside.
+bool is_candidate(const PairView& view, std::int32_t i, std::int32_t j, const Gap& gap);
 
 /// Brings spheres of the same kinds together.
 void group_by_kinds(const PairView& view, std::span<SpherePair> spheres);
 
+/// Leaves of the spheres from `first` on those that may be candidates while the pair moves within
+/// `leeway`, those of the same kinds together; returns the least gap that they may have, less that
+/// motion [m]. @param reach  SphereRange's [m]
+double bound_spheres(const PairView& view, double reach, const Leeway& leeway, std::size_t first,
+                     std::vector<SpherePair>& spheres);
+
 /// The candidates among these spheres, in their order: those that measure_gap_surface gives, as
-/// KindPair has them, or measure_gap_centres. What two kinds decide is found once for those that
-/// stand together. @param out  what it held is forgotten
-void measure_spheres(const PairView& view, NormalRule rule, const SphereRange& range,
+/// KindPair has them. What two kinds decide is found once for those that stand together.
+/// @param out  what it held is forgotten
+void measure_spheres(const PairView& view, const SphereRange& range,
                      std::span<const SpherePair> spheres, std::vector<Candidate>& out);
 
 }  // namespace ice

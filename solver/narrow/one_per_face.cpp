@@ -59,6 +59,9 @@ void sort_by_probe(const PairView& view, const std::vector<Candidate>& candidate
 }  // namespace
 
 void keep_one_per_face(const PairView& view, double margin, std::vector<Candidate>& candidates) {
+    if (std::none_of(candidates.begin(), candidates.end(),
+                     [&](const Candidate& c) { return c.gap.gap <= margin; }))
+        return candidates.clear();
     thread_local std::vector<Row> rows;  // keep their memory
     thread_local std::vector<Candidate> kept;
     sort_by_probe(view, candidates, rows);

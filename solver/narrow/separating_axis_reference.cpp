@@ -97,7 +97,7 @@ SeparatingAxes find_axes(const ConvexPiece& a, const ConvexPiece& b, const Relat
             const double square = ordered_dot(across, across);
             if (square <= kParallelSquared) continue;
             const double apart =
-                ordered_dot(across, placed(pose, b.edge_begin[kb]) - a.edge_begin[ka]);
+                ordered_dot(across, placed(pose, b.edge_middle[kb]) - a.edge_middle[ka]);
             const bool outward = ordered_dot(across, a.edge_left[ka] + a.edge_right[ka]) >= 0.0;
             const double gap = (outward ? apart : -apart) / std::sqrt(square);
             if (gap <= out.edges) continue;

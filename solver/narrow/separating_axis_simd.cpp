@@ -17,7 +17,6 @@ namespace hn = hwy::HWY_NAMESPACE;
 constexpr std::size_t kBlock = VectorBlock::kLanes;
 constexpr std::size_t kMostCorners = ConvexPiece::kMost / kBlock;
 
-
 HWY_INLINE Vectors Get(const VectorBlock& from, std::size_t lane) {
     const Tag d;
     return {hn::Load(d, from.x + lane), hn::Load(d, from.y + lane), hn::Load(d, from.z + lane)};
@@ -124,11 +123,9 @@ HWY_INLINE Crossing CrossEdges(const ConvexPiece& a, Vectors eb, Vectors b1, Vec
         if (hn::AllFalse(d, cross)) continue;
         const Vectors across = Cross(ea, eb);
         const Lanes square = Dot(across, across);
-        const Lanes apart =
-            Dot(across, Sub(pb, Broadcast(a.edge_begin.blocks()[block], at)));
+        const Lanes apart = Dot(across, Sub(pb, Broadcast(a.edge_middle.blocks()[block], at)));
         const Mask outward = hn::Ge(Dot(across, Add(a1, a2)), zero);
-        const Lanes gap =
-            hn::Div(hn::IfThenElse(outward, apart, hn::Neg(apart)), hn::Sqrt(square));
+        const Lanes gap = hn::Div(hn::IfThenElse(outward, apart, hn::Neg(apart)), hn::Sqrt(square));
         const Mask better =
             hn::And(hn::And(cross, hn::Gt(square, parallel)), hn::Gt(gap, best.gap));
         best.gap = hn::IfThenElse(better, gap, best.gap);
@@ -148,7 +145,7 @@ HWY_INLINE void FindCrossing(const ConvexPiece& a, const ConvexPiece& b, const P
             };
             const Vectors eb = turned(b.edge_along), b1 = turned(b.edge_left),
                           b2 = turned(b.edge_right),
-                          pb = Add(turned(b.edge_begin), pose.translation);
+                          pb = Add(turned(b.edge_middle), pose.translation);
             const Crossing found = CrossEdges(a, eb, b1, b2, pb);
             HWY_ALIGN double gap[kBlock], edge_a[kBlock];
             hn::Store(found.gap, d, gap);

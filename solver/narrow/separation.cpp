@@ -26,21 +26,6 @@ double gap_along(const ConvexBounds& from, std::size_t k, const ConvexBounds& ot
     return nearest + rest - from.offset[k];
 }
 
-// Is any gap along a plane of `from`, less `excess`, more than `gap`? A corner that is not beyond
-// it answers for all; the arithmetic is that of gap_along.
-bool part_any(const ConvexBounds& from, const ConvexBounds& other, const Mat3& turn,
-              const Vec3& shift, double excess, double gap) {
-    for (std::size_t k = 0; k < from.normals.size(); ++k) {
-        const Vec3 along = turn.transpose() * from.normals[k];
-        const double rest = from.normals[k].dot(shift);
-        if (std::all_of(other.corners.begin(), other.corners.end(), [&](const Vec3& v) {
-                return along.dot(v) + rest - from.offset[k] - excess > gap;
-            }))
-            return true;
-    }
-    return false;
-}
-
 }  // namespace
 
 double separation(const PairView& view, double enough, std::size_t& axis) {
@@ -68,15 +53,6 @@ double separation(const PairView& view, double enough, std::size_t& axis) {
 double separation(const PairView& view) {
     std::size_t axis = 0;
     return separation(view, kInfinity, axis);
-}
-
-bool are_apart(const PairView& view, double gap) {
-    const ConvexBounds &a = view.shape_a.bounds, &b = view.shape_b.bounds;
-    if (!a.known() || !b.known()) return false;
-    const double excess = a.excess + b.excess;
-    if (part_any(a, b, view.turn, view.shift, excess, gap)) return true;
-    const Mat3 back = view.turn.transpose();
-    return part_any(b, a, back, Vec3(-(back * view.shift)), excess, gap);
 }
 
 double separation_share(const PairView& view) {

@@ -18,9 +18,6 @@ double separation(const PairView& view);
 /// which the gap is, where there are any
 double separation(const PairView& view, double enough, std::size_t& axis);
 
-/// Is separation(view) more than `gap` [m]? Sooner found out where it is not.
-bool are_apart(const PairView& view, double gap);
-
 /// The separation is less by at most this times the way that both bodies go (Travel::way).
 double separation_share(const PairView& view);
 

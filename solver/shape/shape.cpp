@@ -175,6 +175,7 @@ Shape build_shape(const SphereSet& set, bool about_centre_of_mass) {
         if (shape.faces[k].count > 0) bounded.back().tip = shape.faces[k].corner * shape.normal[k];
     }
     shape.bounds = ConvexBounds(shape.mesh, bounded);
+    if (set.dimension == 3) shape.convex = make_convex_piece(shape.mesh);
     shape.spacing = set.spacing;
     shape.reach = measure_reach(shape, set.spacing);
     shape.borders = FaceBorders(shape);

@@ -13,6 +13,7 @@
 #include "solver/shape/face_borders.hpp"
 #include "solver/shape/face_regions.hpp"
 #include "solver/shape/faces.hpp"
+#include "solver/shape/solid.hpp"
 #include "solver/shape/sphere_blocks.hpp"
 #include "solver/shape/surface_blocks.hpp"
 
@@ -39,6 +40,7 @@ struct Shape {
     std::vector<std::string> region_names;
     std::size_t sphere_count = 0;  ///< of the whole set, interior included
     ConvexBounds bounds;           ///< of mesh and spheres
+    ConvexPiece convex;       ///< the mesh where it is convex, else empty; 2D: empty
     SphereBlocks blocks;           ///< of `center`, for the search
     SphereBlocks balls;            ///< the same without their faces, for the rule "centres"
     double largest_radius = 0.0;   ///< [m]

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
-#include <utility>
 
 namespace ice {
 
@@ -107,12 +106,7 @@ void add_edge(const std::vector<Plane>& planes, const std::vector<Vec3>& corners
             edge.end = k;
         }
     }
-    if (edge.begin < 0 || edge.begin == edge.end) return;
-    if (edge.begin > edge.end) {  // so that mirror images begin at images of the same corner
-        std::swap(edge.begin, edge.end);
-        std::swap(edge.left, edge.right);
-    }
-    out.push_back(edge);
+    if (edge.begin >= 0 && edge.begin != edge.end) out.push_back(edge);
 }
 
 // The corners round plane k; empty where its edges are no ring.
@@ -161,7 +155,7 @@ ConvexPiece make_convex_piece(const TriangleMesh& mesh) {
     for (std::int32_t l = 0; l < std::ssize(planes); ++l)
         for (std::int32_t r = l + 1; r < std::ssize(planes); ++r)
             add_edge(planes, points, l, r, flat, out.edges);
-    std::vector<Vec3> normals, begin, along, left, right;
+    std::vector<Vec3> normals, middle, along, left, right;
     for (const Plane& p : planes) {
         out.loops.push_back(loop_round(out.edges, static_cast<std::int32_t>(normals.size())));
         if (out.loops.back().empty()) return {};
@@ -173,7 +167,7 @@ ConvexPiece make_convex_piece(const TriangleMesh& mesh) {
     for (const SolidEdge& e : out.edges) {
         const Vec3 &from = points[static_cast<std::size_t>(e.begin)],
                    &to = points[static_cast<std::size_t>(e.end)];
-        begin.push_back(from);
+        middle.push_back(0.5 * (from + to));
         along.push_back((to - from).normalized());
         left.push_back(normals[static_cast<std::size_t>(e.left)]);
         right.push_back(normals[static_cast<std::size_t>(e.right)]);
@@ -181,7 +175,7 @@ ConvexPiece make_convex_piece(const TriangleMesh& mesh) {
     out.normals = VectorBlocks(normals);
     while (out.offsets.size() % VectorBlock::kLanes != 0) out.offsets.push_back(out.offsets.back());
     out.corners = VectorBlocks(points);
-    out.edge_begin = VectorBlocks(begin);
+    out.edge_middle = VectorBlocks(middle);
     out.edge_along = VectorBlocks(along);
     out.edge_left = VectorBlocks(left);
     out.edge_right = VectorBlocks(right);

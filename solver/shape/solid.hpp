@@ -40,7 +40,7 @@ private:
 
 /// An edge of a convex piece: where two of its planes meet.
 struct SolidEdge {
-    std::int32_t begin, end;   ///< corners, begin < end
+    std::int32_t begin, end;   ///< corners
     std::int32_t left, right;  ///< planes; from begin to end it goes along n_left x n_right
 };
 
@@ -52,13 +52,13 @@ struct ConvexPiece {
     /// With more planes or corners than this a piece is not made: curved surfaces are no pieces.
     static constexpr std::size_t kMost = 64;
 
-    VectorBlocks normals;               ///< of the planes, outward, unit
-    std::vector<double> offsets;        ///< normal . x on the plane [m], filled up as the normals
-    VectorBlocks corners;               ///< [m]
-    std::vector<SolidEdge> edges;       ///< each once
-    VectorBlocks edge_begin;            ///< of the edges: corner `begin` [m]
-    VectorBlocks edge_along;            ///< unit vector from begin to end
-    VectorBlocks edge_left, edge_right; ///< normals of the planes left and right
+    VectorBlocks normals;                ///< of the planes, outward, unit
+    std::vector<double> offsets;         ///< normal . x on the plane [m], filled up as the normals
+    VectorBlocks corners;                ///< [m]
+    std::vector<SolidEdge> edges;        ///< each once
+    VectorBlocks edge_middle;            ///< of the edges: midway between the two corners [m]
+    VectorBlocks edge_along;             ///< unit vector from begin to end
+    VectorBlocks edge_left, edge_right;  ///< normals of the planes left and right
     std::vector<std::vector<std::int32_t>> loops;  ///< corners round each plane, anticlockwise
 
     std::size_t plane_count() const { return normals.size(); }

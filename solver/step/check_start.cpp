@@ -194,7 +194,7 @@ std::vector<StartOverlap> find_start_overlaps(Scene& scene, const Case& paramete
     });
 
     std::vector<Contact> contacts;
-    ContactFinder().find(scene, pairs, parameters.normal, 0.0, 0.0, contacts);
+    ContactFinder().find(scene, pairs, ContactRule(parameters), 0.0, 0.0, contacts);
     std::size_t k = 0;
     for (const Contact& c : contacts) {
         while (found[k].a != c.a || found[k].b != c.b) ++k;  // both in the order of the pairs

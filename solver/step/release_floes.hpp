@@ -4,7 +4,8 @@
 #include <vector>
 
 #include "solver/case/case.hpp"
-#include "solver/narrow/find_contacts.hpp"
+#include "solver/narrow/contact.hpp"
+#include "solver/scene/bodies.hpp"
 
 namespace ice {
 

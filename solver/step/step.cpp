@@ -55,7 +55,7 @@ void step(World& w) {
             w.pairs.update(w.scene, w.travel, contact_margin(w.parameters));
         });
         timed(w, Stage::narrow, [&] {
-            w.finder.find(w.scene, w.pairs.pairs(), w.travel, w.parameters.normal, dt,
+            w.finder.find(w.scene, w.pairs.pairs(), w.travel, ContactRule(w.parameters), dt,
                           contact_margin(w.parameters), w.contacts);
         });
     } while (release_touched(w.scene, w.parameters, w.contacts));

@@ -29,7 +29,7 @@ RelativePose random_pose(test::Dice& dice, double apart) {
 struct Body {
     TriangleMesh mesh;
     ConvexPiece piece;
-    std::vector<Vec3> normals;  // of the triangles
+    std::vector<Vec3> normals;                                 // of the triangles
     std::vector<std::pair<std::int32_t, std::int32_t>> edges;  // the mesh's, diagonals included
 
     explicit Body(TriangleMesh m) : mesh(std::move(m)), piece(make_convex_piece(mesh)) {
@@ -61,7 +61,8 @@ double widest_gap(const Body& a, const Body& b, const RelativePose& pose, bool o
     for (const auto& [i, j] : a.edges)
         for (const auto& [k, l] : b.edges) {
             const Vec3 ea = (a.at(j) - a.at(i)).normalized();
-            const Vec3 kb = of_b[static_cast<std::size_t>(k)], lb = of_b[static_cast<std::size_t>(l)];
+            const Vec3 kb = of_b[static_cast<std::size_t>(k)],
+                       lb = of_b[static_cast<std::size_t>(l)];
             const Vec3 across = ea.cross((lb - kb).normalized());
             if (across.norm() < 1e-6) continue;
             for (const double sign : {-1.0, 1.0}) {
@@ -154,9 +155,9 @@ TEST_CASE("moved along its axis by the penetration depth a pair just touches",
         if (depth <= 0.0) continue;
         const Vec3 n =
             axes.edges == -depth ? edge_axis(a.piece, b.piece, pose, axes.edge_a, axes.edge_b)
-            : axes.face_a == -depth ? a.piece.normals[static_cast<std::size_t>(axes.plane_a)]
-                                    : Vec3(-(pose.rotation *
-                                             b.piece.normals[static_cast<std::size_t>(axes.plane_b)]));
+            : axes.face_a == -depth
+                ? a.piece.normals[static_cast<std::size_t>(axes.plane_a)]
+                : Vec3(-(pose.rotation * b.piece.normals[static_cast<std::size_t>(axes.plane_b)]));
         pose.translation += depth * n;
         REQUIRE(find_axes(a.piece, b.piece, pose, kAll).widest() == Approx(0.0).margin(1e-12));
     }
@@ -220,8 +221,8 @@ TEST_CASE("every instruction set finds the reference's axes, bit for bit", "[nar
             RelativePose pose = random_pose(poses, 1.5);
             if (k % 5 == 0) pose.rotation = Mat3::Identity();
             const double enough = k % 3 == 0 ? 0.05 : kAll;
-            REQUIRE(same_bits(find_axes(a, b, pose, enough),
-                              reference::find_axes(a, b, pose, enough)));
+            REQUIRE(
+                same_bits(find_axes(a, b, pose, enough), reference::find_axes(a, b, pose, enough)));
         }
     });
 }

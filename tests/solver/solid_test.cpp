@@ -49,7 +49,10 @@ void check_consistent(const ConvexPiece& piece) {
         CHECK(piece.edge_left[k] == piece.normals[static_cast<std::size_t>(e.left)]);
         CHECK(piece.edge_right[k] == piece.normals[static_cast<std::size_t>(e.right)]);
         CHECK(std::abs(along.dot(piece.edge_left[k])) < 1e-12);
-        CHECK(piece.edge_begin[k] == piece.corners[static_cast<std::size_t>(e.begin)]);
+        const Vec3 begin = piece.corners[static_cast<std::size_t>(e.begin)],
+                   end = piece.corners[static_cast<std::size_t>(e.end)];
+        CHECK(piece.edge_middle[k] == 0.5 * (begin + end));
+        CHECK((end - begin).normalized() == along);
     }
 }
 
@@ -68,7 +71,8 @@ TEST_CASE("a box has six planes, eight corners and twelve edges", "[shape][analy
     }
     double length = 0.0;
     for (std::size_t k = 0; k < 12; ++k)
-        length += (box.corners[static_cast<std::size_t>(box.edges[k].end)] - box.edge_begin[k])
+        length +=
+            2.0 * (box.corners[static_cast<std::size_t>(box.edges[k].end)] - box.edge_middle[k])
                       .dot(box.edge_along[k]);
     CHECK(length == Approx(4.0 * size.sum()).epsilon(1e-15));
     // the last block is filled up with what is there
@@ -76,8 +80,7 @@ TEST_CASE("a box has six planes, eight corners and twelve edges", "[shape][analy
     CHECK(box.offsets.size() == 8);
 }
 
-TEST_CASE("prisms, frusta and chamfered plates are what their outlines say",
-          "[shape][analytic]") {
+TEST_CASE("prisms, frusta and chamfered plates are what their outlines say", "[shape][analytic]") {
     const int sides = GENERATE(3, 4, 6, 13);
     const auto n = static_cast<std::size_t>(sides);
     const ConvexPiece prism =

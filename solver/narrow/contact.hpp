@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// What the narrow phase finds and the solver takes.
+#pragma once
+
+#include <cstdint>
+
+#include "common/geometry/triangle_mesh.hpp"
+#include "solver/narrow/patch.hpp"
+
+namespace ice {
+
+/// A place where two bodies touch or may touch within the step.
+struct Contact {
+    std::int32_t a, b;                ///< bodies, a < b; a = 0 is the ship
+    std::int32_t sphere_a, sphere_b;  ///< surface spheres of their shapes; -1 where solids meet
+    std::uint64_t key;                ///< the same contact has the same key in the next step
+    Vec3 point;                       ///< midway between the surfaces, world axes [m]
+    Vec3 normal;                      ///< unit, from a to b
+    double gap;                       ///< [m], negative where the surfaces overlap
+    Patch patch;                      ///< the surface that presses here
+    std::int32_t region;              ///< hull region; -1 between floes
+    bool crushes_a;                   ///< the ice that gives way is sphere_a's; else sphere_b's
+};
+
+}  // namespace ice

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/narrow/contact_polygon.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "solver/shape/ordered_products.hpp"
+
+namespace ice {
+
+namespace {
+
+// A corner of the incident face as it is clipped, in the reference's axes; `edge` names the edge
+// from it to the next one: the incident face's k-th, or kBorders + k along the reference's k-th.
+struct Clipped {
+    Vec3 at;
+    std::uint32_t edge;
+};
+constexpr std::uint32_t kBorders = 64;
+static_assert(ConvexPiece::kMost <= kBorders);
+
+// The faces that meet: of the reference piece plane `face`, the incident piece in its axes.
+struct Meeting {
+    const ConvexPiece& reference;
+    const ConvexPiece& incident;
+    RelativePose pose;  // of the incident piece
+    std::size_t face;
+};
+
+// The plane of the incident piece that is turned most against the reference's face.
+std::size_t incident_plane(const Meeting& m, const Vec3& n) {
+    const Vec3 towards = ordered_transposed(m.pose.rotation, n);
+    std::size_t best = 0;
+    double least = 2.0;
+    for (std::size_t k = 0; k < m.incident.plane_count(); ++k) {
+        const double facing = ordered_dot(m.incident.normals[k], towards);
+        if (facing >= least) continue;
+        least = facing;
+        best = k;
+    }
+    return best;
+}
+
+// Where the line through two points, at these heights over a plane, meets it: the same bits from
+// either end.
+Vec3 between(const Vec3& p, double height_p, const Vec3& q, double height_q) {
+    return (height_p * q - height_q * p) / (height_p - height_q);
+}
+
+// Keeps of a polygon what is at most `offset` along `outward`.
+void clip(const Vec3& outward, double offset, std::uint32_t border, std::vector<Clipped>& polygon,
+          std::vector<Clipped>& rest) {
+    rest.clear();
+    for (std::size_t k = 0; k < polygon.size(); ++k) {
+        const Clipped &from = polygon[k], &to = polygon[(k + 1) % polygon.size()];
+        const double before = ordered_dot(outward, from.at) - offset,
+                     after = ordered_dot(outward, to.at) - offset;
+        if (before <= 0.0) rest.push_back(from);
+        if ((before <= 0.0) == (after <= 0.0)) continue;
+        rest.push_back(
+            {between(from.at, before, to.at, after), before <= 0.0 ? border : from.edge});
+    }
+    polygon.swap(rest);
+}
+
+// One border of the reference's face: the plane through its k-th side, upright on it.
+struct Border {
+    Vec3 outward;
+    double offset;
+};
+Border border_of(const Meeting& m, std::size_t k) {
+    const std::vector<std::int32_t>& loop = m.reference.loops[m.face];
+    const Vec3 from = m.reference.corners[static_cast<std::size_t>(loop[k])],
+               to = m.reference.corners[static_cast<std::size_t>(loop[(k + 1) % loop.size()])];
+    const Vec3 outward = (to - from).normalized().cross(m.reference.normals[m.face]);
+    return {outward, std::max(ordered_dot(outward, from), ordered_dot(outward, to))};
+}
+
+double slack_of(double gap) { return PolygonTolerances::kBorder + std::max(gap, 0.0); }
+
+// The corners of the incident face clipped by the reference's borders; their places are found from
+// the features that meet there, not from those found while clipping: so mirror images, clipped in
+// another order, have the same bits.
+class ClippedFace {
+public:
+    // @param slack  the borders are this much farther out [m]
+    ClippedFace(const Meeting& m, double slack)
+        : m_(m), slack_(slack), n_(m.reference.normals[m.face]) {
+        plane_ = incident_plane(m, n_);
+        face_.clear();
+        for (const std::int32_t corner : m.incident.loops[plane_]) {
+            const Vec3 at = m.incident.corners[static_cast<std::size_t>(corner)];
+            face_.push_back(ordered_product(m.pose.rotation, at) + m.pose.translation);
+        }
+        polygon_.clear();
+        for (const Vec3& at : face_)
+            polygon_.push_back({at, static_cast<std::uint32_t>(polygon_.size())});
+        for (std::size_t k = 0; k < m.reference.loops[m.face].size() && !polygon_.empty(); ++k) {
+            const Border border = border_of(m, k);
+            clip(border.outward, border.offset + slack, kBorders + static_cast<std::uint32_t>(k),
+                 polygon_, rest_);
+        }
+    }
+
+    // Calls visit(place, id) for each corner, places in the reference's axes.
+    template <class Visit>
+    void for_each(const Visit& visit) const {
+        for (std::size_t k = 0; k < polygon_.size(); ++k) {
+            const std::uint32_t before = polygon_[(k + polygon_.size() - 1) % polygon_.size()].edge,
+                                after = polygon_[k].edge;
+            visit(place(before, after, polygon_[k].at), before << 7 | after);
+        }
+    }
+
+private:
+    Vec3 place(std::uint32_t before, std::uint32_t after, const Vec3& clipped) const {
+        if (before < kBorders && after < kBorders) return clipped;  // the incident face's own
+        if (before >= kBorders && after >= kBorders)
+            return over_corner(before - kBorders, after - kBorders, clipped);
+        const std::size_t edge = std::min(before, after);
+        const Border border = border_of(m_, std::max(before, after) - kBorders);
+        const Vec3 &p = face_[edge], &q = face_[(edge + 1) % face_.size()];
+        const double offset = border.offset + slack_;
+        return between(p, ordered_dot(border.outward, p) - offset, q,
+                       ordered_dot(border.outward, q) - offset);
+    }
+    // On the incident face, where two borders meet: over the reference's corner between them.
+    Vec3 over_corner(std::size_t before, std::size_t after, const Vec3& clipped) const {
+        const std::vector<std::int32_t>& loop = m_.reference.loops[m_.face];
+        if (before != (after + 1) % loop.size()) return clipped;  // they meet beyond other borders
+        const Vec3 corner = m_.reference.corners[static_cast<std::size_t>(loop[before])];
+        const Vec3 incident = ordered_product(m_.pose.rotation, m_.incident.normals[plane_]);
+        const double offset =
+            m_.incident.offsets[plane_] + ordered_dot(incident, m_.pose.translation);
+        const double height = (offset - ordered_dot(incident, corner)) / ordered_dot(incident, n_);
+        return corner + height * n_;
+    }
+
+    const Meeting& m_;
+    double slack_;
+    Vec3 n_;
+    std::size_t plane_;
+    // keep their memory
+    inline static thread_local std::vector<Vec3> face_;
+    inline static thread_local std::vector<Clipped> polygon_, rest_;
+};
+
+// Corners between the reference's face and the clipped incident one, in the reference's axes.
+void meet_faces(const Meeting& m, double gap, double most, std::uint32_t kind,
+                ContactPolygon& out) {
+    const Vec3 n = m.reference.normals[m.face];
+    const std::uint32_t face_id = kind << 30 | static_cast<std::uint32_t>(m.face) << 14;
+    ClippedFace(m, slack_of(gap)).for_each([&](const Vec3& at, std::uint32_t id) {
+        const double height = ordered_dot(n, at) - m.reference.offsets[m.face];
+        if (height <= most) out.corners.push_back({at - 0.5 * height * n, height, face_id | id});
+    });
+}
+
+// Midway between two edges where their lines are nearest; nowhere where that is beyond an end.
+void meet_edges(const ConvexPiece& a, const ConvexPiece& b, const RelativePose& pose,
+                const SeparatingAxes& axes, ContactPolygon& out) {
+    const auto ka = static_cast<std::size_t>(axes.edge_a),
+               kb = static_cast<std::size_t>(axes.edge_b);
+    const Vec3 pa = a.edge_middle[ka], ea = a.edge_along[ka];
+    const Vec3 pb = ordered_product(pose.rotation, b.edge_middle[kb]) + pose.translation,
+               eb = ordered_product(pose.rotation, b.edge_along[kb]);
+    const Vec3 apart = pb - pa, across = ea.cross(eb);
+    const double square = ordered_dot(across, across);
+    const double along_a = ordered_dot(eb.cross(across), apart) / square,
+                 along_b = ordered_dot(ea.cross(across), apart) / square;
+    const auto half = [](const ConvexPiece& piece, std::size_t k) {
+        const SolidEdge& e = piece.edges[k];
+        return (piece.corners[static_cast<std::size_t>(e.end)] - piece.edge_middle[k]).norm();
+    };
+    const double slack = slack_of(axes.edges);
+    if (std::abs(along_a) > half(a, ka) + slack || std::abs(along_b) > half(b, kb) + slack) return;
+    out.corners.push_back({0.5 * (pa + along_a * ea + pb + along_b * eb), axes.edges,
+                           3u << 30 | static_cast<std::uint32_t>(ka << 12 | kb)});
+}
+
+// What mirror images about y = 0 have in common.
+auto mirror_key(const PolygonCorner& c) {
+    return std::tuple(c.point.x(), std::abs(c.point.y()), c.point.z());
+}
+
+// Area of the triangle that the polygon loses with corner k [m2], twice.
+double loss_of(const std::vector<PolygonCorner>& corners, std::size_t k) {
+    const std::size_t n = corners.size();
+    const Vec3 &at = corners[k].point, before = corners[(k + n - 1) % n].point - at,
+               after = corners[(k + 1) % n].point - at;
+    return before.cross(after).norm();
+}
+
+}  // namespace
+
+void make_contact_polygon(const ConvexPiece& a, const ConvexPiece& b, const RelativePose& pose,
+                          const SeparatingAxes& axes, double most, ContactPolygon& out) {
+    out.corners.clear();
+    const bool of_b = axes.face_b > axes.face_a + PolygonTolerances::kPrefer;
+    const double face = of_b ? axes.face_b : axes.face_a;
+    if (axes.edges > face + PolygonTolerances::kPrefer) {
+        out.normal = edge_axis(a, b, pose, axes.edge_a, axes.edge_b);
+        if (axes.edges <= most) meet_edges(a, b, pose, axes, out);
+        return;
+    }
+    if (!of_b) {
+        const auto plane = static_cast<std::size_t>(axes.plane_a);
+        out.normal = a.normals[plane];
+        meet_faces({a, b, pose, plane}, face, most, 0u, out);
+        return;
+    }
+    const auto plane = static_cast<std::size_t>(axes.plane_b);
+    out.normal = -ordered_product(pose.rotation, b.normals[plane]);
+    const RelativePose back{pose.rotation.transpose(),
+                            -ordered_transposed(pose.rotation, pose.translation)};
+    meet_faces({b, a, back, plane}, face, most, 1u, out);
+    for (PolygonCorner& corner : out.corners)
+        corner.point = ordered_product(pose.rotation, corner.point) + pose.translation;
+}
+
+void reduce_polygon(std::size_t count, ContactPolygon& polygon) {
+    std::vector<PolygonCorner>& corners = polygon.corners;
+    while (corners.size() > count) {
+        std::size_t deepest = 0, least = corners.size();
+        for (std::size_t k = 1; k < corners.size(); ++k)
+            if (std::tuple(corners[k].gap, mirror_key(corners[k])) <
+                std::tuple(corners[deepest].gap, mirror_key(corners[deepest])))
+                deepest = k;
+        double loss = 0.0;
+        for (std::size_t k = 0; k < corners.size(); ++k) {
+            const double now = loss_of(corners, k);
+            if (k == deepest) continue;
+            if (least < corners.size() && std::tuple(now, mirror_key(corners[k])) >=
+                                              std::tuple(loss, mirror_key(corners[least])))
+                continue;
+            least = k;
+            loss = now;
+        }
+        corners.erase(corners.begin() + static_cast<std::ptrdiff_t>(least));
+    }
+}
+
+}  // namespace ice

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Contact manifold of two convex pieces: where they meet along their separating axis.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "solver/narrow/separating_axis.hpp"
+
+namespace ice {
+
+/// Lengths and cosines within which two convex pieces are judged.
+struct PolygonTolerances {
+    /// A face of a is the reference until one of b is this much farther away, and faces until two
+    /// edges are [m]: faces that lie flush differ by rounding, and shall keep their contacts from
+    /// step to step. More makes gaps wrong by as much.
+    static constexpr double kPrefer = 5e-5;
+
+    /// A corner this far beyond the reference face's border counts as over it [m]: flush borders.
+    static constexpr double kBorder = 1e-4;
+};
+
+/// One corner of the polygon in which two pieces meet.
+struct PolygonCorner {
+    Vec3 point;        ///< midway between the surfaces, a's axes [m]
+    double gap;        ///< along the axis, negative where the pieces overlap [m]
+    std::uint32_t id;  ///< by the features that meet there: the same corner keeps it in a step
+};
+
+/// Where two pieces meet, and along what.
+struct ContactPolygon {
+    Vec3 normal = Vec3::Zero();  ///< unit, from a to b, a's axes
+    std::vector<PolygonCorner> corners;
+};
+
+/// The corners of the polygon in which two convex pieces meet, as far as their gap is at most
+/// `most` [m]; keeps `out`'s memory.
+///
+/// The axis with the widest gap decides. Where it is a face's, that face is the reference; of the
+/// other piece the face that is turned most against it is the incident one, clipped by the planes
+/// through the reference's borders (Sutherland and Hodgman 1974). Two edges meet in one point,
+/// midway between them where they are nearest. What has not touched yet may be past a border by its
+/// gap: it may come from beside.
+void make_contact_polygon(const ConvexPiece& a, const ConvexPiece& b, const RelativePose& pose,
+                          const SeparatingAxes& axes, double most, ContactPolygon& out);
+
+/// So many corners carry what a polygon with more can.
+constexpr std::size_t kManifoldCorners = 4;
+
+/// Leaves at most `count` corners: those go whose loss takes the least of the polygon's area, the
+/// deepest never. @pre count > 2
+void reduce_polygon(std::size_t count, ContactPolygon& polygon);
+
+}  // namespace ice

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/narrow/emit_polygon.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "solver/narrow/deep_pairs.hpp"
+#include "solver/narrow/emit_contacts.hpp"
+
+namespace ice {
+
+bool meets_in_polygon(const Scene& scene, BodyPair pair, const ContactRule& rule) {
+    if (rule.normal != NormalRule::surface || rule.crushes) return false;
+    if (pair.a == static_cast<std::int32_t>(kShip)) return false;  // its spheres carry the loads
+    const auto convex = [&](std::int32_t i) {
+        return !scene.shapes[static_cast<std::size_t>(scene.bodies.shape[i])].convex.empty();
+    };
+    return convex(pair.a) && convex(pair.b);
+}
+
+const ContactPolygon& find_polygon(const PairView& view, const SeparatingAxes& axes, double most) {
+    thread_local ContactPolygon polygon;  // keeps its memory
+    make_contact_polygon(view.shape_a.convex, view.shape_b.convex, {view.turn, view.shift}, axes,
+                         most, polygon);
+    reduce_polygon(kManifoldCorners, polygon);
+    std::sort(polygon.corners.begin(), polygon.corners.end(),
+              [](const PolygonCorner& l, const PolygonCorner& r) {
+                  const auto key = [](const PolygonCorner& c) {
+                      return std::tuple(c.point.x(), std::abs(c.point.y()), c.point.z(), c.gap,
+                                        c.id);
+                  };
+                  return key(l) < key(r);
+              });
+    return polygon;
+}
+
+void emit_polygon(const PairView& view, const ContactRule& rule, const Vec3& normal,
+                  std::span<const PolygonCorner> corners, Contact* out) {
+    const Mat3& rotation = view.scene.bodies.rotation[view.pair.a];
+    const bool ship = view.pair.a == static_cast<std::int32_t>(kShip);
+    for (const PolygonCorner& corner : corners) {
+        Contact& contact = *out++;
+        contact.a = view.pair.a;
+        contact.b = view.pair.b;
+        contact.sphere_a = contact.sphere_b = -1;
+        contact.key = std::uint64_t{1} << 63 | corner.id;  // no sphere has this bit
+        contact.point = rotation * corner.point + view.scene.bodies.position[view.pair.a];
+        contact.normal = rotation * normal;
+        contact.gap = corner.gap;
+        contact.patch = Patch{};
+        contact.patch.depth = -corner.gap;
+        contact.region = -1;
+        contact.crushes_a = false;
+        if (!ship && !rule.crushes) continue;
+        contact.sphere_a = nearest_sphere(view.shape_a, corner.point);
+        contact.sphere_b = nearest_sphere(view.shape_b, view.to_b(corner.point));
+        if (ship) contact.region = view.shape_a.region.at(contact.sphere_a, normal);
+        // the ice that has been crushed there is gone; depth counts from where its surface was
+        contact.gap += crushed_depth(view, contact.sphere_b, normal);
+        contact.patch = ice_patch(view, contact.sphere_b, normal, contact.gap);
+    }
+}
+
+}  // namespace ice

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Where convex solids meet: polygons by hand, and bodies however deep they are in each other.
+#include "solver/narrow/contact_polygon.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <set>
+
+#include "solver/narrow/deep_pairs.hpp"
+#include "solver/narrow/find_contacts.hpp"
+#include "tests/support/make_prisms.hpp"
+#include "tests/support/make_worlds.hpp"
+
+using namespace ice;
+
+namespace {
+
+constexpr double kAll = std::numeric_limits<double>::infinity();
+
+ConvexPiece box(const Vec3& size) { return make_convex_piece(test::make_box_mesh(size)); }
+
+ContactPolygon meet(const ConvexPiece& a, const ConvexPiece& b, const RelativePose& pose,
+                    double most) {
+    ContactPolygon out;
+    make_contact_polygon(a, b, pose, find_axes(a, b, pose, kAll), most, out);
+    return out;
+}
+
+// Area of the polygon whose corners these are, seen along n.
+double area_of(const ContactPolygon& polygon) {
+    Vec3 sum = Vec3::Zero();
+    const auto& corners = polygon.corners;
+    for (std::size_t k = 0; k < corners.size(); ++k)
+        sum += 0.5 * corners[k].point.cross(corners[(k + 1) % corners.size()].point);
+    return std::abs(sum.dot(polygon.normal));
+}
+
+// Two boxes of this size, bodies 1 and 2, far from the hull, the second so far from the first.
+World two_boxes(const Vec3& size, double radius, double spacing, const Vec3& apart) {
+    World w = test::plate_world(test::empty_space(0.01), Vec3(4, 2, 1), 0.25, 0.5, 100.0);
+    const auto row = test::add_shape(w, test::make_box_set(size, radius, spacing));
+    for (int k = 0; k < 2; ++k)
+        add_floe(w.scene, row, 900.0, k * apart, Quaternion::Identity(), 0, false);
+    return w;
+}
+
+double deepest(const std::vector<Contact>& contacts) {
+    double gap = 0.0;
+    for (const Contact& c : contacts) gap = std::min(gap, c.gap);
+    return gap;
+}
+
+}  // namespace
+
+TEST_CASE("boxes on each other meet in the rectangle that they share", "[narrow][analytic]") {
+    const double gap = GENERATE(0.001, 0.0, -0.02);
+    const ConvexPiece a = box(Vec3(4, 2, 1)), b = box(Vec3(3, 3, 1));
+    // b reaches from x = 0.5 to 3.5 and over both sides of a
+    const ContactPolygon polygon = meet(a, b, {Mat3::Identity(), Vec3(2.0, 0.2, 1.0 + gap)}, 0.01);
+    CHECK(polygon.normal == Vec3::UnitZ());
+    REQUIRE(polygon.corners.size() == 4);
+    for (const PolygonCorner& c : polygon.corners) {
+        CHECK(c.gap == Approx(gap).margin(1e-15));
+        CHECK(c.point.z() == Approx(0.5 + 0.5 * gap).margin(1e-15));
+    }
+    // borders have a slack of 0.1 mm, and what has not touched may come from beside by its gap
+    CHECK(area_of(polygon) == Approx(1.5 * 2.0).margin(5.0 * (1e-4 + std::max(gap, 0.0))));
+    std::set<std::uint32_t> ids;
+    for (const PolygonCorner& c : polygon.corners) ids.insert(c.id);
+    CHECK(ids.size() == 4);
+}
+
+TEST_CASE("a tilted box meets a face along its lower edge, one on its corner in a point",
+          "[narrow][analytic]") {
+    const ConvexPiece plate = box(Vec3(10, 10, 1)), cube = box(Vec3(1, 1, 1));
+    const double tilt = 0.3, depth = 0.01;
+    Mat3 turn = Eigen::AngleAxisd(tilt, Vec3::UnitY()).toRotationMatrix();
+    const double low = 0.5 * (std::cos(tilt) + std::sin(tilt));
+    ContactPolygon polygon = meet(plate, cube, {turn, Vec3(0, 0, 0.5 + low - depth)}, 0.001);
+    REQUIRE(polygon.corners.size() == 2);
+    for (const PolygonCorner& c : polygon.corners) {
+        CHECK(c.gap == Approx(-depth).epsilon(1e-12));
+        CHECK(std::abs(c.point.y()) == Approx(0.5).epsilon(1e-12));
+    }
+    turn = Eigen::Quaterniond::FromTwoVectors(Vec3(1, 1, 1), Vec3(0, 0, -1)).toRotationMatrix();
+    polygon = meet(plate, cube, {turn, Vec3(0, 0, 0.5 + std::sqrt(0.75) - depth)}, 0.001);
+    REQUIRE(polygon.corners.size() == 1);
+    CHECK(polygon.corners[0].gap == Approx(-depth).epsilon(1e-12));
+    CHECK(polygon.corners[0].point.head<2>().norm() < 1e-12);
+    // seen from the other body it is the same
+    const ContactPolygon back = meet(
+        cube, plate,
+        {turn.transpose(), -(turn.transpose() * Vec3(0, 0, 0.5 + std::sqrt(0.75) - depth))}, 0.001);
+    REQUIRE(back.corners.size() == 1);
+    CHECK(back.corners[0].gap == Approx(-depth).epsilon(1e-12));
+    CHECK((turn * back.normal + Vec3::UnitZ()).norm() < 1e-12);
+}
+
+TEST_CASE("edges that cross meet midway between them where they cross", "[narrow][analytic]") {
+    const ConvexPiece cube = box(Vec3(2, 2, 2));
+    const double gap = GENERATE(-0.05, 0.002);
+    const Vec3 n = Vec3(1, 0, 1).normalized();
+    Mat3 turn;
+    turn.col(0) = (-n - Vec3::UnitY()).normalized();
+    turn.col(1) = (-n + Vec3::UnitY()).normalized();
+    turn.col(2) = turn.col(0).cross(turn.col(1));
+    const Vec3 at(1, 0.3, 1);
+    const ContactPolygon polygon =
+        meet(cube, cube, {turn, at + gap * n - turn * Vec3(1, 1, 0.2)}, 0.01);
+    REQUIRE(polygon.corners.size() == 1);
+    CHECK(polygon.corners[0].gap == Approx(gap).epsilon(1e-12));
+    CHECK((polygon.corners[0].point - (at + 0.5 * gap * n)).norm() < 1e-14);
+    CHECK((polygon.normal - n).norm() < 1e-15);
+}
+
+TEST_CASE("no corner is deeper than the penetration, one of each overlap is as deep",
+          "[narrow][property]") {
+    test::Dice dice{std::mt19937(31)};
+    std::vector<ConvexPiece> pieces;
+    for (int k = 0; k < 20; ++k)
+        pieces.push_back(make_convex_piece(test::make_random_frustum(dice, 3 + k % 4)));
+    for (int k = 0; k < 5000; ++k) {
+        const ConvexPiece& a = pieces[static_cast<std::size_t>(k) % 20];
+        const ConvexPiece& b = pieces[static_cast<std::size_t>(k / 3) % 20];
+        const RelativePose pose{
+            Eigen::AngleAxisd(3.1 * dice.number(), dice.vector().normalized()).toRotationMatrix(),
+            1.5 * dice.vector()};
+        const double gap = find_axes(a, b, pose, kAll).widest();
+        ContactPolygon polygon = meet(a, b, pose, 0.0);
+        double least = kAll;
+        for (const PolygonCorner& c : polygon.corners) least = std::min(least, c.gap);
+        if (gap > 0.0) continue;
+        // a face that is deeper by kPrefer may have been preferred
+        REQUIRE(least >= gap - PolygonTolerances::kPrefer - 1e-12);
+        REQUIRE(least <= gap + 1e-9);
+        reduce_polygon(kManifoldCorners, polygon);
+        REQUIRE(polygon.corners.size() <= kManifoldCorners);
+        REQUIRE(std::any_of(polygon.corners.begin(), polygon.corners.end(),
+                            [&](const PolygonCorner& c) { return c.gap == least; }));
+    }
+}
+
+TEST_CASE("a polygon reduced to four corners keeps most of its area", "[narrow][analytic]") {
+    const auto n = GENERATE(5u, 8u, 30u);
+    ContactPolygon polygon;
+    polygon.normal = Vec3::UnitZ();
+    for (unsigned k = 0; k < n; ++k) {
+        const double angle = 2.0 * std::numbers::pi * k / n;
+        polygon.corners.push_back(
+            {Vec3(std::cos(angle), std::sin(angle), 0), k == 3 ? -0.1 : 0.0, k});
+    }
+    const double before = area_of(polygon);
+    reduce_polygon(4, polygon);
+    REQUIRE(polygon.corners.size() == 4);
+    CHECK(std::any_of(polygon.corners.begin(), polygon.corners.end(),
+                      [](const PolygonCorner& c) { return c.gap == -0.1; }));
+    // a square in a circle has 2 / pi of its area; taken one by one they do not become a square
+    CHECK(area_of(polygon) > 0.5 * before);
+}
+
+TEST_CASE("a pair stays found whatever its depth, with its true depth and the shortest way out",
+          "[narrow][analytic]") {
+    // spheres alone lose such boxes from two radii, 0.5 m, on
+    const Vec3 size(8, 4, 1);
+    const bool crushes = GENERATE(false, true);
+    const double depth = GENERATE(0.05, 0.2, 0.4, 0.48, 0.52, 0.7, 0.9);
+    const int axis = GENERATE(0, 1, 2);
+    if (axis < 2 && depth > 0.48) return;  // deeper, a metre thick, they part upwards
+    Vec3 apart = Vec3(0.3, 0.2, 0.1) * (depth > 0.45 ? 0.1 : 1.0);
+    apart[axis] = size[axis] - depth;
+    const World w = two_boxes(size, 0.25, 0.7, apart);
+    std::vector<Contact> found, expected;
+    ContactFinder().find(w.scene, {{1, 2}}, {NormalRule::surface, crushes}, 0.0, 0.0, found);
+    reference::find_contacts(w.scene, {1, 2}, {NormalRule::surface, crushes}, 0.0, expected);
+    REQUIRE_FALSE(found.empty());
+    CHECK(found.size() == expected.size());
+    CHECK(deepest(found) == Approx(-depth).epsilon(1e-6));  // normals of creases are floats
+    for (const Contact& c : found) {
+        CHECK(c.normal.dot(Vec3::Unit(axis)) > 0.999);
+        CHECK((c.sphere_b >= 0) == crushes);
+    }
+}
+
+TEST_CASE("deep pairs part, step by step, whether their ice can be crushed or not",
+          "[narrow][analytic]") {
+    const double pressure = GENERATE(kAll, 1e6);
+    World w = two_boxes(Vec3(8, 4, 1), 0.25, 0.7, Vec3(0.3, 0.2, 0.35));  // 0.65 m deep
+    w.parameters.crushing_pressure = pressure;
+    for (int k = 0; k < 400; ++k) step(w);
+    const Bodies& b = w.scene.bodies;
+    const Vec3 apart = b.rotation[1].transpose() * (b.position[2] - b.position[1]);
+    if (std::isinf(pressure)) CHECK(apart.z() > 1.0 - 0.01);
+    // crushed or parted, nothing is left that the finder would still have to push out
+    std::vector<Contact> contacts;
+    ContactFinder().find(w.scene, {{1, 2}}, ContactRule(w.parameters), 0.0, 0.0, contacts);
+    CHECK(deepest(contacts) > -0.01);
+}
+
+TEST_CASE("the nearest sphere is that, and of equals the one that mirror images have in common",
+          "[narrow]") {
+    const Shape shape = build_shape(test::make_box_set(Vec3(2, 1, 0.5), 0.125, 0.25), true);
+    for (std::size_t k = 0; k < shape.center.size(); ++k)
+        CHECK(nearest_sphere(shape, shape.center[k]) == static_cast<std::int32_t>(k));
+    const auto port = nearest_sphere(shape, Vec3(0.9, 0.4, 0.01)),
+               starboard = nearest_sphere(shape, Vec3(0.9, -0.4, 0.01));
+    CHECK(shape.mirror_rank[static_cast<std::size_t>(port)] ==
+          shape.mirror_rank[static_cast<std::size_t>(starboard)]);
+}
