@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <unordered_map>
+#include <utility>
 
 #include "preprocess/clean/edge_table.hpp"
 #include "preprocess/clean/find_equal.hpp"
@@ -24,32 +25,41 @@ std::vector<std::int32_t> find_near(const std::vector<Vec3>& vertices,
     Eigen::AlignedBox3d box;
     for (const Vec3& v : vertices) box.extend(v);
     const double tolerance = std::max(*std::max_element(reach.begin(), reach.end()), 1e-300);
-    // cells of twice the tolerance: near vertices lie in the same or a neighbouring cell
-    const auto cell_of = [&](const Vec3& v) -> Key {
+    // cells of twice the tolerance: near vertices lie in the same one or on its nearer side
+    const auto cell_of = [&](const Vec3& v, Key& side) -> Key {
         Key cell;
-        for (int d = 0; d < 3; ++d)
-            cell[static_cast<std::size_t>(d)] = static_cast<std::uint64_t>(
-                std::floor((v[d] - box.min()[d]) / (2.0 * tolerance)) + 1.0);
+        for (int d = 0; d < 3; ++d) {
+            const double at = (v[d] - box.min()[d]) / (2.0 * tolerance) + 1.0;
+            cell[static_cast<std::size_t>(d)] = static_cast<std::uint64_t>(at);
+            side[static_cast<std::size_t>(d)] =
+                at - std::floor(at) < 0.5 ? ~std::uint64_t{0} : std::uint64_t{1};
+        }
         return cell;
     };
-    std::unordered_map<Key, std::vector<std::int32_t>, HashKey> cells;
+    std::unordered_map<Key, std::int32_t, HashKey> cells;  // the last vertex that came into one
+    cells.reserve(vertices.size());
+    std::vector<std::int32_t> before(vertices.size(), -1);  // the one that came before it
     std::vector<std::int32_t> representative(vertices.size());
     for (std::size_t k = 0; k < vertices.size(); ++k) {
         auto found = static_cast<std::int32_t>(k);
         representative[k] = found;
         if (reach[k] <= 0.0) continue;
-        const Key at = cell_of(vertices[k]);
-        for (std::uint64_t n = 0; n < 27; ++n) {
-            const auto near =
-                cells.find({at[0] + n % 3 - 1, at[1] + n / 3 % 3 - 1, at[2] + n / 9 - 1});
+        Key side;
+        const Key at = cell_of(vertices[k], side);
+        for (std::uint64_t n = 0; n < 8; ++n) {
+            const auto near = cells.find({at[0] + (n & 1) * side[0], at[1] + (n >> 1 & 1) * side[1],
+                                          at[2] + (n >> 2) * side[2]});
             if (near == cells.end()) continue;
-            for (const std::int32_t other : near->second)
+            for (std::int32_t other = near->second; other >= 0;
+                 other = before[static_cast<std::size_t>(other)])
                 if ((vertices[static_cast<std::size_t>(other)] - vertices[k]).norm() <=
                     std::min(reach[k], reach[static_cast<std::size_t>(other)]))
                     found = std::min(found, other);
         }
         representative[k] = found;
-        if (found == static_cast<std::int32_t>(k)) cells[at].push_back(found);
+        if (found != static_cast<std::int32_t>(k)) continue;
+        const auto [head, fresh] = cells.try_emplace(at, found);
+        if (!fresh) before[k] = std::exchange(head->second, found);
     }
     return representative;
 }
