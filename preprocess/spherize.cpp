@@ -147,6 +147,10 @@ ice::TriangleMesh read_solid(const Options& o, ice::TriangleMesh surface,
         throw;
     }
     warn_half_hull(ice::looks_like_half_hull(mesh), report);
+    if (o.mirror.empty() && ice::was_mirrored(report))
+        report.warnings.emplace_back(
+            "the mesh is open along y = 0, half a hull, and was mirrored there: give --mirror y to "
+            "say so, or close it if it is whole");
     return mesh;
 }
 
@@ -245,7 +249,7 @@ int run_spherize(Options& o, const std::string& command_line) {
     if (o.check) return report_check(o, report);
     ice::TriangleMesh surface = read_surface(o, report);
     report.seconds["read"] = timer.seconds();
-    ice::refuse_thin_mesh(surface, o.fill.radius, o.slice.empty() ? 3 : 2);
+    ice::refuse_thin_mesh(o.mesh, surface, o.fill.radius, o.slice.empty() ? 3 : 2);
     tell_progress(o.fill);
     const ice::TriangleMesh mesh = read_solid(o, surface, report);
     report.seconds["repair"] = timer.seconds() - report.seconds["read"];

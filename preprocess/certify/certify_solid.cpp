@@ -15,6 +15,7 @@ namespace ice {
 
 namespace {
 
+constexpr double kFlat = 1e-9;         // of the length: what coordinates are rounded to
 constexpr double kRepaired = 1.01;     // of the mesh's size: a solid of it, wrapped
 constexpr double kWorthSaying = 1e-3;  // of the surface: parts left out
 
@@ -55,10 +56,18 @@ void judge_distances(const std::string& name, double radius, bool refuse, Sphere
 
 }  // namespace
 
-void refuse_thin_mesh(const TriangleMesh& surface, double radius, int dimension) {
+void refuse_thin_mesh(const std::string& name, const TriangleMesh& surface, double radius,
+                      int dimension) {
     const Vec3 size = bounding_box(surface).sizes();
     const double most = 0.5 * (dimension == 3 ? size.minCoeff() : std::min(size.x(), size.z()));
-    if (most == 0.0 || radius <= most * kRepaired) return;
+    if (most <= kFlat * size.maxCoeff())
+        throw bad_input(
+            name,
+            fmt::format("is not the closed surface of a solid: it is flat, {:.4g} x {:.4g} x "
+                        "{:.4g} m",
+                        size.x(), size.y(), size.z()),
+            "export the surface of a body");
+    if (radius <= most * kRepaired) return;
     throw bad_input(
         "--radius",
         fmt::format("no {} of radius {:g} m fits into the solid: the mesh is {:.4g} x "
@@ -67,13 +76,16 @@ void refuse_thin_mesh(const TriangleMesh& surface, double radius, int dimension)
         fmt::format("give --radius below {:.3g} m, or the unit of the file with --units", most));
 }
 
+bool was_mirrored(const SpheresReport& report) {
+    return std::any_of(report.repairs.begin(), report.repairs.end(), [](const auto& repair) {
+        return repair.first == "half hull mirrored across y = 0";
+    });
+}
+
 void certify_solid(const std::string& name, TriangleMesh surface, const TriangleMesh& solid,
                    double radius, bool wrapped, SpheresReport& report) {
     const Timer timer;
-    if (std::any_of(report.repairs.begin(), report.repairs.end(), [](const auto& repair) {
-            return repair.first == "half hull mirrored across y = 0";
-        }))
-        add_mirror_image(surface);
+    if (was_mirrored(report)) add_mirror_image(surface);
     compare_with_source(surface, solid, radius, report);
     judge_distances(name, radius, !wrapped, report);
     report.seconds["compare"] = timer.seconds();

@@ -8,10 +8,14 @@
 
 namespace ice {
 
-/// Refuses a radius that no solid in a mesh can hold, before minutes go into the mesh's repair.
+/// Refuses a flat mesh, and a radius that no solid in a mesh can hold, before minutes go into the mesh's repair.
 /// @param surface  as read [m]   @param dimension  2: discs of a section along y
 /// @throws Error (exit code 2) naming the extents and the largest radius
-void refuse_thin_mesh(const TriangleMesh& surface, double radius, int dimension);
+void refuse_thin_mesh(const std::string& name, const TriangleMesh& surface, double radius,
+                      int dimension);
+
+/// The repairs completed half a hull by its mirror image.
+bool was_mirrored(const SpheresReport& report);
 
 /// Holds the solid against the mesh as it was read (compare_with_source; a half hull that the
 /// repairs mirrored is mirrored first) and says what that means: a warning with the number where a

@@ -8,6 +8,7 @@
 #include "common/base/error.hpp"
 #include "preprocess/load/half_hull.hpp"
 #include "preprocess/load/hull_axes.hpp"
+#include "preprocess/load/main_parts.hpp"
 #include "preprocess/load/symmetry.hpp"
 
 namespace ice {
@@ -15,6 +16,8 @@ namespace ice {
 namespace {
 
 constexpr double kShortest = 0.05, kLongest = 600.0;  // of ships and floes [m]
+constexpr double kModelInMillimetres = 100.0;         // file units: models are longer
+constexpr double kLong = 1.5;                         // times the extent along forward
 constexpr double kFiner = 0.8;                        // a bow's sections to a stern's, at most
 
 std::string axis_name(int axis) { return std::string(1, static_cast<char>('x' + axis)); }
@@ -64,6 +67,10 @@ private:
                  fmt::format("mm, because the solid would be {:.0f} m long in metres", length));
         } else {
             note("units", "m, as the file has them");
+            if (length >= kModelInMillimetres)  // both a ship and its model in millimetres have it
+                note("length", fmt::format("{:.4g} m; {:.3g} m if the file is in millimetres, with "
+                                           "--units mm",
+                                           length, 1e-3 * length));
         }
         const double metres = frame_.metres * length;
         if (metres < kShortest || metres > kLongest)
@@ -161,13 +168,14 @@ private:
                             along));
     }
 
-    // Three times as long as wide along another axis: too long for most floes.
+    // Longest along another axis; a floe that lies flat, a prism along up, may be.
     void doubt_length() {
         const Vec3 size = bounding_box(mesh_).sizes();
         int longest = 0;
         const double length = size.maxCoeff(&longest);
         const double across = size[frame_.forward.axis];
-        if (longest != frame_.forward.axis && length >= 3.0 * across)
+        if (longest != frame_.forward.axis && length >= kLong * across &&
+            !is_prism(mesh_, frame_.up.axis))
             warn(
                 fmt::format("the solid is longest along {0} but {1} is taken as forward: if it is "
                             "a hull, give --up and --forward",
@@ -219,7 +227,14 @@ Mat3 Frame::matrix() const {
 
 Frame choose_frame(const TriangleMesh& mesh, const FileFrame& file, const ReadOptions& options,
                    ReadNotes& notes) {
-    return Chooser(mesh, file, options, notes).choose();
+    std::int64_t left_out = 0;
+    const TriangleMesh main = main_parts(mesh, left_out);
+    if (left_out > 0 && !(options.up && options.forward && (options.scale || file.metres)))
+        notes.warnings.push_back(fmt::format(
+            "units and axes are guessed without {} part{} far from the largest or around it: check "
+            "them, or give --units, --up and --forward",
+            left_out, left_out == 1 ? "" : "s"));
+    return Chooser(main, file, options, notes).choose();
 }
 
 }  // namespace ice

@@ -8,8 +8,6 @@
 
 namespace ice {
 
-namespace {
-
 bool is_prism(const TriangleMesh& mesh, int axis) {
     double area = 0.0, oblique = 0.0;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -21,6 +19,8 @@ bool is_prism(const TriangleMesh& mesh, int axis) {
     }
     return oblique < 0.01 * area;
 }
+
+namespace {
 
 // Extent along `across` of the section where the coordinate `along` is `station`.
 double section_width(const TriangleMesh& mesh, int along, double station, int across) {

@@ -15,6 +15,9 @@ struct HullAxes {
     bool prism = false;  ///< every face lies along the breadth or square to it
 };
 
+/// Every face, but for 1 % of the surface, lies along an axis or square to it (to 1 degree).
+bool is_prism(const TriangleMesh& mesh, int axis);
+
 /// Nothing when the longest extent is less than 1.5 times the next, when no plane along it is one
 /// of symmetry, both are, or one may be (kSymmetric, kLopsided). Cost O(T).
 std::optional<HullAxes> find_hull_axes(const TriangleMesh& mesh);

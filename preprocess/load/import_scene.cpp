@@ -17,8 +17,8 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
-#include <new>
 #include <iterator>
+#include <new>
 #include <sstream>
 #include <string_view>
 
@@ -302,7 +302,8 @@ ImportedMesh import_once(const std::filesystem::path& file, const std::vector<ch
     if (scene == nullptr || scene->mRootNode == nullptr)
         throw bad_input(file.string(),
                         fmt::format("cannot be read as a mesh ({})", importer.GetErrorString()),
-                        kRemedy);
+                        "the file is damaged, or of another format than its name says: export it "
+                        "again");
     return {Collector(*scene).collect(), frame_of(*scene)};
 }
 

@@ -2,11 +2,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cctype>
 #include <fstream>
 #include <iterator>
 #include <sstream>
+#include <string_view>
 #include <vector>
 
 #include "common/base/error.hpp"
@@ -163,6 +165,27 @@ void check_off(const std::filesystem::path& file, std::ifstream& in) {
                    std::clamp(vertices, 0L, kMostRows) + std::clamp(faces, 0L, kMostRows));
 }
 
+// A binary STL says how many triangles follow, 50 bytes each; text begins with "solid".
+void check_stl(const std::filesystem::path& file, std::ifstream& in) {
+    std::array<char, 84> head{};
+    in.read(head.data(), head.size());
+    const auto size = static_cast<std::int64_t>(std::filesystem::file_size(file));
+    if (std::string_view(head.data(), 5) == "solid") return;
+    if (size < 84)
+        throw bad_input(file.string(),
+                        fmt::format("is cut off: an STL has a header of 84 bytes, this {}", size),
+                        "export or copy the file again");
+    std::int64_t promised = 0;
+    for (std::size_t k = 0; k < 4; ++k)
+        promised |= std::int64_t{static_cast<unsigned char>(head[80 + k])} << (8 * k);
+    const std::int64_t whole = (size - 84) / 50;
+    if (whole < promised)
+        throw bad_input(file.string(),
+                        fmt::format("is cut off: its header promises {} triangles, {} are whole",
+                                    promised, whole),
+                        "export or copy the file again");
+}
+
 }  // namespace
 
 void refuse_short_file(const std::filesystem::path& file) {
@@ -173,6 +196,7 @@ void refuse_short_file(const std::filesystem::path& file) {
     if (!in) return;
     if (kind == ".ply") check_ply(file, in);
     if (kind == ".off") check_off(file, in);
+    if (kind == ".stl") check_stl(file, in);
 }
 
 }  // namespace ice

@@ -72,6 +72,23 @@ TEST_CASE("an ASCII STL without endsolid seems cut off", "[load][cut]") {
     CHECK_THAT(looks_cut_off(File("b.stl", stl).path), Catch::Contains("endsolid"));
 }
 
+TEST_CASE("a binary STL is refused with what its header promises", "[load][cut][errors]") {
+    const std::filesystem::path file = std::filesystem::temp_directory_path() / "ice-cut-off.stl";
+    const auto write = [&](std::size_t bytes) {
+        std::string text(80, ' ');
+        text += std::string("\x03\0\0\0", 4) + std::string(150, '\0');
+        std::ofstream(file, std::ios::binary) << text.substr(0, bytes);
+    };
+    write(84 + 149);
+    CHECK_THROWS_WITH(refuse_short_file(file),
+                      Catch::Contains("promises 3 triangles, 2 are whole"));
+    write(50);
+    CHECK_THROWS_WITH(refuse_short_file(file), Catch::Contains("is cut off"));
+    write(84 + 150);
+    CHECK_NOTHROW(refuse_short_file(file));
+    std::filesystem::remove(file);
+}
+
 TEST_CASE("PLY and OFF files are refused wherever they are cut", "[load][cut][errors]") {
     const auto [name, text] = GENERATE(std::pair<std::string, std::string>("a.off", kOff),
                                        std::pair<std::string, std::string>("a.ply", kPly),

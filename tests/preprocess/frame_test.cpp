@@ -5,6 +5,7 @@
 #include "preprocess/load/choose_frame.hpp"
 #include "preprocess/load/half_hull.hpp"
 #include "preprocess/load/hull_axes.hpp"
+#include "preprocess/load/main_parts.hpp"
 #include "preprocess/load/read_mesh.hpp"
 #include "preprocess/load/symmetry.hpp"
 #include "tests/support/make_meshes.hpp"
@@ -225,6 +226,63 @@ TEST_CASE("units are guessed from the length only where metres are impossible", 
     CHECK(told.frame.metres == 1.0);
     CHECK_FALSE(told.notes.guessed.contains("units"));
     CHECK(told.notes.warnings.size() == 1);  // 9 km
+}
+
+TEST_CASE("a stray triangle, an island, a sea plane and a domain's box fool no guess of units",
+          "[load][frame]") {
+    // a ship of 10 m; with these things the box is 60 to 3000 m long, as of one in millimetres
+    const TriangleMesh ship = make_ship();
+    const auto with = [&](const TriangleMesh& more) {
+        TriangleMesh mesh = ship;
+        const auto n = static_cast<std::int32_t>(mesh.vertices.size());
+        mesh.vertices.insert(mesh.vertices.end(), more.vertices.begin(), more.vertices.end());
+        for (const auto& t : more.triangles) {
+            mesh.triangles.push_back({t[0] + n, t[1] + n, t[2] + n});
+            mesh.region.push_back(0);
+        }
+        return mesh;
+    };
+    const auto moved = [](TriangleMesh mesh, const Vec3& by) {
+        for (Vec3& v : mesh.vertices) v += by;
+        return mesh;
+    };
+    TriangleMesh stray;
+    stray.vertices = {Vec3(3000, 0, 0), Vec3(3000, 1, 0), Vec3(3000, 0, 1)};
+    stray.triangles = {{0, 1, 2}};
+    stray.region = {0};
+    TriangleMesh sea;
+    sea.vertices = {Vec3(-900, -900, 0.3), Vec3(900, -900, 0.3), Vec3(900, 900, 0.3)};
+    sea.triangles = {{0, 1, 2}};
+    sea.region = {0};
+    for (const TriangleMesh& more : {stray, sea, moved(test::make_globe(1, 12), Vec3(3000, 500, 0)),
+                                     test::make_box_mesh(Vec3(2000, 1500, 1000))}) {
+        std::int64_t left_out = 0;
+        CHECK(main_parts(with(more), left_out).triangles.size() == ship.triangles.size());
+        CHECK(left_out == 1);
+        const Chosen chosen = choose(with(more));
+        CHECK(chosen.frame.matrix() == Mat3::Identity());
+        CHECK(chosen.notes.guessed.at("units") == "m, as the file has them");
+        REQUIRE(chosen.notes.warnings.size() == 1);
+        CHECK_THAT(chosen.notes.warnings[0], Catch::Contains("guessed without 1 part"));
+    }
+    // what lies beside it and touches nothing counts
+    std::int64_t left_out = -1;
+    const TriangleMesh pair = with(moved(ship, Vec3(0, 5, 0)));
+    CHECK(main_parts(pair, left_out).triangles.size() == pair.triangles.size());
+    CHECK(left_out == 0);
+}
+
+TEST_CASE("a model of 152 mm and a boat that lies athwart are doubted", "[load][frame]") {
+    CHECK_THAT(choose(make_ship(152, 30, 20)).notes.guessed.at("length"),
+               Catch::Contains("0.152 m if the file is in millimetres"));
+    CHECK_FALSE(choose(make_ship()).notes.guessed.contains("length"));
+    // 15.8 m along y, 6.7 m along x, no plane of symmetry
+    TriangleMesh boat = test::make_globe(1, 16);
+    for (Vec3& v : boat.vertices)
+        v = Vec3(3.35 * v.x() + 0.8 * v.x() * v.y(), 7.9 * v.y(), 2.0 * v.z() + 0.5 * v.x());
+    const Chosen athwart = choose(boat);
+    REQUIRE_FALSE(athwart.notes.warnings.empty());
+    CHECK_THAT(athwart.notes.warnings.front(), Catch::Contains("--forward"));
 }
 
 TEST_CASE("sides meshed unlike each other are still symmetric", "[load][frame]") {

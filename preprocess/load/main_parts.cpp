@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "preprocess/load/main_parts.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <numeric>
+
+namespace ice {
+
+namespace {
+
+constexpr double kFlat = 1e-6;    // of a part's diagonal: its least extent
+constexpr double kBeyond = 0.05;  // of the diagonal: by which a sheet may reach beyond the rest
+
+struct Part {
+    Eigen::AlignedBox3d box;
+    double area = 0.0;
+    bool on_box = true;  // all corners lie in faces of its box
+    bool flat() const { return box.sizes().minCoeff() <= kFlat * box.diagonal().norm(); }
+};
+
+// For each vertex the number of its part.
+std::vector<std::int32_t> part_of_vertices(const TriangleMesh& mesh) {
+    std::vector<std::int32_t> order(mesh.vertices.size()), parent(mesh.vertices.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::iota(parent.begin(), parent.end(), 0);
+    const auto root = [&](std::int32_t v) {
+        while (parent[static_cast<std::size_t>(v)] != v) {
+            auto& up = parent[static_cast<std::size_t>(v)];
+            v = up = parent[static_cast<std::size_t>(up)];
+        }
+        return v;
+    };
+    const auto join = [&](std::int32_t a, std::int32_t b) {
+        a = root(a);
+        b = root(b);
+        parent[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+    };
+    const auto at = [&](std::int32_t v) -> const Vec3& {
+        return mesh.vertices[static_cast<std::size_t>(v)];
+    };
+    const auto before = [&](std::int32_t l, std::int32_t r) {
+        return std::lexicographical_compare(at(l).data(), at(l).data() + 3, at(r).data(),
+                                            at(r).data() + 3);
+    };
+    std::sort(order.begin(), order.end(), before);
+    for (std::size_t k = 1; k < order.size(); ++k)
+        if (at(order[k]) == at(order[k - 1])) join(order[k], order[k - 1]);
+    for (const auto& t : mesh.triangles) {
+        join(t[0], t[1]);
+        join(t[0], t[2]);
+    }
+    std::vector<std::int32_t> out(parent.size());
+    for (std::size_t v = 0; v < out.size(); ++v) out[v] = root(static_cast<std::int32_t>(v));
+    return out;
+}
+
+std::vector<Part> measure_parts(const TriangleMesh& mesh, const std::vector<std::int32_t>& part) {
+    std::vector<Part> parts(mesh.vertices.size());  // by their first vertex; most stay empty
+    const auto of = [&](std::size_t t) -> Part& {
+        return parts[static_cast<std::size_t>(
+            part[static_cast<std::size_t>(mesh.triangles[t][0])])];
+    };
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        of(t).area += mesh.area_vector(t).norm();
+        for (int k = 0; k < 3; ++k) of(t).box.extend(mesh.corner(t, k));
+    }
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+        for (int k = 0; k < 3; ++k) {
+            const Vec3 p = mesh.corner(t, k);
+            const Eigen::AlignedBox3d& box = of(t).box;
+            const double in = std::min((p - box.min()).minCoeff(), (box.max() - p).minCoeff());
+            if (in > kFlat * box.diagonal().norm()) of(t).on_box = false;
+        }
+    return parts;
+}
+
+}  // namespace
+
+TriangleMesh main_parts(const TriangleMesh& mesh, std::int64_t& left_out) {
+    left_out = 0;
+    const std::vector<std::int32_t> part = part_of_vertices(mesh);
+    const std::vector<Part> parts = measure_parts(mesh, part);
+    std::vector<std::size_t> present;
+    for (std::size_t p = 0; p < parts.size(); ++p)
+        if (!parts[p].box.isEmpty()) present.push_back(p);
+    if (present.size() < 2) return mesh;
+    const auto is_around = [&](std::size_t p) {
+        return parts[p].on_box && std::any_of(present.begin(), present.end(), [&](std::size_t q) {
+                   return q != p && !parts[q].flat() && parts[p].box.contains(parts[q].box) &&
+                          parts[p].box.volume() > 8.0 * parts[q].box.volume();
+               });
+    };
+    std::vector<std::size_t> solid;
+    for (const std::size_t p : present)
+        if (!parts[p].flat() && !is_around(p)) solid.push_back(p);
+    if (solid.empty()) return mesh;
+    const std::size_t largest = *std::max_element(
+        solid.begin(), solid.end(),
+        [&](std::size_t l, std::size_t r) { return parts[l].area < parts[r].area; });
+    const double length = parts[largest].box.sizes().maxCoeff();
+    std::vector<std::uint8_t> keep(parts.size(), 0);
+    Eigen::AlignedBox3d about;
+    for (const std::size_t p : solid) {
+        keep[p] = parts[p].box.exteriorDistance(parts[largest].box) <= length ? 1 : 0;
+        if (keep[p] != 0) about.extend(parts[p].box);
+    }
+    const Vec3 margin = Vec3::Constant(kBeyond * about.diagonal().norm());
+    const Eigen::AlignedBox3d wide(about.min() - margin, about.max() + margin);
+    for (const std::size_t p : present) {
+        if (parts[p].flat() && wide.contains(parts[p].box)) keep[p] = 1;
+        left_out += keep[p] == 0 ? 1 : 0;
+    }
+    if (left_out == 0) return mesh;
+    TriangleMesh out;
+    out.vertices = mesh.vertices;
+    out.region_names = mesh.region_names;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const auto first = static_cast<std::size_t>(mesh.triangles[t][0]);
+        if (keep[static_cast<std::size_t>(part[first])] == 0) continue;
+        out.triangles.push_back(mesh.triangles[t]);
+        out.region.push_back(mesh.region[t]);
+    }
+    return out;
+}
+
+}  // namespace ice

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "common/geometry/triangle_mesh.hpp"
+
+namespace ice {
+
+/// What of a mesh its units and axes are guessed from: its largest part and what lies about it.
+///
+/// Parts are triangles that share corners (equal coordinates). Left out are parts farther from the
+/// largest than its own length (a stray triangle, an island), boxes around another part (a flow
+/// solver's domain) and flat sheets that reach beyond the rest (a sea plane). The largest part is
+/// that with the most surface, boxes and flat sheets apart.
+///
+/// @param left_out  takes how many parts these are; 0: the mesh is returned as it is
+TriangleMesh main_parts(const TriangleMesh& mesh, std::int64_t& left_out);
+
+}  // namespace ice
