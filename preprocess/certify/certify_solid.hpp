@@ -8,7 +8,8 @@
 
 namespace ice {
 
-/// Refuses a flat mesh, and a radius that no solid in a mesh can hold, before minutes go into the mesh's repair.
+/// Refuses a flat mesh, and a radius that no solid in a mesh can hold, before minutes go into the
+/// mesh's repair.
 /// @param surface  as read [m]   @param dimension  2: discs of a section along y
 /// @throws Error (exit code 2) naming the extents and the largest radius
 void refuse_thin_mesh(const std::string& name, const TriangleMesh& surface, double radius,
