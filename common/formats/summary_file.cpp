@@ -191,6 +191,7 @@ std::string summary_text(const Summary& s) {
     json["contacts"] = {{"mean", s.contacts_mean},
                         {"max", s.contacts_max},
                         {"max_overlap_m", s.max_overlap},
+                        {"unseen_overlap_m", s.unseen_overlap},
                         {"unconverged_steps", s.unconverged_steps},
                         {"residual_share", s.residual_share}};
     json["energy"] = s.energy;
@@ -238,6 +239,7 @@ Summary read_summary(const std::filesystem::path& path) {
     s.contacts_mean = in.number("contacts.mean");
     s.contacts_max = in.number("contacts.max");
     s.max_overlap = in.number("contacts.max_overlap_m");
+    s.unseen_overlap = in.number_if_there("contacts", "unseen_overlap_m");
     s.unconverged_steps = in.get<std::int64_t>("contacts.unconverged_steps");
     s.residual_share = in.number_if_there("contacts", "residual_share");
     s.energy = read_energy(in);

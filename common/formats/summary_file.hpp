@@ -77,6 +77,8 @@ struct Summary {
     std::map<std::string, RegionStatistics> regions;
     PanelSummary panels;
     double contacts_mean = 0.0, contacts_max = 0.0, max_overlap = 0.0;
+    /// Deepest overlap of two solids less what their contacts knew [m]; NaN: not looked for.
+    double unseen_overlap = std::numeric_limits<double>::quiet_NaN();
     std::int64_t unconverged_steps = 0;
     /// Impulses that unconverged steps owe, as a share of all in the averaged time; NaN: unknown.
     double residual_share = std::numeric_limits<double>::quiet_NaN();

@@ -9,6 +9,12 @@
 
 namespace ice {
 
+/// Overlap that is left alone, as a share of the smaller contact sphere's radius: contacts that just
+/// touch stay contacts, and a case may begin with it. It is what places rounded to a millimetre and
+/// normals rounded to floats make of floes that touch, and what a gap changes by where another
+/// sphere becomes the nearest one.
+constexpr double kToleratedOverlap = 0.02;
+
 /// Small moves that shrink overlaps; they change poses, never velocities or reported forces.
 struct Nudges {
     std::vector<Vec3> shift;  ///< per body [m]
@@ -18,11 +24,13 @@ struct Nudges {
 /// Takes care of overlaps; keeps its memory between steps, and nothing else.
 class Overlaps {
 public:
-    /// Moves overlapping bodies apart by a part of the overlap that this step's velocities leave.
+    /// Moves overlapping bodies apart by a part of the overlap that this step's velocities leave:
+    /// the overlap, of which half a radius counts at most, in 0.1 s. So a deep pair opens at five
+    /// radii a second, at any scale and time step.
     ///
     /// The same inequality solver on displacements instead of velocities: n . (d_b - d_a) >= push.
     /// Crushed contacts are left alone: that ice is gone.
-    void separate(const Bodies& bodies, const std::vector<Constraint>& constraints,
+    void separate(const Scene& scene, const std::vector<Constraint>& constraints,
                   const ContactLaw& law, Nudges& out);
 
     /// Ice at its strength gives way: what overlap the step leaves at a crushed contact is taken

@@ -103,6 +103,7 @@ void average_counts(const Members& all, Summary& out) {
     out.contacts_mean = mean_over(all, [](const Summary& s) { return s.contacts_mean; });
     out.contacts_max = largest(all, [](const Summary& s) { return s.contacts_max; });
     out.max_overlap = largest(all, [](const Summary& s) { return s.max_overlap; });
+    out.unseen_overlap = largest(all, [](const Summary& s) { return s.unseen_overlap; });
     out.residual_share = mean_over(all, [](const Summary& s) { return s.residual_share; });
 }
 

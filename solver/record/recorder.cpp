@@ -48,6 +48,9 @@ double worrying_overlap(const Scene& scene) {
     return 0.5 * smallest;
 }
 
+// The solids are looked at once in so many steps: an overlap that contacts miss lasts for seconds.
+constexpr std::int64_t kLookEvery = 50;
+
 struct CsvTable {
     std::string name;
     const char* columns;
@@ -94,6 +97,7 @@ std::uint64_t state_hash(const Scene& scene, const std::vector<Constraint>& cons
 Recorder::Recorder(const Case& parameters, const Scene& scene)
     : parameters_(parameters),
       dt_(parameters.time_step),
+      solids_(scene),
       tally_({scene.shapes[0].region_names, parameters.average_from,
               std::isinf(parameters.crushing_pressure), worrying_overlap(scene),
               tunnelling_speed(scene, parameters.time_step)}),
@@ -159,6 +163,8 @@ void Recorder::add(const StepView& view) {
         view.converged ? std::nullopt
                        : std::optional(residual_impulse(view.scene.bodies, view.constraints, dt_));
     tally_.add(record, view.time, dt_, residual);
+    if (is_look_due(view.time))
+        tally_.add_look(solids_.measure(view.scene, view.contacts), view.time);
     panel_loads_.add(view.contacts, view.constraints, view.time);
     measure_floe_forces(view.constraints, dt_, track_of_, tracked_);
     for (const RegionImpulse& r : record.regions) frame_impulse_[r.floe] -= r.impulse;
@@ -167,6 +173,11 @@ void Recorder::add(const StepView& view) {
     // half a step of tolerance: times are multiples of dt up to rounding
     if (view.time + 0.5 * dt_ >= static_cast<double>(frames_) * parameters_.frames_every)
         add_frame(view);
+}
+
+// Under the rule "centres" bodies are their spheres, and round the edges of their solids.
+bool Recorder::is_look_due(double time) const {
+    return parameters_.normal == NormalRule::surface && std::llround(time / dt_) % kLookEvery == 0;
 }
 
 void Recorder::add_history(const StepView& view, const StepRecord& record) {

@@ -78,11 +78,13 @@ private:
     void add_history(const StepView& view, const StepRecord& record);
     void flush_history(const StepView& view);
     void add_frame(const StepView& view);
+    bool is_look_due(double time) const;
 
     Case parameters_;
     double dt_;
     std::optional<RunWriter> run_;    ///< from open() or resume() on
     std::vector<CsvFile> csv_files_;  ///< forces.csv, then the tracked floes'
+    SolidOverlap solids_;
     Tally tally_;
     PanelLoads panel_loads_;
     std::vector<std::int32_t> track_of_;  ///< per body, its number among the tracked floes, or -1

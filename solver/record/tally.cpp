@@ -61,6 +61,20 @@ void Tally::add(const StepRecord& record, double time, double dt, std::optional<
     add_averaged(record, dt);
 }
 
+void Tally::add_look(const OverlapFound& found, double time) {
+    ++looks_;
+    doubtful_looks_ += found.unseen > options_.worrying_overlap ? 1 : 0;
+    if (found.deepest > max_overlap_) {
+        max_overlap_ = found.deepest;
+        deepest_time_ = time;
+    }
+    if (found.unseen <= unseen_overlap_) return;
+    unseen_overlap_ = found.unseen;
+    unseen_time_ = time;
+    unseen_a_ = found.a;
+    unseen_b_ = found.b;
+}
+
 void Tally::add_averaged(const StepRecord& record, double dt) {
     averaged_time_ += dt;
     impulse_ += record.impulse;
@@ -122,6 +136,7 @@ void Tally::fill(Summary& summary) const {
     summary.contacts_mean = contacts_ / steps;
     summary.contacts_max = contacts_max_;
     summary.max_overlap = max_overlap_;
+    if (looks_ > 0) summary.unseen_overlap = unseen_overlap_;
     summary.unconverged_steps = unconverged_;
     if (impulse_ > 0.0) summary.residual_share = residual_ / impulse_;
     summary.energy["kinetic_J"] = kinetic_;

@@ -11,6 +11,7 @@
 #include "common/formats/summary_file.hpp"
 #include "solver/contact/solve_contacts.hpp"
 #include "solver/record/measure_step.hpp"
+#include "solver/record/solid_overlap.hpp"
 
 namespace ice {
 
@@ -30,6 +31,9 @@ public:
 
     /// @param residual  residual_impulse() of a step of which a solver stage did not converge
     void add(const StepRecord& record, double time, double dt, std::optional<double> residual);
+
+    /// What a look at the solids found at the end of a step.
+    void add_look(const OverlapFound& found, double time);
 
     /// Fills in forces, regions, contacts, energy and warnings of a summary.
     /// @pre the summary holds the ledger's energies
@@ -59,6 +63,7 @@ private:
     void warn(Summary& summary) const;
     Warning warn_of_jam(const Summary& summary) const;
     Warning warn_of_overlap(const Summary& summary) const;
+    Warning warn_of_unseen() const;
     Warning warn_of_tunnelling(const Summary& summary) const;
     std::optional<double> change_without(const Doubtful& steps, double mean) const;
 
@@ -70,6 +75,10 @@ private:
     std::set<std::pair<std::int32_t, std::int32_t>> touching_;  ///< (floe, region) of the last step
     std::int64_t steps_ = 0, unconverged_ = 0, jammed_steps_ = 0;
     double contacts_ = 0.0, contacts_max_ = 0.0, max_overlap_ = 0.0;
+    std::int64_t looks_ = 0,
+                 doubtful_looks_ = 0;  ///< at the solids; with a worrying unseen overlap
+    double unseen_overlap_ = 0.0, unseen_time_ = 0.0;
+    std::int32_t unseen_a_ = 0, unseen_b_ = 0;
     double kinetic_ = 0.0, kinetic_max_ = 0.0;
     double impulse_ = 0.0, residual_ = 0.0;  ///< sums over the averaged time [N s]
     Doubtful jam_, fast_;

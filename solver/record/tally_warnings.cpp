@@ -28,6 +28,10 @@ double share_of_peaks(std::vector<double> force) {
     return all == 0.0 ? 0.0 : std::accumulate(force.begin(), few, 0.0) / all;
 }
 
+std::string name_of(std::int32_t body) {
+    return body == 0 ? std::string("the hull") : fmt::format("floe {}", body);
+}
+
 // A share that was not measured counts as unknown, and is worth a warning.
 bool matters(std::optional<double> share) { return !share || *share > kMatters; }
 
@@ -79,6 +83,7 @@ void Tally::warn(Summary& summary) const {
                 100.0 * peaks),
             peaks));
     if (max_overlap_ > options_.worrying_overlap) warnings.push_back(warn_of_overlap(summary));
+    if (unseen_overlap_ > options_.worrying_overlap) warnings.push_back(warn_of_unseen());
     if (closing_speed_ > options_.tunnelling_speed) warnings.push_back(warn_of_tunnelling(summary));
     warn_of_trend(summary);
     if (contacts_max_ == 0.0)
@@ -115,13 +120,24 @@ Warning Tally::warn_of_overlap(const Summary& summary) const {
         share);
 }
 
+// What force they miss is not known: nothing measured it.
+Warning Tally::warn_of_unseen() const {
+    return judged(
+        fmt::format("{} and floe {} lay {:.3g} m deeper in each other at t = {:.2f} s than their "
+                    "contacts knew, the worst of {} of {} looks at the solids with such a pair: "
+                    "pictures and loads on these floes are wrong; use finer ice spheres",
+                    name_of(unseen_a_), unseen_b_, unseen_overlap_, unseen_time_, doubtful_looks_,
+                    looks_),
+        std::nullopt);
+}
+
 Warning Tally::warn_of_tunnelling(const Summary& summary) const {
     return judged(
         fmt::format("{} and floe {} met at {:.3g} m/s at t = {:.2f} s; above {:.3g} m/s, a contact "
                     "sphere's diameter per step, bodies may pass through each other: lower "
                     "simulation.time_step",
-                    closing_a_ == 0 ? std::string("the hull") : fmt::format("floe {}", closing_a_),
-                    closing_b_, closing_speed_, closing_time_, options_.tunnelling_speed),
+                    name_of(closing_a_), closing_b_, closing_speed_, closing_time_,
+                    options_.tunnelling_speed),
         change_without(fast_, summary.resistance.mean));
 }
 

@@ -10,11 +10,17 @@
 #include "common/base/parallel.hpp"
 #include "common/formats/widest_spacing.hpp"
 #include "common/geometry/winding_number.hpp"
+#include "solver/scene/ice_extent.hpp"
 #include "solver/scene/tunnelling_speed.hpp"
+#include "solver/step/unfelt_hull.hpp"
 
 namespace ice {
 
 namespace {
+
+// A part of the hull in the ice belt that is worth a warning when no sphere stands for it: the
+// edges of a deck or a transom in full-bodied hulls stay below it.
+constexpr double kWorryingUnfelt = 0.005;
 
 constexpr std::size_t kMostNamed = 5;      // pairs in a message
 constexpr std::size_t kMostMeasured = 64;  // points inside another body whose depth is taken
@@ -150,6 +156,22 @@ void warn_of_spacing(const World& w, std::vector<Warning>& warnings) {
     warnings.push_back({text});
 }
 
+// The hull between the ice's lower side and the water line, where no sphere fits.
+void warn_of_unfelt_hull(const World& w, std::vector<Warning>& warnings) {
+    if (w.scene.dimension != 3) return;
+    double low = 0.0;
+    for (std::size_t i = 1; i < w.scene.bodies.size(); ++i)
+        low = std::min(low, box_of(w.scene, i).min().z());
+    const UnfeltHull hull = measure_unfelt_hull(w.scene, low, 0.0);
+    if (hull.share <= kWorryingUnfelt) return;
+    const double radius = w.scene.shapes[0].largest_radius;
+    warnings.push_back({fmt::format(
+        "no contact sphere stands for {:.2g} % of the hull between the water line and {:.3g} m "
+        "below it, as far as {:.3g} m from one at x = {:.2f}, y = {:.2f}, z = {:.2f} m of the "
+        "ship: ice goes into it unfelt; make the hull's set with spheres smaller than {:.3g} m",
+        100.0 * hull.share, -low, hull.distance, hull.at.x(), hull.at.y(), hull.at.z(), radius)});
+}
+
 void warn_of_speed(const World& w, std::vector<Warning>& warnings) {
     const Case& p = w.parameters;
     const double limit = tunnelling_speed(w.scene, p.time_step);
@@ -226,6 +248,7 @@ std::vector<Warning> check_start(World& world, bool allow_overlap) {
     if (!overlaps.empty()) warnings.push_back({describe(overlaps, "; ")});
     warn_of_speed(world, warnings);
     warn_of_spacing(world, warnings);
+    warn_of_unfelt_hull(world, warnings);
     return warnings;
 }
 

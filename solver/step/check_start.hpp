@@ -17,13 +17,8 @@ struct StartOverlap {
     std::int32_t inside = -1;  ///< the body that lies wholly inside the other one; -1: neither
 };
 
-/// Overlap that a case may begin with, as a share of the smallest contact sphere's radius: what
-/// places rounded to a millimetre and normals rounded to floats make of floes that touch. The first
-/// steps move so little apart without a force worth speaking of. The spheres add nothing to it:
-/// they stay within their solid to 1e-6 of the radius.
-constexpr double kToleratedOverlap = 0.02;
-
-/// All pairs of bodies that overlap by more than is tolerated, the deepest first.
+/// All pairs of bodies that overlap by more than kToleratedOverlap, the deepest first. The spheres
+/// add nothing to it: they stay within their solid to 1e-6 of the radius.
 ///
 /// Surfaces are compared as in a step, and, since a body deep inside another one meets no surface
 /// there, spheres of each body with the other one's solid. Floes that are held count, too; unbroken
@@ -33,7 +28,8 @@ std::vector<StartOverlap> find_start_overlaps(Scene& scene, const Case& paramete
 
 /// Looks at a world that was just built.
 /// @return warnings: the ship or a floe is faster than tunnelling_speed; spheres farther apart than
-///         kWidestSpacing, with the rule "centres" than they are wide; overlaps, where allowed
+///         kWidestSpacing, with the rule "centres" than they are wide; part of the hull in the ice
+///         belt that no sphere stands for; overlaps, where allowed
 /// @throws Error (exit code 2) naming the bodies that overlap, how deep and where, unless
 ///         `allow_overlap`
 std::vector<Warning> check_start(World& world, bool allow_overlap);

@@ -128,6 +128,12 @@ void StateFields::carry(CheckpointFile& file, Tally& t) {
     file.carry("tally.contacts", t.contacts_);
     file.carry("tally.contacts_max", t.contacts_max_);
     file.carry("tally.max_overlap", t.max_overlap_);
+    file.carry("tally.looks", t.looks_);
+    file.carry("tally.doubtful_looks", t.doubtful_looks_);
+    file.carry("tally.unseen_overlap", t.unseen_overlap_);
+    file.carry("tally.unseen_time", t.unseen_time_);
+    file.carry("tally.unseen_a", t.unseen_a_);
+    file.carry("tally.unseen_b", t.unseen_b_);
     file.carry("tally.kinetic", t.kinetic_);
     file.carry("tally.kinetic_max", t.kinetic_max_);
     file.carry("tally.first_jam_time", t.first_jam_time_);

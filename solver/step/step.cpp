@@ -81,7 +81,7 @@ void step(World& w) {
     // overlap that the finite step left is taken out of the poses, not of the velocities; where the
     // ice crushes, out of the ice
     timed(w, Stage::contact, [&] {
-        w.overlaps.separate(bodies, w.constraints, law, w.nudges);
+        w.overlaps.separate(w.scene, w.constraints, law, w.nudges);
         w.overlaps.crush(w.scene, w.contacts, w.constraints, law);
     });
     timed(w, Stage::integrate, [&] {

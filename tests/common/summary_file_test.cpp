@@ -235,6 +235,7 @@ TEST_CASE("summary.json holds the contract's keys in the contract's order", "[fo
                             "mean",
                             "max",
                             "max_overlap_m",
+                            "unseen_overlap_m",
                             "unconverged_steps",
                             "energy",
                             "lindqvist_submersion_N",

@@ -245,9 +245,10 @@ TEST_CASE("removing overlap moves floes, and nothing else: no force, no speed",
                     test::within(0.0), "overlap is removed from poses"});
     test::validate({"floes and hull overlapping at rest: kinetic energy afterwards", "J", 0.0,
                     kinetic_energy(w.scene.bodies), test::within(0.0), "the same"});
-    // solve_contacts.cpp leaves 0.1 mm, so that contacts that just touch stay contacts
-    test::validate({"floes and hull overlapping at rest: overlap afterwards", "m", 1e-4, overlap,
-                    test::within(2e-5), "all but the 0.1 mm that is left alone"});
+    // overlaps.cpp leaves a fiftieth of a radius, so that contacts that just touch stay contacts
+    const double left = kToleratedOverlap * w.scene.shapes[1].largest_radius;
+    test::validate({"floes and hull overlapping at rest: overlap afterwards", "m", left, overlap,
+                    test::within(2e-5), "all but the fiftieth of a radius that is left alone"});
 }
 
 TEST_CASE("a floe turning freely keeps its angular momentum and energy",
