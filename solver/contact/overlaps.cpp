@@ -16,8 +16,8 @@ namespace {
 // 0.02 s, as is usual in split-impulse solvers.
 constexpr double kOpeningTime = 0.1;
 
-// Most of an overlap that counts, in radii: a deep one opens at half a radius in kOpeningTime, which
-// is slow beside a floe and yet ends what the pair is in within a second.
+// Most of an overlap that counts, in radii: a deep one opens at half a radius in kOpeningTime,
+// which is slow beside a floe and yet ends what the pair is in within a second.
 constexpr double kMostOpened = 0.5;
 
 // Most of an overlap that one step opens. All of it would overshoot where contacts share a body.

@@ -9,8 +9,8 @@
 
 namespace ice {
 
-/// Overlap that is left alone, as a share of the smaller contact sphere's radius: contacts that just
-/// touch stay contacts, and a case may begin with it. It is what places rounded to a millimetre and
+/// Overlap that is left alone, as a share of the smaller contact sphere's radius: contacts that
+/// just touch stay contacts, and a case may begin with it. It is what places rounded to a millimetre and
 /// normals rounded to floats make of floes that touch, and what a gap changes by where another
 /// sphere becomes the nearest one.
 constexpr double kToleratedOverlap = 0.02;

@@ -17,12 +17,12 @@ struct OverlapFound {
     std::int32_t a = 0, b = 0;  ///< that pair
 };
 
-/// Looks for overlaps with the bodies' meshes, without the contact finder: neither its pairs nor its
-/// gaps.
+/// Looks for overlaps with the bodies' meshes, without the contact finder: neither its pairs nor
+/// its gaps.
 ///
 /// Points of one body, its mesh's vertices and its spheres' seats as far as crushed, are looked for
-/// in the other one and the other way round. In a convex floe a point's depth is exact: the distance
-/// of the nearest plane. In other forms (hulls, cusps) the winding number of the mesh says whether
+/// in the other one and the other way round. In a convex floe a point's depth is exact: the
+/// distance of the nearest plane. In other forms (hulls, cusps) the winding number of the mesh says whether
 /// it is inside, and the plane at the nearest seat how deep. An edge that crosses another edge
 /// between seats is missed by up to half a spacing.
 class SolidOverlap {
