@@ -10,9 +10,9 @@
 namespace ice {
 
 /// Overlap that is left alone, as a share of the smaller contact sphere's radius: contacts that
-/// just touch stay contacts, and a case may begin with it. It is what places rounded to a millimetre and
-/// normals rounded to floats make of floes that touch, and what a gap changes by where another
-/// sphere becomes the nearest one.
+/// just touch stay contacts, and a case may begin with it. It is what places rounded to a
+/// millimetre and normals rounded to floats make of floes that touch, and what a gap changes by
+/// where another sphere becomes the nearest one.
 constexpr double kToleratedOverlap = 0.02;
 
 /// Small moves that shrink overlaps; they change poses, never velocities or reported forces.

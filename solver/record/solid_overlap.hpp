@@ -22,9 +22,9 @@ struct OverlapFound {
 ///
 /// Points of one body, its mesh's vertices and its spheres' seats as far as crushed, are looked for
 /// in the other one and the other way round. In a convex floe a point's depth is exact: the
-/// distance of the nearest plane. In other forms (hulls, cusps) the winding number of the mesh says whether
-/// it is inside, and the plane at the nearest seat how deep. An edge that crosses another edge
-/// between seats is missed by up to half a spacing.
+/// distance of the nearest plane. In other forms (hulls, cusps) the winding number of the mesh says
+/// whether it is inside, and the plane at the nearest seat how deep. An edge that crosses another
+/// edge between seats is missed by up to half a spacing.
 class SolidOverlap {
 public:
     explicit SolidOverlap(const Scene& scene);
