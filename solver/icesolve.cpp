@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <optional>
+#include <tuple>
 
 #include "common/base/error.hpp"
 #include "common/base/instruction_set.hpp"
@@ -37,13 +39,36 @@ struct Options {
     std::string case_file, out, explain, restart, simd = "auto";
     std::string picture, fresh_case;
     std::vector<std::string> overrides, fresh;
+    std::map<std::string, std::string> of_mesh;  // options of spherize that --new passes on
     int threads = 0, seeds = 0;
     std::int64_t hash_every = 0;
-    double checkpoint_every = 0.0;
+    double checkpoint_every = 0.0, autosave = 300.0;
     bool check = false, schema = false, defaults = false, json = false, verify = false,
          no_report = false, allow_overlap = false, overwrite = false;
     ice::MessageOptions messages;
 };
+
+// A first case, and what spherize may have to be told of its mesh.
+void declare_new(CLI::App& app, Options& o) {
+    auto* fresh = app.add_option("--new", o.fresh,
+                                 "Write a commented case for a hull (mesh or sphere set) and an "
+                                 "ice field (.h5, or specification .toml), and what they lack")
+                      ->type_name("HULL [FIELD]")
+                      ->expected(1, 2);
+    app.add_option("-o", o.fresh_case, "With --new: the case file (default HULL-stem.cfg)")
+        ->type_name("CASE.cfg")
+        ->needs(fresh);
+    for (const auto& [name, unit, about] :
+         {std::tuple("--units", "UNIT", "unit of its file, mm, cm, m, ft or in"),
+          std::tuple("--scale", "F", "metres per unit of its file"),
+          std::tuple("--up", "y|z", "axis that points up"),
+          std::tuple("--forward", "+x|-x|+y|...", "direction of the bow"),
+          std::tuple("--mirror", "y", "the file holds one half of the hull")})
+        app.add_option(name, o.of_mesh[name],
+                       fmt::format("With --new and a mesh, as spherize {0}: {1}", name, about))
+            ->type_name(unit)
+            ->needs(fresh);
+}
 
 void declare(CLI::App& app, Options& o) {
     ice::declare_version(app);
@@ -61,10 +86,15 @@ void declare(CLI::App& app, Options& o) {
     app.add_option("--simd", o.simd, "Instruction set; results have the same bits on all")
         ->check(CLI::IsMember({"auto", "scalar", "sse4", "avx2", "avx512"}));
     app.add_option("--checkpoint-every", o.checkpoint_every,
-                   "Write checkpoint.h5 in the run folder every T simulated seconds and at the end "
-                   "(default: every 5 minutes of work, until the run ends)")
+                   "Write checkpoint.h5 in the run folder every T simulated seconds and at the end")
         ->type_name("T")
         ->transform(ice::positive_quantity(ice::Dimension::time, "2.5"));
+    app.add_option("--autosave", o.autosave,
+                   "Without --checkpoint-every: write it after every T of work, 5 min by default, "
+                   "and remove it when the run ends")
+        ->type_name("T")
+        ->transform(ice::positive_quantity(ice::Dimension::time, "5 min"))
+        ->excludes(app.get_option("--checkpoint-every"));
     app.add_option("--restart", o.restart,
                    "Go on from a checkpoint, in its folder (or --out), to the same bits; only "
                    "simulation.duration may have changed")
@@ -87,14 +117,7 @@ void declare(CLI::App& app, Options& o) {
                    "With --check: draw the start from the side (.svg, .png or .pdf)")
         ->type_name("FILE")
         ->needs(check);
-    auto* fresh = app.add_option("--new", o.fresh,
-                                 "Write a commented case for a hull (mesh or sphere set) and an "
-                                 "ice field (.h5, or specification .toml), and what they lack")
-                      ->type_name("HULL [FIELD]")
-                      ->expected(1, 2);
-    app.add_option("-o", o.fresh_case, "With --new: the case file (default HULL-stem.cfg)")
-        ->type_name("CASE.cfg")
-        ->needs(fresh);
+    declare_new(app, o);
     app.add_flag("--allow-overlap", o.allow_overlap,
                  "Run a case whose bodies overlap at the start, with a warning");
     app.add_flag("--verify", o.verify,
@@ -225,6 +248,8 @@ int run_case(const Options& o, const std::string& command_line) {
     if (!saved) warnings = ice::check_start(world, o.allow_overlap);
     const std::vector<ice::Warning> of_start = warnings;
     warnings.insert(warnings.end(), course.begin(), course.end());
+    // said now, while the case can be changed; at the end the summary has the verdict
+    if (const auto few = ice::warn_of_short_averages(world)) warnings.push_back(*few);
     if (o.check) return describe(o, world, warnings);
     const ice::RunFolder claimed(
         folder_of_run(o), may_exist(o, folder_of_run(o)),
@@ -245,9 +270,10 @@ int run_case(const Options& o, const std::string& command_line) {
                 fmt::format("{} {:016x}\n", w.steps, ice::state_hash(w.scene, w.constraints)));
         return !ice::interrupted();
     };
-    const ice::Summary summary = run_or_tell(
-        world,
-        {folder, command_line, o.checkpoint_every, going_on, of_start, o.verify, watch, course}, o);
+    const ice::Summary summary = run_or_tell(world,
+                                             {folder, command_line, o.checkpoint_every, going_on,
+                                              of_start, o.verify, watch, course, o.autosave},
+                                             o);
     progress.finish();
     const int code = report(summary, o, folder.string(), warnings);
     if (!o.no_report) write_report(folder);
@@ -262,6 +288,8 @@ std::vector<std::string> member_words(const Options& o) {
     if (o.threads > 0) words.insert(words.end(), {"--threads", std::to_string(o.threads)});
     if (o.checkpoint_every > 0.0)
         words.insert(words.end(), {"--checkpoint-every", fmt::format("{}", o.checkpoint_every)});
+    else if (o.autosave != Options().autosave)
+        words.insert(words.end(), {"--autosave", fmt::format("{}", o.autosave)});
     for (const auto& [given, word] :
          {std::pair(o.allow_overlap, "--allow-overlap"), std::pair(o.verify, "--verify"),
           std::pair(o.no_report, "--no-report"), std::pair(o.messages.quiet, "-q")})
@@ -311,8 +339,12 @@ int run_icesolve(const Options& o, const std::string& command_line) {
     } else if (o.defaults) {
         ice::write_data(ice::default_text(ice::case_schema()));
     } else if (!o.fresh.empty()) {
-        const auto file = ice::write_new_case(
-            {o.fresh[0], o.fresh.size() > 1 ? o.fresh[1] : std::string(), o.fresh_case});
+        std::vector<std::string> of_mesh;
+        for (const auto& [name, value] : o.of_mesh)
+            if (!value.empty()) of_mesh.insert(of_mesh.end(), {name, value});
+        const auto file =
+            ice::write_new_case({o.fresh[0], o.fresh.size() > 1 ? o.fresh[1] : std::string(),
+                                 o.fresh_case, std::move(of_mesh)});
         ice::say(
             fmt::format("wrote {}: look at the lines marked CHECK, then\n  icesolve {} --check",
                         file.string(), ice::shell_word(file.string())));

@@ -10,10 +10,14 @@ std::string release_rule(const IceParticulars& ice) {
     return fmt::format("{}", fmt::join(ice.hold, ", "));
 }
 
+bool is_short(double averaged_lengths) {
+    constexpr double kOne = 0.995;  // shown as 1.00
+    return averaged_lengths < kOne;
+}
+
 std::string averaged_text(double averaged_lengths) {
-    constexpr double kOne = 0.995;  // what is shown as 1.00
     return fmt::format("{:.2f} ship lengths{}", averaged_lengths,
-                       averaged_lengths < kOne ? ", less than one" : "");
+                       is_short(averaged_lengths) ? ", less than one" : "");
 }
 
 }  // namespace ice

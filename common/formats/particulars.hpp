@@ -47,8 +47,11 @@ struct TravelParticulars {
     double averaged_lengths = kUnknown;  ///< of it while forces are averaged
 };
 
-/// "1.20 ship lengths", with ", less than one" where the averages are of less than a length, which
-/// floes need about to pass along the hull.
+/// Whether averages are of less than the length that floes need to pass along the hull; false where
+/// the length is unknown.
+bool is_short(double averaged_lengths);
+
+/// "1.20 ship lengths", with ", less than one" where that is short.
 std::string averaged_text(double averaged_lengths);
 
 /// What an empirical formula says of the same ship and ice.

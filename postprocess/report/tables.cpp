@@ -131,8 +131,6 @@ std::string region_table(const Summary& s, const ForceUnit& unit) {
     header.push_back("Mean z" + in);
     std::vector<std::vector<std::string>> rows;
     for (const auto& [name, r] : s.regions) {
-        if (name == "hull" && r.hits == 0)
-            continue;  // parts without a name, of which there are none
         rows.push_back({name, std::to_string(r.hits), readable(r.max_impulse), unit.text(r.mean[0]),
                         unit.text(r.friction_mean[0])});
         if (!flat) rows.back().push_back(unit.text(r.mean[1]));
@@ -165,9 +163,8 @@ std::string energy_table(const Summary& s) {
         rows.push_back({name, readable(found->second),
                         std::isfinite(share) ? fmt::format("{:.2f}", share) : "n/a"});
     }
-    return table(
-        {s.dimension == 2 ? "Energy [J/m]" : "Energy [J]", "Whole run", "% of the ship's work"},
-        rows);
+    return table({s.dimension == 2 ? "Energy [J/m]" : "Energy [J]", "Whole run", "Share [%]"},
+                 rows);
 }
 
 std::string numerics_table(const Summary& s) {

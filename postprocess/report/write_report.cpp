@@ -42,9 +42,8 @@ std::string page_header(const read::RunFolder& run) {
 std::string steadiness(const ForceStatistics& f, const ForceUnit& unit) {
     if (!std::isfinite(f.correlation_time)) return "";
     std::string text = fmt::format(
-        " Samples farther apart than {} s are independent, which makes "
-        "{} of them.",
-        readable(f.correlation_time), std::lround(f.effective_samples));
+        " The interval is that of {} independent samples, which the autocorrelation leaves.",
+        std::lround(f.effective_samples));
     if (std::isfinite(f.trend))
         text += fmt::format(
             " A straight line through the averaged time changes by {} {}, which is "
@@ -88,8 +87,9 @@ std::string origin(const read::RunFolder& run) {
         rows.emplace_back("State hash", fmt::format("{:016x}", run.summary->state_hash));
         rows.emplace_back(
             "Computed in",
-            fmt::format("{} s, {} steps, {} threads, {}", readable(run.summary->wall_s),
-                        run.summary->steps, run.summary->threads, run.summary->simd));
+            fmt::format("{} s, {} steps, {} thread{}, {}", readable(run.summary->wall_s),
+                        run.summary->steps, run.summary->threads,
+                        run.summary->threads == 1 ? "" : "s", run.summary->simd));
     }
     std::string text = header.case_toml.substr(0, kMostCaseText);
     if (text.size() < header.case_toml.size()) text += "\n# ... see case.resolved.cfg\n";

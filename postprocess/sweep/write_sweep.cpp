@@ -63,8 +63,7 @@ std::string region_note(const Sweep& sweep) {
     for (const SweepRun& run : sweep.runs)
         if (run.summary)
             for (const auto& [name, region] : run.summary->regions)
-                // parts without a name, of which there are none
-                if (name != "hull" || region.hits > 0) names[part_of_region(name)].insert(name);
+                names[part_of_region(name)].insert(name);
     std::string out;
     for (const auto& [part, regions] : names)
         out += (out.empty() ? "Regions of the hull by name: " : "; ") +

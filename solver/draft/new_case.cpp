@@ -8,6 +8,7 @@
 #include "common/base/error.hpp"
 #include "common/base/part_file.hpp"
 #include "common/cli/console.hpp"
+#include "common/cli/output_files.hpp"
 #include "common/cli/sibling_program.hpp"
 #include "common/formats/spheres_file.hpp"
 #include "common/formats/summary_file.hpp"
@@ -41,17 +42,22 @@ void run_program_beside(const std::string& name, const std::vector<std::string>&
 }
 
 // The mesh as spheres that some 12000 of cover it: the area decides.
-fs::path make_spheres(const fs::path& mesh, const fs::path& folder) {
+fs::path make_spheres(const fs::path& mesh, const std::vector<std::string>& options,
+                      const fs::path& folder) {
     const fs::path out = folder / (mesh.stem().string() + ".spheres.h5");
     refuse_existing(out, "give it in place of the mesh, or remove it");
     const fs::path report = folder / (mesh.stem().string() + ".json.part");
-    run_program_beside("spherize", {mesh.string(), "--check", "-q", "--json", report.string()});
+    const auto spherize = [&](std::vector<std::string> words) {
+        words.insert(words.begin(), {mesh.string(), "-q"});
+        words.insert(words.end(), options.begin(), options.end());
+        run_program_beside("spherize", words);
+    };
+    spherize({"--check", "--json", report.string()});
     const double area = read_json_numbers(report).at("area_m2");
     fs::remove(report);
     const double spacing = std::stod(fmt::format("{:.2g}", std::sqrt(1.155 * area / kSpheres)));
-    run_program_beside("spherize",
-                       {mesh.string(), "-q", "-r", fmt::format("{:.2g}", spacing / kSpacing), "-s",
-                        fmt::format("{:g}", spacing), "--mode", "surface", "-o", out.string()});
+    spherize({"-r", fmt::format("{:.2g}", spacing / kSpacing), "-s", fmt::format("{:g}", spacing),
+              "--mode", "surface", "-o", out.string()});
     say(fmt::format("wrote {}", out.string()));
     return out;
 }
@@ -84,14 +90,19 @@ std::string seen_from(const fs::path& folder, const fs::path& file) {
 fs::path write_new_case(const NewCase& wish) {
     require_file(wish.hull, "hull");
     if (!wish.field.empty()) require_file(wish.field, "field");
+    const bool is_set = wish.hull.extension() == ".h5";
+    if (is_set && !wish.mesh_options.empty())
+        throw bad_input(wish.mesh_options[0],
+                        "says how to read a mesh, but " + wish.hull.string() + " is a sphere set",
+                        "leave it out, or give the mesh");
     std::string stem = wish.hull.stem().string();
     if (stem.ends_with(".spheres")) stem.resize(stem.size() - sizeof(".spheres") + 1);
     const fs::path out = wish.out.empty() ? fs::path(stem + ".cfg") : wish.out;
     refuse_existing(out, "give another name with -o, or remove it");
+    OutputFiles().add("-o", out);
     const fs::path folder = fs::absolute(out).lexically_normal().parent_path();
 
-    const fs::path hull =
-        wish.hull.extension() == ".h5" ? wish.hull : make_spheres(wish.hull, folder);
+    const fs::path hull = is_set ? wish.hull : make_spheres(wish.hull, wish.mesh_options, folder);
     fs::path field = wish.field.empty() ? make_specification(hull, folder) : wish.field;
     if (field.extension() == ".toml") field = make_field_file(field, folder);
     const Draft draft = draft_case(hull, field);

@@ -270,6 +270,9 @@ void Recorder::finish(const StepView& view, Summary& summary) {
     fill_energy(view.ledger, potential_energy(view.scene, parameters_), summary);
     tally_.fill(summary);  // after the energies: its warnings look at them
     panel_loads_.fill(summary);
+    // row 0 is for parts without a name, of which a mesh with names mostly has none
+    const auto& names = view.scene.shapes[0].region_names;
+    if (names.size() > 1 && summary.regions.at(names[0]).hits == 0) summary.regions.erase(names[0]);
     summary.state_hash = state_hash(view.scene, view.constraints);
     const Bodies& b = view.scene.bodies;
     summary.floes_total = static_cast<std::int64_t>(b.size()) - 1;

@@ -37,20 +37,40 @@ bool matters(std::optional<double> share) { return !share || *share > kMatters; 
 
 // The straight line through the averaged time, when it is no chance. Its end is half of its change
 // away from the mean: so far off may the mean be that of a state which lasts.
-void warn_of_trend(Summary& summary) {
+Warning warn_of_trend(const Summary& summary) {
     const ForceStatistics& r = summary.resistance;
-    if (!r.trend_significant.value_or(false) || r.mean == 0.0) return;
     const double share = std::abs(r.trend / r.mean);
     const double lengths = summary.travel.averaged_lengths;
     const std::string because =
-        lengths < 1.0
+        is_short(lengths)
             ? fmt::format(" ({}: floes still spread along the hull)", averaged_text(lengths))
             : "";
-    summary.warnings.push_back(judged(
+    return judged(
         fmt::format("the resistance {} by {:.0f} % of its mean over the averaged time{}: begin "
                     "later (output.average_from) or run longer (simulation.duration)",
                     r.trend > 0.0 ? "rises" : "falls", 100.0 * share, because),
-        0.5 * share));
+        0.5 * share);
+}
+
+// Averages over less than a length, of which the mean's interval says how well it is known. The
+// text is the same for all members of an ensemble.
+Warning warn_of_short_averages(const Summary& summary) {
+    const ForceStatistics& r = summary.resistance;
+    return judged(
+        fmt::format("forces are averaged over {}, of {:.2f} travelled: floes need about "
+                    "one to pass along the hull; run longer (simulation.duration)",
+                    averaged_text(summary.travel.averaged_lengths), summary.travel.lengths),
+        std::isfinite(r.ci95) ? std::optional(r.ci95 / std::abs(r.mean)) : std::nullopt);
+}
+
+// Whether the averaged time is long enough; a trend that was measured says more than its length.
+void warn_of_averages(Summary& summary) {
+    const ForceStatistics& r = summary.resistance;
+    if (r.mean == 0.0 || !std::isfinite(r.mean)) return;
+    if (r.trend_significant.value_or(false))
+        summary.warnings.push_back(warn_of_trend(summary));
+    else if (summary.travel.distance > 0.0 && is_short(summary.travel.averaged_lengths))
+        summary.warnings.push_back(warn_of_short_averages(summary));
 }
 
 }  // namespace
@@ -85,7 +105,7 @@ void Tally::warn(Summary& summary) const {
     if (max_overlap_ > options_.worrying_overlap) warnings.push_back(warn_of_overlap(summary));
     if (unseen_overlap_ > options_.worrying_overlap) warnings.push_back(warn_of_unseen());
     if (closing_speed_ > options_.tunnelling_speed) warnings.push_back(warn_of_tunnelling(summary));
-    warn_of_trend(summary);
+    warn_of_averages(summary);
     if (contacts_max_ == 0.0)
         warnings.push_back({"nothing touched anything: is the hull on its way to the ice?", true});
 }

@@ -15,7 +15,6 @@ namespace ice {
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
-constexpr double kFewLengths = 0.5;   // averaged: less is warned of
 constexpr double kLeastShare = 0.02;  // of the averaged time without ice ahead
 constexpr double kMostCells = 4e6;    // of the hull's cross section
 
@@ -194,18 +193,22 @@ std::vector<Warning> check_course(const World& w) {
                  "{:.4g} s: shorten simulation.duration, or move the ship or the ice",
                  course.clearance_fixed, course.hits_fixed_at),
              true});
-    const ShipParticulars ship = measure_ship(w.scene, p);
-    const double lengths = measure_travel(p, ship, p.duration).averaged_lengths;
-    if (lengths < kFewLengths)
-        warnings.push_back(
-            {fmt::format("forces are averaged over {:.2g} ship lengths: floes need about one to "
-                         "pass along the hull; simulation.duration = {:.3g} with "
-                         "output.average_from = {:.3g} makes it one",
-                         lengths,
-                         p.duration * (1.0 + (1.0 - lengths) * ship.length / course.travel),
-                         p.average_from),
-             true});
     return warnings;
+}
+
+std::optional<Warning> warn_of_short_averages(const World& w) {
+    const Case& p = w.parameters;
+    const ShipParticulars ship = measure_ship(w.scene, p);
+    const TravelParticulars travel = measure_travel(p, ship, p.duration);
+    if (!(travel.distance > 0.0) || !is_short(travel.averaged_lengths) ||
+        any_floe_moves(w.scene.bodies))
+        return std::nullopt;
+    const double missing = (1.0 - travel.averaged_lengths) * ship.length / travel.distance;
+    return Warning{fmt::format(
+        "forces are averaged over {}: floes need about one to pass along "
+        "the hull; simulation.duration = {:.3g} with output.average_from = "
+        "{:.3g} makes it one",
+        averaged_text(travel.averaged_lengths), p.duration * (1.0 + missing), p.average_from)};
 }
 
 }  // namespace ice

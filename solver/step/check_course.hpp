@@ -2,6 +2,7 @@
 /// Whether the ship meets the ice of a case, and for how long: asked before the first step.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "common/formats/warning.hpp"
@@ -27,8 +28,12 @@ struct Course {
 Course measure_course(const World& world);
 
 /// Warns of a ship that never meets the ice, meets it after the averages began, leaves it before
-/// they end, runs into unbroken ice, or is averaged over less than half its length. Nothing is said
-/// of a ship at rest, or where floes have velocities of their own.
+/// they end, or runs into unbroken ice. Nothing is said of a ship at rest, or where floes have
+/// velocities of their own.
 std::vector<Warning> check_course(const World& world);
+
+/// Warns of averages over less than a ship's length, with the duration that makes it one; under the
+/// same conditions. It has no verdict: the run's summary says how far the mean is affected (Tally).
+std::optional<Warning> warn_of_short_averages(const World& world);
 
 }  // namespace ice

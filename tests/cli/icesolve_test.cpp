@@ -47,6 +47,8 @@ TEST_CASE("icesolve writes the run folder of the contract", "[cli]") {
     const Summary s = read_summary(w / "results/case/summary.json");
     CHECK(s.status == "completed");
     CHECK(s.steps == 600);
+    CHECK_FALSE(s.regions.contains("hull"));  // every part of this mesh has a name
+    CHECK(s.regions.contains("bow"));
     // the summary's mean is that of the history
     double mean = 0.0, count = 0.0;
     for (const HistoryRow& h : run.history)

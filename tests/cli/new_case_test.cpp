@@ -177,6 +177,25 @@ TEST_CASE("the option --new without ice drafts some of the ship's size", "[cli]"
     CHECK(check.code == 0);
     CHECK_THAT(check.err, Catch::Contains(": good, "));
 
+    // what the file does not say and spherize would guess otherwise: a ship of twice the size
+    const Result told = w.run("icesolve --new ship.stl ice.toml -o twice/ship.cfg --scale 0.002");
+    CHECK(told.code == 1);
+    CHECK_THAT(told.err, Catch::Contains("-o: cannot write twice/ship.cfg: no folder twice"));
+    fs::create_directories(w / "twice");
+    const Result twice =
+        w.run("icesolve --new ship.stl ice.h5 -o twice/ship.cfg --scale 0.002 --up z --forward +x");
+    CAPTURE(twice.err);
+    REQUIRE(twice.code == 0);
+    CHECK_THAT(slurp(w / "twice/ship.cfg"), Catch::Contains("draught = 15.6"));
+    const Result set = w.run("icesolve --new ship.spheres.h5 ice.h5 -o set.cfg --units mm");
+    CHECK(set.code == 2);
+    CHECK_THAT(set.err, Catch::Contains("--units: says how to read a mesh, but ship.spheres.h5") &&
+                            Catch::Contains("leave it out, or give the mesh"));
+    const Result sideways = w.run("icesolve --new ship.stl ice.h5 -o x.cfg --up x");
+    CHECK(sideways.code == 2);
+    CHECK_THAT(sideways.err, Catch::Contains("--up"));
+    CHECK(w.run("icesolve ship.cfg --check --units mm").code == 2);  // without --new
+
     const Result lost = w.run("icesolve --new lost.stl");
     CHECK(lost.code == 2);
     CHECK_THAT(lost.err, Catch::Contains("hull not found"));

@@ -97,6 +97,34 @@ TEST_CASE("a run killed by SIGKILL, even while it writes, goes on to the same fi
     check_continued(w);
 }
 
+// The last time of a CSV file that a kill may have torn: the last whole row's.
+static double last_time_of(const fs::path& rows) {
+    const std::string text = slurp(rows);
+    const std::size_t end = text.rfind('\n');
+    return std::stod(text.substr(text.rfind('\n', end - 1) + 1));
+}
+
+TEST_CASE("without --checkpoint-every a kill loses the work since the last autosave at most",
+          "[cli][checkpoint]") {
+    const int delay = random_delay();
+    CAPTURE(delay);
+    const Workshop w;
+    w.make_case();
+    // an interval that every step outlasts: nothing but the step that the kill ends may be lost
+    CHECK(kill_run(w, {"-q", "--autosave", "1e-6"}, SIGKILL, "r/checkpoint.h5", delay) == -SIGKILL);
+    const double step = 0.005;
+    CHECK(time_of(w / "r/checkpoint.h5") >= last_time_of(w / "r/forces.csv.part") - 1.5 * step);
+    check_continued(w);
+
+    // nobody asked to keep it: a run that ends removes it; by default a short run writes none
+    CHECK(w.run("icesolve case.cfg -q --out ended --autosave 1e-6").code == 0);
+    CHECK_FALSE(fs::exists(w / "ended/checkpoint.h5"));
+    fs::remove_all(w / "r");
+    CHECK(kill_run(w, {"-q"}, SIGKILL, "r/forces.csv.part", delay) == -SIGKILL);
+    CHECK_FALSE(fs::exists(w / "r/checkpoint.h5"));
+    CHECK(w.run("icesolve case.cfg --out t --autosave 1 --checkpoint-every 1").code == 2);
+}
+
 TEST_CASE("after a restart --hash-every prints the lines that the whole run prints",
           "[cli][checkpoint]") {
     const Workshop w;

@@ -146,19 +146,32 @@ TEST_CASE("a ship that runs into unbroken ice is warned of", "[step]") {
     CHECK(check_course(w).empty());
 }
 
-TEST_CASE("averages over less than half a length are warned of, with the duration for one",
-          "[step]") {
+TEST_CASE("averages over less than a length are warned of, with the duration for one", "[step]") {
     World w = field_of(25);
-    w.parameters.average_from = 16.0;  // 4 m of a ship of 10 m
-    CHECK_THAT(only_warning(w), Catch::Contains("averaged over 0.4 ship lengths") &&
-                                    Catch::Contains("duration = 26 with output.average_from = 16"));
+    CHECK_FALSE(warn_of_short_averages(w));  // 12 m of a ship of 10 m
+    w.parameters.average_from = 10.0;
+    CHECK_FALSE(warn_of_short_averages(w));
+    for (const auto& [from, words] :
+         {std::pair(10.1, "averaged over 0.99 ship lengths, less than one: floes need about one"),
+          std::pair(16.0, "duration = 26 with output.average_from = 16 makes it one")}) {
+        w.parameters.average_from = from;
+        const auto warning = warn_of_short_averages(w);
+        REQUIRE(warning);
+        CHECK_THAT(warning->text, Catch::Contains(words));
+        CHECK_FALSE(warning->affects_mean);  // known after the run
+    }
+    CHECK(check_course(w).empty());
 }
 
 TEST_CASE("nothing is said of a ship at rest or of floes that drift", "[step]") {
-    CHECK(check_course(world_of({Vec3(40, 0, -0.1)}, 0.0)).empty());
-    World w = world_of({Vec3(40, 0, -0.1)});
+    World w = world_of({Vec3(40, 0, -0.1)}, 0.0);
+    CHECK(check_course(w).empty());
+    CHECK_FALSE(warn_of_short_averages(w));
+    w = world_of({Vec3(40, 0, -0.1)});
+    w.parameters.average_from = 16.0;
     w.scene.bodies.velocity[1] = Vec3(-1, 0, 0);
     CHECK(check_course(w).empty());
+    CHECK_FALSE(warn_of_short_averages(w));
 }
 
 TEST_CASE("a channel has unbroken ice on both sides, and may have it ahead", "[scene]") {

@@ -108,6 +108,21 @@ TEST_CASE("a force is printed to two digits of its interval, in kN from 10 kN on
     CHECK(force_text(1421.4) == "1421 N");
 }
 
+TEST_CASE("a run without averages, or without a touch, says so in place of numbers", "[record]") {
+    Summary s;
+    s.ship.speed_mean = 0.5;
+    s.floes_moved = 3;
+    s.floes_total = 9;
+    s.resistance.mean = s.resistance.ci95 = kNaN;
+    s.contacts_max = 4.0;
+    CHECK(resistance_line(s) ==
+          "resistance unknown: the run ended before output.average_from; 3 of 9 floes moved");
+    s.resistance.mean = s.resistance.ci95 = 0.0;
+    s.contacts_max = 0.0;
+    CHECK(resistance_line(s) ==
+          "no contact: nothing touched the ship at 0.5 m/s (0.972 kn); 3 of 9 floes moved");
+}
+
 TEST_CASE("the resistance's line has both units of speed, the energy's the shares worth a word",
           "[record]") {
     Summary s;

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
+#include <random>
 
 #include "solver/record/residual_impulse.hpp"
 #include "solver/record/tally.hpp"
@@ -26,13 +27,14 @@ StepRecord step_of(double force) {
 
 // 100 steps before the averaged time and 1000 in it, forces 90 and 110 N in turn
 template <class Change>
-Summary summary_of(Tally tally, const Change& change) {
+Summary summary_of(Tally tally, const Change& change, const TravelParticulars& travel = {}) {
     for (int k = 0; k < 1100; ++k) {
         StepRecord r = step_of(k % 2 == 0 ? 90.0 : 110.0);
         const std::optional<double> residual = change(k - 100, r);
         tally.add(r, 0.01 * (k + 1), 0.01, residual);
     }
     Summary s;
+    s.travel = travel;
     s.energy["ship_work_J"] = 1000.0;
     s.energy["separation_J"] = -6.0;
     tally.fill(s);
@@ -130,6 +132,44 @@ TEST_CASE("a resistance that rises over the averaged time is warned of with its 
     CHECK_THAT(s.warnings[0].text, Catch::Contains("rises by 50 % of its mean"));
     CHECK(s.warnings[0].affects_mean == true);
     CHECK(s.warnings[0].share.value() == Approx(0.25).epsilon(0.01));  // of its end, half the rise
+}
+
+TEST_CASE("averages over less than a length are warned of with the interval's share of the mean",
+          "[record][analytic]") {
+    // 100 N and white noise, of whose 1000 samples the mean is known to 2 noise / sqrt(1000)
+    const auto after = [](double lengths, double noise = 10.0) {
+        std::mt19937 generator(1);
+        std::normal_distribution<double> sample(100.0, noise);
+        return summary_of(Tally(options()),
+                          [&](int, StepRecord& r) {
+                              r.contact_force.x() = -sample(generator);
+                              return kNothing;
+                          },
+                          {20.0, 2.0, lengths});
+    };
+    CHECK(after(1.0).warnings.empty());
+    const Summary few = after(0.68);
+    REQUIRE(few.warnings.size() == 1);
+    CHECK_THAT(few.warnings[0].text,
+               Catch::StartsWith("forces are averaged over 0.68 ship lengths, less than one, of "
+                                 "2.00 travelled"));
+    REQUIRE(std::isfinite(few.resistance.ci95));
+    CHECK(few.warnings[0].share.value() == Approx(few.resistance.ci95 / few.resistance.mean));
+    // the verdict follows the share
+    CHECK(few.warnings[0].affects_mean == (*few.warnings[0].share > kMatters));
+    const Summary wide = after(0.68, 60.0), narrow = after(0.68, 1.0);  // 4 %, 0.06 %
+    CHECK(wide.warnings.at(0).affects_mean == true);
+    CHECK(narrow.warnings.at(0).affects_mean == false);
+    // a trend says more, and why
+    const Summary rising = summary_of(Tally(options()),
+                                      [](int k, StepRecord& r) {
+                                          r.contact_force.x() -= 0.05 * (k - 499.5);
+                                          return kNothing;
+                                      },
+                                      {20.0, 2.0, 0.68});
+    REQUIRE(rising.warnings.size() == 1);
+    CHECK_THAT(rising.warnings[0].text, Catch::Contains("rises by 50 %") &&
+                                            Catch::Contains("0.68 ship lengths, less than one"));
 }
 
 TEST_CASE("a force that changes about a mean of zero is given no share of it", "[record]") {
