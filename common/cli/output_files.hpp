@@ -7,7 +7,7 @@
 
 namespace ice {
 
-/// The files that a command line asks for, checked before minutes go into what they will hold.
+/// The files that a command line asks for, checked before the work begins.
 class OutputFiles {
 public:
     /// A file that no output may replace.
@@ -21,7 +21,7 @@ public:
     void add(const std::string& option, const std::filesystem::path& file);
 
 private:
-    std::map<std::filesystem::path, std::string> taken_;  // what they are
+    std::map<std::filesystem::path, std::string> taken_;  // path -> its name in messages
 };
 
 }  // namespace ice

@@ -191,9 +191,11 @@ TEST_CASE("the option --new without ice drafts some of the ship's size", "[cli]"
     CHECK(set.code == 2);
     CHECK_THAT(set.err, Catch::Contains("--units: says how to read a mesh, but ship.spheres.h5") &&
                             Catch::Contains("leave it out, or give the mesh"));
-    const Result sideways = w.run("icesolve --new ship.stl ice.h5 -o x.cfg --up x");
+    fs::create_directories(w / "sideways");
+    const Result sideways = w.run("icesolve --new ship.stl ice.h5 -o sideways/ship.cfg --up x");
     CHECK(sideways.code == 2);
-    CHECK_THAT(sideways.err, Catch::Contains("--up"));
+    CHECK_THAT(sideways.err, Catch::Contains("spherize: error: --up"));
+    CHECK(fs::is_empty(w / "sideways"));
     CHECK(w.run("icesolve ship.cfg --check --units mm").code == 2);  // without --new
 
     const Result lost = w.run("icesolve --new lost.stl");
