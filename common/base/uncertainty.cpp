@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "common/base/uncertainty.hpp"
 
+#include <boost/math/distributions/binomial.hpp>
 #include <boost/math/distributions/students_t.hpp>
 
 namespace ice {
@@ -8,6 +9,11 @@ namespace ice {
 double student_quantile(double degrees, double chance) {
     return boost::math::quantile(
         boost::math::complement(boost::math::students_t(degrees), 0.5 * chance));
+}
+
+double chance_of_at_least(std::int64_t count, std::int64_t trials, double each) {
+    return boost::math::cdf(boost::math::complement(
+        boost::math::binomial(static_cast<double>(trials), each), static_cast<double>(count - 1)));
 }
 
 }  // namespace ice

@@ -2,6 +2,8 @@
 /// How well a mean is known: one model uncertainty and one Student's t for all programs.
 #pragma once
 
+#include <cstdint>
+
 namespace ice {
 
 /// What the model itself may be wrong by, as a share of the resistance: stated, not computed. An
@@ -12,5 +14,9 @@ inline constexpr double kModelUncertainty = 0.10;
 /// Student's t that a share `chance` of all exceed to either side together: 0.05 for 95 %.
 /// @pre degrees > 0, 0 < chance < 1
 double student_quantile(double degrees, double chance);
+
+/// Chance that of `trials` independent events of chance `each` at least `count` happen (binomial).
+/// @pre 0 < count <= trials, 0 < each < 1
+double chance_of_at_least(std::int64_t count, std::int64_t trials, double each);
 
 }  // namespace ice

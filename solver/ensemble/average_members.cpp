@@ -8,7 +8,9 @@
 #include <functional>
 #include <limits>
 
+#include "common/base/uncertainty.hpp"
 #include "solver/record/statistics.hpp"
+#include "solver/record/trend_warning.hpp"
 
 namespace ice {
 
@@ -124,8 +126,27 @@ void average_particulars(const Members& all, Summary& out) {
         out.travel.*member = mean(&Summary::travel, member);
 }
 
+// Do more members show a trend than chance explains? Each shows one by chance with kTrendChance,
+// so of nine runs without a trend one in eleven sets would warn; so many members must show one that
+// chance gives them with no more than kTrendChance together: 1 of 1, 2 of 2 to 15, 3 of 16 to 44.
+bool have_trend(const Members& members) {
+    const auto showing = std::count_if(members.begin(), members.end(), [](const Member& m) {
+        return m.summary.resistance.trend_significant.value_or(false);
+    });
+    if (showing == 0) return false;
+    if (members.size() == 1) return true;  // by the definition of kTrendChance
+    return chance_of_at_least(showing, std::ssize(members), kTrendChance) <= kTrendChance;
+}
+
+// A member's own trend, in an ensemble that has none.
+bool is_chance(const Member& m, const Warning& warning, bool trend) {
+    return !trend && m.summary.resistance.trend_significant.value_or(false) &&
+           warning.text == warn_of_trend(m.summary).text;
+}
+
 // A warning that all members share once, any other one with the seed of its member.
 std::vector<Warning> gather_warnings(const Members& members) {
+    const bool trend = have_trend(members);
     const auto find = [](const Member& m, const std::string& text) {
         return std::find_if(m.summary.warnings.begin(), m.summary.warnings.end(),
                             [&](const Warning& w) { return w.text == text; });
@@ -133,6 +154,7 @@ std::vector<Warning> gather_warnings(const Members& members) {
     std::vector<Warning> shared, single;
     for (const Member& m : members)
         for (Warning warning : m.summary.warnings) {
+            if (is_chance(m, warning, trend)) continue;
             const bool everywhere =
                 std::all_of(members.begin(), members.end(), [&](const Member& other) {
                     return find(other, warning.text) != other.summary.warnings.end();

@@ -19,7 +19,8 @@ struct Member {
 /// extremes, times as sums; of the ice's particulars means, of floe sizes also the extremes.
 /// Correlation time, trend, panels and peaks are those of single runs: unknown here, left out.
 /// What all members share, such as the title, is the first one's. A warning that all members have
-/// stands once, with the largest share; any other begins with its seed.
+/// stands once, with the largest share; any other begins with its seed. A trend of the resistance
+/// stands only where more members show one than chance explains at 1 %.
 /// @pre at least one member
 Summary average_members(const std::vector<Member>& members);
 

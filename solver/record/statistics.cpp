@@ -14,7 +14,6 @@ namespace {
 
 constexpr std::size_t kFewest = 40;    // samples
 constexpr std::size_t kMost = 8192;    // samples that are looked at one by one
-constexpr double kTrendChance = 0.01;  // that a series without a trend is said to have one
 constexpr std::size_t kNarrowest = 2;  // ordinates of a band
 
 // White noise has a window of 3 samples, so an ordinate for 18: with more blocks than that, the

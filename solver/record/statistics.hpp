@@ -8,6 +8,9 @@
 
 namespace ice {
 
+/// Chance that a series without a trend is said to have one.
+inline constexpr double kTrendChance = 0.01;
+
 struct MeanInterval {
     double mean = 0.0;
     double half_width = 0.0;         ///< of the 95 % interval of the mean

@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "solver/record/tally.hpp"
+#include "solver/record/trend_warning.hpp"
 
 namespace ice {
 
@@ -34,23 +35,6 @@ std::string name_of(std::int32_t body) {
 
 // A share that was not measured counts as unknown, and is worth a warning.
 bool matters(std::optional<double> share) { return !share || *share > kMatters; }
-
-// The straight line through the averaged time, when it is no chance. Its end is half of its change
-// away from the mean: so far off may the mean be that of a state which lasts.
-Warning warn_of_trend(const Summary& summary) {
-    const ForceStatistics& r = summary.resistance;
-    const double share = std::abs(r.trend / r.mean);
-    const double lengths = summary.travel.averaged_lengths;
-    const std::string because =
-        is_short(lengths)
-            ? fmt::format(" ({}: floes still spread along the hull)", averaged_text(lengths))
-            : "";
-    return judged(
-        fmt::format("the resistance {} by {:.0f} % of its mean over the averaged time{}: begin "
-                    "later (output.average_from) or run longer (simulation.duration)",
-                    r.trend > 0.0 ? "rises" : "falls", 100.0 * share, because),
-        0.5 * share);
-}
 
 // Averages over less than a length, of which the mean's interval says how well it is known. The
 // text is the same for all members of an ensemble.

@@ -65,10 +65,11 @@ for program in spherize icefield icesolve icepost; do
     [[ $("$root/usr/bin/$program" --version) == "$program "* ]] || fail "$program has no version"
     [[ $(file -b "$root/usr/bin/$program") == *", stripped"* ]] || fail "$program is not stripped"
     page=$root/usr/share/man/man1/$program.1.gz
-    zcat "$page" | grep -q '^\.SH NAME' || fail "no man page of $program"
+    zcat "$page" | grep '^\.SH NAME' >/dev/null || fail "no man page of $program"
     # every long option that --help knows stands in the man page and in the three completions
     for option in $("$root/usr/bin/$program" --help | grep -oE '^  (-.,)?--[a-z-]+' | grep -oE -- '--[a-z-]+'); do
-        zcat "$page" | sed 's/\\-/-/g' | grep -qF -- "$option" || fail "$program.1 lacks $option"
+        # not grep -q: it would leave before the whole page is through the pipe, which is a failure
+        zcat "$page" | sed 's/\\-/-/g' | grep -F -- "$option" >/dev/null || fail "$program.1 lacks $option"
         for file in bash-completion/completions/$program zsh/vendor-completions/_$program; do
             grep -qF -- "$option" "$root/usr/share/$file" || fail "$file lacks $option"
         done

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Members of an ensemble as one summary, and results as lines for a terminal.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 
 #include "solver/ensemble/average_members.hpp"
 #include "solver/record/result_text.hpp"
+#include "solver/record/trend_warning.hpp"
 
 using namespace ice;
 
@@ -87,6 +89,30 @@ TEST_CASE("a warning that all members share stands once, with the largest share"
     members[1].summary.warnings = {{"short", true, 0.03}};
     CHECK(average_members(members).warnings ==
           std::vector<Warning>{{"short", true, 0.03}, {"seed 1: jam", true, 0.5}});
+}
+
+TEST_CASE("a trend stands where more members show one than chance explains", "[ensemble]") {
+    const auto warnings = [](std::size_t size, std::size_t showing) {
+        std::vector<Member> members;
+        for (std::size_t k = 0; k < size; ++k) {
+            members.push_back(member(static_cast<std::int64_t>(k) + 1, 100.0));
+            if (k >= showing) continue;
+            Summary& s = members.back().summary;
+            s.resistance.trend = 10.0 + static_cast<double>(k);
+            s.resistance.trend_significant = true;
+            s.warnings = {warn_of_trend(s), {"floe 3 fell off", true, 0.25}};
+        }
+        const Summary s = average_members(members);
+        return std::count_if(s.warnings.begin(), s.warnings.end(), [](const Warning& w) {
+            return w.text.find("resistance rises by") != std::string::npos;
+        });
+    };
+    CHECK(warnings(1, 1) == 1);
+    CHECK(warnings(3, 1) == 0);  // 1 - 0.99^3 = 3.0 %
+    CHECK(warnings(3, 2) == 2);  // 3 x 0.01^2 = 0.03 %
+    CHECK(warnings(15, 2) == 2);  // 0.96 %
+    CHECK(warnings(16, 2) == 0);  // 1.09 %
+    CHECK(warnings(16, 3) == 3);
 }
 
 TEST_CASE("one member alone has a mean and no interval", "[ensemble]") {

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/record/trend_warning.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace ice {
+
+Warning warn_of_trend(const Summary& summary) {
+    const ForceStatistics& r = summary.resistance;
+    const double share = std::abs(r.trend / r.mean);
+    const double lengths = summary.travel.averaged_lengths;
+    const std::string because =
+        is_short(lengths)
+            ? fmt::format(" ({}: floes still spread along the hull)", averaged_text(lengths))
+            : "";
+    return judged(
+        fmt::format("the resistance {} by {:.0f} % of its mean over the averaged time{}: begin "
+                    "later (output.average_from) or run longer (simulation.duration)",
+                    r.trend > 0.0 ? "rises" : "falls", 100.0 * share, because),
+        0.5 * share);
+}
+
+}  // namespace ice
