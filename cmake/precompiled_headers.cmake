@@ -1,11 +1,11 @@
 # ice_precompile(TARGET [header]...): the headers that most files include, read once per target
 # instead of once per file, which is two fifths of the processor time of a first build.
 #
-# Two builds make a header of their own where ccache cannot tell that they are the same, so that
-# working copies would no longer share objects: a build with tests and with ccache goes without.
-# It also shows every include that a file forgot and the precompiled headers hide.
+# A build with tests goes without: it shows every include that a file forgot and the precompiled
+# headers hide, and working copies share its objects through ccache, which they cannot do where each
+# makes a precompiled header of its own.
 set(default ON)
-if(CCACHE AND ICE_TESTS)
+if(ICE_TESTS)
   set(default OFF)
 endif()
 set(ICE_PRECOMPILED_HEADERS AUTO CACHE STRING "Read common headers once per target: ON, OFF or AUTO")
