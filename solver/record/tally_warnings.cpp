@@ -90,8 +90,12 @@ void Tally::warn(Summary& summary) const {
     if (unseen_overlap_ > options_.worrying_overlap) warnings.push_back(warn_of_unseen());
     if (closing_speed_ > options_.tunnelling_speed) warnings.push_back(warn_of_tunnelling(summary));
     warn_of_averages(summary);
-    if (contacts_max_ == 0.0)
-        warnings.push_back({"nothing touched anything: is the hull on its way to the ice?", true});
+    if (contacts_max_ == 0.0) {
+        Warning nothing;
+        nothing.text = "nothing touched anything: is the hull on its way to the ice?";
+        nothing.affects_mean = true;
+        warnings.push_back(nothing);
+    }
 }
 
 Warning Tally::warn_of_jam(const Summary& summary) const {
