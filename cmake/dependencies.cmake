@@ -19,6 +19,6 @@ find_package(OpenSSL REQUIRED COMPONENTS Crypto) # preprocess/load: SHA-256
 find_package(CGAL 5.5 CONFIG REQUIRED)           # preprocess/clean, repair, slice, field
 find_package(Boost 1.74 REQUIRED)                # common/base/uncertainty: Student
 find_package(ZLIB REQUIRED)                      # preprocess/load, postprocess/paraview
-find_package(meshoptimizer 0.18 CONFIG REQUIRED) # postprocess/views: large hulls in pictures
+find_package(meshoptimizer 0.18 CONFIG REQUIRED) # postprocess/views, solver/flow: large hulls
 find_package(tomlplusplus 3.3 CONFIG REQUIRED)   # common/toml, postprocess/check, sweep, sensitivity
 find_package(HWY 1.0 CONFIG REQUIRED)            # *_simd.cpp

@@ -6,7 +6,7 @@
 set(order_common common/base common/toml common/geometry common/formats common/cli)
 set(order_preprocess preprocess/load preprocess/clean preprocess/measure preprocess/repair
   preprocess/slice preprocess/fill preprocess/certify preprocess/field preprocess/write preprocess)
-set(order_solver solver/case solver/shape solver/water solver/scene solver/broad solver/narrow
+set(order_solver solver/case solver/shape solver/flow solver/water solver/scene solver/broad solver/narrow
   solver/contact solver/integrate solver/record solver/step solver/draft solver/ensemble solver)
 set(order_postprocess postprocess/read postprocess/views postprocess/statistics postprocess/report
   postprocess/sweep postprocess/sensitivity postprocess/paraview postprocess/check postprocess)
@@ -26,7 +26,7 @@ set(quarantine
   "<omp\\.h>"        "^common/base/parallel\\.hpp$"
   "<spdlog/"         "^common/cli/"
   "<CLI/"            "^(common/cli/|(preprocess/(spherize|icefield)|solver/icesolve|postprocess/icepost)\\.cpp$)"
-  "<meshoptimizer"   "^postprocess/views/"
+  "<meshoptimizer"   "^(postprocess/views|solver/flow)/"
   "<(zlib|zconf)\\." "^(preprocess/load|postprocess/(paraview|report))/"
   "<(openvdb|tbb)/"  "^tests/bench/bench_peers\\.cpp$"
   "<box2d/"          "^tests/peers/"

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "common/formats/flow_file.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/base/error.hpp"
+#include "common/base/part_file.hpp"
+#include "common/formats/hdf5_file.hpp"
+
+namespace ice {
+
+namespace {
+
+constexpr const char* kFormat = "icesolve-flow";
+constexpr std::int64_t kVersion = 1;
+constexpr std::uint64_t kMostTimes = 16;      // read over what is stored, which is not compressed
+constexpr std::uint64_t kMostAlong = 100000;  // nodes along an axis
+constexpr double kSurface = 1e-6;  // of the spacing: how near to z = 0 the topmost nodes lie
+
+class Reader {
+public:
+    explicit Reader(const std::filesystem::path& path)
+        : path_(path), file_(path, Hdf5File::Mode::read) {
+        file_.limit_reading(kMostTimes);
+    }
+
+    FlowTable read() const {
+        check(file_.has_attribute("/", "format") &&
+                  file_.read_text_attribute("/", "format") == kFormat,
+              "/", "is not a flow (no attribute format = \"icesolve-flow\")");
+        check(number("format_version") == kVersion, "/",
+              "has a format_version this program does not know");
+        FlowTable out;
+        const auto shape = file_.shape("/velocity");
+        check(shape.size() == 4 && shape[3] == 3, "/velocity", "is not [nz, ny, nx, 3]");
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const std::uint64_t n = shape[2 - axis];
+            check(n >= (axis == 1 ? 1 : 2) && n <= kMostAlong, "/velocity",
+                  "has too few or too many nodes");
+            out.nodes[axis] = static_cast<std::int64_t>(n);
+        }
+        out.velocity = finite("/velocity", 3 * out.size());
+        out.potential = finite("/potential", out.size());
+        const auto origin = file_.read_number_attribute("/", "origin");
+        check(origin.size() == 3, "origin", "is not three numbers");
+        out.origin = Vec3(origin[0], origin[1], origin[2]);
+        check(out.origin.allFinite(), "origin", "is no place");
+        out.spacing = number("spacing");
+        check(out.spacing > 0.0, "spacing", "is not positive");
+        const double top = out.origin.z() + out.spacing * static_cast<double>(out.nodes[2] - 1);
+        check(std::abs(top) <= kSurface * out.spacing, "origin",
+              "does not bring the topmost nodes to z = 0");
+        read_rest(out);
+        return out;
+    }
+
+private:
+    void check(bool good, const std::string& dataset, const std::string& what) const {
+        if (!good)
+            throw bad_input(path_.string() + ": " + dataset, what,
+                            "make the file again with iceflow");
+    }
+    double number(const char* name) const {
+        check(file_.has_attribute("/", name), name, "is missing");
+        const auto values = file_.read_number_attribute("/", name);
+        check(values.size() == 1 && std::isfinite(values[0]), name, "is no finite number");
+        return values[0];
+    }
+    std::string text(const char* name) const {
+        return file_.has_attribute("/", name) ? file_.read_text_attribute("/", name) : "";
+    }
+    std::vector<float> finite(const std::string& name, std::size_t size) const {
+        auto values = file_.read<float>(name);
+        check(values.size() == size, name, "has another size than /velocity");
+        check(std::all_of(values.begin(), values.end(), [](float v) { return std::isfinite(v); }),
+              name, "holds a NaN or infinity");
+        return values;
+    }
+    void read_rest(FlowTable& out) const {
+        out.symmetric = number("symmetric") != 0.0;
+        check(!out.symmetric || std::abs(out.origin.y()) <= kSurface * out.spacing, "origin",
+              "of a symmetric flow is not at y = 0");
+        out.draught = number("draught");
+        out.reference_speed = number("reference_speed");
+        check(out.reference_speed > 0.0, "reference_speed", "is not positive");
+        out.panels = static_cast<std::int64_t>(number("panels"));
+        out.residual = number("residual");
+        out.source_sha256 = text("source_sha256");
+        out.created_by = text("created_by");
+        out.command_line = text("command_line");
+    }
+
+    std::filesystem::path path_;
+    Hdf5File file_;
+};
+
+}  // namespace
+
+void write_flow(const std::filesystem::path& path, const FlowTable& table) {
+    PartFile part(path);
+    Hdf5File file(part.path(), Hdf5File::Mode::create);
+    file.write_attribute("/", "format", std::string(kFormat));
+    file.write_attribute("/", "format_version", kVersion);
+    file.write_attribute("/", "units", std::string("SI"));
+    file.write_attribute("/", "origin", {table.origin.begin(), table.origin.end()}, {3});
+    file.write_attribute("/", "spacing", {table.spacing}, {});
+    file.write_attribute("/", "draught", {table.draught}, {});
+    file.write_attribute("/", "symmetric", std::int64_t{table.symmetric});
+    file.write_attribute("/", "source_sha256", table.source_sha256);
+    file.write_attribute("/", "panels", table.panels);
+    file.write_attribute("/", "residual", {table.residual}, {});
+    file.write_attribute("/", "reference_speed", {table.reference_speed}, {});
+    file.write_attribute("/", "created_by", table.created_by);
+    file.write_attribute("/", "command_line", table.command_line);
+    const auto n = [&](std::size_t axis) { return static_cast<std::uint64_t>(table.nodes[axis]); };
+    file.write("/velocity", table.velocity.data(), {n(2), n(1), n(0), 3});
+    file.write("/potential", table.potential.data(), {n(2), n(1), n(0)});
+    file.close();
+    part.keep();
+}
+
+FlowTable read_flow(const std::filesystem::path& path) { return Reader(path).read(); }
+
+}  // namespace ice

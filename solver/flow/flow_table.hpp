@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// The flow around a hull on a grid.
+#pragma once
+
+#include "common/formats/flow_file.hpp"
+#include "common/formats/sphere_set.hpp"
+#include "solver/flow/panel_sums.hpp"
+
+namespace ice {
+
+struct FlowOptions {
+    double water = 0.0;    ///< z of the water in the mesh's frame [m]
+    double panel = 0.0;    ///< longest edge [m]; 0: chosen, see make_wetted_hull()
+    double spacing = 0.0;  ///< of the table's nodes [m]; 0: for some 300 000 nodes, or 10 000 in 2D
+};
+
+/// A table, and what its maker noticed.
+struct HullFlow {
+    FlowTable table;
+    double panel = 0.0;               ///< longest edge [m]
+    double length = 0.0;              ///< of the wetted hull [m]
+    double worst = 0.0;               ///< largest normal velocity left on the hull [1]
+    Vec3 worst_place = Vec3::Zero();  ///< where [m]
+    double net_flux = 0.0;            ///< share of the sources that does not vanish in sinks [1]
+    double solve_seconds = 0.0, table_seconds = 0.0;
+};
+
+/// The flow around a hull, 3D or 2D, from its sources to a table.
+///
+/// The table reaches a breadth around the hull (2D: a draught), within it the outer third fades
+/// smoothly to 0. Nodes in the hull have the flow of the surface's nearest point. Speeds above 1.2
+/// in the earth frame, which sharp edges make, are lowered to that. The same bits for any number of
+/// threads and any instruction set.
+/// @throws Error (exit code 2) where the hull is not in the water, or the options give more than
+///         8000 panels or 2e7 nodes; (1) where the flow has no solution
+HullFlow make_hull_flow(const SphereSet& hull, const FlowOptions& options);
+
+}  // namespace ice

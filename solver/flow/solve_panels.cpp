@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/flow/solve_panels.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/IterativeLinearSolvers>
+#include <algorithm>
+#include <cmath>
+
+#include "common/base/error.hpp"
+#include "common/base/parallel.hpp"
+
+namespace ice {
+
+namespace {
+
+constexpr std::size_t kBlock = FluxTargets::kCount;
+constexpr std::size_t kPoints = 64;  // that a thread takes at a time
+constexpr int kMostIterations = 200;
+
+// Eight panels from `first` on; beyond the last the last once more.
+FluxTargets targets_of(const std::vector<SourcePanel>& panels, std::size_t first) {
+    FluxTargets out;
+    for (std::size_t i = 0; i < kBlock; ++i) {
+        const SourcePanel& p = panels[std::min(first + i, panels.size() - 1)];
+        const auto points = flux_points(p);
+        for (std::size_t q = 0; q < 3; ++q) {
+            out.x[q][i] = points[q].x();
+            out.y[q][i] = points[q].y();
+            out.z[q][i] = points[q].z();
+        }
+        out.nx[i] = p.normal.x();
+        out.ny[i] = p.normal.y();
+        out.nz[i] = p.normal.z();
+    }
+    return out;
+}
+
+// Mean normal velocity through panel i (row) from panel j.
+Eigen::MatrixXd influence(const PanelBody& body) {
+    const auto& panels = body.panels;
+    const auto n = static_cast<Eigen::Index>(panels.size());
+    Eigen::MatrixXd out(n, n);
+    parallel_tasks((panels.size() + kBlock - 1) / kBlock, true, [&](std::size_t block) {
+        std::vector<double> flux(kBlock * panels.size());
+        mean_fluxes(body, targets_of(panels, kBlock * block), flux);
+        const auto first = static_cast<Eigen::Index>(kBlock * block);
+        const Eigen::Index rows = std::min<Eigen::Index>(kBlock, n - first);
+        out.middleRows(first, rows) =
+            Eigen::Map<const Eigen::MatrixXd>(flux.data(), kBlock, n).topRows(rows);
+    });
+    return out;
+}
+
+void check_flow(const Vec3& direction, PanelFlow& flow) {
+    std::vector<Vec3> points;
+    for (const SourcePanel& p : flow.body.panels)
+        for (const Vec3& at : check_points(p)) points.push_back(at);
+    const auto samples = flow_at(flow, points);
+    double squares = 0.0, area = 0.0, net = 0.0, all = 0.0;
+    for (std::size_t j = 0; j < flow.body.panels.size(); ++j) {
+        const SourcePanel& p = flow.body.panels[j];
+        for (std::size_t q = 3 * j; q < 3 * j + 3; ++q) {
+            const double off = std::abs((samples[q].velocity - direction).dot(p.normal));
+            squares += p.area * off * off;
+            area += p.area;
+            if (off > flow.worst) {
+                flow.worst = off;
+                flow.worst_place = points[q];
+            }
+        }
+        net += flow.strength[j] * p.area;
+        all += std::abs(flow.strength[j] * p.area);
+    }
+    flow.residual = std::sqrt(squares / area);
+    flow.net_flux = all > 0.0 ? net / all : 0.0;
+}
+
+}  // namespace
+
+PanelFlow solve_panels(PanelBody body, const Vec3& direction) {
+    PanelFlow flow;
+    flow.body = std::move(body);
+    const auto n = static_cast<Eigen::Index>(flow.body.panels.size());
+    const Eigen::MatrixXd matrix = influence(flow.body);
+    Eigen::VectorXd right(n);
+    for (Eigen::Index i = 0; i < n; ++i)
+        right[i] = flow.body.panels[static_cast<std::size_t>(i)].normal.dot(direction);
+    Eigen::BiCGSTAB<Eigen::MatrixXd, Eigen::IdentityPreconditioner> solver(matrix);
+    solver.setTolerance(1e-10);
+    solver.setMaxIterations(kMostIterations);
+    const Eigen::VectorXd strength = solver.solve(right);
+    flow.iterations = static_cast<int>(solver.iterations());
+    if (solver.info() != Eigen::Success)
+        throw run_failed("the flow around the hull",
+                         fmt::format("has no solution within {} iterations", kMostIterations),
+                         "look for thin plates and faces that cross in the mesh");
+    flow.strength.assign(strength.data(), strength.data() + n);
+    check_flow(direction, flow);
+    return flow;
+}
+
+double added_mass_coefficient(const PanelFlow& flow, double volume) {
+    double moment = 0.0;
+    for (std::size_t j = 0; j < flow.body.panels.size(); ++j)
+        moment += flow.strength[j] * flow.body.panels[j].area * flow.body.panels[j].centre.x();
+    return (flow.body.symmetric ? 2.0 : 1.0) * moment / volume - 1.0;
+}
+
+std::vector<FlowSample> flow_at(const PanelFlow& flow, std::span<const Vec3> points) {
+    std::vector<FlowSample> out(points.size());
+    parallel_tasks((points.size() + kPoints - 1) / kPoints, true, [&](std::size_t k) {
+        const std::size_t first = kPoints * k, count = std::min(kPoints, points.size() - first);
+        sum_panels(flow.body, flow.strength, points.subspan(first, count),
+                   std::span(out).subspan(first, count));
+    });
+    return out;
+}
+
+}  // namespace ice

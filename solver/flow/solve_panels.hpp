@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// The flow that a moving body makes: strengths of its source panels.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "solver/flow/panel_sums.hpp"
+
+namespace ice {
+
+/// A body at 1 m/s along `direction` through water at rest, and how well its panels do.
+struct PanelFlow {
+    PanelBody body;
+    std::vector<double> strength;     ///< of each panel [m/s]
+    int iterations = 0;               ///< of the linear solver
+    double residual = 0.0;            ///< area-rms of |v . n - n_x| at check_points()
+    double worst = 0.0;               ///< its largest
+    Vec3 worst_place = Vec3::Zero();  ///< where that is [m]
+    double net_flux = 0.0;            ///< sum of s A over sum of |s A|: 0 for a closed body
+};
+
+/// Solves for strengths with which the mean of v . n over each panel is that of direction . n, the
+/// mean taken at flux_points(): no water goes through the hull (Hess and Smith, 1967). Eigen's
+/// BiCGSTAB to 1e-10, 20 iterations or fewer for hulls. Of a symmetric body only motion in the
+/// plane y = 0, and at z = 0 only motion along the water, have such panels' images.
+/// @throws Error (exit code 1) where the solver does not settle: thin plates, panels that cross
+PanelFlow solve_panels(PanelBody body, const Vec3& direction = Vec3::UnitX());
+
+/// Added mass over that of the displaced water for motion along x, from the sources' dipole moment:
+/// sum of s A x = V (1 + C_a).
+double added_mass_coefficient(const PanelFlow& flow, double volume);
+
+/// Flow at points, on all threads; the same bits for any number.
+std::vector<FlowSample> flow_at(const PanelFlow& flow, std::span<const Vec3> points);
+
+}  // namespace ice

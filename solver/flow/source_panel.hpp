@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Triangles that give off water evenly: docs/method.md, section 6.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "common/geometry/triangle_mesh.hpp"
+
+namespace ice {
+
+/// A source panel, prepared for many points.
+struct SourcePanel {
+    std::array<Vec3, 3> corner;    ///< counter-clockwise seen from the water [m]
+    std::array<Vec3, 3> outward;   ///< unit, in the plane, away from edge k (corner k to k + 1)
+    std::array<double, 3> length;  ///< of the edges [m]
+    Vec3 normal;                   ///< unit, into the water
+    Vec3 centre;                   ///< centroid [m]
+    double area;                   ///< [m2]
+    double far_squared;            ///< from this distance on it is a point source [m2]
+};
+
+/// @pre the triangle has an area
+SourcePanel make_panel(const Vec3& a, const Vec3& b, const Vec3& c);
+
+/// Panels and their mirror images: always in the water's surface z = 0, and where the body is
+/// symmetric also in y = 0.
+struct PanelBody {
+    std::vector<SourcePanel> panels;  ///< z <= 0, of a symmetric body also y >= 0
+    bool symmetric = false;
+};
+
+/// A step off the panels into the water, in their size: there the panel's own share of the normal
+/// velocity has its outer limit 1/2 (to 1e-6), without a case of its own in the kernel.
+constexpr double kOffPanel = 1e-6;
+
+/// The three points whose mean stands for the mean over the panel, exactly for what is quadratic
+/// in place, in barycentric coordinates (2/3, 1/6, 1/6), off the panel by kOffPanel.
+std::array<Vec3, 3> flux_points(const SourcePanel& panel);
+
+/// Where the flow can be checked: three other points, (1/2, 1/4, 1/4).
+std::array<Vec3, 3> check_points(const SourcePanel& panel);
+
+}  // namespace ice
