@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// The validation table of the README: every row is a check that ran.
+/// The table of docs/validation.md: every row is a check that ran.
 #pragma once
 
 #include <string>
