@@ -17,7 +17,7 @@ usage() {
     cat <<'END'
 usage: ./bootstrap.sh COMMAND
   deps   installs the Debian packages that are missing (as root or with sudo)
-  build  deps, then the programs: build/release/bin/{spherize,icefield,icesolve,icepost}
+  build  deps, then the programs: build/release/bin/{spherize,icefield,iceflow,icesolve,icepost}
   demo   build, then the paper's 3D case at three speeds: resistance curve and report
   test   build with the tests, then the whole test suite (CI=true: compiler warnings are errors)
 END

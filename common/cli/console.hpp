@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// What the three programs share on the command line: messages, exit codes, Ctrl-C.
+/// What the programs share on the command line: messages, exit codes, Ctrl-C.
 #pragma once
 
 #include <filesystem>

@@ -41,7 +41,7 @@ def columns():
 def options():
     """Long options that the programs declare, as words: --print-schema is print-schema."""
     names = set()
-    for name in ("preprocess/spherize.cpp", "preprocess/icefield.cpp", "solver/icesolve.cpp",
+    for name in ("preprocess/spherize.cpp", "preprocess/icefield.cpp", "solver/iceflow.cpp", "solver/icesolve.cpp",
                  "postprocess/icepost.cpp"):
         text = (ROOT / name).read_text(encoding="utf-8")
         names |= set(re.findall(r'"(?:-\w,)?--([a-z-]+)"', text))
@@ -72,6 +72,7 @@ def main():
                                   "load_statistics_json.cpp",
                                   "../../solver/record/energy_ledger.cpp"),
         "spherize --json": json_keys("spheres_report.cpp"),
+        "iceflow --json": json_keys("flow_report.cpp"),
         "columns": columns(),
         "sphere sets": datasets("spheres_file.cpp"),
         "fields": datasets("field_file.cpp"),

@@ -300,7 +300,7 @@ def private_binaries(source, folder):
     """Copies that somebody else may run, wherever the build lies."""
     target = os.path.join(folder, "bin")
     os.mkdir(target)
-    for name in ("spherize", "icefield", "icesolve", "icepost"):
+    for name in ("spherize", "icefield", "iceflow", "icesolve", "icepost"):
         shutil.copy(os.path.join(source, name), target)
         os.chmod(os.path.join(target, name), stat.S_IRWXU | 0o055)
     return target

@@ -51,7 +51,7 @@ fi
 echo "== remove" >&2
 within apt-get -qq purge --yes icesolve >/dev/null
 within rm -rf /tmp/trial /tmp/icesolve.deb
-left=$(within find / -xdev \( -name '*icesolve*' -o -name '*spherize*' -o -name '*icepost*' -o -name '*icefield*' \) \
+left=$(within find / -xdev \( -name '*icesolve*' -o -name '*spherize*' -o -name '*icepost*' -o -name '*icefield*' -o -name '*iceflow*' \) \
     -not -path '/var/log/*' -not -path '/proc/*')
 [[ -z $left ]] || fail "left behind: $left"
 echo "installed, ran and removed in a clean root: nothing is left" >&2

@@ -60,7 +60,7 @@ for key in average_from crushing_pressure concentration breaking_length; do
     [[ -n $(zcat "$root"/usr/share/man/man5/*.gz | grep "^\.B $key") ]] || fail "no page explains $key"
 done
 
-for program in spherize icefield icesolve icepost; do
+for program in spherize icefield iceflow icesolve icepost; do
     [[ -x $root/usr/bin/$program ]] || fail "no $program"
     [[ $("$root/usr/bin/$program" --version) == "$program "* ]] || fail "$program has no version"
     [[ $(file -b "$root/usr/bin/$program") == *", stripped"* ]] || fail "$program is not stripped"

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// What iceflow says of a flow, as JSON.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace ice {
+
+/// How a flow was made and how well.
+struct FlowReport {
+    int dimension = 3;
+    bool symmetric = false;
+    double draught = 0.0, length = 0.0;   ///< of the wetted hull [m]
+    std::int64_t panels = 0;              ///< of one half where symmetric
+    double panel = 0.0;                   ///< longest edge [m]
+    double residual = 0.0;                ///< area-rms of the normal velocity left, over U
+    double worst = 0.0;                   ///< its largest
+    std::array<double, 3> worst_at{};     ///< where; z from the water's surface [m]
+    double net_flux = 0.0;                ///< over the sum of the sources' sizes
+    std::array<std::int64_t, 3> nodes{};  ///< 0 where no table was made
+    double spacing = 0.0;                 ///< [m]
+    double solve_seconds = 0.0, table_seconds = 0.0;
+    std::vector<std::string> warnings;
+};
+
+/// Schema iceflow/1: docs/contract.md, section 10.
+std::string flow_report_text(const FlowReport& report);
+
+}  // namespace ice

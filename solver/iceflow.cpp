@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// iceflow: hull in, the water's flow around it out. Command line only; the work is in flow/.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "common/base/error.hpp"
+#include "common/base/instruction_set.hpp"
+#include "common/base/parallel.hpp"
+#include "common/base/part_file.hpp"
+#include "common/base/version.hpp"
+#include "common/cli/command_line.hpp"
+#include "common/cli/console.hpp"
+#include "common/cli/output_files.hpp"
+#include "common/cli/quantity_option.hpp"
+#include "common/cli/start_threads.hpp"
+#include "common/formats/flow_report.hpp"
+#include "common/formats/spheres_file.hpp"
+#include "solver/flow/flow_table.hpp"
+#include "solver/flow/write_vti.hpp"
+
+namespace {
+
+struct Options {
+    std::string hull, out, json, simd = "auto";
+    std::vector<std::string> exports;
+    std::optional<double> draught;
+    double panel = 0.0, spacing = 0.0;
+    int threads = 0;
+    bool check = false;
+    ice::MessageOptions messages;
+};
+
+void declare(CLI::App& app, Options& o) {
+    const auto length = [](const char* example) {
+        return ice::positive_quantity(ice::Dimension::length, example);
+    };
+    ice::declare_version(app);
+    app.add_option("hull", o.hull, "Sphere set of the hull, made by spherize");
+    app.add_option("-o,--output", o.out, "Flow file (default <hull stem>.flow.h5)");
+    app.add_option("--draught", o.draught,
+                   "Water over the hull's lowest point (default: the water is z = 0 of the mesh)")
+        ->type_name("T")
+        ->transform(length("1.44"));
+    app.add_option("--panel", o.panel,
+                   "Longest edge of a source panel (default: a 15th of the length; 2D: a 100th)")
+        ->type_name("H")
+        ->transform(length("0.5"));
+    app.add_option("--spacing", o.spacing,
+                   "Of the table's nodes; half a floe's thickness or less (default: for 300 000 "
+                   "nodes)")
+        ->type_name("S")
+        ->transform(length("0.15"));
+    app.add_flag("--check", o.check,
+                 "Solve the flow and say how well the panels do; write no flow file");
+    app.add_option("--export", o.exports, "Also write the flow for another program (repeatable)")
+        ->check(CLI::IsMember({"vti"}))
+        ->allow_extra_args(false);
+    app.add_option("--json", o.json, "Write what was made as JSON");
+    app.add_option("--threads", o.threads, "Threads (default: all cores)")
+        ->check(CLI::Range(1, 4096));
+    app.add_option("--simd", o.simd, "Instruction set; results are the same on all")
+        ->check(CLI::IsMember({"auto", "scalar", "sse4", "avx2", "avx512"}));
+    app.add_flag("-q,--quiet", o.messages.quiet, "No messages but errors");
+    app.footer("Exit codes: 0 ok; 1 failed; 2 bad command line or hull.");
+}
+
+std::filesystem::path output_of(const Options& o) {
+    if (!o.out.empty()) return o.out;
+    std::filesystem::path stem = std::filesystem::path(o.hull).stem();
+    if (stem.extension() == ".spheres") stem = stem.stem();
+    return stem.string() + ".flow.h5";
+}
+
+std::filesystem::path export_of(const std::filesystem::path& out) {
+    return std::filesystem::path(out).replace_extension(".vti");
+}
+
+// z of the water in the mesh's frame
+double water_of(const Options& o, const ice::SphereSet& hull) {
+    double low = 1e300, high = -1e300;
+    for (const ice::Vec3& v : hull.mesh.vertices) {
+        low = std::min(low, v.z());
+        high = std::max(high, v.z());
+    }
+    const double water = o.draught ? low + *o.draught : 0.0;
+    if (water <= low || water >= high)
+        throw ice::bad_input(
+            o.draught ? "--draught" : o.hull,
+            fmt::format("the water at z = {:.4g} m does not cut the hull, which lies from z = "
+                        "{:.4g} to {:.4g} m",
+                        water, low, high),
+            fmt::format("give --draught, between 0 and {:.4g} m", high - low));
+    return water;
+}
+
+ice::FlowReport report_of(const ice::HullFlow& flow, int dimension) {
+    ice::FlowReport r;
+    r.dimension = dimension;
+    r.symmetric = flow.table.symmetric;
+    r.draught = flow.table.draught;
+    r.length = flow.length;
+    r.panels = flow.table.panels;
+    r.panel = flow.panel;
+    r.residual = flow.table.residual;
+    r.worst = flow.worst;
+    r.worst_at = {flow.worst_place.x(), flow.worst_place.y(), flow.worst_place.z()};
+    r.net_flux = flow.net_flux;
+    r.nodes = flow.table.nodes;
+    r.spacing = flow.table.spacing;
+    r.solve_seconds = flow.solve_seconds;
+    r.table_seconds = flow.table_seconds;
+    r.warnings = ice::warnings_of(flow);
+    return r;
+}
+
+std::string report_text(const ice::FlowReport& r, const std::string& name) {
+    std::string out = fmt::format(
+        "{}\n"
+        "  wetted hull       {:.4g} m long, draught {:.4g} m{}\n"
+        "  panels            {}, edges up to {:.3g} m\n"
+        "  normal velocity   {:.2f} % of the ship's speed left on the hull (rms); largest {:.1f} % "
+        "at ({:.2f}, {:.2f}, {:.2f}) m\n"
+        "  net flux          {:.3f} % of the sources\n",
+        name, r.length, r.draught, r.symmetric ? ", symmetric" : "", r.panels, r.panel,
+        100.0 * r.residual, 100.0 * r.worst, r.worst_at[0], r.worst_at[1], r.worst_at[2],
+        100.0 * r.net_flux);
+    if (r.nodes[0] > 0)
+        out += fmt::format("  table             {} x {} x {} nodes every {:.3g} m\n", r.nodes[0],
+                           r.nodes[1], r.nodes[2], r.spacing);
+    return out +
+           fmt::format("  time              {:.2f} s for the panels, {:.2f} s for the table\n",
+                       r.solve_seconds, r.table_seconds);
+}
+
+int run_iceflow(const Options& o, const std::string& command_line) {
+    if (o.hull.empty())
+        throw ice::bad_input("iceflow", "no hull given", "iceflow HULL.spheres.h5 -o HULL.flow.h5");
+    ice::set_thread_count(o.threads);
+    ice::start_threads();
+    ice::set_instruction_set(o.simd);
+    const std::filesystem::path out = output_of(o);
+    ice::OutputFiles files;
+    files.protect(o.hull, "the hull");
+    if (!o.check) files.add("--output", out);
+    if (!o.exports.empty()) files.add("--export", export_of(out));
+    files.add("--json", o.json);
+    const ice::SphereSet hull = ice::read_spheres(o.hull);
+    ice::FlowOptions options{water_of(o, hull), o.panel, o.spacing};
+    options.table = !o.check || !o.exports.empty();
+    ice::HullFlow flow = ice::make_hull_flow(hull, options);
+    flow.table.created_by = fmt::format("iceflow {} ({})", ice::version(), ice::git_commit());
+    flow.table.command_line = command_line;
+    if (!o.check) ice::write_flow(out, flow.table);
+    if (!o.exports.empty()) ice::write_vti(export_of(out), flow.table);
+    const ice::FlowReport report = report_of(flow, hull.dimension);
+    if (!o.json.empty()) ice::write_text_file(o.json, ice::flow_report_text(report));
+    if (!o.messages.quiet) ice::write_data(report_text(report, o.check ? o.hull : out.string()));
+    for (const std::string& warning : report.warnings) ice::say_warning(warning);
+    return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    ice::keep_pages();
+    CLI::App app(
+        "Computes the water's flow around a moving hull: sphere set in, table of velocities out.",
+        "iceflow");
+    Options o;
+    declare(app, o);
+    return ice::run_command_line(
+        app, argc, argv, o.messages, "use larger panels or a larger spacing",
+        [&](const std::string& command_line) { return run_iceflow(o, command_line); });
+}
