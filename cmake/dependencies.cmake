@@ -13,7 +13,7 @@ find_package(HDF5 REQUIRED COMPONENTS C HL)      # common/formats; HL: dimension
 find_package(nlohmann_json 3.11 CONFIG REQUIRED) # common/formats, toml, preprocess/field
 find_package(fmt 9 CONFIG REQUIRED)              # everywhere: text
 find_package(spdlog 1.10 CONFIG REQUIRED)        # common/cli
-find_package(CLI11 2.1 CONFIG REQUIRED)          # common/cli and the four programs
+find_package(CLI11 2.1 CONFIG REQUIRED)          # common/cli and the five programs
 find_package(assimp 5.2 CONFIG REQUIRED)         # preprocess/load
 find_package(OpenSSL REQUIRED COMPONENTS Crypto) # preprocess/load: SHA-256
 find_package(CGAL 5.5 CONFIG REQUIRED)           # preprocess/clean, repair, slice, field
