@@ -3,7 +3,10 @@
 """Writes an icebreaker-like hull of 100 m: closed, welded, outward-oriented triangles in OBJ.
 
     python3 meshes/make_icebreaker.py --triangles 8000 --out meshes/icebreaker-100m.obj
+    python3 meshes/make_icebreaker.py --triangles 2000 --out myship.stl
     python3 meshes/make_icebreaker.py --report
+
+An STL file is as a CAD program exports it: millimetres, z = 0 at the keel, no groups.
 
 The form is that of icebreaker_form.py; this script cuts it into triangles. The port half is a row
 of frames x = const; a frame runs from the keel over bilge, water line and deck edge to the centre of
@@ -206,6 +209,19 @@ def obj_text(name, mesh):
     return "\n".join(lines) + "\n"
 
 
+def stl_text(name, mesh):
+    """The mesh as ASCII STL in millimetres, its lowest point at z = 0. Readers ignore the normals."""
+    keel = min(point[2] for _, triangle in mesh for point in triangle)
+    per_millimetre = UNITS_PER_METRE / 1000
+    lines = [f"solid {name}"]
+    for _, triangle in mesh:
+        lines += ["facet normal 0 0 0", " outer loop"]
+        lines += [f"  vertex {x / per_millimetre:.2f} {y / per_millimetre:.2f} "
+                  f"{(z - keel) / per_millimetre:.2f}" for x, y, z in triangle]
+        lines += [" endloop", "endfacet"]
+    return "\n".join([*lines, f"endsolid {name}"]) + "\n"
+
+
 def decimal(units):
     whole, rest = divmod(abs(units), UNITS_PER_METRE)
     text = f"{whole}.{rest:0{DECIMALS}d}".rstrip("0")
@@ -244,8 +260,8 @@ def main():
     parser = argparse.ArgumentParser(description="Writes the hull of a 100 m icebreaker.")
     parser.add_argument("--triangles", type=int, default=TRIANGLES,
                         help="about so many, from 500 (default: %(default)s)")
-    parser.add_argument("--out", metavar="FILE", help="OBJ file to write (default: the script's "
-                        "own folder, icebreaker-100m.obj)")
+    parser.add_argument("--out", metavar="FILE", help="OBJ or STL file to write (default: the "
+                        "script's own folder, icebreaker-100m.obj)")
     parser.add_argument("--report", action="store_true", help="print the dimensions, write nothing")
     arguments = parser.parse_args()
     if arguments.report:
@@ -255,8 +271,9 @@ def main():
         parser.error("--triangles must be 500 or more: fewer do not show the form")
     out = arguments.out or os.path.join(os.path.dirname(os.path.abspath(__file__)),
                                         "icebreaker-100m.obj")
-    name = os.path.splitext(os.path.basename(out))[0]
-    text = obj_text(name, make(arguments.triangles))
+    name, suffix = os.path.splitext(os.path.basename(out))
+    text_of = stl_text if suffix.lower() == ".stl" else obj_text
+    text = text_of(name, make(arguments.triangles))
     with open(out, "w", encoding="ascii", newline="\n") as file:
         file.write(text)
 

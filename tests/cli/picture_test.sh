@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# picture_test.sh SOURCE BIN: README's picture of an ice field is what the command below it makes.
+# picture_test.sh SOURCE BIN: the picture of docs/icefield.md is what the command below it makes.
 set -euo pipefail
 source=$1
 export PATH=$2:$PATH
-command=$(sed -n 's/^The picture is `\(icefield .*\)`\.$/\1/p' "$source/README.md")
-[[ -n $command ]] || { echo "README.md names no command for its picture" >&2; exit 1; }
+command=$(sed -n 's/^The picture is `\(icefield .*\)`\.$/\1/p' "$source/docs/icefield.md")
+[[ -n $command ]] || { echo "docs/icefield.md names no command for its picture" >&2; exit 1; }
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 mkdir "$work/docs"

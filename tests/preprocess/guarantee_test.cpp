@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the README says of every sphere set, held to on every mesh of the project, in 3D and 2D.
+// The guarantees of docs/spherize.md for sphere sets, on every mesh of the project, in 3D and 2D.
 #include <algorithm>
 #include <catch2/catch.hpp>
 

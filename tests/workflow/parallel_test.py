@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""parallel_test.py SOURCE BIN: the README's way with GNU parallel."""
+"""parallel_test.py SOURCE BIN: the way with GNU parallel of workflow/README.md."""
 import os
 import subprocess
 import tempfile
