@@ -9,9 +9,10 @@ readonly packages=(
     libmeshoptimizer-dev libfmt-dev libspdlog-dev libhdf5-dev libssl-dev nlohmann-json3-dev zlib1g-dev python3 python3-h5py help2man
     librsvg2-bin)
 
-# only the tests use these: the report in a browser, its page built again, run.h5 in xarray, fuzzing
+# only the tests use these: the report in a browser, its page built again, run.h5 in xarray, fuzzing,
+# the documents as a site
 readonly test_packages=(chromium chromium-driver python3-selenium python3-pil python3-xarray
-    python3-h5netcdf python3-jsonschema lintian snakemake clang-14 libclang-rt-14-dev libomp-14-dev)
+    python3-h5netcdf python3-jsonschema python3-sphinx python3-myst-parser lintian snakemake clang-14 libclang-rt-14-dev libomp-14-dev)
 
 usage() {
     cat <<'END'

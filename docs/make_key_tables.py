@@ -23,9 +23,9 @@ the file. Unknown keys, wrong types or units and values out of range are errors 
 `icefield` has the same options for specifications. A first line `#:schema ../case.schema.json` gives editors completion and
 checks. The manual pages icesolve-case(5) and icefield-specification(5) have the same tables.
 """
-FILES = {"case": ("Case file", "A case is one run of `icesolve`."),
+FILES = {"case": ("Case file", "A case is one run of [icesolve](icesolve.md)."),
          "specification": ("Field specification", "A specification is one field of "
-                           "`icefield`. Only the keys of its pattern may be given.")}
+                           "[icefield](icefield.md). Only the keys of its pattern may be given.")}
 
 
 def meaning(sub):
