@@ -87,6 +87,8 @@ std::string spheres_report_text(const SpheresReport& r) {
     for (const ThinFeature& thin : r.thin_features)
         json["thin_features"].push_back({{"at_m", thin.at}, {"size_m", thin.size}});
     json["unfitted_share"] = r.unfitted_share;
+    json["corners"] = r.corners;
+    json["blind_corners"] = r.blind_corners;
     json["outside_dropped"] = r.outside_dropped;
     json["cut_back"] = Json::array();
     for (const CutBack& cut : r.cut_back)

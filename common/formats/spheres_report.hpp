@@ -69,6 +69,8 @@ struct SpheresReport {
     std::vector<ThinFeature> thin_features;
     double unfitted_share = 0.0;       ///< of the wetted surface: no sphere can touch it, and the
                                        ///< nearest is more than half a radius away
+    std::int64_t corners = 0;          ///< where a sphere can touch three faces at once
+    std::int64_t blind_corners = 0;    ///< those without a sphere that knows the three
     std::int64_t outside_dropped = 0;  ///< spheres on the wrong side of the surface
     SourceCheck source;
     IceBelt belt;

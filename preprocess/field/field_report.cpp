@@ -13,6 +13,7 @@ std::string field_report_text(const FieldReport& r) {
         {"shapes", r.shapes},
         {"spheres", r.spheres},
         {"surface_spheres", r.surface_spheres},
+        {"corners", r.corners},
         {"concentration", r.concentration},
         {"mean_size_m", r.mean_size},
         {"smallest_size_m", r.smallest},

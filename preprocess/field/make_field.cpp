@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <optional>
 
 #include "common/base/error.hpp"
@@ -91,7 +92,8 @@ private:
     Vec3 move_;
 };
 
-SphereSet fill_form(const FieldSpec& spec, const Outline& outline) {
+// @param corners  becomes the number of the form's corners, each with a sphere of its own
+SphereSet fill_form(const FieldSpec& spec, const Outline& outline, std::int64_t& corners) {
     FillOptions options;
     options.radius = spec.radius;
     options.spacing = spec.spacing;
@@ -102,8 +104,14 @@ SphereSet fill_form(const FieldSpec& spec, const Outline& outline) {
     options.edges_by_ends = pose.turns();  // the others are those of grids: a few for all floes
     TriangleMesh prism = make_prism(outline, spec.thickness, spec.chamfer);
     for (Vec3& vertex : prism.vertices) vertex = pose.to(vertex);
-    SpheresReport unused;
-    SphereSet set = fill_spheres(prism, options, unused);
+    SpheresReport report;
+    SphereSet set = fill_spheres(prism, options, report);
+    if (report.blind_corners > 0)
+        throw bad_input("--radius",
+                        fmt::format("{} of {} corners have no sphere that knows their three faces",
+                                    report.blind_corners, report.corners),
+                        "");
+    corners = report.corners;
     for (Vec3& vertex : set.mesh.vertices) vertex = pose.from(vertex);
     for (Vec3& center : set.centers) center = pose.from(center);
     for (Vec3& normal : set.normals) normal = pose.direction_from(normal);
@@ -125,13 +133,15 @@ void refuse_too_many(const FieldSpec& spec, const std::vector<Outline>& outlines
             "use a larger spacing, or fewer floes");
 }
 
-std::vector<SphereSet> fill_forms(const FieldSpec& spec, const std::vector<Outline>& outlines) {
+std::vector<SphereSet> fill_forms(const FieldSpec& spec, const std::vector<Outline>& outlines,
+                                  FieldReport& report) {
     refuse_too_many(spec, outlines);
     std::vector<SphereSet> shapes(outlines.size());
     std::vector<std::optional<Error>> errors(outlines.size());
+    std::vector<std::int64_t> corners(outlines.size(), 0);
     parallel_tasks(outlines.size(), true, [&](std::size_t k) {
         try {
-            shapes[k] = fill_form(spec, outlines[k]);
+            shapes[k] = fill_form(spec, outlines[k], corners[k]);
         } catch (const Error& error) {
             errors[k] = error;
         }
@@ -145,6 +155,7 @@ std::vector<SphereSet> fill_forms(const FieldSpec& spec, const std::vector<Outli
                                     size_of(outlines[k]), what.substr(what.find(": ") + 2)),
                         "use smaller spheres or larger floes");
     }
+    report.corners = std::accumulate(corners.begin(), corners.end(), std::int64_t{0});
     return shapes;
 }
 
@@ -209,7 +220,7 @@ Field make_field(const FieldSpec& spec, const FieldPlan& plan, FieldReport& repo
                   plan.area.max().y()};
     field.specification = spec.text;
     field.seed = spec.seed;
-    field.shapes = fill_forms(spec, forms.outlines);
+    field.shapes = fill_forms(spec, forms.outlines, report);
     for (std::size_t k = 0; k < forms.of_floe.size(); ++k) {
         FieldFloe floe;
         floe.shape = forms.of_floe[k];

@@ -10,6 +10,7 @@ namespace ice {
 struct FieldReport {
     std::size_t floes = 0, fixed = 0, shapes = 0;  ///< loose floes, pieces of unbroken ice
     std::size_t spheres = 0, surface_spheres = 0;  ///< of all floes together
+    std::int64_t corners = 0;  ///< of the shapes, each with a sphere that knows its three faces
     double concentration = 0.0;                    ///< area of loose floes over the field's
     double mean_size = 0.0, smallest = 0.0, largest = 0.0;  ///< [m]
     double plan_seconds = 0.0, fill_seconds = 0.0;
@@ -24,7 +25,8 @@ FieldPlan plan_field(const FieldSpec& spec, std::vector<std::string>& warnings);
 /// caller's.
 ///
 /// The same bits for any number of threads.
-/// @throws Error (exit code 2) when a floe is too small for a sphere, naming its place
+/// @throws Error (exit code 2) when a floe is too small for a sphere, or a corner of one that has
+///         room for a sphere has none of its own
 Field make_field(const FieldSpec& spec, const FieldPlan& plan, FieldReport& report);
 
 /// The report as JSON (schema icefield/1).

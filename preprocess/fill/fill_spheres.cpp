@@ -11,6 +11,7 @@
 #include "common/base/error.hpp"
 #include "common/base/timer.hpp"
 #include "preprocess/fill/certificate.hpp"
+#include "preprocess/fill/corners.hpp"
 #include "preprocess/fill/drop_outside.hpp"
 #include "preprocess/fill/inscribed.hpp"
 #include "preprocess/fill/lattice.hpp"
@@ -133,6 +134,21 @@ void fill_report(const SphereSet& set, SpheresReport& report) {
     report.inertia_unit_density = {i(0, 0), i(1, 1), i(2, 2), i(0, 1), i(0, 2), i(1, 2)};
 }
 
+// A lattice's spheres touch what they happen to touch.
+void certify_corners(const SurfaceTree& tree, const FillOptions& o, bool mirror,
+                     const SphereSet& set, SpheresReport& report) {
+    if (set.dimension == 2 || o.arrangement == Arrangement::lattice) return;
+    const CornerCount corners = count_corners(tree, set, mirror);
+    report.corners = corners.all;
+    report.blind_corners = corners.blind;
+    if (corners.blind == 0) return;
+    const Vec3& at = corners.blind_at;
+    report.warnings.push_back(fmt::format(
+        "{} of {} corners have no sphere that knows their three faces, the first at {:.4g}, "
+        "{:.4g}, {:.4g} m: what meets them there is felt late; try another radius or spacing",
+        corners.blind, corners.all, at.x(), at.y(), at.z()));
+}
+
 // `space` is what spheres are placed in: the solid, or in 2D the section widened along y.
 SphereSet fill(const TriangleMesh& solid, const TriangleMesh& space, int dimension,
                const FillOptions& o, SpheresReport& report) {
@@ -159,6 +175,7 @@ SphereSet fill(const TriangleMesh& solid, const TriangleMesh& space, int dimensi
     const Timer measuring;
     const std::vector<std::int32_t> twins = mirror ? find_twins(set) : std::vector<std::int32_t>();
     set_normals(tree, twins, set);
+    certify_corners(tree, o, mirror, set, report);
     const SphereFinder finder(set);
     const std::vector<Sight> sights = survey_surface(tree, set, finder, mirror, o.quick);
     share_surface(tree, sights, twins, set);

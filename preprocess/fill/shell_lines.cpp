@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "common/base/parallel.hpp"
+#include "preprocess/fill/corners.hpp"
 #include "preprocess/fill/edge_chains.hpp"
 #include "preprocess/fill/mirror_seat.hpp"
 #include "preprocess/fill/point_grid.hpp"
@@ -16,8 +17,7 @@ namespace ice {
 namespace {
 
 // In units of the spacing.
-constexpr double kSeparation = 0.5;         // between spheres of different edges
-constexpr double kCornerSeparation = 1e-3;  // corners: both ends of a short edge are kept
+constexpr double kSeparation = 0.5;  // between spheres of different edges
 constexpr double kRounding = 1e-6;
 constexpr double kMirrorGap = 0.25;  // half of it: a sphere and its image
 
@@ -95,45 +95,6 @@ std::vector<SettledLine> settle_line(const SurfaceTree& tree, const ShellOptions
                                   starts[k > 0 ? k - 1 : 0]);
     }
     return out;
-}
-
-bool is_corner(const Seat& seat) {
-    constexpr double kLeastVolume = 0.1;  // of three unit normals: less is an edge
-    const auto& t = seat.touch;
-    return seat.touches == 3 && std::abs(t[0].cross(t[1]).dot(t[2])) >= kLeastVolume;
-}
-
-// How far a settled sphere may go along a unit vector until it touches one more face [m]; `most`
-// where there is none before.
-double way_to_next(const SurfaceTree& tree, const Vec3& center, const Vec3& along, double radius,
-                   double most) {
-    constexpr double kLeastRise = 0.1;  // sine between the way and the face
-    thread_local std::vector<Foot> feet;
-    tree.within(center, radius + most, feet);
-    for (const Foot& foot : feet) {
-        const double rise = (foot.point - center).dot(along);
-        if (rise > kLeastRise * foot.distance)
-            most = std::min(most, (foot.distance - radius) * foot.distance / rise);
-    }
-    return most;
-}
-
-// A seat on an edge moved along it, not farther than `most`, until it touches a third face.
-std::optional<Seat> slide_to_corner(const SurfaceTree& tree, double radius, Seat seat,
-                                    const Vec3& along, double most) {
-    constexpr int kMostSteps = 8;  // several where the third face is cut into triangles or curved
-    for (int step = 0; step < kMostSteps; ++step) {
-        const double way = way_to_next(tree, seat.center, along, radius, most);
-        if (way == most) return std::nullopt;
-        if (way < exact_distance(seat.center, radius)) break;
-        seat.center += way * along;
-        most -= way;
-    }
-    find_crease(tree, radius, seat);
-    if (!is_corner(seat) ||
-        !tree.is_clear(seat.center, radius - 2.0 * exact_distance(seat.center, radius)))
-        return std::nullopt;
-    return seat;
 }
 
 // Is a seat in an edge that goes one way or the other?
@@ -216,6 +177,15 @@ public:
             if (seat) place(*seat);
         }
     }
+    /// Corners that no line's end came to: an end that settled a hair short of its corner leaves
+    /// it empty, since starts beyond the next face and narrow faces (a chamfer's) lead astray.
+    void add_missing_corners() {
+        std::vector<Seat> corners;
+        for (std::size_t k = 0, lines = seats_.size(); k < lines; ++k) {
+            find_corners_beside(tree_, o_.radius, seats_[k], o_.spacing, corners);
+            for (const Seat& corner : corners) place(corner);
+        }
+    }
     /// All but those that were placed beside a corner before it was: it stands for their faces.
     std::vector<Seat> take() {
         std::vector<Seat> out;
@@ -235,18 +205,19 @@ private:
     // Of the half y >= 0. Only a corner may stand as near to its own image as it is.
     std::optional<Seat> in_half(const Seat& seat) const {
         if (!o_.mirror) return seat;
-        if (is_corner(seat) && seat.center.y() > kCornerSeparation * o_.spacing) return seat;
+        if (is_corner(seat) && seat.center.y() > kSameCorner * o_.spacing) return seat;
         return mirror_seat(tree_, seat, o_.radius, kMirrorGap * o_.spacing);
     }
 
-    // Unless there is one near that stands for the same faces.
+    // Unless there is one near that stands for the same faces, or in a corner touches them.
     void place(const Seat& found) {
         const auto seat = in_half(found);
         if (!seat) return;
-        const double separation = is_corner(*seat) ? kCornerSeparation : kSeparation;
+        const double separation = is_corner(*seat) ? kSameCorner : kSeparation;
         const std::span<const Vec3> normals = normals_at(tree_, o_.radius, *seat, found_);
         if (placed_.any_within(seat->center, separation * o_.spacing, [&](std::int32_t k) {
-                return seats_[static_cast<std::size_t>(k)].agrees(normals);
+                const Seat& other = seats_[static_cast<std::size_t>(k)];
+                return is_corner(*seat) ? touch_the_same(other, *seat) : other.agrees(normals);
             }))
             return;
         placed_.add(seat->center);
@@ -280,6 +251,7 @@ std::vector<Seat> seat_lines(const SurfaceTree& tree, const ShellOptions& option
             seats.place(line.centers, corners);
         }
     }
+    if (options.dimension == 3) seats.add_missing_corners();
     return seats.take();
 }
 

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "preprocess/fill/corners.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/base/parallel.hpp"
+#include "preprocess/fill/point_cells.hpp"
+#include "preprocess/fill/point_grid.hpp"
+
+namespace ice {
+
+namespace {
+
+constexpr double kReach = 1.01;  // spacings: an edge has a sphere in every one of them
+
+// How far a settled sphere may go along a unit vector until it touches one more face [m]; `most`
+// where there is none before.
+double way_to_next(const SurfaceTree& tree, const Vec3& center, const Vec3& along, double radius,
+                   double most) {
+    constexpr double kLeastRise = 0.1;  // sine between the way and the face
+    thread_local std::vector<Foot> feet;
+    tree.within(center, radius + most, feet);
+    for (const Foot& foot : feet) {
+        const double rise = (foot.point - center).dot(along);
+        if (rise > kLeastRise * foot.distance)
+            most = std::min(most, (foot.distance - radius) * foot.distance / rise);
+    }
+    return most;
+}
+
+constexpr double kSameNormal = 0.9999;  // cosine: touches 0.01 rad apart are one
+
+// Has the set a sphere in this corner that knows its faces?
+bool is_known(const SphereSet& set, const PointCells& cells, const Seat& corner) {
+    bool known = false;
+    cells.visit(corner.center, kSameCorner * set.spacing, [&](std::int32_t k, double) {
+        const auto low = std::lower_bound(
+            set.creases.begin(), set.creases.end(), k,
+            [](const CreaseNormal& crease, std::int32_t sphere) { return crease.sphere < sphere; });
+        known = known || std::all_of(corner.touch.begin(), corner.touch.end(), [&](const Vec3& n) {
+                    for (auto c = low; c != set.creases.end() && c->sphere == k; ++c)
+                        if (c->normal.dot(n) > kSameNormal) return true;
+                    return false;
+                });
+    });
+    return known;
+}
+
+}  // namespace
+
+bool is_corner(const Seat& seat) {
+    constexpr double kLeastVolume = 0.1;
+    const auto& t = seat.touch;
+    return seat.touches == 3 && std::abs(t[0].cross(t[1]).dot(t[2])) >= kLeastVolume;
+}
+
+bool touch_the_same(const Seat& one, const Seat& other) {
+    const auto end = one.touch.begin() + one.touches;
+    return one.touches == other.touches && std::all_of(one.touch.begin(), end, [&](const Vec3& n) {
+               return std::any_of(other.touch.begin(), other.touch.begin() + other.touches,
+                                  [&](const Vec3& m) { return n.dot(m) > kSameNormal; });
+           });
+}
+
+std::optional<Seat> slide_to_corner(const SurfaceTree& tree, double radius, Seat seat,
+                                    const Vec3& along, double most) {
+    constexpr int kMostSteps = 8;  // several where the third face is cut into triangles or curved
+    for (int step = 0; step < kMostSteps; ++step) {
+        const double way = way_to_next(tree, seat.center, along, radius, most);
+        if (way == most) return std::nullopt;
+        if (way < exact_distance(seat.center, radius)) break;
+        seat.center += way * along;
+        most -= way;
+    }
+    find_crease(tree, radius, seat);
+    if (!is_corner(seat) ||
+        !tree.is_clear(seat.center, radius - 2.0 * exact_distance(seat.center, radius)))
+        return std::nullopt;
+    return seat;
+}
+
+void find_corners_beside(const SurfaceTree& tree, double radius, const Seat& seat, double most,
+                         std::vector<Seat>& out) {
+    out.clear();
+    if (seat.touches != 2) return;
+    const Vec3 along = seat.touch[0].cross(seat.touch[1]).normalized();
+    for (const Vec3& way : {along, Vec3(-along)})
+        if (const auto corner = slide_to_corner(tree, radius, seat, way, most))
+            out.push_back(*corner);
+}
+
+CornerCount count_corners(const SurfaceTree& tree, const SphereSet& set, bool half) {
+    std::vector<std::vector<Seat>> found(set.surface_count);
+    parallel_for(set.surface_count, 64, [&](std::size_t k) {
+        const bool on_face = set.normal_spread[k] == 0.0;
+        if (on_face || (half && set.centers[k].y() < 0.0)) return;
+        Seat seat{set.centers[k], set.normals[k], -1};
+        find_crease(tree, set.radius, seat);
+        if (is_corner(seat))
+            found[k].push_back(seat);
+        else
+            find_corners_beside(tree, set.radius, seat, kReach * set.spacing, found[k]);
+    });
+    CornerCount out;
+    if (set.surface_count == 0) return out;
+    const PointCells cells(std::span(set.centers).first(set.surface_count), set.spacing);
+    PointGrid counted(set.spacing);
+    std::vector<Seat> all;
+    for (const auto& corners : found)
+        for (const Seat& corner : corners) {
+            if (half && corner.center.y() < -kSameCorner * set.spacing) continue;
+            if (counted.any_within(corner.center, kSameCorner * set.spacing, [&](std::int32_t k) {
+                    return touch_the_same(all[static_cast<std::size_t>(k)], corner);
+                }))
+                continue;
+            counted.add(corner.center);
+            all.push_back(corner);
+            const bool has_image = half && corner.center.y() > kSameCorner * set.spacing;
+            out.all += has_image ? 2 : 1;
+            if (is_known(set, cells, corner)) continue;
+            out.blind += has_image ? 2 : 1;
+            out.blind_at = corner.center;
+        }
+    return out;
+}
+
+}  // namespace ice
