@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Bullet, single precision, as it comes but for what the scene asks for: no deactivation,
 // restitution threshold 0, 10 iterations, friction and restitution of the case by pair. A body is
-// a compound of spheres.
+// a compound of spheres; in a second row a floe is a box and the hull the convex hull of its mesh.
 #include <btBulletDynamicsCommon.h>
 
 #include <algorithm>
@@ -38,14 +38,19 @@ Mat3 from_bullet(const btMatrix3x3& m) {
 
 class BulletPeer final : public Peer {
 public:
-    explicit BulletPeer(const BenchScene& scene)
+    BulletPeer(const BenchScene& scene, bool convex)
         : parameters_(scene.world.parameters), water_(scene.floe_size, parameters_) {
         bullet_.setGravity(btVector3(0, 0, 0));
         bullet_.getSolverInfo().m_numIterations = 10;
         bullet_.getSolverInfo().m_restitutionVelocityThreshold = 0;
         const Bodies& b = scene.world.scene.bodies;
-        fill(scene.hull, hull_ball_, hull_);
-        fill(scene.floe, floe_ball_, floe_);
+        if (convex) {
+            hull_ = convex_hull(scene.hull.mesh);
+            floe_ = std::make_unique<btBoxShape>(to_bullet(0.5 * scene.floe_size));
+        } else {
+            hull_ = compound(scene.hull, hull_ball_);
+            floe_ = compound(scene.floe, floe_ball_);
+        }
         for (std::size_t i = 0; i < b.size(); ++i) add_body(b, i);
     }
 
@@ -99,11 +104,22 @@ public:
     }
 
 private:
-    static void fill(const SphereSet& set, std::unique_ptr<btSphereShape>& ball,
-                     btCompoundShape& out) {
+    static std::unique_ptr<btCollisionShape> compound(const SphereSet& set,
+                                                      std::unique_ptr<btSphereShape>& ball) {
         ball = std::make_unique<btSphereShape>(static_cast<btScalar>(set.radius));
+        auto out = std::make_unique<btCompoundShape>();
         for (const Vec3& c : set.centers)
-            out.addChildShape(btTransform(btQuaternion::getIdentity(), to_bullet(c)), ball.get());
+            out->addChildShape(btTransform(btQuaternion::getIdentity(), to_bullet(c)), ball.get());
+        return out;
+    }
+
+    // Bullet rounds a hull outwards by its margin: 1 mm here instead of 4 cm.
+    static std::unique_ptr<btCollisionShape> convex_hull(const TriangleMesh& mesh) {
+        auto out = std::make_unique<btConvexHullShape>();
+        for (const Vec3& v : mesh.vertices) out->addPoint(to_bullet(v), false);
+        out->recalcLocalAabb();
+        out->setMargin(btScalar(0.001));
+        return out;
     }
 
     void add_body(const Bodies& b, std::size_t i) {
@@ -115,7 +131,7 @@ private:
             inertia = to_bullet(inertia_);
         }
         btRigidBody::btRigidBodyConstructionInfo info(static_cast<btScalar>(b.mass[i]), nullptr,
-                                                      ship ? &hull_ : &floe_, inertia);
+                                                      (ship ? hull_ : floe_).get(), inertia);
         const Quaternion& q = b.orientation[i];
         info.m_startWorldTransform =
             btTransform(btQuaternion(static_cast<btScalar>(q.x()), static_cast<btScalar>(q.y()),
@@ -147,7 +163,7 @@ private:
     double mass_ = 0.0;
     Vec3 inertia_ = Vec3::Zero();
     std::unique_ptr<btSphereShape> hull_ball_, floe_ball_;
-    btCompoundShape hull_, floe_;
+    std::unique_ptr<btCollisionShape> hull_, floe_;
     btDefaultCollisionConfiguration configuration_;
     btCollisionDispatcher dispatcher_{&configuration_};
     btDbvtBroadphase broadphase_;
@@ -159,7 +175,11 @@ private:
 }  // namespace
 
 std::unique_ptr<Peer> make_bullet(const BenchScene& scene) {
-    return std::make_unique<BulletPeer>(scene);
+    return std::make_unique<BulletPeer>(scene, false);
+}
+
+std::unique_ptr<Peer> make_bullet_convex(const BenchScene& scene) {
+    return std::make_unique<BulletPeer>(scene, true);
 }
 
 }  // namespace ice::bench

@@ -8,9 +8,10 @@ namespace ice::bench {
 
 #ifdef ICE_WITH_BULLET
 std::unique_ptr<Peer> make_bullet(const BenchScene& scene);
-constexpr auto kMakeBullet = &make_bullet;
+std::unique_ptr<Peer> make_bullet_convex(const BenchScene& scene);
+constexpr auto kMakeBullet = &make_bullet, kMakeBulletConvex = &make_bullet_convex;
 #else
-constexpr std::nullptr_t kMakeBullet = nullptr;
+constexpr std::nullptr_t kMakeBullet = nullptr, kMakeBulletConvex = nullptr;
 #endif
 #ifdef ICE_WITH_ODE
 std::unique_ptr<Peer> make_ode(const BenchScene& scene);
@@ -21,6 +22,7 @@ constexpr std::nullptr_t kMakeOde = nullptr;
 
 const std::vector<PeerKind>& peer_kinds() {
     static const std::vector<PeerKind> kinds{{"bullet", "libbullet-dev", kMakeBullet},
+                                             {"bullet-boxes", "libbullet-dev", kMakeBulletConvex},
                                              {"ode", "libode-dev", kMakeOde}};
     return kinds;
 }

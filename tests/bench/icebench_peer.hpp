@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Other rigid-body engines on the scenes loose and packed. Same bodies, spheres, loads and steps;
-/// contact and motion are theirs.
+/// Other rigid-body engines on the scenes loose and packed. Same bodies, loads and steps, the same
+/// spheres or exact boxes; contact and motion are theirs.
 #pragma once
 
 #include <memory>
@@ -32,7 +32,7 @@ struct PeerKind {
     std::unique_ptr<Peer> (*make)(const BenchScene& scene);
 };
 
-/// Bullet and ODE.
+/// Bullet and ODE with our spheres, and Bullet with a box per floe and a convex hull.
 const std::vector<PeerKind>& peer_kinds();
 
 /// Weight, buoyancy and drag of a box floe, cheap enough not to weigh in anybody's time.
