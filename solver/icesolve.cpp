@@ -6,9 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <map>
 #include <optional>
-#include <tuple>
 
 #include "common/base/error.hpp"
 #include "common/base/instruction_set.hpp"
@@ -17,7 +15,6 @@
 #include "common/cli/command_line.hpp"
 #include "common/cli/console.hpp"
 #include "common/cli/progress.hpp"
-#include "common/cli/quantity_option.hpp"
 #include "common/cli/sibling_program.hpp"
 #include "common/cli/start_threads.hpp"
 #include "solver/case/case_schema.hpp"
@@ -25,6 +22,7 @@
 #include "solver/draft/draw_start.hpp"
 #include "solver/draft/new_case.hpp"
 #include "solver/ensemble/run_ensemble.hpp"
+#include "solver/icesolve_options.hpp"
 #include "solver/record/recorder.hpp"
 #include "solver/record/result_text.hpp"
 #include "solver/step/check_course.hpp"
@@ -35,110 +33,8 @@
 
 namespace {
 
-struct Options {
-    std::string case_file, out, explain, restart, simd = "auto";
-    std::string picture, fresh_case;
-    std::vector<std::string> overrides, fresh;
-    std::map<std::string, std::string> of_mesh;  // options of spherize that --new passes on
-    int threads = 0, seeds = 0;
-    std::int64_t hash_every = 0;
-    double checkpoint_every = 0.0, autosave = 300.0;
-    bool check = false, schema = false, defaults = false, json = false, verify = false,
-         no_report = false, allow_overlap = false, overwrite = false;
-    ice::MessageOptions messages;
-};
-
-// A first case, and what spherize may have to be told of its mesh.
-void declare_new(CLI::App& app, Options& o) {
-    auto* fresh = app.add_option("--new", o.fresh,
-                                 "Write a commented case for a hull (mesh or sphere set) and an "
-                                 "ice field (.h5, or specification .toml), and what they lack")
-                      ->type_name("HULL [FIELD]")
-                      ->expected(1, 2);
-    app.add_option("-o", o.fresh_case, "With --new: the case file (default HULL-stem.cfg)")
-        ->type_name("CASE.cfg")
-        ->needs(fresh);
-    for (const auto& [name, unit, about] :
-         {std::tuple("--units", "UNIT", "unit of its file, mm, cm, m, ft or in"),
-          std::tuple("--scale", "F", "metres per unit of its file"),
-          std::tuple("--up", "y|z", "axis that points up"),
-          std::tuple("--forward", "+x|-x|+y|...", "direction of the bow"),
-          std::tuple("--mirror", "y", "the file holds one half of the hull")})
-        app.add_option(name, o.of_mesh[name],
-                       fmt::format("With --new and a mesh, as spherize {0}: {1}", name, about))
-            ->type_name(unit)
-            ->needs(fresh);
-}
-
-void declare(CLI::App& app, Options& o) {
-    ice::declare_version(app);
-    app.add_option("case", o.case_file, "Case file (TOML)");
-    app.add_option("--out", o.out,
-                   "Run folder (default results/<stem of the case file, or its folder where the "
-                   "file is called case.cfg>)");
-    app.add_flag("--overwrite", o.overwrite,
-                 "Replace a run that the run folder holds; other files in it stay");
-    app.add_option("--set", o.overrides, "key=value, replaces a key of the case; repeatable")
-        ->allow_extra_args(false)
-        ->take_all();
-    app.add_option("--threads", o.threads, "Threads (default: all cores)")
-        ->check(CLI::Range(1, 4096));
-    app.add_option("--simd", o.simd, "Instruction set; results have the same bits on all")
-        ->check(CLI::IsMember({"auto", "scalar", "sse4", "avx2", "avx512"}));
-    app.add_option("--checkpoint-every", o.checkpoint_every,
-                   "Write checkpoint.h5 in the run folder every T simulated seconds and at the end")
-        ->type_name("T")
-        ->transform(ice::positive_quantity(ice::Dimension::time, "2.5"));
-    app.add_option("--autosave", o.autosave,
-                   "Without --checkpoint-every: write it after every T of work, 5 min by default, "
-                   "and remove it when the run ends")
-        ->type_name("T")
-        ->transform(ice::positive_quantity(ice::Dimension::time, "5 min"))
-        ->excludes(app.get_option("--checkpoint-every"));
-    app.add_option("--restart", o.restart,
-                   "Go on from a checkpoint, in its folder (or --out), to the same bits; only "
-                   "simulation.duration may have changed")
-        ->type_name("FILE");
-    auto* restart = app.get_option("--restart");
-    auto* hashes =
-        app.add_option("--hash-every", o.hash_every, "Print step and state hash every N steps")
-            ->check(CLI::PositiveNumber);
-    app.add_option("--seeds", o.seeds,
-                   "Run an ensemble of N members in turn, in seed-1, seed-2, ... of the run "
-                   "folder; the same command again goes on with it")
-        ->type_name("N")
-        ->check(CLI::Range(1, 10000))
-        ->excludes(restart)
-        ->excludes(hashes);
-    auto* check = app.add_flag("--check", o.check,
-                               "Read and build everything, run nothing: ship, ice, course, "
-                               "clearance and spheres in numbers");
-    app.add_option("--picture", o.picture,
-                   "With --check: draw the start from the side (.svg, .png or .pdf)")
-        ->type_name("FILE")
-        ->needs(check);
-    declare_new(app, o);
-    app.add_flag("--allow-overlap", o.allow_overlap,
-                 "Run a case whose bodies overlap at the start, with a warning");
-    app.add_flag("--verify", o.verify,
-                 "Stop at a step that loses momentum; the worst imbalance goes into the summary");
-    app.add_option("--explain", o.explain, "Tell what a case key takes")->type_name("KEY");
-    app.add_flag("--print-schema", o.schema, "JSON schema of the case file");
-    app.add_flag("--print-defaults", o.defaults, "A complete case with all defaults");
-    app.add_flag("--no-report", o.no_report,
-                 "Do not write report.html at the end; icepost report writes it later");
-    app.add_flag("--json", o.json, "Print the summary as JSON on stdout")->excludes(hashes);
-    app.add_flag("-q,--quiet", o.messages.quiet, "No progress, no messages but errors");
-    app.add_option("--color", o.messages.colour, "Colour of messages")
-        ->check(CLI::IsMember({"auto", "always", "never"}));
-    app.footer(
-        "Exit codes: 0 ok; 1 the run failed; 2 bad command line or case; 130 interrupted,\n"
-        "checkpoint written. Ctrl-C (SIGINT) and SIGTERM finish the step first; a second "
-        "one ends at once.");
-}
-
 // The command that goes on with an interrupted run.
-std::string command_to_go_on(const Options& o, const std::filesystem::path& folder) {
+std::string command_to_go_on(const ice::Options& o, const std::filesystem::path& folder) {
     std::string line = ice::typed_program() + " " + ice::shell_word(o.case_file);
     for (const std::string& text : o.overrides) line += " --set " + ice::shell_word(text);
     if (o.checkpoint_every > 0.0) line += fmt::format(" --checkpoint-every {}", o.checkpoint_every);
@@ -146,7 +42,7 @@ std::string command_to_go_on(const Options& o, const std::filesystem::path& fold
 }
 
 // `said`: warnings that the user has seen at the start
-int report(const ice::Summary& s, const Options& o, const std::string& folder,
+int report(const ice::Summary& s, const ice::Options& o, const std::string& folder,
            const std::vector<ice::Warning>& said) {
     if (o.json) ice::write_data(ice::summary_text(s));
     ice::say(ice::resistance_line(s));
@@ -185,7 +81,7 @@ void write_report(const std::filesystem::path& folder) {
                                      ice::shell_word(folder.string())));
 }
 
-std::filesystem::path folder_of_run(const Options& o) {
+std::filesystem::path folder_of_run(const ice::Options& o) {
     if (!o.out.empty()) return o.out;
     if (!o.restart.empty()) {
         const auto parent = std::filesystem::path(o.restart).parent_path();
@@ -195,7 +91,7 @@ std::filesystem::path folder_of_run(const Options& o) {
 }
 
 // What may be in the run folder before: nothing, a run to replace, or the run that goes on.
-ice::Existing may_exist(const Options& o, const std::filesystem::path& folder) {
+ice::Existing may_exist(const ice::Options& o, const std::filesystem::path& folder) {
     std::error_code ignored;
     if (!o.restart.empty() &&
         std::filesystem::equivalent(folder, std::filesystem::absolute(o.restart).parent_path(),
@@ -205,7 +101,7 @@ ice::Existing may_exist(const Options& o, const std::filesystem::path& folder) {
 }
 
 // A run that ends with an error leaves what it wrote; the error says so, and how to go on.
-ice::Summary run_or_tell(ice::World& world, const ice::RunOptions& options, const Options& o) {
+ice::Summary run_or_tell(ice::World& world, const ice::RunOptions& options, const ice::Options& o) {
     try {
         return ice::run(world, options);
     } catch (const ice::Error& error) {
@@ -223,7 +119,8 @@ void say_warnings(const std::vector<ice::Warning>& warnings) {
 }
 
 // All that --check does.
-int describe(const Options& o, const ice::World& world, const std::vector<ice::Warning>& warnings) {
+int describe(const ice::Options& o, const ice::World& world,
+             const std::vector<ice::Warning>& warnings) {
     say_warnings(warnings);
     ice::say(fmt::format("{}: {}, {} floes\n{}", o.case_file,
                          warnings.empty() ? "good" : "runs, with warnings",
@@ -234,7 +131,7 @@ int describe(const Options& o, const ice::World& world, const std::vector<ice::W
     return 0;
 }
 
-int run_case(const Options& o, const std::string& command_line) {
+int run_case(const ice::Options& o, const std::string& command_line) {
     ice::set_thread_count(o.threads);
     ice::start_threads();
     ice::set_instruction_set(o.simd);
@@ -281,14 +178,14 @@ int run_case(const Options& o, const std::string& command_line) {
 }
 
 // Options that every member of an ensemble gets as they were given.
-std::vector<std::string> member_words(const Options& o) {
+std::vector<std::string> member_words(const ice::Options& o) {
     std::vector<std::string> words;
     if (o.simd != "auto") words.insert(words.end(), {"--simd", o.simd});
     if (o.messages.colour != "auto") words.insert(words.end(), {"--color", o.messages.colour});
     if (o.threads > 0) words.insert(words.end(), {"--threads", std::to_string(o.threads)});
     if (o.checkpoint_every > 0.0)
         words.insert(words.end(), {"--checkpoint-every", fmt::format("{}", o.checkpoint_every)});
-    else if (o.autosave != Options().autosave)
+    else if (o.autosave != ice::Options().autosave)
         words.insert(words.end(), {"--autosave", fmt::format("{}", o.autosave)});
     for (const auto& [given, word] :
          {std::pair(o.allow_overlap, "--allow-overlap"), std::pair(o.verify, "--verify"),
@@ -298,7 +195,7 @@ std::vector<std::string> member_words(const Options& o) {
 }
 
 // The command of an ensemble in a folder, which also goes on with it.
-std::string command_of_seeds(const Options& o, const std::filesystem::path& folder) {
+std::string command_of_seeds(const ice::Options& o, const std::filesystem::path& folder) {
     std::vector<std::string> words{o.case_file, "--seeds", std::to_string(o.seeds), "--out",
                                    folder.string()};
     for (const std::string& text : o.overrides) words.insert(words.end(), {"--set", text});
@@ -308,7 +205,7 @@ std::string command_of_seeds(const Options& o, const std::filesystem::path& fold
     return line;
 }
 
-int run_seeds(const Options& o, const std::string& command_line) {
+int run_seeds(const ice::Options& o, const std::string& command_line) {
     const auto folder = folder_of_run(o);
     if (o.overwrite) {  // a case that cannot start removes nothing
         ice::World world = ice::build_world(ice::read_case(o.case_file, o.overrides));
@@ -331,7 +228,7 @@ int run_seeds(const Options& o, const std::string& command_line) {
     return code;
 }
 
-int run_icesolve(const Options& o, const std::string& command_line) {
+int run_icesolve(const ice::Options& o, const std::string& command_line) {
     if (!o.explain.empty()) {
         ice::write_data(ice::explain_key(ice::case_schema(), o.explain));
     } else if (o.schema) {
@@ -364,8 +261,8 @@ int main(int argc, char** argv) {
     CLI::App app(
         "Simulates ice pieces sliding and rotating around a ship: case in, run folder out.",
         "icesolve");
-    Options o;
-    declare(app, o);
+    ice::Options o;
+    ice::declare_options(app, o);
     return ice::run_command_line(
         app, argc, argv, o.messages, "use fewer floes or larger spheres",
         [&](const std::string& command_line) { return run_icesolve(o, command_line); });

@@ -8,7 +8,7 @@
 
 #include "common/base/error.hpp"
 #include "common/base/file_turn.hpp"
-#include "common/formats/hdf5_file.hpp"
+#include "common/formats/run_arrays.hpp"
 #include "common/formats/run_file.hpp"
 
 namespace ice {
@@ -17,16 +17,9 @@ namespace {
 
 constexpr const char* kRegionForces[] = {"/regions/contact_force", "/regions/friction_force"};
 
-class Reader {
+class Reader : RunArrays {
 public:
-    explicit Reader(const std::filesystem::path& path)
-        : path_(path), file_(path, Hdf5File::Mode::read), growing_(is_growing(path)) {}
-
-    // A kill may have come when more rows of one array than of the next were written: what all of
-    // them have is read.
-    static bool is_growing(const std::filesystem::path& path) {
-        return path.extension() == ".part";
-    }
+    explicit Reader(const std::filesystem::path& path) : RunArrays(path) {}
 
     RunData read() {
         RunData run;
@@ -43,90 +36,29 @@ public:
     }
 
 private:
-    void check(bool good, const std::string& dataset, const std::string& what) const {
-        if (!good)
-            throw bad_input(path_.string() + ": " + dataset, what,
-                            "run the case again with icesolve");
-    }
-
-    // values of a dataset whose shape must be `shape`
-    template <class T>
-    std::vector<T> read_as(const std::string& name, const std::vector<std::uint64_t>& shape) const {
-        std::vector<std::uint64_t> whole = file_.shape(name);
-        if (growing_ && !whole.empty() && !shape.empty() && whole[0] > shape[0]) {
-            whole[0] = shape[0];
-            check(whole == shape, name, "has another shape than the arrays beside it");
-            return shape[0] == 0 ? std::vector<T>() : file_.read_rows<T>(name, 0, shape[0]);
-        }
-        check(whole == shape, name, "has another shape than the arrays beside it");
-        return file_.read<T>(name);
-    }
-
-    // [.., 3] as points
-    std::vector<Vec3> points(const std::string& name, std::vector<std::uint64_t> shape) const {
-        shape.push_back(3);
-        const auto flat = read_as<double>(name, shape);
-        std::vector<Vec3> out(flat.size() / 3);
-        for (std::size_t k = 0; k < out.size(); ++k)
-            out[k] = Vec3(flat[3 * k], flat[3 * k + 1], flat[3 * k + 2]);
-        return out;
-    }
-
-    std::uint64_t rows_of(const std::string& name) const {
-        const auto shape = file_.shape(name);
-        check(!shape.empty(), name, "is a single value");
-        return shape[0];
-    }
-
-    // rows of the first array, of a growing file what all have
-    std::uint64_t common_rows(const std::vector<std::string>& names) const {
-        std::uint64_t rows = rows_of(names[0]);
-        if (growing_)
-            for (const std::string& name : names) rows = std::min(rows, rows_of(name));
-        return rows;
-    }
-
-    std::uint64_t length(const std::string& name) const {
-        const auto shape = file_.shape(name);
-        check(shape.size() == 1, name, "is not a list");
-        return shape[0];
-    }
-
     void read_header(RunHeader& header) const {
-        check(file_.has_attribute("/", "format") &&
-                  file_.read_text_attribute("/", "format") == "icesolve-result",
+        check(file().has_attribute("/", "format") &&
+                  file().read_text_attribute("/", "format") == "icesolve-result",
               "/", "is not the result of a run (no attribute format = \"icesolve-result\")");
-        check(file_.read_number_attribute("/", "format_version")[0] == 1, "/",
+        check(file().read_number_attribute("/", "format_version")[0] == 1, "/",
               "has a format_version this program does not know");
-        header.dimension = static_cast<int>(file_.read_number_attribute("/", "dimension")[0]);
+        header.dimension = static_cast<int>(file().read_number_attribute("/", "dimension")[0]);
         check(header.dimension == 2 || header.dimension == 3, "dimension", "is neither 2 nor 3");
-        header.title = file_.read_text_attribute("/", "title");
-        header.created_by = file_.read_text_attribute("/", "created_by");
-        header.git_commit = file_.read_text_attribute("/", "git_commit");
-        header.command_line = file_.read_text_attribute("/", "command_line");
-        header.case_toml = file_.read_text_attribute("/", "case_toml");
-        if (file_.has_attribute("/", "average_from"))
-            header.average_from = file_.read_number_attribute("/", "average_from")[0];
-        header.tracked = file_.read<std::int32_t>("/tracked/floe");
-    }
-
-    // where each shape begins: 0 <= o[0] <= o[1] ... = rows
-    std::vector<std::int64_t> offsets(const std::string& name, std::size_t shapes,
-                                      std::uint64_t rows) const {
-        const auto offset = file_.read<std::int64_t>(name);
-        check(offset.size() == shapes + 1 && offset.front() == 0 &&
-                  offset.back() == static_cast<std::int64_t>(rows),
-              name, "does not cover the rows of all shapes");
-        for (std::size_t k = 1; k < offset.size(); ++k)
-            check(offset[k] >= offset[k - 1], name, "is not in rising order");
-        return offset;
+        header.title = file().read_text_attribute("/", "title");
+        header.created_by = file().read_text_attribute("/", "created_by");
+        header.git_commit = file().read_text_attribute("/", "git_commit");
+        header.command_line = file().read_text_attribute("/", "command_line");
+        header.case_toml = file().read_text_attribute("/", "case_toml");
+        if (file().has_attribute("/", "average_from"))
+            header.average_from = file().read_number_attribute("/", "average_from")[0];
+        header.tracked = file().read<std::int32_t>("/tracked/floe");
     }
 
     void read_shapes(std::vector<RunShape>& shapes) const {
         const std::uint64_t count = length("/shapes/vertex_offset");
         check(count >= 1 && count < 1000000, "/shapes/vertex_offset", "has no shapes");
         shapes.resize(count - 1);
-        const auto names = file_.read_strings("/region_names");
+        const auto names = file().read_strings("/region_names");
         for (RunShape& shape : shapes) shape.mesh.region_names = names;
         read_vertices(shapes);
         read_triangles(shapes, names.size());
@@ -196,7 +128,7 @@ private:
             names.push_back(std::string("/ship/") + name);
         for (const std::int32_t id : run.header.tracked)
             names.push_back("/tracked/" + std::to_string(id));
-        if (file_.has("/regions"))
+        if (file().has("/regions"))
             for (const char* name : kRegionForces) names.emplace_back(name);
         const std::uint64_t n = common_rows(names);
         const auto time = read_as<double>("/time", {n});
@@ -222,8 +154,8 @@ private:
     }
 
     void read_regions(RunData& run) const {
-        if (!file_.has("/regions")) return;  // a run of a version that did not record them
-        const auto names = file_.read_strings("/hull_regions");
+        if (!file().has("/regions")) return;  // a run of a version that did not record them
+        const auto names = file().read_strings("/hull_regions");
         const std::size_t n = run.history.size(), regions = names.size();
         const auto contact = read_as<float>(kRegionForces[0], {n, regions, 3});
         const auto friction = read_as<float>(kRegionForces[1], {n, regions, 3});
@@ -299,7 +231,7 @@ private:
     }
 
     void read_contacts(RunData& run) const {
-        if (!file_.has("/contacts")) return;  // a run of a version that did not record them
+        if (!file().has("/contacts")) return;  // a run of a version that did not record them
         const std::uint64_t n =
             common_rows({"/contacts/frame", "/contacts/floe", "/contacts/sphere", "/contacts/point",
                          "/contacts/normal_force", "/contacts/friction_force"});
@@ -311,7 +243,7 @@ private:
         const auto rub = points("/contacts/friction_force", {n});
         const auto floes = static_cast<std::int32_t>(run.header.body_shape.size());
         for (std::size_t k = 0; k < n; ++k) {
-            if (growing_ && static_cast<std::size_t>(frame[k]) >= run.frames.size()) break;
+            if (growing() && static_cast<std::size_t>(frame[k]) >= run.frames.size()) break;
             check(frame[k] >= 0 && static_cast<std::size_t>(frame[k]) < run.frames.size(),
                   "/contacts/frame", "points outside the frames");
             check(floe[k] >= 1 && floe[k] <= floes, "/contacts/floe",
@@ -322,11 +254,11 @@ private:
     }
 
     void read_panels(RunData& run) const {
-        if (!file_.has("/panels")) return;  // a killed run, or of a version that had none
+        if (!file().has("/panels")) return;  // a killed run, or of a version that had none
         HullPanels& hull = run.panels;
-        hull.size = file_.read_number_attribute("/panels", "size")[0];
-        hull.window = file_.read_number_attribute("/panels", "window")[0];
-        const auto region = file_.read<std::int32_t>("/panels/region");
+        hull.size = file().read_number_attribute("/panels", "size")[0];
+        hull.window = file().read_number_attribute("/panels", "window")[0];
+        const auto region = file().read<std::int32_t>("/panels/region");
         const std::uint64_t n = region.size();
         const auto center = points("/panels/center", {n}), normal = points("/panels/normal", {n});
         const auto regions = static_cast<std::int32_t>(length("/hull_regions"));
@@ -344,15 +276,11 @@ private:
         column("force_mean", &PanelLoad::mean);
         column("force_p99", &PanelLoad::p99);
         column("force_max", &PanelLoad::max);
-        hull.of_sphere = file_.read<std::int32_t>("/shapes/hull_panel");
+        hull.of_sphere = file().read<std::int32_t>("/shapes/hull_panel");
         for (const std::int32_t row : hull.of_sphere)
             check(row >= 0 && row < static_cast<std::int32_t>(n), "/shapes/hull_panel",
                   "points outside the panels");
     }
-
-    std::filesystem::path path_;
-    Hdf5File file_;
-    bool growing_;
 };
 
 }  // namespace
@@ -368,10 +296,10 @@ const std::vector<std::string>& track_columns() {
 
 RunData read_run(const std::filesystem::path& path) {
     // one that is being created just now is whole a moment later
-    for (int left = Reader::is_growing(path) ? 5 : 0;; --left) {
+    for (int left = is_growing(path) ? 5 : 0;; --left) {
         try {
             std::optional<FileTurn> turn;
-            if (Reader::is_growing(path)) turn.emplace(path, FileTurn::Kind::read);
+            if (is_growing(path)) turn.emplace(path, FileTurn::Kind::read);
             return Reader(path).read();
         } catch (const Error&) {
             if (left == 0) throw;

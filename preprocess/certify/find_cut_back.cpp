@@ -78,9 +78,21 @@ Extents sections_of(const SphereSet& set, int across, int along, const Levels& l
     return out;
 }
 
+// The least cut within half a spacing: the dip between two neighbouring spheres is no cut.
+std::vector<double> without_dips(const std::vector<double>& cuts, const Levels& levels,
+                                 double spacing) {
+    const auto reach = static_cast<std::ptrdiff_t>(std::ceil(0.5 * spacing / levels.step));
+    std::vector<double> out(cuts.size());
+    for (auto at = cuts.begin(); at != cuts.end(); ++at)
+        out[at - cuts.begin()] = *std::min_element(at - std::min(reach, at - cuts.begin()),
+                                                   at + std::min(reach + 1, cuts.end() - at));
+    return out;
+}
+
 // The deepest cut and the range round it in which cuts are worth saying.
-void add_deepest(const char* part, const std::vector<double>& cuts, const Levels& levels,
-                 double least, std::vector<CutBack>& out) {
+void add_deepest(const char* part, const std::vector<double>& all, const Levels& levels,
+                 double spacing, double least, std::vector<CutBack>& out) {
+    const std::vector<double> cuts = without_dips(all, levels, spacing);
     const auto deepest = std::max_element(cuts.begin(), cuts.end());
     if (deepest == cuts.end() || *deepest <= least) return;
     auto from = deepest, to = deepest;
@@ -115,9 +127,9 @@ void find_cut_back(const SphereSet& set, SpheresReport& report) {
     for (std::size_t k = 0; k < sections.low.size(); ++k)
         down.push_back(std::min(reached.low[k] - sections.low[k],
                                 std::max(sections.high[k] - sections.low[k], 0.0)));
-    add_deepest("stem", fore, heights, least, report.cut_back);
-    add_deepest("stern", aft, heights, least, report.cut_back);
-    add_deepest("keel", down, stations, least, report.cut_back);
+    add_deepest("stem", fore, heights, set.spacing, least, report.cut_back);
+    add_deepest("stern", aft, heights, set.spacing, least, report.cut_back);
+    add_deepest("keel", down, stations, set.spacing, least, report.cut_back);
 }
 
 }  // namespace ice

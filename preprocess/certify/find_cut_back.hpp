@@ -14,7 +14,9 @@ namespace ice {
 /// section are held against the foremost and aftmost points of the spheres' sections; likewise the
 /// lowest points at stations along x. Levels are those of the ice belt, or without a draught all
 /// but a radius at top and bottom, where an edge all round is cut whatever its shape; stations all
-/// but a radius at both ends. A section that no sphere reaches is cut back by its whole extent.
+/// but a radius at both ends. A section that no sphere reaches is cut back by its whole extent. Of
+/// the levels within half a spacing the least cut counts, so that a dip between neighbouring
+/// spheres is none.
 void find_cut_back(const SphereSet& set, SpheresReport& report);
 
 }  // namespace ice

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <numeric>
 
 #include "common/base/parallel.hpp"
@@ -15,10 +17,10 @@ namespace {
 
 constexpr double kOverlap = 2.0 * (1.0 - 1e-6);  // radii between centres whose balls overlap
 
-// Heaps of overlapping spheres: for each the first of its heap.
+// Heaps of overlapping spheres, made of cubes: for each cube the first of its heap.
 class Heaps {
 public:
-    explicit Heaps(std::size_t count) : parent_(count) {
+    explicit Heaps(std::size_t count) : parent_(count), left_(count) {
         std::iota(parent_.begin(), parent_.end(), 0);
     }
     std::size_t first_of(std::size_t k) {
@@ -28,58 +30,67 @@ public:
     void join(std::size_t a, std::size_t b) {
         a = first_of(a);
         b = first_of(b);
+        if (a == b) return;
         parent_[std::max(a, b)] = std::min(a, b);
+        --left_;
     }
+    std::size_t left() const { return left_; }
 
 private:
     std::vector<std::size_t> parent_;
+    std::size_t left_;
 };
 
-using Cube = std::array<std::int32_t, 3>;
+using Step = std::array<int, 3>;
 
 // Points sorted by the cubes they lie in; all points of a cube overlap each other.
 class Cubes {
 public:
-    Cubes(const std::vector<Vec3>& centers, double range) : centers_(centers), range_(range) {
+    Cubes(const std::vector<Vec3>& centers, double range)
+        : centers_(centers), range_(range), of_point_(centers.size()) {
         const double edge = 0.999 * range / std::sqrt(3.0);
+        Eigen::AlignedBox3d box;
+        for (const Vec3& c : centers) box.extend(c);
         order_.resize(centers.size());
         parallel_for(order_.size(), 4096, [&](std::size_t k) {
-            Cube cube{};
+            std::uint64_t key = 0;  // two cubes of margin, so that steps stay in their digits
             for (int d = 0; d < 3; ++d)
-                cube[static_cast<std::size_t>(d)] =
-                    static_cast<std::int32_t>(std::floor(centers[k][d] / edge));
-            order_[k] = {cube, static_cast<std::int32_t>(k)};
+                key = key << kDigits |
+                      static_cast<std::uint64_t>((centers[k][d] - box.min()[d]) / edge + 2.0);
+            order_[k] = {key, static_cast<std::int32_t>(k)};
         });
         std::sort(order_.begin(), order_.end());
-        for (std::size_t k = 0; k < order_.size(); ++k)
+        for (std::size_t k = 0; k < order_.size(); ++k) {
             if (k == 0 || order_[k].first != order_[k - 1].first) {
                 begin_.push_back(k);
-                cubes_.push_back(order_[k].first);
+                keys_.push_back(order_[k].first);
             }
+            of_point_[point(k)] = static_cast<std::int32_t>(keys_.size() - 1);
+        }
         begin_.push_back(order_.size());
     }
 
-    void join_within(Heaps& heaps) const {
-        for (std::size_t c = 0; c < cubes_.size(); ++c)
-            for (std::size_t k = begin_[c] + 1; k < begin_[c + 1]; ++k)
-                heaps.join(point(k - 1), point(k));
-    }
+    std::size_t count() const { return keys_.size(); }
+    std::size_t of_point(std::size_t k) const { return static_cast<std::size_t>(of_point_[k]); }
 
     // Joins the cubes that are `step` apart. Both run through the sorted cubes side by side.
-    void join_across(const Cube& step, Heaps& heaps) const {
+    void join_across(const Step& step, Heaps& heaps) const {
+        std::uint64_t ahead = 0;  // modulo 2^64, so that steps back are right too
+        for (const int digit : step)
+            ahead = (ahead << kDigits) + static_cast<std::uint64_t>(std::int64_t{digit});
         std::size_t other = 0;
-        for (std::size_t c = 0; c < cubes_.size(); ++c) {
-            Cube wanted = cubes_[c];
-            for (std::size_t d = 0; d < 3; ++d) wanted[d] += step[d];
-            while (other < cubes_.size() && cubes_[other] < wanted) ++other;
-            if (other == cubes_.size()) return;
-            const std::size_t a = point(begin_[c]), b = point(begin_[other]);
-            if (cubes_[other] != wanted || heaps.first_of(a) == heaps.first_of(b)) continue;
-            if (overlap(c, other)) heaps.join(a, b);
+        for (std::size_t c = 0; c < keys_.size(); ++c) {
+            const std::uint64_t wanted = keys_[c] + ahead;
+            while (other < keys_.size() && keys_[other] < wanted) ++other;
+            if (other == keys_.size()) return;
+            if (keys_[other] != wanted || heaps.first_of(c) == heaps.first_of(other)) continue;
+            if (overlap(c, other)) heaps.join(c, other);
         }
     }
 
 private:
+    static constexpr int kDigits = 21;  // 2 million cubes along each axis
+
     std::size_t point(std::size_t k) const { return static_cast<std::size_t>(order_[k].second); }
 
     bool overlap(std::size_t one, std::size_t other) const {
@@ -91,19 +102,31 @@ private:
 
     const std::vector<Vec3>& centers_;
     double range_;
-    std::vector<std::pair<Cube, std::int32_t>> order_;
+    std::vector<std::pair<std::uint64_t, std::int32_t>> order_;
     std::vector<std::size_t> begin_;  // of order_ by cube, and the end
-    std::vector<Cube> cubes_;
+    std::vector<std::uint64_t> keys_;
+    std::vector<std::int32_t> of_point_;
 };
 
-Heaps find_heaps(const std::vector<Vec3>& centers, double radius) {
-    Heaps heaps(centers.size());
-    const Cubes cubes(centers, kOverlap * radius);
-    cubes.join_within(heaps);
-    for (std::int32_t x = 0; x <= 2; ++x)
-        for (std::int32_t y = -2; y <= 2; ++y)
-            for (std::int32_t z = -2; z <= 2; ++z)
-                if (Cube{0, 0, 0} < Cube{x, y, z}) cubes.join_across({x, y, z}, heaps);
+// Steps to the cubes within reach, half of all, the shortest first.
+std::vector<Step> steps_within_reach() {
+    std::vector<Step> steps;
+    for (int x = 0; x <= 2; ++x)
+        for (int y = -2; y <= 2; ++y)
+            for (int z = -2; z <= 2; ++z)
+                if (Step{0, 0, 0} < Step{x, y, z}) steps.push_back({x, y, z});
+    const auto length = [](const Step& s) { return s[0] * s[0] + s[1] * s[1] + s[2] * s[2]; };
+    std::stable_sort(steps.begin(), steps.end(),
+                     [&](const Step& a, const Step& b) { return length(a) < length(b); });
+    return steps;
+}
+
+Heaps find_heaps(const Cubes& cubes) {
+    Heaps heaps(cubes.count());
+    for (const Step& step : steps_within_reach()) {
+        if (heaps.left() <= 1) break;  // most solids, after a few steps
+        cubes.join_across(step, heaps);
+    }
     return heaps;
 }
 
@@ -131,18 +154,21 @@ std::vector<std::uint8_t> are_inside(const TriangleMesh& solid, const std::vecto
 }  // namespace
 
 std::int64_t drop_outside(const TriangleMesh& solid, double radius, std::vector<Vec3>& centers) {
-    Heaps heaps = find_heaps(centers, radius);
-    std::vector<Vec3> asked;
-    std::vector<std::size_t> number(centers.size(), 0);  // of a heap's first centre among `asked`
+    const Cubes cubes(centers, kOverlap * radius);
+    Heaps heaps = find_heaps(cubes);
+    constexpr std::size_t kUnknown = std::numeric_limits<std::size_t>::max();
+    std::vector<Vec3> asked;                                   // the first centre of each heap
+    std::vector<std::size_t> number(cubes.count(), kUnknown);  // of a heap among `asked`
     for (std::size_t k = 0; k < centers.size(); ++k) {
-        if (heaps.first_of(k) != k) continue;
-        number[k] = asked.size();
+        std::size_t& heap = number[heaps.first_of(cubes.of_point(k))];
+        if (heap != kUnknown) continue;
+        heap = asked.size();
         asked.push_back(centers[k]);
     }
     const std::vector<std::uint8_t> inside = are_inside(solid, asked);
     std::size_t kept = 0;
     for (std::size_t k = 0; k < centers.size(); ++k)
-        if (inside[number[heaps.first_of(k)]] != 0) centers[kept++] = centers[k];
+        if (inside[number[heaps.first_of(cubes.of_point(k))]] != 0) centers[kept++] = centers[k];
     const auto dropped = static_cast<std::int64_t>(centers.size() - kept);
     centers.resize(kept);
     return dropped;

@@ -41,8 +41,8 @@ def columns():
 def options():
     """Long options that the programs declare, as words: --print-schema is print-schema."""
     names = set()
-    for name in ("preprocess/spherize.cpp", "preprocess/icefield.cpp", "solver/iceflow.cpp", "solver/icesolve.cpp",
-                 "postprocess/icepost.cpp"):
+    for name in ("preprocess/spherize.cpp", "preprocess/icefield.cpp", "solver/iceflow.cpp",
+                 "solver/icesolve_options.cpp", "postprocess/icepost.cpp"):
         text = (ROOT / name).read_text(encoding="utf-8")
         names |= set(re.findall(r'"(?:-\w,)?--([a-z-]+)"', text))
     return names

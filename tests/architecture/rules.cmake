@@ -25,7 +25,7 @@ set(quarantine
   "<hwy/"            "(_simd\\.cpp|_lanes-inl\\.hpp)$"
   "<omp\\.h>"        "^common/base/parallel\\.hpp$"
   "<spdlog/"         "^common/cli/"
-  "<CLI/"            "^(common/cli/|(preprocess/(spherize|icefield)|solver/(icesolve|iceflow)|postprocess/icepost)\\.cpp$)"
+  "<CLI/"            "^(common/cli/|(preprocess/(spherize|icefield)|solver/(icesolve(_options)?|iceflow)|postprocess/icepost)\\.[ch]pp$)"
   "<meshoptimizer"   "^(postprocess/views|solver/flow)/"
   "<(zlib|zconf)\\." "^(preprocess/load|postprocess/(paraview|report))/"
   "<(openvdb|tbb)/"  "^tests/bench/bench_peers\\.cpp$"

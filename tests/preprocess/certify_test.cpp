@@ -166,15 +166,32 @@ TEST_CASE("a wedge's stem is cut back by R (1 / sin(angle) - 1)", "[certify][ana
     const auto stem = std::find_if(report.cut_back.begin(), report.cut_back.end(),
                                    [](const CutBack& cut) { return cut.part == "stem"; });
     REQUIRE(stem != report.cut_back.end());
-    // between two spheres of the stem, at most a spacing apart, up to R (1 - cos 30) more
+    // levels are a quarter of a radius apart: the nearest lies at most R / 8 off a sphere's centre
     CHECK(stem->by >= expected * (1 - 1e-6));
-    CHECK(stem->by <= expected + radius * (1.0 - std::cos(M_PI / 6.0)) + 1e-9);
+    CHECK(stem->by <= expected + radius * (1.0 - std::cos(std::asin(0.125))) + 1e-9);
     CHECK_THAT(cut_back_text(*stem), Catch::Contains("the stem is cut back by up to"));
     // a box is cut nowhere
     SpheresReport none;
     const SphereSet box = fill_spheres(test::make_box_mesh(Vec3(4, 1, 1)), {radius}, none);
     find_cut_back(box, none);
     CHECK(none.cut_back.empty());
+    // nor where its spheres stand in a lattice and touch in single points
+    SphereSet lattice = fill_spheres(test::make_box_mesh(Vec3(1, 0.8, 0.3)),
+                                     {0.05, 0.1, Arrangement::lattice}, none);
+    find_cut_back(lattice, none);
+    CHECK(none.cut_back.empty());
+    // a row of spheres missing at the keel is a cut all the same
+    std::vector<Vec3> kept;
+    for (std::size_t s = 0; s < lattice.surface_count; ++s)
+        if (std::abs(lattice.centers[s].x()) > 0.11) kept.push_back(lattice.centers[s]);
+    lattice.centers = kept;
+    lattice.surface_count = kept.size();
+    lattice.radii.resize(kept.size());
+    find_cut_back(lattice, none);
+    REQUIRE(none.cut_back.size() == 1);
+    CHECK(none.cut_back[0].part == std::string("keel"));
+    CHECK(none.cut_back[0].from > -0.11);
+    CHECK(none.cut_back[0].to < 0.11);
 }
 
 TEST_CASE("the ice belt's line says what the certificate holds", "[certify]") {

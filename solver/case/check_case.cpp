@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/case/check_case.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace ice {
+
+namespace {
+
+constexpr double kMostSteps = 1e8;
+
+// 2D is motion in the plane y = 0: nothing may lean or move out of it
+template <class Wrong>
+void check_plane(const FloeGroup& group, const Wrong& wrong) {
+    const std::string out = "leaves the plane y = 0 of a 2D case";
+    if (group.count[1] != 1) wrong("count", "has more than one row along y in a 2D case");
+    if (group.position.y() != 0.0) wrong("position", out);
+    if (group.velocity.y() != 0.0) wrong("velocity", out);
+    if (group.orientation.x() != 0.0 || group.orientation.z() != 0.0) wrong("orientation", out);
+    if (group.angular_velocity.x() != 0.0 || group.angular_velocity.z() != 0.0)
+        wrong("angular_velocity", out);
+}
+
+void check_group(FloeGroup& group, std::size_t g, int dimension, const Values& values,
+                 const Complaints& complaints) {
+    const auto label = [&](const char* key) { return fmt::format("floes.{}.{}", g, key); };
+    const auto wrong = [&](const char* key, const std::string& what) {
+        complaints.add_at(label(key), fmt::format("floes.{}.{} {}", g + 1, key, what));
+    };
+    if (group.pattern == Pattern::file && dimension == 2)
+        wrong("pattern", "= \"file\" is for cases of dimension 3");
+    if (group.pattern == Pattern::single && !values.contains(label("position")))
+        wrong("position", "is missing: pattern \"single\" needs it");
+    if (group.orientation.norm() < 1e-6)
+        wrong("orientation", "is zero");
+    else
+        group.orientation.normalize();
+    const bool moves = !group.velocity.isZero(0.0) || !group.angular_velocity.isZero(0.0);
+    if (moves && group.hold != Hold::never)
+        wrong("velocity", "is given, but a held floe does not move; set hold = \"never\"");
+    if (dimension == 2) check_plane(group, wrong);
+}
+
+}  // namespace
+
+void check_case(Case& checked, std::size_t groups, const Values& values,
+                const Complaints& complaints) {
+    for (std::size_t g = 0; g < groups; ++g)
+        check_group(checked.floes[g], g, checked.dimension, values, complaints);
+    if (checked.average_from >= checked.duration)
+        complaints.add_at("output.average_from",
+                          "output.average_from is not before the end (simulation.duration)");
+    if (checked.time_step > checked.duration)
+        complaints.add_at("simulation.time_step",
+                          "simulation.time_step is longer than simulation.duration");
+    if (checked.duration / checked.time_step > kMostSteps)
+        complaints.add_at(
+            "simulation.time_step",
+            fmt::format("simulation.duration / time_step asks for more than {:g} steps",
+                        kMostSteps));
+    std::vector<int> track = checked.track;
+    std::sort(track.begin(), track.end());
+    const auto twice = std::adjacent_find(track.begin(), track.end());
+    if (twice != track.end())
+        complaints.add_at("output.track", fmt::format("output.track names floe {} twice", *twice));
+}
+
+}  // namespace ice

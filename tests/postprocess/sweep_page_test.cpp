@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "postprocess/report/write_report.hpp"
+#include "postprocess/sweep/split_sweep.hpp"
+#include "postprocess/sweep/sweep_head.hpp"
+#include "postprocess/sweep/sweep_markdown.hpp"
+#include "postprocess/sweep/sweep_points.hpp"
+#include "postprocess/sweep/sweep_tables.hpp"
+#include "postprocess/sweep/write_sweep.hpp"
+#include "tests/postprocess/write_runs.hpp"
+
+using namespace ice;
+using namespace ice::test;
+using namespace ice::sweep;
+
+TEST_CASE("the page of a sweep has curves, small multiples, tables and CSV", "[sweep]") {
+    const TempFolder folder;
+    write_grid(folder);
+    write_bytes(folder / "runs/u0.5m0.1s1/report.html", "");
+    const Sweep sweep = read_sweep(folder.path());
+    const std::string page = make_sweep_page(sweep, folder / "pages/sweep.html");
+    CHECK(tag_fault(markup_of(page)).empty());
+    // overview, peaks and two frictions, each for wide and for narrow windows
+    CHECK(count(page, "<svg xmlns") == 8);
+    CHECK_THAT(page, Catch::Contains("Resistance [N] against speed [m/s]"));
+    CHECK_THAT(page, Catch::Contains(">speed [kn]</text>"));
+    CHECK_THAT(page, Catch::Contains("(0.97 to 1.94 kn)"));
+    CHECK_THAT(page, Catch::Contains(">Lindqvist</text>"));
+    CHECK_THAT(page, Catch::Contains("../runs/u0.5m0.1s1/report.html"));
+    CHECK_THAT(page, Catch::Contains("rest: hull"));
+    CHECK_THAT(page, Catch::Contains("download=\"points.csv\""));
+
+    const std::string csv = point_csv(sweep, make_points(sweep));
+    CHECK(count(csv, "\r\n") == 5);
+    CHECK_THAT(csv, Catch::StartsWith("contact.friction_ship_ice,hull.speed,runs,resistance_N,"
+                                      "resistance_ci95_N,bow_N,"));
+    CHECK_THAT(csv, Catch::Contains("\r\n0.1,0.5,3,510,"));
+    CHECK_THAT(csv, Catch::Contains(",hold\r\n") && Catch::Contains(",until-hull-contact\r\n"));
+    CHECK_THAT(page, Catch::Contains("<th scope=\"col\">release rule</th>"));
+    CHECK(count(run_csv(sweep), "\r\n") == 13);
+    CHECK(encode_address("a b/c=1,2%\u00e4") == "a%20b/c%3D1%2C2%25%C3%A4");
+}
+
+TEST_CASE("an interval of two runs says so", "[sweep]") {
+    const TempFolder folder;
+    for (const int seed : {1, 2})
+        for (const double speed : {0.5, 1.0})
+            write_run(folder / fmt::format("u{}s{}", speed, seed), speed, 0.1, seed,
+                      1000.0 * speed + seed);
+    const Sweep sweep = read_sweep(folder.path());
+    CHECK_THAT(sweep_markdown(sweep), Catch::Contains("| 502 \u00b1 6 (n = 2, t = 12.7) |"));
+    CHECK_THAT(make_sweep_curve(sweep), Catch::Contains(">two runs: t = 12.7</text>"));
+}
+
+TEST_CASE("runs in 3D and in 2D share no chart, no table and no column", "[sweep]") {
+    const TempFolder folder;
+    for (const double speed : {0.5, 1.0})
+        for (const int dimension : {2, 3}) {
+            const auto run = folder / fmt::format("d{}u{}", dimension, speed);
+            write_run(run, speed, 0.1, 1, 1000.0 * dimension,
+                      fmt::format("[extra]\ndimension = {}\n", dimension));
+            Summary s = read_summary(run / "summary.json");
+            s.dimension = dimension;
+            write_bytes(run / "summary.json", summary_text(s));
+        }
+    const auto parts = split_sweep(read_sweep(folder.path()));
+    REQUIRE(parts.size() == 2);
+    for (const Sweep& part : parts) {
+        CHECK(part.runs.size() == 2);
+        CHECK(part.axes == std::vector<std::string>{"hull.speed"});  // no longer the dimension
+    }
+    CHECK(dimension_of(parts[0]) == 3);
+    CHECK_THAT(make_sweep_curve(parts[0]), Catch::Contains("resistance [N]"));
+    CHECK_THAT(make_sweep_curve(parts[1]), Catch::Contains("resistance [N/m]"));
+    CHECK_THAT(point_csv(parts[1], make_points(parts[1])),
+               Catch::Contains("resistance_N_per_m,resistance_ci95_N_per_m"));
+    CHECK_THAT(run_csv(parts[1]), Catch::Contains(",ci95_N_per_m,"));
+    const std::string text = sweep_markdown(read_sweep(folder.path()));
+    CHECK(count(text, "resistance [N] |") == 1);
+    CHECK(count(text, "resistance [N/m] |") == 1);
+    const std::string page = make_sweep_page(read_sweep(folder.path()), folder / "sweep.html");
+    CHECK(tag_fault(markup_of(page)).empty());
+    for (const char* id : {"curve-2d", "curve-3d", "points-2d", "points-3d"})
+        CHECK(count(page, fmt::format("id=\"{}\"", id)) == 1);
+}
+
+TEST_CASE("a run's report links to the sweep above it, one by itself to none", "[sweep][report]") {
+    const TempFolder folder;
+    read::RunFolder run = make_folder();
+    run.path = folder / "runs/u=1";
+    std::filesystem::create_directories(run.path);
+    const auto page = [&](const std::filesystem::path& file) {
+        report::write_report(run, file);
+        return read_bytes(file);
+    };
+    CHECK_THAT(page(run.path / "report.html"), !Catch::Contains("sweep.html"));
+    write_bytes(folder / "runs.toml", "");
+    CHECK_THAT(page(run.path / "report.html"), Catch::Contains("href=\"../../sweep.html\""));
+    write_bytes(folder / "runs/sweep.html", "");
+    CHECK_THAT(page(run.path / "report.html"), Catch::Contains("href=\"../sweep.html\""));
+    CHECK_THAT(page(folder / "elsewhere.html"), !Catch::Contains("sweep.html"));
+}
+
+TEST_CASE("the head of a sweep tells ship, ice and speeds that the summaries have", "[sweep]") {
+    const TempFolder folder;
+    for (const double speed : {0.5, 1.0}) {
+        const auto run = folder / fmt::format("u{}", speed);
+        write_run(run, speed, 0.1, 1, 100.0);
+        std::string text = summary_text(read_summary(run / "summary.json"));
+        // whatever the fixture has of its own goes out of the way
+        for (const std::string key : {"\n  \"ship\"", "\n  \"ice\""})
+            if (const auto at = text.find(key); at != std::string::npos)
+                text.replace(at, key.size(), "\n  \"old\"");
+        text.insert(1, fmt::format("\"ship\": {{\"length_m\": 10, \"breadth_m\": 2}}, "
+                                   "\"ice\": {{\"thickness_m\": {}, \"concentration\": 0.8, "
+                                   "\"crushing_pressure_Pa\": 1e6}},",
+                                   0.1 * speed));
+        write_bytes(run / "summary.json", text);
+    }
+    const std::string head = head_facts(read_sweep(folder.path()));
+    CHECK_THAT(head, Catch::Contains("L 10 m, B 2 m</td>"));
+    CHECK_THAT(head, Catch::Contains("thickness 0.05 to 0.1 m, concentration 80 %, crushing "
+                                     "pressure 1 MPa"));
+    CHECK_THAT(head, Catch::Contains("0.5 to 1 m/s (0.97 to 1.94 kn)"));
+}
+
+TEST_CASE("curves with long names are told apart by the values of the only other axis", "[sweep]") {
+    const TempFolder folder;
+    for (const double speed : {0.5, 1.0})
+        for (const double mu : {0.05, 0.1, 0.15, 0.2})
+            write_run(folder / fmt::format("u{}m{}", speed, mu), speed, mu, 1, 100.0 * speed + mu);
+    const std::string curve = make_sweep_curve(read_sweep(folder.path()));
+    CHECK_THAT(curve, Catch::Contains("Resistance by friction ship-ice"));
+    CHECK_THAT(curve, Catch::Contains(">0.15</text>"));
+}
+
+TEST_CASE("sweeps over texts or nothing have tables without curves", "[sweep]") {
+    const TempFolder folder;
+    write_run(folder / "a", 0.5, 0.1, 1, 500.0, "normal = \"surface\"\nlist = [0.49, 1]\n");
+    write_run(folder / "b", 0.5, 0.1, 1, 700.0, "normal = \"centres\"\nlist = [0.49, 1.0]\n");
+    const Sweep sweep = read_sweep(folder.path());
+    CHECK(sweep.x.empty());
+    CHECK(sweep.axes == std::vector<std::string>{"contact.normal"});
+    CHECK(sweep.runs[0].text("contact.list") == "[0.49, 1]");
+    const std::string page = make_sweep_page(sweep, folder / "sweep.html");
+    CHECK(tag_fault(markup_of(page)).empty());
+    CHECK_THAT(page, Catch::Contains("there is no curve to draw"));
+    CHECK_THAT(page, Catch::Contains("centres"));
+
+    std::filesystem::remove_all(folder / "b");
+    CHECK(tag_fault(markup_of(make_sweep_page(read_sweep(folder.path()), folder / "s.html")))
+              .empty());
+    std::filesystem::remove(folder / "a/summary.json");
+    CHECK(tag_fault(markup_of(make_sweep_page(read_sweep(folder.path()), folder / "s.html")))
+              .empty());
+}
+
+TEST_CASE("no folder, no runs and faulty plans are one clear error each", "[sweep]") {
+    const TempFolder folder;
+    const auto complaint = [&] { return error_text([&] { read_sweep(folder.path()); }); };
+    CHECK_THAT(error_text([&] { read_sweep(folder / "none"); }), Catch::Contains("not found"));
+    CHECK_THAT(complaint(), Catch::Contains("holds no runs"));
+    write_bytes(folder / "runs.toml", "axes = [");
+    CHECK_THAT(complaint(), Catch::Contains("runs.toml:1:"));
+    write_bytes(folder / "runs.toml", "title = \"x\"\n");
+    CHECK_THAT(complaint(), Catch::Contains("plans no [[run]]"));
+    write_bytes(folder / "runs.toml", "[[run]]\nvalues = {}\n");
+    CHECK_THAT(complaint(), Catch::Contains("a run has no name"));
+    write_bytes(folder / "runs.toml", "axes = [1]\n[[run]]\nname = \"a\"\n");
+    CHECK_THAT(complaint(), Catch::Contains("axes is no text"));
+}
