@@ -193,29 +193,42 @@ double loss_of(const std::vector<PolygonCorner>& corners, std::size_t k) {
     return before.cross(after).norm();
 }
 
+enum class AxisKind { face_a, face_b, edges };
+
+AxisKind widest_kind(const SeparatingAxes& axes) {
+    const bool of_b = axes.face_b > axes.face_a + PolygonTolerances::kPrefer;
+    if (axes.edges > (of_b ? axes.face_b : axes.face_a) + PolygonTolerances::kPrefer)
+        return AxisKind::edges;
+    return of_b ? AxisKind::face_b : AxisKind::face_a;
+}
+
 }  // namespace
+
+Vec3 axis_normal(const ConvexPiece& a, const ConvexPiece& b, const RelativePose& pose,
+                 const SeparatingAxes& axes) {
+    const AxisKind kind = widest_kind(axes);
+    if (kind == AxisKind::edges) return edge_axis(a, b, pose, axes.edge_a, axes.edge_b);
+    if (kind == AxisKind::face_a) return a.normals[static_cast<std::size_t>(axes.plane_a)];
+    return -ordered_product(pose.rotation, b.normals[static_cast<std::size_t>(axes.plane_b)]);
+}
 
 void make_contact_polygon(const ConvexPiece& a, const ConvexPiece& b, const RelativePose& pose,
                           const SeparatingAxes& axes, double most, ContactPolygon& out) {
     out.corners.clear();
-    const bool of_b = axes.face_b > axes.face_a + PolygonTolerances::kPrefer;
-    const double face = of_b ? axes.face_b : axes.face_a;
-    if (axes.edges > face + PolygonTolerances::kPrefer) {
-        out.normal = edge_axis(a, b, pose, axes.edge_a, axes.edge_b);
+    out.normal = axis_normal(a, b, pose, axes);
+    const AxisKind kind = widest_kind(axes);
+    if (kind == AxisKind::edges) {
         if (axes.edges <= most) meet_edges(a, b, pose, axes, out);
         return;
     }
-    if (!of_b) {
+    if (kind == AxisKind::face_a) {
         const auto plane = static_cast<std::size_t>(axes.plane_a);
-        out.normal = a.normals[plane];
-        meet_faces({a, b, pose, plane}, face, most, 0u, out);
+        meet_faces({a, b, pose, plane}, axes.face_a, most, 0u, out);
         return;
     }
-    const auto plane = static_cast<std::size_t>(axes.plane_b);
-    out.normal = -ordered_product(pose.rotation, b.normals[plane]);
     const RelativePose back{pose.rotation.transpose(),
                             -ordered_transposed(pose.rotation, pose.translation)};
-    meet_faces({b, a, back, plane}, face, most, 1u, out);
+    meet_faces({b, a, back, static_cast<std::size_t>(axes.plane_b)}, axes.face_b, most, 1u, out);
     for (PolygonCorner& corner : out.corners)
         corner.point = ordered_product(pose.rotation, corner.point) + pose.translation;
 }

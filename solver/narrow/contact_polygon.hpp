@@ -45,6 +45,10 @@ struct ContactPolygon {
 void make_contact_polygon(const ConvexPiece& a, const ConvexPiece& b, const RelativePose& pose,
                           const SeparatingAxes& axes, double most, ContactPolygon& out);
 
+/// The axis with the widest gap, unit, from a to b, a's axes; flush ones by PolygonTolerances.
+Vec3 axis_normal(const ConvexPiece& a, const ConvexPiece& b, const RelativePose& pose,
+                 const SeparatingAxes& axes);
+
 /// So many corners carry what a polygon with more can.
 constexpr std::size_t kManifoldCorners = 4;
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "solver/narrow/carry_shares.hpp"
 #include "solver/narrow/contact_order.hpp"
 
 namespace ice {
@@ -106,6 +107,7 @@ void emit_contacts(const PairView& view, std::span<const Candidate> candidates, 
         ++contact;
     }
     order_equals(places, out);
+    carry_shares(view, {out, candidates.size()});
 }
 
 }  // namespace ice

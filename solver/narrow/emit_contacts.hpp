@@ -13,6 +13,9 @@ namespace ice {
 /// @pre the candidates of a probe stand together
 void emit_contacts(const PairView& view, std::span<const Candidate> candidates, Contact* out);
 
+/// Is the probe b's sphere? @param c  one of these contacts
+inline bool b_is_probe(const Contact& c) { return (c.key >> 32 & 1) != 0; }
+
 /// How deep contact along n, from a to b in a's axes, has crushed b's sphere j [m].
 double crushed_depth(const PairView& view, std::int32_t j, const Vec3& n);
 

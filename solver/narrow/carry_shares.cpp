@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/narrow/carry_shares.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include "solver/narrow/contact_polygon.hpp"
+#include "solver/narrow/emit_contacts.hpp"
+#include "solver/narrow/gap_rule.hpp"
+
+namespace ice {
+
+namespace {
+
+Vec3 in_axes_of_a(const PairView& view, const Vec3& direction) {
+    return view.scene.bodies.rotation[view.pair.a].transpose() * direction;
+}
+
+// A patch's part of the section across the axis [m2].
+double section_of(const Contact& c, double lean) {
+    return c.patch.depth > 0.0 ? lean * cut_area(c.patch, c.patch.depth) : 0.0;
+}
+
+// The hull's edge or corner in whose part of the section an ice sphere's share lies, seen along the
+// axis: the nearest one, as far as its wings go.
+Contact* edge_over(const PairView& view, std::span<Contact> contacts, std::int32_t ice,
+                   const Vec3& axis) {
+    const Shape& hull = view.shape_a;
+    const Vec3 seat = view.turn * (view.shape_b.center[ice] +
+                                   view.shape_b.radius[ice] * view.shape_b.normal[ice]) +
+                      view.shift;
+    const auto beside = [&](const Contact& c) {
+        return part_across(seat - view.support_a(c.sphere_a, axis), axis);
+    };
+    double least = std::numeric_limits<double>::infinity();
+    Contact* nearest = nullptr;
+    for (Contact& c : contacts) {
+        if (b_is_probe(c)) continue;
+        const double distance = beside(c).norm();
+        if (distance >= least) continue;
+        least = distance;
+        nearest = &c;
+    }
+    if (nearest == nullptr) return nullptr;
+    const Faces& faces = hull.faces[nearest->sphere_a];
+    Vec3 from_edge = beside(*nearest);
+    if (faces.count == 2) from_edge = part_across(from_edge, faces.edge(0));
+    const Patch& patch = nearest->patch;
+    return from_edge.norm() < patch.wing * patch.spread_cos * patch.facing ? nearest : nullptr;
+}
+
+}  // namespace
+
+void carry_shares(const PairView& view, std::span<Contact> contacts) {
+    const ConvexPiece &a = view.shape_a.convex, &b = view.shape_b.convex;
+    if (view.pair.a != static_cast<std::int32_t>(kShip) || a.empty() || b.empty()) return;
+    const RelativePose pose{view.turn, view.shift};
+    const Vec3 axis = axis_normal(a, b, pose, find_axes(a, b, pose, 0.0));
+    thread_local std::vector<double> carried;  // by contact: of its part of the section [m2]
+    carried.assign(contacts.size(), 0.0);
+    for (Contact& c : contacts) {
+        if (!b_is_probe(c)) continue;
+        const Vec3 n = in_axes_of_a(view, c.normal),
+                   m = view.turn * -view.shape_b.normal[c.sphere_b];
+        const double facing = m.dot(n), lean = n.dot(axis);
+        if (facing <= 0.0 || lean <= 0.0) continue;
+        c.patch.share *= std::clamp(m.dot(axis) / (facing * lean), 1.0, 1.0 / (facing * facing));
+        if (Contact* edge = edge_over(view, contacts, c.sphere_b, axis))
+            carried[static_cast<std::size_t>(edge - contacts.data())] += section_of(c, lean);
+    }
+    for (std::size_t k = 0; k < contacts.size(); ++k) {
+        if (carried[k] == 0.0) continue;
+        const double own =
+            section_of(contacts[k], in_axes_of_a(view, contacts[k].normal).dot(axis));
+        contacts[k].patch.share *= own > carried[k] ? 1.0 - carried[k] / own : 0.0;
+    }
+}
+
+}  // namespace ice

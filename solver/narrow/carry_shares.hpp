@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Shares of the ice's surface as pressed areas of a convex hull that digs into it.
+#pragma once
+
+#include <span>
+
+#include "solver/narrow/contact.hpp"
+#include "solver/narrow/pair_view.hpp"
+
+namespace ice {
+
+/// Makes the patches of a convex hull's contacts with a convex floe add up to the section that the
+/// hull has cut, whichever of the two the piece is cut off.
+///
+/// The overlap is bounded by ice faces A_j and hull faces A_k, and sum A_j n_j = -sum A_k n_k
+/// (divergence theorem). So the shares of the ice's spheres, carried over to the hull's faces along
+/// the separating axis s of the two solids instead of the contact's normal n,
+///
+///     A_j (-n_j . s) / (n . s),
+///
+/// press with pressure x section along s, however the hull's faces lean: it is the patch's own A_j
+/// (-n_j . n) where s is the hull's normal and the hull cuts off a piece of the ice, and up to
+/// 1 / (n_j . n)^2 times as much where the hull's edge or corner enters a face of the ice.
+///
+/// The hull's edges count beside them as far as the ice's spheres leave their part of the section:
+/// at first, between two of these, it is all of it, later nothing.
+///
+/// @param contacts  of the pair's spheres, in their order; of other pairs than the ship's, or where
+/// one is not convex, they stay as they are
+void carry_shares(const PairView& view, std::span<Contact> contacts);
+
+}  // namespace ice
