@@ -24,7 +24,7 @@ SUITES = {
     "solver/integrate": ["solver_tests [integrate]", *SOLVER],
     "solver/water": ["solver_tests [water]", *SOLVER],
     "solver/broad": ["solver_tests [broad]", *SOLVER],
-    "solver/narrow": ["solver_tests [patch]", *SOLVER],
+    "solver/narrow": ["solver_tests [patch]", "solver_tests [narrow]", *SOLVER],
     "solver/record": ["solver_tests [record]", *SOLVER],
     "preprocess/fill": ["preprocess_tests [equivalence]", "preprocess_tests [analytic]",
                         "preprocess_tests"],
