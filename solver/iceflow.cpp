@@ -146,9 +146,10 @@ int run_iceflow(const Options& o, const std::string& command_line) {
     if (!o.exports.empty()) files.add("--export", export_of(out));
     files.add("--json", o.json);
     const ice::SphereSet hull = ice::read_spheres(o.hull);
-    ice::FlowOptions options{water_of(o, hull), o.panel, o.spacing};
+    ice::FlowOptions options{water_of(o, hull), o.panel, o.spacing, 0.0};
     options.table = !o.check || !o.exports.empty();
-    ice::HullFlow flow = ice::make_hull_flow(hull, options);
+    ice::HullFlow flow = ice::make_hull_flow(hull.mesh, hull.dimension, options);
+    flow.table.source_sha256 = hull.source_sha256;
     flow.table.created_by = fmt::format("iceflow {} ({})", ice::version(), ice::git_commit());
     flow.table.command_line = command_line;
     if (!o.check) ice::write_flow(out, flow.table);

@@ -28,6 +28,7 @@
 #include "solver/step/check_course.hpp"
 #include "solver/step/check_start.hpp"
 #include "solver/step/describe_case.hpp"
+#include "solver/step/make_water.hpp"
 #include "solver/step/run.hpp"
 #include "solver/step/run_folder.hpp"
 
@@ -143,6 +144,8 @@ int run_case(const ice::Options& o, const std::string& command_line) {
     ice::SavedRun* going_on = saved ? &*saved : nullptr;
     std::vector<ice::Warning> warnings;
     if (!saved) warnings = ice::check_start(world, o.allow_overlap);
+    const auto of_water = ice::check_water(parameters, world.scene);
+    warnings.insert(warnings.end(), of_water.begin(), of_water.end());
     const std::vector<ice::Warning> of_start = warnings;
     warnings.insert(warnings.end(), course.begin(), course.end());
     // said now, while the case can be changed; at the end the summary has the verdict

@@ -144,6 +144,7 @@ std::string energy_table(const Summary& s) {
     static const std::vector<std::pair<const char*, const char*>> kRows{
         {"ship_work_J", "Work of the ship"},
         {"separation_J", "Put in by opening overlaps"},
+        {"water_work_J", "Put in by the moving water"},
         {"potential_J", "Gained as potential energy"},
         {"kinetic_change_J", "Gained as kinetic energy"},
         {"friction_J", "Lost to friction"},

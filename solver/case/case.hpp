@@ -20,6 +20,8 @@ enum class Hold { never, until_hull_contact, until_contact, always };
 enum class NormalRule { surface, centres };
 enum class BuoyancyModel { none, centre, distributed };
 enum class DragModel { none, projected, panel };
+/// How the ship moves the water: not at all, as a double body (solver/flow), or as a file says.
+enum class FlowModel { none, double_body, file };
 
 /// One [[floes]] table: floes of one shape, or those of a field file.
 struct FloeGroup {
@@ -76,6 +78,10 @@ struct Case {
     BuoyancyModel buoyancy = BuoyancyModel::distributed;
     DragModel drag = DragModel::panel;
     double drag_coefficient = 1.0;
+
+    FlowModel flow = FlowModel::none;
+    std::filesystem::path flow_file;          ///< with FlowModel::file
+    std::array<double, 2> current{0.0, 0.0};  ///< of all the water, along x and y [m/s]
 
     double frames_every = 0.1, history_every = 0.0;
     std::vector<int> track;

@@ -43,6 +43,7 @@ constexpr std::string_view kHolds = "never|until-hull-contact|until-contact|alwa
 constexpr std::string_view kNormals = "surface|centres";
 constexpr std::string_view kBuoyancies = "none|centre|distributed";
 constexpr std::string_view kDrags = "none|projected|panel";
+constexpr std::string_view kFlows = "none|double-body|file";
 
 using D = Dimension;
 using G = FloeGroup;
@@ -178,6 +179,17 @@ std::vector<CaseKey> model_keys() {
          [](Case& c, G&, const Value& v) { c.drag = choice<DragModel>(v, kDrags); }},
         {"drag.coefficient", Kind::number, D::none, "1.0", 0, 100, 0, "", "Drag coefficient C_d.",
          [](Case& c, G&, const Value& v) { c.drag_coefficient = number(v); }},
+        {"flow.model", Kind::choice, D::none, "\"none\"", 0, 0, 0, kFlows,
+         "Water that the ship pushes, for drag: at rest, the potential flow around the hull "
+         "without "
+         "waves, or a file of iceflow.",
+         [](Case& c, G&, const Value& v) { c.flow = choice<FlowModel>(v, kFlows); }},
+        {"flow.file", Kind::path, D::none, "-", 0, 0, 0, "",
+         "Model file: the flow, made by iceflow; relative to the case file.",
+         [](Case& c, G&, const Value& v) { c.flow_file = text(v); }},
+        {"flow.current", Kind::vector, D::speed, "[0.0, 0.0]", -50, 50, 2, "",
+         "Current of all the water along x and y.",
+         [](Case& c, G&, const Value& v) { c.current = vector2(v); }},
         {"output.frames_every", Kind::number, D::time, "0.1", kTiny, 1e6, 0, "",
          "Time between stored poses.",
          [](Case& c, G&, const Value& v) { c.frames_every = number(v); }},

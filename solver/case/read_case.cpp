@@ -127,6 +127,7 @@ private:
         const auto folder = missing.parent_path();
         if (std::filesystem::exists(folder / "spheres.txt"))
             return fmt::format("cases/prepare.sh {}", folder.string());
+        if (label == "flow.file") return "iceflow";
         return label.ends_with(".file") ? "icefield" : "spherize";
     }
 
@@ -164,11 +165,27 @@ private:
         if (speed == table && !bad)
             complaints_.add(speed ? "hull.speed and hull.speed_table are both given; keep one"
                                   : "required key 'hull.speed' (or hull.speed_table) is missing");
+        check_flow();
         for (std::size_t g = 0; g < groups_; ++g) check_source(g);
         if (groups_ == 0)
             complaints_.add("no [[floes]] table: a run needs at least one group of floes");
         if (!values_.contains("output.average_from") && values_.contains("simulation.duration"))
             values_["output.average_from"] = std::get<double>(values_["simulation.duration"]) / 3.0;
+    }
+
+    // The flow comes from a file with model "file" alone.
+    void check_flow() {
+        if (mistakes_.bad_keys.contains("flow.model") || mistakes_.bad_keys.contains("flow.file"))
+            return;
+        const auto model = values_.find("flow.model");
+        const bool from_file =
+            model != values_.end() && std::get<std::string>(model->second) == "file";
+        if (from_file && !values_.contains("flow.file"))
+            complaints_.add_at("flow.model",
+                               "flow.model = \"file\" needs flow.file, made by iceflow");
+        if (!from_file && values_.contains("flow.file"))
+            complaints_.add_at("flow.file",
+                               "flow.file is given, but only flow.model = \"file\" takes it");
     }
 
     // Floes come from a sphere set, or with pattern "file" from a field.

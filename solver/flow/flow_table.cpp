@@ -38,13 +38,14 @@ struct Sources {
     std::function<Vec3(const Vec3&, double)> off_surface;  // near a point, so far off [m]
 };
 
-void lay_grid(const Sources& s, bool plane, double spacing, FlowTable& out) {
+void lay_grid(const Sources& s, bool plane, const FlowOptions& options, FlowTable& out) {
+    double spacing = options.spacing;
     const Vec3 low = s.low - Vec3::Constant(s.margin), high = s.high + Vec3::Constant(s.margin);
     const double length = high.x() - low.x(), depth = -low.z();
     const double breadth = out.symmetric ? high.y() : high.y() - low.y();
     if (spacing <= 0.0)
-        spacing = plane ? std::sqrt(length * depth / kNodes2D)
-                        : std::cbrt(length * breadth * depth / kNodes);
+        spacing = std::max(options.finest, plane ? std::sqrt(length * depth / kNodes2D)
+                                                 : std::cbrt(length * breadth * depth / kNodes));
     out.spacing = spacing;
     const auto steps = [&](double extent) { return std::ceil(extent / spacing); };
     const double ny = plane ? 1.0 : steps(breadth) + 1.0;
@@ -167,7 +168,7 @@ void make_3d(const TriangleMesh& mesh, const FlowOptions& options, HullFlow& out
               [&](const Vec3& p, double off) { return off_panels(flow.body, p, off); }};
     out.length = s.high.x() - s.low.x();
     if (!options.table) return;
-    lay_grid(s, false, options.spacing, out.table);
+    lay_grid(s, false, options, out.table);
     fill_table(s, mesh, options, out);
 }
 
@@ -194,22 +195,21 @@ void make_2d(const TriangleMesh& prism, const FlowOptions& options, HullFlow& ou
     s.margin = 2.0 * (s.high.z() - s.low.z());
     out.length = s.high.x() - s.low.x();
     if (!options.table) return;
-    lay_grid(s, true, options.spacing, out.table);
+    lay_grid(s, true, options, out.table);
     fill_table(s, prism, options, out);
 }
 
 }  // namespace
 
-HullFlow make_hull_flow(const SphereSet& hull, const FlowOptions& options) {
+HullFlow make_hull_flow(const TriangleMesh& hull, int dimension, const FlowOptions& options) {
     HullFlow out;
-    out.table.source_sha256 = hull.source_sha256;
     double keel = 1e300;
-    for (const Vec3& v : hull.mesh.vertices) keel = std::min(keel, v.z());
+    for (const Vec3& v : hull.vertices) keel = std::min(keel, v.z());
     out.table.draught = options.water - keel;
-    if (hull.dimension == 2)
-        make_2d(hull.mesh, options, out);
+    if (dimension == 2)
+        make_2d(hull, options, out);
     else
-        make_3d(hull.mesh, options, out);
+        make_3d(hull, options, out);
     return out;
 }
 

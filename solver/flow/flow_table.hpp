@@ -3,7 +3,6 @@
 #pragma once
 
 #include "common/formats/flow_file.hpp"
-#include "common/formats/sphere_set.hpp"
 #include "solver/flow/panel_sums.hpp"
 
 namespace ice {
@@ -12,6 +11,7 @@ struct FlowOptions {
     double water = 0.0;    ///< z of the water in the mesh's frame [m]
     double panel = 0.0;    ///< longest edge [m]; 0: chosen, see make_wetted_hull()
     double spacing = 0.0;  ///< of the table's nodes [m]; 0: for some 300 000 nodes, or 10 000 in 2D
+    double finest = 0.0;   ///< a chosen spacing is no smaller [m]
     bool table = true;     ///< else the panels alone are solved
 };
 
@@ -34,7 +34,7 @@ struct HullFlow {
 /// threads and any instruction set.
 /// @throws Error (exit code 2) where the hull is not in the water, or the options give more than
 ///         8000 panels or 2e7 nodes; (1) where the flow has no solution
-HullFlow make_hull_flow(const SphereSet& hull, const FlowOptions& options);
+HullFlow make_hull_flow(const TriangleMesh& hull, int dimension, const FlowOptions& options);
 
 /// What is to be said of a flow: a residual above 5 %, sources that do not add up to 0.
 std::vector<std::string> warnings_of(const HullFlow& flow);

@@ -14,6 +14,7 @@ namespace ice {
 struct FloeLoad : WaterLoad {
     WaterLoad drag;                ///< its part
     Vec3 righting = Vec3::Zero();  ///< moment of the buoyancy, also where the model leaves it out
+    double water_power = 0.0;      ///< what moving water puts in: drag times its velocity [W]
 };
 
 /// Loads on floes, in their order. Floes of one form that follow each other cost less.

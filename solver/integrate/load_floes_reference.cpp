@@ -4,6 +4,7 @@
 #include "solver/integrate/load_floes.hpp"
 #include "solver/shape/ordered_products.hpp"
 #include "solver/water/hydrostatics.hpp"
+#include "solver/water/relative_drag.hpp"
 
 namespace ice::reference {
 
@@ -21,19 +22,74 @@ void limit_drag(const Bodies& b, std::size_t i, double dt, WaterLoad& drag) {
     if (twist > halt) drag.moment *= halt / twist;
 }
 
+// In moving water the same, but for motions through it: the fastest that a corner has decides.
+void limit_drag(const Bodies& b, std::size_t i, double radius, double dt, RelativeDrag& drag) {
+    const double stop = b.mass[i] * drag.fastest, push = dt * length(drag.force);
+    if (push > stop) {
+        drag.force *= stop / push;
+        drag.loss = drag.loss * (stop / push);
+    }
+    const double halt =
+        length(ordered_turned(b.rotation[i], b.inertia(i), b.angular_velocity[i])) + radius * stop;
+    const double twist = dt * length(drag.moment);
+    if (twist > halt) drag.moment *= halt / twist;
+}
+
 // In 2D the plane's other components are rounding only; they must not add up over a run.
 void keep_in_plane(WaterLoad& load) { load.force.y() = load.moment.x() = load.moment.z() = 0.0; }
+
+WaterLoad drag_at_rest(const Scene& scene, const Case& p, std::size_t i) {
+    const Bodies& b = scene.bodies;
+    const Shape& shape = scene.shapes[static_cast<std::size_t>(b.shape[i])];
+    const Motion motion{b.rotation[i], b.position[i].z(), b.velocity[i], b.angular_velocity[i]};
+    WaterLoad drag;
+    if (p.drag == DragModel::projected)
+        drag = projected_drag(shape, motion, p.drag_coefficient, p.water_density);
+    if (p.drag == DragModel::panel)
+        drag = panel_drag(shape, motion, p.drag_coefficient, p.water_density);
+    limit_drag(b, i, p.time_step, drag);
+    return drag;
+}
+
+RelativeDrag drag_in_flow(const Scene& scene, const Case& p, std::size_t i) {
+    const Bodies& b = scene.bodies;
+    const Shape& shape = scene.shapes[static_cast<std::size_t>(b.shape[i])];
+    RelativeDrag drag;
+    if (p.drag == DragModel::projected) {
+        const Vec3 u = b.velocity[i] - water_at(scene.water, b.position[i]);
+        const Motion motion{b.rotation[i], b.position[i].z(), u, b.angular_velocity[i]};
+        static_cast<WaterLoad&>(drag) =
+            projected_drag(shape, motion, p.drag_coefficient, p.water_density);
+        drag.fastest = length(u);
+        drag.loss = -ordered_dot(drag.force, u);
+    }
+    if (p.drag == DragModel::panel) {
+        static thread_local std::vector<Vec3> water;  // at the form's corners
+        water.clear();
+        for (const Vec3& corner : shape.mesh.vertices)
+            water.push_back(ordered_transposed(
+                b.rotation[i],
+                water_at(scene.water, b.position[i] + ordered_product(b.rotation[i], corner))));
+        const Motion motion{b.rotation[i], b.position[i].z(), b.velocity[i], b.angular_velocity[i]};
+        drag = relative_drag(shape, motion, water, p.drag_coefficient, p.water_density);
+    }
+    limit_drag(b, i, shape.bounding_radius, p.time_step, drag);
+    return drag;
+}
 
 FloeLoad load_of(const Scene& scene, const Case& p, std::size_t i) {
     const Bodies& b = scene.bodies;
     const Shape& shape = scene.shapes[static_cast<std::size_t>(b.shape[i])];
-    const Motion motion{b.rotation[i], b.position[i].z(), b.velocity[i], b.angular_velocity[i]};
     FloeLoad load;
-    if (p.drag == DragModel::projected)
-        load.drag = projected_drag(shape, motion, p.drag_coefficient, p.water_density);
-    if (p.drag == DragModel::panel)
-        load.drag = panel_drag(shape, motion, p.drag_coefficient, p.water_density);
-    limit_drag(b, i, p.time_step, load.drag);
+    if (scene.water.reaches(b.position[i], shape.bounding_radius)) {
+        const RelativeDrag drag = drag_in_flow(scene, p, i);
+        load.drag = drag;
+        load.water_power = (ordered_dot(drag.force, b.velocity[i]) +
+                            ordered_dot(drag.moment, b.angular_velocity[i])) +
+                           drag.loss;
+    } else {
+        load.drag = drag_at_rest(scene, p, i);
+    }
     load.force = load.drag.force;
     load.moment = load.drag.moment;
     load.force.z() -= b.mass[i] * p.gravity;

@@ -9,8 +9,10 @@
 #include <hwy/foreach_target.h>  // must precede highway.h
 #include <hwy/highway.h>
 
+#include "solver/flow/look_up_lanes-inl.hpp"
 #include "solver/scene/body_lanes-inl.hpp"
 #include "solver/water/floating_lanes-inl.hpp"
+#include "solver/water/relative_lanes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace ice::HWY_NAMESPACE {
@@ -21,6 +23,7 @@ HWY_INLINE Lanes Length(Vectors v) { return hn::Sqrt(Dot(v, v)); }
 struct Afloat {
     const Shape& shape;
     Matrices rotation;
+    Vectors position;
     Lanes height, mass;
     Vectors velocity, angular_velocity;
     FormHeights heights;
@@ -28,7 +31,8 @@ struct Afloat {
     HWY_INLINE Afloat(const Shape& form, const Bodies& b, const BodyLanes& at)
         : shape(form),
           rotation(RotationOf(at.Load(b.orientation))),
-          height(at.Load(b.position).z),
+          position(at.Load(b.position)),
+          height(position.z),
           mass(at.Load(b.mass)),
           velocity(at.Load(b.velocity)),
           angular_velocity(at.Load(b.angular_velocity)),
@@ -71,12 +75,136 @@ HWY_INLINE Load PanelDrag(const Afloat& floes, const Case& p) {
     return {Only(drags, Product(turn, force)), Only(drags, Product(turn, moment))};
 }
 
+// reference::water_at()
+HWY_INLINE Vectors WaterAt(const WaterFlow& water, Vectors x) {
+    const Tag d;
+    if (!water.flows()) return Set(water.current);
+    HWY_ALIGN double at[3][kMostLanes], flow[3][kMostLanes];
+    hn::Store(hn::Sub(x.x, All(water.ship.x())), d, at[0]);
+    hn::Store(hn::Sub(x.y, All(water.ship.y())), d, at[1]);
+    hn::Store(x.z, d, at[2]);
+    for (std::size_t k = 0; k < hn::Lanes(d); ++k) {
+        double value[FlowGrid::kNumbers];
+        LookUp(water.grid, at[0][k], at[1][k], at[2][k], value);
+        for (int axis = 0; axis < 3; ++axis) flow[axis][k] = value[axis];
+    }
+    const Lanes speed = All(water.speed);
+    return Add(Set(water.current),
+               {hn::Mul(speed, hn::Load(d, flow[0])), hn::Mul(speed, hn::Load(d, flow[1])),
+                hn::Mul(speed, hn::Load(d, flow[2]))});
+}
+
+// Velocity relative to the water at a form's vertices, body axes. Triangles share theirs: where a
+// form has few, each is asked for once.
+class RelativeVelocities {
+public:
+    HWY_INLINE RelativeVelocities(const Afloat& floes, const WaterFlow& water)
+        : floes_(floes),
+          water_(water),
+          v_(TransposedProduct(floes.rotation, floes.velocity)),
+          w_(TransposedProduct(floes.rotation, floes.angular_velocity)) {
+        const std::size_t count = floes.shape.mesh.vertices.size();
+        few_ = count <= kFew;
+        Lanes square = hn::Zero(Tag());
+        for (std::size_t k = 0; k < count; ++k) {
+            const Vectors u = Ask(k);
+            if (few_) u_[k] = u;
+            square = hn::Max(square, Dot(u, u));
+        }
+        fastest_ = hn::Sqrt(square);
+    }
+    HWY_INLINE Vectors operator()(std::size_t vertex) const {
+        return few_ ? u_[vertex] : Ask(vertex);
+    }
+    HWY_INLINE Lanes Fastest() const { return fastest_; }
+
+private:
+    static constexpr std::size_t kFew = 64;
+
+    HWY_INLINE Vectors Ask(std::size_t vertex) const {
+        const Vectors p = Set(floes_.shape.mesh.vertices[vertex]);
+        const Vectors at = Add(floes_.position, Product(floes_.rotation, p));
+        const Vectors water = TransposedProduct(floes_.rotation, WaterAt(water_, at));
+        return Sub(Add(v_, Cross(w_, p)), water);
+    }
+
+    const Afloat& floes_;
+    const WaterFlow& water_;
+    Vectors v_, w_;
+    Lanes fastest_;
+    bool few_;
+    Vectors u_[kFew];
+};
+
+struct RelativeLoad : Load {
+    Lanes loss, fastest;
+};
+
+// projected_drag() in moving water: all of it as in the middle of the floe
+HWY_INLINE RelativeLoad ProjectedDragInFlow(const Afloat& floes, const Case& p,
+                                            const WaterFlow& water) {
+    Afloat relative = floes;
+    relative.velocity = Sub(floes.velocity, WaterAt(water, floes.position));
+    const Vectors u = relative.velocity;
+    const Load drag = ProjectedDrag(relative, p);
+    return {drag, hn::Neg(Dot(drag.force, u)), Length(u)};
+}
+
+// relative_drag()
+HWY_INLINE RelativeLoad PanelDragInFlow(const Afloat& floes, const Case& p,
+                                        const WaterFlow& water) {
+    const RelativeVelocities u(floes, water);
+    const RelativeSums sums = IntegrateRelative(floes.shape, floes.heights, u);
+    const auto part = [](Vectors v, double of) HWY_ATTR {
+        return Vectors{hn::Div(v.x, All(of)), hn::Div(v.y, All(of)), hn::Div(v.z, All(of))};
+    };
+    const Lanes factor = All(-0.5 * p.water_density * p.drag_coefficient);
+    const Matrices& r = floes.rotation;
+    const Matrices turn{
+        {Scale(factor, r.row[0]), Scale(factor, r.row[1]), Scale(factor, r.row[2])}};
+    return {{Product(turn, part(sums.force, 12.0)), Product(turn, part(sums.moment, 60.0))},
+            hn::Mul(hn::Neg(factor), hn::Div(sums.loss, All(60.0))),
+            u.Fastest()};
+}
+
 // No longer than what stops within the step.
 HWY_INLINE Vectors Limited(Vectors load, Lanes stop, Lanes dt) {
     const Lanes push = hn::Mul(dt, Length(load));
     const Mask over = hn::Gt(push, stop);
     if (hn::AllFalse(Tag(), over)) return load;
     return Choose(over, Scale(hn::Div(stop, push), load), load);
+}
+
+// drag_at_rest()
+HWY_INLINE Load DragAtRest(const Afloat& floes, const Case& p, const Matrices& inertia) {
+    const Lanes dt = All(p.time_step);
+    Load drag{Zero(), Zero()};
+    if (p.drag == DragModel::projected) drag = ProjectedDrag(floes, p);
+    if (p.drag == DragModel::panel) drag = PanelDrag(floes, p);
+    drag.force = Limited(drag.force, hn::Mul(floes.mass, Length(floes.velocity)), dt);
+    if (p.drag == DragModel::panel) {
+        const Vectors spin = Turned(floes.rotation, inertia, floes.angular_velocity);
+        drag.moment = Limited(drag.moment, Length(spin), dt);
+    }
+    return drag;
+}
+
+// drag_in_flow()
+HWY_INLINE RelativeLoad DragInFlow(const Afloat& floes, const Case& p, const WaterFlow& water,
+                                   const Matrices& inertia) {
+    const Lanes dt = All(p.time_step);
+    RelativeLoad drag{{Zero(), Zero()}, hn::Zero(Tag()), hn::Zero(Tag())};
+    if (p.drag == DragModel::projected) drag = ProjectedDragInFlow(floes, p, water);
+    if (p.drag == DragModel::panel) drag = PanelDragInFlow(floes, p, water);
+    const Lanes stop = hn::Mul(floes.mass, drag.fastest), push = hn::Mul(dt, Length(drag.force));
+    const Mask over = hn::Gt(push, stop);
+    const Lanes part = hn::IfThenElse(over, hn::Div(stop, push), All(1.0));
+    drag.force = Scale(part, drag.force);
+    drag.loss = hn::Mul(drag.loss, part);
+    const Vectors spin = Turned(floes.rotation, inertia, floes.angular_velocity);
+    const Lanes halt = hn::Add(Length(spin), hn::Mul(All(floes.shape.bounding_radius), stop));
+    drag.moment = Limited(drag.moment, halt, dt);
+    return drag;
 }
 
 // measure_submerged()
@@ -106,6 +234,21 @@ struct Buoyancy {
     }
 };
 
+// The floes around which the water may move.
+HWY_INLINE Mask InFlow(const WaterFlow& water, const Afloat& floes) {
+    const Tag d;
+    if (water.still()) return hn::FirstN(d, 0);
+    HWY_ALIGN double at[3][kMostLanes], in[kMostLanes];
+    hn::Store(floes.position.x, d, at[0]);
+    hn::Store(floes.position.y, d, at[1]);
+    hn::Store(floes.position.z, d, at[2]);
+    for (std::size_t k = 0; k < hn::Lanes(d); ++k)
+        in[k] = water.reaches(Vec3(at[0][k], at[1][k], at[2][k]), floes.shape.bounding_radius)
+                    ? 1.0
+                    : 0.0;
+    return hn::Gt(hn::Load(d, in), hn::Zero(d));
+}
+
 HWY_INLINE Vectors InPlane(Vectors force) { return {force.x, hn::Zero(Tag()), force.z}; }
 HWY_INLINE Vectors AboutPlane(Vectors moment) {
     return {hn::Zero(Tag()), moment.y, hn::Zero(Tag())};
@@ -119,16 +262,18 @@ void LoadPart(const Scene& scene, const Case& p, std::span<const std::int32_t> i
     const BodyLanes at(ids);
     const auto form = static_cast<std::size_t>(b.shape[static_cast<std::size_t>(ids[0])]);
     const Afloat floes(scene.shapes[form], b, at);
-    const Lanes dt = All(p.time_step);
+    const Matrices inertia = at.Load(b, &Inertia::body);
 
+    const Mask flows = InFlow(scene.water, floes);
     Load drag{Zero(), Zero()};
-    if (p.drag == DragModel::projected) drag = ProjectedDrag(floes, p);
-    if (p.drag == DragModel::panel) drag = PanelDrag(floes, p);
-    drag.force = Limited(drag.force, hn::Mul(floes.mass, Length(floes.velocity)), dt);
-    if (p.drag == DragModel::panel) {
-        const Vectors spin =
-            Turned(floes.rotation, at.Load(b, &Inertia::body), floes.angular_velocity);
-        drag.moment = Limited(drag.moment, Length(spin), dt);
+    Lanes water_power = hn::Zero(d);
+    if (!hn::AllTrue(d, flows)) drag = DragAtRest(floes, p, inertia);
+    if (!hn::AllFalse(d, flows)) {
+        const RelativeLoad moved = DragInFlow(floes, p, scene.water, inertia);
+        drag = {Choose(flows, moved.force, drag.force), Choose(flows, moved.moment, drag.moment)};
+        const Lanes work =
+            hn::Add(Dot(moved.force, floes.velocity), Dot(moved.moment, floes.angular_velocity));
+        water_power = hn::IfThenElseZero(flows, hn::Add(work, moved.loss));
     }
     Load all = drag;
     all.force.z = hn::Sub(all.force.z, hn::Mul(floes.mass, All(p.gravity)));
@@ -150,7 +295,10 @@ void LoadPart(const Scene& scene, const Case& p, std::span<const std::int32_t> i
     HWY_ALIGN double value[5][3 * kMostLanes];
     for (int k = 0; k < 5; ++k)
         hn::StoreInterleaved3(parts[k].x, parts[k].y, parts[k].z, d, value[k]);
+    HWY_ALIGN double power[kMostLanes];
+    hn::Store(water_power, d, power);
     for (std::size_t k = 0; k < ids.size(); ++k) {
+        out[k].water_power = power[k];
         Vec3* const of_floe[5] = {&out[k].force, &out[k].moment, &out[k].drag.force,
                                   &out[k].drag.moment, &out[k].righting};
         for (int n = 0; n < 5; ++n)

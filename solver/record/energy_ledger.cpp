@@ -30,8 +30,9 @@ void book_contact(const Bodies& now, const Constraint& c, const StepBooks& start
 }  // namespace
 
 double EnergyLedger::residual(double potential_now) const {
-    return ship_work + separation - kinetic - (potential_now - potential_start.value_or(0.0)) -
-           friction - restitution - crushing - drag - buoyancy_moment;
+    return ship_work + separation + water_work - kinetic -
+           (potential_now - potential_start.value_or(0.0)) - friction - restitution - crushing -
+           drag - buoyancy_moment;
 }
 
 void StepBooks::open(const Bodies& bodies) {
@@ -59,6 +60,8 @@ void book_step(const Scene& scene, const Case& parameters,
         const Vec3 v = 0.5 * (books.velocity[i] + b.velocity[i]);
         const Vec3 w = 0.5 * (books.angular_velocity[i] + b.angular_velocity[i]);
         ledger.drag -= dt * (load.drag.force.dot(v) + load.drag.moment.dot(w));
+        ledger.drag += dt * load.water_power;
+        ledger.water_work += dt * load.water_power;
         if (unrighted) ledger.buoyancy_moment += dt * load.righting.dot(w);
         const Vec3 weight = load.force - load.drag.force;
         ledger.separation -= weight.dot(nudges.shift[i]) + load.righting.dot(nudges.turn[i]);
@@ -80,6 +83,7 @@ void fill_energy(const EnergyLedger& ledger, double potential_now, Summary& summ
     out["restitution_J"] = ledger.restitution;
     out["crushing_J"] = ledger.crushing;
     out["drag_J"] = ledger.drag;
+    if (ledger.water_work != 0.0) out["water_work_J"] = ledger.water_work;
     out["separation_J"] = ledger.separation;
     out["buoyancy_moment_J"] = ledger.buoyancy_moment;
     out["residual_J"] = residual;

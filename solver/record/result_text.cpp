@@ -85,9 +85,13 @@ std::string energy_line(const Summary& s) {
           std::pair("crushing_J", "crushing"), std::pair("drag_J", "drag"),
           std::pair("buoyancy_moment_J", "left-out buoyancy moment"),
           std::pair("separation_J", "put in by opened overlaps"),
-          std::pair("residual_J", "unexplained")})
-        if (const double share = s.energy.at(key) / work; std::abs(share) >= kShown)
+          std::pair("water_work_J", "put in by the water"),
+          std::pair("residual_J", "unexplained")}) {
+        const auto of_key = s.energy.find(key);
+        if (of_key == s.energy.end()) continue;
+        if (const double share = of_key->second / work; std::abs(share) >= kShown)
             shares.emplace_back(share, name);
+    }
     std::stable_sort(shares.begin(), shares.end(), [](const auto& l, const auto& r) {
         return std::abs(l.first) > std::abs(r.first);
     });

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/geometry/triangle_mesh.hpp"
+#include "solver/flow/water_flow.hpp"
 #include "solver/scene/crushed_ice.hpp"
 #include "solver/shape/shape.hpp"
 
@@ -73,6 +74,7 @@ struct Scene {
     std::vector<Shape> shapes;  ///< row 0: hull
     Bodies bodies;
     CrushedIce crushed;
+    WaterFlow water;  ///< at rest unless the case says otherwise
     Vec3 ship_velocity = Vec3::Zero();
     /// Area of the floes over the field's; NaN unless all come from one field file.
     IceAtStart start;  ///< set by build_scene()

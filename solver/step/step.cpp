@@ -48,6 +48,8 @@ void step(World& w) {
     w.scene.ship_velocity = Vec3(w.parameters.ship_speed(w.time + 0.5 * dt), 0.0, 0.0);
     bodies.velocity[kShip] = w.scene.ship_velocity;
 
+    w.scene.water.follow(bodies.position[kShip], w.scene.ship_velocity);
+
     // who touches whom; a floe let go may touch neighbours that did not matter while it was held
     do {
         timed(w, Stage::broad, [&] {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <array>
 
+#include "solver/water/cut_triangle.hpp"
 #include "solver/water/drag.hpp"
 #include "solver/water/wetted_sums.hpp"
 
@@ -10,18 +11,7 @@ namespace {
 
 constexpr std::size_t kLanes = FacetBlock::kLanes;
 
-// Sums in a fixed order: Eigen's depends on its vector width.
-struct Vector {
-    double x, y, z;
-    friend Vector operator+(Vector a, Vector b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-    friend Vector operator-(Vector a, Vector b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-    friend Vector operator*(double s, Vector a) { return {s * a.x, s * a.y, s * a.z}; }
-};
-Vector cross(Vector a, Vector b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-double dot(Vector a, Vector b) { return (a.x * b.x + a.y * b.y) + a.z * b.z; }
-Vector get(const Vec3& from) { return {from[0], from[1], from[2]}; }
+using reference::get;
 Vector get(const double (&from)[3][kLanes], std::size_t lane) {
     return {from[0][lane], from[1][lane], from[2][lane]};
 }
@@ -40,29 +30,6 @@ struct VectorSum {
         z[lane] += v.z;
     }
     Vec3 totals() const { return {total(x), total(y), total(z)}; }
-};
-
-bool wet(double z) { return z <= 0.0; }
-
-// How a quantity that is even on a triangle cuts it at 0, from its values at the corners and which
-// of these are inside. Where it does, `apex` is the corner alone on its side.
-struct Cut {
-    std::array<double, 3> value;
-    std::array<bool, 3> inside;
-    bool any = false;
-    std::size_t apex = 2;
-
-    Cut(const std::array<double, 3>& values, const std::array<bool, 3>& are_inside)
-        : value(values), inside(are_inside) {
-        const bool differ_01 = inside[0] != inside[1], differ_12 = inside[1] != inside[2];
-        any = differ_01 || differ_12;
-        if (differ_01) apex = differ_12 ? 1 : 0;
-    }
-    // share of the edge from the apex to the k-th corner after it that is on the apex' side
-    double part(std::size_t k) const { return value[apex] / (value[apex] - value[(apex + k) % 3]); }
-    bool tip_is_inside() const { return inside[apex]; }
-    // Does the whole triangle count, with or without a tip?
-    bool counts_whole() const { return any ? !tip_is_inside() : inside[0]; }
 };
 
 Cut cut_by_water(const FacetBlock& block, std::size_t lane, const WaterPlane& water) {

@@ -65,3 +65,49 @@ TEST_CASE("iceflow refuses with exit code 2 and leaves nothing behind", "[cli][f
     const Result disk = w.run("iceflow box.h5 -o no/such/folder/x.h5");
     CHECK(disk.code == 1);
 }
+
+TEST_CASE("a case takes the flow around its hull, made once, and warns of waves", "[cli][flow]") {
+    const Workshop w;
+    REQUIRE(w.run("spherize " ICE_MESHES "/paper-hull-3d.obj -r 0.2 --mode surface -q "
+                  "-o hull.spheres.h5")
+                .code == 0);
+    REQUIRE(w.run("spherize " ICE_MESHES "/paper-floe-3d.obj -r 0.1 -s 0.2 -q -o floe.h5").code ==
+            0);
+    w.write("case.cfg",
+            "[simulation]\nduration = 0.5\ntime_step = 0.01\n[hull]\n"
+            "spheres = \"hull.spheres.h5\"\nposition = [-9.6, 0, 0]\nspeed = 0.5\n"
+            "[[floes]]\nspheres = \"floe.h5\"\ncount = [2, 3]\nhold = \"never\"\n");
+    const auto hash = [&](const std::string& words) {
+        const Result r =
+            w.run("icesolve case.cfg --out run --overwrite --no-report --hash-every 50 " + words);
+        CAPTURE(words, r.err);
+        CHECK(r.code == 0);
+        return r.out;
+    };
+    const std::string still = hash(""), flow = hash("--set flow.model=double-body");
+    CHECK(still != flow);
+    CHECK(hash("--set flow.model=double-body --set hull.speed=0") == hash("--set hull.speed=0"));
+    const auto files = w.files();
+    const auto kept = std::find_if(files.begin(), files.end(), [](const std::string& name) {
+        return name.starts_with("hull.") && name.ends_with(".flow.h5");
+    });
+    REQUIRE(kept != files.end());
+    CHECK(hash("--set flow.model=double-body --threads 1 --simd scalar") == flow);
+    CHECK(hash("--set flow.model=file --set flow.file=" + *kept) == flow);
+    CHECK(hash("--set flow.current=[0.1,0]") != still);
+    hash("--set flow.model=double-body");
+    CHECK(read_json_numbers(w / "run" / "summary.json").contains("energy.water_work_J"));
+
+    const auto says = [&](const std::string& words, int code, const std::string& what) {
+        const Result r = w.run("icesolve case.cfg --check " + words);
+        CAPTURE(words, r.err);
+        CHECK(r.code == code);
+        CHECK_THAT(r.err, Catch::Contains(what));
+    };
+    says("--set flow.model=double-body --set hull.speed=3", 0, "Froude number of 0.31");
+    says("--set flow.model=file", 2, "needs flow.file");
+    says("--set flow.file=" + *kept, 2, "only flow.model = \"file\" takes it");
+    says("--set flow.model=file --set flow.file=" + *kept + " --set hull.draught=1.2", 2,
+         "is for a draught of 1.44 m");
+    says("--set flow.model=file --set flow.file=floe.h5", 2, "is not a flow");
+}

@@ -18,18 +18,10 @@ using namespace ice;
 
 namespace {
 
-SphereSet set_of(const TriangleMesh& mesh, int dimension = 3) {
-    SphereSet set;
-    set.dimension = dimension;
-    set.mesh = mesh;
-    set.source_sha256 = "0123";
-    return set;
-}
-
 // 6 m long, 1.2 m broad, 0.6 m deep, for floes 0.2 m thick.
 constexpr double kThickness = 0.2;
 TriangleMesh small_hull() { return test::make_wigley(6.0, 1.2, 0.6, 24, 8); }
-HullFlow small_flow() { return make_hull_flow(set_of(small_hull()), {0.0, 0.3, kThickness / 2}); }
+HullFlow small_flow() { return make_hull_flow(small_hull(), 3, {0.0, 0.3, kThickness / 2}); }
 
 bool same(const FlowTable& a, const FlowTable& b) {
     return a.nodes == b.nodes && a.origin == b.origin && a.spacing == b.spacing &&
@@ -140,7 +132,7 @@ TEST_CASE("the table is the panels' sum half a floe's thickness and more off the
 TEST_CASE("a table has the same bits for any number of threads and instruction set",
           "[flow][simd]") {
     const auto make = [] {
-        return make_hull_flow(set_of(test::make_wigley(6.0, 1.2, 0.6, 8, 3)), {0.0, 0.6, 0.3});
+        return make_hull_flow(test::make_wigley(6.0, 1.2, 0.6, 8, 3), 3, {0.0, 0.6, 0.3});
     };
     const int threads = thread_count();
     set_thread_count(1);
@@ -152,7 +144,7 @@ TEST_CASE("a table has the same bits for any number of threads and instruction s
 
 TEST_CASE("a section's table lies in its plane and closes around it", "[flow]") {
     TriangleMesh prism = test::make_box_set(Vec3(4.0, 1.0, 1.0), 0.2, 0.3).mesh;
-    const HullFlow made = make_hull_flow(set_of(prism, 2), {-0.1, 0.0, 0.1});
+    const HullFlow made = make_hull_flow(prism, 2, {-0.1, 0.0, 0.1});
     CHECK(made.table.nodes[1] == 1);
     CHECK(made.table.draught == Approx(0.4));
     CHECK(std::abs(made.net_flux) < 5e-3);

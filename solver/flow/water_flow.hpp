@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// How the water moves, anywhere and now.
+#pragma once
+
+#include "solver/flow/look_up_flow.hpp"
+
+namespace ice {
+
+/// An even current c, and the flow that the ship makes in it: with U the ship's speed along x
+/// through that water and g the table's flow at the place in the ship's frame,
+///
+///     w(x, t) = c + U(t) g(x - x_ship(t)).
+///
+/// The table has no flow of a current athwart the ship: there the water goes through the hull.
+struct WaterFlow {
+    FlowGrid grid;
+    Vec3 current = Vec3::Zero();  ///< along x and y [m/s]
+    Vec3 ship = Vec3::Zero();     ///< place of the hull mesh's origin; its z does not matter [m]
+    double speed = 0.0;           ///< of the ship, less the current's [m/s]
+
+    /// Takes the ship's place and velocity for a step.
+    void follow(const Vec3& place, const Vec3& velocity) {
+        ship = place;
+        speed = velocity.x() - current.x();
+    }
+    bool flows() const { return !grid.empty() && speed != 0.0; }
+    bool still() const { return current.isZero(0.0) && !flows(); }
+
+    /// Whether the water within a sphere may move.
+    bool reaches(const Vec3& centre, double radius) const {
+        if (!current.isZero(0.0)) return true;
+        if (!flows()) return false;
+        const double low_y =
+            grid.symmetric ? -(grid.origin.y() + grid.last_y / grid.per_spacing) : grid.origin.y();
+        const double x = centre.x() - ship.x() - grid.origin.x(), y = centre.y() - ship.y() - low_y;
+        const double wide = grid.symmetric ? -2.0 * low_y : grid.last_y / grid.per_spacing;
+        return x > -radius && x < grid.last_x / grid.per_spacing + radius &&
+               (grid.stride_y == 0 || (y > -radius && y < wide + radius)) && centre.z() < radius &&
+               centre.z() > grid.origin.z() - radius;
+    }
+};
+
+namespace reference {
+/// w at a place.
+inline Vec3 water_at(const WaterFlow& water, const Vec3& x) {
+    if (!water.flows()) return water.current;
+    const Vec3 v =
+        look_up_flow(water.grid, Vec3(x.x() - water.ship.x(), x.y() - water.ship.y(), x.z()))
+            .velocity;
+    return Vec3(water.current.x() + water.speed * v.x(), water.current.y() + water.speed * v.y(),
+                water.current.z() + water.speed * v.z());
+}
+}  // namespace reference
+
+}  // namespace ice

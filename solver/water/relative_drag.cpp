@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The mathematics; relative_lanes-inl.hpp has several bodies in lanes, to the same bits.
+#include "solver/water/relative_drag.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "solver/shape/ordered_products.hpp"
+#include "solver/water/cut_triangle.hpp"
+#include "solver/water/wetted_sums.hpp"
+
+namespace ice {
+
+namespace {
+
+using namespace reference;
+
+// A triangle, the velocity relative to the water at its corners, and the flow through all of it if
+// it were everywhere that at the corner [m3/s].
+struct Triangle {
+    std::array<Vector, 3> p, u;
+    std::array<double, 3> f;
+};
+
+// What the cut leaves on the apex' side, with the area of the whole.
+Triangle tip_of(const Triangle& t, const Cut& cut) {
+    const std::size_t a = cut.apex, b = (a + 1) % 3, c = (a + 2) % 3;
+    const double s = cut.part(1), r = cut.part(2);
+    return {{t.p[a], t.p[a] + s * (t.p[b] - t.p[a]), t.p[a] + r * (t.p[c] - t.p[a])},
+            {t.u[a], t.u[a] + s * (t.u[b] - t.u[a]), t.u[a] + r * (t.u[c] - t.u[a])},
+            {t.f[a], t.f[a] + s * (t.f[b] - t.f[a]), t.f[a] + r * (t.f[c] - t.f[a])}};
+}
+
+// 12, 60 and 60 times int f u, int f p x u and int f u . u.
+struct Sums {
+    Vector force{}, moment{};
+    double loss = 0.0;
+
+    void add(double factor, const Sums& m) {
+        force = force + factor * m.force;
+        moment = moment + factor * m.moment;
+        loss = loss + factor * m.loss;
+    }
+};
+
+// With the means of products of three shape functions over a triangle, 1/10 of one cubed, 1/30 of
+// a square and another, 1/60 of all three: int f g h = 1/60 sum_k h_k e_k,
+// e_k = F G + sum f g + F g_k + f_k G + 2 f_k g_k, sums over the corners in capitals.
+Sums integrate_whole(const Triangle& t) {
+    Sums out;
+    const double flow = (t.f[0] + t.f[1]) + t.f[2];
+    const auto weighted = [&](const std::array<Vector, 3>& g) {
+        return (t.f[0] * g[0] + t.f[1] * g[1]) + t.f[2] * g[2];
+    };
+    const Vector sum_p = (t.p[0] + t.p[1]) + t.p[2], sum_u = (t.u[0] + t.u[1]) + t.u[2];
+    const Vector base_p = flow * sum_p + weighted(t.p), base_u = flow * sum_u + weighted(t.u);
+    out.force = base_u;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double own = flow + 2.0 * t.f[k];
+        const Vector e_p = base_p + (own * t.p[k] + t.f[k] * sum_p);
+        const Vector e_u = base_u + (own * t.u[k] + t.f[k] * sum_u);
+        out.moment = out.moment + cross(e_p, t.u[k]);
+        out.loss = out.loss + dot(e_u, t.u[k]);
+    }
+    return out;
+}
+
+// Over the part where the water comes from outside.
+Sums integrate_part(const Triangle& t) {
+    const Cut cut(t.f, {t.f[0] > 0.0, t.f[1] > 0.0, t.f[2] > 0.0});
+    Sums out;
+    if (cut.counts_whole()) out.add(1.0, integrate_whole(t));
+    if (!cut.any) return out;
+    const double size = cut.part(1) * cut.part(2);
+    out.add(cut.tip_is_inside() ? size : -size, integrate_whole(tip_of(t, cut)));
+    return out;
+}
+
+Sums integrate(const Shape& shape, const WaterPlane& plane, const std::vector<Vector>& u) {
+    Sums sums;
+    for (std::size_t n = 0; n < shape.mesh.triangles.size(); ++n) {
+        const FacetBlock& block = shape.facets.blocks[n / FacetBlock::kLanes];
+        const std::size_t lane = n % FacetBlock::kLanes;
+        const Vector area{block.area[0][lane], block.area[1][lane], block.area[2][lane]};
+        Triangle t;
+        std::array<double, 3> z;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const auto corner = static_cast<std::size_t>(shape.mesh.triangles[n][k]);
+            t.p[k] = get(shape.mesh.vertices[corner]);
+            t.u[k] = u[corner];
+            t.f[k] = dot(area, t.u[k]);
+            z[k] = dot(get(plane.up), t.p[k]) + plane.height;
+        }
+        const Cut h(z, {wet(z[0]), wet(z[1]), wet(z[2])});
+        if (h.counts_whole()) sums.add(1.0, integrate_part(t));
+        if (!h.any) continue;
+        const double size = h.part(1) * h.part(2);
+        sums.add(h.tip_is_inside() ? size : -size, integrate_part(tip_of(t, h)));
+    }
+    return sums;
+}
+
+}  // namespace
+
+RelativeDrag relative_drag(const Shape& shape, const Motion& motion, std::span<const Vec3> water,
+                           double coefficient, double water_density) {
+    RelativeDrag out;
+    const Vec3 v = ordered_transposed(motion.rotation, motion.velocity);
+    const Vec3 w = ordered_transposed(motion.rotation, motion.angular_velocity);
+    static thread_local std::vector<Vector> u;
+    u.clear();
+    double square = 0.0;
+    for (std::size_t k = 0; k < shape.mesh.vertices.size(); ++k) {
+        u.push_back((get(v) + cross(get(w), get(shape.mesh.vertices[k]))) - get(water[k]));
+        square = std::max(square, dot(u[k], u[k]));
+    }
+    out.fastest = std::sqrt(square);
+    const Sums sums = integrate(shape, WaterPlane(motion.rotation, motion.height), u);
+    const double factor = -0.5 * water_density * coefficient;
+    const Mat3 turn = factor * motion.rotation;
+    const Vec3 force(sums.force.x / 12.0, sums.force.y / 12.0, sums.force.z / 12.0);
+    const Vec3 moment(sums.moment.x / 60.0, sums.moment.y / 60.0, sums.moment.z / 60.0);
+    out.force = ordered_product(turn, force);
+    out.moment = ordered_product(turn, moment);
+    out.loss = -factor * (sums.loss / 60.0);
+    return out;
+}
+
+}  // namespace ice
