@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Floes of one form in lanes, and their drag in water at rest, to the bits of
+// load_floes_reference.cpp. Included once per instruction set, hence the guard that lets it in
+// again for each. Mul then Add, not MulAdd: a fused product would differ from it.
+#if defined(ICE_AFLOAT_LANES_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef ICE_AFLOAT_LANES_INL
+#undef ICE_AFLOAT_LANES_INL
+#else
+#define ICE_AFLOAT_LANES_INL
+#endif
+
+#include <hwy/highway.h>
+
+#include "solver/case/case.hpp"
+#include "solver/scene/body_lanes-inl.hpp"
+#include "solver/water/floating_lanes-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace ice::HWY_NAMESPACE {
+
+HWY_INLINE Lanes Length(Vectors v) { return hn::Sqrt(Dot(v, v)); }
+
+// Floes of one form and what the loads ask of them.
+struct Afloat {
+    const Shape& shape;
+    Matrices rotation;
+    Vectors position;
+    Lanes height, mass;
+    Vectors velocity, angular_velocity;
+    FormHeights heights;
+
+    HWY_INLINE Afloat(const Shape& form, const Bodies& b, const BodyLanes& at)
+        : shape(form),
+          rotation(RotationOf(at.Load(b.orientation))),
+          position(at.Load(b.position)),
+          height(position.z),
+          mass(at.Load(b.mass)),
+          velocity(at.Load(b.velocity)),
+          angular_velocity(at.Load(b.angular_velocity)),
+          heights(form, Water(rotation.row[2], height)) {}
+    HWY_INLINE Mask Clear() const { return hn::Ge(height, All(shape.bounding_radius)); }
+};
+
+struct Load {
+    Vectors force, moment;
+};
+
+// projected_drag()
+HWY_INLINE Load ProjectedDrag(const Afloat& floes, const Case& p) {
+    const Mask drags = hn::AndNot(floes.Clear(), NotZero(floes.velocity));
+    if (hn::AllFalse(Tag(), drags)) return {Zero(), Zero()};
+    const Vectors v = TransposedProduct(floes.rotation, floes.velocity);
+    const Lanes flow = IntegrateFloatingFacing(floes.heights, v);
+    const Lanes factor = hn::Mul(All(-0.5 * p.water_density * p.drag_coefficient), flow);
+    return {Only(drags, Scale(factor, floes.velocity)), Zero()};
+}
+
+// panel_drag()
+HWY_INLINE Load PanelDrag(const Afloat& floes, const Case& p) {
+    const Mask moves = hn::Or(NotZero(floes.velocity), NotZero(floes.angular_velocity));
+    const Mask drags = hn::AndNot(floes.Clear(), moves);
+    if (hn::AllFalse(Tag(), drags)) return {Zero(), Zero()};
+    const Vectors v = TransposedProduct(floes.rotation, floes.velocity);
+    const Vectors w = TransposedProduct(floes.rotation, floes.angular_velocity);
+    const Facing met = IntegrateFloatingFacing(floes.heights, v, w);
+    const Vectors force = Add(Scale(met.flow, v), Cross(w, met.first));
+    const Matrices second{{{met.square.x, met.mixed.x, met.mixed.y},
+                           {met.mixed.x, met.square.y, met.mixed.z},
+                           {met.mixed.y, met.mixed.z, met.square.z}}};
+    const Lanes total = hn::Add(hn::Add(met.square.x, met.square.y), met.square.z);
+    const Vectors moment = Sub(Add(Cross(met.first, v), Scale(total, w)), Product(second, w));
+    const Lanes factor = All(-0.5 * p.water_density * p.drag_coefficient);
+    const Matrices& r = floes.rotation;
+    const Matrices turn{
+        {Scale(factor, r.row[0]), Scale(factor, r.row[1]), Scale(factor, r.row[2])}};
+    return {Only(drags, Product(turn, force)), Only(drags, Product(turn, moment))};
+}
+
+// No longer than what stops within the step.
+HWY_INLINE Vectors Limited(Vectors load, Lanes stop, Lanes dt) {
+    const Lanes push = hn::Mul(dt, Length(load));
+    const Mask over = hn::Gt(push, stop);
+    if (hn::AllFalse(Tag(), over)) return load;
+    return Choose(over, Scale(hn::Div(stop, push), load), load);
+}
+
+// drag_at_rest()
+HWY_INLINE Load DragAtRest(const Afloat& floes, const Case& p, const Matrices& inertia) {
+    const Lanes dt = All(p.time_step);
+    Load drag{Zero(), Zero()};
+    if (p.drag == DragModel::projected) drag = ProjectedDrag(floes, p);
+    if (p.drag == DragModel::panel) drag = PanelDrag(floes, p);
+    drag.force = Limited(drag.force, hn::Mul(floes.mass, Length(floes.velocity)), dt);
+    if (p.drag == DragModel::panel) {
+        const Vectors spin = Turned(floes.rotation, inertia, floes.angular_velocity);
+        drag.moment = Limited(drag.moment, Length(spin), dt);
+    }
+    return drag;
+}
+
+}  // namespace ice::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif
