@@ -1,25 +1,14 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""contract_test.py REPOSITORY: docs/contract.md names every option, case key, column, JSON key and dataset.
+"""contract_test.py REPOSITORY: docs/contract.md names every option, column, JSON key and dataset.
 
 Taken from the sources that write them, so that a new name comes into the contract with its code."""
-import json
 import pathlib
 import re
 import sys
 
 ROOT = pathlib.Path(sys.argv[1])
 FORMATS = ROOT / "common/formats"
-
-
-def case_keys():
-    """Tables and keys of the case schema."""
-    schema = json.loads((ROOT / "cases/case.schema.json").read_text(encoding="utf-8"))
-    names = set()
-    for table, sub in schema["properties"].items():
-        keys = sub.get("properties") or sub.get("items", {}).get("properties")
-        names |= {f"[{table}]"} | set(keys) if keys else {table}
-    return names
 
 
 def json_keys(*files):
@@ -67,7 +56,6 @@ def main():
         words |= {f"line_load_{kind}_N_per_m", f"pressure_{kind}_Pa"}
     sources = {
         "options": options(),
-        "case keys": case_keys(),
         "summary.json": json_keys("summary_file.cpp", "particulars_json.cpp",
                                   "load_statistics_json.cpp",
                                   "../../solver/record/energy_ledger.cpp"),
