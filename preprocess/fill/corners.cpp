@@ -119,8 +119,9 @@ CornerCount count_corners(const SurfaceTree& tree, const SphereSet& set, bool ha
             const bool has_image = half && corner.center.y() > kSameCorner * set.spacing;
             out.all += has_image ? 2 : 1;
             if (is_known(set, cells, corner)) continue;
-            out.blind += has_image ? 2 : 1;
-            out.blind_at = corner.center;
+            const Vec3& c = corner.center;
+            out.blind.push_back(c);
+            if (has_image) out.blind.emplace_back(c.x(), -c.y(), c.z());
         }
     return out;
 }

@@ -35,8 +35,8 @@ void find_corners_beside(const SurfaceTree& tree, double radius, const Seat& sea
 /// Corners of a solid in which a sphere of the set's radius has room, and those among them that no
 /// sphere of the set sits in: contacts there are found late or not at all.
 struct CornerCount {
-    std::int64_t all = 0, blind = 0;
-    Vec3 blind_at = Vec3::Zero();  ///< centre of one sphere that is missing [m]
+    std::int64_t all = 0;
+    std::vector<Vec3> blind;  ///< centres of the spheres that are missing, with their images [m]
 };
 
 /// Follows the edges from every sphere in an edge to the corners at both ends, a spacing at most,

@@ -134,19 +134,31 @@ void fill_report(const SphereSet& set, SpheresReport& report) {
     report.inertia_unit_density = {i(0, 0), i(1, 1), i(2, 2), i(0, 1), i(0, 2), i(1, 2)};
 }
 
-// A lattice's spheres touch what they happen to touch.
-void certify_corners(const SurfaceTree& tree, const FillOptions& o, bool mirror,
-                     const SphereSet& set, SpheresReport& report) {
-    if (set.dimension == 2 || o.arrangement == Arrangement::lattice) return;
-    const CornerCount corners = count_corners(tree, set, mirror);
+// Normals of the surface spheres, and a sphere in each corner that the layer left empty; once more
+// for these. A lattice's spheres touch what they happen to touch.
+// @return the twins
+std::vector<std::int32_t> set_features(const SurfaceTree& tree, const FillOptions& o, bool mirror,
+                                       SphereSet& set, SpheresReport& report) {
+    std::vector<std::int32_t> twins;
+    CornerCount corners;
+    for (const bool may_add : {true, false}) {
+        if (mirror) twins = find_twins(set);
+        set_normals(tree, twins, set);
+        if (set.dimension == 2 || o.arrangement == Arrangement::lattice) return twins;
+        corners = count_corners(tree, set, mirror);
+        if (corners.blind.empty() || !may_add) break;
+        set.centers.insert(set.centers.end(), corners.blind.begin(), corners.blind.end());
+        set.surface_count = set.size();
+        set.radii.assign(set.size(), o.radius);
+    }
     report.corners = corners.all;
-    report.blind_corners = corners.blind;
-    if (corners.blind == 0) return;
-    const Vec3& at = corners.blind_at;
-    report.warnings.push_back(fmt::format(
-        "{} of {} corners have no sphere that knows their three faces, the first at {:.4g}, "
-        "{:.4g}, {:.4g} m: what meets them there is felt late; try another radius or spacing",
-        corners.blind, corners.all, at.x(), at.y(), at.z()));
+    report.blind_corners = static_cast<std::int64_t>(corners.blind.size());
+    if (!corners.blind.empty())
+        report.warnings.push_back(fmt::format(
+            "{} of {} corners have no sphere that knows their three faces: what meets them there "
+            "is felt late; try another radius or spacing",
+            corners.blind.size(), corners.all));
+    return twins;
 }
 
 // `space` is what spheres are placed in: the solid, or in 2D the section widened along y.
@@ -173,9 +185,7 @@ SphereSet fill(const TriangleMesh& solid, const TriangleMesh& space, int dimensi
 
     tell(o, "certificate");
     const Timer measuring;
-    const std::vector<std::int32_t> twins = mirror ? find_twins(set) : std::vector<std::int32_t>();
-    set_normals(tree, twins, set);
-    certify_corners(tree, o, mirror, set, report);
+    const std::vector<std::int32_t> twins = set_features(tree, o, mirror, set, report);
     const SphereFinder finder(set);
     const std::vector<Sight> sights = survey_surface(tree, set, finder, mirror, o.quick);
     share_surface(tree, sights, twins, set);

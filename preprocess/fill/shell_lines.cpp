@@ -97,12 +97,15 @@ std::vector<SettledLine> settle_line(const SurfaceTree& tree, const ShellOptions
     return out;
 }
 
-// Is a seat in an edge that goes one way or the other?
+// Do two of the faces that a seat touches meet in an edge that goes one way or the other?
 bool is_in_edge(const Seat& seat, const Vec3& way) {
     constexpr double kSameWay = 0.94;  // cosine of 20 degrees
-    if (seat.touches != 2) return false;
-    const Vec3 along = seat.touch[0].cross(seat.touch[1]);
-    return std::abs(along.dot(way)) >= kSameWay * along.norm() * way.norm();
+    for (std::size_t i = 0; i + 1 < static_cast<std::size_t>(seat.touches); ++i)
+        for (std::size_t j = i + 1; j < static_cast<std::size_t>(seat.touches); ++j) {
+            const Vec3 along = seat.touch[i].cross(seat.touch[j]);
+            if (std::abs(along.dot(way)) >= kSameWay * along.norm() * way.norm()) return true;
+        }
+    return false;
 }
 
 // The corner at a line's end. It should end there already, but its last starts, which lie beyond
@@ -117,8 +120,10 @@ std::optional<Seat> find_corner(const SurfaceTree& tree, double radius, const Se
         if (apart > kStray * radius) break;
         Seat seat{centers[k], Vec3::UnitZ(), tree.closest(centers[k]).triangle};
         find_crease(tree, radius, seat);
-        if (is_corner(seat)) return seat;
+        // beside a short side the end may have settled in the corner at its other end
         if (!is_in_edge(seat, line.ways[k])) continue;
+        if (is_corner(seat)) return seat;
+        if (seat.touches != 2) continue;
         Vec3 along = seat.touch[0].cross(seat.touch[1]).normalized();
         if (sign * along.dot(line.ways[k]) < 0.0) along = -along;
         return slide_to_corner(tree, radius, seat, along, apart + 2.0 * radius);

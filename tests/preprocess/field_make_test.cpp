@@ -256,6 +256,24 @@ TEST_CASE("the shipped fields have a sphere in every corner, whatever the seed",
     CHECK(corners > 2000);
 }
 
+TEST_CASE("both ends of a side that is hardly longer than its corners have a sphere",
+          "[field][analytic]") {
+    // its spheres' centres are a fiftieth of a radius apart: the next side's line began in the wrong
+    // one, left its edge and missed the other
+    const TemporaryFile file(".csv",
+                             "floe,x,y\n1,-0.199223,0.385854\n1,-0.199223,-0.652858\n"
+                             "1,-0.114965,-0.640086\n1,0.388686,0.385854\n");
+    FieldReport report;
+    const Field field = make(
+        "pattern = \"polygons\"\n[ice]\nthickness = 0.3\n[spheres]\nradius = 0.05\nspacing = "
+        "0.12\n[floes]\nfile = \"" +
+            file.path().string() + "\"\n",
+        report);
+    REQUIRE(field.shapes.size() == 1);
+    CHECK(check_corners(field.shapes[0], 0.3) == 8);
+    CHECK(report.corners == 8);
+}
+
 TEST_CASE("the sides of an arc meet in corners with spheres of their own", "[field][analytic]") {
     // a round floe of 4 m radius in 36 sides: they turn by 10 degrees
     std::string rows = "floe,x,y\n";
