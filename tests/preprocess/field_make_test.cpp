@@ -258,8 +258,8 @@ TEST_CASE("the shipped fields have a sphere in every corner, whatever the seed",
 
 TEST_CASE("both ends of a side that is hardly longer than its corners have a sphere",
           "[field][analytic]") {
-    // its spheres' centres are a fiftieth of a radius apart: the next side's line began in the wrong
-    // one, left its edge and missed the other
+    // its spheres' centres are a fiftieth of a radius apart: the next side's line began in the
+    // wrong one, left its edge and missed the other
     const TemporaryFile file(".csv",
                              "floe,x,y\n1,-0.199223,0.385854\n1,-0.199223,-0.652858\n"
                              "1,-0.114965,-0.640086\n1,0.388686,0.385854\n");
