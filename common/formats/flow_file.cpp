@@ -6,6 +6,7 @@
 
 #include "common/base/error.hpp"
 #include "common/base/part_file.hpp"
+#include "common/base/rehearse.hpp"
 #include "common/formats/hdf5_file.hpp"
 
 namespace ice {
@@ -120,6 +121,11 @@ void write_flow(const std::filesystem::path& path, const FlowTable& table) {
     part.keep();
 }
 
-FlowTable read_flow(const std::filesystem::path& path) { return Reader(path).read(); }
+FlowTable read_flow(const std::filesystem::path& path) {
+    std::error_code missing;  // is what Reader complains of
+    const auto size = std::filesystem::file_size(path, missing);
+    if (!missing) rehearse(path, ReadBounds::for_size(size), [&] { Reader(path).read(); });
+    return Reader(path).read();
+}
 
 }  // namespace ice
