@@ -48,26 +48,25 @@ public:
         few_ = count <= kFew;
         Lanes square = hn::Zero(Tag());
         for (std::size_t k = 0; k < count; ++k) {
-            const Vectors u = Ask(k);
+            const Vectors u = At(floes.shape.mesh.vertices[k]);
             if (few_) u_[k] = u;
             square = hn::Max(square, Dot(u, u));
         }
         fastest_ = hn::Sqrt(square);
     }
-    HWY_INLINE Vectors operator()(std::size_t vertex) const {
-        return few_ ? u_[vertex] : Ask(vertex);
+    HWY_INLINE Vectors AtVertex(std::size_t vertex) const {
+        return few_ ? u_[vertex] : At(floes_.shape.mesh.vertices[vertex]);
+    }
+    HWY_INLINE Vectors At(const Vec3& point) const {
+        const Vectors p = Set(point);
+        const Vectors at = Add(floes_.position, Product(floes_.rotation, p));
+        const Vectors water = TransposedProduct(floes_.rotation, WaterAt(water_, at));
+        return Sub(Add(v_, Cross(w_, p)), water);
     }
     HWY_INLINE Lanes Fastest() const { return fastest_; }
 
 private:
     static constexpr std::size_t kFew = 64;
-
-    HWY_INLINE Vectors Ask(std::size_t vertex) const {
-        const Vectors p = Set(floes_.shape.mesh.vertices[vertex]);
-        const Vectors at = Add(floes_.position, Product(floes_.rotation, p));
-        const Vectors water = TransposedProduct(floes_.rotation, WaterAt(water_, at));
-        return Sub(Add(v_, Cross(w_, p)), water);
-    }
 
     const Afloat& floes_;
     const WaterFlow& water_;
@@ -95,7 +94,8 @@ HWY_INLINE RelativeLoad ProjectedDragInFlow(const Afloat& floes, const Case& p,
 HWY_INLINE RelativeLoad PanelDragInFlow(const Afloat& floes, const Case& p,
                                         const WaterFlow& water) {
     const RelativeVelocities u(floes, water);
-    const RelativeSums sums = IntegrateRelative(floes.shape, floes.heights, u);
+    const RelativeSums sums =
+        IntegrateRelative(floes.shape, Water(floes.rotation.row[2], floes.height), u);
     const auto part = [](Vectors v, double of) HWY_ATTR {
         return Vectors{hn::Div(v.x, All(of)), hn::Div(v.y, All(of)), hn::Div(v.z, All(of))};
     };

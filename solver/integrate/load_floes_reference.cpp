@@ -64,12 +64,11 @@ RelativeDrag drag_in_flow(const Scene& scene, const Case& p, std::size_t i) {
         drag.loss = -ordered_dot(drag.force, u);
     }
     if (p.drag == DragModel::panel) {
-        static thread_local std::vector<Vec3> water;  // at the form's corners
-        water.clear();
-        for (const Vec3& corner : shape.mesh.vertices)
-            water.push_back(ordered_transposed(
+        const auto water = [&](const Vec3& at) {
+            return ordered_transposed(
                 b.rotation[i],
-                water_at(scene.water, b.position[i] + ordered_product(b.rotation[i], corner))));
+                water_at(scene.water, b.position[i] + ordered_product(b.rotation[i], at)));
+        };
         const Motion motion{b.rotation[i], b.position[i].z(), b.velocity[i], b.angular_velocity[i]};
         drag = relative_drag(shape, motion, water, p.drag_coefficient, p.water_density);
     }

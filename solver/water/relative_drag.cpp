@@ -76,46 +76,75 @@ Sums integrate_part(const Triangle& t) {
     return out;
 }
 
-Sums integrate(const Shape& shape, const WaterPlane& plane, const std::vector<Vector>& u) {
+// What the motion is relative to the water at points of the body.
+class Relative {
+public:
+    Relative(const Vec3& v, const Vec3& w, const std::function<Vec3(const Vec3&)>& water)
+        : v_(get(v)), w_(get(w)), water_(water) {}
+    Vector at(const Vec3& p) const { return (v_ + cross(w_, get(p))) - get(water_(p)); }
+
+private:
+    Vector v_, w_;
+    const std::function<Vec3(const Vec3&)>& water_;
+};
+
+// Over the wetted part of one quarter. @param z  heights of its corners over the water
+void add_wetted(const Triangle& t, const std::array<double, 3>& z, Sums& sums) {
+    const Cut h(z, {wet(z[0]), wet(z[1]), wet(z[2])});
+    if (h.counts_whole()) sums.add(1.0, integrate_part(t));
+    if (!h.any) return;
+    const double size = h.part(1) * h.part(2);
+    sums.add(h.tip_is_inside() ? size : -size, integrate_part(tip_of(t, h)));
+}
+
+Sums integrate(const Shape& shape, const WaterPlane& plane, const Relative& relative,
+               const std::vector<Vector>& at_vertex) {
     Sums sums;
     for (std::size_t n = 0; n < shape.mesh.triangles.size(); ++n) {
         const FacetBlock& block = shape.facets.blocks[n / FacetBlock::kLanes];
         const std::size_t lane = n % FacetBlock::kLanes;
-        const Vector area{block.area[0][lane], block.area[1][lane], block.area[2][lane]};
-        Triangle t;
-        std::array<double, 3> z;
+        const Vector quarter =
+            0.25 * Vector{block.area[0][lane], block.area[1][lane], block.area[2][lane]};
+        std::array<Vec3, 6> p;  // corners, then the middles of the edges behind them
+        std::array<Vector, 6> u;
+        std::array<double, 6> z, f;
         for (std::size_t k = 0; k < 3; ++k) {
             const auto corner = static_cast<std::size_t>(shape.mesh.triangles[n][k]);
-            t.p[k] = get(shape.mesh.vertices[corner]);
-            t.u[k] = u[corner];
-            t.f[k] = dot(area, t.u[k]);
-            z[k] = dot(get(plane.up), t.p[k]) + plane.height;
+            p[k] = shape.mesh.vertices[corner];
+            u[k] = at_vertex[corner];
         }
-        const Cut h(z, {wet(z[0]), wet(z[1]), wet(z[2])});
-        if (h.counts_whole()) sums.add(1.0, integrate_part(t));
-        if (!h.any) continue;
-        const double size = h.part(1) * h.part(2);
-        sums.add(h.tip_is_inside() ? size : -size, integrate_part(tip_of(t, h)));
+        for (std::size_t k = 0; k < 3; ++k) {
+            p[3 + k] = 0.5 * (p[k] + p[(k + 1) % 3]);
+            u[3 + k] = relative.at(p[3 + k]);
+        }
+        for (std::size_t k = 0; k < 6; ++k) {
+            z[k] = dot(get(plane.up), get(p[k])) + plane.height;
+            f[k] = dot(quarter, u[k]);
+        }
+        for (const auto& [a, b, c] : kQuarters)
+            add_wetted({{get(p[a]), get(p[b]), get(p[c])}, {u[a], u[b], u[c]}, {f[a], f[b], f[c]}},
+                       {z[a], z[b], z[c]}, sums);
     }
     return sums;
 }
 
 }  // namespace
 
-RelativeDrag relative_drag(const Shape& shape, const Motion& motion, std::span<const Vec3> water,
-                           double coefficient, double water_density) {
+RelativeDrag relative_drag(const Shape& shape, const Motion& motion,
+                           const std::function<Vec3(const Vec3&)>& water, double coefficient,
+                           double water_density) {
     RelativeDrag out;
-    const Vec3 v = ordered_transposed(motion.rotation, motion.velocity);
-    const Vec3 w = ordered_transposed(motion.rotation, motion.angular_velocity);
+    const Relative relative(ordered_transposed(motion.rotation, motion.velocity),
+                            ordered_transposed(motion.rotation, motion.angular_velocity), water);
     static thread_local std::vector<Vector> u;
     u.clear();
     double square = 0.0;
-    for (std::size_t k = 0; k < shape.mesh.vertices.size(); ++k) {
-        u.push_back((get(v) + cross(get(w), get(shape.mesh.vertices[k]))) - get(water[k]));
-        square = std::max(square, dot(u[k], u[k]));
+    for (const Vec3& vertex : shape.mesh.vertices) {
+        u.push_back(relative.at(vertex));
+        square = std::max(square, dot(u.back(), u.back()));
     }
     out.fastest = std::sqrt(square);
-    const Sums sums = integrate(shape, WaterPlane(motion.rotation, motion.height), u);
+    const Sums sums = integrate(shape, WaterPlane(motion.rotation, motion.height), relative, u);
     const double factor = -0.5 * water_density * coefficient;
     const Mat3 turn = factor * motion.rotation;
     const Vec3 force(sums.force.x / 12.0, sums.force.y / 12.0, sums.force.z / 12.0);

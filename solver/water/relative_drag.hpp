@@ -2,7 +2,8 @@
 /// Drag in water that moves: docs/method.md, section 6.
 #pragma once
 
-#include <span>
+#include <array>
+#include <functional>
 
 #include "solver/water/drag.hpp"
 
@@ -15,12 +16,19 @@ struct RelativeDrag : WaterLoad {
 };
 
 /// panel_drag() with the velocity relative to water that moves, u = v + w x r - w_water, linear
-/// between the corners of each triangle; exactly, whatever the triangles:
+/// over the quarters of each triangle that its edges' middles make, exactly:
 ///
 ///     F = -1/2 rho_w C_d int max(0, n . u) u dA,   T = int r x dF
 ///
-/// @param water  the water's velocity at the form's vertices, body axes [m/s]
-RelativeDrag relative_drag(const Shape& shape, const Motion& motion, std::span<const Vec3> water,
-                           double coefficient, double water_density);
+/// Quarters, because a flow around a bow turns within a floe's length: with whole triangles the
+/// resistance in a pre-sawn channel is 2 % higher, with sixteenths 1 % lower.
+/// @param water  the water's velocity at a point of the body, both in body axes [m/s]
+RelativeDrag relative_drag(const Shape& shape, const Motion& motion,
+                           const std::function<Vec3(const Vec3&)>& water, double coefficient,
+                           double water_density);
+
+/// A triangle's quarters by its corners 0 to 2 and the middles 3 to 5 of the edges behind them.
+constexpr std::array<std::array<std::size_t, 3>, 4> kQuarters{
+    {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}}};
 
 }  // namespace ice

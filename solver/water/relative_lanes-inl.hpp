@@ -10,6 +10,7 @@
 #include <hwy/highway.h>
 
 #include "solver/water/floating_lanes-inl.hpp"
+#include "solver/water/relative_drag.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace ice::HWY_NAMESPACE {
@@ -92,29 +93,53 @@ HWY_INLINE RelativeSums IntegratePart(const RelativeTriangles& t, Mask of) {
     return out;
 }
 
-// Over the wetted surface. @param u  at the form's vertices, relative to the water, body axes
-template <class AtVertex>
-HWY_INLINE RelativeSums IntegrateRelative(const Shape& form, const FormHeights& heights,
-                                          const AtVertex& u) {
+// Over the wetted part of quarters. @param h  how the water cuts them
+HWY_INLINE void AddWetted(const Cut& h, const RelativeTriangles& t, RelativeSums& sums) {
+    const Tag d;
+    if (hn::AllFalse(d, h.AnyInside())) return;
+    const Tip tip(h);
+    const Mask whole = CountsWhole(h, tip);
+    if (!hn::AllFalse(d, whole)) sums.AddOnly(whole, hn::Set(d, 1.0), IntegratePart(t, whole));
+    if (hn::AllFalse(d, h.any)) return;
+    sums.AddOnly(h.any, SizeOf(tip), IntegratePart(RelativeTriangles(t, h, tip), h.any));
+}
+
+// Over the wetted surface. @param u  relative to the water, body axes: at a vertex, or at a point
+template <class Relative>
+HWY_INLINE RelativeSums IntegrateRelative(const Shape& form, const Water& water,
+                                          const Relative& u) {
     const Tag d;
     RelativeSums sums;
     for (std::size_t n = 0; n < form.mesh.triangles.size(); ++n) {
-        const Cut h = CutByWater(heights.Of(n / kLanes, n % kLanes));
-        if (hn::AllFalse(d, h.AnyInside())) continue;
-        const FacetBlock& block = form.facets.blocks[n / kLanes];
-        const Vectors area = SetOf(block.area, n % kLanes);
-        RelativeTriangles t;
+        Vec3 p[6];
+        Lanes z[6], f[6];
+        Vectors at[6];
+        std::size_t corner[3];
         for (std::size_t k = 0; k < 3; ++k) {
-            const auto corner = static_cast<std::size_t>(form.mesh.triangles[n][k]);
-            t.p[k] = Set(form.mesh.vertices[corner]);
-            t.u[k] = u(corner);
-            t.f[k] = Dot(area, t.u[k]);
+            corner[k] = static_cast<std::size_t>(form.mesh.triangles[n][k]);
+            p[k] = form.mesh.vertices[corner[k]];
+            z[k] = water.HeightOf(Set(p[k]));
         }
-        const Tip tip(h);
-        const Mask whole = CountsWhole(h, tip);
-        if (!hn::AllFalse(d, whole)) sums.AddOnly(whole, hn::Set(d, 1.0), IntegratePart(t, whole));
-        if (hn::AllFalse(d, h.any)) continue;
-        sums.AddOnly(h.any, SizeOf(tip), IntegratePart(RelativeTriangles(t, h, tip), h.any));
+        if (hn::AllFalse(d, CutByWater({z[0], z[1], z[2]}).AnyInside())) continue;
+        const Vectors quarter =
+            Scale(hn::Set(d, 0.25), SetOf(form.facets.blocks[n / kLanes].area, n % kLanes));
+        for (std::size_t k = 0; k < 3; ++k) {
+            p[3 + k] = 0.5 * (p[k] + p[(k + 1) % 3]);
+            z[3 + k] = water.HeightOf(Set(p[3 + k]));
+            at[k] = u.AtVertex(corner[k]);
+            at[3 + k] = u.At(p[3 + k]);
+        }
+        for (std::size_t k = 0; k < 6; ++k) f[k] = Dot(quarter, at[k]);
+        for (const auto& [i, j, k] : kQuarters) {
+            RelativeTriangles t;
+            const std::size_t of[3] = {i, j, k};
+            for (std::size_t m = 0; m < 3; ++m) {
+                t.p[m] = Set(p[of[m]]);
+                t.u[m] = at[of[m]];
+                t.f[m] = f[of[m]];
+            }
+            AddWetted(CutByWater({z[i], z[j], z[k]}), t, sums);
+        }
     }
     return sums;
 }

@@ -84,14 +84,15 @@ TEST_CASE(
         const Mat3 rotation = turn(dice).toRotationMatrix();
         const Vec3 v = dice.vector(), w = dice.vector();
         const Motion motion{rotation, 0.3 * dice.number(), v, w};
-        std::vector<Vec3> water(shape.mesh.vertices.size(), Vec3::Zero());
-        const RelativeDrag drag = relative_drag(shape, motion, water, 1.2, 1000.0);
+        const RelativeDrag drag = relative_drag(
+            shape, motion, [](const Vec3&) -> Vec3 { return Vec3::Zero(); }, 1.2, 1000.0);
         const WaterLoad still = panel_drag(shape, motion, 1.2, 1000.0);
         CHECK((drag.force - still.force).norm() < 1e-10 * (1.0 + still.force.norm()));
         CHECK((drag.moment - still.moment).norm() < 1e-10 * (1.0 + still.moment.norm()));
         CHECK(drag.loss == Approx(-(still.force.dot(v) + still.moment.dot(w))).margin(1e-9));
-        for (std::size_t k = 0; k < water.size(); ++k)
-            water[k] = rotation.transpose() * (v + w.cross(rotation * shape.mesh.vertices[k]));
+        const auto water = [&](const Vec3& p) -> Vec3 {
+            return rotation.transpose() * (v + w.cross(rotation * p));
+        };
         const RelativeDrag none = relative_drag(shape, motion, water, 1.2, 1000.0);
         CHECK(none.force.norm() < 1e-9);
         CHECK(none.loss < 1e-9);
@@ -107,8 +108,7 @@ TEST_CASE("drag in a linear flow is the sum over small patches", "[flow][water][
     Mat3 gradient;
     for (int k = 0; k < 9; ++k) gradient(k / 3, k % 3) = dice.number();
     const Motion motion{rotation, height, v, w};
-    std::vector<Vec3> water;
-    for (const Vec3& p : shape.mesh.vertices) water.push_back(gradient * p);
+    const auto water = [&](const Vec3& p) -> Vec3 { return gradient * p; };
     const RelativeDrag drag = relative_drag(shape, motion, water, 1.0, 1000.0);
     Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
     double loss = 0.0;
