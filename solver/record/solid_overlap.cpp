@@ -133,8 +133,9 @@ double SolidOverlap::depth_in(const Scene& scene, std::int32_t b, const Vec3& p,
     return depth > least && (form.convex || form.inside.contains(p)) ? depth : least;
 }
 
-double SolidOverlap::deepest_point(const Scene& scene, std::int32_t a, std::int32_t b,
-                                   double least) const {
+SolidOverlap::Deepest SolidOverlap::deepest_point(const Scene& scene, std::int32_t a,
+                                                  std::int32_t b, const Deepest& least) const {
+    Deepest out = least;
     const Form& form = form_of(scene, a);
     const Bodies& bodies = scene.bodies;
     const Mat3 turn = bodies.rotation[b].transpose() * bodies.rotation[a];
@@ -153,12 +154,47 @@ double SolidOverlap::deepest_point(const Scene& scene, std::int32_t a, std::int3
         const Vec3 p = turn * at + shift;
         if (!target.contains(p) || (clear > 0.0 && (p - outside).norm() < clear)) continue;
         double now = 0.0;
-        least = depth_in(scene, b, p, least, now);
+        const double depth = depth_in(scene, b, p, out.depth, now);
+        if (depth > out.depth) out = {depth, bodies.position[b] + bodies.rotation[b] * p};
         if (now <= 0.0) continue;
         outside = p;
         clear = now;
     }
-    return least;
+    return out;
+}
+
+bool SolidOverlap::contains(const Scene& scene, std::int32_t body, const Vec3& point) const {
+    const Bodies& b = scene.bodies;
+    const Vec3 p = b.rotation[body].transpose() * (point - b.position[body]);
+    return shape_of(scene, body).box.contains(p) && form_of(scene, body).inside.contains(p);
+}
+
+bool SolidOverlap::lies_in(const Scene& scene, std::int32_t a, std::int32_t b) const {
+    const Bodies& bodies = scene.bodies;
+    const std::vector<Vec3>& centers = shape_of(scene, a).center;
+    return std::all_of(centers.begin(), centers.end(), [&](const Vec3& c) {
+        return contains(scene, b, bodies.position[a] + bodies.rotation[a] * c);
+    });
+}
+
+PairOverlap SolidOverlap::measure_pair(const Scene& scene, std::int32_t a, std::int32_t b) const {
+    PairOverlap out;
+    if (!parted_by(scene, a, b) && !parted_by(scene, b, a)) {
+        Deepest found = deepest_point(scene, a, b, {0.0, Vec3::Zero()});
+        found = deepest_point(scene, b, a, found);
+        out.depth = found.depth;
+        out.point = found.at;
+        out.inside = lies_in(scene, a, b) ? a : lies_in(scene, b, a) ? b : -1;
+    }
+    if (out.inside < 0) return out;
+    // of two equal bodies in one place every point is on the other's surface
+    const Shape& shape = shape_of(scene, out.inside);
+    const double radius = *std::min_element(shape.radius.begin(), shape.radius.end());
+    if (radius > out.depth) {
+        out.depth = radius;
+        out.point = scene.bodies.position[out.inside];
+    }
+    return out;
 }
 
 OverlapFound SolidOverlap::measure(const Scene& scene, const std::vector<Contact>& contacts) const {
@@ -173,7 +209,8 @@ OverlapFound SolidOverlap::measure(const Scene& scene, const std::vector<Contact
         double known = 0.0;
         for (auto c = contact; c != contacts.end() && std::pair(c->a, c->b) == pair; ++c)
             known = std::max(known, -c->gap);
-        const double depth = deepest_point(scene, b, a, deepest_point(scene, a, b, known));
+        const Deepest found = deepest_point(scene, a, b, {known, Vec3::Zero()});
+        const double depth = deepest_point(scene, b, a, found).depth;
         out.deepest = std::max(out.deepest, depth);
         if (depth - known <= out.unseen) continue;
         out.unseen = depth - known;

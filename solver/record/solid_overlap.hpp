@@ -17,6 +17,14 @@ struct OverlapFound {
     std::int32_t a = 0, b = 0;  ///< that pair
 };
 
+/// Two bodies that share room.
+struct PairOverlap {
+    double depth = 0.0;         ///< of the deepest point of either one in the other [m]
+    Vec3 point = Vec3::Zero();  ///< where that is, world axes [m]; of a depth above 0
+    std::int32_t inside =
+        -1;  ///< the body whose spheres' centres all lie in the other; -1: neither
+};
+
 /// Looks for overlaps with the bodies' meshes, without the contact finder: neither its pairs nor
 /// its gaps.
 ///
@@ -31,6 +39,12 @@ public:
 
     /// @param contacts  of these poses or of those a step before; pairs that are held are left out
     OverlapFound measure(const Scene& scene, const std::vector<Contact>& contacts) const;
+
+    /// One pair, whatever its contacts know.
+    PairOverlap measure_pair(const Scene& scene, std::int32_t a, std::int32_t b) const;
+
+    /// Does a point of the world's axes lie in a body's mesh?
+    bool contains(const Scene& scene, std::int32_t body, const Vec3& point) const;
 
 private:
     struct Point {
@@ -55,8 +69,15 @@ private:
     // b by more than this [m], where known.
     double depth_in(const Scene& scene, std::int32_t b, const Vec3& p, double least,
                     double& clear) const;
+    struct Deepest {
+        double depth;  ///< [m]
+        Vec3 at;       ///< world axes
+    };
     // The deepest of a's points in b if deeper than `least`; else `least`.
-    double deepest_point(const Scene& scene, std::int32_t a, std::int32_t b, double least) const;
+    Deepest deepest_point(const Scene& scene, std::int32_t a, std::int32_t b,
+                          const Deepest& least) const;
+    // Do the centres of all of a's spheres lie in b?
+    bool lies_in(const Scene& scene, std::int32_t a, std::int32_t b) const;
 
     std::vector<Form> forms_;  ///< of the scene's shapes
 };

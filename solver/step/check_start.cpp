@@ -9,7 +9,7 @@
 #include "common/base/error.hpp"
 #include "common/base/parallel.hpp"
 #include "common/formats/widest_spacing.hpp"
-#include "common/geometry/winding_number.hpp"
+#include "solver/record/solid_overlap.hpp"
 #include "solver/scene/ice_extent.hpp"
 #include "solver/scene/tunnelling_speed.hpp"
 #include "solver/step/unfelt_hull.hpp"
@@ -22,8 +22,7 @@ namespace {
 // edges of a deck or a transom in full-bodied hulls stay below it.
 constexpr double kWorryingUnfelt = 0.005;
 
-constexpr std::size_t kMostNamed = 5;      // pairs in a message
-constexpr std::size_t kMostMeasured = 64;  // points inside another body whose depth is taken
+constexpr std::size_t kMostNamed = 5;  // pairs in a message
 
 const Shape& shape_of(const Scene& scene, std::int32_t body) {
     return scene.shapes[static_cast<std::size_t>(scene.bodies.shape[body])];
@@ -53,64 +52,6 @@ std::vector<BodyPair> pairs_at_start(Scene& scene, const Case& parameters) {
 // Where floes lie in heaps, some of the heap's overlaps are enough: floes that do not overlap have
 // some 30 others within their bounds at most.
 std::size_t most_worth_a_look(const Scene& scene) { return 1000 + 100 * scene.bodies.size(); }
-
-// A point of a body's axes in another one's.
-Vec3 carry_over(const Bodies& b, std::int32_t from, std::int32_t to, const Vec3& p) {
-    return b.rotation[to].transpose() * (b.position[from] + b.rotation[from] * p - b.position[to]);
-}
-
-// Can a sphere's centre of `body` lie inside `other`? Boxes only.
-bool may_reach(const Scene& scene, std::int32_t body, std::int32_t other) {
-    const Shape &shape = shape_of(scene, body), &solid = shape_of(scene, other);
-    Eigen::AlignedBox3d box;
-    for (int k = 0; k < 8; ++k)
-        box.extend(carry_over(scene.bodies, body, other,
-                              shape.box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(k))));
-    return solid.box.intersects(box) &&
-           solid.box.intersection(box).sizes().minCoeff() > 0.5 * smallest_radius(shape);
-}
-
-// Tells whether points lie inside a body; of most the box tells.
-class Inside {
-public:
-    explicit Inside(const Shape& shape) : box_(shape.box), winding_(shape.mesh) {}
-    // @param p in the body's axes
-    bool contains(const Vec3& p) const { return box_.contains(p) && winding_.at(p) > 0.5; }
-
-private:
-    Eigen::AlignedBox3d box_;
-    WindingNumber winding_;
-};
-
-// How far below the surface a point inside a body lies, from the places that its spheres touch.
-double depth_below(const Shape& shape, const Vec3& p) {
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t k = 0; k < shape.center.size(); ++k)
-        least = std::min(least,
-                         (shape.center[k] + shape.radius[k] * shape.normal[k] - p).squaredNorm());
-    return std::sqrt(least);
-}
-
-// Spheres of `body` whose centres lie inside `other`: found deepest where they are.
-void find_spheres_inside(const Scene& scene, std::int32_t body, std::int32_t other,
-                         const Inside& solid, StartOverlap& found) {
-    if (!may_reach(scene, body, other)) return;
-    const Shape& shape = shape_of(scene, body);
-    std::vector<std::size_t> inside;
-    for (std::size_t k = 0; k < shape.center.size(); ++k)
-        if (solid.contains(carry_over(scene.bodies, body, other, shape.center[k])))
-            inside.push_back(k);
-    if (inside.size() == shape.center.size()) found.inside = body;
-    const std::size_t stride = inside.size() / kMostMeasured + 1;
-    for (std::size_t n = 0; n < inside.size(); n += stride) {
-        const std::size_t k = inside[n];
-        const Vec3 p = carry_over(scene.bodies, body, other, shape.center[k]);
-        const double depth = depth_below(shape_of(scene, other), p) + shape.radius[k];
-        if (depth <= found.depth) continue;
-        found.depth = depth;
-        found.point = scene.bodies.position[other] + scene.bodies.rotation[other] * p;
-    }
-}
 
 std::string name_of(std::int32_t body) {
     return body == 0 ? std::string("the hull") : fmt::format("floe {}", body);
@@ -201,18 +142,13 @@ void warn_of_speed(const World& w, std::vector<Warning>& warnings) {
 
 std::vector<StartOverlap> find_start_overlaps(Scene& scene, const Case& parameters) {
     std::vector<BodyPair> pairs = pairs_at_start(scene, parameters);
-    std::vector<Inside> solids;
-    for (const Shape& shape : scene.shapes) solids.emplace_back(shape);
+    const SolidOverlap solids(scene);
     pairs.resize(std::min(pairs.size(), most_worth_a_look(scene)));
     std::vector<StartOverlap> found(pairs.size());
-    const auto solid_of = [&](std::int32_t i) -> const Inside& {
-        return solids[static_cast<std::size_t>(scene.bodies.shape[i])];
-    };
     parallel_for(pairs.size(), 2, [&](std::size_t k) {
         const auto [a, b] = pairs[k];
-        found[k] = {a, b, 0.0, Vec3::Zero()};
-        find_spheres_inside(scene, a, b, solid_of(b), found[k]);
-        find_spheres_inside(scene, b, a, solid_of(a), found[k]);
+        const PairOverlap pair = solids.measure_pair(scene, a, b);
+        found[k] = {a, b, pair.depth, pair.point, pair.inside};
     });
 
     std::vector<Contact> contacts;
@@ -221,11 +157,9 @@ std::vector<StartOverlap> find_start_overlaps(Scene& scene, const Case& paramete
     for (const Contact& c : contacts) {
         while (found[k].a != c.a || found[k].b != c.b) ++k;  // both in the order of the pairs
         // planes of faces go on beyond the corner where faces end: there a gap below zero is none
-        const auto holds = [&](std::int32_t i) {
-            return solid_of(i).contains(scene.bodies.rotation[i].transpose() *
-                                        (c.point - scene.bodies.position[i]));
-        };
-        if (-c.gap <= found[k].depth || !holds(c.a) || !holds(c.b)) continue;
+        if (-c.gap <= found[k].depth || !solids.contains(scene, c.a, c.point) ||
+            !solids.contains(scene, c.b, c.point))
+            continue;
         found[k].depth = -c.gap;
         found[k].point = c.point;
     }

@@ -20,9 +20,9 @@ struct StartOverlap {
 /// All pairs of bodies that overlap by more than kToleratedOverlap, the deepest first. The spheres
 /// add nothing to it: they stay within their solid to 1e-6 of the radius.
 ///
-/// Surfaces are compared as in a step, and, since a body deep inside another one meets no surface
-/// there, spheres of each body with the other one's solid. Floes that are held count, too; unbroken
-/// ice (hold "always") may overlap unbroken ice.
+/// Surfaces are compared as in a step, and the solids as a run looks at them
+/// (record/solid_overlap.hpp), since a body deep inside another one meets no surface there. Floes
+/// that are held count, too; unbroken ice (hold "always") may overlap unbroken ice.
 /// @param scene  unchanged at the end
 std::vector<StartOverlap> find_start_overlaps(Scene& scene, const Case& parameters);
 
