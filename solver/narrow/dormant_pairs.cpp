@@ -6,8 +6,8 @@
 #include <numbers>
 #include <utility>
 
-#include "solver/narrow/deep_pairs.hpp"
 #include "solver/narrow/separation.hpp"
+#include "solver/narrow/solid_contacts.hpp"
 
 namespace ice {
 
@@ -75,8 +75,7 @@ void DormantPairs::remind(Row& row, BodyPair pair, const Travel& travel, double 
                           double turned) {
     const double now = travel.way(pair.a) + travel.way(pair.b);
     // what lies deep in each other has contacts even where no spheres may touch
-    row.soon_wake =
-        row.deep ? -std::numeric_limits<double>::infinity() : now + row.free - gone;
+    row.soon_wake = row.deep ? -std::numeric_limits<double>::infinity() : now + row.free - gone;
     row.soon_unknown = now + row.leeway.distance - gone;
     row.turn_unknown = travel.turn(pair.a) + travel.turn(pair.b) + row.leeway.angle - turned;
 }

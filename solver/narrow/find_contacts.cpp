@@ -7,14 +7,13 @@
 #include <numeric>
 
 #include "common/base/parallel.hpp"
-#include "solver/narrow/deep_pairs.hpp"
 #include "solver/narrow/emit_centres.hpp"
 #include "solver/narrow/emit_contacts.hpp"
-#include "solver/narrow/emit_polygon.hpp"
 #include "solver/narrow/measure_spheres.hpp"
 #include "solver/narrow/one_per_face.hpp"
 #include "solver/narrow/search_pair.hpp"
 #include "solver/narrow/separation.hpp"
+#include "solver/narrow/solid_contacts.hpp"
 #include "solver/narrow/thread_batch.hpp"
 
 namespace ice {

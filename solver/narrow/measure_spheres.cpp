@@ -5,9 +5,9 @@
 #include <optional>
 #include <tuple>
 
+#include "solver/narrow/gap_rule.hpp"
 #include "solver/narrow/kind_bound.hpp"
 #include "solver/narrow/kind_pair.hpp"
-#include "solver/narrow/within_borders.hpp"
 
 namespace ice {
 
@@ -47,6 +47,45 @@ private:
     double near_sq_ = 0.0;
     Vec3 center_a_, center_b_;
 };
+
+double slack_of(const Shape& shape, std::int32_t sphere, const Gap& gap) {
+    return kBeyond * shape.radius[sphere] + std::max(gap.gap, 0.0);
+}
+
+// Is the point, in a's axes, on what a's or b's sphere stands for?
+bool a_holds(const PairView& view, std::int32_t i, const Gap& gap, const Vec3& point) {
+    return view.shape_a.borders.hold(i, point, slack_of(view.shape_a, i, gap));
+}
+bool b_holds(const PairView& view, std::int32_t j, const Gap& gap, const Vec3& point) {
+    return view.shape_b.borders.hold(j, view.to_b(point), slack_of(view.shape_b, j, gap));
+}
+
+bool edges_hold(const PairView& view, std::int32_t i, std::int32_t j, const Gap& gap) {
+    const Vec3 point_a = view.support_a(i, gap.normal), point_b = view.support_b(j, -gap.normal);
+    const Vec3 edge_a = view.shape_a.faces[i].edge(gap.edge_a);
+    const Vec3 edge_b = view.turn * view.shape_b.faces[j].edge(gap.edge_b);
+    const Crossing at = find_crossing(point_a, edge_a, point_b, edge_b);
+    return (!view.shape_a.borders.has(i) || a_holds(view, i, gap, point_a + at.along_a * edge_a)) &&
+           (!view.shape_b.borders.has(j) || b_holds(view, j, gap, point_b + at.along_b * edge_b));
+}
+
+// Do spheres i of a and j of b meet on what there is of their faces and edges (FaceBorders)?
+//
+// A face is asked about the probe's foremost point, where two edges cross each edge about the
+// point on it. What has not touched yet may be past a border by its gap: it may come from beside.
+bool is_within_borders(const PairView& view, std::int32_t i, std::int32_t j, const Gap& gap) {
+    if (gap.crossing) {
+        if (!view.shape_a.borders.has(i) && !view.shape_b.borders.has(j)) return true;
+        return edges_hold(view, i, j, gap);
+    }
+    // the probe's point itself where it is inside, else below it on the face
+    const Vec3 rise = std::max(gap.gap, 0.0) * gap.normal;
+    if (gap.a_is_surface)
+        return !view.shape_a.borders.has(i) ||
+               a_holds(view, i, gap, view.support_b(j, -gap.normal) - rise);
+    return !view.shape_b.borders.has(j) ||
+           b_holds(view, j, gap, view.support_a(i, gap.normal) + rise);
+}
 
 }  // namespace
 

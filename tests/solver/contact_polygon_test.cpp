@@ -10,7 +10,7 @@
 #include <numbers>
 #include <set>
 
-#include "solver/narrow/deep_pairs.hpp"
+#include "solver/narrow/solid_contacts.hpp"
 #include "solver/narrow/find_contacts.hpp"
 #include "tests/support/make_prisms.hpp"
 #include "tests/support/make_worlds.hpp"

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+/// Contacts of two convex bodies as solids: all that floes have which cannot be crushed, and those
+/// of deep pairs, whose spheres have passed each other.
 #pragma once
 
 #include <span>
@@ -22,5 +24,21 @@ const ContactPolygon& find_polygon(const PairView& view, const SeparatingAxes& a
 /// have no spheres and no share; else those of the nearest spheres, b's ice giving way.
 void emit_polygon(const PairView& view, const ContactRule& rule, const Vec3& normal,
                   std::span<const PolygonCorner> corners, Contact* out);
+
+/// Do two convex solids overlap so far that their spheres may have passed each other?
+///
+/// Spheres find each other within about two radii; deeper pairs are found as solids.
+/// @param apart  [m] their separation (separation.hpp)
+bool is_deep(const PairView& view, double apart);
+
+/// The polygon in which a deep pair meets, within `most` [m], where its spheres' contacts do not
+/// tell of it: the least of their gaps is more than the separation by half a radius, crushed ice
+/// left out; null otherwise. Valid until the thread's next question.
+/// @pre is_deep() @param found  the contacts of the spheres
+const ContactPolygon* find_lost_polygon(const PairView& view, std::span<const Candidate> found,
+                                        double most);
+
+/// The surface sphere nearest to a point in the shape's axes.
+std::int32_t nearest_sphere(const Shape& shape, const Vec3& point);
 
 }  // namespace ice

@@ -1,14 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "solver/narrow/emit_polygon.hpp"
+#include "solver/narrow/solid_contacts.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <tuple>
 
-#include "solver/narrow/deep_pairs.hpp"
 #include "solver/narrow/emit_contacts.hpp"
 
 namespace ice {
+
+namespace {
+
+// A pair is deep from this share of the ice's radius on, and its spheres' contacts may be less deep
+// than the solids by as much. Less asks more pairs; from two radii on spheres miss each other.
+constexpr double kDeep = 0.5;
+
+double slack_of(const PairView& view) { return kDeep * view.shape_b.largest_radius; }
+
+}  // namespace
 
 bool meets_in_polygon(const Scene& scene, BodyPair pair, const ContactRule& rule) {
     if (rule.normal != NormalRule::surface || rule.crushes) return false;
@@ -60,6 +69,38 @@ void emit_polygon(const PairView& view, const ContactRule& rule, const Vec3& nor
         contact.gap += crushed_depth(view, contact.sphere_b, normal);
         contact.patch = ice_patch(view, contact.sphere_b, normal, contact.gap);
     }
+}
+
+bool is_deep(const PairView& view, double apart) {
+    return !view.shape_a.convex.empty() && !view.shape_b.convex.empty() && apart < -slack_of(view);
+}
+
+const ContactPolygon* find_lost_polygon(const PairView& view, std::span<const Candidate> found,
+                                        double most) {
+    const SeparatingAxes axes =
+        find_axes(view.shape_a.convex, view.shape_b.convex, {view.turn, view.shift}, 0.0);
+    double least = 0.0;
+    for (const Candidate& c : found) least = std::min(least, c.gap.gap);
+    const double crushed =
+        view.scene.crushed.deepest_of(view.pair.a) + view.scene.crushed.deepest_of(view.pair.b);
+    if (axes.widest() + crushed + slack_of(view) >= least) return nullptr;
+    const ContactPolygon& polygon = find_polygon(view, axes, most);
+    return polygon.corners.empty() ? nullptr : &polygon;
+}
+
+std::int32_t nearest_sphere(const Shape& shape, const Vec3& point) {
+    std::int32_t nearest = 0;
+    const auto key = [&](std::int32_t k) {
+        const auto row = static_cast<std::size_t>(k);
+        return std::tuple((shape.center[row] - point).squaredNorm(), shape.mirror_rank[row], k);
+    };
+    auto least = key(0);
+    for (std::int32_t k = 1; k < std::ssize(shape.center); ++k)
+        if (const auto now = key(k); now < least) {
+            least = now;
+            nearest = k;
+        }
+    return nearest;
 }
 
 }  // namespace ice
