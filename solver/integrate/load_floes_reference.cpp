@@ -29,10 +29,10 @@ void limit_drag(const Bodies& b, std::size_t i, double radius, double dt, Relati
         drag.force *= stop / push;
         drag.loss = drag.loss * (stop / push);
     }
-    const double halt =
+    const double turning =
         length(ordered_turned(b.rotation[i], b.inertia(i), b.angular_velocity[i])) + radius * stop;
     const double twist = dt * length(drag.moment);
-    if (twist > halt) drag.moment *= halt / twist;
+    if (twist > turning) drag.moment *= turning / twist;
 }
 
 // In 2D the plane's other components are rounding only; they must not add up over a run.
