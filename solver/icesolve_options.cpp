@@ -18,6 +18,8 @@ void declare_new(CLI::App& app, Options& o) {
                                  "ice field (.h5, or specification .toml), and what they lack")
                       ->type_name("HULL [FIELD]")
                       ->expected(1, 2);
+    for (const char* of_run : {"--set", "--out", "--seeds", "--restart"})  // --new runs nothing
+        fresh->excludes(app.get_option(of_run));
     app.add_option("-o", o.fresh_case, "With --new: the case file (default HULL-stem.cfg)")
         ->type_name("CASE.cfg")
         ->needs(fresh);
