@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// What the programs share on the command line: messages, exit codes, Ctrl-C.
+/// Messages, exit codes and Ctrl-C, the same for all programs.
 #pragma once
 
 #include <filesystem>

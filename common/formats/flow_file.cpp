@@ -15,7 +15,7 @@ namespace {
 
 constexpr const char* kFormat = "icesolve-flow";
 constexpr std::int64_t kVersion = 1;
-constexpr std::uint64_t kMostTimes = 16;      // read over what is stored, which is not compressed
+constexpr std::uint64_t kMostTimes = 16;      // memory over file size; arrays are not compressed
 constexpr std::uint64_t kMostAlong = 100000;  // nodes along an axis
 constexpr double kSurface = 1e-6;  // of the spacing: how near to z = 0 the topmost nodes lie
 

@@ -9,6 +9,7 @@
 
 #include "common/base/error.hpp"
 #include "common/base/parallel.hpp"
+#include "solver/flow/flow_residual.hpp"
 #include "solver/flow/own_functions.hpp"
 
 namespace ice {
@@ -55,24 +56,9 @@ void check_flow(LineFlow& flow) {
     std::vector<Vec3> points;
     for (const SourceLine& line : flow.lines)
         for (const double share : {0.25, 0.5, 0.75}) points.push_back(point_on(line, share));
-    const auto samples = flow_at(flow, points);
-    double squares = 0.0, length = 0.0, net = 0.0, all = 0.0;
-    for (std::size_t j = 0; j < flow.lines.size(); ++j) {
-        const SourceLine& line = flow.lines[j];
-        for (std::size_t q = 3 * j; q < 3 * j + 3; ++q) {
-            const double off = std::abs((samples[q].velocity - Vec3::UnitX()).dot(line.normal));
-            squares += line.length * off * off;
-            length += line.length;
-            if (off > flow.worst) {
-                flow.worst = off;
-                flow.worst_place = points[q];
-            }
-        }
-        net += flow.strength[j] * line.length;
-        all += std::abs(flow.strength[j] * line.length);
-    }
-    flow.residual = std::sqrt(squares / length);
-    flow.net_flux = all > 0.0 ? net / all : 0.0;
+    set_residual(
+        flow, flow.lines, [](const SourceLine& line) { return line.length; }, Vec3::UnitX(),
+        points);
 }
 
 }  // namespace

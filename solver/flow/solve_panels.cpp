@@ -9,6 +9,7 @@
 
 #include "common/base/error.hpp"
 #include "common/base/parallel.hpp"
+#include "solver/flow/flow_residual.hpp"
 
 namespace ice {
 
@@ -56,24 +57,8 @@ void check_flow(const Vec3& direction, PanelFlow& flow) {
     std::vector<Vec3> points;
     for (const SourcePanel& p : flow.body.panels)
         for (const Vec3& at : check_points(p)) points.push_back(at);
-    const auto samples = flow_at(flow, points);
-    double squares = 0.0, area = 0.0, net = 0.0, all = 0.0;
-    for (std::size_t j = 0; j < flow.body.panels.size(); ++j) {
-        const SourcePanel& p = flow.body.panels[j];
-        for (std::size_t q = 3 * j; q < 3 * j + 3; ++q) {
-            const double off = std::abs((samples[q].velocity - direction).dot(p.normal));
-            squares += p.area * off * off;
-            area += p.area;
-            if (off > flow.worst) {
-                flow.worst = off;
-                flow.worst_place = points[q];
-            }
-        }
-        net += flow.strength[j] * p.area;
-        all += std::abs(flow.strength[j] * p.area);
-    }
-    flow.residual = std::sqrt(squares / area);
-    flow.net_flux = all > 0.0 ? net / all : 0.0;
+    set_residual(
+        flow, flow.body.panels, [](const SourcePanel& p) { return p.area; }, direction, points);
 }
 
 }  // namespace

@@ -46,4 +46,18 @@ struct Cut {
     bool counts_whole() const { return any ? !tip_is_inside() : inside[0]; }
 };
 
+/// Sums over the part of a triangle where the flow t.f comes from outside.
+/// @param whole  sums over all of a triangle; those with the tip's geometry count by its share
+/// @param tip_of the triangle at the apex that the cut leaves
+template <class Sums, class Triangle, class Whole, class Tip>
+Sums integrate_facing(const Triangle& t, const Whole& whole, const Tip& tip_of) {
+    const Cut cut(t.f, {t.f[0] > 0.0, t.f[1] > 0.0, t.f[2] > 0.0});
+    Sums out;
+    if (cut.counts_whole()) out.add(1.0, whole(t));
+    if (!cut.any) return out;
+    const double size = cut.part(1) * cut.part(2);
+    out.add(cut.tip_is_inside() ? size : -size, whole(tip_of(t, cut)));
+    return out;
+}
+
 }  // namespace ice::reference

@@ -67,13 +67,9 @@ Sums integrate_whole(const Triangle& t) {
 
 // Over the part where the water comes from outside.
 Sums integrate_part(const Triangle& t) {
-    const Cut cut(t.f, {t.f[0] > 0.0, t.f[1] > 0.0, t.f[2] > 0.0});
-    Sums out;
-    if (cut.counts_whole()) out.add(1.0, integrate_whole(t));
-    if (!cut.any) return out;
-    const double size = cut.part(1) * cut.part(2);
-    out.add(cut.tip_is_inside() ? size : -size, integrate_whole(tip_of(t, cut)));
-    return out;
+    return integrate_facing<Sums>(
+        t, [](const Triangle& all) { return integrate_whole(all); },
+        [](const Triangle& all, const Cut& cut) { return tip_of(all, cut); });
 }
 
 // What the motion is relative to the water at points of the body.

@@ -103,13 +103,9 @@ Facing integrate_whole(const Triangle& t) {
 
 // Over the part where the flow comes from outside.
 Facing integrate_part(const Triangle& t) {
-    const Cut cut(t.f, {t.f[0] > 0.0, t.f[1] > 0.0, t.f[2] > 0.0});
-    Facing out;
-    if (cut.counts_whole()) out.add(1.0, integrate_whole(t));
-    if (!cut.any) return out;
-    const double size = cut.part(1) * cut.part(2);
-    out.add(cut.tip_is_inside() ? size : -size, integrate_whole(tip_of(t, cut)));
-    return out;
+    return integrate_facing<Facing>(
+        t, [](const Triangle& all) { return integrate_whole(all); },
+        [](const Triangle& all, const Cut& cut) { return tip_of(all, cut); });
 }
 
 }  // namespace
