@@ -19,7 +19,8 @@ usage() {
 usage: ./bootstrap.sh COMMAND
   deps   installs the Debian packages that are missing (as root or with sudo)
   build  deps, then the programs: build/release/bin/{spherize,icefield,iceflow,icesolve,icepost}
-  demo   build, then the paper's 3D case at three speeds: resistance curve and report
+  demo   deps, the programs it runs (spherize, icesolve, icepost), then the paper's 3D case at three
+         speeds: resistance curve and report
   test   build with the tests, then the whole test suite (CI=true: compiler warnings are errors)
 END
 }
@@ -67,10 +68,13 @@ preset() {
     [[ ${CI:-} == true ]] && echo ci || echo release
 }
 
-# $1: ON with the tests and benches, which take longer to compile than the programs
+# $1: ON with the tests and benches, which take longer to compile than the programs; then the
+# programs to build, all where none is named
 build_programs() {
-    cmake --preset "$(preset)" -DICE_TESTS="$1"
-    cmake --build --preset "$(preset)" --parallel "$(job_count)"
+    local tests=$1
+    shift
+    cmake --preset "$(preset)" -DICE_TESTS="$tests"
+    cmake --build --preset "$(preset)" --parallel "$(job_count)" --target "${@:-all}"
 }
 
 run_tests() {
@@ -100,8 +104,9 @@ case $1 in
         ;;
     demo)
         install_packages "${packages[@]}"
-        build_programs OFF
+        build_programs OFF spherize icesolve icepost
         cases/demo.sh
+        echo "next     ./bootstrap.sh build: icefield and iceflow as well"
         ;;
     test)
         # another source's Node has its own npm, which Debian's package would replace

@@ -23,3 +23,12 @@ foreach(library IN ITEMS Eigen3::Eigen fmt::fmt spdlog::spdlog CLI11::CLI11 nloh
     endif()
   endif()
 endforeach()
+
+# ice_kernels(TARGET): its SIMD kernels are compiled for AVX-512, AVX2, SSE4 and one number at a time
+# (common/base/instruction_set.hpp); Highway's further set, SSSE3, is that of processors before 2008.
+function(ice_kernels target)
+  get_target_property(sources ${target} SOURCES)
+  list(FILTER sources INCLUDE REGEX "_simd\\.cpp$")
+  set_source_files_properties(${sources} PROPERTIES
+    COMPILE_DEFINITIONS HWY_DISABLED_TARGETS=HWY_SSSE3)
+endfunction()

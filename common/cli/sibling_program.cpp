@@ -35,12 +35,25 @@ std::optional<int> run_child(const std::string& program, const std::vector<std::
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-std::optional<int> run_sibling(const std::string& name, const std::vector<std::string>& words) {
+namespace {
+
+// Empty where the system does not tell this program's own file.
+std::string path_of_sibling(const std::string& name) {
     std::error_code error;
     const auto own = std::filesystem::read_symlink("/proc/self/exe", error);
-    if (error) return std::nullopt;
-    const std::string program = (own.parent_path() / name).string();
-    return access(program.c_str(), X_OK) == 0 ? run_child(program, words) : std::nullopt;
+    return error ? "" : (own.parent_path() / name).string();
+}
+
+}  // namespace
+
+bool has_sibling(const std::string& name) {
+    const std::string program = path_of_sibling(name);
+    return !program.empty() && access(program.c_str(), X_OK) == 0;
+}
+
+std::optional<int> run_sibling(const std::string& name, const std::vector<std::string>& words) {
+    if (!has_sibling(name)) return std::nullopt;
+    return run_child(path_of_sibling(name), words);
 }
 
 }  // namespace ice

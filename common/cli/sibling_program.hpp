@@ -15,6 +15,9 @@ namespace ice {
 /// @return its exit code, 128 + the signal that ended it; nothing when there is no such program
 std::optional<int> run_sibling(const std::string& name, const std::vector<std::string>& words);
 
+/// Whether that program lies there.
+bool has_sibling(const std::string& name);
+
 /// Runs a program, given by its path or found on the PATH, and waits. Interrupts that this program
 /// catches meanwhile are passed on (console.hpp), so that none is left behind.
 /// @return its exit code, 128 + the signal that ended it; nothing when it cannot be started

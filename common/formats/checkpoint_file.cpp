@@ -3,17 +3,14 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <bit>
-#include <cstring>
-#include <fstream>
 #include <type_traits>
 
 #include "common/base/error.hpp"
 #include "common/base/part_file.hpp"
-#include "common/base/state_hash.hpp"
 #include "common/base/version.hpp"
 #include "common/formats/hdf5_file.hpp"
+#include "common/formats/seal.hpp"
 
 namespace ice {
 
@@ -21,7 +18,6 @@ namespace {
 
 constexpr const char* kFormat = "icesolve-checkpoint";
 constexpr std::int64_t kFormatVersion = 1;
-constexpr std::uintmax_t kSealLength = 16;
 constexpr const char* kStartAnew = "restart from another checkpoint, or run the case anew";
 
 // How a T is stored: as `width` values of type Base.
@@ -59,48 +55,12 @@ struct Flat<Eigen::Quaterniond> {
     static Eigen::Quaterniond take(const Base* in) { return {in[0], in[1], in[2], in[3]}; }
 };
 
-// Hash of the first `length` bytes, 8 at a time, the last ones padded with zeros.
-std::string hash_of(const std::filesystem::path& path, std::uintmax_t length) {
-    std::ifstream in(path, std::ios::binary);
-    StateHash hash;
-    hash.add(std::uint64_t{length});
-    std::array<char, 1 << 16> block;
-    while (length > 0 && in) {
-        const auto count = std::min<std::uintmax_t>(length, block.size());
-        block.fill('\0');
-        in.read(block.data(), static_cast<std::streamsize>(count));
-        for (std::size_t k = 0; k < count; k += sizeof(std::uint64_t)) {
-            std::uint64_t word = 0;
-            std::memcpy(&word, block.data() + k, sizeof word);
-            hash.add(word);
-        }
-        length -= count;
-    }
-    return fmt::format("{:016x}", hash.value());
-}
-
-void add_seal(const std::filesystem::path& path) {
-    const std::string seal = hash_of(path, std::filesystem::file_size(path));
-    std::ofstream out(path, std::ios::binary | std::ios::app);
-    out << seal;
-    out.close();
-    if (!out)
-        throw run_failed(path.string(), "cannot be completed", "check that the disk is not full");
-}
-
 // Before HDF5 looks at it, which trusts what it reads.
 void check_seal(const std::filesystem::path& path) {
     std::error_code error;
     if (!std::filesystem::is_regular_file(path, error))
         throw bad_input(path.string(), "checkpoint not found", "check the path");
-    const std::uintmax_t size = std::filesystem::file_size(path, error);
-    std::string seal(kSealLength, ' ');
-    std::ifstream in(path, std::ios::binary);
-    if (!error && size > kSealLength) {
-        in.seekg(static_cast<std::streamoff>(size - kSealLength));
-        in.read(seal.data(), kSealLength);
-    }
-    if (size <= kSealLength || !in || seal != hash_of(path, size - kSealLength))
+    if (!has_right_seal(path))
         throw bad_input(path.string(), "is not a checkpoint of icesolve, or is damaged",
                         kStartAnew);
 }

@@ -2,10 +2,10 @@
 // Writing; field_reader.cpp reads.
 #include "common/formats/field_file.hpp"
 
-#include "common/base/part_file.hpp"
 #include "common/formats/field_arrays.hpp"
 #include "common/formats/flatten.hpp"
 #include "common/formats/hdf5_file.hpp"
+#include "common/formats/sealed_file.hpp"
 
 namespace ice {
 
@@ -95,24 +95,22 @@ void write_floes(Hdf5File& file, const std::vector<FieldFloe>& floes) {
 void write_field(const std::filesystem::path& path, const Field& field) {
     FieldArrays all;
     for (const SphereSet& shape : field.shapes) add_shape(shape, all);
-    PartFile part(path);
-    Hdf5File file(part.path(), Hdf5File::Mode::create);
-    file.write_attribute("/", "format", std::string(detail::kFieldFormat));
-    file.write_attribute("/", "format_version", detail::kFieldVersion);
-    file.write_attribute("/", "units", std::string("SI"));
-    file.write_attribute("/", "radius", {field.radius}, {});
-    file.write_attribute("/", "spacing", {field.spacing}, {});
-    file.write_attribute("/", "mode", field.mode);
-    file.write_attribute("/", "area", {field.area.begin(), field.area.end()}, {4});
-    file.write_attribute("/", "concentration", {field.concentration}, {});
-    file.write_attribute("/", "specification", field.specification);
-    file.write_attribute("/", "seed", field.seed);
-    file.write_attribute("/", "created_by", field.created_by);
-    file.write_attribute("/", "command_line", field.command_line);
-    write_floes(file, field.floes);
-    write_arrays(file, all);
-    file.close();
-    part.keep();
+    write_sealed(path, [&](Hdf5File& file) {
+        file.write_attribute("/", "format", std::string(detail::kFieldFormat));
+        file.write_attribute("/", "format_version", detail::kFieldVersion);
+        file.write_attribute("/", "units", std::string("SI"));
+        file.write_attribute("/", "radius", {field.radius}, {});
+        file.write_attribute("/", "spacing", {field.spacing}, {});
+        file.write_attribute("/", "mode", field.mode);
+        file.write_attribute("/", "area", {field.area.begin(), field.area.end()}, {4});
+        file.write_attribute("/", "concentration", {field.concentration}, {});
+        file.write_attribute("/", "specification", field.specification);
+        file.write_attribute("/", "seed", field.seed);
+        file.write_attribute("/", "created_by", field.created_by);
+        file.write_attribute("/", "command_line", field.command_line);
+        write_floes(file, field.floes);
+        write_arrays(file, all);
+    });
 }
 
 }  // namespace ice

@@ -31,7 +31,8 @@ namespace ice {
 /// @throws Error (exit code 1) when the file cannot be written; nothing half-written stays behind.
 void write_field(const std::filesystem::path& path, const Field& field);
 
-/// Reads and checks a field: format, lengths, ranges, finite numbers, unit normals.
+/// Reads and checks a field: format, lengths, ranges, finite numbers, unit normals, the seal
+/// (sealed_file.hpp), each shape's solid and shares against its mesh (sphere_set_faults.hpp).
 /// @throws Error (exit code 2) naming the file and the dataset.
 Field read_field(const std::filesystem::path& path);
 

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "common/base/error.hpp"
@@ -6,6 +8,8 @@
 #include "common/formats/field_arrays.hpp"
 #include "common/formats/field_file.hpp"
 #include "common/formats/hdf5_file.hpp"
+#include "common/formats/sealed_file.hpp"
+#include "common/formats/sphere_set_faults.hpp"
 
 namespace ice {
 
@@ -27,6 +31,7 @@ public:
     Field read() {
         Field field;
         read_header(field);
+        refuse_changed(path_, file_, "icefield");
         read_all();
         check(!all_.spheres.empty(), "/shape/spheres", "is empty");
         for (std::size_t k = 0; k < all_.spheres.size(); ++k)
@@ -151,6 +156,8 @@ private:
         set.regions.assign(set.surface_count, 0);
         take_creases(static_cast<std::size_t>(all_.creases[k]), set);
         take_solid(k, set);
+        const std::string fault = fault_of(set);
+        check(fault.empty(), "/shape", fmt::format("has, of shape {}, {}", k, fault));
         return set;
     }
 

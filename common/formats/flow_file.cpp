@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "common/base/error.hpp"
-#include "common/base/part_file.hpp"
 #include "common/base/rehearse.hpp"
 #include "common/formats/hdf5_file.hpp"
+#include "common/formats/sealed_file.hpp"
 
 namespace ice {
 
@@ -32,6 +32,7 @@ public:
               "/", "is not a flow (no attribute format = \"icesolve-flow\")");
         check(number("format_version") == kVersion, "/",
               "has a format_version this program does not know");
+        refuse_changed(path_, file_, "iceflow");
         FlowTable out;
         const auto shape = file_.shape("/velocity");
         check(shape.size() == 4 && shape[3] == 3, "/velocity", "is not [nz, ny, nx, 3]");
@@ -99,26 +100,26 @@ private:
 }  // namespace
 
 void write_flow(const std::filesystem::path& path, const FlowTable& table) {
-    PartFile part(path);
-    Hdf5File file(part.path(), Hdf5File::Mode::create);
-    file.write_attribute("/", "format", std::string(kFormat));
-    file.write_attribute("/", "format_version", kVersion);
-    file.write_attribute("/", "units", std::string("SI"));
-    file.write_attribute("/", "origin", {table.origin.begin(), table.origin.end()}, {3});
-    file.write_attribute("/", "spacing", {table.spacing}, {});
-    file.write_attribute("/", "draught", {table.draught}, {});
-    file.write_attribute("/", "symmetric", std::int64_t{table.symmetric});
-    file.write_attribute("/", "source_sha256", table.source_sha256);
-    file.write_attribute("/", "panels", table.panels);
-    file.write_attribute("/", "residual", {table.residual}, {});
-    file.write_attribute("/", "reference_speed", {table.reference_speed}, {});
-    file.write_attribute("/", "created_by", table.created_by);
-    file.write_attribute("/", "command_line", table.command_line);
-    const auto n = [&](std::size_t axis) { return static_cast<std::uint64_t>(table.nodes[axis]); };
-    file.write("/velocity", table.velocity.data(), {n(2), n(1), n(0), 3});
-    file.write("/potential", table.potential.data(), {n(2), n(1), n(0)});
-    file.close();
-    part.keep();
+    write_sealed(path, [&](Hdf5File& file) {
+        file.write_attribute("/", "format", std::string(kFormat));
+        file.write_attribute("/", "format_version", kVersion);
+        file.write_attribute("/", "units", std::string("SI"));
+        file.write_attribute("/", "origin", {table.origin.begin(), table.origin.end()}, {3});
+        file.write_attribute("/", "spacing", {table.spacing}, {});
+        file.write_attribute("/", "draught", {table.draught}, {});
+        file.write_attribute("/", "symmetric", std::int64_t{table.symmetric});
+        file.write_attribute("/", "source_sha256", table.source_sha256);
+        file.write_attribute("/", "panels", table.panels);
+        file.write_attribute("/", "residual", {table.residual}, {});
+        file.write_attribute("/", "reference_speed", {table.reference_speed}, {});
+        file.write_attribute("/", "created_by", table.created_by);
+        file.write_attribute("/", "command_line", table.command_line);
+        const auto n = [&](std::size_t axis) {
+            return static_cast<std::uint64_t>(table.nodes[axis]);
+        };
+        file.write("/velocity", table.velocity.data(), {n(2), n(1), n(0), 3});
+        file.write("/potential", table.potential.data(), {n(2), n(1), n(0)});
+    });
 }
 
 FlowTable read_flow(const std::filesystem::path& path) {

@@ -43,7 +43,7 @@ struct FlowTable {
 void write_flow(const std::filesystem::path& path, const FlowTable& table);
 
 /// Reads and checks a table: format and version, sizes, finite numbers, two nodes or more along x
-/// and z, topmost nodes in the water's surface.
+/// and z, topmost nodes in the water's surface, the seal (sealed_file.hpp).
 /// @throws Error (exit code 2) naming the file and the dataset
 FlowTable read_flow(const std::filesystem::path& path);
 

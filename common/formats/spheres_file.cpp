@@ -5,10 +5,11 @@
 #include <cmath>
 
 #include "common/base/error.hpp"
-#include "common/base/part_file.hpp"
 #include "common/base/rehearse.hpp"
 #include "common/formats/flatten.hpp"
 #include "common/formats/hdf5_file.hpp"
+#include "common/formats/sealed_file.hpp"
+#include "common/formats/sphere_set_faults.hpp"
 
 namespace ice {
 
@@ -59,10 +60,13 @@ public:
     SphereSet read() {
         SphereSet set;
         read_header(set);
+        refuse_changed(path_, file_, "spherize");
         read_solid(set.solid);
         set.mesh.region_names = file_.read_strings("/region_names");
         read_mesh(set.mesh);
         read_arrays(set);
+        const std::string fault = fault_of(set);
+        check(fault.empty(), "/", "has " + fault);
         return set;
     }
 
@@ -279,12 +283,7 @@ void write_arrays(Hdf5File& file, const SphereSet& set) {
     file.write("/crease/normal", flatten<float>(crease_normals).data(), {crease_normals.size(), 3});
 }
 
-}  // namespace
-
-void write_spheres(const std::filesystem::path& path, const SphereSet& set,
-                   SpheresReport certificate) {
-    PartFile part(path);
-    Hdf5File file(part.path(), Hdf5File::Mode::create);
+void write_all(Hdf5File& file, const SphereSet& set, SpheresReport& certificate) {
     file.write_attribute("/", "format", std::string(kFormat));
     file.write_attribute("/", "format_version", kVersion);
     file.write_attribute("/", "dimension", std::int64_t{set.dimension});
@@ -302,8 +301,13 @@ void write_spheres(const std::filesystem::path& path, const SphereSet& set,
     file.write_strings("/region_names", set.mesh.region_names);
     write_solid(file, set.solid);
     write_mesh(file, set.mesh);
-    file.close();
-    part.keep();
+}
+
+}  // namespace
+
+void write_spheres(const std::filesystem::path& path, const SphereSet& set,
+                   SpheresReport certificate) {
+    write_sealed(path, [&](Hdf5File& file) { write_all(file, set, certificate); });
 }
 
 std::string read_ice_belt(const std::filesystem::path& path) {

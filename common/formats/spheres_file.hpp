@@ -17,7 +17,8 @@ void write_spheres(const std::filesystem::path& path, const SphereSet& set,
                    SpheresReport certificate = {});
 
 /// Reads and checks a sphere set: format name and version, array lengths, finite numbers, positive
-/// radii and volume, unit normals on the surface, indices in range.
+/// radii and volume, unit normals on the surface, indices in range, the seal (sealed_file.hpp),
+/// solid and shares against the mesh (sphere_set_faults.hpp).
 ///
 /// Beside the contract's datasets: `/normal_spread` f32 [N], SphereSet::normal_spread [rad], 0
 /// inside; `/crease/sphere` i32 [M] and `/crease/normal` f32 [M,3], SphereSet::creases. Rows of the

@@ -32,10 +32,15 @@ void require_file(const fs::path& file, const std::string& what) {
         throw bad_input(file.string(), what + " not found", "check the path");
 }
 
+void require_program(const std::string& name) {
+    if (!has_sibling(name))
+        throw run_failed("--new", name + " does not lie beside icesolve",
+                         "build it (./bootstrap.sh build), or make its file yourself");
+}
+
 void run_program_beside(const std::string& name, const std::vector<std::string>& words) {
     const auto code = run_sibling(name, words);
-    if (!code)
-        throw run_failed("--new", name + " does not lie beside icesolve", "make its file yourself");
+    if (!code) throw run_failed("--new", "cannot start " + name, "make its file yourself");
     if (*code == 2) throw bad_input("--new", name + " did not take its input", "see above");
     if (*code != 0)
         throw run_failed("--new", fmt::format("{} ended with code {}", name, *code), "see above");
@@ -102,6 +107,9 @@ fs::path write_new_case(const NewCase& wish) {
     OutputFiles().add("-o", out);
     const fs::path folder = fs::absolute(out).lexically_normal().parent_path();
 
+    // before the first file is made
+    if (!is_set) require_program("spherize");
+    if (wish.field.empty() || wish.field.extension() == ".toml") require_program("icefield");
     const fs::path hull = is_set ? wish.hull : make_spheres(wish.hull, wish.mesh_options, folder);
     fs::path field = wish.field.empty() ? make_specification(hull, folder) : wish.field;
     if (field.extension() == ".toml") field = make_field_file(field, folder);

@@ -137,6 +137,9 @@ TEST_CASE("what is wrong in a field is named with file and dataset", "[formats]"
                Catch::Contains("/surface/area: has another length"));
     CHECK_THAT(spoiled([](Field& f) { f.shapes[0].solid.volume = -1.0; }),
                Catch::Contains("/shape: has a volume"));
+    CHECK_THAT(spoiled([](Field& f) { f.shapes[1].solid.volume *= 1.5; }),
+               Catch::Contains("/shape: has, of shape 1, a volume of 1.2 m3 where the mesh "
+                               "has 0.8"));
     CHECK_THAT(spoiled([](Field& f) { f.floes.clear(); }),
                Catch::Contains("/floe/shape: is empty"));
     CHECK_THAT(spoiled([](Field& f) { f.radius = 0.0; }), Catch::Contains("are not positive"));

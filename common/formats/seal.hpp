@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// The seal of a file: the hash of its bytes, as 16 hexadecimal digits behind its end, where HDF5
+/// does not look.
+#pragma once
+
+#include <filesystem>
+
+namespace ice {
+
+/// Seals a complete file. @throws Error (exit code 1) when it cannot be written
+void add_seal(const std::filesystem::path& path);
+
+/// Does the file end in the hash of the bytes before? Not where it is missing or too short.
+bool has_right_seal(const std::filesystem::path& path);
+
+}  // namespace ice
