@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# From a clean checkout on Debian 12 to a result: ./bootstrap.sh deps|build|demo|test
+# From a clean checkout on Debian 12 to a result: ./bootstrap.sh deps|build|demo|python|test
 set -euo pipefail
 
 readonly packages=(
@@ -14,6 +14,10 @@ readonly packages=(
 readonly test_packages=(chromium chromium-driver python3-selenium python3-pil python3-xarray
     python3-h5netcdf python3-jsonschema python3-sphinx python3-myst-parser lintian snakemake clang-14 libclang-rt-14-dev libomp-14-dev)
 
+# import icesolve
+readonly python_packages=(python3-h5py python3-h5netcdf python3-jsonschema python3-matplotlib python3-numpy
+    python3-scipy python3-tomli-w python3-xarray)
+
 usage() {
     cat <<'END'
 usage: ./bootstrap.sh COMMAND
@@ -21,6 +25,7 @@ usage: ./bootstrap.sh COMMAND
   build  deps, then the programs: build/release/bin/{spherize,icefield,iceflow,icesolve,icepost}
   demo   deps, the programs it runs (spherize, icesolve, icepost), then the paper's 3D case at three
          speeds: resistance curve and report
+  python build, then what `import icesolve` needs, and its tutorial: a resistance curve from Python
   test   build with the tests, then the whole test suite (CI=true: compiler warnings are errors)
 END
 }
@@ -108,10 +113,17 @@ case $1 in
         cases/demo.sh
         echo "next     ./bootstrap.sh build: icefield and iceflow as well"
         ;;
+    python)
+        install_packages "${packages[@]}" "${python_packages[@]}"
+        build_programs OFF
+        PYTHONPATH=$PWD/python /usr/bin/python3 python/tutorial.py results/python-tutorial
+        echo "curve    results/python-tutorial/resistance.pdf"
+        echo "next     export PYTHONPATH=$PWD/python; python/README.md"
+        ;;
     test)
         # another source's Node has its own npm, which Debian's package would replace
         if command -v npm >/dev/null; then node=(); else node=(nodejs npm); fi
-        install_packages "${packages[@]}" "${test_packages[@]}" "${node[@]}"
+        install_packages "${packages[@]}" "${test_packages[@]}" "${python_packages[@]}" "${node[@]}"
         build_programs ON
         run_tests
         ;;

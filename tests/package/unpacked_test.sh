@@ -15,6 +15,7 @@ mkdir -p "$work"
 cd "$work"
 cpack --config "$build/CPackConfig.cmake" -G DEB -B "$work/packed" >cpack.log || fail "$(cat cpack.log)"
 package=$(ls packed/icesolve_*.deb)
+python_package=$(ls packed/python3-icesolve_*_all.deb)
 dpkg-deb -x "$package" "$root"
 
 # what Debian's policy asks of any package
@@ -30,9 +31,14 @@ gzip -t "$doc/changelog.gz" "$doc/changelog.Debian.gz"
 [[ $(field Maintainer) == *" <"*@*">" ]] || fail "no address in $(field Maintainer)"
 [[ $(field Maintainer) != *example* ]] || fail "a placeholder maintains the package: $(field Maintainer)"
 if command -v lintian >/dev/null; then
-    complaints=$(lintian --allow-root "$package" 2>/dev/null || true)
+    complaints=$(lintian --allow-root "$package" "$python_package" 2>/dev/null || true)
     [[ -z $complaints ]] || fail "lintian: $complaints"
 fi
+# the Python package: its own files only, and it needs the programs
+[[ $(dpkg-deb -f "$python_package" Depends) == *"icesolve (="*python3-xarray* ]] || fail "python3-icesolve lacks dependencies"
+dpkg-deb -c "$python_package" | grep -F ./usr/lib/python3/dist-packages/icesolve/runs.py >/dev/null ||
+    fail "python3-icesolve has no package"
+dpkg-deb -c "$package" | grep -F dist-packages >/dev/null && fail "icesolve holds Python's package, too"
 # what the documents link to, and the READMEs that they name, are beside them
 while IFS=: read -r file link; do
     [[ -e $(dirname "$file")/$link ]] || fail "$file links to $link, which is not there"
