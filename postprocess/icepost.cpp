@@ -11,11 +11,14 @@
 #include "common/cli/command_line.hpp"
 #include "common/cli/console.hpp"
 #include "common/cli/picture_file.hpp"
-#include "common/cli/quantity_option.hpp"
+#include "common/formulas/coefficients_file.hpp"
 #include "postprocess/check/check_run.hpp"
+#include "postprocess/fit/fit_sweep.hpp"
+#include "postprocess/icepost_options.hpp"
 #include "postprocess/paraview/write_paraview.hpp"
 #include "postprocess/report/compare_runs.hpp"
 #include "postprocess/report/draw_plot.hpp"
+#include "postprocess/report/evaluate_run.hpp"
 #include "postprocess/report/pictures.hpp"
 #include "postprocess/report/write_report.hpp"
 #include "postprocess/sensitivity/write_study.hpp"
@@ -25,19 +28,29 @@
 
 namespace {
 
-struct Options {
-    std::filesystem::path run, out, expected, junit, svg;
-    std::size_t every = 1, frames = ice::report::kReportFrames;
-    double time = 0.0;
-    std::string from = "below";
-    std::vector<std::string> runs;
-    bool points_only = false, csv = false, markdown = false;
-    ice::MessageOptions messages;
-};
+using Options = ice::PostOptions;
+
+ice::FormulaOptions formula_options(const Options& o) {
+    ice::FormulaOptions out;
+    if (!o.coefficients.empty()) out.spencer = ice::read_coefficients(o.coefficients);
+    out.flexural_strength = o.flexural_strength;
+    return out;
+}
+
+// a sweep whose runs have the formulas that the options ask for
+ice::sweep::Sweep read_evaluated(const Options& o) {
+    const auto formulas = formula_options(o);
+    auto runs = ice::sweep::read_sweep(o.run);
+    for (auto& run : runs.runs)
+        if (run.summary) ice::report::evaluate_run(*run.summary, formulas);
+    return runs;
+}
 
 int report(const Options& o) {
     ice::check_page_name(o.out);
-    const auto run = ice::read::read_run_folder(o.run);
+    const auto formulas = formula_options(o);
+    auto run = ice::read::read_run_folder(o.run);
+    if (run.summary) ice::report::evaluate_run(*run.summary, formulas);
     const auto file = o.out.empty() ? run.path / "report.html" : o.out;
     ice::report::write_report(run, file, o.frames);
     ice::say(fmt::format("wrote {}", file.string()));
@@ -99,7 +112,7 @@ void write_sweep_curves(const Options& o, const ice::sweep::Sweep& runs) {
 int sweep(const Options& o) {
     ice::check_page_name(o.out);
     if (!o.svg.empty()) ice::check_picture_name(o.svg);
-    const auto runs = ice::sweep::read_sweep(o.run);
+    const auto runs = read_evaluated(o);
     const auto file = o.out.empty() ? o.run / "sweep.html" : o.out;
     ice::write_text_file(file, ice::sweep::make_sweep_page(runs, file));
     if (const std::string faults = ice::sweep::list_faults(runs); !faults.empty())
@@ -107,6 +120,24 @@ int sweep(const Options& o) {
     ice::say(fmt::format("wrote {}", file.string()));
     if (!o.svg.empty()) write_sweep_curves(o, runs);
     if (o.markdown) ice::write_data(ice::sweep::sweep_markdown(runs));
+    return 0;
+}
+
+int fit(const Options& o) {
+    const auto runs = ice::sweep::read_sweep(o.run);
+    const auto points =
+        ice::fit::fit_points(runs, ice::sweep::make_points(runs), o.flexural_strength);
+    auto fitted = ice::fit::fit_spencer(points);
+    fitted.coefficients.name = !o.name.empty() ? o.name : runs.title;
+    const auto file = o.out.empty() ? o.run / "coefficients.toml" : o.out;
+    ice::write_text_file(
+        file, ice::coefficients_text(fitted.coefficients, fitted.intervals,
+                                     fmt::format("Fitted by icepost {} to {} points of {}.",
+                                                 ice::version(), points.size(), o.run.string())));
+    for (const std::string& warning : ice::fit::fit_warnings(runs, fitted))
+        ice::say_warning(warning);
+    ice::say(fmt::format("wrote {}", file.string()));
+    ice::write_data(ice::fit::fit_text(fitted, points));
     return 0;
 }
 
@@ -154,62 +185,16 @@ int main(int argc, char** argv) {
     Options o;
     CLI::App app("Reports, pictures and checks of icesolve's run folders.", "icepost");
     ice::declare_version(app);
-    app.footer("Exit codes: 0 ok, 1 the check failed or a file cannot be written, 2 bad input.");
-    app.require_subcommand(1);
-    app.add_flag("-q,--quiet", o.messages.quiet, "only errors");
-    const auto command = [&](const char* name, const char* text) {
-        auto* sub = app.add_subcommand(name, text)->fallthrough();
-        sub->add_option("RUN", o.run, "run folder made by icesolve")->required();
-        return sub;
-    };
-    auto* make_report = command("report", "write RUN/report.html, one file that opens anywhere");
-    make_report->add_option("-o,--out", o.out, "another file");
-    make_report->add_option("--frames", o.frames, "of the 3D playback at most, evenly chosen")
-        ->capture_default_str()
-        ->check(CLI::Range(2, 1000000));
-    auto* draw = command("view", "draw hull and ice at one instant");
-    draw->add_option("--time", o.time, "the frame nearest to this time [s]")
-        ->required()
-        ->transform(ice::finite_quantity(ice::Dimension::time, "2.5"));
-    draw->add_option("--from", o.from, "below, top, side (starboard), port, front or quarter")
-        ->check(CLI::IsMember({"below", "top", "side", "port", "front", "quarter"}));
-    draw->add_option("-o,--out", o.out, "the picture: .svg, .png or .pdf")->required();
-    auto* plot_run =
-        command("plot", "draw histories, tracked floes' paths and their forces in one picture");
-    plot_run->add_option("-o,--out", o.out,
-                         "the picture: .svg, .png or .pdf (default RUN/plot.svg)");
-    auto* table = app.add_subcommand("table", "compare runs, a line each")->fallthrough();
-    table->add_option("RUN", o.runs, "run folders made by icesolve")->required();
-    table->add_flag("--csv", o.csv, "comma-separated, all digits");
-    auto* curve =
-        app.add_subcommand("sweep", "write DIR/sweep.html, resistance curves of many runs");
-    curve->fallthrough()->add_option("DIR", o.run, "folder of run folders")->required();
-    curve->add_option("-o,--out", o.out, "another file");
-    curve->add_option("--svg", o.svg,
-                      "also write the first chart, resistance against speed: .svg, .png or .pdf");
-    curve->add_flag("--markdown", o.markdown, "also print the points as tables in Markdown");
-    auto* study = app.add_subcommand(
-        "sensitivity", "write DIR/sensitivity.html and print what decides a case's resistance");
-    study->fallthrough()->add_option("DIR", o.run, "folder of a sensitivity study")->required();
-    study->add_option("-o,--out", o.out, "another file");
-    study->add_option("--svg", o.svg, "also write the tornado chart");
-    auto* export_files = command("paraview", "write PVD and VTP files for ParaView");
-    export_files->add_option("-o,--out", o.out, "folder (default RUN/paraview)");
-    export_files->add_option("--every", o.every, "keep each N-th frame")
-        ->check(CLI::Range(1, 1000000));
-    export_files->add_flag("--points-only", o.points_only,
-                           "floes and contacts as points, no surfaces per frame");
-    auto* compare = command("check", "compare summary.json with expected numbers");
-    compare->add_option("EXPECTED", o.expected, "TOML file with [[expect]] entries")->required();
-    compare->add_option("--junit", o.junit, "also write the verdicts as JUnit XML");
+    const ice::PostCommands c = ice::declare_post(app, o);
     const auto run_icepost = [&](const std::string&) {
-        if (make_report->parsed()) return report(o);
-        if (draw->parsed()) return view(o);
-        if (plot_run->parsed()) return plot(o);
-        if (table->parsed()) return compare_runs(o);
-        if (curve->parsed()) return sweep(o);
-        if (study->parsed()) return sensitivity(o);
-        return export_files->parsed() ? paraview(o) : check(o);
+        if (c.report->parsed()) return report(o);
+        if (c.view->parsed()) return view(o);
+        if (c.plot->parsed()) return plot(o);
+        if (c.table->parsed()) return compare_runs(o);
+        if (c.sweep->parsed()) return sweep(o);
+        if (c.fit->parsed()) return fit(o);
+        if (c.sensitivity->parsed()) return sensitivity(o);
+        return c.paraview->parsed() ? paraview(o) : check(o);
     };
     return ice::run_command_line(app, argc, argv, o.messages,
                                  "use fewer frames (report --frames, paraview --every)",

@@ -20,6 +20,8 @@ struct ShipParticulars {
     double stem_angle_deg = kUnknown;      ///< of the stem from the horizontal; unknown in 2D
     double entrance_angle_deg = kUnknown;  ///< half angle of the waterline at the bow; likewise
     double speed_mean = kUnknown;          ///< over the averaged time [m/s]
+    double parallel_length = kUnknown;  ///< of the waterline's full breadth [m]; 3D
+    double bow_length = kUnknown;       ///< of the waterline before it [m]; likewise
 };
 
 /// The floes that may move, and what the case says of all ice.
@@ -34,6 +36,9 @@ struct IceParticulars {
     /// [Pa]; infinite for rigid ice, which is null in JSON as well
     double crushing_pressure = std::numeric_limits<double>::infinity();
     std::vector<std::string> hold;  ///< release rules in use, as a case file names them
+    double water_density = kUnknown, gravity = kUnknown;  ///< [kg/m3], [m/s2]
+    /// [Pa], [Pa], 1: of level ice that breaks; unknown in other cases
+    double flexural_strength = kUnknown, elastic_modulus = kUnknown, poisson_ratio = kUnknown;
 };
 
 /// The release rules in use, "until-hull-contact, never": until when floes are held, which decides
@@ -57,9 +62,9 @@ std::string averaged_text(double averaged_lengths);
 /// What an empirical formula says of the same ship and ice.
 struct FormulaValue {
     std::string name;       ///< author and year
-    std::string part;       ///< of the resistance: "submersion", ...
+    std::string part;       ///< of the resistance: "submersion", ..., "total"
     double value = 0.0;     ///< [N]
-    bool verified = false;  ///< compared with numbers that its author published
+    bool verified = false;  ///< it gives published values again, or has the user's coefficients
 };
 
 }  // namespace ice

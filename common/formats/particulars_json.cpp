@@ -19,6 +19,8 @@ void to_json(Json& json, const ShipParticulars& s) {
             {"displacement_kg", s.displacement},
             {"stem_angle_deg", s.stem_angle_deg},
             {"entrance_angle_deg", s.entrance_angle_deg},
+            {"parallel_length_m", s.parallel_length},
+            {"bow_length_m", s.bow_length},
             {"speed_mean", s.speed_mean}};
 }
 
@@ -29,6 +31,8 @@ void from_json(const Json& json, ShipParticulars& s) {
     take(json, "displacement_kg", s.displacement);
     take(json, "stem_angle_deg", s.stem_angle_deg);
     take(json, "entrance_angle_deg", s.entrance_angle_deg);
+    take(json, "parallel_length_m", s.parallel_length);
+    take(json, "bow_length_m", s.bow_length);
     take(json, "speed_mean", s.speed_mean);
 }
 
@@ -43,7 +47,12 @@ void to_json(Json& json, const IceParticulars& i) {
             {"friction_ship_ice", i.friction_ship_ice},
             {"friction_ice_ice", i.friction_ice_ice},
             {"crushing_pressure_Pa", i.crushing_pressure},
-            {"hold", i.hold}};
+            {"hold", i.hold},
+            {"water_density_kg_per_m3", i.water_density},
+            {"gravity_m_per_s2", i.gravity},
+            {"flexural_strength_Pa", i.flexural_strength},
+            {"elastic_modulus_Pa", i.elastic_modulus},
+            {"poisson_ratio", i.poisson_ratio}};
 }
 
 void from_json(const Json& json, IceParticulars& i) {
@@ -58,6 +67,11 @@ void from_json(const Json& json, IceParticulars& i) {
     take(json, "friction_ice_ice", i.friction_ice_ice);
     take(json, "crushing_pressure_Pa", i.crushing_pressure);
     take(json, "hold", i.hold);
+    take(json, "water_density_kg_per_m3", i.water_density);
+    take(json, "gravity_m_per_s2", i.gravity);
+    take(json, "flexural_strength_Pa", i.flexural_strength);
+    take(json, "elastic_modulus_Pa", i.elastic_modulus);
+    take(json, "poisson_ratio", i.poisson_ratio);
 }
 
 void to_json(Json& json, const TravelParticulars& t) {

@@ -6,6 +6,7 @@
 
 #include "common/base/uncertainty.hpp"
 #include "common/base/units.hpp"
+#include "common/formulas/formula_band.hpp"
 #include "postprocess/report/page.hpp"
 #include "postprocess/report/pictures.hpp"
 #include "postprocess/report/tables.hpp"
@@ -117,9 +118,18 @@ std::string key_numbers(const Summary& s, const ForceUnit& unit, double speed) {
     out += card("± " + unit.text(kModelUncertainty * std::abs(s.resistance.mean)) + " " + unit.name,
                 fmt::format("uncertainty of the model, {:.0f} %, beside that interval",
                             100.0 * kModelUncertainty));
-    for (const FormulaValue& formula : formulas_of(s))
-        out += card(unit.text(formula.value) + " " + unit.name,
-                    formula.name + ", " + formula.part + " part");
+    const auto formulas = comparable_formulas(formulas_of(s), is_level_ice(s.ice));
+    if (formulas.size() == 1)
+        out += card(unit.text(formulas[0].value) + " " + unit.name,
+                    formulas[0].name + ", " + part_text(formulas[0]));
+    if (formulas.size() > 1) {
+        const FormulaBand band = *band_of(formulas);
+        std::string names;
+        for (const FormulaValue& f : formulas)
+            names += (names.empty() ? "" : "; ") + f.name + ", " + part_text(f);
+        out += card(unit.text(band.low) + " to " + unit.text(band.high) + " " + unit.name,
+                    "empirical formulas: " + names);
+    }
     if (!s.ice.hold.empty())
         out += card(release_rule(s.ice), "release rule: until when floes are held");
     if (std::isfinite(speed)) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/formulas/formula_band.hpp"
 #include "postprocess/report/page.hpp"
 #include "postprocess/views/svg.hpp"
 
@@ -110,9 +111,9 @@ std::string force_table(const Summary& s, const ForceUnit& unit) {
                                         unit.text(f.max)};
     };
     std::vector<std::vector<std::string>> rows{row("Resistance (\u2212x)", s.resistance)};
-    for (const FormulaValue& formula : formulas_of(s))
-        rows.push_back({"  " + formula.name + ", " + formula.part + " part only",
-                        unit.text(formula.value), "", "", "", ""});
+    for (const FormulaValue& formula : comparable_formulas(formulas_of(s), is_level_ice(s.ice)))
+        rows.push_back({"  " + formula.name + ", " + part_text(formula), unit.text(formula.value),
+                        "", "", "", ""});
     if (s.dimension == 3) rows.push_back(row("Lateral (y, to port)", s.lateral));
     rows.push_back(row("Vertical (z, up)", s.vertical));
     return table({"Component [" + unit.name + "]", "Mean \u00b1 95 %", "Contact", "Friction",

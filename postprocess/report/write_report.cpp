@@ -9,6 +9,7 @@
 
 #include "common/base/part_file.hpp"
 #include "postprocess/report/find_sweep.hpp"
+#include "postprocess/report/formula_section.hpp"
 #include "postprocess/report/page.hpp"
 #include "postprocess/report/pictures.hpp"
 #include "postprocess/report/tables.hpp"
@@ -163,6 +164,7 @@ std::string make_report(const read::RunFolder& run, std::size_t frames) {
                            "and pictures and histories end with the last flush"}});
     }
     if (run.summary) page.body += force_section(*run.summary, figures.unit);
+    if (run.summary) page.body += formula_section(*run.summary, figures.unit);
     page.body += history_section(data, figures);
     page.body +=
         region_section(figures, run.summary ? region_table(*run.summary, figures.unit) : "");

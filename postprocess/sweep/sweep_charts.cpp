@@ -6,6 +6,7 @@
 #include <limits>
 #include <set>
 
+#include "postprocess/sweep/formula_curves.hpp"
 #include "postprocess/sweep/key_names.hpp"
 #include "postprocess/views/axis.hpp"
 #include "postprocess/views/chart.hpp"
@@ -84,6 +85,22 @@ public:
         chart.curves.insert(chart.curves.end(), marks.begin(), marks.end());
     }
 
+    // what the formulas span, where there are two or more
+    void add_band(views::Chart& chart, const Curve& curve, const std::string& name) const {
+        views::Curve area{name, "#b8c4cc", {}, 0.0, "", 0.45};
+        area.filled = true;
+        std::vector<Vec2> back;
+        for (const Point& point : curve.points) {
+            const auto band = formula_band(point);
+            if (!band || !(band->high > band->low)) continue;
+            area.points.emplace_back(point.x(sweep_), band->high / unit_.newtons);
+            back.emplace_back(point.x(sweep_), band->low / unit_.newtons);
+        }
+        if (area.points.size() < 2) return;
+        area.points.insert(area.points.end(), back.rbegin(), back.rend());
+        chart.curves.insert(chart.curves.begin(), area);
+    }
+
 private:
     // an I: lower cap, stem, upper cap as one line
     views::Curve interval(double x, double y, double half, const std::string& color) const {
@@ -104,13 +121,10 @@ private:
     bool from_zero_ = false, two_runs_ = false;
 };
 
-Estimate formula(const Point& p) { return {p.lindqvist, std::nan("")}; }
-
-bool has_formula(const std::vector<Curve>& curves) {
-    for (const Curve& curve : curves)
-        for (const Point& point : curve.points)
-            if (std::isfinite(point.lindqvist)) return true;
-    return false;
+auto value_of(const FormulaCurve& drawn) {
+    return [drawn](const Point& p) {
+        return Estimate{p.formula(drawn.name, drawn.part), std::nan("")};
+    };
 }
 
 // Parts that nothing ever touches are not drawn.
@@ -137,7 +151,10 @@ std::pair<double, double> common_range(const std::vector<Curve>& curves,
     for (const Curve& curve : curves)
         for (const Point& point : curve.points) {
             for (const Part part : parts) add(point.part(part).mean, point.part(part).half);
-            add(point.lindqvist, std::nan(""));
+            if (const auto band = formula_band(point)) {
+                add(band->low, std::nan(""));
+                add(band->high, std::nan(""));
+            }
         }
     const double span = high - low;
     low = std::max(low_bar, low - span);
@@ -202,16 +219,19 @@ std::string draw_overview(const Sweep& sweep, const std::vector<Curve>& curves,
     if (valued) chart.title = "Resistance by " + axis_title(other_axis(sweep));
     Plotter plotter(sweep, curves, unit);
     plotter.set_axis(chart);
+    const auto formulas = comparable_curves(curves);
+    if (curves.size() == 1) plotter.add_band(chart, curves[0], "formulas");
     for (std::size_t k = 0; k < curves.size(); ++k) {
         const std::string name = names[k].empty() ? "computed" : names[k];
         plotter.add(chart, curves[k], {name, kColors[k], "", 2.2, kMarks[k]},
                     [](const Point& p) { return p.part(Part::total); });
-        plotter.add(chart, curves[k],
-                    {curves.size() == 1 ? "Lindqvist" : "", kColors[k], kFormulaDash, 1.8},
-                    formula);
+        for (const FormulaCurve& f : formulas)
+            plotter.add(chart, curves[k],
+                        {curves.size() == 1 ? f.legend : "", kColors[k], f.dash, 1.8}, value_of(f));
     }
-    if (curves.size() > 1 && has_formula(curves))
-        chart.curves.push_back({"Lindqvist", views::kBlack, {}, 1.8, kFormulaDash, 1.0});
+    if (curves.size() > 1)
+        for (const FormulaCurve& f : formulas)
+            chart.curves.push_back({f.legend, views::kBlack, {}, 1.8, f.dash, 1.0});
     plotter.add_note(chart);
     return draw_chart(chart);
 }
@@ -283,7 +303,11 @@ std::vector<std::string> draw_parts(const Sweep& sweep, const std::vector<Curve>
             if (has_force(curve, part))
                 plotter.add(chart, curve, style,
                             [part = part](const Point& p) { return p.part(part); });
-        plotter.add(chart, curve, {"Lindqvist", views::kBlack, kFormulaDash, 1.8}, formula);
+        plotter.add_band(chart, curve, "formulas");
+        for (const FormulaCurve& f : comparable_curves({curve}))
+            plotter.add(chart, curve, {f.legend, views::kBlack, f.dash, 1.8}, value_of(f));
+        for (const FormulaCurve& f : component_curves(curve))
+            plotter.add(chart, curve, {f.legend, views::kBlack, f.dash, 1.2}, value_of(f));
         plotter.add_note(chart);
         charts.push_back(draw_chart(chart));
     }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "postprocess/sweep/formula_curves.hpp"
 #include "postprocess/sweep/key_names.hpp"
 #include "postprocess/sweep/share_work.hpp"
 
@@ -59,7 +60,8 @@ std::vector<Column> force_columns(const std::vector<Point>& points, const report
     std::vector<Column> columns{{"resistance" + in, {}}};
     for (const auto& [part, title] : parts) columns.push_back({title + in, {}});
     columns.push_back({"largest" + in, {}});
-    columns.push_back({"Lindqvist" + in, {}});
+    const auto formulas = comparable_curves({{"", points}});
+    for (const FormulaCurve& f : formulas) columns.push_back({f.legend + in, {}});
     for (const Point& point : points) {
         columns.front().cells.push_back(
             with_interval(unit, point.part(Part::total), point.runs.size()));
@@ -69,7 +71,9 @@ std::vector<Column> force_columns(const std::vector<Point>& points, const report
                                                      : unit.text(estimate.mean));
         }
         columns[parts.size() + 1].cells.push_back(unit.text(point.largest));
-        columns.back().cells.push_back(unit.text(point.lindqvist));
+        for (std::size_t k = 0; k < formulas.size(); ++k)
+            columns[parts.size() + 2 + k].cells.push_back(
+                unit.text(point.formula(formulas[k].name, formulas[k].part)));
     }
     drop_empty(columns, 1);
     columns.push_back({"release rule", {}});

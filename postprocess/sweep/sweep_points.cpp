@@ -11,6 +11,8 @@
 #include <set>
 
 #include "common/base/uncertainty.hpp"
+#include "common/formulas/formula_band.hpp"
+#include "postprocess/report/tables.hpp"
 #include "postprocess/sweep/key_names.hpp"
 
 namespace ice::sweep {
@@ -61,6 +63,25 @@ double part_value(const Summary& s, Part part) {
     return sum + 0.0;                                                   // no -0
 }
 
+std::vector<FormulaValue> mean_formulas(const Sweep& sweep, const std::vector<std::size_t>& rows) {
+    std::vector<FormulaValue> out;
+    std::vector<std::vector<double>> values;
+    for (const std::size_t row : rows)
+        for (const FormulaValue& f : report::formulas_of(*sweep.runs[row].summary)) {
+            const auto found = std::find_if(out.begin(), out.end(), [&](const FormulaValue& known) {
+                return known.name == f.name && known.part == f.part;
+            });
+            const auto k = static_cast<std::size_t>(found - out.begin());
+            if (k == out.size()) {
+                out.push_back(f);
+                values.emplace_back();
+            }
+            values[k].push_back(f.value);
+        }
+    for (std::size_t k = 0; k < out.size(); ++k) out[k].value = estimate_mean(values[k]).mean;
+    return out;
+}
+
 Point make_point(const Sweep& sweep, const std::map<std::string, Setting>& at,
                  const std::vector<std::size_t>& rows) {
     Point point{at, {}, kNaN, {kNaN, kNaN}, kNaN, 3, rows};
@@ -83,6 +104,8 @@ Point make_point(const Sweep& sweep, const std::map<std::string, Setting>& at,
     if (std::isfinite(point.peak.mean))
         point.largest = *std::max_element(peaks.begin(), peaks.end());
     point.lindqvist = estimate_mean(lindqvist).mean;
+    point.formulas = mean_formulas(sweep, rows);
+    point.level_ice = is_level_ice(first.ice);
     return point;
 }
 
@@ -105,6 +128,12 @@ bool contains_any(const std::string& text, std::initializer_list<const char*> wo
 }
 
 }  // namespace
+
+double Point::formula(const std::string& name, const std::string& part) const {
+    for (const FormulaValue& f : formulas)
+        if (f.name == name && f.part == part) return f.value;
+    return kNaN;
+}
 
 const char* part_name(Part part) { return row_of(part).name; }
 

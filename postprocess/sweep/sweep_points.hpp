@@ -59,10 +59,14 @@ struct Point {
     int dimension;
     std::vector<std::size_t> runs;  ///< rows of Sweep::runs
     std::string hold = {};          ///< release rules of the runs, "; " between different ones
+    std::vector<FormulaValue> formulas = {};  ///< means of what the runs have, in their order
+    bool level_ice = false;                   ///< its runs break level ice
 
     const Estimate& part(Part p) const { return parts[static_cast<std::size_t>(p)]; }
     /// Value of x. @pre the sweep has an x and the point a number there
     double x(const Sweep& sweep) const { return *at.at(sweep.x).number; }
+    /// Value of a formula's part [N], or NaN.
+    double formula(const std::string& name, const std::string& part) const;
 };
 
 /// Points in the order of the axes' values, the first axis slowest.

@@ -3,9 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
 #include <cmath>
 #include <limits>
 
+#include "postprocess/sweep/formula_curves.hpp"
 #include "postprocess/sweep/key_names.hpp"
 #include "postprocess/sweep/split_sweep.hpp"
 #include "postprocess/sweep/sweep_columns.hpp"
@@ -76,6 +78,19 @@ std::string cells(const std::vector<Column>& columns, std::size_t row) {
 // of a column's name: per metre of breadth in 2D
 const char* force_ending(int dimension) { return dimension == 2 ? "_N_per_m" : "_N"; }
 
+// "jeong_2010_buoyancy_clearing"
+std::string column_name(const std::string& text) {
+    std::string out;
+    for (const char c : text) {
+        const bool kept = std::isalnum(static_cast<unsigned char>(c)) != 0;
+        if (kept)
+            out += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+        else if (!out.empty() && out.back() != '_')
+            out += '_';
+    }
+    return out;
+}
+
 std::string csv_number(double value) {
     return std::isfinite(value) ? fmt::format("{}", value) : std::string();
 }
@@ -138,15 +153,21 @@ std::string point_csv(const Sweep& sweep, const std::vector<Point>& points) {
     out += "runs";
     const char* in = force_ending(points.empty() ? 3 : points.front().dimension);
     for (const Part part : kParts) out += fmt::format(",{0}{1},{0}_ci95{1}", part_name(part), in);
-    out += fmt::format(",largest{0},lindqvist_submersion{0},hold\r\n", in);
+    out += fmt::format(",largest{0},lindqvist_submersion{0}", in);
+    const auto formulas = formula_columns(points);
+    for (const FormulaValue& f : formulas)
+        out += "," + csv_text(column_name(f.name + " " + f.part) + in);
+    out += ",hold\r\n";
     for (const Point& point : points) {
         for (const std::string& axis : sweep.axes) out += csv_text(point.at.at(axis).text) + ",";
         out += std::to_string(point.runs.size());
         for (const Part part : kParts)
             out +=
                 "," + csv_number(point.part(part).mean) + "," + csv_number(point.part(part).half);
-        out += "," + csv_number(point.largest) + "," + csv_number(point.lindqvist) + "," +
-               csv_text(point.hold) + "\r\n";
+        out += "," + csv_number(point.largest) + "," + csv_number(point.lindqvist);
+        for (const FormulaValue& f : formulas)
+            out += "," + csv_number(point.formula(f.name, f.part));
+        out += "," + csv_text(point.hold) + "\r\n";
     }
     return out;
 }

@@ -7,7 +7,9 @@
 #include <map>
 #include <set>
 
+#include "postprocess/report/formula_section.hpp"
 #include "postprocess/report/page.hpp"
+#include "postprocess/sweep/formula_curves.hpp"
 #include "postprocess/sweep/key_names.hpp"
 #include "postprocess/sweep/split_sweep.hpp"
 #include "postprocess/sweep/sweep_charts.hpp"
@@ -92,14 +94,24 @@ std::string parts_section(const Sweep& sweep, const std::vector<Curve>& curves,
                    report::figures(charts));
 }
 
+// which parts of the formulas stand beside the runs
+std::string compared(const std::vector<Point>& points) {
+    std::string out;
+    for (const FormulaCurve& f : comparable_curves({{"", points}}))
+        out += (out.empty() ? "" : "; ") + f.name + ", " + f.part;
+    return out.empty() ? "none, as their inputs are unknown" : out;
+}
+
 std::string curve_sections(const Sweep& sweep, const std::vector<Point>& points,
                            const report::ForceUnit& unit, const std::string& ending) {
     if (points.empty()) return "";
     const std::string what =
-        "Points are means over the runs of a combination. Bars: 95 % interval, "
-        "Student's over seeds, dashed where there are two runs only, which makes t = 12.7 and "
-        "says little; of a single run, its own. Long bars are cut off. "
-        "Lindqvist (1989) is an estimate of the submersion part only.";
+        std::string(
+            "Points are means over the runs of a combination. Bars: 95 % interval, "
+            "Student's over seeds, dashed where there are two runs only, which makes t = 12.7 and "
+            "says little; of a single run, its own. Long bars are cut off. "
+            "The band is what the formulas span that compare with these runs: ") +
+        compared(points) + ".";
     if (sweep.x.empty())
         return section("curve" + ending, "Resistance",
                        "No number varies: there is no curve to draw.", "");
@@ -158,9 +170,10 @@ std::string part_of_page(const Sweep& sweep, const std::filesystem::path& page, 
     out += curve_sections(sweep, points, unit, ending);
     if (!points.empty())
         out += section("points" + ending, "All points [" + unit.name + "]",
-                       "Intervals are those of 95 %. Lindqvist's formula (1989) is an empirical "
-                       "estimate of the submersion part of level ice; it is not fitted to these "
-                       "runs. \"largest\" is the largest resistance in one step of all runs.",
+                       "Intervals are those of 95 %. Formulas are empirical estimates of the part "
+                       "that the chart names; they are not fitted to these runs. \"largest\" is "
+                       "the largest resistance in one step of all runs. " +
+                           report::formula_footnote(formula_columns(points)),
                        point_table(sweep, points, unit, page) +
                            download("points" + ending + ".csv", point_csv(sweep, points)));
     const std::string work = points.empty() ? "" : work_table(sweep, points, unit);

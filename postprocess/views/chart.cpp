@@ -56,8 +56,11 @@ std::vector<Key> list_keys(const Chart& chart) {
     std::vector<Key> keys;
     for (const Curve& curve : chart.curves)
         if (!curve.name.empty())
-            keys.push_back(
-                {curve.name, curve.color, curve.dash, curve.width > 0.0 ? 2.5 : 0.0, curve.mark});
+            keys.push_back({curve.name, curve.color, curve.dash,
+                            curve.filled        ? 9.0
+                            : curve.width > 0.0 ? 2.5
+                                                : 0.0,
+                            curve.mark});
     if (chart.level) keys.push_back({chart.level_name, kBlack, "6 4", 2.5, 0});
     return keys;
 }
@@ -115,6 +118,9 @@ std::string draw_curve(const Curve& curve, const Axis& x, const Axis& y) {
     std::vector<Vec2> points;
     points.reserve(curve.points.size());
     for (const Vec2& p : curve.points) points.emplace_back(x.pixel(p.x()), y.pixel(p.y()));
+    if (curve.filled)
+        return fmt::format("<path d=\"{}\" fill=\"{}\" opacity=\"{}\"/>\n", path_data(points, true),
+                           curve.color, curve.opacity);
     std::string marks;
     if (curve.mark != 0)
         for (const Vec2& p : points) marks += draw_mark(curve.mark, p, curve.color);

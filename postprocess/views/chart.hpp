@@ -20,6 +20,7 @@ struct Curve {
     /// Sign at each point: 'o' circle, 's' square, '^' triangle, 'd' diamond, 'v' triangle down,
     /// 'x' cross; 0: none. It, too, tells curves apart without colour.
     char mark = 0;
+    bool filled = false;  ///< an area in the colour, without outline, below curves that follow
 };
 
 /// A line chart, over time unless its x title says otherwise.

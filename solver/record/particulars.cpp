@@ -6,7 +6,8 @@
 #include <numbers>
 #include <string_view>
 
-#include "solver/record/lindqvist.hpp"
+#include "common/formulas/formula_band.hpp"
+#include "solver/record/hull_form.hpp"
 #include "solver/water/hydrostatics.hpp"
 
 namespace ice {
@@ -61,14 +62,6 @@ void measure_sizes(const Scene& scene, const Case& parameters, IceParticulars& i
     if (ice.floes > 0) ice.floe_size_mean = sum / static_cast<double>(ice.floes);
 }
 
-// The angles are NaN for a bow without a point, and so is the formula then.
-double lindqvist_of(const ShipParticulars& ship, const IceParticulars& ice, const Case& p) {
-    const HullForm form{ship.length, ship.breadth, ship.draught, ship.stem_angle_deg / kDegrees,
-                        ship.entrance_angle_deg / kDegrees};
-    return lindqvist_submersion(form, {ice.thickness, p.friction_ship_ice, p.ice_density,
-                                       p.water_density, p.gravity, std::abs(ship.speed_mean)});
-}
-
 }  // namespace
 
 ShipParticulars measure_ship(const Scene& scene, const Case& parameters) {
@@ -85,6 +78,8 @@ ShipParticulars measure_ship(const Scene& scene, const Case& parameters) {
     ship.breadth = form->breadth;
     ship.stem_angle_deg = form->stem_angle * kDegrees;
     ship.entrance_angle_deg = form->entrance_angle * kDegrees;
+    ship.parallel_length = form->parallel_length;
+    ship.bow_length = form->bow_length;
     ship.displacement =
         parameters.water_density * measure_submerged(hull, Mat3::Identity(), height).volume;
     return ship;
@@ -97,6 +92,8 @@ IceParticulars measure_ice(const Scene& scene, const Case& parameters) {
     ice.friction_ice_ice = parameters.friction_ice_ice;
     ice.crushing_pressure = parameters.crushing_pressure;
     ice.concentration = scene.concentration;
+    ice.water_density = parameters.water_density;
+    ice.gravity = parameters.gravity;
     if (scene.bodies.size() < 2) return ice;
     const Mat3 as_it_lies = group_of(scene, parameters, 1).orientation.toRotationMatrix();
     ice.thickness = extent_of(shape_of(scene, 1).mesh, as_it_lies).z();
@@ -128,10 +125,10 @@ void fill_particulars(const Scene& scene, const Case& parameters, double until, 
     summary.ship.speed_mean = speed_mean(parameters, until);
     summary.ice = measure_ice(scene, parameters);
     summary.travel = measure_travel(parameters, summary.ship, until);
-    const double submersion = lindqvist_of(summary.ship, summary.ice, parameters);
-    if (!std::isfinite(submersion)) return;  // 2D, no waterline, or a bow without a point
-    summary.lindqvist_submersion = submersion;
-    summary.formulas.push_back({"Lindqvist 1989", "submersion", submersion, false});
+    // none in 2D, without a waterline, and of those with angles none for a bow without a point
+    summary.formulas = evaluate_formulas(summary.ship, summary.ice, summary.ship.speed_mean);
+    for (const FormulaValue& formula : summary.formulas)
+        if (formula.part == "submersion") summary.lindqvist_submersion = formula.value;
 }
 
 }  // namespace ice

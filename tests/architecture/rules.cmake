@@ -3,13 +3,14 @@
 
 # A file may include its own folder and the ones before it: of common/ and of its own tool, never of
 # another tool. The last entry of a tool is its top folder with the main program.
-set(order_common common/base common/toml common/geometry common/formats common/cli)
+set(order_common common/base common/toml common/geometry common/formats common/formulas
+  common/cli)
 set(order_preprocess preprocess/load preprocess/clean preprocess/measure preprocess/repair
   preprocess/slice preprocess/fill preprocess/certify preprocess/field preprocess/write preprocess)
 set(order_solver solver/case solver/shape solver/flow solver/water solver/scene solver/broad solver/narrow
   solver/contact solver/integrate solver/record solver/step solver/draft solver/ensemble solver)
 set(order_postprocess postprocess/read postprocess/views postprocess/statistics postprocess/report
-  postprocess/sweep postprocess/sensitivity postprocess/paraview postprocess/check postprocess)
+  postprocess/sweep postprocess/fit postprocess/attain postprocess/sensitivity postprocess/paraview postprocess/check postprocess)
 set(tools preprocess solver postprocess)
 
 # Third-party headers and the files that may include them: pairs of regular expressions. Tests may
@@ -25,7 +26,7 @@ set(quarantine
   "<hwy/"            "(_simd\\.cpp|_lanes-inl\\.hpp)$"
   "<omp\\.h>"        "^common/base/parallel\\.hpp$"
   "<spdlog/"         "^common/cli/"
-  "<CLI/"            "^(common/cli/|(preprocess/(spherize|icefield)|solver/(icesolve(_options)?|iceflow)|postprocess/icepost)\\.[ch]pp$)"
+  "<CLI/"            "^(common/cli/|(preprocess/(spherize|icefield)|solver/(icesolve(_options)?|iceflow)|postprocess/icepost(_options)?)\\.[ch]pp$)"
   "<meshoptimizer"   "^(postprocess/views|solver/flow)/"
   "<(zlib|zconf)\\." "^(preprocess/load|postprocess/(paraview|report))/"
   "<(openvdb|tbb)/"  "^tests/bench/bench_peers\\.cpp$"

@@ -19,6 +19,10 @@ inline void write_run(const std::filesystem::path& folder, double speed, double 
     Summary s = *make_folder().summary;
     s.resistance = {resistance, 0.8 * resistance, 0.2 * resistance, 1.0, 2.0, 7.0};
     s.lindqvist_submersion = 500.0 + 100.0 * speed;
+    s.formulas = {{"Lindqvist 1989", "submersion", 500.0 + 100.0 * speed, false},
+                  {"Jeong 2010", "buoyancy", 200.0, false},
+                  {"Jeong 2010", "clearing", 80.0 * speed, false},
+                  {"Jeong 2010", "buoyancy + clearing", 200.0 + 80.0 * speed, false}};
     s.regions.clear();
     const auto add = [&](const char* region, double contact, double friction) {
         const auto force = [&](double share) {

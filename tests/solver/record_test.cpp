@@ -4,8 +4,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/formulas/lindqvist.hpp"
 #include "solver/record/hull_contacts.hpp"
-#include "solver/record/lindqvist.hpp"
+#include "solver/record/hull_form.hpp"
 #include "solver/record/measure_step.hpp"
 #include "solver/record/recorder.hpp"
 #include "solver/record/tally.hpp"
@@ -69,6 +70,9 @@ TEST_CASE("hull angles are measured from the mesh at the waterline", "[record][a
     CHECK(form->draught == Approx(1.0));
     CHECK(form->stem_angle == Approx(40 * kDegree));
     CHECK(form->entrance_angle == Approx(25 * kDegree));
+    // full breadth counts from 0.99 B on, and the bow's planes end at B
+    CHECK(form->bow_length == Approx(0.99 * run));
+    CHECK(form->parallel_length == Approx(30.0 - 0.99 * run));
     CHECK_FALSE(measure_hull_form(mesh, 5.0));
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "solver/record/lindqvist.hpp"
+#include "solver/record/hull_form.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +11,8 @@ namespace ice {
 namespace {
 
 using Segment = std::pair<Vec3, Vec3>;
+
+constexpr double kFullBreadth = 0.99;  // share of the breadth from which on the midbody counts
 
 // Where the plane z = height cuts the mesh, as loose segments. Vertices on the plane count as
 // above it, so that every cut triangle gives exactly one segment.
@@ -34,18 +36,18 @@ double foremost(const std::vector<Segment>& section) {
     return x;
 }
 
-// Foremost x at which the section is at least `half_breadth` off the centre line.
-double foremost_at(const std::vector<Segment>& section, double half_breadth) {
-    double x = -1e300;
+// Least and largest x at which the section is at least `half_breadth` off the centre line.
+std::pair<double, double> ends_at(const std::vector<Segment>& section, double half_breadth) {
+    std::pair<double, double> ends{1e300, -1e300};
+    const auto add = [&](double x) { ends = {std::min(ends.first, x), std::max(ends.second, x)}; };
     for (const auto& [p, q] : section) {
         const double yp = std::abs(p.y()), yq = std::abs(q.y());
-        if (std::max(yp, yq) < half_breadth) continue;
-        if (std::min(yp, yq) >= half_breadth)
-            x = std::max({x, p.x(), q.x()});
-        else
-            x = std::max(x, p.x() + (q.x() - p.x()) * (half_breadth - yp) / (yq - yp));
+        if (yp >= half_breadth) add(p.x());
+        if (yq >= half_breadth) add(q.x());
+        if ((yp >= half_breadth) != (yq >= half_breadth))
+            add(p.x() + (q.x() - p.x()) * (half_breadth - yp) / (yq - yp));
     }
-    return x;
+    return ends;
 }
 
 }  // namespace
@@ -69,24 +71,14 @@ std::optional<HullForm> measure_hull_form(const TriangleMesh& hull, double water
     const double depth = 0.1 * form.draught;
     const std::vector<Segment> deeper = cut(hull, waterline - depth);
     const double rake = bow - foremost(deeper);
-    const double run = bow - foremost_at(water, 0.25 * form.breadth);
+    const double run = bow - ends_at(water, 0.25 * form.breadth).second;
     const bool pointed = !deeper.empty() && form.draught > 0.0 && run > 1e-6 * form.length;
     form.stem_angle = pointed ? std::atan2(depth, std::max(rake, 0.0)) : std::nan("");
     form.entrance_angle = pointed ? std::atan2(0.25 * form.breadth, run) : std::nan("");
+    const auto [aft, fore] = ends_at(water, 0.5 * kFullBreadth * form.breadth);
+    form.parallel_length = fore - aft;
+    form.bow_length = bow - fore;
     return form;
-}
-
-double lindqvist_submersion(const HullForm& hull, const IceConditions& ice) {
-    const double sin_phi = std::sin(hull.stem_angle), cos_phi = std::cos(hull.stem_angle);
-    const double tan_phi = std::tan(hull.stem_angle), tan_alpha = std::tan(hull.entrance_angle);
-    const double psi = std::atan(tan_phi / std::sin(hull.entrance_angle));
-    const double b = hull.breadth, t = hull.draught;
-    const double covered = 0.7 * hull.length - t / tan_phi - b / (4.0 * tan_alpha) +
-                           t * cos_phi * std::cos(psi) *
-                               std::sqrt(1.0 / (sin_phi * sin_phi) + 1.0 / (tan_alpha * tan_alpha));
-    const double weight = (ice.water_density - ice.ice_density) * ice.gravity * ice.thickness * b;
-    const double at_rest = weight * (t * (b + t) / (b + 2.0 * t) + ice.friction * covered);
-    return at_rest * (1.0 + 9.4 * ice.speed / std::sqrt(ice.gravity * hull.length));
 }
 
 }  // namespace ice

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// A ship's own coefficients of the component formula, as a TOML file.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "common/formulas/spencer.hpp"
+
+namespace ice {
+
+/// Half widths of 95 % intervals; NaN: not fitted, or unknown.
+struct CoefficientIntervals {
+    double buoyancy = std::numeric_limits<double>::quiet_NaN();
+    double clearing = std::numeric_limits<double>::quiet_NaN();
+    double clearing_exponent = std::numeric_limits<double>::quiet_NaN();
+    double breaking = std::numeric_limits<double>::quiet_NaN();
+    double breaking_exponent = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// Reads
+///
+///     [spencer]
+///     name = "our ship"          # default: the file's name
+///     c_b = 0.5
+///     c_c = 1.11
+///     exponent = 1.157           # of the Froude number
+///     c_br = 2.73                # default: Jeong's
+///     breaking_exponent = 1.54   # likewise
+///
+/// A table [uncertainty] with the same names, as write_coefficients() makes it, is for people.
+/// @throws Error (exit code 2) with all mistakes: file, line, key
+SpencerCoefficients read_coefficients(const std::filesystem::path& file);
+
+/// The file's text: what read_coefficients() reads, with the intervals that are known.
+/// @param origin  of the numbers, for a comment
+std::string coefficients_text(const SpencerCoefficients& coefficients,
+                              const CoefficientIntervals& intervals, const std::string& origin);
+
+}  // namespace ice

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "common/formulas/formula_band.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "common/formulas/lindqvist.hpp"
+#include "common/formulas/riska.hpp"
+
+namespace ice {
+
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr const char* kLindqvist = "Lindqvist 1989";
+constexpr const char* kRiska = "Riska 1997";
+constexpr const char* kBroken = "buoyancy + clearing";
+constexpr const char* kTotal = "total";
+
+double known_or(double value, double otherwise) { return std::isfinite(value) ? value : otherwise; }
+
+}  // namespace
+
+bool is_level_ice(const IceParticulars& ice) {
+    return std::find(ice.hold.begin(), ice.hold.end(), "until-bent") != ice.hold.end();
+}
+
+std::vector<FormulaValue> evaluate_formulas(const ShipParticulars& ship, const IceParticulars& ice,
+                                            double speed, const FormulaOptions& options) {
+    const HullForm hull{ship.length,
+                        ship.breadth,
+                        ship.draught,
+                        ship.stem_angle_deg * kDegree,
+                        ship.entrance_angle_deg * kDegree,
+                        ship.parallel_length,
+                        ship.bow_length};
+    const double strength = known_or(options.flexural_strength, ice.flexural_strength);
+    const IceConditions conditions{ice.thickness,
+                                   ice.friction_ship_ice,
+                                   ice.density,
+                                   ice.water_density,
+                                   ice.gravity,
+                                   std::abs(speed),
+                                   strength,
+                                   known_or(ice.elastic_modulus, kElasticModulus),
+                                   known_or(ice.poisson_ratio, kPoissonRatio)};
+    std::vector<FormulaValue> out;
+    const auto add = [&](const std::string& name, const char* part, double value, bool verified) {
+        if (std::isfinite(value)) out.push_back({name, part, value, verified});
+    };
+    const LindqvistParts lindqvist = lindqvist_resistance(hull, conditions);
+    add(kLindqvist, "submersion", lindqvist.submersion, false);
+    add(kLindqvist, "crushing", lindqvist.crushing, false);
+    add(kLindqvist, "bending", lindqvist.bending, false);
+    add(kLindqvist, kTotal, lindqvist.total(), false);
+    if (std::isfinite(strength)) add(kRiska, kTotal, riska_resistance(hull, conditions), false);
+    const SpencerCoefficients& own = options.spencer;
+    const SpencerParts spencer = spencer_resistance(hull, conditions, own);
+    add(own.name, "buoyancy", spencer.buoyancy, own.own);
+    add(own.name, "clearing", spencer.clearing, own.own);
+    add(own.name, kBroken, spencer.broken_ice(), own.own);
+    add(own.name, "breaking", spencer.breaking, true);
+    add(own.name, kTotal, spencer.total(), true);
+    return out;
+}
+
+std::vector<FormulaValue> comparable_formulas(const std::vector<FormulaValue>& formulas,
+                                              bool level_ice) {
+    std::vector<FormulaValue> out;
+    for (const FormulaValue& f : formulas)
+        if (level_ice ? f.part == kTotal : f.part == "submersion" || f.part == kBroken)
+            out.push_back(f);
+    return out;
+}
+
+std::optional<FormulaBand> band_of(const std::vector<FormulaValue>& formulas) {
+    if (formulas.empty()) return std::nullopt;
+    FormulaBand band{formulas.front().value, formulas.front().value};
+    for (const FormulaValue& f : formulas) {
+        band.low = std::min(band.low, f.value);
+        band.high = std::max(band.high, f.value);
+    }
+    return band;
+}
+
+std::string part_text(const FormulaValue& f) {
+    if (f.part == kTotal) return "level ice, total";
+    return f.part + (f.part == kBroken ? "" : " part");
+}
+
+}  // namespace ice

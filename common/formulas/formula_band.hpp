@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// What all formulas say of one ship and ice, and the band that they span.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "common/formats/particulars.hpp"
+#include "common/formulas/spencer.hpp"
+
+namespace ice {
+
+/// The ice where a case does not say: contract values, stated wherever they are used.
+inline constexpr double kFlexuralStrength = 5e5;  ///< [Pa]
+inline constexpr double kElasticModulus = 5e9;    ///< [Pa]
+inline constexpr double kPoissonRatio = 0.3;
+
+struct FormulaOptions {
+    SpencerCoefficients spencer;
+    /// [Pa], in place of the case's; NaN: the case's, and where that has none no level ice
+    double flexural_strength = kUnknown;
+};
+
+/// Whether the run breaks level ice: its release rules have "until-bent".
+bool is_level_ice(const IceParticulars& ice);
+
+/// All parts that can be evaluated, in the order in which they are shown:
+/// Lindqvist 1989: submersion; with a flexural strength crushing, bending, total.
+/// Riska 1997 (with a strength, which says that there is level ice): total.
+/// Jeong 2010, or the user's coefficients: buoyancy, clearing, "buoyancy + clearing"; with a
+/// strength breaking, total. Parts of which an input is unknown are left out.
+/// @param speed  of the ship [m/s]; its size counts
+std::vector<FormulaValue> evaluate_formulas(const ShipParticulars& ship, const IceParticulars& ice,
+                                            double speed, const FormulaOptions& options = {});
+
+/// Those that say what a run computes: in level ice totals; in ice that is broken Lindqvist's
+/// submersion, and buoyancy and clearing together.
+std::vector<FormulaValue> comparable_formulas(const std::vector<FormulaValue>& formulas,
+                                              bool level_ice);
+
+/// Least and largest of the values; none without values.
+struct FormulaBand {
+    double low = 0.0, high = 0.0;
+};
+std::optional<FormulaBand> band_of(const std::vector<FormulaValue>& formulas);
+
+/// "submersion part" and the like: what a part's name means, for texts.
+std::string part_text(const FormulaValue& formula);
+
+}  // namespace ice

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "common/formulas/spencer.hpp"
+
+#include <cmath>
+
+namespace ice {
+
+SpencerScales spencer_scales(const HullForm& hull, const IceConditions& ice) {
+    const double h = ice.thickness, v = ice.speed, b = hull.breadth;
+    return {(ice.water_density - ice.ice_density) * ice.gravity * h * b * hull.draught,
+            ice.ice_density * b * h * v * v, v / std::sqrt(ice.gravity * h),
+            v * std::sqrt(ice.ice_density * b / (ice.flexural_strength * h))};
+}
+
+SpencerParts spencer_resistance(const HullForm& hull, const IceConditions& ice,
+                                const SpencerCoefficients& c) {
+    const SpencerScales s = spencer_scales(hull, ice);
+    // 0 V^2 and 0^-a at rest: the limit, not NaN
+    const auto power = [&](double number, double exponent) {
+        return number == 0.0 ? 0.0 : std::pow(number, -exponent) * s.inertia;
+    };
+    return {c.buoyancy * s.weight, c.clearing * power(s.froude, c.clearing_exponent),
+            c.breaking * power(s.strength, c.breaking_exponent)};
+}
+
+}  // namespace ice

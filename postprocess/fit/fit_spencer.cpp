@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "postprocess/fit/fit_spencer.hpp"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "common/base/error.hpp"
+#include "common/base/uncertainty.hpp"
+
+namespace ice::fit {
+
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kLeastExponent = -1.0, kMostExponent = 1.95, kExponentStep = 0.05;
+constexpr double kNormal = 1.959963984540054;  // half widths per standard deviation, at 95 %
+constexpr double kSame = 1e-3;                 // Froude numbers this near are one speed
+constexpr int kMostSteps = 50;
+
+struct Problem {
+    Eigen::VectorXd resistance, weight;  // of broken ice; weight: 1 / standard deviation
+    std::vector<SpencerScales> scales;
+    bool weighted = false;
+};
+
+double clearing(const SpencerScales& s, double exponent) {
+    return s.froude > 0.0 ? s.inertia * std::pow(s.froude, -exponent) : 0.0;
+}
+
+// Columns: d R / d C_B, d C_C and, times C_C, d a.
+Eigen::MatrixXd slopes(const Problem& p, double a, double c_c, int columns) {
+    Eigen::MatrixXd out(p.resistance.size(), columns);
+    for (Eigen::Index i = 0; i < out.rows(); ++i) {
+        const SpencerScales& s = p.scales[static_cast<std::size_t>(i)];
+        const double y = clearing(s, a);
+        out(i, 0) = p.weight[i] * s.weight;
+        out(i, 1) = p.weight[i] * y;
+        if (columns > 2)
+            out(i, 2) = s.froude > 0.0 ? -p.weight[i] * c_c * y * std::log(s.froude) : 0.0;
+    }
+    return out;
+}
+
+struct Linear {
+    Eigen::Vector2d c;
+    double chi2 = 0.0;
+};
+
+Linear solve_at(const Problem& p, double a) {
+    const Eigen::MatrixXd j = slopes(p, a, 1.0, 2);
+    const Eigen::VectorXd right = p.weight.cwiseProduct(p.resistance);
+    Linear out;
+    out.c = j.colPivHouseholderQr().solve(right);
+    out.chi2 = (j * out.c - right).squaredNorm();
+    return out;
+}
+
+// Gauss and Newton's steps from the best exponent of a scan; C_B and C_C follow it.
+double find_exponent(const Problem& p) {
+    double a = kLeastExponent, best = std::numeric_limits<double>::infinity();
+    for (double tried = kLeastExponent; tried <= kMostExponent; tried += kExponentStep)
+        if (const double chi2 = solve_at(p, tried).chi2; chi2 < best) {
+            best = chi2;
+            a = tried;
+        }
+    const Eigen::VectorXd right = p.weight.cwiseProduct(p.resistance);
+    for (int k = 0; k < kMostSteps; ++k) {
+        const Linear now = solve_at(p, a);
+        const Eigen::MatrixXd j = slopes(p, a, now.c[1], 3);
+        const Eigen::VectorXd miss = right - j.leftCols(2) * now.c;
+        double step = j.colPivHouseholderQr().solve(miss)[2];
+        while (std::abs(step) > 1e-15 && solve_at(p, a + step).chi2 > now.chi2) step *= 0.5;
+        if (!(std::abs(step) > 1e-14) || a + step > 2.0) break;
+        a += step;
+    }
+    return a;
+}
+
+// Half widths of 95 % intervals of what the columns belong to.
+Eigen::VectorXd half_widths(const Eigen::MatrixXd& j, double chi2, bool weighted) {
+    const Eigen::Index n = j.cols();
+    const auto degrees = static_cast<double>(j.rows() - n);
+    if (degrees < 1.0 && !weighted) return Eigen::VectorXd::Constant(n, kNaN);
+    const double scatter = degrees >= 1.0 ? chi2 / degrees : 0.0;
+    const bool own = weighted && scatter <= 1.0;  // the points' intervals explain the misses
+    const double t = own ? kNormal : student_quantile(degrees, 0.05);
+    const Eigen::MatrixXd covariance =
+        (j.transpose() * j).ldlt().solve(Eigen::MatrixXd::Identity(n, n)) * (own ? 1.0 : scatter);
+    return t * covariance.diagonal().cwiseSqrt();
+}
+
+std::size_t count_speeds(const Problem& p) {
+    std::vector<double> froude;
+    for (const SpencerScales& s : p.scales) froude.push_back(s.froude);
+    std::sort(froude.begin(), froude.end());
+    std::size_t count = froude.empty() ? 0 : 1;
+    for (std::size_t k = 1; k < froude.size(); ++k)
+        if (froude[k] > froude[k - 1] * (1.0 + kSame)) ++count;
+    return count;
+}
+
+Problem take_broken(const std::vector<FitPoint>& points) {
+    Problem p;
+    std::vector<double> resistance, weight;
+    p.weighted = true;
+    for (const FitPoint& point : points) {
+        if (point.level_ice) continue;
+        p.scales.push_back(point.scales);
+        resistance.push_back(point.resistance);
+        weight.push_back(kNormal / point.half);
+        p.weighted = p.weighted && point.half > 0.0;  // false for NaN as well
+    }
+    const auto size = static_cast<Eigen::Index>(resistance.size());
+    p.resistance = Eigen::Map<const Eigen::VectorXd>(resistance.data(), size);
+    p.weight = p.weighted ? Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(weight.data(), size))
+                          : Eigen::VectorXd::Ones(size);
+    return p;
+}
+
+// A line through log of what level ice takes beside buoyancy and clearing.
+void fit_breaking(const std::vector<FitPoint>& points, SpencerFit& fit) {
+    std::vector<double> x, y, weight;
+    bool weighted = true;
+    for (const FitPoint& point : points) {
+        if (!point.level_ice) continue;
+        ++fit.level;
+        const double left =
+            point.resistance - fit.coefficients.buoyancy * point.scales.weight -
+            fit.coefficients.clearing * clearing(point.scales, fit.coefficients.clearing_exponent);
+        if (!(left > 0.0) || !(point.scales.strength > 0.0)) continue;
+        x.push_back(-std::log(point.scales.strength));
+        y.push_back(std::log(left / point.scales.inertia));
+        weight.push_back(kNormal * left / point.half);
+        weighted = weighted && point.half > 0.0;
+    }
+    const auto n = static_cast<Eigen::Index>(x.size());
+    if (n < 2) return;
+    const auto [low, high] = std::minmax_element(x.begin(), x.end());
+    if (*high - *low < kSame) return;
+    Eigen::MatrixXd j(n, 2);
+    Eigen::VectorXd right(n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        const double w = weighted ? weight[k] : 1.0;
+        j.row(i) << w, w * x[k];
+        right[i] = w * y[k];
+    }
+    const Eigen::Vector2d line = j.colPivHouseholderQr().solve(right);
+    const Eigen::VectorXd half = half_widths(j, (j * line - right).squaredNorm(), weighted);
+    fit.coefficients.breaking = std::exp(line[0]);
+    fit.coefficients.breaking_exponent = line[1];
+    fit.intervals.breaking = fit.coefficients.breaking * half[0];
+    fit.intervals.breaking_exponent = half[1];
+    fit.breaking_fitted = true;
+}
+
+}  // namespace
+
+double fitted_resistance(const SpencerFit& fit, const FitPoint& point) {
+    const SpencerCoefficients& c = fit.coefficients;
+    const SpencerScales& s = point.scales;
+    double out = c.buoyancy * s.weight + c.clearing * clearing(s, c.clearing_exponent);
+    if (point.level_ice && s.strength > 0.0)
+        out += c.breaking * s.inertia * std::pow(s.strength, -c.breaking_exponent);
+    return out;
+}
+
+SpencerFit fit_spencer(const std::vector<FitPoint>& points) {
+    const Problem problem = take_broken(points);
+    const std::size_t speeds = count_speeds(problem);
+    if (speeds < 2)
+        throw bad_input("the sweep",
+                        "has fewer than two speeds in broken ice, which give C_B and C_C",
+                        "add runs at other speeds, of them one that creeps");
+    SpencerFit fit;
+    fit.coefficients.own = true;
+    fit.broken = problem.scales.size();
+    fit.exponent_fitted = speeds > 2;
+    if (fit.exponent_fitted) fit.coefficients.clearing_exponent = find_exponent(problem);
+    const double a = fit.coefficients.clearing_exponent;
+    const Linear best = solve_at(problem, a);
+    fit.coefficients.buoyancy = best.c[0];
+    fit.coefficients.clearing = best.c[1];
+    const Eigen::VectorXd half = half_widths(
+        slopes(problem, a, best.c[1], fit.exponent_fitted ? 3 : 2), best.chi2, problem.weighted);
+    fit.intervals.buoyancy = half[0];
+    fit.intervals.clearing = half[1];
+    if (fit.exponent_fitted) fit.intervals.clearing_exponent = half[2];
+    fit_breaking(points, fit);
+    double squares = 0.0, count = 0.0;
+    for (const FitPoint& point : points) {
+        if (point.level_ice && !fit.breaking_fitted) continue;
+        const double miss = fitted_resistance(fit, point) / point.resistance - 1.0;
+        squares += miss * miss;
+        ++count;
+    }
+    fit.residual = std::sqrt(squares / count);
+    return fit;
+}
+
+}  // namespace ice::fit

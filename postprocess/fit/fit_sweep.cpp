@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "postprocess/fit/fit_sweep.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/formulas/formula_band.hpp"
+#include "postprocess/report/tables.hpp"
+
+namespace ice::fit {
+
+namespace {
+
+// Settings that the formula has inputs for, or that say which part of it a run has.
+bool is_formula_axis(const std::string& key) {
+    static const std::vector<std::string> kKnown{
+        sweep::kSpeedKey,     "field.ice.thickness",       "level_ice.thickness",
+        "ice.density",        "environment.water_density", "bending.flexural_strength",
+        "field.specification"};
+    return std::find(kKnown.begin(), kKnown.end(), key) != kKnown.end() || key.ends_with(".hold");
+}
+
+std::string with_half(double value, double half) {
+    return std::isfinite(half) ? fmt::format("{:.4g} +- {:.2g}", value, half)
+                               : fmt::format("{:.4g}, no interval", value);
+}
+
+}  // namespace
+
+std::vector<FitPoint> fit_points(const sweep::Sweep& sweep, const std::vector<sweep::Point>& points,
+                                 double flexural_strength) {
+    std::vector<FitPoint> out;
+    for (const sweep::Point& point : points) {
+        const Summary& s = *sweep.runs[point.runs.front()].summary;
+        if (point.dimension != 3 || !(point.part(sweep::Part::total).mean > 0.0)) continue;
+        const HullForm hull{s.ship.length, s.ship.breadth, s.ship.draught, 0.0, 0.0};
+        const double strength =
+            std::isfinite(flexural_strength) ? flexural_strength : s.ice.flexural_strength;
+        FitPoint p;
+        p.scales = spencer_scales(
+            hull, {s.ice.thickness, 0.0, s.ice.density, s.ice.water_density, s.ice.gravity,
+                   std::abs(s.ship.speed_mean), point.level_ice ? strength : kUnknown});
+        p.resistance = point.part(sweep::Part::total).mean;
+        p.half = point.part(sweep::Part::total).half;
+        p.level_ice = point.level_ice;
+        if (std::isfinite(p.scales.weight) && std::isfinite(p.scales.froude)) out.push_back(p);
+    }
+    return out;
+}
+
+std::vector<std::string> fit_warnings(const sweep::Sweep& sweep, const SpencerFit& fit) {
+    std::vector<std::string> out;
+    for (const std::string& axis : sweep.axes)
+        if (!is_formula_axis(axis))
+            out.push_back(
+                fmt::format("{} varies between the runs, which the formula does not know: "
+                            "fit a sweep over speed and thickness alone",
+                            axis));
+    if (!fit.exponent_fitted)
+        out.push_back(fmt::format("two speeds give no exponent: it stays at {}; add a third speed",
+                                  fit.coefficients.clearing_exponent));
+    if (fit.level > 0 && !fit.breaking_fitted)
+        out.push_back(
+            "level ice at one strength number gives no breaking part: add another speed or "
+            "thickness, or say --flexural-strength");
+    return out;
+}
+
+std::string fit_text(const SpencerFit& fit, const std::vector<FitPoint>& points) {
+    const SpencerCoefficients& c = fit.coefficients;
+    const CoefficientIntervals& i = fit.intervals;
+    std::string out =
+        fmt::format("{} points of broken ice, {} of level ice\n", fit.broken, fit.level);
+    out += fmt::format("  C_B    {}\n  C_C    {}\n", with_half(c.buoyancy, i.buoyancy),
+                       with_half(c.clearing, i.clearing));
+    if (fit.exponent_fitted)
+        out += fmt::format("  a      {}\n", with_half(c.clearing_exponent, i.clearing_exponent));
+    if (fit.breaking_fitted)
+        out += fmt::format("  C_BR   {}\n  b      {}\n", with_half(c.breaking, i.breaking),
+                           with_half(c.breaking_exponent, i.breaking_exponent));
+    out += fmt::format("  misses {:.1f} % (rms)\n", 100.0 * fit.residual);
+    double largest = 0.0;
+    for (const FitPoint& p : points) largest = std::max(largest, p.resistance);
+    const report::ForceUnit unit = report::choose_unit(largest, 3);
+    out += fmt::format("{:>10} {:>12} {:>12}\n", "Froude h", "runs [" + unit.name + "]",
+                       "fit [" + unit.name + "]");
+    for (const FitPoint& p : points)
+        out += fmt::format("{:>10.3f} {:>12} {:>12}\n", p.scales.froude, unit.text(p.resistance),
+                           unit.text(fitted_resistance(fit, p)));
+    return out;
+}
+
+}  // namespace ice::fit

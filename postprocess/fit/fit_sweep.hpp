@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "postprocess/fit/fit_spencer.hpp"
+#include "postprocess/sweep/sweep_points.hpp"
+
+namespace ice::fit {
+
+/// The points of a sweep as the fit takes them: runs in 3D whose summaries say what the formula
+/// needs, at a speed of the ship that is known.
+/// @param flexural_strength [Pa] of level ice where the runs do not say; NaN: none
+std::vector<FitPoint> fit_points(const sweep::Sweep& sweep, const std::vector<sweep::Point>& points,
+                                 double flexural_strength);
+
+/// What a user should know: axes that the formula does not have, few points, no level ice.
+std::vector<std::string> fit_warnings(const sweep::Sweep& sweep, const SpencerFit& fit);
+
+/// Coefficients with intervals, then a row per point with both resistances, for a terminal.
+std::string fit_text(const SpencerFit& fit, const std::vector<FitPoint>& points);
+
+}  // namespace ice::fit

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// The command line of icepost: what it may hold, and what was given.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "common/cli/command_line.hpp"
+#include "postprocess/report/write_report.hpp"
+
+namespace ice {
+
+/// What was given; RUN and DIR share `run`.
+struct PostOptions {
+    std::filesystem::path run, out, expected, junit, svg, coefficients;
+    std::size_t every = 1, frames = report::kReportFrames;
+    double time = 0.0;
+    double flexural_strength = std::numeric_limits<double>::quiet_NaN();  ///< [Pa]
+    std::string from = "below", name;
+    std::vector<std::string> runs;
+    bool points_only = false, csv = false, markdown = false;
+    MessageOptions messages;
+};
+
+/// The subcommands, in the order of the help.
+struct PostCommands {
+    CLI::App *report, *view, *plot, *table, *sweep, *fit, *sensitivity, *paraview, *check;
+};
+
+/// Declares subcommands and options; what is parsed goes into `options`.
+PostCommands declare_post(CLI::App& app, PostOptions& options);
+
+}  // namespace ice

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "postprocess/report/evaluate_run.hpp"
+
+#include <cmath>
+
+namespace ice::report {
+
+void evaluate_run(Summary& s, const FormulaOptions& options) {
+    FormulaOptions chosen = options;
+    const bool stated =
+        std::isfinite(options.flexural_strength) || std::isfinite(s.ice.flexural_strength);
+    if (is_level_ice(s.ice) && !stated) chosen.flexural_strength = kFlexuralStrength;
+    auto formulas = evaluate_formulas(s.ship, s.ice, s.ship.speed_mean, chosen);
+    if (formulas.empty() || !std::isfinite(s.ice.water_density)) return;
+    if (std::isfinite(chosen.flexural_strength)) s.ice.flexural_strength = chosen.flexural_strength;
+    s.formulas = std::move(formulas);
+}
+
+}  // namespace ice::report

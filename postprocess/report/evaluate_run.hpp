@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "common/formats/summary_file.hpp"
+#include "common/formulas/formula_band.hpp"
+
+namespace ice::report {
+
+/// Evaluates the formulas of a run again, with the options given: a ship's own coefficients, or a
+/// flexural strength, which adds the parts of level ice. Level ice whose strength nobody states has
+/// kFlexuralStrength. Nothing happens to a summary of an older
+/// program, which does not say what the formulas need, and in 2D.
+void evaluate_run(Summary& summary, const FormulaOptions& options);
+
+}  // namespace ice::report

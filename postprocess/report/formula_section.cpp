@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "postprocess/report/formula_section.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "common/formulas/formula_band.hpp"
+#include "postprocess/report/page.hpp"
+#include "postprocess/views/chart.hpp"
+#include "postprocess/views/svg.hpp"
+
+namespace ice::report {
+
+namespace {
+
+constexpr double kLeft = 150.0, kRight = 110.0, kTop = 46.0, kRow = 34.0, kBar = 18.0;  // [px]
+
+// A bar: its parts from the left, each a force and a name.
+struct Bar {
+    std::string name;
+    std::vector<std::pair<std::string, double>> parts;
+    double half = 0.0;  // of its interval
+
+    double length() const {
+        double sum = 0.0;
+        for (const auto& [part, force] : parts) sum += force;
+        return sum;
+    }
+};
+
+const char* color_of(const std::string& part) {
+    static const std::map<std::string, const char*> kColors{
+        {"this run", views::kBlack}, {"submersion", views::kBlue}, {"buoyancy", views::kBlue},
+        {"clearing", views::kGreen}, {"bending", views::kOrange},  {"breaking", views::kOrange},
+        {"crushing", views::kPurple}};
+    const auto found = kColors.find(part);
+    return found == kColors.end() ? "#8a949c" : found->second;
+}
+
+// The parts that make up what can be compared with the run; a sum where its parts are unknown.
+std::vector<Bar> make_bars(const Summary& s) {
+    std::vector<Bar> bars{{"this run", {{"this run", s.resistance.mean}}, s.resistance.ci95}};
+    const auto formulas = formulas_of(s);
+    const bool level = is_level_ice(s.ice);
+    for (const FormulaValue& sum : comparable_formulas(formulas, level)) {
+        Bar bar{sum.name, {}};
+        for (const FormulaValue& f : formulas) {
+            const bool breaks = f.part == "crushing" || f.part == "bending" || f.part == "breaking";
+            const bool part = f.part == "submersion" || f.part == "buoyancy" ||
+                              f.part == "clearing" || (breaks && level);
+            if (f.name == sum.name && part) bar.parts.emplace_back(f.part, f.value);
+        }
+        if (bar.parts.empty()) bar.parts.emplace_back(sum.part, sum.value);
+        bars.push_back(bar);
+    }
+    return bars;
+}
+
+std::string rectangle(double x, double y, double width, double height, const std::string& more) {
+    return fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" {}/>\n",
+                       views::pixels(x), views::pixels(y), views::pixels(width),
+                       views::pixels(height), more);
+}
+
+std::string draw_bar(const Bar& bar, double y, double per_newton, const ForceUnit& unit) {
+    std::string out = views::text_element(kLeft - 8.0, y + 14.0, bar.name, "end");
+    double x = kLeft;
+    for (const auto& [part, force] : bar.parts) {
+        const double width = std::max(0.0, force * per_newton);
+        out += rectangle(x, y, width, kBar,
+                         fmt::format("fill=\"{}\" opacity=\"0.85\"", color_of(part)));
+        x += width;
+    }
+    if (bar.half > 0.0) {
+        const double middle = y + 0.5 * kBar, half = bar.half * per_newton;
+        out += views::line_element(x - half, middle, x + half, middle,
+                                   "stroke=\"#888888\" stroke-width=\"3\"");
+        x += half;
+    }
+    return out + views::text_element(x + 8.0, y + 14.0, unit.text(bar.length()), "start");
+}
+
+std::string draw_legend(const std::vector<Bar>& bars) {
+    std::string out;
+    double x = kLeft;
+    std::vector<std::string> named;
+    for (const Bar& bar : bars)
+        for (const auto& [part, force] : bar.parts) {
+            if (part == "this run" || std::find(named.begin(), named.end(), part) != named.end())
+                continue;
+            named.push_back(part);
+            out += rectangle(x, 26.0, 12.0, 12.0,
+                             fmt::format("fill=\"{}\" opacity=\"0.85\"", color_of(part)));
+            out += views::text_element(x + 17.0, 36.0, part, "start");
+            x += 17.0 + views::text_width(part) + 14.0;
+        }
+    return out;
+}
+
+}  // namespace
+
+std::string draw_formulas(const Summary& s, const ForceUnit& unit, double width) {
+    const std::vector<Bar> bars = make_bars(s);
+    double longest = 0.0;
+    for (const Bar& bar : bars) longest = std::max(longest, bar.length() + bar.half);
+    if (bars.size() < 2 || !(longest > 0.0)) return "";
+    const double per_newton = (width - kLeft - kRight) / longest;
+    const double height = kTop + kRow * static_cast<double>(bars.size()) + 6.0;
+    const std::string title = "Resistance and formulas [" + unit.name + "]";
+    std::string out = views::svg_open(width, height, title) +
+                      views::text_element(8.0, 16.0, title, "start", "font-weight=\"600\"");
+    const auto band = band_of(comparable_formulas(formulas_of(s), is_level_ice(s.ice)));
+    if (band && band->high > band->low)
+        out += rectangle(kLeft + band->low * per_newton, kTop - 4.0,
+                         (band->high - band->low) * per_newton, height - kTop,
+                         "fill=\"#b8c4cc\" opacity=\"0.45\"");
+    for (std::size_t k = 0; k < bars.size(); ++k)
+        out += draw_bar(bars[k], kTop + kRow * static_cast<double>(k) + 4.0, per_newton, unit);
+    return out + draw_legend(bars) + "</svg>\n";
+}
+
+std::string formula_footnote(const std::vector<FormulaValue>& formulas) {
+    std::vector<std::string> names;
+    std::map<std::string, std::string> parts;
+    for (const FormulaValue& f : formulas) {
+        if (f.verified) continue;
+        if (!parts.contains(f.name)) names.push_back(f.name);
+        parts[f.name] += (parts[f.name].empty() ? "" : ", ") + f.part;
+    }
+    if (names.empty()) return "";
+    std::string out = "Recalled, compared with no published number:";
+    for (const std::string& name : names)
+        out += fmt::format("{} {} ({})", name == names.front() ? "" : ";", name, parts[name]);
+    return out + ".";
+}
+
+std::string formula_section(const Summary& s, const ForceUnit& unit) {
+    const auto formulas = formulas_of(s);
+    if (formulas.empty()) return "";
+    const bool level = is_level_ice(s.ice);
+    const auto compared = comparable_formulas(formulas, level);
+    std::vector<std::vector<std::string>> rows;
+    for (const FormulaValue& f : formulas) {
+        const bool same = std::any_of(compared.begin(), compared.end(), [&](const auto& c) {
+            return c.name == f.name && c.part == f.part;
+        });
+        rows.push_back({f.name + ", " + f.part, unit.text(f.value), same ? "yes" : "-",
+                        f.verified ? "yes" : "recalled"});
+    }
+    std::string intro =
+        level ? "This run breaks level ice, so totals stand beside it."
+              : "This run's ice is broken from the start, so only the parts that broken ice takes "
+                "stand beside it: what breaking level ice would take comes on top.";
+    if (std::isfinite(s.ice.flexural_strength))
+        intro +=
+            fmt::format(" Level ice of {} kPa.", views::readable(1e-3 * s.ice.flexural_strength));
+    intro += " " + formula_footnote(formulas);
+    return section(
+        "formulas", "Empirical formulas", intro,
+        figures({draw_formulas(s, unit, 600.0)}) +
+            table({"Formula, part", "Value [" + unit.name + "]", "Comparable", "Verified"}, rows));
+}
+
+}  // namespace ice::report

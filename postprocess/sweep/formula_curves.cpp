@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "postprocess/sweep/formula_curves.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ice::sweep {
+
+namespace {
+
+// of the formulas in their order
+constexpr const char* kDashes[] = {"2 3", "7 3 2 3", "9 4", "4 2"};
+
+template <class List>
+bool lists(const List& list, const FormulaValue& f) {
+    return std::any_of(list.begin(), list.end(), [&](const auto& known) {
+        return known.name == f.name && known.part == f.part;
+    });
+}
+
+}  // namespace
+
+std::string author_of(const std::string& name) {
+    const auto space = name.rfind(' ');
+    const bool year =
+        space != std::string::npos && name.size() == space + 5 &&
+        std::all_of(name.end() - 4, name.end(), [](char c) { return c >= '0' && c <= '9'; });
+    return year ? name.substr(0, space) : name;
+}
+
+std::vector<FormulaCurve> comparable_curves(const std::vector<Curve>& curves) {
+    std::vector<FormulaCurve> out;
+    for (const Curve& curve : curves)
+        for (const Point& point : curve.points)
+            for (const FormulaValue& f : comparable_formulas(point.formulas, point.level_ice))
+                if (std::isfinite(f.value) && !lists(out, f))
+                    out.push_back({f.name, f.part, author_of(f.name),
+                                   kDashes[out.size() % std::size(kDashes)]});
+    return out;
+}
+
+std::vector<FormulaCurve> component_curves(const Curve& curve) {
+    std::vector<FormulaCurve> out;
+    const bool level = curve.points.front().level_ice;
+    for (const FormulaValue& f : curve.points.front().formulas)
+        if (f.part == "buoyancy" ||
+            (level && (f.part == "submersion" || f.part == "buoyancy + clearing")))
+            out.push_back({f.name, f.part, author_of(f.name) + ", " + f.part, "1 2"});
+    return out;
+}
+
+std::optional<FormulaBand> formula_band(const Point& point) {
+    return band_of(comparable_formulas(point.formulas, point.level_ice));
+}
+
+std::vector<FormulaValue> formula_columns(const std::vector<Point>& points) {
+    std::vector<FormulaValue> out;
+    for (const Point& point : points)
+        for (const FormulaValue& f : point.formulas)
+            if (!lists(out, f)) out.push_back(f);
+    return out;
+}
+
+}  // namespace ice::sweep

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Which formulas are drawn beside the points of a sweep.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/formulas/formula_band.hpp"
+#include "postprocess/sweep/sweep_points.hpp"
+
+namespace ice::sweep {
+
+/// A part of a formula, drawn over the points.
+struct FormulaCurve {
+    std::string name, part;  ///< FormulaValue
+    std::string legend;      ///< the author without the year, or the user's ship
+    std::string dash;        ///< SVG dash pattern
+};
+
+/// What can be compared with the points' resistance (comparable_formulas()), in the formulas'
+/// order.
+std::vector<FormulaCurve> comparable_curves(const std::vector<Curve>& curves);
+
+/// Components below these: buoyancy, and in level ice what broken ice would take.
+std::vector<FormulaCurve> component_curves(const Curve& curve);
+
+/// What the comparable formulas span at a point; none without any.
+std::optional<FormulaBand> formula_band(const Point& point);
+
+/// "Lindqvist" for "Lindqvist 1989"; a name without a year as it is.
+std::string author_of(const std::string& name);
+
+/// All parts that any of the points has, in the formulas' order.
+std::vector<FormulaValue> formula_columns(const std::vector<Point>& points);
+
+}  // namespace ice::sweep
