@@ -12,6 +12,7 @@
 #include "common/cli/console.hpp"
 #include "common/cli/picture_file.hpp"
 #include "common/formulas/coefficients_file.hpp"
+#include "postprocess/attain/hv_curves.hpp"
 #include "postprocess/check/check_run.hpp"
 #include "postprocess/fit/fit_sweep.hpp"
 #include "postprocess/icepost_options.hpp"
@@ -141,6 +142,23 @@ int fit(const Options& o) {
     return 0;
 }
 
+int hv(const Options& o) {
+    ice::check_page_name(o.out);
+    if (!o.svg.empty()) ice::check_picture_name(o.svg);
+    const auto thrusts =
+        o.thrust.empty() ? std::vector<ice::attain::Thrust>{} : ice::attain::read_thrusts(o.thrust);
+    const auto formulas = formula_options(o);
+    const auto runs = ice::sweep::read_sweep(o.run);
+    const auto study = ice::attain::make_hv(runs, thrusts, formulas);
+    const auto file = o.out.empty() ? o.run / "hv.html" : o.out;
+    ice::write_text_file(file, ice::attain::make_hv_page(runs, study));
+    for (const std::string& warning : study.warnings) ice::say_warning(warning);
+    ice::say(fmt::format("wrote {}", file.string()));
+    if (!o.svg.empty()) ice::write_picture(o.svg, ice::attain::draw_hv(study, 860.0));
+    if (!o.csv_file.empty()) ice::write_text_file(o.csv_file, ice::attain::hv_csv(study));
+    return 0;
+}
+
 int sensitivity(const Options& o) {
     ice::check_page_name(o.out);
     if (!o.svg.empty()) ice::check_picture_name(o.svg);
@@ -193,6 +211,7 @@ int main(int argc, char** argv) {
         if (c.table->parsed()) return compare_runs(o);
         if (c.sweep->parsed()) return sweep(o);
         if (c.fit->parsed()) return fit(o);
+        if (c.hv->parsed()) return hv(o);
         if (c.sensitivity->parsed()) return sensitivity(o);
         return c.paraview->parsed() ? paraview(o) : check(o);
     };

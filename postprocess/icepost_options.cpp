@@ -66,6 +66,12 @@ void declare_sweeps(CLI::App& app, PostOptions& o, PostCommands& c) {
     c.fit->add_option("--name", o.name, "of the ship (default: the sweep's title)");
     c.fit->add_option("--flexural-strength", o.flexural_strength, "of level ice in the sweep")
         ->transform(positive_quantity(Dimension::pressure, "500 kPa"));
+    c.hv = add_folder_command(app, o, "hv", "write DIR/hv.html, attainable speed against thickness",
+                              "folder of run folders over speed and thickness");
+    c.hv->add_option("--thrust", o.thrust, "TOML file with [[thrust]] curves");
+    c.hv->add_option("--svg", o.svg, "also write the chart: .svg, .png or .pdf");
+    c.hv->add_option("--csv", o.csv_file, "also write the points as CSV");
+    add_formula_options(*c.hv, o);
     c.sensitivity =
         add_folder_command(app, o, "sensitivity",
                            "write DIR/sensitivity.html and print what decides a case's resistance",

@@ -15,7 +15,7 @@ namespace ice {
 
 /// What was given; RUN and DIR share `run`.
 struct PostOptions {
-    std::filesystem::path run, out, expected, junit, svg, coefficients;
+    std::filesystem::path run, out, expected, junit, svg, coefficients, thrust, csv_file;
     std::size_t every = 1, frames = report::kReportFrames;
     double time = 0.0;
     double flexural_strength = std::numeric_limits<double>::quiet_NaN();  ///< [Pa]
@@ -27,7 +27,7 @@ struct PostOptions {
 
 /// The subcommands, in the order of the help.
 struct PostCommands {
-    CLI::App *report, *view, *plot, *table, *sweep, *fit, *sensitivity, *paraview, *check;
+    CLI::App *report, *view, *plot, *table, *sweep, *fit, *hv, *sensitivity, *paraview, *check;
 };
 
 /// Declares subcommands and options; what is parsed goes into `options`.

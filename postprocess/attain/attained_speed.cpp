@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "postprocess/attain/attained_speed.hpp"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "common/base/uncertainty.hpp"
+
+namespace ice::attain {
+
+namespace {
+
+constexpr double kNormal = 1.959963984540054;  // half widths per standard deviation, at 95 %
+constexpr double kMostSpeed = 50.0;            // of a ship [m/s], for thrusts that never end
+constexpr int kSteps = 2000, kHalvings = 60;
+
+struct Trial {
+    ResistanceFit fit;
+    double misses = 0.0;  // chi^2 per degree of freedom; 0 without any
+};
+
+Trial try_degree(const std::vector<SpeedPoint>& points, Eigen::Index degree, bool weighted) {
+    const auto n = static_cast<Eigen::Index>(points.size());
+    Eigen::MatrixXd j(n, degree + 1);
+    Eigen::VectorXd right(n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+        const SpeedPoint& p = points[static_cast<std::size_t>(i)];
+        const double weight = weighted ? kNormal / p.half : 1.0;
+        for (Eigen::Index k = 0; k <= degree; ++k)
+            j(i, k) = weight * std::pow(p.speed, static_cast<double>(k));
+        right[i] = weight * p.resistance;
+    }
+    Trial out;
+    out.fit.coefficient = j.colPivHouseholderQr().solve(right);
+    const double chi2 = (j * out.fit.coefficient - right).squaredNorm();
+    const auto degrees = static_cast<double>(n - degree - 1);
+    out.misses = degrees > 0.0 ? chi2 / degrees : 0.0;
+    const bool own = weighted && out.misses <= 1.0;
+    out.fit.covariance =
+        (j.transpose() * j).ldlt().solve(Eigen::MatrixXd::Identity(degree + 1, degree + 1)) *
+        (own ? 1.0 : out.misses);
+    out.fit.t = own ? kNormal : degrees > 0.0 ? student_quantile(degrees, 0.05) : std::nan("");
+    return out;
+}
+
+// First root of a function that begins above 0; NaN without one.
+double first_root(const std::function<double(double)>& f, double end) {
+    if (!(f(0.0) > 0.0)) return 0.0;
+    double low = 0.0;
+    for (int k = 1; k <= kSteps; ++k) {
+        double high = end * k / kSteps;
+        if (f(high) > 0.0) {
+            low = high;
+            continue;
+        }
+        for (int half = 0; half < kHalvings; ++half) {
+            const double middle = 0.5 * (low + high);
+            (f(middle) > 0.0 ? low : high) = middle;
+        }
+        return 0.5 * (low + high);
+    }
+    return std::nan("");
+}
+
+}  // namespace
+
+double ResistanceFit::at(double speed) const {
+    double sum = 0.0;
+    for (Eigen::Index k = coefficient.size() - 1; k >= 0; --k) sum = sum * speed + coefficient[k];
+    return sum;
+}
+
+double ResistanceFit::half(double speed) const {
+    Eigen::VectorXd x(coefficient.size());
+    for (Eigen::Index k = 0; k < x.size(); ++k) x[k] = std::pow(speed, static_cast<double>(k));
+    return t * std::sqrt(x.dot(covariance * x));
+}
+
+ResistanceFit fit_resistance(const std::vector<SpeedPoint>& points) {
+    const bool weighted =
+        std::all_of(points.begin(), points.end(), [](const SpeedPoint& p) { return p.half > 0.0; });
+    Trial best = try_degree(points, 1, weighted);
+    if (points.size() >= 4) {
+        const Trial curved = try_degree(points, 2, weighted);
+        // by chance a parabola misses by less, too: half is no chance, and 1 is what intervals say
+        const bool straight = weighted && best.misses <= 1.0;
+        if (!straight && curved.misses < 0.5 * best.misses) best = curved;
+    }
+    best.fit.slowest = best.fit.fastest = points.front().speed;
+    for (const SpeedPoint& p : points) {
+        best.fit.slowest = std::min(best.fit.slowest, p.speed);
+        best.fit.fastest = std::max(best.fit.fastest, p.speed);
+    }
+    return best.fit;
+}
+
+double attained_speed(const std::function<double(double)>& resistance, const Thrust& thrust) {
+    const double end = std::min(thrust.fastest(), kMostSpeed);
+    return first_root([&](double u) { return thrust.at(u) - resistance(u); }, end);
+}
+
+AttainedSpeed attained_speed(const ResistanceFit& fit, const Thrust& thrust) {
+    const auto meets = [&](double halves) {
+        return attained_speed([&](double u) { return fit.at(u) + halves * fit.half(u); }, thrust);
+    };
+    AttainedSpeed out;
+    out.speed = attained_speed([&](double u) { return fit.at(u); }, thrust);
+    out.low = std::isfinite(fit.t) ? meets(1.0) : std::nan("");
+    out.high = std::isfinite(fit.t) ? meets(-1.0) : std::nan("");
+    if (std::isnan(out.speed))
+        out.reach = Reach::beyond;
+    else if (out.speed == 0.0)
+        out.reach = Reach::stuck;
+    else
+        out.reach =
+            out.speed < fit.slowest || out.speed > fit.fastest ? Reach::outside : Reach::within;
+    return out;
+}
+
+}  // namespace ice::attain

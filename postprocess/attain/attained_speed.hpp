@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Where thrust and resistance meet.
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <vector>
+
+#include "postprocess/attain/thrust.hpp"
+
+namespace ice::attain {
+
+/// Resistance at a speed, with the half width of its 95 % interval (NaN: unknown).
+struct SpeedPoint {
+    double speed = 0.0, resistance = 0.0, half = 0.0;  ///< [m/s], [N], [N]
+};
+
+/// Resistance as a polynomial of the speed.
+struct ResistanceFit {
+    Eigen::VectorXd coefficient;          ///< of 1, V, V^2
+    Eigen::MatrixXd covariance;           ///< of them
+    double t = 0.0;                       ///< half widths per standard deviation; NaN: none known
+    double slowest = 0.0, fastest = 0.0;  ///< speeds that it was fitted to [m/s]
+
+    double at(double speed) const;
+    double half(double speed) const;  ///< half width of the curve's 95 % interval [N]
+};
+
+/// Weighted least squares: a line, as in Lindqvist's and Riska's formulas, or from four speeds on a
+/// parabola where that misses the points by less per degree of freedom. Intervals come from the
+/// points' own, and where they miss the curve by more from the misses, with Student's t.
+/// @pre two different speeds or more
+ResistanceFit fit_resistance(const std::vector<SpeedPoint>& points);
+
+/// How an attained speed is to be taken.
+enum class Reach {
+    within,   ///< the speed lies among those that were simulated
+    outside,  ///< the curve was continued beyond them
+    stuck,    ///< the thrust is not enough at rest
+    beyond    ///< the ice never holds the ship: no speed
+};
+
+struct AttainedSpeed {
+    double speed = 0.0, low = 0.0, high = 0.0;  ///< [m/s]; low and high: 95 %, NaN: unknown
+    Reach reach = Reach::within;
+};
+
+/// The first speed, from rest, at which the thrust no longer exceeds the resistance.
+///
+/// The interval is where the thrust meets the resistance's interval: low at R + half, high at
+/// R - half. Stuck: speed 0. Beyond: NaN.
+AttainedSpeed attained_speed(const ResistanceFit& fit, const Thrust& thrust);
+
+/// The same for a resistance without interval; NaN where nothing holds the ship.
+double attained_speed(const std::function<double(double)>& resistance, const Thrust& thrust);
+
+}  // namespace ice::attain

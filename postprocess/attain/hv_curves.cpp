@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "postprocess/attain/hv_curves.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+
+#include "common/base/error.hpp"
+#include "postprocess/sweep/key_names.hpp"
+
+namespace ice::attain {
+
+namespace {
+
+using sweep::Part;
+using sweep::Point;
+using sweep::Sweep;
+
+constexpr double kStuckSpeed = 0.1;  // [m/s]: a free ship slower than this is held by the ice
+constexpr const char* kFreedom = "ship.free";  // tells free ships from others, which are apart
+constexpr int kFormulaSteps = 24;              // of a formula's curve over the thicknesses
+
+// Thicknesses that differ by less come from one specification [m].
+long rounded(double thickness) { return std::lround(1e4 * thickness); }
+
+struct Row {
+    const Point* point;
+    const Summary* summary;  // of the first run
+    double thickness;
+};
+
+struct FreeSpeed {
+    double mean, half;
+};
+
+// None where the ship kept a given speed.
+std::optional<FreeSpeed> free_speed(const Sweep& sweep, const Row& row) {
+    std::vector<double> speeds;
+    double half = std::nan("");
+    for (const std::size_t run : row.point->runs) {
+        const auto numbers = read_json_numbers(sweep.runs[run].folder / "summary.json");
+        const auto own = numbers.find("ship.speed_ci95");
+        if (own == numbers.end()) return std::nullopt;
+        speeds.push_back(sweep.runs[run].summary->ship.speed_mean);
+        half = own->second;
+    }
+    const sweep::Estimate mean = sweep::estimate_mean(speeds);
+    return FreeSpeed{mean.mean, speeds.size() == 1 ? half : mean.half};
+}
+
+class Maker {
+public:
+    Maker(const Sweep& sweep, const std::vector<Thrust>& thrusts, const FormulaOptions& formulas)
+        : sweep_(sweep), thrusts_(thrusts), formulas_(formulas), points_(make_points(sweep)) {}
+
+    HvStudy make() {
+        take_rows();
+        for (const auto& [label, rows] : groups_) add_group(label, rows);
+        if (study_.curves.empty())
+            throw bad_input(sweep_.folder.string(),
+                            thrusts_.empty() ? "has no ship that is free in surge, so a thrust is "
+                                               "needed"
+                                             : "has no thickness with runs at two speeds",
+                            thrusts_.empty() ? "give --thrust FILE" : "add runs at other speeds");
+        return study_;
+    }
+
+private:
+    // points by the values of axes other than speed and thickness
+    void take_rows() {
+        for (const Point& point : points_) {
+            const Summary& s = *sweep_.runs[point.runs.front()].summary;
+            if (point.dimension == 3 && std::isfinite(s.ice.thickness))
+                rows_.push_back({&point, &s, s.ice.thickness});
+        }
+        if (rows_.empty())
+            throw bad_input(sweep_.folder.string(),
+                            "has no run in 3D that states its ice thickness",
+                            "run its cases again");
+        study_.level_ice = rows_.front().point->level_ice;
+        std::vector<std::string> other;
+        for (const std::string& axis : sweep_.axes)
+            if (axis != sweep::kSpeedKey && axis != kFreedom && !follows_thickness(axis))
+                other.push_back(axis);
+        for (const Row& row : rows_) {
+            std::string label;
+            for (const std::string& axis : other)
+                label += (label.empty() ? "" : ", ") +
+                         sweep::name_value(axis, row.point->at.at(axis), false);
+            groups_[label].push_back(row);
+        }
+    }
+
+    // each of the axis' values has one thickness, and each thickness one value
+    bool follows_thickness(const std::string& axis) const {
+        std::map<std::string, long> of_value;
+        std::map<long, std::string> of_thickness;
+        for (const Row& row : rows_) {
+            const std::string value = row.point->at.at(axis).text;
+            const long h = rounded(row.thickness);
+            if (of_value.emplace(value, h).first->second != h ||
+                of_thickness.emplace(h, value).first->second != value)
+                return false;
+        }
+        return true;
+    }
+
+    void add_group(const std::string& label, const std::vector<Row>& rows) {
+        HvCurve free{
+            Source::free_ship, label.empty() ? "free ship" : "free ship, " + label, "", {}};
+        std::map<long, std::vector<Row>> by_thickness;
+        for (const Row& row : rows) {
+            const auto speed = free_speed(sweep_, row);
+            if (!speed) {
+                by_thickness[rounded(row.thickness)].push_back(row);
+                continue;
+            }
+            const bool stuck = speed->mean < kStuckSpeed;
+            free.points.push_back(
+                {row.thickness,
+                 {speed->mean, std::max(0.0, speed->mean - speed->half), speed->mean + speed->half,
+                  stuck ? Reach::stuck : Reach::within}});
+        }
+        const auto thinner = [](const HvPoint& a, const HvPoint& b) {
+            return a.thickness < b.thickness;
+        };
+        std::sort(free.points.begin(), free.points.end(), thinner);
+        if (!free.points.empty()) study_.curves.push_back(free);
+        const auto fits = fit_all(by_thickness);
+        for (const Thrust& thrust : thrusts_) {
+            add_course(label, thrust, fits);
+            if (!fits.empty()) add_formulas(label, thrust, rows);
+        }
+    }
+
+    std::map<double, ResistanceFit> fit_all(const std::map<long, std::vector<Row>>& by_thickness) {
+        std::map<double, ResistanceFit> out;
+        for (const auto& [h, rows] : by_thickness) {
+            std::vector<SpeedPoint> speeds;
+            for (const Row& row : rows) {
+                const sweep::Estimate r = row.point->part(Part::total);
+                speeds.push_back({std::abs(row.summary->ship.speed_mean), r.mean, r.half});
+            }
+            const bool one = std::all_of(speeds.begin(), speeds.end(), [&](const SpeedPoint& p) {
+                return std::abs(p.speed - speeds.front().speed) < 1e-6;
+            });
+            if (one)
+                study_.warnings.push_back(
+                    fmt::format("{:g} m of ice was run at one speed only: no curve through it",
+                                rows.front().thickness));
+            else
+                out.emplace(rows.front().thickness, fit_resistance(speeds));
+        }
+        return out;
+    }
+
+    void add_course(const std::string& label, const Thrust& thrust,
+                    const std::map<double, ResistanceFit>& fits) {
+        HvCurve curve{Source::fixed_course, label.empty() ? "computed" : label, thrust.name, {}};
+        for (const auto& [thickness, fit] : fits)
+            curve.points.push_back({thickness, attained_speed(fit, thrust)});
+        const auto outside =
+            std::count_if(curve.points.begin(), curve.points.end(),
+                          [](const HvPoint& p) { return p.attained.reach == Reach::outside; });
+        if (outside > 0)
+            study_.warnings.push_back(fmt::format(
+                "{}: {} of {} speeds lie outside those that were run, on the curve continued",
+                thrust.name, outside, curve.points.size()));
+        if (!curve.points.empty()) study_.curves.push_back(curve);
+    }
+
+    // at thicknesses between the least and the largest, ship and ice else as in the first run
+    void add_formulas(const std::string& label, const Thrust& thrust,
+                      const std::vector<Row>& rows) {
+        const auto [low, high] = std::minmax_element(
+            rows.begin(), rows.end(),
+            [](const Row& a, const Row& b) { return a.thickness < b.thickness; });
+        const Summary& s = *rows.front().summary;
+        IceParticulars ice = s.ice;
+        const auto at = [&](double thickness, double speed) {
+            ice.thickness = thickness;
+            return comparable_formulas(evaluate_formulas(s.ship, ice, speed, formulas_),
+                                       study_.level_ice);
+        };
+        const auto names = at(low->thickness, 1.0);
+        for (std::size_t k = 0; k < names.size(); ++k) {
+            HvCurve curve{
+                Source::formula,
+                names[k].name + ", " + names[k].part + (label.empty() ? "" : " (" + label + ")"),
+                thrust.name,
+                {}};
+            const int steps = high->thickness > low->thickness ? kFormulaSteps : 0;
+            for (int i = 0; i <= steps; ++i) {
+                const double h =
+                    low->thickness + (high->thickness - low->thickness) * i / kFormulaSteps;
+                AttainedSpeed reached;
+                reached.speed = attained_speed([&](double u) { return at(h, u)[k].value; }, thrust);
+                reached.low = reached.high = std::nan("");
+                if (std::isnan(reached.speed)) reached.reach = Reach::beyond;
+                if (reached.speed == 0.0) reached.reach = Reach::stuck;
+                curve.points.push_back({h, reached});
+            }
+            study_.curves.push_back(curve);
+        }
+    }
+
+    const Sweep& sweep_;
+    const std::vector<Thrust>& thrusts_;
+    const FormulaOptions& formulas_;
+    std::vector<Point> points_;
+    std::vector<Row> rows_;
+    std::map<std::string, std::vector<Row>> groups_;
+    HvStudy study_;
+};
+
+}  // namespace
+
+HvStudy make_hv(const Sweep& sweep, const std::vector<Thrust>& thrusts,
+                const FormulaOptions& formulas) {
+    return Maker(sweep, thrusts, formulas).make();
+}
+
+}  // namespace ice::attain
