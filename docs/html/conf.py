@@ -11,7 +11,8 @@ SOURCE = pathlib.Path(__file__).resolve().parents[2]
 CONTENTS = {
     "First steps": ["docs/your-own-ship", "docs/limitations", "docs/validation"],
     "Programs": ["docs/spherize", "docs/icefield", "docs/iceflow", "docs/icesolve",
-                 "docs/icepost", "docs/case-keys", "workflow/README"],
+                 "docs/icepost", "docs/case-keys", "workflow/README",
+                 "python/README"],
     "Cases": ["cases/paper-2d", "cases/paper-3d/README", "cases/paper-3d-defaults/README",
               "cases/presawn-channel/README", "cases/icebreaker-100m/README",
               "cases/broken-field/README", "meshes/README"],
