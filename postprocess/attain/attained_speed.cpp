@@ -37,11 +37,11 @@ Trial try_degree(const std::vector<SpeedPoint>& points, Eigen::Index degree, boo
     const double chi2 = (j * out.fit.coefficient - right).squaredNorm();
     const auto degrees = static_cast<double>(n - degree - 1);
     out.misses = degrees > 0.0 ? chi2 / degrees : 0.0;
-    const bool own = weighted && out.misses <= 1.0;
+    // the points' own intervals, wider where the points miss the curve by more
+    const double scale = weighted ? std::max(1.0, out.misses) : out.misses;
     out.fit.covariance =
-        (j.transpose() * j).ldlt().solve(Eigen::MatrixXd::Identity(degree + 1, degree + 1)) *
-        (own ? 1.0 : out.misses);
-    out.fit.t = own ? kNormal : degrees > 0.0 ? student_quantile(degrees, 0.05) : std::nan("");
+        (j.transpose() * j).ldlt().solve(Eigen::MatrixXd::Identity(degree + 1, degree + 1)) * scale;
+    out.fit.t = weighted ? kNormal : degrees > 0.0 ? student_quantile(degrees, 0.05) : std::nan("");
     return out;
 }
 

@@ -28,7 +28,8 @@ struct ResistanceFit {
 
 /// Weighted least squares: a line, as in Lindqvist's and Riska's formulas, or from four speeds on a
 /// parabola where that misses the points by less per degree of freedom. Intervals come from the
-/// points' own, and where they miss the curve by more from the misses, with Student's t.
+/// points' own, widened by the root of chi^2 per degree of freedom where the points miss the curve
+/// by more; without intervals from the misses, with Student's t.
 /// @pre two different speeds or more
 ResistanceFit fit_resistance(const std::vector<SpeedPoint>& points);
 

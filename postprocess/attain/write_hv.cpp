@@ -147,7 +147,7 @@ std::string draw_hv(const HvStudy& study, double width) {
                 fastest = std::max(fastest, p.attained.speed);
         }
     const double cap = high > low ? 0.008 * (high - low) : 0.008 * high;
-    chart.x_from_zero = low <= 0.5 * high;
+    chart.x_from_zero = low <= 0.5 * high || low == high;
     std::size_t formulas = 0;
     for (const HvCurve& curve : study.curves) {
         const bool formula = curve.source == Source::formula;

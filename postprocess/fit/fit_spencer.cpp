@@ -84,10 +84,11 @@ Eigen::VectorXd half_widths(const Eigen::MatrixXd& j, double chi2, bool weighted
     const auto degrees = static_cast<double>(j.rows() - n);
     if (degrees < 1.0 && !weighted) return Eigen::VectorXd::Constant(n, kNaN);
     const double scatter = degrees >= 1.0 ? chi2 / degrees : 0.0;
-    const bool own = weighted && scatter <= 1.0;  // the points' intervals explain the misses
-    const double t = own ? kNormal : student_quantile(degrees, 0.05);
+    // the points' own intervals, wider where the points miss the curve by more
+    const double t = weighted ? kNormal : student_quantile(degrees, 0.05);
     const Eigen::MatrixXd covariance =
-        (j.transpose() * j).ldlt().solve(Eigen::MatrixXd::Identity(n, n)) * (own ? 1.0 : scatter);
+        (j.transpose() * j).ldlt().solve(Eigen::MatrixXd::Identity(n, n)) *
+        (weighted ? std::max(1.0, scatter) : scatter);
     return t * covariance.diagonal().cwiseSqrt();
 }
 
@@ -169,6 +170,10 @@ double fitted_resistance(const SpencerFit& fit, const FitPoint& point) {
 
 SpencerFit fit_spencer(const std::vector<FitPoint>& points) {
     const Problem problem = take_broken(points);
+    if (points.empty())
+        throw bad_input("the sweep",
+                        "has no run in 3D that says ship, ice and water (older programs did not)",
+                        "run its cases again");
     const std::size_t speeds = count_speeds(problem);
     if (speeds < 2)
         throw bad_input("the sweep",

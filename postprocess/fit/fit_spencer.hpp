@@ -33,10 +33,10 @@ struct SpencerFit {
 /// a creeping ship has as well. Two speeds give C_B and C_C with Jeong's a. Level ice then gives
 /// C_BR and b by a line through log((R - R_B - R_C) / Y) over log S.
 ///
-/// Intervals are those of linearised least squares: from the points' own intervals, times the root
-/// of chi^2 per degree of freedom where points miss the curve by more; without intervals from the
-/// misses alone, with Student's t.
-/// @throws Error (exit code 2) with fewer than two speeds of broken ice
+/// Intervals are those of linearised least squares: from the points' own intervals, widened by the
+/// root of chi^2 per degree of freedom where points miss the curve by more; without intervals from
+/// the misses alone, with Student's t.
+/// @throws Error (exit code 2) without points, or with fewer than two speeds of broken ice
 SpencerFit fit_spencer(const std::vector<FitPoint>& points);
 
 /// What the fit says of a point [N].
