@@ -61,6 +61,8 @@ def value(sub):
         return f"{count} {noun}" + ("" if span(items) == "any" else f", each {span(items)}")
     if sub["type"] == "string":
         return "text"
+    if sub["type"] == "boolean":
+        return "true or false"
     if sub["type"] == "integer":
         return f"integer, {span(sub)}"
     return span(sub) if span(sub) != "any" else "number"

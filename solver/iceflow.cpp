@@ -16,6 +16,7 @@
 #include "common/cli/start_threads.hpp"
 #include "common/formats/flow_report.hpp"
 #include "common/formats/spheres_file.hpp"
+#include "solver/flow/added_mass.hpp"
 #include "solver/flow/flow_table.hpp"
 #include "solver/flow/write_vti.hpp"
 
@@ -27,7 +28,9 @@ struct Options {
     std::optional<double> draught;
     double panel = 0.0, spacing = 0.0;
     int threads = 0;
-    bool check = false;
+    double density = 1025.0;
+    std::vector<double> about;
+    bool check = false, added_mass = false;
     ice::MessageOptions messages;
 };
 
@@ -53,6 +56,16 @@ void declare(CLI::App& app, Options& o) {
         ->transform(length("0.15"));
     app.add_flag("--check", o.check,
                  "Solve the flow and say how well the panels do; write no flow file");
+    app.add_flag("--added-mass", o.added_mass,
+                 "Also say the hull's added mass: surge, sway, yaw under a flat surface, heave, "
+                 "roll, pitch under one that yields");
+    app.add_option("--about", o.about,
+                   "Point for rotations, in the mesh's axes (default: midships in the water)")
+        ->expected(3);
+    app.add_option("--density", o.density, "Of the water, for the added mass")
+        ->type_name("RHO")
+        ->capture_default_str()
+        ->transform(ice::positive_quantity(ice::Dimension::density, "1025"));
     app.add_option("--export", o.exports, "Also write the flow for another program (repeatable)")
         ->check(CLI::IsMember({"vti"}))
         ->allow_extra_args(false);
@@ -114,6 +127,41 @@ ice::FlowReport report_of(const ice::HullFlow& flow, int dimension) {
     return r;
 }
 
+void add_added_mass(const Options& o, const ice::SphereSet& hull, double water,
+                    ice::FlowReport& r) {
+    if (hull.dimension != 3)
+        throw ice::bad_input("--added-mass", "needs a hull in 3D",
+                             "give the set of the whole hull");
+    double low = 1e300, high = -1e300;
+    for (const ice::Vec3& v : hull.mesh.vertices) {
+        low = std::min(low, v.x());
+        high = std::max(high, v.x());
+    }
+    r.added_mass_about = {0.5 * (low + high), 0.0, water};
+    if (!o.about.empty()) std::copy_n(o.about.begin(), 3, r.added_mass_about.begin());
+    const ice::Vec3 about(r.added_mass_about[0], r.added_mass_about[1], r.added_mass_about[2]);
+    const ice::ShipAddedMass mass =
+        ice::ship_added_mass(hull.mesh, water, about, o.density, o.panel);
+    r.displacement = mass.displacement;
+    r.water_density = o.density;
+    r.added_mass.emplace();
+    for (std::size_t i = 0; i < 6; ++i)
+        for (std::size_t j = 0; j < 6; ++j)
+            (*r.added_mass)[i][j] = mass.matrix(static_cast<int>(i), static_cast<int>(j));
+}
+
+std::string added_mass_text(const ice::FlowReport& r) {
+    if (!r.added_mass) return "";
+    const auto& a = *r.added_mass;
+    return fmt::format(
+        "  added mass        surge {:.3f}, sway {:.3f}, heave {:.3f} of the displacement, {:.4g} "
+        "t\n"
+        "  added inertia     as if that lay at {:.3g} m (roll), {:.3g} m (pitch), {:.3g} m (yaw)\n",
+        a[0][0] / r.displacement, a[1][1] / r.displacement, a[2][2] / r.displacement,
+        1e-3 * r.displacement, std::sqrt(a[3][3] / r.displacement),
+        std::sqrt(a[4][4] / r.displacement), std::sqrt(a[5][5] / r.displacement));
+}
+
 std::string report_text(const ice::FlowReport& r, const std::string& name) {
     std::string out = fmt::format(
         "{}\n"
@@ -128,7 +176,7 @@ std::string report_text(const ice::FlowReport& r, const std::string& name) {
     if (r.nodes[0] > 0)
         out += fmt::format("  table             {} x {} x {} nodes every {:.3g} m\n", r.nodes[0],
                            r.nodes[1], r.nodes[2], r.spacing);
-    return out +
+    return out + added_mass_text(r) +
            fmt::format("  time              {:.2f} s for the panels, {:.2f} s for the table\n",
                        r.solve_seconds, r.table_seconds);
 }
@@ -154,7 +202,8 @@ int run_iceflow(const Options& o, const std::string& command_line) {
     flow.table.command_line = command_line;
     if (!o.check) ice::write_flow(out, flow.table);
     if (!o.exports.empty()) ice::write_vti(export_of(out), flow.table);
-    const ice::FlowReport report = report_of(flow, hull.dimension);
+    ice::FlowReport report = report_of(flow, hull.dimension);
+    if (o.added_mass) add_added_mass(o, hull, options.water, report);
     if (!o.json.empty()) ice::write_text_file(o.json, ice::flow_report_text(report));
     if (!o.messages.quiet) ice::write_data(report_text(report, o.check ? o.hull : out.string()));
     for (const std::string& warning : report.warnings) ice::say_warning(warning);

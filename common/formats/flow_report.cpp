@@ -20,6 +20,11 @@ std::string flow_report_text(const FlowReport& r) {
     json["net_flux"] = r.net_flux;
     json["nodes"] = r.nodes;
     json["spacing_m"] = r.spacing;
+    if (r.added_mass)
+        json["added_mass"] = {{"matrix", *r.added_mass},
+                              {"about_m", r.added_mass_about},
+                              {"displacement_kg", r.displacement},
+                              {"water_density_kg_per_m3", r.water_density}};
     json["warnings"] = r.warnings;
     json["seconds"] = {{"solve", r.solve_seconds}, {"table", r.table_seconds}};
     add_origin(json);

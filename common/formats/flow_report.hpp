@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,10 @@ struct FlowReport {
     double spacing = 0.0;                 ///< [m]
     double solve_seconds = 0.0, table_seconds = 0.0;
     std::vector<std::string> warnings;
+    /// With --added-mass: of the hull, about this point of the mesh [m], in [kg], [kg m], [kg m2].
+    std::optional<std::array<std::array<double, 6>, 6>> added_mass = std::nullopt;
+    std::array<double, 3> added_mass_about{};
+    double displacement = 0.0, water_density = 0.0;  ///< of the panels' body [kg], [kg/m3]
 };
 
 /// Schema iceflow/1: docs/contract.md, section 10.

@@ -198,6 +198,9 @@ std::string summary_text(const Summary& s) {
     if (!s.imbalance.empty()) json["imbalance"] = s.imbalance;
     json["lindqvist_submersion_N"] = or_null(s.lindqvist_submersion);
     json["formulas"] = s.formulas;
+    if (s.flow)
+        json["flow"] = {
+            {"model", s.flow->model}, {"panels", s.flow->panels}, {"residual", s.flow->residual}};
     if (s.ensemble) json["ensemble"] = ensemble_json(*s.ensemble);
     json["warnings"] = warnings_json(s.warnings);
     if (s.dimension == 2) add_names_per_metre(json);
@@ -246,6 +249,9 @@ Summary read_summary(const std::filesystem::path& path) {
     s.imbalance = in.numbers("imbalance");
     s.lindqvist_submersion = in.get<std::optional<double>>("lindqvist_submersion_N");
     if (in.has("formulas")) s.formulas = in.get<std::vector<FormulaValue>>("formulas");
+    if (in.has("flow"))
+        s.flow = FlowSummary{in.get<std::string>("flow.model"), in.get<std::int64_t>("flow.panels"),
+                             in.number("flow.residual")};
     s.ensemble = read_ensemble(in);
     s.warnings = read_warnings(in);
     return s;

@@ -59,6 +59,13 @@ struct Ensemble {
     std::vector<std::int64_t> seeds;  ///< of each member
 };
 
+/// The flow around the hull that a run took its water's motion from.
+struct FlowSummary {
+    std::string model;        ///< "double-body" or "file"
+    std::int64_t panels = 0;  ///< 0: from elsewhere
+    double residual = 0.0;    ///< area-rms of the normal velocity left on the hull, over the speed
+};
+
 /// Content of summary.json (schema icesolve-summary/1, docs/contract.md, section 5).
 struct Summary {
     std::string status = "completed";  ///< completed | interrupted | failed
@@ -87,6 +94,7 @@ struct Summary {
     std::map<std::string, double> stage_seconds;  ///< wall time per stage of the step
     std::optional<double> lindqvist_submersion;   ///< [N]; none where the hull has no waterline
     std::vector<FormulaValue> formulas;           ///< of the same ship and ice
+    std::optional<FlowSummary> flow;              ///< none: no flow around the hull
     std::optional<Ensemble> ensemble;             ///< of an ensemble's folder
     std::vector<Warning> warnings;
     std::string case_file, command_line;

@@ -17,6 +17,8 @@ std::string kind_text(const Key& key) {
             return "number";
         case Kind::integer:
             return "integer";
+        case Kind::boolean:
+            return "true or false";
         case Kind::text:
             return "text";
         case Kind::path:
@@ -43,7 +45,8 @@ std::string default_note(const Key& key) {
 }
 
 bool has_range(const Key& key) {
-    return key.kind != Kind::text && key.kind != Kind::path && key.kind != Kind::choice;
+    return key.kind != Kind::text && key.kind != Kind::path && key.kind != Kind::choice &&
+           key.kind != Kind::boolean;
 }
 
 std::string table_of(const Key& key) {

@@ -62,6 +62,8 @@ Json value_schema(const Key& key) {
             return quantity(key, key.dimension);
         case Kind::integer:
             return whole_number(key);
+        case Kind::boolean:
+            return {{"type", "boolean"}};
         case Kind::text:
         case Kind::path:
             return {{"type", "string"}};
@@ -87,6 +89,7 @@ Json value_schema(const Key& key) {
 // The default as JSON; null where JSON cannot say it (inf).
 Json default_json(const Key& key, const Schema& schema) {
     const Value value = default_value(key, schema);
+    if (key.kind == Kind::boolean) return std::get<std::int64_t>(value) != 0;
     const bool whole = key.kind == Kind::counts || key.kind == Kind::integer_list;
     if (const auto* list = std::get_if<std::vector<double>>(&value); list && whole)
         return std::vector<std::int64_t>(list->begin(), list->end());

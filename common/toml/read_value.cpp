@@ -25,6 +25,8 @@ public:
                 return read_number(key, node, out);
             case Kind::integer:
                 return read_integer(key, node, out);
+            case Kind::boolean:
+                return read_boolean(key, node, out);
             case Kind::text:
             case Kind::path:
             case Kind::choice:
@@ -43,6 +45,16 @@ public:
 private:
     void complain(const toml::source_region& where, const std::string& what, std::size_t width) {
         complaints_.add(where, what, width);
+    }
+
+    bool read_boolean(const Key& key, const toml::node& node, Value& out) {
+        const auto value = node.value_exact<bool>();
+        if (!value) {
+            complain(node.source(), fmt::format("{} must be true or false", key.path), 1);
+            return false;
+        }
+        out = std::int64_t{*value};
+        return true;
     }
 
     // a number in SI, or a text with a unit; range checked

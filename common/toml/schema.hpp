@@ -17,6 +17,7 @@ namespace ice {
 enum class Kind {
     number,
     integer,
+    boolean,  ///< its value is 0 or 1
     text,
     path,
     choice,

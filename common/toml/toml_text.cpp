@@ -13,7 +13,10 @@ std::string toml_text(const Value& value, const Key& key) {
             // TOML floats need a point, an exponent or a name (inf)
             return text.find_first_of(".einf") == std::string::npos ? text + ".0" : text;
         }
-        std::string operator()(std::int64_t v) const { return fmt::format("{}", v); }
+        std::string operator()(std::int64_t v) const {
+            if (key.kind == Kind::boolean) return v != 0 ? "true" : "false";
+            return fmt::format("{}", v);
+        }
         std::string operator()(const std::string& v) const {
             std::string out = "\"";
             for (const char c : v) {

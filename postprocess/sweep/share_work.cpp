@@ -3,15 +3,19 @@
 
 #include <cmath>
 #include <limits>
+#include <string_view>
 
 namespace ice::sweep {
 
 namespace {
 
 struct Account {
-    const char *title, *key;
+    const char* title;
+    std::string_view key;
     double sign;
 };
+
+constexpr std::string_view kWaterWork = "water_work_J";  // of runs in moving water only
 
 constexpr Account kAccounts[]{{"Work per metre", "ship_work_J", 1.0},
                               {"Potential", "potential_J", 1.0},
@@ -21,7 +25,8 @@ constexpr Account kAccounts[]{{"Work per metre", "ship_work_J", 1.0},
                               {"Crushing", "crushing_J", 1.0},
                               {"Drag", "drag_J", 1.0},
                               {"Left-out moment", "buoyancy_moment_J", 1.0},
-                              {"Opened overlap", "separation_J", -1.0}};
+                              {"Opened overlap", "separation_J", -1.0},
+                              {"Moving water", kWaterWork, -1.0}};
 
 // [m], NaN when the speed is not one number
 double travel(const SweepRun& run) {
@@ -39,9 +44,10 @@ std::vector<WorkShare> share_work(const Sweep& sweep, const Point& point) {
         double sum = 0.0;
         for (const std::size_t row : point.runs) {
             const SweepRun& run = sweep.runs[row];
-            const auto energy = run.summary->energy.find(key);
-            sum += energy == run.summary->energy.end() ? std::numeric_limits<double>::quiet_NaN()
-                                                       : energy->second / travel(run);
+            const auto energy = run.summary->energy.find(std::string(key));
+            const bool booked = energy != run.summary->energy.end();
+            if (key == kWaterWork && !booked) continue;
+            sum += booked ? energy->second / travel(run) : std::numeric_limits<double>::quiet_NaN();
         }
         shares.push_back({title, sign * sum / static_cast<double>(point.runs.size())});
     }

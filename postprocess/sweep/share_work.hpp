@@ -15,8 +15,8 @@ struct WorkShare {
 
 /// What became of the ship's work, mean over a point's runs: first the work itself, then the
 /// accounts that it went to, which add up to it but for the residual (docs/energy.md). What opened
-/// overlaps put in counts negative. Work per metre is the mean force over the whole run, start-up
-/// included, while the resistance is that from output.average_from on.
+/// overlaps and moving water put in counts negative. Work per metre is the mean force over the
+/// whole run, start-up included, while the resistance is that from output.average_from on.
 ///
 /// NaN where the runs have no constant speed, or did not book energy.
 std::vector<WorkShare> share_work(const Sweep& sweep, const Point& point);

@@ -60,6 +60,9 @@ void check_case(Case& checked, std::size_t groups, const Values& values,
             "simulation.time_step",
             fmt::format("simulation.duration / time_step asks for more than {:g} steps",
                         kMostSteps));
+    if (checked.flow_pressure && checked.flow == FlowModel::none)
+        complaints.add_at("flow.pressure",
+                          "flow.pressure needs a flow: flow.model = \"double-body\" or \"file\"");
     if (checked.dimension == 2 && checked.current[1] != 0.0)
         complaints.add_at("flow.current", "flow.current leaves the plane y = 0 of a 2D case");
     std::vector<int> track = checked.track;

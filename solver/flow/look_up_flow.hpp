@@ -20,7 +20,8 @@ struct FlowGrid {
     double last_x = 0, last_y = 0, last_z = 0;  ///< number of the last node along each axis
     std::size_t stride_y = 0, stride_z = 0;     ///< in numbers; along y 0 for a section (2D)
     bool symmetric = false;
-    double residual = 0.0;  ///< FlowTable::residual
+    double residual = 0.0;    ///< FlowTable::residual
+    std::int64_t panels = 0;  ///< FlowTable::panels
 
     FlowGrid() = default;  ///< no table: look_up_flow() gives zeros
     explicit FlowGrid(const FlowTable& table);

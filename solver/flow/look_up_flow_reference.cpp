@@ -14,7 +14,8 @@ FlowGrid::FlowGrid(const FlowTable& t)
       last_y(static_cast<double>(t.nodes[1] - 1)),
       last_z(static_cast<double>(t.nodes[2] - 1)),
       symmetric(t.symmetric),
-      residual(t.residual) {
+      residual(t.residual),
+      panels(t.panels) {
     node.resize(kNumbers * t.size());
     for (std::size_t k = 0; k < t.size(); ++k) {
         std::copy_n(t.velocity.data() + 3 * k, 3, node.data() + kNumbers * k);

@@ -69,13 +69,14 @@ Flow unit_flow(const SourcePanel& p, double x, double y, double z) {
 }
 
 // With the images. In pairs, so that a mirrored point has the same sums.
-Flow imaged_flow(const SourcePanel& p, bool symmetric, double x, double y, double z) {
+Flow imaged_flow(const PanelBody& body, const SourcePanel& p, double x, double y, double z) {
+    const double s = body.image;
     const auto both = [&](double at_y) {
         const Flow own = unit_flow(p, x, at_y, z), image = unit_flow(p, x, at_y, -z);
-        return own + Flow{image.x, image.y, -image.z, image.phi};
+        return own + Flow{s * image.x, s * image.y, -(s * image.z), s * image.phi};
     };
     const Flow here = both(y);
-    if (!symmetric) return here;
+    if (!body.symmetric) return here;
     const Flow there = both(-y);
     return here + Flow{there.x, -there.y, there.z, there.phi};
 }
@@ -88,7 +89,7 @@ void sum_panels(const PanelBody& body, std::span<const double> strength,
         const Vec3& at = points[i];
         Flow sum;
         for (std::size_t j = 0; j < body.panels.size(); ++j) {
-            const Flow f = imaged_flow(body.panels[j], body.symmetric, at.x(), at.y(), at.z());
+            const Flow f = imaged_flow(body, body.panels[j], at.x(), at.y(), at.z());
             const double s = strength[j];
             sum = sum + Flow{s * f.x, s * f.y, s * f.z, s * f.phi};
         }
@@ -103,8 +104,7 @@ void mean_fluxes(const PanelBody& body, const FluxTargets& t, std::span<double> 
         for (std::size_t i = 0; i < n; ++i) {
             double sum = 0.0;
             for (std::size_t q = 0; q < 3; ++q) {
-                const Flow f =
-                    imaged_flow(body.panels[j], body.symmetric, t.x[q][i], t.y[q][i], t.z[q][i]);
+                const Flow f = imaged_flow(body, body.panels[j], t.x[q][i], t.y[q][i], t.z[q][i]);
                 sum = sum + ((f.x * t.nx[i] + f.y * t.ny[i]) + f.z * t.nz[i]);
             }
             out[n * j + i] = kPerSphere / 3.0 * sum;

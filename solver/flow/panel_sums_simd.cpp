@@ -115,15 +115,17 @@ HWY_INLINE Flow UnitFlow(const SourcePanel& p, Vectors at) {
     return {Choose(far, point.v, face.v), hn::IfThenElse(far, point.phi, face.phi)};
 }
 
-HWY_INLINE Flow WithImageBelow(const SourcePanel& p, Vectors at) {
+HWY_INLINE Flow WithImageBelow(const PanelBody& body, const SourcePanel& p, Vectors at) {
     const Flow own = UnitFlow(p, at), image = UnitFlow(p, {at.x, at.y, hn::Neg(at.z)});
-    return Sum(own, {{image.v.x, image.v.y, hn::Neg(image.v.z)}, image.phi});
+    const Lanes s = All(body.image);
+    return Sum(own, {{hn::Mul(s, image.v.x), hn::Mul(s, image.v.y), hn::Neg(hn::Mul(s, image.v.z))},
+                     hn::Mul(s, image.phi)});
 }
 
-HWY_INLINE Flow ImagedFlow(const SourcePanel& p, bool symmetric, Vectors at) {
-    const Flow here = WithImageBelow(p, at);
-    if (!symmetric) return here;
-    const Flow there = WithImageBelow(p, {at.x, hn::Neg(at.y), at.z});
+HWY_INLINE Flow ImagedFlow(const PanelBody& body, const SourcePanel& p, Vectors at) {
+    const Flow here = WithImageBelow(body, p, at);
+    if (!body.symmetric) return here;
+    const Flow there = WithImageBelow(body, p, {at.x, hn::Neg(at.y), at.z});
     return Sum(here, {{there.v.x, hn::Neg(there.v.y), there.v.z}, there.phi});
 }
 
@@ -140,7 +142,7 @@ void SumPanels(const PanelBody& body, std::span<const double> strength,
         const Vectors at{hn::Load(d, place[0]), hn::Load(d, place[1]), hn::Load(d, place[2])};
         Flow sum{Zero(), hn::Zero(d)};
         for (std::size_t j = 0; j < body.panels.size(); ++j) {
-            const Flow f = ImagedFlow(body.panels[j], body.symmetric, at);
+            const Flow f = ImagedFlow(body, body.panels[j], at);
             const Lanes s = All(strength[j]);
             sum = Sum(sum, {Scale(s, f.v), hn::Mul(s, f.phi)});
         }
@@ -165,8 +167,7 @@ void MeanFluxes(const PanelBody& body, const FluxTargets& t, std::span<double> o
         for (std::size_t j = 0; j < body.panels.size(); ++j) {
             Lanes sum = hn::Zero(d);
             for (std::size_t q = 0; q < 3; ++q)
-                sum =
-                    hn::Add(sum, Dot(ImagedFlow(body.panels[j], body.symmetric, at[q]).v, normal));
+                sum = hn::Add(sum, Dot(ImagedFlow(body, body.panels[j], at[q]).v, normal));
             hn::StoreU(hn::Mul(All(kPerSphere / 3.0), sum), d, out.data() + n * j + i);
         }
     }

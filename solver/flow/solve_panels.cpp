@@ -63,23 +63,34 @@ void check_flow(const Vec3& direction, PanelFlow& flow) {
 
 }  // namespace
 
+Eigen::MatrixXd solve_strengths(const PanelBody& body, const Eigen::MatrixXd& wanted,
+                                int* iterations) {
+    const Eigen::MatrixXd matrix = influence(body);
+    Eigen::BiCGSTAB<Eigen::MatrixXd, Eigen::IdentityPreconditioner> solver(matrix);
+    solver.setTolerance(1e-10);
+    solver.setMaxIterations(kMostIterations);
+    Eigen::MatrixXd out(wanted.rows(), wanted.cols());
+    for (Eigen::Index k = 0; k < wanted.cols(); ++k) {
+        const Eigen::VectorXd right = wanted.col(k);
+        const Eigen::VectorXd strength = solver.solve(right);
+        if (iterations != nullptr) *iterations = static_cast<int>(solver.iterations());
+        if (solver.info() != Eigen::Success)
+            throw run_failed("the flow around the hull",
+                             fmt::format("has no solution within {} iterations", kMostIterations),
+                             "look for thin plates and faces that cross in the mesh");
+        out.col(k) = strength;
+    }
+    return out;
+}
+
 PanelFlow solve_panels(PanelBody body, const Vec3& direction) {
     PanelFlow flow;
     flow.body = std::move(body);
     const auto n = static_cast<Eigen::Index>(flow.body.panels.size());
-    const Eigen::MatrixXd matrix = influence(flow.body);
     Eigen::VectorXd right(n);
     for (Eigen::Index i = 0; i < n; ++i)
         right[i] = flow.body.panels[static_cast<std::size_t>(i)].normal.dot(direction);
-    Eigen::BiCGSTAB<Eigen::MatrixXd, Eigen::IdentityPreconditioner> solver(matrix);
-    solver.setTolerance(1e-10);
-    solver.setMaxIterations(kMostIterations);
-    const Eigen::VectorXd strength = solver.solve(right);
-    flow.iterations = static_cast<int>(solver.iterations());
-    if (solver.info() != Eigen::Success)
-        throw run_failed("the flow around the hull",
-                         fmt::format("has no solution within {} iterations", kMostIterations),
-                         "look for thin plates and faces that cross in the mesh");
+    const Eigen::MatrixXd strength = solve_strengths(flow.body, right, &flow.iterations);
     flow.strength.assign(strength.data(), strength.data() + n);
     check_flow(direction, flow);
     return flow;

@@ -2,6 +2,7 @@
 /// The flow that a moving body makes: strengths of its source panels.
 #pragma once
 
+#include <Eigen/Core>
 #include <span>
 #include <vector>
 
@@ -26,6 +27,12 @@ struct PanelFlow {
 /// plane y = 0, and at z = 0 only motion along the water, have such panels' images.
 /// @throws Error (exit code 1) where the solver does not settle: thin plates, panels that cross
 PanelFlow solve_panels(PanelBody body, const Vec3& direction = Vec3::UnitX());
+
+/// Strengths [m/s] with which the mean of v . n over each panel is what is wanted: a column for
+/// each right-hand side. As solve_panels(), which asks for direction . n.
+/// @param wanted  a row for each panel [m/s]
+Eigen::MatrixXd solve_strengths(const PanelBody& body, const Eigen::MatrixXd& wanted,
+                                int* iterations = nullptr);
 
 /// Added mass over that of the displaced water for motion along x, from the sources' dipole moment:
 /// sum of s A x = V (1 + C_a).

@@ -23,11 +23,16 @@ struct SourcePanel {
 /// @pre the triangle has an area
 SourcePanel make_panel(const Vec3& a, const Vec3& b, const Vec3& c);
 
-/// Panels and their mirror images: always in the water's surface z = 0, and where the body is
-/// symmetric also in y = 0.
+/// Strength of images in z = 0: a flat surface that nothing passes, one that yields without delay
+/// (potential 0), and no surface.
+constexpr double kLid = 1.0, kFreeSurface = -1.0, kDeep = 0.0;
+
+/// Panels and their mirror images: in the water's surface z = 0, and where the body is symmetric
+/// also in y = 0.
 struct PanelBody {
-    std::vector<SourcePanel> panels;  ///< z <= 0, of a symmetric body also y >= 0
+    std::vector<SourcePanel> panels;  ///< z <= 0 but for kDeep, of a symmetric body also y >= 0
     bool symmetric = false;
+    double image = kLid;  ///< strength of the images in z = 0, as a share of the panels' own
 };
 
 /// A step off the panels into the water, in their size: there the panel's own share of the normal

@@ -17,6 +17,7 @@ struct WaterFlow {
     Vec3 current = Vec3::Zero();  ///< along x and y [m/s]
     Vec3 ship = Vec3::Zero();     ///< place of the hull mesh's origin; its z does not matter [m]
     double speed = 0.0;           ///< of the ship, less the current's [m/s]
+    bool presses = false;         ///< its dynamic pressure acts on floes
 
     /// Takes the ship's place and velocity for a step.
     void follow(const Vec3& place, const Vec3& velocity) {
@@ -49,6 +50,17 @@ inline Vec3 water_at(const WaterFlow& water, const Vec3& x) {
             .velocity;
     return Vec3(water.current.x() + water.speed * v.x(), water.current.y() + water.speed * v.y(),
                 water.current.z() + water.speed * v.z());
+}
+
+/// Dynamic pressure at a place, over the water's density [m2/s2]: Bernoulli's for a ship at
+/// constant speed, p / rho = U (w_x - c_x) - |w - c|^2 / 2, 0 far away.
+inline double pressure_at(const WaterFlow& water, const Vec3& x) {
+    if (!water.flows()) return 0.0;
+    const Vec3 g =
+        look_up_flow(water.grid, Vec3(x.x() - water.ship.x(), x.y() - water.ship.y(), x.z()))
+            .velocity;
+    const double square = (g.x() * g.x() + g.y() * g.y()) + g.z() * g.z();
+    return (water.speed * water.speed) * (g.x() - 0.5 * square);
 }
 }  // namespace reference
 

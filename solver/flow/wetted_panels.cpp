@@ -119,6 +119,14 @@ std::vector<Triangle> split(std::vector<Triangle> open, double longest, std::siz
 
 double area_of(const Triangle& t) { return 0.5 * (t[1] - t[0]).cross(t[2] - t[0]).norm(); }
 
+std::vector<SourcePanel> panels_of(const std::vector<Triangle>& triangles, double longest_edge) {
+    const double least = kSliver * longest_edge * longest_edge;
+    std::vector<SourcePanel> out;
+    for (const Triangle& t : triangles)
+        if (area_of(t) > least) out.push_back(make_panel(t[0], t[1], t[2]));
+    return out;
+}
+
 void measure(const std::vector<Triangle>& triangles, bool symmetric, WettedHull& out) {
     Eigen::AlignedBox3d box;
     for (const Triangle& t : triangles) {
@@ -174,10 +182,16 @@ WettedHull make_wetted_hull(const TriangleMesh& mesh, double water, const PanelS
         out.longest_edge = (out.high.x() - out.low.x()) / kPanelsAlong;
         while ((panels = split(wet, out.longest_edge, size.most)).empty()) out.longest_edge *= 1.2;
     }
-    const double least = kSliver * out.longest_edge * out.longest_edge;
-    for (const Triangle& t : panels)
-        if (area_of(t) > least) out.body.panels.push_back(make_panel(t[0], t[1], t[2]));
+    out.body.panels = panels_of(panels, out.longest_edge);
     return out;
+}
+
+std::vector<SourcePanel> split_triangles(const TriangleMesh& mesh, double longest_edge,
+                                         std::size_t most) {
+    std::vector<Triangle> triangles;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+        triangles.push_back({mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)});
+    return panels_of(split(triangles, longest_edge, most), longest_edge);
 }
 
 }  // namespace ice

@@ -31,4 +31,9 @@ struct WettedHull {
 ///         panels
 WettedHull make_wetted_hull(const TriangleMesh& mesh, double water, const PanelSize& size);
 
+/// All triangles of a mesh as panels, split until no edge is longer; none where that gives more
+/// than `most`.
+std::vector<SourcePanel> split_triangles(const TriangleMesh& mesh, double longest_edge,
+                                         std::size_t most);
+
 }  // namespace ice

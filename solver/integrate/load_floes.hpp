@@ -10,9 +10,11 @@
 
 namespace ice {
 
-/// Gravity, buoyancy and drag on a floe together, and the parts that the energy ledger tells apart.
+/// Gravity, buoyancy, drag and the flow's pressure on a floe together, and the parts that the
+/// energy ledger tells apart.
 struct FloeLoad : WaterLoad {
     WaterLoad drag;                ///< its part
+    WaterLoad pressure;            ///< the part of the flow's dynamic pressure (flow.pressure)
     Vec3 righting = Vec3::Zero();  ///< moment of the buoyancy, also where the model leaves it out
     double water_power = 0.0;      ///< what moving water puts in: drag times its velocity [W]
 };
@@ -23,6 +25,10 @@ struct FloeLoad : WaterLoad {
 /// @param out    as many
 void load_floes(const Scene& scene, const Case& parameters, std::span<const std::int32_t> floes,
                 std::span<FloeLoad> out);
+
+/// The flow's dynamic pressure on one floe: zero where the water does not move, or flow.pressure is
+/// off. In 2D within the plane.
+WaterLoad flow_pressure(const Scene& scene, const Case& parameters, std::size_t floe);
 
 namespace reference {
 // The definition, one floe at a time: read this first. Same bits on every instruction set.

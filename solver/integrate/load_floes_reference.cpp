@@ -4,7 +4,28 @@
 #include "solver/integrate/load_floes.hpp"
 #include "solver/shape/ordered_products.hpp"
 #include "solver/water/hydrostatics.hpp"
+#include "solver/water/pressure_load.hpp"
 #include "solver/water/relative_drag.hpp"
+
+namespace ice {
+
+WaterLoad flow_pressure(const Scene& scene, const Case& p, std::size_t i) {
+    const Bodies& b = scene.bodies;
+    const Shape& shape = scene.shapes[static_cast<std::size_t>(b.shape[i])];
+    const WaterFlow& water = scene.water;
+    const bool reached =
+        water.presses && water.flows() && water.reaches(b.position[i], shape.bounding_radius);
+    if (!reached) return {};
+    const auto pressure = [&](const Vec3& at) {
+        return p.water_density *
+               reference::pressure_at(water, b.position[i] + ordered_product(b.rotation[i], at));
+    };
+    WaterLoad out = pressure_load(shape, b.rotation[i], b.position[i].z(), pressure);
+    if (scene.dimension == 2) out.force.y() = out.moment.x() = out.moment.z() = 0.0;
+    return out;
+}
+
+}  // namespace ice
 
 namespace ice::reference {
 
@@ -37,6 +58,12 @@ void limit_drag(const Bodies& b, std::size_t i, double radius, double dt, Relati
 
 // In 2D the plane's other components are rounding only; they must not add up over a run.
 void keep_in_plane(WaterLoad& load) { load.force.y() = load.moment.x() = load.moment.z() = 0.0; }
+
+void add_pressure(const WaterLoad& pressure, FloeLoad& load) {
+    load.pressure = pressure;
+    load.force += pressure.force;
+    load.moment += pressure.moment;
+}
 
 WaterLoad drag_at_rest(const Scene& scene, const Case& p, std::size_t i) {
     const Bodies& b = scene.bodies;
@@ -103,6 +130,7 @@ FloeLoad load_of(const Scene& scene, const Case& p, std::size_t i) {
         keep_in_plane(load);
         keep_in_plane(load.drag);
     }
+    if (scene.water.presses) add_pressure(flow_pressure(scene, p, i), load);
     return load;
 }
 

@@ -96,6 +96,11 @@ void LoadPart(const Scene& scene, const Case& p, std::span<const std::int32_t> i
                                   &out[k].drag.moment, &out[k].righting};
         for (int n = 0; n < 5; ++n)
             std::memcpy(of_floe[n]->data(), value[n] + 3 * k, 3 * sizeof(double));
+        if (!scene.water.presses) continue;
+        // floe by floe: a choice of the case, of a cost like the drag's
+        out[k].pressure = flow_pressure(scene, p, static_cast<std::size_t>(ids[k]));
+        out[k].force += out[k].pressure.force;
+        out[k].moment += out[k].pressure.moment;
     }
 }
 

@@ -63,7 +63,9 @@ void book_step(const Scene& scene, const Case& parameters,
         ledger.drag += dt * load.water_power;
         ledger.water_work += dt * load.water_power;
         if (unrighted) ledger.buoyancy_moment += dt * load.righting.dot(w);
-        const Vec3 weight = load.force - load.drag.force;
+        const WaterLoad& push = load.pressure;
+        ledger.water_work += dt * (push.force.dot(v) + push.moment.dot(w));
+        const Vec3 weight = load.force - load.drag.force - push.force;
         ledger.separation -= weight.dot(nudges.shift[i]) + load.righting.dot(nudges.turn[i]);
     }
 }

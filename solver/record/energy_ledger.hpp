@@ -28,7 +28,8 @@ namespace ice {
 ///     crushing         -J_n n . V where the contact is at its strength
 ///     restitution      -J_n n . V elsewhere: what a plastic or partly elastic impact takes
 ///     drag             -(F . v + T . w) dt, v and w the means of start and end, and water_work
-///     water_work       dt times the drag's work on the water's own motion: 0 in water at rest
+///     water_work       dt times the drag's work on the water's own motion, and the work of the
+///                      flow's pressure: 0 in water at rest
 ///     separation       put in by the moves that open overlaps, to first order in the moves
 ///     buoyancy_moment  buoyancy "centre" only: work of the moment that this model leaves out,
 ///                      without which weight and buoyancy have no potential

@@ -125,6 +125,9 @@ void fill_particulars(const Scene& scene, const Case& parameters, double until, 
     summary.ship.speed_mean = speed_mean(parameters, until);
     summary.ice = measure_ice(scene, parameters);
     summary.travel = measure_travel(parameters, summary.ship, until);
+    if (!scene.water.grid.empty())
+        summary.flow = {parameters.flow == FlowModel::file ? "file" : "double-body",
+                        scene.water.grid.panels, scene.water.grid.residual};
     // none in 2D, without a waterline, and of those with angles none for a bow without a point
     summary.formulas = evaluate_formulas(summary.ship, summary.ice, summary.ship.speed_mean);
     for (const FormulaValue& formula : summary.formulas)

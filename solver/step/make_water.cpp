@@ -113,6 +113,7 @@ WaterFlow make_water(const Case& p, const Scene& scene) {
     if (p.flow == FlowModel::none) return out;
     const FlowTable table = p.flow == FlowModel::file ? read_table(p, scene) : make_table(p, scene);
     out.grid = FlowGrid(table);
+    out.presses = p.flow_pressure;
     return out;
 }
 

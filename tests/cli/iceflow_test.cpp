@@ -42,6 +42,41 @@ TEST_CASE("iceflow makes a table, a report and a picture's data of a hull", "[cl
     CHECK_THAT(check.out, Catch::Contains("draught 1.2 m") && !Catch::Contains("nodes"));
 }
 
+TEST_CASE("iceflow says a hull's added mass, and leaves little of the flow to pass through hulls",
+          "[cli][flow]") {
+    const Workshop w;
+    REQUIRE(w.run("spherize " ICE_MESHES "/paper-hull-3d.obj -r 0.2 --mode surface -q "
+                  "-o hull.spheres.h5")
+                .code == 0);
+    const Result r =
+        w.run("iceflow hull.spheres.h5 --check --added-mass --panel 0.8 --json a.json");
+    CAPTURE(r.err);
+    REQUIRE(r.code == 0);
+    CHECK_THAT(r.out, Catch::Contains("added mass        surge 0."));
+    const auto json = read_json_numbers(w / "a.json");
+    // the wetted hull has 20.21 m3 (meshes/README.md gives the whole)
+    CHECK(json.at("added_mass.displacement_kg") == Approx(1025.0 * 20.21).epsilon(0.01));
+    const auto of = [&](const char* key) {
+        return json.at(std::string("added_mass.matrix.") + key) /
+               json.at("added_mass.displacement_kg");
+    };
+    // a ship of 10 x 2 x 1.44 m moves less water along than across
+    CHECK(of("0.0") < 0.2);
+    CHECK(of("1.1") > 3.0 * of("0.0"));
+    CHECK(json.at("added_mass.matrix.1.5") == json.at("added_mass.matrix.5.1"));
+    CHECK(json.at("residual") < 0.05);  // a hull with sharp edges
+    CHECK(std::abs(json.at("net_flux")) < 0.005);
+    // a smooth one leaves 1 % or less
+    REQUIRE(w.run("spherize " ICE_MESHES "/icebreaker-100m.obj -r 1.5 --mode surface -q "
+                  "-o smooth.spheres.h5")
+                .code == 0);
+    REQUIRE(w.run("iceflow smooth.spheres.h5 --check --json b.json").code == 0);
+    CHECK(read_json_numbers(w / "b.json").at("residual") < 0.01);
+    CHECK(std::abs(read_json_numbers(w / "b.json").at("net_flux")) < 0.005);
+    const Result flat = w.run("iceflow hull.spheres.h5 --added-mass --check --density 0");
+    CHECK(flat.code == 2);
+}
+
 TEST_CASE("iceflow refuses with exit code 2 and leaves nothing behind", "[cli][flow][errors]") {
     const Workshop w;
     REQUIRE(w.run("spherize " ICE_MESHES "/paper-floe-3d.obj -r 0.1 -s 0.2 -q -o box.h5").code ==

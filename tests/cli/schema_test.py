@@ -89,6 +89,8 @@ def scalars(sub):
         return sub["enum"], ["none of them", 3]
     if sub["type"] == "string":
         return ["words"], [3, True, ["words"]]
+    if sub["type"] == "boolean":
+        return [True, False], ["true", 1, [True]]
     low, high = sub.get("minimum", -1e300), sub.get("maximum", 1e300)
     good, bad = [low, high], ["words", "1 bushel", True, [1.0], {"a": 1}]
     if sub["type"] == "integer":
