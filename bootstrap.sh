@@ -6,7 +6,7 @@ set -euo pipefail
 readonly packages=(
     build-essential cmake ninja-build git ca-certificates
     libeigen3-dev libboost-dev libcgal-dev libassimp-dev catch2 libhwy-dev libtomlplusplus-dev libcli11-dev
-    libmeshoptimizer-dev libfmt-dev libspdlog-dev libhdf5-dev libssl-dev nlohmann-json3-dev zlib1g-dev python3 python3-h5py help2man
+    libmeshoptimizer-dev libpolyclipping-dev libfmt-dev libspdlog-dev libhdf5-dev libssl-dev nlohmann-json3-dev zlib1g-dev python3 python3-h5py help2man
     librsvg2-bin)
 
 # only the tests use these: the report in a browser, its page built again, run.h5 in xarray, fuzzing,

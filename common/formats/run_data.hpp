@@ -46,6 +46,7 @@ struct HistoryRow {
     double moving_floes = 0.0;
     double max_overlap = 0.0;     ///< deepest overlap of the steps [m]
     double kinetic_energy = 0.0;  ///< of the floes [J]
+    double breaking_x = 0.0;      ///< force along x of ice held until it bends [N]; not in run.h5
 };
 
 /// Force of the ice on one region of the hull, world axes [N] (2D: N per metre).

@@ -19,16 +19,19 @@ Json or_null(const std::optional<T>& value) {
 }
 
 Json force_json(const ForceStatistics& force) {
-    return {{"mean_N", force.mean},
-            {"contact_mean_N", force.contact_mean},
-            {"friction_mean_N", force.friction_mean},
-            {"std_N", force.std},
-            {"max_N", force.max},
-            {"ci95_N", force.ci95},
-            {"correlation_time_s", force.correlation_time},
-            {"effective_samples", force.effective_samples},
-            {"trend_N", force.trend},
-            {"trend_significant", or_null(force.trend_significant)}};
+    Json out{{"mean_N", force.mean},
+             {"contact_mean_N", force.contact_mean},
+             {"friction_mean_N", force.friction_mean},
+             {"std_N", force.std},
+             {"max_N", force.max},
+             {"ci95_N", force.ci95},
+             {"correlation_time_s", force.correlation_time},
+             {"effective_samples", force.effective_samples},
+             {"trend_N", force.trend},
+             {"trend_significant", or_null(force.trend_significant)}};
+    if (force.breaking_mean) out["breaking_mean_N"] = *force.breaking_mean;
+    if (force.submersion_mean) out["submersion_mean_N"] = *force.submersion_mean;
+    return out;
 }
 
 Json regions_json(const std::map<std::string, RegionStatistics>& regions) {
@@ -85,8 +88,13 @@ ForceStatistics read_force(const JsonReader& in, const std::string& key) {
     out.correlation_time = in.number_if_there(key, "correlation_time_s");
     out.effective_samples = in.number_if_there(key, "effective_samples");
     out.trend = in.number_if_there(key, "trend_N");
-    if (const Json& force = in.at(key); force.contains("trend_significant"))
+    const Json& force = in.at(key);
+    if (force.contains("trend_significant"))
         out.trend_significant = in.convert<std::optional<bool>>(force["trend_significant"], key);
+    for (auto [name, part] : {std::pair{"breaking_mean_N", &out.breaking_mean},
+                              std::pair{"submersion_mean_N", &out.submersion_mean}})
+        if (force.contains(name))
+            *part = in.convert<std::optional<double>>(force[name], key + "." + name);
     return out;
 }
 

@@ -29,6 +29,9 @@ struct ForceStatistics {
     double effective_samples = std::numeric_limits<double>::quiet_NaN();  ///< the number of them
     double trend = std::numeric_limits<double>::quiet_NaN();  ///< change over the averaged time of
                                                               ///< the straight line through it [N]
+    /// Resistance of a case with floes held until they bend: the force before they break off, and
+    /// all else; they add up to `mean`.
+    std::optional<double> breaking_mean = std::nullopt, submersion_mean = std::nullopt;
     std::optional<bool> trend_significant =
         std::nullopt;  ///< at 95 %, with effective_samples; none: too short
 };

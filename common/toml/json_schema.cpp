@@ -152,7 +152,12 @@ std::string json_schema(const Schema& schema) {
         for (const std::string& path : choice)
             entry["oneOf"].push_back({{"required", {path.substr(path.rfind('.') + 1)}}});
     }
-    if (!schema.repeated_table.empty()) root["required"].push_back(schema.repeated_table);
+    if (!schema.in_its_place.empty()) {
+        for (const std::string& table : {schema.repeated_table, schema.in_its_place})
+            root["anyOf"].push_back({{"required", {table}}});
+    } else if (!schema.repeated_table.empty()) {
+        root["required"].push_back(schema.repeated_table);
+    }
     return root.dump(2) + "\n";
 }
 

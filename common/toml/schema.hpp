@@ -51,6 +51,7 @@ struct Schema {
     std::string program;         ///< whose --print-defaults lists the keys
     std::string title;           ///< "icesolve case"
     std::vector<std::vector<std::string>> one_of;  ///< keys of a table, of which one is given
+    std::string in_its_place = {};  ///< a table that may stand in place of repeated_table; "" none
 
     /// The key of that path, or null.
     const Key* find(std::string_view path) const;

@@ -115,6 +115,8 @@ std::string key_numbers(const Summary& s, const ForceUnit& unit, double speed) {
     std::string out = "<div class=\"cards\">\n";
     out += card(mean_and_interval(unit, s.resistance) + " " + unit.name,
                 "mean ice resistance with the 95 % interval of this run");
+    for (const auto& [name, part] : parts_of(s))
+        out += card(unit.text(part) + " " + unit.name, "of it " + name);
     out += card("± " + unit.text(kModelUncertainty * std::abs(s.resistance.mean)) + " " + unit.name,
                 fmt::format("uncertainty of the model, {:.0f} %, beside that interval",
                             100.0 * kModelUncertainty));

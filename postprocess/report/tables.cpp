@@ -101,6 +101,12 @@ std::vector<FormulaValue> formulas_of(const Summary& s) {
     return {{"Lindqvist (1989)", "submersion", *s.lindqvist_submersion, false}};
 }
 
+std::vector<std::pair<std::string, double>> parts_of(const Summary& s) {
+    const ForceStatistics& r = s.resistance;
+    if (!r.breaking_mean || !r.submersion_mean) return {};
+    return {{"breaking", *r.breaking_mean}, {"submersion and all else", *r.submersion_mean}};
+}
+
 std::string force_table(const Summary& s, const ForceUnit& unit) {
     const auto row = [&](const std::string& name, const ForceStatistics& f) {
         return std::vector<std::string>{name,
@@ -111,6 +117,8 @@ std::string force_table(const Summary& s, const ForceUnit& unit) {
                                         unit.text(f.max)};
     };
     std::vector<std::vector<std::string>> rows{row("Resistance (\u2212x)", s.resistance)};
+    for (const auto& [name, part] : parts_of(s))
+        rows.push_back({"  of it " + name, unit.text(part), "", "", "", ""});
     for (const FormulaValue& formula : comparable_formulas(formulas_of(s), is_level_ice(s.ice)))
         rows.push_back({"  " + formula.name + ", " + part_text(formula), unit.text(formula.value),
                         "", "", "", ""});
@@ -151,6 +159,7 @@ std::string energy_table(const Summary& s) {
         {"friction_J", "Lost to friction"},
         {"restitution_J", "Lost in impacts"},
         {"crushing_J", "Lost to crushing"},
+        {"breaking_J", "Lost to ice before it breaks off"},
         {"drag_J", "Lost to drag"},
         {"buoyancy_moment_J", "Taken by the moment that buoyancy \"centre\" leaves out"},
         {"residual_J", "Not explained"}};

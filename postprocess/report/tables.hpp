@@ -39,6 +39,10 @@ std::string mean_and_interval(const ForceUnit& unit, const ForceStatistics& forc
 /// What empirical formulas say of the same ship and ice; older summaries have Lindqvist's alone.
 std::vector<FormulaValue> formulas_of(const Summary& summary);
 
+/// Breaking and submersion of a run with floes held until they bend, which add up to its
+/// resistance [N]; none of other runs.
+std::vector<std::pair<std::string, double>> parts_of(const Summary& summary);
+
 /// Mean with its interval, parts, scatter and maximum of the three components, formulas, and
 /// whether the resistance is steady.
 std::string force_table(const Summary& summary, const ForceUnit& unit);

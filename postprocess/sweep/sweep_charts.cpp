@@ -281,7 +281,8 @@ std::vector<std::string> draw_parts(const Sweep& sweep, const std::vector<Curve>
         {Part::sides_contact, {"sides", views::kGreen, "", 1.8, 's'}},
         {Part::bottom_contact, {"bottom", views::kOrange, "", 1.8, '^'}},
         {Part::rest_contact, {"rest", views::kPurple, "", 1.8, 'd'}},
-        {Part::friction, {"friction", "#777777", "6 3", 1.8}}};
+        {Part::friction, {"friction", "#777777", "6 3", 1.8}},
+        {Part::breaking, {"breaking", "#8c564b", "9 3", 1.8}}};
     std::vector<std::string> charts;
     if (sweep.x.empty()) return charts;
     Plotter plotter(sweep, curves, unit);

@@ -54,9 +54,9 @@ std::vector<Column> axis_columns(const Sweep& sweep, const std::vector<Point>& p
 }
 
 std::vector<Column> force_columns(const std::vector<Point>& points, const report::ForceUnit& unit,
-                                  const std::vector<std::pair<Part, std::string>>& parts,
-                                  bool intervals) {
+                                  std::vector<std::pair<Part, std::string>> parts, bool intervals) {
     const std::string in = " [" + unit.name + "]";
+    parts.insert(parts.end(), {{Part::breaking, "breaking"}, {Part::submersion, "submersion"}});
     std::vector<Column> columns{{"resistance" + in, {}}};
     for (const auto& [part, title] : parts) columns.push_back({title + in, {}});
     columns.push_back({"largest" + in, {}});

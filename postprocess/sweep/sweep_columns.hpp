@@ -23,13 +23,12 @@ std::string with_interval(const report::ForceUnit& unit, const Estimate& estimat
 /// Values of the axes. @param knots after the speed also in knots
 std::vector<Column> axis_columns(const Sweep& sweep, const std::vector<Point>& points, bool knots);
 
-/// Resistance with its interval, the parts given, largest resistance, the formulas that can be
-/// compared with it and the release rule; columns without a number other than 0 are left out but
-/// for the first and the last.
+/// Resistance with its interval, the parts given, breaking and submersion, largest resistance, the
+/// formulas that can be compared with it and the release rule; columns without a number other than
+/// 0 are left out but for the first and the last.
 /// @param intervals of the parts, too
 std::vector<Column> force_columns(const std::vector<Point>& points, const report::ForceUnit& unit,
-                                  const std::vector<std::pair<Part, std::string>>& parts,
-                                  bool intervals);
+                                  std::vector<std::pair<Part, std::string>> parts, bool intervals);
 
 /// What became of the ship's work, per metre of travel (share_work.hpp), without empty columns.
 std::vector<Column> work_columns(const Sweep& sweep, const std::vector<Point>& points,

@@ -48,7 +48,9 @@ constexpr PartRow kPartRows[kPartCount]{{"resistance", Part::total, kAll},
                                         {"bow_friction", Part::bow, kFriction},
                                         {"sides_friction", Part::sides, kFriction},
                                         {"bottom_friction", Part::bottom, kFriction},
-                                        {"rest_friction", Part::rest, kFriction}};
+                                        {"rest_friction", Part::rest, kFriction},
+                                        {"breaking", Part::total, kAll},
+                                        {"submersion", Part::total, kAll}};
 
 const PartRow& row_of(Part part) { return kPartRows[static_cast<std::size_t>(part)]; }
 
@@ -56,6 +58,8 @@ double part_value(const Summary& s, Part part) {
     if (part == Part::total) return s.resistance.mean;
     if (part == Part::contact) return s.resistance.contact_mean;
     if (part == Part::friction) return s.resistance.friction_mean;
+    if (part == Part::breaking) return s.resistance.breaking_mean.value_or(kNaN);
+    if (part == Part::submersion) return s.resistance.submersion_mean.value_or(kNaN);
     const auto [name, place, share] = row_of(part);
     double sum = 0.0;
     for (const auto& [region, force] : s.regions)

@@ -10,7 +10,8 @@
 namespace ice::sweep {
 
 /// Parts of the resistance. Bow, sides, bottom and rest add up to it, so do contact (normal forces)
-/// and friction, and each place's contact and friction to that place.
+/// and friction, and each place's contact and friction to that place; so do breaking and submersion
+/// of runs with floes held until they bend, which others do not have (NaN).
 enum class Part {
     total,
     bow,
@@ -26,9 +27,11 @@ enum class Part {
     bow_friction,
     sides_friction,
     bottom_friction,
-    rest_friction
+    rest_friction,
+    breaking,
+    submersion
 };
-inline constexpr std::size_t kPartCount = 15;
+inline constexpr std::size_t kPartCount = 17;
 /// "resistance", "bow", "sides", ..., "bow_contact", ...
 const char* part_name(Part part);
 

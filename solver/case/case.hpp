@@ -16,12 +16,14 @@ namespace ice {
 
 enum class Pattern { grid, brick, single, file };
 /// Until when a floe is immovable (infinite mass).
-enum class Hold { never, until_hull_contact, until_contact, always };
+enum class Hold { never, until_hull_contact, until_contact, until_bent, always };
 enum class NormalRule { surface, centres };
 enum class BuoyancyModel { none, centre, distributed };
 enum class DragModel { none, projected, panel };
 /// How the ship moves the water: not at all, as a double body (solver/flow), or as a file says.
 enum class FlowModel { none, double_body, file };
+/// Load under which ice bends until it breaks: Nevel's wedges, or Kashtelyan's formula.
+enum class BendingModel { wedge, kashtelyan };
 
 /// One [[floes]] table: floes of one shape, or those of a field file.
 struct FloeGroup {
@@ -38,6 +40,29 @@ struct FloeGroup {
     Vec3 position = Vec3::Zero();  ///< pattern "single"; z is NaN for floating equilibrium
     Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
     Vec3 velocity = Vec3::Zero(), angular_velocity = Vec3::Zero();
+};
+
+/// [bending]: when ice held until it bends is let go (solver/bending).
+struct BendingLaw {
+    double flexural_strength = 5e5;  ///< [Pa]
+    double elastic_modulus = 5e9;    ///< [Pa]
+    double poisson_ratio = 0.3;
+    BendingModel model = BendingModel::wedge;
+    double factor = 1.0;  ///< on the breaking load
+    /// Of a piece [rad]; NaN: from its outline.
+    double opening_angle = std::numeric_limits<double>::quiet_NaN();
+    double load_length = 0.0;  ///< over which the load is spread from the edge [m]
+    /// (normal speed [m/s], a second factor), speed rising; empty: none.
+    std::vector<std::pair<double, double>> factor_table;
+};
+
+/// [level_ice]: a sheet of which the ship breaks pieces (solver/level_ice).
+struct LevelIce {
+    double thickness = 0.0;            ///< [m]; 0: none
+    std::array<double, 4> extent{};    ///< smallest and largest x, smallest and largest y [m]
+    double spacing = 0.5, gap = 0.05;  ///< of contact spheres; between pieces [m]
+    int seed = 0;
+    double length_factor = 0.32, speed_factor = -0.144, scatter = 0.2;  ///< CuspLaw
 };
 
 /// Default of contact.crushing_pressure in 3D [Pa].
@@ -75,6 +100,9 @@ struct Case {
     int iterations = 30;
     double tolerance = 1e-4;
 
+    BendingLaw bending;
+    LevelIce level_ice;
+
     BuoyancyModel buoyancy = BuoyancyModel::distributed;
     DragModel drag = DragModel::panel;
     double drag_coefficient = 1.0;
@@ -91,6 +119,9 @@ struct Case {
     std::filesystem::path file;  ///< the case file
     std::string resolved;        ///< every key with its value, as TOML
 
+    bool has_level_ice() const { return level_ice.thickness > 0.0; }
+    /// Are there floes held until they bend? Those of level ice have to be laid before.
+    bool has_bending() const;
     /// Speed of the ship at time t [m/s]: linear between the table's rows, constant outside.
     double ship_speed(double time) const;
     /// How far along x the ship goes from one time to a later one [m], exactly.

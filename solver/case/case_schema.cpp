@@ -39,11 +39,12 @@ Enum choice(const Value& v, std::string_view choices) {
 }
 
 constexpr std::string_view kPatterns = "grid|brick|single|file";
-constexpr std::string_view kHolds = "never|until-hull-contact|until-contact|always";
+constexpr std::string_view kHolds = "never|until-hull-contact|until-contact|until-bent|always";
 constexpr std::string_view kNormals = "surface|centres";
 constexpr std::string_view kBuoyancies = "none|centre|distributed";
 constexpr std::string_view kDrags = "none|projected|panel";
 constexpr std::string_view kFlows = "none|double-body|file";
+constexpr std::string_view kBendings = "wedge|kashtelyan";
 
 using D = Dimension;
 using G = FloeGroup;
@@ -126,7 +127,8 @@ std::vector<CaseKey> floe_keys() {
          [](Case&, G& g, const Value& v) { g.gap = vector2(v); }},
         {"floes.hold", Kind::choice, D::none, "\"until-hull-contact\"", 0, 0, 0, kHolds,
          "Until when the floes are immovable; the paper holds them until the ship touches them; "
-         "pattern file: never unless stated, and its unbroken ice always.",
+         "until-bent: until its load breaks them ([bending]); pattern file: never unless stated, "
+         "and its unbroken ice always.",
          [](Case&, G& g, const Value& v) { g.hold = choice<Hold>(v, kHolds); }},
         {"floes.position", Kind::place, D::length, "-", -1e6, 1e6, 3, "",
          "Pattern single: centre of mass; z left out (two numbers) gives floating equilibrium.",
@@ -211,12 +213,82 @@ std::vector<CaseKey> model_keys() {
     };
 }
 
+std::vector<CaseKey> bending_keys() {
+    return {
+        {"bending.flexural_strength", Kind::number, D::pressure, "5e5", kTiny, 1e9, 0, "",
+         "Largest bending stress that ice bears, for floes with hold until-bent.",
+         [](Case& c, G&, const Value& v) { c.bending.flexural_strength = number(v); }},
+        {"bending.elastic_modulus", Kind::number, D::pressure, "5e9", 1.0, 1e12, 0, "",
+         "Young's modulus of the ice.",
+         [](Case& c, G&, const Value& v) { c.bending.elastic_modulus = number(v); }},
+        {"bending.poisson_ratio", Kind::number, D::none, "0.3", 0, 0.49, 0, "",
+         "Poisson's ratio of the ice.",
+         [](Case& c, G&, const Value& v) { c.bending.poisson_ratio = number(v); }},
+        {"bending.model", Kind::choice, D::none, "\"wedge\"", 0, 0, 0, kBendings,
+         "Breaking load of a piece: of wedges on water (Nevel), or (angle / pi)^2 "
+         "flexural_strength "
+         "h^2 (Kashtelyan); in 2D of a beam on water, as wedge.",
+         [](Case& c, G&, const Value& v) { c.bending.model = choice<BendingModel>(v, kBendings); }},
+        {"bending.factor", Kind::number, D::none, "1.0", 0, 100, 0, "",
+         "On the breaking load: 1 is a dry static plate; models of ships use about 3.1 with "
+         "kashtelyan.",
+         [](Case& c, G&, const Value& v) { c.bending.factor = number(v); }},
+        {"bending.factor_table", Kind::pair_list, D::none, "-", 0, 100, 0, "",
+         "Rows [v, f]: a second factor f at the normal speed v [m/s] of hull and ice, linear "
+         "between rows.",
+         [](Case& c, G&, const Value& v) {
+             c.bending.factor_table = std::get<std::vector<std::pair<double, double>>>(v);
+         }},
+        {"bending.opening_angle", Kind::number, D::angle, "-", 1e-3, 3.1415926535897932, 0, "",
+         "Angle of the wedge that every piece stands for; default from its outline, 2 atan(chord / "
+         "(2 depth)).",
+         [](Case& c, G&, const Value& v) { c.bending.opening_angle = number(v); }},
+        {"bending.load_length", Kind::number, D::length, "0.0", 0, 1e3, 0, "",
+         "Model wedge: distance from the edge over which the load is spread.",
+         [](Case& c, G&, const Value& v) { c.bending.load_length = number(v); }},
+    };
+}
+
+std::vector<CaseKey> level_ice_keys() {
+    return {
+        {"level_ice.thickness", Kind::number, D::length, "0.0", 0, 100, 0, "",
+         "Thickness of a sheet that the ship breaks along its course, in place of floes; 0 is "
+         "none.",
+         [](Case& c, G&, const Value& v) { c.level_ice.thickness = number(v); }},
+        {"level_ice.extent", Kind::vector, D::length, "[0.0, 0.0, 0.0, 0.0]", -1e5, 1e5, 4, "",
+         "Smallest and largest x, smallest and largest y of the sheet.",
+         [](Case& c, G&, const Value& v) {
+             const auto& x = std::get<std::vector<double>>(v);
+             c.level_ice.extent = {x[0], x[1], x[2], x[3]};
+         }},
+        {"level_ice.spacing", Kind::number, D::length, "0.5", 1e-3, 100, 0, "",
+         "Distance of the pieces' contact spheres on their surface; their radius is a quarter of "
+         "the thickness.",
+         [](Case& c, G&, const Value& v) { c.level_ice.spacing = number(v); }},
+        {"level_ice.gap", Kind::number, D::length, "0.05", 0, 10, 0, "",
+         "Open water between pieces, as broad as a crack.",
+         [](Case& c, G&, const Value& v) { c.level_ice.gap = number(v); }},
+        {"level_ice.seed", Kind::integer, D::none, "0", 0, 2e9, 0, "",
+         "Which of the random sizes of the pieces; simulation.seed changes them, too.",
+         [](Case& c, G&, const Value& v) { c.level_ice.seed = integer(v); }},
+        {"level_ice.length_factor", Kind::number, D::none, "0.32", 1e-3, 10, 0, "",
+         "Radius of the cracks over the ice's characteristic length.",
+         [](Case& c, G&, const Value& v) { c.level_ice.length_factor = number(v); }},
+        {"level_ice.speed_factor", Kind::number, D::none, "-0.144", -10, 10, 0, "",
+         "Relative change of that radius with the speed along the hull's normal [s/m].",
+         [](Case& c, G&, const Value& v) { c.level_ice.speed_factor = number(v); }},
+        {"level_ice.scatter", Kind::number, D::none, "0.2", 0, 0.9, 0, "",
+         "Largest random deviation of that radius, as a share of it.",
+         [](Case& c, G&, const Value& v) { c.level_ice.scatter = number(v); }},
+    };
+}
+
 }  // namespace
 
 const std::vector<CaseKey>& case_keys() {
     static const std::vector<CaseKey> keys = [] {
         std::vector<CaseKey> all = run_keys();
-        for (const auto& part : {floe_keys(), model_keys()})
+        for (const auto& part : {floe_keys(), level_ice_keys(), bending_keys(), model_keys()})
             all.insert(all.end(), part.begin(), part.end());
         return all;
     }();
@@ -225,7 +297,9 @@ const std::vector<CaseKey>& case_keys() {
 
 const Schema& case_schema() {
     static const Schema schema = [] {
-        Schema out{{}, "floes", "icesolve", "icesolve case", {{"hull.speed", "hull.speed_table"}}};
+        Schema out{
+            {},         "floes", "icesolve", "icesolve case", {{"hull.speed", "hull.speed_table"}},
+            "level_ice"};
         for (const CaseKey& key : case_keys()) out.keys.push_back(key);
         return out;
     }();

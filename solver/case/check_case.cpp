@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace ice {
 
@@ -43,12 +44,55 @@ void check_group(FloeGroup& group, std::size_t g, int dimension, const Values& v
     if (dimension == 2) check_plane(group, wrong);
 }
 
+// Ice held until it bends: the load is what crushing lets through.
+void check_bending(const Case& checked, std::size_t groups, const Complaints& complaints) {
+    const auto check = [&](const std::string& label, const std::string& what) {
+        const auto wrong = [&](const std::string& why) {
+            complaints.add_at(label, what + " " + why);
+        };
+        if (std::isinf(checked.crushing_pressure))
+            wrong(
+                "needs a finite contact.crushing_pressure: the force of the ship on rigid ice "
+                "that is held has no value");
+        if (checked.gravity == 0.0)
+            wrong("needs environment.gravity above 0: water without weight bears no ice");
+        if (checked.dimension == 2 && checked.bending.model == BendingModel::kashtelyan)
+            complaints.add_at("bending.model",
+                              "bending.model = \"kashtelyan\" is for cases of dimension 3; in 2D "
+                              "ice is a beam: use \"wedge\"");
+    };
+    for (std::size_t g = 0; g < groups; ++g)
+        if (checked.floes[g].hold == Hold::until_bent)
+            check(fmt::format("floes.{}.hold", g),
+                  fmt::format("floes.{}.hold = \"until-bent\"", g + 1));
+    if (checked.has_level_ice()) check("level_ice.thickness", "level_ice.thickness");
+}
+
+void check_level_ice(const Case& checked, const Complaints& complaints) {
+    if (!checked.has_level_ice()) return;
+    const auto& [from, to, starboard, port] = checked.level_ice.extent;
+    if (checked.dimension == 2)
+        complaints.add_at("level_ice.thickness",
+                          "level_ice is for cases of dimension 3; in 2D lay floes that are held "
+                          "until-bent");
+    if (!(from < to) || !(starboard < port))
+        complaints.add_at("level_ice.extent",
+                          "level_ice.extent is empty: give smallest and largest x, then smallest "
+                          "and largest y");
+    if (checked.ice_density >= checked.water_density)
+        complaints.add_at("ice.density",
+                          "ice.density is not below environment.water_density: the "
+                          "sheet has no floating equilibrium");
+}
+
 }  // namespace
 
 void check_case(Case& checked, std::size_t groups, const Values& values,
                 const Complaints& complaints) {
     for (std::size_t g = 0; g < groups; ++g)
         check_group(checked.floes[g], g, checked.dimension, values, complaints);
+    check_bending(checked, groups, complaints);
+    check_level_ice(checked, complaints);
     if (checked.average_from >= checked.duration)
         complaints.add_at("output.average_from",
                           "output.average_from is not before the end (simulation.duration)");

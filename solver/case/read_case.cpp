@@ -167,8 +167,9 @@ private:
                                   : "required key 'hull.speed' (or hull.speed_table) is missing");
         check_flow();
         for (std::size_t g = 0; g < groups_; ++g) check_source(g);
-        if (groups_ == 0)
-            complaints_.add("no [[floes]] table: a run needs at least one group of floes");
+        if (groups_ == 0 && !values_.contains("level_ice.thickness"))
+            complaints_.add(
+                "no [[floes]] table and no [level_ice]: a run needs at least one group of floes");
         if (!values_.contains("output.average_from") && values_.contains("simulation.duration"))
             values_["output.average_from"] = std::get<double>(values_["simulation.duration"]) / 3.0;
     }

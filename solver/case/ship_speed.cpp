@@ -1,19 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 
+#include "common/base/interpolate.hpp"
 #include "solver/case/case.hpp"
 
 namespace ice {
 
-double Case::ship_speed(double time) const {
-    if (time <= speed_table.front().first) return speed_table.front().second;
-    if (time > speed_table.back().first) return speed_table.back().second;
-    const auto after = std::lower_bound(speed_table.begin(), speed_table.end(), time,
-                                        [](const auto& row, double t) { return row.first < t; });
-    const auto& [t0, u0] = *(after - 1);
-    const auto& [t1, u1] = *after;
-    return u0 + (u1 - u0) * (time - t0) / (t1 - t0);
+bool Case::has_bending() const {
+    return std::any_of(floes.begin(), floes.end(),
+                       [](const FloeGroup& g) { return g.hold == Hold::until_bent; });
 }
+
+double Case::ship_speed(double time) const { return interpolate(speed_table, time); }
 
 double Case::ship_travel(double from, double to) const {
     double sum = 0.0, before = from;

@@ -47,6 +47,8 @@ void build_constraints(const Bodies& bodies, const std::vector<Contact>& contact
         c.arm_a = contact.point - bodies.position[c.a];
         c.arm_b = contact.point - bodies.position[c.b];
         c.can_move = bodies.inverse_mass[c.a] + bodies.inverse_mass[c.b] > 0.0;
+        c.on_unbent = c.a == static_cast<std::int32_t>(kShip) &&
+                      bodies.is_unbent(static_cast<std::size_t>(c.b));
         c.friction =
             c.a == static_cast<std::int32_t>(kShip) ? law.friction_ship_ice : law.friction_ice_ice;
         c.gap = contact.gap;

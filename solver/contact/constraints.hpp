@@ -27,6 +27,7 @@ struct ContactLaw {
 struct Constraint {
     std::int32_t a, b;
     bool can_move;               ///< can either body?
+    bool on_unbent;              ///< the ship presses on ice held until it bends
     bool rebounds;               ///< false once the contact has crushed in this step's impacts
     double gap;                  ///< at the start of the step [m]
     Vec3 normal;                 ///< from a to b

@@ -53,6 +53,10 @@ ForceStatistics average(const Members& members, ForceStatistics Summary::*force)
     out.contact_mean = mean(&ForceStatistics::contact_mean);
     out.friction_mean = mean(&ForceStatistics::friction_mean);
     out.std = mean(&ForceStatistics::std);
+    for (const auto part : {&ForceStatistics::breaking_mean, &ForceStatistics::submersion_mean})
+        if ((members.front().summary.*force).*part)
+            out.*part = mean_over(
+                members, [&](const Summary& s) { return (s.*force.*part).value_or(std::nan("")); });
     for (const Member& m : members)
         if (const double peak = (m.summary.*force).max; std::abs(peak) > std::abs(out.max))
             out.max = peak;

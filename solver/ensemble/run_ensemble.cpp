@@ -16,6 +16,7 @@
 #include "solver/ensemble/average_members.hpp"
 #include "solver/ensemble/member_field.hpp"
 #include "solver/scene/build_scene.hpp"
+#include "solver/step/lay_level_ice.hpp"
 #include "solver/step/run_folder.hpp"
 
 namespace ice {
@@ -28,7 +29,7 @@ constexpr double kJitter = 0.01;  // of the smallest ice sphere's radius
 
 // Where no field changes with the seed and the case moves no floe, jitter makes the difference.
 double default_jitter(const Case& parameters) {
-    const Scene scene = build_scene(parameters);
+    const Scene scene = build_scene(with_level_ice(parameters));
     double smallest = std::numeric_limits<double>::infinity();
     for (std::size_t k = 1; k < scene.shapes.size(); ++k)
         for (const double radius : scene.shapes[k].radius) smallest = std::min(smallest, radius);

@@ -36,6 +36,8 @@ const char* const kForceColumns =
     "time_s,contact_fx_N,contact_fy_N,contact_fz_N,friction_fx_N,friction_fy_N,friction_fz_N,"
     "contacts,moving_floes,max_overlap_m,kinetic_energy_J";
 
+const char* const kBreakingColumn = ",breaking_fx_N";
+
 const char* const kFloeColumns =
     "time_s,x_m,y_m,z_m,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz,contact_fx_N,contact_fy_N,contact_fz_N,"
     "friction_fx_N,friction_fy_N,friction_fz_N,ice_fx_N,ice_fy_N,ice_fz_N";

@@ -52,8 +52,10 @@ private:
     bool begins_late_ = false;
 };
 
-/// Columns of forces.csv and floe_<id>.csv (docs/contract.md, section 5).
+/// Columns of forces.csv and floe_<id>.csv (docs/contract.md, section 5); kBreakingColumn is one of
+/// forces.csv where floes are held until they bend.
 extern const char* const kForceColumns;
+extern const char* const kBreakingColumn;
 extern const char* const kFloeColumns;
 std::vector<double> csv_row(const HistoryRow& row);
 std::vector<double> csv_row(const TrackRow& row);

@@ -21,8 +21,12 @@ void book_contact(const Bodies& now, const Constraint& c, const StepBooks& start
                         start.velocity[c.a] - start.angular_velocity[c.a].cross(c.arm_a);
     const Vec3 mean = 0.5 * (before + relative_velocity(now, c));
     const Vec3 push = c.total_normal() * c.normal, rub = c.total_tangent();
-    (c.crushed() ? ledger.crushing : ledger.restitution) -= push.dot(mean);
-    ledger.friction -= rub.dot(mean);
+    if (c.on_unbent) {
+        ledger.breaking -= (push + rub).dot(mean);
+    } else {
+        (c.crushed() ? ledger.crushing : ledger.restitution) -= push.dot(mean);
+        ledger.friction -= rub.dot(mean);
+    }
     if (c.a == static_cast<std::int32_t>(kShip))
         ledger.ship_work += (push + rub).dot(now.velocity[kShip]);
 }
@@ -32,7 +36,7 @@ void book_contact(const Bodies& now, const Constraint& c, const StepBooks& start
 double EnergyLedger::residual(double potential_now) const {
     return ship_work + separation + water_work - kinetic -
            (potential_now - potential_start.value_or(0.0)) - friction - restitution - crushing -
-           drag - buoyancy_moment;
+           breaking - drag - buoyancy_moment;
 }
 
 void StepBooks::open(const Bodies& bodies) {
@@ -75,8 +79,8 @@ void fill_energy(const EnergyLedger& ledger, double potential_now, Summary& summ
     const double work = std::abs(ledger.ship_work);
     const double share = work > 0.0 ? residual / work : 0.0;
     // a ship that has hardly touched anything must not be blamed for floes that bob
-    const double turnover =
-        std::max(work, ledger.friction + ledger.restitution + ledger.crushing + ledger.drag);
+    const double turnover = std::max(work, ledger.friction + ledger.restitution + ledger.crushing +
+                                               ledger.breaking + ledger.drag);
     auto& out = summary.energy;
     out["ship_work_J"] = ledger.ship_work;
     out["kinetic_change_J"] = ledger.kinetic;
@@ -84,6 +88,7 @@ void fill_energy(const EnergyLedger& ledger, double potential_now, Summary& summ
     out["friction_J"] = ledger.friction;
     out["restitution_J"] = ledger.restitution;
     out["crushing_J"] = ledger.crushing;
+    if (ledger.breaking != 0.0) out["breaking_J"] = ledger.breaking;
     out["drag_J"] = ledger.drag;
     if (ledger.water_work != 0.0) out["water_work_J"] = ledger.water_work;
     out["separation_J"] = ledger.separation;

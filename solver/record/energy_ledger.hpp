@@ -17,8 +17,8 @@ namespace ice {
 /// Sums since the start of the run [J], in 2D per metre of breadth. With dK and dU the changes of
 /// kinetic and potential energy of the floes,
 ///
-///     ship_work + separation + water_work = dK + dU + friction + restitution + crushing + drag
-///                                         + buoyancy_moment + residual.
+///     ship_work + separation + water_work = dK + dU + friction + restitution + crushing + breaking
+///                                         + drag + buoyancy_moment + residual.
 ///
 /// What each holds, J_c being the impulse of contact c on body b in a step and
 /// V = (v_r at its start + v_r at its end) / 2 the mean of the contact's relative velocity:
@@ -27,6 +27,8 @@ namespace ice {
 ///     friction         -J_t . V
 ///     crushing         -J_n n . V where the contact is at its strength
 ///     restitution      -J_n n . V elsewhere: what a plastic or partly elastic impact takes
+///     breaking         -(J_n n + J_t) . V instead of the three where the ship presses on a floe
+///                      that is held until it bends: crushing and friction before it breaks off
 ///     drag             -(F . v + T . w) dt, v and w the means of start and end, and water_work
 ///     water_work       dt times the drag's work on the water's own motion, and the work of the
 ///                      flow's pressure: 0 in water at rest
@@ -46,7 +48,7 @@ namespace ice {
 struct EnergyLedger {
     double ship_work = 0.0;
     double kinetic = 0.0;  ///< change of kinetic energy over all steps
-    double friction = 0.0, restitution = 0.0, crushing = 0.0, drag = 0.0;
+    double friction = 0.0, restitution = 0.0, crushing = 0.0, breaking = 0.0, drag = 0.0;
     double water_work = 0.0;
     double separation = 0.0;
     double buoyancy_moment = 0.0;

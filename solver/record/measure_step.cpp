@@ -67,6 +67,7 @@ StepRecord measure_step(const Scene& scene, const std::vector<Contact>& contacts
         const Vec3 push = -normal * c.normal, rub = -c.total_tangent();
         out.contact_force += push / dt;
         out.friction_force += rub / dt;
+        if (c.on_unbent) out.breaking_x += (push + rub).x() / dt;
         out.moment += c.arm_a.cross(Vec3(push + rub)) / dt;
         out.regions.push_back({c.b, contacts[k].region, push + rub, rub});
     }

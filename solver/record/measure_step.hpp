@@ -20,6 +20,7 @@ struct RegionImpulse {
 struct StepRecord {
     Vec3 contact_force = Vec3::Zero();   ///< on the ship, normal parts [N]
     Vec3 friction_force = Vec3::Zero();  ///< on the ship, tangential parts [N]
+    double breaking_x = 0.0;             ///< of both along x by floes held until they bend [N]
     Vec3 moment = Vec3::Zero();          ///< on the ship about its mesh origin [N m]
     int contacts = 0;                    ///< that carried an impulse
     double impulse = 0.0;                ///< sum of all contacts' normal impulses [N s]

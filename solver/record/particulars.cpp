@@ -18,7 +18,7 @@ constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 // As the case file names them, in the order of Hold.
 constexpr std::string_view kHoldNames[] = {"never", "until-hull-contact", "until-contact",
-                                           "always"};
+                                           "until-bent", "always"};
 
 const Shape& shape_of(const Scene& scene, std::size_t body) {
     return scene.shapes[static_cast<std::size_t>(scene.bodies.shape[body])];
@@ -92,6 +92,11 @@ IceParticulars measure_ice(const Scene& scene, const Case& parameters) {
     ice.friction_ice_ice = parameters.friction_ice_ice;
     ice.crushing_pressure = parameters.crushing_pressure;
     ice.concentration = scene.concentration;
+    if (parameters.has_bending()) {
+        ice.flexural_strength = parameters.bending.flexural_strength;
+        ice.elastic_modulus = parameters.bending.elastic_modulus;
+        ice.poisson_ratio = parameters.bending.poisson_ratio;
+    }
     ice.water_density = parameters.water_density;
     ice.gravity = parameters.gravity;
     if (scene.bodies.size() < 2) return ice;

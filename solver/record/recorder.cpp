@@ -53,11 +53,12 @@ constexpr std::int64_t kLookEvery = 50;
 
 struct CsvTable {
     std::string name;
-    const char* columns;
+    std::string columns;
 };
 
 std::vector<CsvTable> csv_tables(const Case& parameters) {
     std::vector<CsvTable> tables{{"forces.csv", kForceColumns}};
+    if (parameters.has_bending()) tables[0].columns += kBreakingColumn;
     for (const int id : parameters.track)
         tables.push_back({fmt::format("floe_{}.csv", id), kFloeColumns});
     return tables;
@@ -100,7 +101,7 @@ Recorder::Recorder(const Case& parameters, const Scene& scene)
       solids_(scene),
       tally_({scene.shapes[0].region_names, parameters.average_from,
               std::isinf(parameters.crushing_pressure), worrying_overlap(scene),
-              tunnelling_speed(scene, parameters.time_step)}),
+              tunnelling_speed(scene, parameters.time_step), parameters.has_bending()}),
       panel_loads_(
           divide_hull(scene.shapes[0], panel_size(scene), -scene.bodies.position[kShip].z()),
           scene.shapes[0].region_names, parameters.average_from, parameters.time_step),
@@ -184,6 +185,7 @@ void Recorder::add_history(const StepView& view, const StepRecord& record) {
     ++row_steps_;
     row_.contact_force += record.contact_force;
     row_.friction_force += record.friction_force;
+    row_.breaking_x += record.breaking_x;
     row_.moment += record.moment;
     row_.contacts += record.contacts;
     row_.moving_floes = record.moving_floes;
@@ -209,6 +211,7 @@ void Recorder::flush_history(const StepView& view) {
     row_.time = view.time;
     row_.contact_force *= share;
     row_.friction_force *= share;
+    row_.breaking_x *= share;
     row_.moment *= share;
     row_.contacts *= share;
     row_.ship_position = view.scene.bodies.position[kShip];
@@ -218,7 +221,9 @@ void Recorder::flush_history(const StepView& view) {
     }
     run_->add(row_, row_regions_);
     std::fill(row_regions_.begin(), row_regions_.end(), RegionForce{});
-    csv_files_[0].add(csv_row(row_));
+    std::vector<double> forces = csv_row(row_);
+    if (parameters_.has_bending()) forces.push_back(row_.breaking_x);
+    csv_files_[0].add(forces);
 
     std::vector<TrackRow> tracks(tracked_sum_.size());
     const Bodies& b = view.scene.bodies;

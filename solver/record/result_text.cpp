@@ -68,10 +68,15 @@ std::string resistance_line(const Summary& s) {
         return fmt::format("no contact: nothing touched the ship at {:.3g} m/s ({:.3g} kn); {}",
                            speed, speed / kKnot, moved);
     const Format format = format_for(r.mean, r.ci95, s.dimension, "N");
-    return fmt::format("resistance {}{} at {:.3g} m/s ({:.3g} kn): contact {}, friction {}; {}",
+    const std::string parts =
+        r.breaking_mean && r.submersion_mean
+            ? fmt::format("; of it breaking {}, submersion and all else {}",
+                          format(*r.breaking_mean), format(*r.submersion_mean))
+            : "";
+    return fmt::format("resistance {}{} at {:.3g} m/s ({:.3g} kn): contact {}, friction {}{}; {}",
                        force_text(r.mean, r.ci95, s.dimension),
                        std::isfinite(r.ci95) ? " (95 %)" : "", speed, speed / kKnot,
-                       format(r.contact_mean), format(r.friction_mean), moved);
+                       format(r.contact_mean), format(r.friction_mean), parts, moved);
 }
 
 std::string energy_line(const Summary& s) {
@@ -82,8 +87,8 @@ std::string energy_line(const Summary& s) {
     for (const auto& [key, name] :
          {std::pair("potential_J", "raised or sunk"), std::pair("kinetic_change_J", "moving"),
           std::pair("friction_J", "friction"), std::pair("restitution_J", "impacts"),
-          std::pair("crushing_J", "crushing"), std::pair("drag_J", "drag"),
-          std::pair("buoyancy_moment_J", "left-out buoyancy moment"),
+          std::pair("crushing_J", "crushing"), std::pair("breaking_J", "breaking"),
+          std::pair("drag_J", "drag"), std::pair("buoyancy_moment_J", "left-out buoyancy moment"),
           std::pair("separation_J", "put in by opened overlaps"),
           std::pair("water_work_J", "put in by the water"),
           std::pair("residual_J", "unexplained")}) {

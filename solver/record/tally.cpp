@@ -30,6 +30,14 @@ ForceStatistics statistics(const std::vector<double>& total, double contact, dou
     return out;
 }
 
+// The resistance as breaking and all else, which add up to it in floating point numbers, too: the
+// difference of two numbers within a factor of 2 is exact (Sterbenz, Floating-Point Computation,
+// 1974), and of two positive parts one at least is half of the whole.
+void split_resistance(double breaking, ForceStatistics& out) {
+    out.submersion_mean = out.mean - breaking;
+    out.breaking_mean = out.mean - *out.submersion_mean;
+}
+
 }  // namespace
 
 Tally::Tally(TallyOptions options)
@@ -80,6 +88,7 @@ void Tally::add_averaged(const StepRecord& record, double dt) {
     impulse_ += record.impulse;
     contact_ += record.contact_force;
     friction_ += record.friction_force;
+    breaking_x_ += record.breaking_x;
     const Vec3 force = record.contact_force + record.friction_force;
     for (int d = 0; d < 3; ++d) total_[d].push_back(force[d]);
     const auto book = [&](Doubtful& kind) {
@@ -117,6 +126,9 @@ void Tally::fill(Summary& summary) const {
     // resistance is positive when it slows the ship
     const double dt = averaged_time_ / static_cast<double>(total_[0].size());
     summary.resistance = statistics(total_[0], contact_.x(), friction_.x(), -1.0, dt);
+    if (options_.bends)
+        split_resistance(-breaking_x_ / static_cast<double>(total_[0].size()) + 0.0,
+                         summary.resistance);
     summary.lateral = statistics(total_[1], contact_.y(), friction_.y(), 1.0, dt);
     summary.vertical = statistics(total_[2], contact_.z(), friction_.z(), 1.0, dt);
     for (std::size_t r = 0; r < regions_.size(); ++r) {

@@ -22,6 +22,7 @@ struct TallyOptions {
     bool rigid = true;                      ///< contact.crushing_pressure is inf
     double worrying_overlap = 0.0;          ///< [m]; deeper ones are worth a warning
     double tunnelling_speed = std::numeric_limits<double>::infinity();  ///< [m/s]; faster ones, too
+    bool bends = false;  ///< are there floes held until they bend?
 };
 
 /// Collects what summary.json states, step by step.
@@ -71,6 +72,7 @@ private:
     double averaged_time_ = 0.0;
     std::vector<double> total_[3];  ///< per averaged step, per axis [N]: the interval needs all
     Vec3 contact_ = Vec3::Zero(), friction_ = Vec3::Zero();  ///< sums of its parts [N]
+    double breaking_x_ = 0.0;  ///< sum along x by floes held until they bend [N]
     std::vector<Region> regions_;
     std::set<std::pair<std::int32_t, std::int32_t>> touching_;  ///< (floe, region) of the last step
     std::int64_t steps_ = 0, unconverged_ = 0, jammed_steps_ = 0;

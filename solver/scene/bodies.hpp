@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -36,13 +37,16 @@ struct Bodies {
     std::vector<std::int32_t> inertia_row;       ///< row of inertias
     std::vector<Inertia> inertias;               ///< bodies of one shape and density share them
     std::vector<std::int32_t> inertia_of_shape;  ///< by shape: its newest row; -1 for none
+    /// Downward load [N] that breaks a floe off that is held until it bends; inf for all others.
+    /// Empty where there are no such floes.
+    std::vector<double> breaking_load;
 
     // the state, advanced by integrate/
     std::vector<Vec3> position;           ///< centre of mass; ship: mesh origin [m]
     std::vector<Quaternion> orientation;  ///< body to world
     std::vector<Vec3> momentum;           ///< [kg m/s]
     std::vector<Vec3> angular_momentum;   ///< about the centre of mass, world axes [kg m2/s]
-    std::vector<std::uint8_t> held;       ///< 1: immovable until released
+    std::vector<std::uint8_t> held;       ///< 1: immovable until released; 2: bent, is released
     std::vector<std::int32_t> moving;     ///< floes that are not held, ascending
 
     // derived by update_derived(), changed together by the contact solver
@@ -53,6 +57,11 @@ struct Bodies {
     std::vector<Mat3> inverse_inertia_world;  ///< R I^-1 R^T; 0 while held
 
     std::size_t size() const { return shape.size(); }
+    double breaking_load_of(std::size_t i) const {
+        return breaking_load.empty() ? std::numeric_limits<double>::infinity() : breaking_load[i];
+    }
+    /// Is it held until it bends?
+    bool is_unbent(std::size_t i) const { return held[i] == 1 && !std::isinf(breaking_load_of(i)); }
     const Mat3& inertia(std::size_t i) const {
         return inertias[static_cast<std::size_t>(inertia_row[i])].body;
     }

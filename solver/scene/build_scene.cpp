@@ -9,6 +9,7 @@
 #include "common/base/error.hpp"
 #include "common/formats/field_file.hpp"
 #include "common/formats/spheres_file.hpp"
+#include "solver/scene/breaking_loads.hpp"
 #include "solver/scene/ice_extent.hpp"
 #include "solver/scene/jitter.hpp"
 #include "solver/scene/place_hull.hpp"
@@ -207,6 +208,7 @@ Scene build_scene(const Case& parameters) {
     if (rows.of_set.empty() && rows.of_field.size() == 1)
         scene.concentration = rows.of_field.begin()->second.first.concentration;
     apply_jitter(scene, parameters);
+    set_breaking_loads(scene, parameters);
     scene.start = find_ice_at_start(scene, parameters);
     for (const int id : parameters.track)
         if (id >= static_cast<int>(scene.bodies.size()))

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "common/base/error.hpp"
+#include "solver/scene/breaking_loads.hpp"
 #include "solver/scene/build_scene.hpp"
 #include "solver/scene/place_hull.hpp"
 #include "solver/water/hydrostatics.hpp"
@@ -91,6 +92,10 @@ std::size_t add_floe(World& world, std::int32_t form, const FloeStart& start) {
         position.z() = floating_height(shapes[static_cast<std::size_t>(form)],
                                        orientation.toRotationMatrix(), fraction);
     }
+    if (start.hold == Hold::until_bent && std::isinf(p.crushing_pressure))
+        throw bad_input("add_floe",
+                        "Hold::until_bent: the force on rigid ice that is held has no value",
+                        "give a finite Case::crushing_pressure");
     Bodies& b = world.scene.bodies;
     const std::size_t i = add_floe(world.scene, form, p.ice_density, position, orientation,
                                    group_of(p, start.hold), start.hold != Hold::never);
@@ -98,6 +103,7 @@ std::size_t add_floe(World& world, std::int32_t form, const FloeStart& start) {
     b.momentum[i] = b.mass[i] * start.velocity;
     b.angular_momentum[i] = rotation * b.inertia(i) * rotation.transpose() * start.angular_velocity;
     update_derived(b, i);
+    set_breaking_loads(world.scene, p);
     return i;
 }
 

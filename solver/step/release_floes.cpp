@@ -28,6 +28,8 @@ bool lets_go(const Scene& scene, const Case& parameters, std::int32_t touched, s
             return ship;
         case Hold::until_contact:
             return ship || !b.held[other];
+        case Hold::until_bent:  // release_bent() has the rule; ice without strength needs no load
+            return b.breaking_load_of(touched) == 0.0 && (ship || !b.held[other]);
         case Hold::always:
             return false;
     }

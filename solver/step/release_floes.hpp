@@ -10,7 +10,8 @@
 namespace ice {
 
 /// Releases held floes that are touched within the step, by the rule of their group:
-/// until-hull-contact by the ship only, until-contact by the ship or a moving floe.
+/// until-hull-contact by the ship only, until-contact by the ship or a moving floe. Floes held
+/// until they bend are released by BentFloes, without strength as until-contact.
 ///
 /// A contact touches when gap + dt min(v_r . n, 0) <= 0.
 /// @return true when a floe was released, so that contacts must be looked for again

@@ -18,6 +18,7 @@
 #include "solver/scene/build_scene.hpp"
 #include "solver/step/balance.hpp"
 #include "solver/step/disk_room.hpp"
+#include "solver/step/lay_level_ice.hpp"
 #include "solver/step/make_water.hpp"
 #include "solver/step/run_folder.hpp"
 
@@ -204,8 +205,8 @@ void advance(Job& job) {
 
 World build_world(const Case& parameters) {
     World world;
-    world.parameters = parameters;
-    world.scene = build_scene(parameters);
+    world.parameters = with_level_ice(parameters);
+    world.scene = build_scene(world.parameters);
     world.scene.water = make_water(parameters, world.scene);
     return world;
 }

@@ -25,6 +25,7 @@ void StateFields::carry(CheckpointFile& file, World& w) {
     file.carry("ledger.friction", ledger.friction);
     file.carry("ledger.restitution", ledger.restitution);
     file.carry("ledger.crushing", ledger.crushing);
+    file.carry("ledger.breaking", ledger.breaking);
     file.carry("ledger.drag", ledger.drag);
     file.carry("ledger.water_work", ledger.water_work);
     file.carry("ledger.separation", ledger.separation);
@@ -53,6 +54,7 @@ void StateFields::carry(CheckpointFile& file, Recorder& r) {
     file.carry("row.contact_force", r.row_.contact_force);
     file.carry("row.friction_force", r.row_.friction_force);
     file.carry("row.moment", r.row_.moment);
+    file.carry("row.breaking_x", r.row_.breaking_x);
     file.carry("row.contacts", r.row_.contacts);
     file.carry("row.moving_floes", r.row_.moving_floes);
     file.carry("row.max_overlap", r.row_.max_overlap);
@@ -104,6 +106,7 @@ void StateFields::carry(CheckpointFile& file, Tally& t) {
     for (std::size_t d = 0; d < 3; ++d) file.carry(fmt::format("tally.total.{}", d), t.total_[d]);
     file.carry("tally.contact", t.contact_);
     file.carry("tally.friction", t.friction_);
+    file.carry("tally.breaking_x", t.breaking_x_);
     file.carry("tally.averaged_time", t.averaged_time_);
     file.column("tally.region_hits", t.regions_, &Tally::Region::hits);
     file.column("tally.region_max_impulse", t.regions_, &Tally::Region::max_impulse);

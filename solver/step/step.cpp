@@ -41,6 +41,7 @@ void step(World& w) {
     const double dt = w.parameters.time_step;
     const ContactLaw law = contact_law(w.parameters);
     Bodies& bodies = w.scene.bodies;
+    release_bent(bodies);
     if (!w.ledger.potential_start)
         w.ledger.potential_start = potential_energy(w.scene, w.parameters);
 
@@ -91,6 +92,7 @@ void step(World& w) {
         advance(w.scene, {w.books.angular_velocity, w.nudges, dt});
         w.ledger.kinetic += kinetic_energy(bodies) - w.books.kinetic;
     });
+    w.bent.find(w.scene, w.parameters, w.constraints);
     ++w.steps;
     w.time = static_cast<double>(w.steps) * dt;
 }

@@ -13,6 +13,7 @@
 #include "solver/narrow/find_contacts.hpp"
 #include "solver/record/energy_ledger.hpp"
 #include "solver/scene/bodies.hpp"
+#include "solver/step/release_bent.hpp"
 
 namespace ice {
 
@@ -37,6 +38,7 @@ struct World {
     ContactFinder finder;
     ContactSolver solver;
     Overlaps overlaps;
+    BentFloes bent;
     StepBooks books;
     EnergyLedger ledger;
 

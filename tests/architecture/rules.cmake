@@ -7,7 +7,7 @@ set(order_common common/base common/toml common/geometry common/formats common/f
   common/cli)
 set(order_preprocess preprocess/load preprocess/clean preprocess/measure preprocess/repair
   preprocess/slice preprocess/fill preprocess/certify preprocess/field preprocess/write preprocess)
-set(order_solver solver/case solver/shape solver/flow solver/water solver/scene solver/broad solver/narrow
+set(order_solver solver/case solver/shape solver/bending solver/level_ice solver/flow solver/water solver/scene solver/broad solver/narrow
   solver/contact solver/integrate solver/record solver/step solver/draft solver/ensemble solver)
 set(order_postprocess postprocess/read postprocess/views postprocess/statistics postprocess/report
   postprocess/sweep postprocess/fit postprocess/attain postprocess/sensitivity postprocess/paraview postprocess/check postprocess)
@@ -28,6 +28,7 @@ set(quarantine
   "<spdlog/"         "^common/cli/"
   "<CLI/"            "^(common/cli/|(preprocess/(spherize|icefield)|solver/(icesolve(_options)?|iceflow)|postprocess/icepost(_options)?)\\.[ch]pp$)"
   "<meshoptimizer"   "^(postprocess/views|solver/flow)/"
+  "<polyclipping/"   "^solver/level_ice/"
   "<(zlib|zconf)\\." "^(preprocess/load|postprocess/(paraview|report))/"
   "<(openvdb|tbb)/"  "^tests/bench/bench_peers\\.cpp$"
   "<box2d/"          "^tests/peers/"

@@ -133,7 +133,7 @@ TEST_CASE("mistakes are named with line, column and remedy", "[case][errors]") {
     CHECK(contains(complaint(with("30.0", "-1.0")), "simulation.duration = -1 is outside"));
     CHECK(contains(complaint(with("30.0", "nan")), "simulation.duration = nan is outside"));
     CHECK(contains(complaint(with("\"always\"", "\"forever\"")),
-                   "never|until-hull-contact|until-contact|always"));
+                   "never|until-hull-contact|until-contact|until-bent|always"));
     CHECK(contains(complaint(with("[20, 9]", "[20]")), "must be a list of 2 numbers"));
     CHECK(contains(complaint(with("[20, 9]", "[2.5, 9]")), "holds whole numbers"));
     CHECK(contains(complaint(with("speed = \"2 kn\"", "")), "'hull.speed' (or hull.speed_table)"));

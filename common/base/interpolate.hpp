@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+namespace ice {
+
+/// Value of a table of (x, y) at x: linear between rows, constant outside.
+/// @pre the table is not empty and its x rise
+inline double interpolate(const std::vector<std::pair<double, double>>& table, double x) {
+    if (x <= table.front().first) return table.front().second;
+    if (x > table.back().first) return table.back().second;
+    const auto after = std::lower_bound(table.begin(), table.end(), x,
+                                        [](const auto& row, double v) { return row.first < v; });
+    const auto& [x0, y0] = *(after - 1);
+    const auto& [x1, y1] = *after;
+    return y0 + (y1 - y0) * (x - x0) / (x1 - x0);
+}
+
+}  // namespace ice

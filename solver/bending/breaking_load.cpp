@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/bending/breaking_load.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "common/base/interpolate.hpp"
+#include "solver/bending/convex_corners.hpp"
+#include "solver/bending/ice_plate.hpp"
+
+namespace ice {
+
+namespace {
+
+using Vec2 = Eigen::Vector2d;
+
+double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+}  // namespace
+
+PieceOutline measure_outline(const TriangleMesh& mesh, const Mat3& rotation) {
+    std::vector<Vec2> points;
+    Eigen::AlignedBox1d height;
+    for (const Vec3& v : mesh.vertices) {
+        const Vec3 p = rotation * v;
+        points.emplace_back(p.x(), p.y());
+        height.extend(Eigen::Matrix<double, 1, 1>(p.z()));
+    }
+    const std::vector<Vec2> corners = convex_corners(std::move(points));
+    Vec2 chord = Vec2::Zero();
+    for (std::size_t i = 0; i < corners.size(); ++i)
+        for (std::size_t j = i + 1; j < corners.size(); ++j)
+            if ((corners[j] - corners[i]).squaredNorm() > chord.squaredNorm())
+                chord = corners[j] - corners[i];
+    const double length = chord.norm();
+    PieceOutline out{length, 0.0, height.sizes().x()};
+    if (length == 0.0) return out;
+    double low = 0.0, high = 0.0;
+    for (const Vec2& p : corners) {
+        const double across = cross(chord, p - corners.front()) / length;
+        low = std::min(low, across);
+        high = std::max(high, across);
+    }
+    out.depth = high - low;
+    return out;
+}
+
+double opening_angle(const PieceOutline& piece) {
+    return 2.0 * std::atan2(0.5 * piece.chord, piece.depth);
+}
+
+double breaking_load(const PieceOutline& piece, const Case& parameters) {
+    const BendingLaw& law = parameters.bending;
+    const IcePlate plate{piece.thickness, law.flexural_strength, law.elastic_modulus,
+                         law.poisson_ratio, parameters.water_density * parameters.gravity};
+    if (parameters.dimension == 2) return law.factor * beam_breaking_load(plate);
+    const double angle = std::isnan(law.opening_angle) ? opening_angle(piece) : law.opening_angle;
+    return law.factor * (law.model == BendingModel::wedge
+                             ? wedge_breaking_load(plate, angle, law.load_length)
+                             : kashtelyan_breaking_load(plate, angle));
+}
+
+double speed_factor(const BendingLaw& law, double normal_speed) {
+    return law.factor_table.empty() ? 1.0 : interpolate(law.factor_table, normal_speed);
+}
+
+}  // namespace ice

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/level_ice/cusp_form.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "common/base/counter_random.hpp"
+
+namespace ice {
+
+namespace {
+
+constexpr double kStep = std::numbers::pi / 18.0;  // of the arc between two corners
+constexpr double kStrip = 0.5;                     // seawards of the chord, in radii
+constexpr double kLeast = 0.2;                     // of the radius at rest
+
+}  // namespace
+
+double cusp_radius(const CuspLaw& law, double length, double normal_speed, std::uint64_t cusp) {
+    const double rest = law.length_factor * length;
+    return rest * std::max(kLeast, 1.0 + law.speed_factor * normal_speed) *
+           (1.0 + law.scatter * random_offset(law.seed, cusp));
+}
+
+Loop crack_outline(const Vec2& at, const Vec2& inwards, double radius, double angle) {
+    const double half = radius * std::tan(0.5 * angle);
+    const double round = (half * half + radius * radius) / (2.0 * radius);  // of the circle
+    const double end = std::atan2(half, round - radius);                    // from the arc's middle
+    const Vec2 along(inwards.y(), -inwards.x());  // to the right of one who looks into the ice
+    const auto place = [&](double x, double y) -> Vec2 { return at + x * along + y * inwards; };
+    // an even number: the deepest point is a corner
+    const int pieces = 2 * std::max(1, static_cast<int>(std::ceil(end / kStep - 1e-9)));
+    Loop out{place(-half, -kStrip * radius), place(half, -kStrip * radius)};
+    for (int k = 0; k <= pieces; ++k) {
+        const double turn = end * (1.0 - 2.0 * k / pieces);  // from right to left
+        out.push_back(place(round * std::sin(turn), radius - round + round * std::cos(turn)));
+    }
+    return out;
+}
+
+double area_of(const Loop& loop) {
+    double twice = 0.0;
+    for (std::size_t k = 1; k + 1 < loop.size(); ++k) {
+        const Vec2 a = loop[k] - loop[0], b = loop[k + 1] - loop[0];
+        twice += a.x() * b.y() - a.y() * b.x();
+    }
+    return 0.5 * twice;
+}
+
+double length_of(const Loop& loop) {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < loop.size(); ++k)
+        sum += (loop[(k + 1) % loop.size()] - loop[k]).norm();
+    return sum;
+}
+
+}  // namespace ice

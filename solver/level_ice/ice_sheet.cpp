@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/level_ice/ice_sheet.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <polyclipping/clipper.hpp>
+
+namespace ice {
+
+namespace {
+
+namespace cl = ClipperLib;
+
+constexpr double kLattice = 0x1p-30;  // [m]
+
+cl::Path to_lattice(const Loop& loop) {
+    cl::Path out;
+    for (const Vec2& p : loop)
+        out.emplace_back(std::llround(p.x() / kLattice), std::llround(p.y() / kLattice));
+    return out;
+}
+
+cl::Paths to_lattice(const std::vector<Loop>& loops) {
+    cl::Paths out;
+    for (const Loop& loop : loops) out.push_back(to_lattice(loop));
+    return out;
+}
+
+Loop from_lattice(const cl::Path& path) {
+    Loop out;
+    for (const cl::IntPoint& p : path)
+        out.emplace_back(kLattice * static_cast<double>(p.X), kLattice * static_cast<double>(p.Y));
+    return out;
+}
+
+// An outer loop and the holes in it.
+struct Part {
+    Loop outer;
+    std::vector<Loop> holes;
+    double area;
+};
+
+// Largest first; equal ones in the order of their first corners, which no thread changes.
+std::vector<Part> parts_of(const cl::PolyTree& tree) {
+    std::vector<Part> parts;
+    for (const cl::PolyNode* node = tree.GetFirst(); node != nullptr; node = node->GetNext()) {
+        if (node->IsHole()) continue;
+        Part part{from_lattice(node->Contour), {}, 0.0};
+        part.area = area_of(part.outer);
+        for (const cl::PolyNode* hole : node->Childs) {
+            part.holes.push_back(from_lattice(hole->Contour));
+            part.area += area_of(part.holes.back());
+        }
+        parts.push_back(std::move(part));
+    }
+    std::stable_sort(parts.begin(), parts.end(),
+                     [](const Part& l, const Part& r) { return l.area > r.area; });
+    return parts;
+}
+
+std::vector<Part> combine(const std::vector<Loop>& sheet, const Loop& crack, cl::ClipType how) {
+    cl::Clipper clipper(cl::ioStrictlySimple);
+    clipper.AddPaths(to_lattice(sheet), cl::ptSubject, true);
+    clipper.AddPath(to_lattice(crack), cl::ptClip, true);
+    cl::PolyTree tree;
+    clipper.Execute(how, tree, cl::pftNonZero, cl::pftNonZero);
+    return parts_of(tree);
+}
+
+bool is_too_small(const Loop& loop, double smallest) {
+    const double area = area_of(loop);
+    return area < smallest * smallest || 2.0 * area < 0.25 * smallest * length_of(loop);
+}
+
+}  // namespace
+
+IceSheet::IceSheet(const Eigen::AlignedBox2d& extent, double smallest) : smallest_(smallest) {
+    const Vec2 a = extent.min(), b = extent.max();
+    loops_ = {
+        from_lattice(to_lattice({{a.x(), a.y()}, {b.x(), a.y()}, {b.x(), b.y()}, {a.x(), b.y()}}))};
+}
+
+IceSheet::Broken IceSheet::break_off(const Loop& crack) {
+    std::vector<Part> loose = combine(loops_, crack, cl::ctIntersection);
+    if (loose.empty()) return {};
+    std::vector<Part> rest = combine(loops_, crack, cl::ctDifference);
+    for (std::size_t k = 1; k < rest.size(); ++k) loose.push_back(std::move(rest[k]));
+    const auto is_ring = [](const Part& p) { return !p.holes.empty(); };
+    if (std::any_of(loose.begin(), loose.end(), is_ring)) return {};
+    std::stable_sort(loose.begin(), loose.end(),
+                     [](const Part& l, const Part& r) { return l.area > r.area; });
+
+    Broken out;
+    for (Part& part : loose) {
+        if (is_too_small(part.outer, smallest_))
+            out.brash += part.area;
+        else
+            out.pieces.push_back(std::move(part.outer));
+    }
+    loops_.clear();
+    if (rest.empty()) return out;
+    loops_.push_back(std::move(rest[0].outer));
+    for (Loop& hole : rest[0].holes) loops_.push_back(std::move(hole));
+    return out;
+}
+
+double IceSheet::area() const {
+    double sum = 0.0;
+    for (const Loop& loop : loops_) sum += area_of(loop);
+    return sum;
+}
+
+bool IceSheet::contains(const Vec2& point) const {
+    bool inside = false;  // an odd number of edges lies to the right
+    for (const Loop& loop : loops_)
+        for (std::size_t k = 0; k < loop.size(); ++k) {
+            const Vec2 &a = loop[k], &b = loop[(k + 1) % loop.size()];
+            if ((a.y() > point.y()) == (b.y() > point.y())) continue;
+            const double x = a.x() + (point.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x());
+            inside = inside != (point.x() < x);
+        }
+    return inside;
+}
+
+std::vector<Loop> shrunk(const Loop& loop, double by, double smallest) {
+    constexpr double kMitre = 2.0;     // longest mitre, in widths of the strip
+    constexpr double kNearest = 1e-3;  // of corners [m]
+    cl::ClipperOffset offset(kMitre);
+    offset.AddPath(to_lattice(loop), cl::jtMiter, cl::etClosedPolygon);
+    cl::PolyTree tree;
+    offset.Execute(tree, -by / kLattice);
+    std::vector<Loop> out;
+    for (const Part& part : parts_of(tree)) {
+        cl::Path path = to_lattice(part.outer);
+        cl::CleanPolygon(path, kNearest / kLattice);
+        Loop clean = from_lattice(path);
+        if (!part.holes.empty() || clean.size() < 3 || is_too_small(clean, smallest)) continue;
+        out.push_back(std::move(clean));
+    }
+    return out;
+}
+
+}  // namespace ice

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Level ice seen from above, of whose edge pieces break off.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "solver/level_ice/cusp_form.hpp"
+
+namespace ice {
+
+/// A sheet as a polygon with holes, on a lattice of 2^-30 m.
+///
+/// Coordinates are whole numbers of that lattice, so that they pass through doubles and checkpoints
+/// without a change and every machine gets the same polygons. Where two edges cross, their crossing
+/// is rounded to the lattice: a cut changes the area of sheet and pieces together by at most 1 nm
+/// times the length of the edges cut.
+class IceSheet {
+public:
+    /// What broke off.
+    struct Broken {
+        std::vector<Loop> pieces;  ///< largest first, without holes; none where nothing broke
+        double brash = 0.0;        ///< area of what was too small for a piece [m2]
+    };
+
+    /// A rectangle. @pre not empty, within 1e6 m of the origin
+    /// @param smallest  size below which there is no piece [m]: pieces have at least the area of
+    ///                  its square and a mean breadth, 2 area / length around, of a quarter of it
+    IceSheet(const Eigen::AlignedBox2d& extent, double smallest);
+
+    /// Cuts the region `crack` out. What of the sheet lies in it breaks off, and what the cut parts
+    /// from the rest of the sheet: the largest part stays. Sheet, pieces and brash together keep
+    /// their area. Nothing breaks where a piece would be a ring.
+    /// @pre crack is simple
+    Broken break_off(const Loop& crack);
+
+    /// Outer loops anticlockwise, holes clockwise; the first is the largest. Empty once all is
+    /// gone.
+    const std::vector<Loop>& loops() const { return loops_; }
+    double area() const;
+    /// Is the point in the ice? Points on the edge may be either.
+    bool contains(const Vec2& point) const;
+
+    /// Sets the sheet as loops() of another gave it: for a run that is continued.
+    void restore(std::vector<Loop> loops) { loops_ = std::move(loops); }
+
+private:
+    double smallest_;
+    std::vector<Loop> loops_;
+};
+
+/// A loop moved inwards by `by` [m], which may part it: parts of at least `smallest` in the sense
+/// of IceSheet, without corners nearer to each other than 1 mm.
+std::vector<Loop> shrunk(const Loop& loop, double by, double smallest);
+
+}  // namespace ice

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "solver/case/case.hpp"
+#include "solver/scene/bodies.hpp"
+
+namespace ice {
+
+/// Sets Bodies::breaking_load of all floes that have none yet, from their groups: what
+/// solver/bending says of a floe held until it bends as it lies, inf for all others. Left empty
+/// where none bends.
+void set_breaking_loads(Scene& scene, const Case& parameters);
+
+}  // namespace ice

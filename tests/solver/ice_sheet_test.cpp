@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Level ice as a polygon: areas that can be said beforehand, then ten thousand random breaks.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "solver/level_ice/break_pattern.hpp"
+#include "tests/support/make_sphere_sets.hpp"
+
+using namespace ice;
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kHalfRight = kPi / 2;  // opening angle of a half disc
+constexpr double kSmallest = 0.5;       // [m]
+
+using Box = Eigen::AlignedBox2d;
+
+IceSheet field() { return IceSheet(Box(Vec2(0, -20), Vec2(100, 20)), kSmallest); }
+
+double sum_of(const std::vector<Loop>& loops) {
+    double sum = 0.0;
+    for (const Loop& loop : loops) sum += area_of(loop);
+    return sum;
+}
+
+// Area of the regular polygon's half in place of a half disc: corners every 10 degrees.
+double half_disc(double radius) { return 9.0 * radius * radius * std::sin(kPi / 18.0); }
+
+// Ice must be gone from where a piece was.
+double left_in(const IceSheet& sheet, const Loop& piece) {
+    IceSheet copy = sheet;
+    const double before = copy.area();
+    copy.break_off(piece);
+    return before - copy.area();
+}
+
+double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+// Do two edges cross, other than at their ends?
+bool cross_inside(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
+    const double tiny = 1e-6;  // [m2]: rounding puts corners beside edges by 1 nm
+    const double c_side = cross(b - a, c - a), d_side = cross(b - a, d - a);
+    const double a_side = cross(d - c, a - c), b_side = cross(d - c, b - c);
+    return std::min(c_side, d_side) < -tiny && std::max(c_side, d_side) > tiny &&
+           std::min(a_side, b_side) < -tiny && std::max(a_side, b_side) > tiny;
+}
+
+bool is_simple(const std::vector<Loop>& loops) {
+    std::vector<std::pair<Vec2, Vec2>> edges;
+    for (const Loop& loop : loops)
+        for (std::size_t k = 0; k < loop.size(); ++k)
+            edges.emplace_back(loop[k], loop[(k + 1) % loop.size()]);
+    for (std::size_t i = 0; i < edges.size(); ++i)
+        for (std::size_t j = i + 1; j < edges.size(); ++j)
+            if (cross_inside(edges[i].first, edges[i].second, edges[j].first, edges[j].second))
+                return false;
+    return true;
+}
+
+}  // namespace
+
+TEST_CASE("a crack's outline has the radius and the chord of its angle", "[level_ice][analytic]") {
+    const double angle = GENERATE(0.5, kHalfRight, 2.2), radius = 4.0;
+    const double turn = GENERATE(0.0, 1.0, 4.0);
+    const Vec2 at(3, -2), inwards(std::cos(turn), std::sin(turn));
+    const Loop loop = crack_outline(at, inwards, radius, angle);
+    double deepest = 0.0, widest = 0.0, ahead = 0.0;
+    for (const Vec2& p : loop) {
+        deepest = std::max(deepest, (p - at).dot(inwards));
+        ahead = std::min(ahead, (p - at).dot(inwards));
+        if (std::abs((p - at).dot(inwards)) < 1e-9)  // the arc's ends
+            widest = std::max(widest, std::abs(cross(inwards, p - at)));
+    }
+    CHECK(deepest == Approx(radius));
+    CHECK(widest == Approx(radius * std::tan(0.5 * angle)));
+    CHECK(ahead == Approx(-0.5 * radius));
+    CHECK(area_of(loop) > 0.0);
+}
+
+TEST_CASE("the radius has the law's length, speed and scatter", "[level_ice]") {
+    CuspLaw law;
+    CHECK(cusp_radius(law, 14.6, 0.0, 1) == Approx(4.67).margin(0.005));
+    CHECK(cusp_radius(law, 14.6, 1.0, 1) == Approx(4.0).margin(0.005));
+    CHECK(cusp_radius(law, 14.6, 50.0, 1) == Approx(0.2 * 0.32 * 14.6));
+    law.scatter = 0.25;
+    double low = 1e9, high = 0.0;
+    for (std::uint64_t cusp = 0; cusp < 1000; ++cusp) {
+        const double radius = cusp_radius(law, 14.6, 0.0, cusp);
+        CHECK(radius == cusp_radius(law, 14.6, 0.0, cusp));
+        low = std::min(low, radius);
+        high = std::max(high, radius);
+    }
+    CHECK(low == Approx(0.75 * 4.672).epsilon(0.01));
+    CHECK(high == Approx(1.25 * 4.672).epsilon(0.01));
+    law.seed = 1;
+    CHECK(cusp_radius(law, 14.6, 0.0, 7) != cusp_radius({0.32, -0.144, 0.25, 0}, 14.6, 0.0, 7));
+}
+
+TEST_CASE("a cusp at a straight edge is a half disc", "[level_ice][analytic]") {
+    IceSheet sheet = field();
+    REQUIRE(sheet.area() == 4000.0);
+    const auto broken = sheet.break_off(crack_outline({0, 3}, {1, 0}, 4.0, kHalfRight));
+    REQUIRE(broken.pieces.size() == 1);
+    CHECK(area_of(broken.pieces[0]) == Approx(half_disc(4.0)).epsilon(1e-8));
+    CHECK(broken.brash == 0.0);
+    CHECK(sheet.area() + area_of(broken.pieces[0]) == Approx(4000.0).epsilon(1e-12));
+    CHECK(left_in(sheet, broken.pieces[0]) == Approx(0.0).margin(1e-6));
+    CHECK_FALSE(sheet.contains({1, 3}));
+    CHECK(sheet.contains({4.1, 3}));
+    CHECK(sheet.contains({1, 8}));
+}
+
+TEST_CASE("a second cusp beside the first takes what is left there", "[level_ice][analytic]") {
+    IceSheet sheet = field();
+    sheet.break_off(crack_outline({0, 0}, {1, 0}, 4.0, kHalfRight));
+    // two equal polygons of 18 sides, 4 m apart: their lens is symmetric, so the second loses as
+    // much of its half as two of its sectors reach over the middle line
+    const auto broken = sheet.break_off(crack_outline({0, 4}, {1, 0}, 4.0, kHalfRight));
+    REQUIRE(broken.pieces.size() == 1);
+    const double lens = 0.5 * (2.0 * 16.0 * std::acos(0.5) - 2.0 * std::sqrt(64.0 - 16.0));
+    CHECK(area_of(broken.pieces[0]) == Approx(0.5 * kPi * 16.0 - lens).epsilon(0.03));
+    CHECK(is_simple(sheet.loops()));
+}
+
+TEST_CASE("a part that is cut off on all sides comes loose, too", "[level_ice]") {
+    IceSheet sheet(Box(Vec2(0, -1), Vec2(100, 1)), kSmallest);
+    // across a beam of 2 m, 30 m from its end
+    const auto broken = sheet.break_off({{30, -2}, {31, -2}, {31, 2}, {30, 2}});
+    REQUIRE(broken.pieces.size() == 2);
+    CHECK(area_of(broken.pieces[0]) == Approx(60.0));
+    CHECK(area_of(broken.pieces[1]) == Approx(2.0));
+    CHECK(sheet.area() == Approx(138.0));
+}
+
+TEST_CASE("what is too small or too thin for a piece is brash", "[level_ice]") {
+    IceSheet sheet = field();
+    auto broken = sheet.break_off({{-1, 0}, {0.3, 0}, {0.3, 0.4}, {-1, 0.4}});
+    CHECK(broken.pieces.empty());
+    CHECK(broken.brash == Approx(0.12));
+    broken = sheet.break_off({{-1, 5}, {0.05, 5}, {0.05, 15}, {-1, 15}});  // 0.05 by 10 m
+    CHECK(broken.pieces.empty());
+    CHECK(broken.brash == Approx(0.5));
+    CHECK(sheet.area() == Approx(4000.0 - 0.62));
+    CHECK(sheet.break_off({{-3, 0}, {-1, 0}, {-1, 2}}).pieces.empty());  // beside the ice
+}
+
+TEST_CASE("no piece is a ring, and a load inside the ice makes a hole", "[level_ice]") {
+    IceSheet sheet = field();
+    const Loop square{{40, -2}, {44, -2}, {44, 2}, {40, 2}},
+        around{{38, -4}, {46, -4}, {46, 4}, {38, 4}};
+    CHECK(sheet.break_off(square).pieces.size() == 1);
+    REQUIRE(sheet.loops().size() == 2);
+    CHECK(area_of(sheet.loops()[1]) == Approx(-16.0));
+    CHECK(sheet.break_off(around).pieces.empty());
+    CHECK(sheet.area() == Approx(4000.0 - 16.0));
+    CHECK_FALSE(sheet.contains({42, 0}));
+    CHECK(sheet.contains({39, 0}));
+}
+
+TEST_CASE("random breaks keep the area, the polygon and a least size of pieces",
+          "[level_ice][fuzz]") {
+    std::mt19937 random(29);
+    std::uniform_real_distribution<double> unit(0.0, 1.0);
+    IceSheet sheet = field(), twin = field();
+    double broken_area = 0.0;
+    int fields = 1;
+    for (int k = 0; k < 10000; ++k) {
+        if (sheet.loops().empty() || sheet.area() < 1000.0) {
+            sheet = twin = field();
+            broken_area = 0.0;
+            ++fields;
+        }
+        // a place on an edge, or a little beside it, and any direction
+        const Loop& loop = sheet.loops()[static_cast<std::size_t>(
+            unit(random) * static_cast<double>(sheet.loops().size()))];
+        const auto corner =
+            static_cast<std::size_t>(unit(random) * static_cast<double>(loop.size()));
+        const double along = k % 3 == 0 ? 0.0 : unit(random), turn = 2.0 * kPi * unit(random);
+        const Vec2 at = loop[corner] + along * (loop[(corner + 1) % loop.size()] - loop[corner]) +
+                        (k % 5 == 0 ? 0.3 : 0.0) * Vec2(unit(random), unit(random));
+        const Loop crack = crack_outline(at, Vec2(std::cos(turn), std::sin(turn)),
+                                         0.3 + 5.0 * unit(random), 0.3 + 2.2 * unit(random));
+        const IceSheet::Broken broken = sheet.break_off(crack);
+        for (const Loop& piece : broken.pieces) {
+            REQUIRE(area_of(piece) >= kSmallest * kSmallest);
+            REQUIRE(2.0 * area_of(piece) >= 0.25 * kSmallest * length_of(piece));
+        }
+        broken_area += sum_of(broken.pieces) + broken.brash;
+        REQUIRE(std::abs(sheet.area() + broken_area - 4000.0) <= 1e-9 * 4000.0);
+        for (std::size_t hole = 1; hole < sheet.loops().size(); ++hole)
+            REQUIRE(area_of(sheet.loops()[hole]) < 0.0);
+        // twice the same, also from what a checkpoint holds
+        if (k % 2 == 0) twin.restore(std::vector<Loop>(twin.loops()));
+        twin.break_off(crack);
+        REQUIRE(twin.loops() == sheet.loops());
+        if (k % 50 != 0) continue;
+        REQUIRE(is_simple(sheet.loops()));
+        for (const Loop& piece : broken.pieces) {
+            REQUIRE(is_simple({piece}));
+            REQUIRE(left_in(sheet, piece) <= 1e-6);  // 1 nm around it, and by rounding
+        }
+    }
+    CHECK(fields > 10);
+}
+
+namespace {
+
+// A wedge-shaped bow of 60 degrees before a parallel body, its tip at x = 0.
+Loop wedge_bow() {
+    return {{-30, -4}, {-4 * std::sqrt(3.0), -4}, {0, 0}, {-4 * std::sqrt(3.0), 4}, {-30, 4}};
+}
+
+Passage passage_of(double speed, double scatter = 0.0) {
+    return {wedge_bow(), 40.0,       [=](double) { return speed; },
+            10.0,        kHalfRight, {0.32, -0.144, scatter, 7}};
+}
+
+}  // namespace
+
+TEST_CASE("a ship's way is broken through, and pieces, rest and brash are the sheet",
+          "[level_ice][bow]") {
+    const BrokenSheet broken = break_sheet(field(), passage_of(0.0));
+    CHECK(sum_of(broken.pieces) + broken.rest.area() + broken.brash ==
+          Approx(4000.0).epsilon(1e-9));
+    CHECK(broken.brash < 0.02 * sum_of(broken.pieces));
+    // a channel of 8 m and scallops on both sides
+    CHECK(sum_of(broken.pieces) > 8.0 * 36.0);
+    CHECK(sum_of(broken.pieces) < (8.0 + 2.0 * 3.2) * (40.0 + 3.2));
+    for (double y = -3.9; y < 4.0; y += 0.3)
+        for (double x = 0.1; x < 40.0 - std::sqrt(3.0) * std::abs(y) - 0.2; x += 0.3)
+            REQUIRE_FALSE(broken.rest.contains({x, y}));
+    CHECK(is_simple(broken.rest.loops()));
+    for (const Loop& piece : broken.pieces) {
+        REQUIRE(is_simple({piece}));
+        REQUIRE(left_in(broken.rest, piece) <= 1e-6);
+    }
+}
+
+TEST_CASE("a fast ship breaks smaller pieces, another seed others", "[level_ice][bow]") {
+    const BrokenSheet slow = break_sheet(field(), passage_of(0.0)),
+                      fast = break_sheet(field(), passage_of(6.0));
+    CHECK(fast.pieces.size() > slow.pieces.size());
+    const BrokenSheet one = break_sheet(field(), passage_of(1.0, 0.2)),
+                      same = break_sheet(field(), passage_of(1.0, 0.2));
+    CHECK(one.pieces == same.pieces);
+    Passage other = passage_of(1.0, 0.2);
+    other.law.seed = 8;
+    CHECK(break_sheet(field(), other).pieces != one.pieces);
+}
+
+TEST_CASE("tiles of the rest hold the channel on both sides", "[level_ice][bow]") {
+    const BrokenSheet broken = break_sheet(field(), passage_of(1.0));
+    const std::vector<Loop> tiles = tile_rest(broken.rest, broken.pieces, 5.0, 10.0);
+    double reach = 0.0;
+    for (const Loop& tile : tiles) {
+        REQUIRE(is_simple({tile}));
+        for (const Vec2& p : tile) reach = std::max(reach, std::abs(p.y()));
+    }
+    REQUIRE(tiles.size() >= 8);
+    CHECK(reach > 4.0 + 5.0);
+    // nothing of a tile lies on another one or on a piece
+    IceSheet left = broken.rest;
+    const double before = left.area();
+    for (const Loop& tile : tiles) left.break_off(tile);
+    CHECK(sum_of(tiles) <= before);
+    // cutting all tiles out leaves strips outside them, of which the cut may part some
+    CHECK(before - left.area() >= sum_of(tiles) - 1e-6);
+}
+
+TEST_CASE("a loop that shrinks loses a strip, and what becomes too thin", "[level_ice]") {
+    const Loop square{{0, 0}, {4, 0}, {4, 4}, {0, 4}};
+    const auto smaller = shrunk(square, 0.1, kSmallest);
+    REQUIRE(smaller.size() == 1);
+    CHECK(area_of(smaller[0]) == Approx(3.8 * 3.8));
+    CHECK(shrunk(square, 2.1, kSmallest).empty());
+    // two squares joined by a neck of 0.1 m
+    const Loop neck{{0, 0},  {4, 0}, {4, 1.95}, {6, 1.95}, {6, 0}, {10, 0},
+                    {10, 4}, {6, 4}, {6, 2.05}, {4, 2.05}, {4, 4}, {0, 4}};
+    CHECK(shrunk(neck, 0.1, kSmallest).size() == 2);
+}
+
+TEST_CASE("a hull's outline is the convex hull of its section", "[level_ice][analytic]") {
+    const Loop box = section_outline(test::make_box_mesh(Vec3(6, 2, 3)), 0.4);
+    REQUIRE(box.size() == 4);
+    CHECK(area_of(box) == Approx(12.0));
+    CHECK(section_outline(test::make_box_mesh(Vec3(6, 2, 3)), 2.0).empty());
+}
