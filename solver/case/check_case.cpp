@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "solver/case/check_ship.hpp"
+
 namespace ice {
 
 namespace {
@@ -47,6 +49,8 @@ void check_group(FloeGroup& group, std::size_t g, int dimension, const Values& v
 
 void check_case(Case& checked, std::size_t groups, const Values& values,
                 const Complaints& complaints) {
+    check_ship(checked, values, complaints);
+    take_drift(checked, groups, values, complaints);
     for (std::size_t g = 0; g < groups; ++g)
         check_group(checked.floes[g], g, checked.dimension, values, complaints);
     if (checked.average_from >= checked.duration)

@@ -36,6 +36,9 @@ const char* const kForceColumns =
     "time_s,contact_fx_N,contact_fy_N,contact_fz_N,friction_fx_N,friction_fy_N,friction_fz_N,"
     "contacts,moving_floes,max_overlap_m,kinetic_energy_J";
 
+const char* const kShipColumns =
+    ",ship_x_m,ship_u,ship_z_m,ship_roll,ship_pitch,ship_yaw,thrust_N,tow_fx_N";
+
 const char* const kFloeColumns =
     "time_s,x_m,y_m,z_m,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz,contact_fx_N,contact_fy_N,contact_fz_N,"
     "friction_fx_N,friction_fy_N,friction_fz_N,ice_fx_N,ice_fy_N,ice_fz_N";
@@ -110,11 +113,15 @@ void CsvFile::finish() {
     keep_file(part_of(path_), path_);
 }
 
-std::vector<double> csv_row(const HistoryRow& row) {
+std::vector<double> csv_row(const HistoryRow& row, bool ship) {
     std::vector<double> out{row.time};
     append(out, row.contact_force);
     append(out, row.friction_force);
     out.insert(out.end(), {row.contacts, row.moving_floes, row.max_overlap, row.kinetic_energy});
+    if (!ship) return out;
+    out.insert(out.end(), {row.ship_position.x(), row.ship_velocity.x(), row.ship_position.z()});
+    append(out, row.ship_angles);
+    out.insert(out.end(), {row.thrust, row.tow_force.x()});
     return out;
 }
 

@@ -54,8 +54,10 @@ private:
 
 /// Columns of forces.csv and floe_<id>.csv (docs/contract.md, section 5).
 extern const char* const kForceColumns;
+extern const char* const kShipColumns;  ///< behind them, of a ship that answers
 extern const char* const kFloeColumns;
-std::vector<double> csv_row(const HistoryRow& row);
+/// @param ship  with the columns of a ship that answers
+std::vector<double> csv_row(const HistoryRow& row, bool ship);
 std::vector<double> csv_row(const TrackRow& row);
 
 }  // namespace ice
