@@ -37,7 +37,7 @@ const char* const kForceColumns =
     "contacts,moving_floes,max_overlap_m,kinetic_energy_J";
 
 const char* const kShipColumns =
-    ",ship_x_m,ship_u,ship_z_m,ship_roll,ship_pitch,ship_yaw,thrust_N,tow_fx_N";
+    "ship_x_m,ship_u,ship_z_m,ship_roll,ship_pitch,ship_yaw,thrust_N,tow_fx_N";
 
 const char* const kFloeColumns =
     "time_s,x_m,y_m,z_m,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz,contact_fx_N,contact_fy_N,contact_fz_N,"

@@ -59,7 +59,7 @@ struct CsvTable {
 
 std::vector<CsvTable> csv_tables(const Case& parameters) {
     std::string forces = kForceColumns;
-    if (parameters.ship.any_free()) forces += kShipColumns;
+    if (parameters.ship.any_free()) forces += std::string(",") + kShipColumns;
     std::vector<CsvTable> tables{{"forces.csv", forces}};
     for (const int id : parameters.track)
         tables.push_back({fmt::format("floe_{}.csv", id), kFloeColumns});

@@ -71,7 +71,8 @@ void ShipTally::fill(const FreeShip& ship, const Scene& scene, const Case& p,
     std::map<std::string, double> out;
     out["mass_kg"] = rig.body.mass;
     if (rig.body.free[roll]) out["gm_m"] = rig.equilibrium.gm_transverse;
-    summary.ship.stuck = stuck_;
+    // a moored ship is meant to stay
+    if (rig.body.free[surge] && p.mooring.stiffness[surge] == 0.0) summary.ship.stuck = stuck_;
 
     const ShipEnergies& e = ship.energies();
     auto& energy = summary.energy;

@@ -44,8 +44,8 @@ void step(World& w) {
     if (!w.ledger.potential_start)
         w.ledger.potential_start = potential_energy(w.scene, w.parameters);
 
-    // the ship goes as prescribed, its speed at mid-step carrying it to the end of the step, or with
-    // the velocity it has come to
+    // the ship goes as prescribed, its speed at mid-step carrying it to the end of the step, or
+    // with the velocity it has come to
     w.ship.start_step(w.parameters, w.scene, w.time);
 
     w.scene.water.follow(bodies.position[kShip], w.scene.ship_velocity);
