@@ -38,9 +38,10 @@ void from_json(const Json& json, ShipParticulars& s) {
     take(json, "parallel_length_m", s.parallel_length);
     take(json, "bow_length_m", s.bow_length);
     take(json, "speed_mean", s.speed_mean);
-    const std::set<std::string> of_hull{"length_m",        "breadth_m",      "draught_m",
-                                        "displacement_kg", "stem_angle_deg", "entrance_angle_deg",
-                                        "speed_mean"};
+    const std::set<std::string> of_hull{
+        "length_m",        "breadth_m",         "draught_m",
+        "displacement_kg", "stem_angle_deg",    "entrance_angle_deg",
+        "speed_mean",      "parallel_length_m", "bow_length_m"};
     for (const auto& [key, value] : json.items()) {
         if (of_hull.contains(key)) continue;
         if (value.is_boolean() && key == "stuck") s.stuck = value.get<bool>();

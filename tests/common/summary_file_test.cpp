@@ -40,7 +40,7 @@ Summary make_summary() {
     s.energy["kinetic_J"] = 55.0;
     s.stage_seconds["narrow"] = 2.5;
     s.lindqvist_submersion = 950.0;
-    s.ship = {100.0, 20.5, 8.0, 9.5e6, 25.0, 30.0, 2.5, {}, {}};
+    s.ship = {100.0, 20.5, 8.0, 9.5e6, 25.0, 30.0, 2.5, kUnknown, kUnknown, {}, {}};
     s.ice = {1.0, 140, 2.5, 6.25, 12.0, 0.8, 900.0, 0.1, 0.3, 1e6, {"never", "always"}};
     s.travel = {150.0, 1.5, 1.0};
     s.formulas = {{"Lindqvist 1989", "submersion", 950.0, false}};
