@@ -49,8 +49,12 @@ def value(sub):
     """The values that a key takes, in a few words."""
     if "enum" in sub:
         return ", ".join(f'`"{word}"`' for word in sub["enum"])
+    if "anyOf" in sub:
+        return ", or ".join(value(one) for one in sub["anyOf"])
     if sub["type"] == "array":
         items = sub["items"]
+        if "enum" in items:
+            return "list of " + value(items)
         if items.get("type") == "array":
             return "list of pairs"
         least, most = sub.get("minItems"), sub.get("maxItems")

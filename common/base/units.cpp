@@ -44,6 +44,14 @@ constexpr std::array kUnits{
     Unit{"t/m3", 1000.0, Dimension::density},
     Unit{"rad", 1.0, Dimension::angle},
     Unit{"deg", kDegree, Dimension::angle},
+    Unit{"kg", 1.0, Dimension::mass},
+    Unit{"t", 1e3, Dimension::mass},
+    Unit{"N", 1.0, Dimension::force},
+    Unit{"kN", 1e3, Dimension::force},
+    Unit{"MN", 1e6, Dimension::force},
+    Unit{"W", 1.0, Dimension::power},
+    Unit{"kW", 1e3, Dimension::power},
+    Unit{"MW", 1e6, Dimension::power},
 };
 
 std::string_view trim(std::string_view text) {

@@ -22,7 +22,10 @@ enum class Dimension {
     acceleration,
     pressure,
     density,
-    angle
+    angle,
+    mass,
+    force,
+    power
 };
 
 struct Quantity {

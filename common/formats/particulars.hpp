@@ -4,7 +4,9 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace ice {
@@ -22,6 +24,9 @@ struct ShipParticulars {
     double speed_mean = kUnknown;          ///< over the averaged time [m/s]
     double parallel_length = kUnknown;  ///< of the waterline's full breadth [m]; 3D
     double bow_length = kUnknown;       ///< of the waterline before it [m]; likewise
+    /// Of a ship that answers: motions and drive by their keys in summary.json; else empty.
+    std::vector<std::pair<std::string, double>> motion;
+    std::optional<bool> stuck;  ///< below 0.1 m/s for 10 s on end; likewise
 };
 
 /// The floes that may move, and what the case says of all ice.

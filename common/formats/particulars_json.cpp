@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "common/formats/particulars_json.hpp"
 
+#include <set>
+
 namespace ice {
 
 namespace {
@@ -22,6 +24,8 @@ void to_json(Json& json, const ShipParticulars& s) {
             {"parallel_length_m", s.parallel_length},
             {"bow_length_m", s.bow_length},
             {"speed_mean", s.speed_mean}};
+    for (const auto& [key, value] : s.motion) json[key] = value;
+    if (s.stuck) json["stuck"] = *s.stuck;
 }
 
 void from_json(const Json& json, ShipParticulars& s) {
@@ -34,6 +38,16 @@ void from_json(const Json& json, ShipParticulars& s) {
     take(json, "parallel_length_m", s.parallel_length);
     take(json, "bow_length_m", s.bow_length);
     take(json, "speed_mean", s.speed_mean);
+    const std::set<std::string> of_hull{
+        "length_m",        "breadth_m",         "draught_m",
+        "displacement_kg", "stem_angle_deg",    "entrance_angle_deg",
+        "speed_mean",      "parallel_length_m", "bow_length_m"};
+    for (const auto& [key, value] : json.items()) {
+        if (of_hull.contains(key)) continue;
+        if (value.is_boolean() && key == "stuck") s.stuck = value.get<bool>();
+        if (value.is_number()) s.motion.emplace_back(key, value.get<double>());
+        if (value.is_null()) s.motion.emplace_back(key, kUnknown);
+    }
 }
 
 void to_json(Json& json, const IceParticulars& i) {

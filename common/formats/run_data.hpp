@@ -33,6 +33,7 @@ struct RunHeader {
     std::vector<double> body_mass;         ///< [Nb] kg (2D: kg per metre of breadth)
     std::vector<Vec3> body_inertia;        ///< [Nb] diagonal about the mesh's axes [kg m2]
     std::vector<std::int32_t> tracked;     ///< ids of floes with their own histories
+    bool ship_answers = false;             ///< the ship moves by forces: rows have its motion
 };
 
 /// One history sample. Forces are those of the ice on the ship, world axes.
@@ -47,6 +48,13 @@ struct HistoryRow {
     double max_overlap = 0.0;     ///< deepest overlap of the steps [m]
     double kinetic_energy = 0.0;  ///< of the floes [J]
     double breaking_x = 0.0;      ///< force along x of ice held until it bends [N]; not in run.h5
+
+    // of a ship that answers, at the end of the row; forces are means
+    Eigen::Quaterniond ship_orientation = Eigen::Quaterniond::Identity();  ///< ship to world
+    Vec3 ship_angles = Vec3::Zero();    ///< roll, pitch, yaw [rad]
+    Vec3 ship_velocity = Vec3::Zero();  ///< of its centre of gravity [m/s]
+    double thrust = 0.0;                ///< along the heading [N]
+    Vec3 tow_force = Vec3::Zero();      ///< on the ship [N]
 };
 
 /// Force of the ice on one region of the hull, world axes [N] (2D: N per metre).
@@ -94,6 +102,7 @@ struct RunFrame {
     std::vector<Vec3> contact_force;  ///< of the ship on the floe, mean since last frame [N]
     std::vector<FloeState> state;
     std::vector<HullContact> hull_contacts;  ///< sorted by floe, sphere; as many as there were
+    Eigen::Quaterniond ship_orientation = Eigen::Quaterniond::Identity();  ///< ship to world
 };
 
 }  // namespace ice

@@ -114,6 +114,16 @@ void RunWriter::Buffers::create_history(const RunHeader& header) {
     create(moving, "/ship/moving_floes", {}, "1", {"/time"});
     create(overlap, "/ship/max_overlap", {}, "m", {"/time"});
     create(energy, "/ship/kinetic_energy", {}, header.dimension == 2 ? "J/m" : "J", {"/time"});
+    if (header.ship_answers) {
+        answers = true;
+        create(ship_velocity, "/ship/velocity", {3}, "m/s", {"/time", "/xyz"});
+        create(ship_angles, "/ship/angles", {3}, "rad", {"/time", "/xyz"});
+        create(thrust, "/ship/thrust", {}, force, {"/time"});
+        create(tow, "/ship/tow_force", {3}, force, {"/time", "/xyz"});
+        file.write_attribute("/ship/velocity", "long_name",
+                             "velocity of the ship's centre of gravity, world axes");
+        file.write_attribute("/ship/angles", "long_name", "roll, pitch and yaw of the ship");
+    }
     create_regions(header);
     name_history(file);
 
@@ -160,6 +170,10 @@ void RunWriter::Buffers::create_frames(const RunHeader& header) {
     create(frame_time, "frame_time", {}, "s", {});
     file.make_scale("/frames/frame_time");
     create(ship_position, "ship_position", {3}, "m", {"/xyz"});
+    if (header.ship_answers) {
+        create(ship_orientation, "ship_orientation", {4}, "1", {"/wxyz"});
+        file.write_attribute("/frames/ship_orientation", "order", "w,x,y,z ship to world");
+    }
     create(position, "position", {n, 3}, "m", {"/frames/body", "/xyz"});
     create(orientation, "orientation", {n, 4}, "1", {"/frames/body", "/wxyz"});
     create(velocity, "velocity", {n, 3}, "m/s", {"/frames/body", "/xyz"});
@@ -242,11 +256,17 @@ void RunWriter::add(const HistoryRow& row, const std::vector<RegionForce>& regio
     b.total.add(Vec3(row.contact_force + row.friction_force));
     b.moment.add(row.moment);
     b.pose.add(row.ship_position);
-    b.pose.add(Eigen::Vector4d(1.0, 0.0, 0.0, 0.0));  // the ship keeps its heading
+    b.pose.add(wxyz(row.ship_orientation));
     b.contacts.add_value(row.contacts);
     b.moving.add_value(row.moving_floes);
     b.overlap.add_value(row.max_overlap);
     b.energy.add_value(row.kinetic_energy);
+    if (b.answers) {
+        b.ship_velocity.add(row.ship_velocity);
+        b.ship_angles.add(row.ship_angles);
+        b.thrust.add_value(row.thrust);
+        b.tow.add(row.tow_force);
+    }
     const Vec3 unknown = Vec3::Constant(std::nan(""));
     for (std::size_t r = 0; r < b.regions; ++r) {
         b.region_contact.add(regions.empty() ? unknown : regions[r].contact);
@@ -273,6 +293,7 @@ void RunWriter::add(const RunFrame& frame) {
     Buffers& b = *buffers_;
     b.frame_time.add_value(frame.time);
     b.ship_position.add(frame.ship_position);
+    if (b.answers) b.ship_orientation.add(wxyz(frame.ship_orientation));
     b.position.add_all(frame.position);
     b.velocity.add_all(frame.velocity);
     b.spin.add_all(frame.angular_velocity);

@@ -126,6 +126,9 @@ private:
         for (const char* name : {"contact_force", "friction_force", "moment", "pose", "contacts",
                                  "moving_floes", "max_overlap", "kinetic_energy"})
             names.push_back(std::string("/ship/") + name);
+        if (file().has("/ship/velocity"))
+            for (const char* name : {"velocity", "angles", "thrust", "tow_force"})
+                names.push_back(std::string("/ship/") + name);
         for (const std::int32_t id : run.header.tracked)
             names.push_back("/tracked/" + std::to_string(id));
         if (file().has("/regions"))
@@ -151,6 +154,30 @@ private:
                               moving[k],
                               overlap[k],
                               energy[k]};
+        for (std::size_t k = 0; k < n; ++k) {
+            const double* q = pose.data() + 7 * k + 3;
+            run.history[k].ship_orientation =
+                Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized();
+        }
+        read_ship_motion(run);
+    }
+
+    // of a ship that answers; others keep their course
+    void read_ship_motion(RunData& run) const {
+        run.header.ship_answers = file().has("/ship/velocity");
+        if (!run.header.ship_answers) return;
+        const std::uint64_t n = run.history.size();
+        const auto velocity = points("/ship/velocity", {n});
+        const auto angles = points("/ship/angles", {n});
+        const auto thrust = read_as<double>("/ship/thrust", {n});
+        const auto tow = points("/ship/tow_force", {n});
+        for (std::size_t k = 0; k < n; ++k) {
+            HistoryRow& row = run.history[k];
+            row.ship_velocity = velocity[k];
+            row.ship_angles = angles[k];
+            row.thrust = thrust[k];
+            row.tow_force = tow[k];
+        }
     }
 
     void read_regions(RunData& run) const {
@@ -193,10 +220,12 @@ private:
     }
 
     void read_frames(RunData& run) const {
-        const std::uint64_t frames =
-            common_rows({"/frames/frame_time", "/frames/ship_position", "/frames/position",
-                         "/frames/orientation", "/frames/velocity", "/frames/angular_velocity",
-                         "/frames/contact_force", "/frames/state"});
+        std::vector<std::string> names{"/frames/frame_time",    "/frames/ship_position",
+                                       "/frames/position",      "/frames/orientation",
+                                       "/frames/velocity",      "/frames/angular_velocity",
+                                       "/frames/contact_force", "/frames/state"};
+        if (file().has("/frames/ship_orientation")) names.emplace_back("/frames/ship_orientation");
+        const std::uint64_t frames = common_rows(names);
         const std::uint64_t n = run.header.body_shape.size();
         const auto time = read_as<double>("/frames/frame_time", {frames});
         const auto ship = points("/frames/ship_position", {frames});
@@ -206,6 +235,9 @@ private:
         const auto spin = points("/frames/angular_velocity", {frames, n});
         const auto force = points("/frames/contact_force", {frames, n});
         const auto state = read_as<std::uint8_t>("/frames/state", {frames, n});
+        std::vector<double> attitude;  // of a ship that answers
+        if (file().has("/frames/ship_orientation"))
+            attitude = read_as<double>("/frames/ship_orientation", {frames, 4});
         run.frames.resize(frames);
         for (std::size_t f = 0; f < frames; ++f) {
             RunFrame& frame = run.frames[f];
@@ -215,6 +247,10 @@ private:
             };
             frame.time = time[f];
             frame.ship_position = ship[f];
+            if (!attitude.empty()) {
+                const double* q = attitude.data() + 4 * f;
+                frame.ship_orientation = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized();
+            }
             frame.position = part(position);
             frame.velocity = part(velocity);
             frame.angular_velocity = part(spin);

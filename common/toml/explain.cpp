@@ -34,6 +34,12 @@ std::string kind_text(const Key& key) {
             return "list of integers";
         case Kind::pair_list:
             return "list of [t, u]";
+        case Kind::curve:
+            return "list of [U, value]";
+        case Kind::words:
+            return "list of " + std::string(key.choices);
+        case Kind::choice_or_vector:
+            return fmt::format("one of {}, or list of {} numbers", key.choices, key.length);
     }
     return "";
 }
@@ -46,7 +52,7 @@ std::string default_note(const Key& key) {
 
 bool has_range(const Key& key) {
     return key.kind != Kind::text && key.kind != Kind::path && key.kind != Kind::choice &&
-           key.kind != Kind::boolean;
+           key.kind != Kind::boolean && key.kind != Kind::words;
 }
 
 std::string table_of(const Key& key) {

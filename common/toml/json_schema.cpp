@@ -82,6 +82,19 @@ Json value_schema(const Key& key) {
                 Json::array({quantity(key, Dimension::time), quantity(key, key.dimension)}), 2, 2);
             return {{"type", "array"}, {"items", row}, {"minItems", 1}};
         }
+        case Kind::curve: {
+            Json row = list(
+                Json::array({quantity(key, Dimension::speed), quantity(key, key.dimension)}), 2, 2);
+            return {{"type", "array"}, {"items", row}, {"minItems", 1}};
+        }
+        case Kind::words:
+            return {{"type", "array"},
+                    {"items", {{"enum", split(key.choices, "|")}}},
+                    {"uniqueItems", true}};
+        case Kind::choice_or_vector:
+            return {{"anyOf",
+                     {{{"enum", split(key.choices, "|")}},
+                      list(quantity(key, key.dimension), key.length, key.length)}}};
     }
     return Json::object();
 }

@@ -37,7 +37,12 @@ public:
             case Kind::integer_list:
                 return read_list(key, node, out);
             case Kind::pair_list:
+            case Kind::curve:
                 return read_pairs(key, node, out);
+            case Kind::words:
+                return read_words(key, node, out);
+            case Kind::choice_or_vector:
+                return node.is_string() ? read_text(key, node, out) : read_list(key, node, out);
         }
         return false;
     }
@@ -128,7 +133,8 @@ private:
             return false;
         }
         const std::string list = "|" + std::string(key.choices) + "|";
-        if (key.kind == Kind::choice && list.find("|" + *text + "|") == std::string::npos) {
+        const bool chosen = key.kind == Kind::choice || key.kind == Kind::choice_or_vector;
+        if (chosen && list.find("|" + *text + "|") == std::string::npos) {
             const std::string near = nearest_name(*text, choices_of(key));
             complain(node.source(),
                      fmt::format("{} = \"{}\" is none of {}{}", key.path, *text, key.choices,
@@ -140,6 +146,31 @@ private:
         return true;
     }
 
+    bool read_words(const Key& key, const toml::node& node, Value& out) {
+        const auto* list = node.as_array();
+        if (!list) {
+            complain(node.source(), fmt::format("{} must be a list of texts in quotes", key.path),
+                     1);
+            return false;
+        }
+        Key one = key;  // each word is a choice
+        one.kind = Kind::choice;
+        std::vector<std::string> words;
+        for (const toml::node& item : *list) {
+            Value word;
+            if (!read_text(one, item, word)) return false;
+            if (std::find(words.begin(), words.end(), std::get<std::string>(word)) != words.end()) {
+                complain(
+                    item.source(),
+                    fmt::format("{} names \"{}\" twice", key.path, std::get<std::string>(word)), 1);
+                return false;
+            }
+            words.push_back(std::get<std::string>(word));
+        }
+        out = words;
+        return true;
+    }
+
     bool read_list(const Key& key, const toml::node& node, Value& out) {
         const auto* list = node.as_array();
         const bool any_length = key.kind == Kind::integer_list;
@@ -147,6 +178,9 @@ private:
         if (!list || (!any_length && (list->size() < least || list->size() > key.length))) {
             complain(node.source(),
                      any_length ? fmt::format("{} must be a list", key.path)
+                     : key.kind == Kind::choice_or_vector
+                         ? fmt::format("{} must be {}, or a list of {} numbers", key.path,
+                                       key.choices, key.length)
                      : least < key.length
                          ? fmt::format("{} must be a list of {} or {} numbers", key.path, least,
                                        key.length)
@@ -172,23 +206,28 @@ private:
     bool read_pairs(const Key& key, const toml::node& node, Value& out) {
         std::vector<std::pair<double, double>> rows;
         const auto* list = node.as_array();
+        const bool curve = key.kind == Kind::curve;
+        const Dimension first = curve ? Dimension::speed : Dimension::time;
+        const char* const form = curve ? "[U, value] with U" : "[t, u] with t";
         for (std::size_t k = 0; list && k < list->size(); ++k) {
             const auto* row = list->get(k)->as_array();
             std::pair<double, double> pair;
-            if (!row || row->size() != 2 ||
-                !read_scalar(key, Dimension::time, *row->get(0), pair.first) ||
+            if (!row || row->size() != 2 || !read_scalar(key, first, *row->get(0), pair.first) ||
                 !read_scalar(key, key.dimension, *row->get(1), pair.second) ||
                 (!rows.empty() && pair.first <= rows.back().first)) {
-                complain(list->get(k)->source(),
-                         fmt::format("{} row {} must be [t, u] with t above the row before",
-                                     key.path, k + 1),
-                         1);
+                complain(
+                    list->get(k)->source(),
+                    fmt::format("{} row {} must be {} above the row before", key.path, k + 1, form),
+                    1);
                 return false;
             }
             rows.push_back(pair);
         }
         if (rows.empty()) {
-            complain(node.source(), fmt::format("{} must be a list of [t, u]", key.path), 1);
+            complain(
+                node.source(),
+                fmt::format("{} must be a list of {}", key.path, curve ? "[U, value]" : "[t, u]"),
+                1);
             return false;
         }
         out = rows;

@@ -25,11 +25,14 @@ enum class Kind {
     counts,  ///< of `length` whole numbers
     place,   ///< of `length` numbers, of which the last may be left out
     integer_list,
-    pair_list
+    pair_list,        ///< rows of a time and a number
+    curve,            ///< rows of a speed and a number
+    words,            ///< a list of choices
+    choice_or_vector  ///< one of the choices, or `length` numbers
 };
 
 using Value = std::variant<double, std::int64_t, std::string, std::vector<double>,
-                           std::vector<std::pair<double, double>>>;
+                           std::vector<std::pair<double, double>>, std::vector<std::string>>;
 
 /// One key of an input file.
 struct Key {

@@ -30,6 +30,11 @@ std::string toml_text(const Value& value, const Key& key) {
             }
             return out + "\"";
         }
+        std::string operator()(const std::vector<std::string>& v) const {
+            std::string out = "[";
+            for (const std::string& word : v) out += (out.size() > 1 ? ", " : "") + (*this)(word);
+            return out + "]";
+        }
         std::string operator()(const std::vector<double>& v) const {
             const bool whole = key.kind == Kind::integer_list || key.kind == Kind::counts;
             std::string out = "[";

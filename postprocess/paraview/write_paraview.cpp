@@ -85,7 +85,7 @@ VtpFile contact_points(const RunFrame& frame) {
     std::vector<std::int32_t> floe, sphere;
     std::vector<float> push, rub;
     for (const HullContact& c : frame.hull_contacts) {
-        add_point(file.points, frame.ship_position + c.point);
+        add_point(file.points, frame.ship_position + frame.ship_orientation * c.point);
         floe.push_back(c.floe);
         sphere.push_back(c.sphere);
         add_point(push, c.normal_force);
@@ -96,9 +96,9 @@ VtpFile contact_points(const RunFrame& frame) {
     return file;
 }
 
-VtpFile surface(const TriangleMesh& mesh, const Vec3& shift) {
+VtpFile surface(const TriangleMesh& mesh, const Vec3& shift, const Mat3& turn = Mat3::Identity()) {
     VtpFile file;
-    for (const Vec3& v : mesh.vertices) add_point(file.points, shift + v);
+    for (const Vec3& v : mesh.vertices) add_point(file.points, shift + turn * v);
     for (const auto& t : mesh.triangles)
         file.triangles.insert(file.triangles.end(), t.begin(), t.end());
     file.cell_data = {make_array("region", 1, mesh.region)};
@@ -182,7 +182,9 @@ std::size_t write_files(const RunData& run, const fs::path& folder,
         add(contacts, "contacts", contact_points(frame));
         if (options.points_only) continue;
         both.add(frame.time, 0, "hull",
-                 add(hull, "hull", surface(header.shapes[0].mesh, frame.ship_position)));
+                 add(hull, "hull",
+                     surface(header.shapes[0].mesh, frame.ship_position,
+                             frame.ship_orientation.toRotationMatrix())));
         both.add(frame.time, 1, "floes", add(floes, "floes", floe_surfaces(header, frame)));
     }
     write_shapes(header, folder);

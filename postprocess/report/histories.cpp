@@ -221,6 +221,55 @@ std::vector<History> moment_histories(const RunData& run, double average_from,
     return out;
 }
 
+std::vector<History> motion_histories(const RunData& run, double average_from,
+                                      const ForceUnit& unit) {
+    std::vector<History> out;
+    if (!run.header.ship_answers || run.history.size() < 2) return out;
+    const std::vector<double> time = times_of(run);
+    const double degree = std::acos(-1.0) / 180.0;
+    const auto add = [&](const char* id, const char* title, const ForceUnit& in, Series series) {
+        Style style{average_window(run.history), in, average_from};
+        style.samples = true;
+        // what stays as it was is left out
+        const bool changes = std::any_of(
+            series.force.begin(), series.force.end(), [](const std::vector<double>& values) {
+                return std::any_of(values.begin(), values.end(),
+                                   [&](double v) { return v != values.front(); });
+            });
+        if (changes) out.push_back(make_history(id, title, title, time, series, style));
+    };
+    const auto series_of = [&](const auto& value) {
+        std::vector<double> values;
+        for (const HistoryRow& row : run.history) values.push_back(value(row));
+        return values;
+    };
+    add("ship-speed", "speed of the ship", {"m/s", 1.0, 3},
+        {{"along x"}, {views::kBlue}, {series_of([](const HistoryRow& r) {
+             return r.ship_velocity.x();
+         })}});
+    add("ship-drive", "thrust and tow force", unit,
+        {{"thrust", "tow"},
+         {views::kBlue, views::kOrange},
+         {series_of([](const HistoryRow& r) { return r.thrust; }),
+          series_of([](const HistoryRow& r) { return r.tow_force.x(); })}});
+    const double height = run.history.front().ship_position.z();
+    add("ship-height", "height above that of the start", {"m", 1.0, 3},
+        {{"mesh origin"}, {views::kBlue}, {series_of([&](const HistoryRow& r) {
+             return r.ship_position.z() - height;
+         })}});
+    Series angles;
+    static constexpr const char* kNames[] = {"roll, to starboard", "pitch, bow down",
+                                             "yaw, to port"};
+    static constexpr const char* kAngleColours[] = {views::kGreen, views::kBlue, views::kOrange};
+    for (int axis = 0; axis < 3; ++axis) {
+        angles.names.emplace_back(kNames[axis]);
+        angles.colors.push_back(kAngleColours[axis]);
+        angles.force.push_back(series_of([&](const HistoryRow& r) { return r.ship_angles[axis]; }));
+    }
+    add("ship-angles", "angles of the ship", {"degrees", degree, 3}, std::move(angles));
+    return out;
+}
+
 std::vector<History> track_histories(const RunData& run, std::size_t track, const ForceUnit& unit) {
     std::vector<History> out;
     const auto& rows = run.tracks[track];

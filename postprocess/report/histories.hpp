@@ -51,6 +51,11 @@ std::vector<History> region_histories(const RunData& run, double average_from,
 std::vector<History> moment_histories(const RunData& run, double average_from,
                                       const ForceUnit& unit);
 
+/// Motions of a ship that answers: speed, thrust and tow, height, angles, where they change. None
+/// for a prescribed course.
+std::vector<History> motion_histories(const RunData& run, double average_from,
+                                      const ForceUnit& unit);
+
 /// Contact and friction of a tracked floe (row of run.tracks) on the ship, two charts, coarser; the
 /// axes show all averages. A floe that never touched the ship gives none.
 std::vector<History> track_histories(const RunData& run, std::size_t track, const ForceUnit& unit);

@@ -66,4 +66,15 @@ std::string moment_section(const RunData& run, const RunFigures& figures) {
         facts(rows) + report::figures(charts));
 }
 
+std::string motion_section(const RunData& run, const RunFigures& figures) {
+    if (figures.motions.empty()) return "";
+    std::vector<std::string> charts;
+    for (const History& h : figures.motions) charts.push_back(chart_holder(h.id, draw_history(h)));
+    return section("motion", "Motion of the ship",
+                   fmt::format("The ship answers forces; motions that are locked are not shown. "
+                               "Thin: samples; thick: moving averages over {} s.",
+                               views::readable(average_window(run.history))),
+                   report::figures(charts));
+}
+
 }  // namespace ice::report

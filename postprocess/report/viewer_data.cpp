@@ -70,20 +70,25 @@ private:
         std::vector<History> all = figures_.histories;
         all.insert(all.end(), figures_.regions.begin(), figures_.regions.end());
         all.insert(all.end(), figures_.moments.begin(), figures_.moments.end());
+        all.insert(all.end(), figures_.motions.begin(), figures_.motions.end());
         return all;
     }
 
     void add_ship() {
-        std::vector<float> time, ship;
+        std::vector<float> time, ship, turn;
         // without a hull there is nothing to play back
         if (!figures_.load.mesh.triangles.empty())
             for (const std::size_t f : chosen_) {
                 time.push_back(static_cast<float>(run_.frames[f].time));
                 for (int d = 0; d < 3; ++d)
                     ship.push_back(static_cast<float>(run_.frames[f].ship_position[d]));
+                if (!run_.header.ship_answers) continue;
+                for (const double x : run_.frames[f].ship_orientation.coeffs())  // x y z w
+                    turn.push_back(static_cast<float>(x));
             }
         pack_.add("frame_time", time);
         pack_.add("ship", ship);
+        pack_.add("ship_turn", turn);
     }
 
     void add_shapes() {

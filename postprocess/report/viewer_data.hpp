@@ -21,7 +21,7 @@ struct RunFigures {
     statistics::LoadMap load;
     statistics::BottomCoverage coverage;
     std::vector<History> histories;
-    std::vector<History> regions, moments;
+    std::vector<History> regions, moments, motions;
     ForceUnit unit;             ///< of all forces of the page
     double average_from = 0.0;  ///< start of the statistics [s]
     int dimension = 3;

@@ -138,6 +138,7 @@ RunFigures make_figures(const read::RunFolder& run, const RunData& data, std::si
             force_histories(data, from, mean, unit),
             region_histories(data, from, unit),
             moment_histories(data, from, unit),
+            motion_histories(data, from, unit),
             unit,
             from,
             data.header.dimension};
@@ -171,6 +172,7 @@ std::string make_report(const read::RunFolder& run, std::size_t frames) {
     page.body += local_load_section(
         run, figures, run.summary ? run.summary->travel.averaged_lengths : std::nan(""));
     page.body += load_section(data, figures);
+    page.body += motion_section(data, figures);
     page.body += moment_section(data, figures);
     std::string rest = track_section(data, figures.unit);
     if (run.summary) rest += balance_sections(*run.summary);

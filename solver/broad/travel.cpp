@@ -34,10 +34,11 @@ void Travel::update(const Scene& scene, double dt) {
     orientation_.resize(b.size());
     const auto look = [&](std::size_t i) {
         if (i < known) {
-            const double arm = Travel::arm(scene.shapes[static_cast<std::size_t>(b.shape[i])]);
+            double arm = Travel::arm(scene.shapes[static_cast<std::size_t>(b.shape[i])]);
             const double turn = turn_between(orientation_[i], b.orientation[i]);
             turn_[i] += turn;
             way_[i] += (b.position[i] - position_[i]).norm() + arm * turn;
+            if (i == kShip) arm += b.ship.centre.norm();  // its velocity is of that point
             soon_[i] = way_[i] + dt * (b.velocity[i].norm() + arm * b.angular_velocity[i].norm());
         }
         position_[i] = b.position[i];

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "common/geometry/triangle_mesh.hpp"
+#include "solver/case/ship_keys.hpp"
 
 namespace ice {
 
@@ -88,7 +89,13 @@ struct Case {
     std::vector<std::pair<double, double>>
         speed_table;  ///< (t [s], u [m/s]), t rising; never empty
 
+    ShipKeys ship;  ///< without a freedom the ship keeps to speed_table
+    Propulsion propulsion;
+    Tow tow;
+    Mooring mooring;
+
     double ice_density = 900.0;
+    std::array<double, 2> drift_velocity{0.0, 0.0};  ///< of the floes at the start [m/s]
     /// In the case's order; behind them one group of unbroken ice for each pattern "file".
     std::vector<FloeGroup> floes;
 

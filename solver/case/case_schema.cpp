@@ -3,6 +3,9 @@
 
 #include <cmath>
 
+#include "solver/case/ship_schema.hpp"
+#include "solver/case/stored_value.hpp"
+
 namespace ice {
 
 namespace {
@@ -10,33 +13,7 @@ namespace {
 constexpr double kInf = std::numeric_limits<double>::infinity();
 constexpr double kTiny = 1e-9;
 
-double number(const Value& v) { return std::get<double>(v); }
-int integer(const Value& v) { return static_cast<int>(std::get<std::int64_t>(v)); }
-const std::string& text(const Value& v) { return std::get<std::string>(v); }
-Vec3 vector3(const Value& v) {
-    const auto& x = std::get<std::vector<double>>(v);
-    return Vec3(x[0], x[1], x[2]);
-}
-// z is NaN where it is left out
-Vec3 place3(const Value& v) {
-    const auto& x = std::get<std::vector<double>>(v);
-    return Vec3(x[0], x[1], x.size() > 2 ? x[2] : std::nan(""));
-}
-std::array<double, 2> vector2(const Value& v) {
-    const auto& x = std::get<std::vector<double>>(v);
-    return {x[0], x[1]};
-}
-// index of a choice in its "a|b|c" list: enumerators are declared in the same order
-template <class Enum>
-Enum choice(const Value& v, std::string_view choices) {
-    int index = 0;
-    for (std::size_t begin = 0; begin <= choices.size(); ++index) {
-        const std::size_t end = std::min(choices.find('|', begin), choices.size());
-        if (choices.substr(begin, end - begin) == text(v)) break;
-        begin = end + 1;
-    }
-    return static_cast<Enum>(index);
-}
+using namespace stored;
 
 constexpr std::string_view kPatterns = "grid|brick|single|file";
 constexpr std::string_view kHolds = "never|until-hull-contact|until-contact|until-bent|always";
@@ -96,6 +73,10 @@ std::vector<CaseKey> run_keys() {
          }},
         {"ice.density", Kind::number, D::density, "900.0", kTiny, 2000, 0, "",
          "Density of the ice.", [](Case& c, G&, const Value& v) { c.ice_density = number(v); }},
+        {"ice.drift_velocity", Kind::vector, D::speed, "[0.0, 0.0]", -50, 50, 2, "",
+         "Velocity of all floes at the start along x and y, and of the water unless flow.current "
+         "is given: ice that drifts past a moored or towed ship.",
+         [](Case& c, G&, const Value& v) { c.drift_velocity = vector2(v); }},
     };
 }
 
@@ -288,7 +269,8 @@ std::vector<CaseKey> level_ice_keys() {
 const std::vector<CaseKey>& case_keys() {
     static const std::vector<CaseKey> keys = [] {
         std::vector<CaseKey> all = run_keys();
-        for (const auto& part : {floe_keys(), level_ice_keys(), bending_keys(), model_keys()})
+        for (const auto& part :
+             {ship_keys(), floe_keys(), level_ice_keys(), bending_keys(), model_keys()})
             all.insert(all.end(), part.begin(), part.end());
         return all;
     }();

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/case/check_ship.hpp"
+
 namespace ice {
 
 namespace {
@@ -89,6 +91,8 @@ void check_level_ice(const Case& checked, const Complaints& complaints) {
 
 void check_case(Case& checked, std::size_t groups, const Values& values,
                 const Complaints& complaints) {
+    check_ship(checked, values, complaints);
+    take_drift(checked, groups, values, complaints);
     for (std::size_t g = 0; g < groups; ++g)
         check_group(checked.floes[g], g, checked.dimension, values, complaints);
     check_bending(checked, groups, complaints);

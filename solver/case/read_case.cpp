@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "common/base/error.hpp"
@@ -232,6 +233,16 @@ void spread_to_groups(Values& values, std::size_t groups) {
     }
 }
 
+// a thrust of one kind replaces those of the others
+void replace_propulsion(const Values& given, Values& values) {
+    const std::vector<std::string> kinds{"propulsion.thrust", "propulsion.thrust_table",
+                                         "propulsion.bollard_pull", "propulsion.power",
+                                         "propulsion.hold_speed"};
+    if (std::any_of(kinds.begin(), kinds.end(),
+                    [&](const std::string& kind) { return given.contains(kind); }))
+        for (const std::string& kind : kinds) values.erase(kind);
+}
+
 Case read_once(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
     Mistakes mistakes;
     std::size_t groups = 0;
@@ -245,6 +256,7 @@ Case read_once(const std::filesystem::path& file, const std::vector<std::string>
         // a speed replaces a table and the other way round
         if (given.contains("hull.speed")) values.erase("hull.speed_table");
         if (given.contains("hull.speed_table")) values.erase("hull.speed");
+        replace_propulsion(given, values);
         // so does a draught a height
         const auto position = values.find("hull.position");
         if (given.contains("hull.draught") && position != values.end())

@@ -19,6 +19,16 @@ Mat3 crossed_twice(const Vec3& r, const Mat3& m) {
     return twice;
 }
 
+// A ship moves in a few directions only: one that an impulse turns or shifts by less than this
+// share of what it would do to a ship free in all is one in which it cannot give way.
+constexpr double kGivesWay = 1e-9;
+
+bool gives_way(const ShipResponse& ship, const Vec3& arm, const Vec3& normal) {
+    const double most =
+        largest_response(ship) + arm.squaredNorm() * ship.inverse_inertia.cwiseAbs().maxCoeff();
+    return ship_response(ship, arm, normal) > kGivesWay * most;
+}
+
 // Largest normal impulse: crushing pressure on the section cut half way through the step.
 double strength(const Contact& contact, double approach, const ContactLaw& law) {
     if (std::isinf(law.crushing_pressure)) return law.crushing_pressure;
@@ -33,6 +43,17 @@ void apply_impulse(Bodies& bodies, const Constraint& c, const Vec3& j) {
     bodies.velocity[c.b] += bodies.inverse_mass[c.b] * j;
     bodies.angular_velocity[c.a] -= bodies.inverse_inertia_world[c.a] * c.arm_a.cross(j);
     bodies.angular_velocity[c.b] += bodies.inverse_inertia_world[c.b] * c.arm_b.cross(j);
+    if (c.a == static_cast<std::int32_t>(kShip) && bodies.ship.free) push_ship(bodies, c, j);
+}
+
+void push_ship(Bodies& bodies, const Constraint& c, const Vec3& j) {
+    bodies.velocity[kShip] -= bodies.ship.inverse_mass * j;
+    bodies.angular_velocity[kShip] -= bodies.ship.inverse_inertia * c.arm_a.cross(j);
+}
+
+double ship_response(const ShipResponse& ship, const Vec3& arm, const Vec3& direction) {
+    const Vec3 turn = arm.cross(direction);
+    return direction.dot(ship.inverse_mass * direction) + turn.dot(ship.inverse_inertia * turn);
 }
 
 void build_constraints(const Bodies& bodies, const std::vector<Contact>& contacts,
@@ -44,9 +65,11 @@ void build_constraints(const Bodies& bodies, const std::vector<Contact>& contact
         c.a = contact.a;
         c.b = contact.b;
         c.normal = contact.normal;
-        c.arm_a = contact.point - bodies.position[c.a];
+        c.arm_a = bodies.arm(c.a, contact.point);
         c.arm_b = contact.point - bodies.position[c.b];
-        c.can_move = bodies.inverse_mass[c.a] + bodies.inverse_mass[c.b] > 0.0;
+        c.can_move = bodies.inverse_mass[c.a] + bodies.inverse_mass[c.b] > 0.0 ||
+                     (c.a == static_cast<std::int32_t>(kShip) && bodies.ship.free &&
+                      gives_way(bodies.ship, c.arm_a, c.normal));
         c.on_unbent = c.a == static_cast<std::int32_t>(kShip) &&
                       bodies.is_unbent(static_cast<std::size_t>(c.b));
         c.friction =
@@ -57,6 +80,10 @@ void build_constraints(const Bodies& bodies, const std::vector<Contact>& contact
         c.rebounds = true;
         out[k] = c;
     });
+}
+
+double largest_response(const ShipResponse& ship) {
+    return ship.inverse_mass.cwiseAbs().rowwise().sum().maxCoeff();
 }
 
 Mat3 response_matrix(double inverse_mass, const Mat3& inverse_inertia_a, const Vec3& arm_a,

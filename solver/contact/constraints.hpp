@@ -26,7 +26,7 @@ struct ContactLaw {
 /// One contact in the solver; impulses act on b, their opposites on a.
 struct Constraint {
     std::int32_t a, b;
-    bool can_move;               ///< can either body?
+    bool can_move;               ///< can either body give way along the normal?
     bool on_unbent;              ///< the ship presses on ice held until it bends
     bool rebounds;               ///< false once the contact has crushed in this step's impacts
     double gap;                  ///< at the start of the step [m]
@@ -67,6 +67,15 @@ inline Vec3 relative_velocity(const Bodies& bodies, const Constraint& c) {
 
 /// Gives impulse j [N s] to b and -j to a: velocities and angular velocities change.
 void apply_impulse(Bodies& bodies, const Constraint& c, const Vec3& j);
+
+/// The ship's part of it, for a ship that answers. @pre c.a is the ship
+void push_ship(Bodies& bodies, const Constraint& c, const Vec3& j);
+
+/// d . K d of the ship alone for a unit vector d: its k(d) at a point [1/kg].
+double ship_response(const ShipResponse& ship, const Vec3& arm, const Vec3& direction);
+
+/// A bound of d . inverse_mass d over all unit vectors d [1/kg].
+double largest_response(const ShipResponse& ship);
 
 /// Resting impulses of the last step, found again by (a, b, key): the solver's first guess.
 class WarmStart {

@@ -39,22 +39,65 @@ std::int32_t ContactRows::local(std::int32_t body) {
     return number;
 }
 
+std::int32_t ContactRows::copy_of_ship() {
+    const auto number = static_cast<std::int32_t>(bodies_.size());
+    bodies_.push_back(static_cast<std::int32_t>(kShip));
+    local_[kShip] = number;
+    copies_.push_back(number);
+    return number;
+}
+
 void ContactRows::find_pairs(const Bodies& bodies, const std::vector<Constraint>& constraints) {
     for (const std::int32_t body : bodies_) local_[static_cast<std::size_t>(body)] = -1;
     local_.resize(bodies.size(), -1);
     bodies_.clear();
     pairs_.clear();
+    copies_.clear();
     for (std::size_t k = 0; k < which_.size();) {
         const Constraint& c = constraints[which_[k]];
         std::size_t end = k + 1;
         while (end < which_.size() && constraints[which_[end]].a == c.a &&
                constraints[which_[end]].b == c.b)
             ++end;
-        if (c.can_move)
-            pairs_.push_back({local(c.a), local(c.b), static_cast<std::int32_t>(k),
-                              static_cast<std::int32_t>(end - k), 0});
+        const bool copy = c.a == static_cast<std::int32_t>(kShip) && bodies.ship.free;
+        const std::int32_t a = copy ? copy_of_ship() : local(c.a);
+        pairs_.push_back(
+            {a, local(c.b), static_cast<std::int32_t>(k), static_cast<std::int32_t>(end - k), 0});
         k = end;
     }
+    set_copies(bodies);
+}
+
+// A ship that only turns answers shifts as a free one would: copies must answer something.
+void ContactRows::set_copies(const Bodies& bodies) {
+    const double copies = static_cast<double>(copies_.size());
+    inverse_mass_ = bodies.ship.inverse_mass;
+    copy_inverse_mass_ = copies * largest_response(bodies.ship);
+    copy_inverse_inertia_ = copies * bodies.ship.inverse_inertia;
+    if (copy_inverse_mass_ == 0.0) copy_inverse_mass_ = copies * bodies.ship.least_response;
+}
+
+void ContactRows::part_ship() {
+    if (!copies_.empty()) parted_ = motion[static_cast<std::size_t>(copies_.front())];
+}
+
+void ContactRows::join_ship() {
+    if (copies_.empty()) return;
+    Vec3 push = Vec3::Zero(), turn = Vec3::Zero();
+    for (const std::int32_t copy : copies_) {
+        const double* v = motion[static_cast<std::size_t>(copy)].v;
+        for (int d = 0; d < 3; ++d) {
+            push[d] += v[d] - parted_.v[d];
+            turn[d] += v[d + 3] - parted_.v[d + 3];
+        }
+    }
+    push = inverse_mass_ * (push / copy_inverse_mass_);
+    turn /= static_cast<double>(copies_.size());
+    for (int d = 0; d < 3; ++d) {
+        parted_.v[d] += push[d];
+        parted_.v[d + 3] += turn[d];
+    }
+    for (const std::int32_t copy : copies_) motion[static_cast<std::size_t>(copy)] = parted_;
 }
 
 void ContactRows::colour_pairs(const Bodies& bodies) {
@@ -120,11 +163,13 @@ void ContactRows::fill_block(const Bodies& bodies, const std::vector<Constraint>
         const std::size_t a = body(pair.a), b = body(pair.b);
         block.a[lane] = pair.a;
         block.b[lane] = pair.b;
-        block.inverse_mass_a.v[lane] = bodies.inverse_mass[a];
+        const bool copy = a == kShip && !copies_.empty();
+        const Mat3& inertia_a = copy ? copy_inverse_inertia_ : bodies.inverse_inertia_world[a];
+        block.inverse_mass_a.v[lane] = copy ? copy_inverse_mass_ : bodies.inverse_mass[a];
         block.inverse_mass_b.v[lane] = bodies.inverse_mass[b];
-        put(block.inverse_inertia_a, lane, bodies.inverse_inertia_world[a]);
+        put(block.inverse_inertia_a, lane, inertia_a);
         put(block.inverse_inertia_b, lane, bodies.inverse_inertia_world[b]);
-        put(inverse_inertias.a, lane, bodies.inverse_inertia_world[a]);
+        put(inverse_inertias.a, lane, inertia_a);
         put(inverse_inertias.b, lane, bodies.inverse_inertia_world[b]);
         for (std::int32_t k = 0; k < pair.count; ++k) {
             const std::size_t n = static_cast<std::size_t>(pair.first + k);
@@ -147,7 +192,9 @@ void ContactRows::build(const Bodies& bodies, const std::vector<Constraint>& con
                         const std::vector<std::int32_t>& which) {
     blocks.clear();
     rows.clear();
-    which_ = which;
+    which_.clear();
+    for (const std::int32_t k : which)
+        if (constraints[static_cast<std::size_t>(k)].can_move) which_.push_back(k);
     slot_.assign(which_.size(), -1);
     find_pairs(bodies, constraints);
     colour_pairs(bodies);

@@ -65,6 +65,12 @@ struct alignas(64) BodyMotion {
 /// Pairs are coloured greedily in their order: each gets the first colour that none of its free
 /// bodies has yet, and the blocks of a colour hold pairs of about as many contacts. So the order of
 /// the sweeps depends on which bodies touch at how many points, and on nothing else.
+///
+/// A ship that answers would couple all its contacts. Instead each of its n pairs has a copy of it,
+/// n times as light (mass splitting: Tonge, Benevolenski, Voroshilov, ACM TOG 31(4), 2012), and
+/// after a sweep join_ship() makes one of them again. The copies answer along all axes as along
+/// that in which the ship answers most: where nothing changes any more they stand still, so that
+/// what they come to is the same, and is that of the ship itself.
 class ContactRows {
 public:
     /// Measures their responses, with the bodies' present poses.
@@ -97,7 +103,13 @@ public:
     void end_stage(Bodies& bodies, std::vector<Constraint>& constraints, double Constraint::*normal,
                    Vec3 Constraint::*tangent) const;
 
-    /// Bodies that take part, by local number.
+    /// Notes the ship's motion before a sweep. Nothing to do for a prescribed course.
+    void part_ship();
+    /// What the sweep gave to the copies goes to the ship, in the order of the pairs, and all
+    /// copies have its motion.
+    void join_ship();
+
+    /// Bodies that take part, by local number; a ship that answers once for each of its pairs.
     const std::vector<std::int32_t>& bodies() const { return bodies_; }
     /// Local number of a body; -1 for those that do not take part.
     std::int32_t local_of(std::int32_t body) const {
@@ -118,6 +130,8 @@ private:
     void fill_block(const Bodies& bodies, const std::vector<Constraint>& constraints,
                     std::size_t first_pair, std::size_t last_pair);
     std::int32_t local(std::int32_t body);
+    std::int32_t copy_of_ship();
+    void set_copies(const Bodies& bodies);
     void load_motions(const Bodies& bodies);
     void set(std::size_t slot, double normal, const Vec3& tangent, const Target& target);
 
@@ -128,6 +142,12 @@ private:
     std::vector<std::int32_t> local_;          // by body; -1 for those that take no part
     std::vector<std::uint64_t> used_colours_;  // by local number
     std::vector<std::int32_t> slot_;           // by row of which_: kLanes row + lane, or -1
+
+    std::vector<std::int32_t> copies_;  // of the ship, local numbers; none where it is captive
+    double copy_inverse_mass_ = 0.0;
+    Mat3 copy_inverse_inertia_ = Mat3::Zero();
+    Mat3 inverse_mass_ = Mat3::Zero();  // of the ship
+    BodyMotion parted_{};               // its motion before the sweep
 };
 
 }  // namespace ice

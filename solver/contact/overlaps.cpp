@@ -54,7 +54,9 @@ void Overlaps::separate(const Scene& scene, const std::vector<Constraint>& const
         const Constraint& c = constraints[k];
         const double radius = radius_of(scene, c);
         const double overlap = -gap_after(bodies, c, law.dt) - kToleratedOverlap * radius;
-        if (overlap <= 0.0 || !c.can_move || c.crushed()) continue;
+        if (overlap <= 0.0 || c.crushed()) continue;
+        // overlaps with the ship open by the floe alone; a held one keeps its own
+        if (bodies.inverse_mass[c.a] + bodies.inverse_mass[c.b] == 0.0) continue;
         const Mat3 &of_a = bodies.inverse_inertia_world[c.a],
                    &of_b = bodies.inverse_inertia_world[c.b];
         const Mat3 response = response_matrix(bodies.inverse_mass[c.a] + bodies.inverse_mass[c.b],

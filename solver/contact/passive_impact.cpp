@@ -149,6 +149,23 @@ void PassiveImpact::limit_rebound(Bodies& bodies, const ContactRows& contacts,
         c.impact_normal = rebound_.normal[n];
         c.impact_tangent = rebound_.tangent[n];
     }
+    if (bodies.ship.free) mix_ship(bodies, contacts, constraints);
+}
+
+// The ship belongs to no island: its motion is what the impulses of all make of it.
+void PassiveImpact::mix_ship(Bodies& bodies, const ContactRows& contacts,
+                             const std::vector<Constraint>& constraints) const {
+    if (contacts.local_of(static_cast<std::int32_t>(kShip)) < 0) return;
+    const auto local = static_cast<std::size_t>(contacts.local_of(kShip));
+    bodies.velocity[kShip] = start_.velocity[local];
+    bodies.angular_velocity[kShip] = start_.angular_velocity[local];
+    for (std::size_t n = 0; n < which_.size(); ++n) {
+        const Constraint& c = constraints[which_[n]];
+        if (c.a != static_cast<std::int32_t>(kShip)) continue;
+        push_ship(bodies, c,
+                  (c.impact_normal - start_.normal[n]) * c.normal +
+                      (c.impact_tangent - start_.tangent[n]));
+    }
 }
 
 }  // namespace ice

@@ -37,6 +37,9 @@ public:
     ///
     ///     J = J_plastic + s (J_rebound - J_plastic),   s in [0, 1] the largest with gain <= 0.
     ///
+    /// Islands meet at the ship only, also where it answers: there the mixture is one to the order
+    /// of the floes' mass over the ship's.
+    ///
     /// On entry bodies and constraints hold the solution without rebound, on return the mixture.
     /// @pre set_aside was called with the other one
     void limit_rebound(Bodies& bodies, const ContactRows& contacts,
@@ -54,6 +57,8 @@ private:
                       const std::vector<Constraint>& constraints);
     std::int32_t island_of(const Bodies& bodies, const ContactRows& contacts,
                            const Constraint& c) const;
+    void mix_ship(Bodies& bodies, const ContactRows& contacts,
+                  const std::vector<Constraint>& constraints) const;
     // Per island: the gain of energy of impulses J that lead from the beginning to `end`.
     void measure_gains(const Bodies& bodies, const ContactRows& contacts,
                        const std::vector<Constraint>& constraints, const State& end,

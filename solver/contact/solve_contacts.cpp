@@ -34,13 +34,18 @@ bool meets_within_step(const Constraint& c, double dt) {
     return c.gap + dt * std::min(c.approach, 0.0) <= 0.0;
 }
 
-// The ship and ice that is held for good: neither can give way, so the ice crushes.
-void drive_through(const Bodies& bodies, Constraint& c) {
+// The ship and ice that is held for good: neither can give way, so the ice crushes. A ship that can
+// in other directions is rubbed, by no more than what ends the sliding.
+void drive_through(Bodies& bodies, Constraint& c) {
     const Vec3 v = relative_velocity(bodies, c);
     const Vec3 sliding = v - v.dot(c.normal) * c.normal;
     const double speed = sliding.norm();
     c.impact_normal = c.strength;
     if (speed > 0.0) c.impact_tangent = -(c.friction * c.strength / speed) * sliding;
+    if (c.a != static_cast<std::int32_t>(kShip) || !bodies.ship.free || speed == 0.0) return;
+    const double yields = ship_response(bodies.ship, c.arm_a, sliding / speed);
+    if (yields * c.friction * c.strength > speed) c.impact_tangent = -1.0 / yields * sliding;
+    push_ship(bodies, c, c.impact_tangent);
 }
 
 // How much nearer than its gap a contact will be at the end of the step [m]; negative while it
@@ -63,7 +68,9 @@ SolveReport ContactSolver::iterate(const ContactLaw& law) {
     extrapolation_.begin(contacts_, !std::isinf(law.crushing_pressure));
     while (true) {
         ++report.iterations;
+        contacts_.part_ship();
         report.residual = sweep(contacts_.blocks, contacts_.rows, contacts_.motion);
+        contacts_.join_ship();
         report.converged = report.residual <= law.tolerance;
         if (report.converged || report.iterations >= law.iterations) return report;
         if (report.iterations * kPlainShare < law.iterations * (kPlainShare - 1))

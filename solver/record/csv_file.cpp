@@ -37,6 +37,8 @@ const char* const kForceColumns =
     "contacts,moving_floes,max_overlap_m,kinetic_energy_J";
 
 const char* const kBreakingColumn = ",breaking_fx_N";
+const char* const kShipColumns =
+    "ship_x_m,ship_u,ship_z_m,ship_roll,ship_pitch,ship_yaw,thrust_N,tow_fx_N";
 
 const char* const kFloeColumns =
     "time_s,x_m,y_m,z_m,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz,contact_fx_N,contact_fy_N,contact_fz_N,"
@@ -112,11 +114,16 @@ void CsvFile::finish() {
     keep_file(part_of(path_), path_);
 }
 
-std::vector<double> csv_row(const HistoryRow& row) {
+std::vector<double> csv_row(const HistoryRow& row, bool breaking, bool ship) {
     std::vector<double> out{row.time};
     append(out, row.contact_force);
     append(out, row.friction_force);
     out.insert(out.end(), {row.contacts, row.moving_floes, row.max_overlap, row.kinetic_energy});
+    if (breaking) out.push_back(row.breaking_x);
+    if (!ship) return out;
+    out.insert(out.end(), {row.ship_position.x(), row.ship_velocity.x(), row.ship_position.z()});
+    append(out, row.ship_angles);
+    out.insert(out.end(), {row.thrust, row.tow_force.x()});
     return out;
 }
 

@@ -27,8 +27,13 @@ void book_contact(const Bodies& now, const Constraint& c, const StepBooks& start
         (c.crushed() ? ledger.crushing : ledger.restitution) -= push.dot(mean);
         ledger.friction -= rub.dot(mean);
     }
-    if (c.a == static_cast<std::int32_t>(kShip))
-        ledger.ship_work += (push + rub).dot(now.velocity[kShip]);
+    if (c.a != static_cast<std::int32_t>(kShip)) return;
+    const Vec3 ship =
+        now.ship.free ? Vec3(0.5 * (start.velocity[kShip] + now.velocity[kShip]) +
+                             (0.5 * (start.angular_velocity[kShip] + now.angular_velocity[kShip]))
+                                 .cross(c.arm_a))
+                      : now.velocity[kShip];
+    ledger.ship_work += (push + rub).dot(ship);
 }
 
 }  // namespace
@@ -44,6 +49,7 @@ void StepBooks::open(const Bodies& bodies) {
     velocity.resize(bodies.size(), Vec3::Zero());  // of held floes
     angular_velocity.resize(bodies.size(), Vec3::Zero());
     velocity[kShip] = bodies.velocity[kShip];
+    angular_velocity[kShip] = bodies.angular_velocity[kShip];
     for (const std::int32_t i : bodies.moving) {
         velocity[i] = bodies.velocity[i];
         angular_velocity[i] = bodies.angular_velocity[i];

@@ -23,7 +23,8 @@ namespace ice {
 /// What each holds, J_c being the impulse of contact c on body b in a step and
 /// V = (v_r at its start + v_r at its end) / 2 the mean of the contact's relative velocity:
 ///
-///     ship_work        sum of J_c . v_ship over the ship's contacts
+///     ship_work        sum of J_c . v_ship over the ship's contacts; of a ship that answers, the
+///                      mean of its velocities there at the step's start and end
 ///     friction         -J_t . V
 ///     crushing         -J_n n . V where the contact is at its strength
 ///     restitution      -J_n n . V elsewhere: what a plastic or partly elastic impact takes

@@ -3,17 +3,19 @@
 
 namespace ice {
 
-void HullContacts::add(const std::vector<Contact>& contacts,
+void HullContacts::add(const Bodies& bodies, const std::vector<Contact>& contacts,
                        const std::vector<Constraint>& constraints) {
     for (std::size_t k = 0; k < constraints.size(); ++k) {
         const Constraint& c = constraints[k];
         const double normal = c.total_normal();
         if (c.a != static_cast<std::int32_t>(kShip) || normal <= 0.0) continue;
-        // impulses act on the floe; the ship feels the opposite. The ship does not turn: its
-        // frame has the world's axes
+        // impulses act on the floe; the ship feels the opposite
         Sum& sum = sums_[{c.b, contacts[k].sphere_a}];
         sum.weight += normal;
-        sum.point += normal * c.arm_a;
+        // a ship that does not turn has the world's axes
+        sum.point += normal * (bodies.ship.free ? Vec3(bodies.rotation[kShip].transpose() *
+                                                       (c.arm_a + bodies.ship.centre))
+                                                : c.arm_a);
         sum.push -= normal * c.normal;
         sum.rub -= c.total_tangent();
     }

@@ -14,7 +14,8 @@ namespace ice {
 class HullContacts {
 public:
     /// Adds the impulses of a step. @param contacts one per constraint, same order
-    void add(const std::vector<Contact>& contacts, const std::vector<Constraint>& constraints);
+    void add(const Bodies& bodies, const std::vector<Contact>& contacts,
+             const std::vector<Constraint>& constraints);
 
     /// The contacts since the last call as mean forces over `span` [s], sorted by floe and sphere.
     /// Without a span there are none.

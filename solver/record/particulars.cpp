@@ -65,8 +65,11 @@ void measure_sizes(const Scene& scene, const Case& parameters, IceParticulars& i
 }  // namespace
 
 ShipParticulars measure_ship(const Scene& scene, const Case& parameters) {
+    return measure_ship(scene, parameters, scene.bodies.position[kShip].z());
+}
+
+ShipParticulars measure_ship(const Scene& scene, const Case& parameters, double height) {
     const Shape& hull = scene.shapes[0];
-    const double height = scene.bodies.position[kShip].z();
     double keel = hull.mesh.vertices.front().z();
     for (const Vec3& v : hull.mesh.vertices) keel = std::min(keel, v.z());
     ShipParticulars ship;
@@ -125,14 +128,19 @@ TravelParticulars measure_travel(const Case& p, const ShipParticulars& ship, dou
     return travel;
 }
 
-void fill_particulars(const Scene& scene, const Case& parameters, double until, Summary& summary) {
-    summary.ship = measure_ship(scene, parameters);
-    summary.ship.speed_mean = speed_mean(parameters, until);
+void fill_particulars(const Scene& scene, const Case& parameters, double until, Summary& summary,
+                      const std::optional<FreeTravel>& went) {
+    summary.ship =
+        went ? measure_ship(scene, parameters, went->height) : measure_ship(scene, parameters);
+    summary.ship.speed_mean = went ? went->speed_mean : speed_mean(parameters, until);
     summary.ice = measure_ice(scene, parameters);
     summary.travel = measure_travel(parameters, summary.ship, until);
     if (!scene.water.grid.empty())
         summary.flow = {parameters.flow == FlowModel::file ? "file" : "double-body",
                         scene.water.grid.panels, scene.water.grid.residual};
+    if (went)
+        summary.travel = {std::abs(went->distance), std::abs(went->distance) / summary.ship.length,
+                          std::abs(went->averaged) / summary.ship.length};
     // none in 2D, without a waterline, and of those with angles none for a bow without a point
     summary.formulas = evaluate_formulas(summary.ship, summary.ice, summary.ship.speed_mean);
     for (const FormulaValue& formula : summary.formulas)

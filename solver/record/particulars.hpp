@@ -2,6 +2,8 @@
 /// Ship, ice and travel of a case in a few numbers, measured from what is simulated.
 #pragma once
 
+#include <optional>
+
 #include "common/formats/summary_file.hpp"
 #include "solver/case/case.hpp"
 #include "solver/scene/bodies.hpp"
@@ -14,7 +16,10 @@ namespace ice {
 /// (measure_submerged), times the water's density. Draught: down to the mesh's lowest point;
 /// negative where the hull hangs above the water. All else is NaN where the hull does not cross the
 /// water; in 2D all but length and draught. The mean speed is speed_mean().
+///
+/// @param height  of the mesh's origin [m]; as the scene has it where not given
 ShipParticulars measure_ship(const Scene& scene, const Case& parameters);
+ShipParticulars measure_ship(const Scene& scene, const Case& parameters, double height);
 
 /// The floes that may move: those of groups that are not held always. Their plan area is the area
 /// seen from above in their group's orientation, whatever became of them since; overhangs count
@@ -27,7 +32,16 @@ double speed_mean(const Case& parameters, double until);
 /// Travel from the start to `until` [s].
 TravelParticulars measure_travel(const Case& parameters, const ShipParticulars& ship, double until);
 
+/// How a ship that answers went, and how it lies in calm water.
+struct FreeTravel {
+    double height;              ///< of the mesh's origin at equilibrium [m]
+    double speed_mean;          ///< over the averaged time [m/s]
+    double distance, averaged;  ///< along x, all and in the averaged time [m]
+};
+
 /// Fills ship, ice, travel, formulas and lindqvist_submersion of a run that ended at `until`.
-void fill_particulars(const Scene& scene, const Case& parameters, double until, Summary& summary);
+/// @param went  of a ship that answers; others go as prescribed
+void fill_particulars(const Scene& scene, const Case& parameters, double until, Summary& summary,
+                      const std::optional<FreeTravel>& went = std::nullopt);
 
 }  // namespace ice

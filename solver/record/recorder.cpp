@@ -36,6 +36,7 @@ RunHeader make_header(const Case& parameters, const Scene& scene, const std::str
         header.body_mass.push_back(b.mass[i]);
         header.body_inertia.push_back(b.inertia(i).diagonal());
     }
+    header.ship_answers = parameters.ship.any_free();
     header.tracked.assign(parameters.track.begin(), parameters.track.end());
     return header;
 }
@@ -57,8 +58,10 @@ struct CsvTable {
 };
 
 std::vector<CsvTable> csv_tables(const Case& parameters) {
-    std::vector<CsvTable> tables{{"forces.csv", kForceColumns}};
-    if (parameters.has_bending()) tables[0].columns += kBreakingColumn;
+    std::string forces = kForceColumns;
+    if (parameters.has_bending()) forces += kBreakingColumn;
+    if (parameters.ship.any_free()) forces += std::string(",") + kShipColumns;
+    std::vector<CsvTable> tables{{"forces.csv", forces}};
     for (const int id : parameters.track)
         tables.push_back({fmt::format("floe_{}.csv", id), kFloeColumns});
     return tables;
@@ -169,7 +172,8 @@ void Recorder::add(const StepView& view) {
     panel_loads_.add(view.contacts, view.constraints, view.time);
     measure_floe_forces(view.constraints, dt_, track_of_, tracked_);
     for (const RegionImpulse& r : record.regions) frame_impulse_[r.floe] -= r.impulse;
-    hull_contacts_.add(view.contacts, view.constraints);
+    hull_contacts_.add(view.scene.bodies, view.contacts, view.constraints);
+    if (view.ship != nullptr) add_ship(view);
     add_history(view, record);
     // half a step of tolerance: times are multiples of dt up to rounding
     if (view.time + 0.5 * dt_ >= static_cast<double>(frames_) * parameters_.frames_every)
@@ -179,6 +183,16 @@ void Recorder::add(const StepView& view) {
 // Under the rule "centres" bodies are their spheres, and round the edges of their solids.
 bool Recorder::is_look_due(double time) const {
     return parameters_.normal == NormalRule::surface && std::llround(time / dt_) % kLookEvery == 0;
+}
+
+void Recorder::add_ship(const StepView& view) {
+    const FreeShip& ship = *view.ship;
+    ship_tally_.add(ship, view.scene, parameters_, view.time);
+    row_.ship_angles = ship.angles();
+    row_.ship_orientation = view.scene.bodies.orientation[kShip];
+    row_.ship_velocity = view.scene.bodies.velocity[kShip];
+    row_.thrust += ship.loads().thrust;
+    row_.tow_force += ship.loads().tow.force;
 }
 
 void Recorder::add_history(const StepView& view, const StepRecord& record) {
@@ -214,6 +228,8 @@ void Recorder::flush_history(const StepView& view) {
     row_.breaking_x *= share;
     row_.moment *= share;
     row_.contacts *= share;
+    row_.thrust *= share;
+    row_.tow_force *= share;
     row_.ship_position = view.scene.bodies.position[kShip];
     for (RegionForce& sum : row_regions_) {
         sum.contact *= share / dt_;
@@ -221,9 +237,7 @@ void Recorder::flush_history(const StepView& view) {
     }
     run_->add(row_, row_regions_);
     std::fill(row_regions_.begin(), row_regions_.end(), RegionForce{});
-    std::vector<double> forces = csv_row(row_);
-    if (parameters_.has_bending()) forces.push_back(row_.breaking_x);
-    csv_files_[0].add(forces);
+    csv_files_[0].add(csv_row(row_, parameters_.has_bending(), parameters_.ship.any_free()));
 
     std::vector<TrackRow> tracks(tracked_sum_.size());
     const Bodies& b = view.scene.bodies;
@@ -251,6 +265,7 @@ void Recorder::add_frame(const StepView& view) {
     RunFrame frame;
     frame.time = view.time;
     frame.ship_position = b.position[kShip];
+    frame.ship_orientation = b.orientation[kShip];
     const double span = view.time - last_frame_;
     for (std::size_t i = 1; i < b.size(); ++i) {
         frame.position.push_back(b.position[i]);
@@ -267,12 +282,18 @@ void Recorder::add_frame(const StepView& view) {
     ++frames_;
 }
 
+std::optional<FreeTravel> Recorder::travel(const StepView& view) const {
+    if (view.ship == nullptr) return std::nullopt;
+    return ship_tally_.travel(*view.ship, view.scene, parameters_);
+}
+
 void Recorder::finish(const StepView& view, Summary& summary) {
     flush_history(view);
     if (view.time > last_frame_) add_frame(view);
     run_->finish(panel_loads_.panels());
     for (CsvFile& file : csv_files_) file.finish();
     fill_energy(view.ledger, potential_energy(view.scene, parameters_), summary);
+    if (view.ship != nullptr) ship_tally_.fill(*view.ship, view.scene, parameters_, summary);
     tally_.fill(summary);  // after the energies: its warnings look at them
     panel_loads_.fill(summary);
     // row 0 is for parts without a name, of which a mesh with names mostly has none

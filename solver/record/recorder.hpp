@@ -15,6 +15,7 @@
 #include "solver/record/energy_ledger.hpp"
 #include "solver/record/hull_contacts.hpp"
 #include "solver/record/panel_loads.hpp"
+#include "solver/record/ship_tally.hpp"
 #include "solver/record/tally.hpp"
 
 namespace ice {
@@ -25,8 +26,9 @@ struct StepView {
     const std::vector<Contact>& contacts;
     const std::vector<Constraint>& constraints;
     const EnergyLedger& ledger;
-    double time;     ///< at the end of the step [s]
-    bool converged;  ///< both stages of the contact solver
+    double time;                     ///< at the end of the step [s]
+    bool converged;                  ///< both stages of the contact solver
+    const FreeShip* ship = nullptr;  ///< null for a prescribed course
 };
 
 /// Where the files of a run stand, for a run that is continued from them.
@@ -68,6 +70,9 @@ public:
 
     void add(const StepView& view);
 
+    /// How a ship that answers went; nothing for a prescribed course.
+    std::optional<FreeTravel> travel(const StepView& view) const;
+
     /// Completes and renames the files, and fills the summary's recorded part.
     void finish(const StepView& view, Summary& summary);
 
@@ -76,6 +81,7 @@ private:
 
     RecordPosition position_of(RunPosition run);
     void add_history(const StepView& view, const StepRecord& record);
+    void add_ship(const StepView& view);
     void flush_history(const StepView& view);
     void add_frame(const StepView& view);
     bool is_look_due(double time) const;
@@ -87,6 +93,7 @@ private:
     SolidOverlap solids_;
     Tally tally_;
     PanelLoads panel_loads_;
+    ShipTally ship_tally_;
     std::vector<std::int32_t> track_of_;  ///< per body, its number among the tracked floes, or -1
     std::vector<FloeForces> tracked_;     ///< per tracked floe, in the last step
 

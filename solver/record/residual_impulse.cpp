@@ -10,8 +10,10 @@ namespace {
 // k(n) = 1/m_a + 1/m_b + (r_a x n) . I_a^-1 (r_a x n) + (r_b x n) . I_b^-1 (r_b x n)
 double response(const Bodies& b, const Constraint& c) {
     const Vec3 ta = c.arm_a.cross(c.normal), tb = c.arm_b.cross(c.normal);
-    return b.inverse_mass[c.a] + b.inverse_mass[c.b] + ta.dot(b.inverse_inertia_world[c.a] * ta) +
-           tb.dot(b.inverse_inertia_world[c.b] * tb);
+    const bool ship = c.a == static_cast<std::int32_t>(kShip) && b.ship.free;
+    const double of_ship = ship ? ship_response(b.ship, c.arm_a, c.normal) : 0.0;
+    return of_ship + b.inverse_mass[c.a] + b.inverse_mass[c.b] +
+           ta.dot(b.inverse_inertia_world[c.a] * ta) + tb.dot(b.inverse_inertia_world[c.b] * tb);
 }
 
 }  // namespace

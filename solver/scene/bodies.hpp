@@ -24,11 +24,23 @@ struct Inertia {
     Mat3 inverse;    ///< of `body`; 2D: about y only
 };
 
+/// How the ship answers impulses, in world axes, for the step; all zero for a prescribed course.
+///
+/// An impulse j at r from `centre` changes its velocity by inverse_mass j and its angular velocity
+/// by inverse_inertia (r x j): what the locked motions would gain, the course takes.
+struct ShipResponse {
+    bool free = false;                    ///< in any motion; then Bodies::velocity is of `centre`
+    Mat3 inverse_mass = Mat3::Zero();     ///< of ship and water that moves along [1/kg]
+    Mat3 inverse_inertia = Mat3::Zero();  ///< likewise, about `centre` [1/(kg m2)]
+    double least_response = 0.0;          ///< 1 / mass, also of a ship that only turns [1/kg]
+    Vec3 centre = Vec3::Zero();  ///< centre of gravity from the mesh's origin [m]; 0 where captive
+};
+
 /// Structure of arrays, one entry per body but for those of inertias.
 ///
 /// Momentum and angular momentum are the state (docs/method.md, section 1); velocities and world
 /// inverse inertias are derived from them at known points of a step. A held floe and the ship have
-/// inverse mass and inertia zero: no impulse moves them.
+/// inverse mass and inertia zero: no impulse moves them, but for a ship that answers (`ship`).
 struct Bodies {
     // set by build_scene, constant
     std::vector<std::int32_t> shape;             ///< row of Scene::shapes
@@ -56,12 +68,19 @@ struct Bodies {
     std::vector<double> inverse_mass;         ///< [1/kg]; 0 while held
     std::vector<Mat3> inverse_inertia_world;  ///< R I^-1 R^T; 0 while held
 
+    ShipResponse ship;  ///< set by solver/ship at the start of a step
+
     std::size_t size() const { return shape.size(); }
     double breaking_load_of(std::size_t i) const {
         return breaking_load.empty() ? std::numeric_limits<double>::infinity() : breaking_load[i];
     }
     /// Is it held until it bends?
     bool is_unbent(std::size_t i) const { return held[i] == 1 && !std::isinf(breaking_load_of(i)); }
+    /// From what velocity[i] is of to a point [m].
+    Vec3 arm(std::int32_t i, const Vec3& point) const {
+        const Vec3 from_position = point - position[static_cast<std::size_t>(i)];
+        return i == 0 && ship.free ? Vec3(from_position - ship.centre) : from_position;
+    }
     const Mat3& inertia(std::size_t i) const {
         return inertias[static_cast<std::size_t>(inertia_row[i])].body;
     }

@@ -76,7 +76,7 @@ void add_group(Scene& scene, const Case& parameters, std::size_t g, std::int32_t
         const std::size_t i =
             add_floe(scene, shape_row, parameters.ice_density, place, group.orientation,
                      static_cast<std::int32_t>(g), group.hold != Hold::never);
-        if (group.pattern != Pattern::single) continue;
+        if (group.velocity.isZero(0.0) && group.angular_velocity.isZero(0.0)) continue;
         Bodies& b = scene.bodies;
         const Mat3 inertia_world = rotation * b.inertia(i) * rotation.transpose();
         b.momentum[i] = b.mass[i] * group.velocity;
@@ -121,10 +121,16 @@ void add_field_group(Scene& scene, const Case& parameters, std::size_t g, ShapeR
         const std::int32_t row = first_row + floe.shape;
         const double height = floating_height(scene.shapes[static_cast<std::size_t>(row)],
                                               floe.orientation.toRotationMatrix(), fraction);
-        add_floe(
+        const std::size_t i = add_floe(
             scene, row, parameters.ice_density,
             Vec3(group.origin[0] + floe.position[0], group.origin[1] + floe.position[1], height),
             floe.orientation, static_cast<std::int32_t>(g), group.hold != Hold::never);
+        if (group.velocity.isZero(0.0)) continue;
+        if (group.unbroken_part)
+            throw bad_input(group.file.string(), "has unbroken ice, which does not drift",
+                            "leave ice.drift_velocity out and give the ship the opposite speed");
+        scene.bodies.momentum[i] = scene.bodies.mass[i] * group.velocity;
+        update_derived(scene.bodies, i);
     }
 }
 

@@ -183,6 +183,7 @@ Course measure_course(const World& w) {
 std::vector<Warning> check_course(const World& w) {
     std::vector<Warning> warnings;
     const Case& p = w.parameters;
+    if (p.ship.free[surge]) return warnings;  // it goes as it can
     const Course course = measure_course(w);
     if (!(course.travel > 0.0) || any_floe_moves(w.scene.bodies)) return warnings;
     warn_of_meeting(p, course, warnings);
@@ -198,6 +199,7 @@ std::vector<Warning> check_course(const World& w) {
 
 std::optional<Warning> warn_of_short_averages(const World& w) {
     const Case& p = w.parameters;
+    if (p.ship.free[surge]) return std::nullopt;
     const ShipParticulars ship = measure_ship(w.scene, p);
     const TravelParticulars travel = measure_travel(p, ship, p.duration);
     if (!(travel.distance > 0.0) || !is_short(travel.averaged_lengths) ||

@@ -155,6 +155,7 @@ SavedRun read_checkpoint(const std::filesystem::path& path, World& world) {
     Identity then, now = identity_of(world);
     carry(file, then);
     check_case(path, then, now, world.parameters);
+    world.ship.begin(world.parameters, world.scene);
 
     SavedRun saved{Recorder(world.parameters, world.scene),
                    {},

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "common/formats/spheres_file.hpp"
 #include "solver/record/particulars.hpp"
@@ -30,6 +31,27 @@ std::string ship_line(const World& w, const ShipParticulars& ship) {
     return out;
 }
 
+// What a ship that answers is, and how it floats.
+std::string motion_line(const World& w) {
+    if (!w.ship.answers()) return {};
+    constexpr const char* kNames[] = {"surge", "sway", "heave", "roll", "pitch", "yaw"};
+    const ShipRig& rig = w.ship.rig();
+    std::vector<std::string> free;
+    for (std::size_t k = 0; k < kFreedoms; ++k)
+        if (rig.body.free[k]) free.emplace_back(kNames[k]);
+    std::string out =
+        fmt::format("\n  free       {}: {:.4g} t", fmt::join(free, ", "), 1e-3 * rig.body.mass);
+    if (!rig.body.floats()) return out;
+    const Equilibrium& e = rig.equilibrium;
+    constexpr double kDegree = std::numbers::pi / 180.0;
+    out += fmt::format(" floats with {:.4g} t displaced, trim {:.3g} deg by the bow",
+                       1e-3 * w.parameters.water_density * e.volume, e.angles[1] / kDegree + 0.0);
+    if (w.scene.dimension == 3)
+        out += fmt::format(", heel {:.3g} deg, GM {:.4g} m", e.angles[0] / kDegree + 0.0,
+                           e.gm_transverse);
+    return out + fmt::format(", longitudinal GM {:.4g} m", e.gm_longitudinal);
+}
+
 std::string ice_line(const World& w, const IceParticulars& ice) {
     std::string out = fmt::format("  ice        {} floes", ice.floes);
     if (ice.floes > 0)
@@ -48,6 +70,12 @@ std::string distance_text(double distance) {
 
 std::string course_line(const World& w, const ShipParticulars& ship, const Course& course) {
     const Case& p = w.parameters;
+    if (p.ship.free[surge])
+        return fmt::format(
+            "  course     from {:g} m/s as thrust and ice make it, {} steps of {:g} s; averaged "
+            "from {:g} s\n  clearance  {} to the first ice",
+            p.ship_speed(0.0), std::llround(p.duration / p.time_step), p.time_step, p.average_from,
+            distance_text(course.clearance));
     const TravelParticulars travel = measure_travel(p, ship, p.duration);
     return fmt::format(
         "  course     {:.4g} m, {:.2f} ship lengths, in {} steps of {:g} s; averaged over {}, "
@@ -86,9 +114,9 @@ std::string describe_case(const World& w) {
     const ShipParticulars ship = measure_ship(w.scene, w.parameters);
     const Case& p = w.parameters;
     return fmt::format(
-        "{}\n{}\n{}\n{}{}\n  contact    crushing {}, friction {:g} on the hull and {:g} between "
+        "{}{}\n{}\n{}\n{}{}\n  contact    crushing {}, friction {:g} on the hull and {:g} between "
         "floes",
-        ship_line(w, ship), ice_line(w, measure_ice(w.scene, p)),
+        ship_line(w, ship), motion_line(w), ice_line(w, measure_ice(w.scene, p)),
         course_line(w, ship, measure_course(w)), spheres_line(w), belt_line(w),
         pressure_text(p.crushing_pressure), p.friction_ship_ice, p.friction_ice_ice);
 }

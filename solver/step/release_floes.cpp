@@ -10,7 +10,7 @@ namespace {
 
 bool touches(const Bodies& b, const Contact& c, double dt) {
     const auto velocity_at = [&](std::int32_t i) -> Vec3 {
-        return b.velocity[i] + b.angular_velocity[i].cross(Vec3(c.point - b.position[i]));
+        return b.velocity[i] + b.angular_velocity[i].cross(b.arm(i, c.point));
     };
     const double approach = (velocity_at(c.b) - velocity_at(c.a)).dot(c.normal);
     return c.gap + dt * std::min(approach, 0.0) <= 0.0;

@@ -27,8 +27,13 @@ namespace ice {
 namespace {
 
 StepView view_of(const World& w) {
-    return {w.scene,  w.contacts, w.constraints,
-            w.ledger, w.time,     w.impacts.converged && w.rest.converged};
+    return {w.scene,
+            w.contacts,
+            w.constraints,
+            w.ledger,
+            w.time,
+            w.impacts.converged && w.rest.converged,
+            w.ship.answers() ? &w.ship : nullptr};
 }
 
 constexpr double kFarAway = 1e7;  // [m]
@@ -72,7 +77,7 @@ void fill_run(const World& w, double wall_seconds, Summary& s) {
 
 void write_summary(const World& w, const RunOptions& options, double wall_seconds,
                    Recorder& recorder, Summary& summary) {
-    fill_particulars(w.scene, w.parameters, w.time, summary);
+    fill_particulars(w.scene, w.parameters, w.time, summary, recorder.travel(view_of(w)));
     recorder.finish(view_of(w), summary);  // its warnings look at the travel
     if (auto warning = warn_of_open_end(w.scene, w.parameters, summary.travel.distance))
         summary.warnings.push_back(*warning);
@@ -208,11 +213,13 @@ World build_world(const Case& parameters) {
     world.parameters = with_level_ice(parameters);
     world.scene = build_scene(world.parameters);
     world.scene.water = make_water(parameters, world.scene);
+    world.ship.begin(parameters, world.scene);
     return world;
 }
 
 Summary run(World& world, const RunOptions& options) {
     const Case& p = world.parameters;
+    world.ship.begin(p, world.scene);
     create_folder(options.folder);
     std::string command = options.command_line;
     std::replace(command.begin(), command.end(), '\n', ' ');  // it stands in a comment

@@ -32,6 +32,19 @@ void StateFields::carry(CheckpointFile& file, World& w) {
     file.carry("ledger.buoyancy_moment", ledger.buoyancy_moment);
     file.carry("ledger.potential_start", ledger.potential_start);
 
+    FreeShip& ship = w.ship;
+    file.carry("ship.angles", ship.angles_);
+    file.carry("ship.velocity", ship.velocity_);
+    file.carry("ship.spin", ship.spin_);
+    file.carry("ship.speed_error", ship.speed_error_);
+    file.carry("ship.thrust_work", ship.energies_.thrust);
+    file.carry("ship.tow_work", ship.energies_.tow);
+    file.carry("ship.mooring_work", ship.energies_.mooring);
+    file.carry("ship.ice_work", ship.energies_.ice);
+    file.carry("ship.losses", ship.energies_.losses);
+    file.carry("ship.kinetic_start", ship.energies_.kinetic_start);
+    file.carry("ship.potential_start", ship.energies_.potential_start);
+
     file.carry("crushed.first", w.scene.crushed.first);
     file.carry("crushed.recess", w.scene.crushed.recess);
     file.carry("crushed.deepest", w.scene.crushed.deepest);
@@ -72,6 +85,23 @@ void StateFields::carry(CheckpointFile& file, Recorder& r) {
     file.carry("row.count", r.rows_);
     carry(file, r.tally_);
     carry(file, r.panel_loads_);
+    file.carry("row.thrust", r.row_.thrust);
+    file.carry("row.tow_force", r.row_.tow_force);
+    carry(file, r.ship_tally_);
+}
+
+void StateFields::carry(CheckpointFile& file, ShipTally& t) {
+    file.carry("ship_tally.speed", t.speed_);
+    file.carry("ship_tally.thrust", t.thrust_);
+    file.carry("ship_tally.tow", t.tow_);
+    for (std::size_t k = 0; k < kFreedoms; ++k) {
+        file.carry(fmt::format("ship_tally.sum.{}", k), t.sum_[k]);
+        file.carry(fmt::format("ship_tally.square.{}", k), t.square_[k]);
+    }
+    std::uint8_t stuck = t.stuck_ ? 1 : 0;
+    file.carry("ship_tally.slow_since", t.slow_since_);
+    file.carry("ship_tally.stuck", stuck);
+    t.stuck_ = stuck != 0;
 }
 
 void StateFields::carry(CheckpointFile& file, PanelLoads& p) {

@@ -32,6 +32,7 @@ private:
     static void carry(CheckpointFile& file, Tally& tally);
     static void carry(CheckpointFile& file, HullContacts& contacts);
     static void carry(CheckpointFile& file, PanelLoads& loads);
+    static void carry(CheckpointFile& file, ShipTally& tally);
 };
 
 }  // namespace ice

@@ -45,9 +45,9 @@ void step(World& w) {
     if (!w.ledger.potential_start)
         w.ledger.potential_start = potential_energy(w.scene, w.parameters);
 
-    // the ship goes as prescribed: its speed at mid-step carries it to the end of the step
-    w.scene.ship_velocity = Vec3(w.parameters.ship_speed(w.time + 0.5 * dt), 0.0, 0.0);
-    bodies.velocity[kShip] = w.scene.ship_velocity;
+    // the ship goes as prescribed, its speed at mid-step carrying it to the end of the step, or
+    // with the velocity it has come to
+    w.ship.start_step(w.parameters, w.scene, w.time);
 
     w.scene.water.follow(bodies.position[kShip], w.scene.ship_velocity);
 
@@ -74,6 +74,7 @@ void step(World& w) {
     timed(w, Stage::water, [&] {
         measure_loads(w.scene, w.parameters, w.loads);
         apply_loads(bodies, w.loads, dt);
+        w.ship.apply_loads(w.parameters, w.scene, w.time);
     });
     timed(w, Stage::contact, [&] {
         w.warm_start.recall(w.contacts, w.constraints);
@@ -89,7 +90,9 @@ void step(World& w) {
     });
     timed(w, Stage::integrate, [&] {
         book_step(w.scene, w.parameters, w.constraints, w.loads, w.nudges, w.books, w.ledger);
+        w.ship.book(w.scene, w.constraints, dt);
         advance(w.scene, {w.books.angular_velocity, w.nudges, dt});
+        w.ship.turn(w.scene, dt);
         w.ledger.kinetic += kinetic_energy(bodies) - w.books.kinetic;
     });
     w.bent.find(w.scene, w.parameters, w.constraints);

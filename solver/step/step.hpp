@@ -13,6 +13,7 @@
 #include "solver/narrow/find_contacts.hpp"
 #include "solver/record/energy_ledger.hpp"
 #include "solver/scene/bodies.hpp"
+#include "solver/ship/free_ship.hpp"
 #include "solver/step/release_bent.hpp"
 
 namespace ice {
@@ -32,6 +33,7 @@ struct World {
     PairList pairs;
     std::vector<Contact> contacts;
     std::vector<Constraint> constraints;
+    FreeShip ship;
     std::vector<FloeLoad> loads;  ///< in the order of Bodies::moving
     Nudges nudges;
     WarmStart warm_start;

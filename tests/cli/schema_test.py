@@ -103,11 +103,18 @@ def scalars(sub):
 
 def samples(sub):
     """(good values, bad values) of a key."""
+    if "anyOf" in sub:  # a word or numbers
+        words, numbers = sub["anyOf"]
+        good, bad = samples(numbers)
+        return [*words["enum"], *good], [value for value in bad if value != "words"] + ["words"]
     if sub.get("type") != "array":
         return scalars(sub)
     items, least = sub["items"], sub.get("minItems", 0)
     if items.get("type") == "array":  # rows [t, u]
         (time_low, speed_low) = (part["minimum"] for part in items["items"])
+        if sub.get("x-unit") == "N":  # rows [U, force]
+            return ([[[0.0, speed_low]], [["1 kn", "1 kN"], ["3 m/s", 2.0]]],
+                    [[], [[0.0]], [[0.0, 1.0, 2.0]], [0.0, 1.0], 3, [["1 s", 1.0]], [[0.0, True]]])
         return ([[[0.0, speed_low]], [[time_low, "1 kn"], ["1 s", 2.0]]],
                 [[], [[0.0]], [[0.0, 1.0, 2.0]], [0.0, 1.0], 3, [["1 kn", 1.0]], [[0.0, True]]])
     good, bad = scalars(items)

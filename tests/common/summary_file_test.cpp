@@ -40,7 +40,7 @@ Summary make_summary() {
     s.energy["kinetic_J"] = 55.0;
     s.stage_seconds["narrow"] = 2.5;
     s.lindqvist_submersion = 950.0;
-    s.ship = {100.0, 20.5, 8.0, 9.5e6, 25.0, 30.0, 2.5};
+    s.ship = {100.0, 20.5, 8.0, 9.5e6, 25.0, 30.0, 2.5, kUnknown, kUnknown, {}, {}};
     s.ice = {1.0, 140, 2.5, 6.25, 12.0, 0.8, 900.0, 0.1, 0.3, 1e6, {"never", "always"}};
     s.travel = {150.0, 1.5, 1.0};
     s.formulas = {{"Lindqvist 1989", "submersion", 950.0, false}};
@@ -154,6 +154,8 @@ TEST_CASE("ship, ice, travel and formulas come back, rigid ice and unknowns as n
     CHECK(back.ship.length == 100.0);
     CHECK(back.ship.entrance_angle_deg == 30.0);
     CHECK(back.ship.speed_mean == 2.5);
+    CHECK(back.ship.motion.empty());
+    CHECK_FALSE(back.ship.stuck.has_value());
     CHECK(back.ice.floes == 140);
     CHECK(back.ice.floe_size_mean == 6.25);
     CHECK(back.ice.crushing_pressure == 1e6);
@@ -170,6 +172,14 @@ TEST_CASE("ship, ice, travel and formulas come back, rigid ice and unknowns as n
     CHECK(std::isinf(unknown.ice.crushing_pressure));
     CHECK(std::isnan(unknown.ice.concentration));
     CHECK(std::isnan(unknown.ship.breadth));
+
+    s.ship.motion = {{"heave_mean_m", -0.02}, {"speed_ci95", kUnknown}};
+    s.ship.stuck = true;
+    const Summary moved = written_and_read(s);
+    REQUIRE(moved.ship.motion.size() == 2);
+    CHECK(moved.ship.motion[0] == s.ship.motion[0]);
+    CHECK(std::isnan(moved.ship.motion[1].second));
+    CHECK(moved.ship.stuck == true);
 }
 
 TEST_CASE("summary.json holds the contract's keys in the contract's order", "[formats]") {

@@ -20,6 +20,9 @@ TEST_CASE("2 kn are 1.02888... m/s, 80 mm are 0.08 m, 1.5 MPa are 1.5e6 Pa", "[b
     CHECK(si("2 kn", Dimension::speed) == Approx(1.0288888888888889).epsilon(1e-15));
     CHECK(si("80 mm", Dimension::length) == Approx(0.08).epsilon(1e-15));
     CHECK(si("1.5 MPa", Dimension::pressure) == Approx(1.5e6).epsilon(1e-15));
+    CHECK(si("28.8 t", Dimension::mass) == Approx(28800.0).epsilon(1e-15));
+    CHECK(si("1.2 MN", Dimension::force) == Approx(1.2e6).epsilon(1e-15));
+    CHECK(si("11.4 MW", Dimension::power) == Approx(11.4e6).epsilon(1e-15));
     CHECK(si("180 deg", Dimension::angle) == Approx(3.141592653589793).epsilon(1e-15));
     CHECK(si("3.6 km/h", Dimension::speed) == Approx(1.0).epsilon(1e-15));
     CHECK(si("0.9 t/m3", Dimension::density) == Approx(900.0).epsilon(1e-15));

@@ -360,3 +360,57 @@ TEST_CASE("floes of a field are free unless stated, those of a grid held until t
     CHECK(hold("file", "hold = \"until-contact\"\n") == Hold::until_contact);
     CHECK(hold("file", "hold = \"until-hull-contact\"\n") == Hold::until_hull_contact);
 }
+
+TEST_CASE("a ship that answers: lists of words, curves, numbers or a word, and what goes together",
+          "[case][ship]") {
+    const auto text = [](const std::string& lines) {
+        return with("[contact]", lines + "\n[contact]");
+    };
+    const auto read = [&](const std::string& lines,
+                          const std::vector<std::string>& overrides = {}) {
+        const CaseFolder folder(text(lines));
+        return read_case(folder.file(), overrides);
+    };
+    const Case p = read(
+        "[ship]\nfree = [\"surge\", \"heave\"]\nmass = \"28.8 t\"\n"
+        "added_mass = [0.05, 0, 0.9, 0, 0, 0]\n"
+        "[propulsion]\nthrust_table = [[0, \"20 kN\"], [\"10 kn\", 0]]");
+    CHECK(p.ship.free == std::array{true, false, true, false, false, false});
+    CHECK(p.ship.mass == 28800.0);
+    CHECK(p.ship.added_mass[heave] == 0.9);
+    CHECK(p.propulsion.thrust_table.back() == std::pair(10.0 * kKnot, 0.0));
+    CHECK_FALSE(read("").ship.any_free());
+    CHECK(read("[ship]\nadded_mass = \"none\"").ship.added_mass[surge] == 0.0);
+    // what is resolved is a case again
+    const CaseFolder again(p.resolved);
+    CHECK(read_case(again.file(), {}).propulsion.thrust_table == p.propulsion.thrust_table);
+    // a thrust of another kind takes the place
+    const Case held =
+        read("[ship]\nfree = [\"surge\"]\n[propulsion]\nthrust = 1e3", {"propulsion.hold_speed=2"});
+    CHECK(std::isnan(held.propulsion.thrust));
+    CHECK(held.propulsion.hold_speed == 2.0);
+
+    const auto wrong = [&](const std::string& lines, const std::string& what) {
+        CAPTURE(lines);
+        CHECK(contains(complaint(text(lines)), what));
+    };
+    const std::string surge_free = "[ship]\nfree = [\"surge\"]\n";
+    wrong("[ship]\nfree = [\"surge\", \"hev\"]", "did you mean \"heave\"?");
+    wrong("[ship]\nfree = [\"surge\", \"surge\"]", "names \"surge\" twice");
+    wrong("[ship]\nfree = \"surge\"", "must be a list");
+    wrong("[ship]\nadded_mass = [1, 2]", "none, or a list of 6 numbers");
+    wrong("[propulsion]\nthrust = 1e3", "a ship that is free in surge");
+    wrong(surge_free + "[propulsion]\nthrust = 1e3\nhold_speed = 1", "keep one");
+    wrong(surge_free + "[propulsion]\nbollard_pull = 1e3", "needs propulsion.open_water_speed");
+    wrong(surge_free + "[propulsion]\npower = 1e3\nopen_water_speed = 5",
+          "needs propulsion.propeller_diameter");
+    wrong(surge_free +
+              "[propulsion]\nbollard_pull = 1e3\nopen_water_speed = 5\n"
+              "resistance_table = [[0, 0]]",
+          "less the open-water resistance already");
+    wrong(surge_free + "[propulsion]\nheading = \"hold\"", "free in yaw");
+    wrong(surge_free + "[propulsion]\nthrust_table = [[1, 0], [1, 5]]", "above the row before");
+    wrong("[tow]\nstiffness = 1e3", "free in surge");
+    wrong("[mooring]\nstiffness = [0, 1e3, 0, 0, 0, 0]", "free in sway");
+    wrong("[ice]\ndrift_velocity = [1, 0]", "a held floe does not drift");
+}

@@ -199,7 +199,7 @@ TEST_CASE("hull contacts between two frames add up to the forces of their steps"
         w.scene.bodies.momentum[i] = w.scene.bodies.mass[i] * Vec3(0, 0, 0.5);
         update_derived(w.scene.bodies, i);
         step(w);
-        contacts.add(w.contacts, w.constraints);
+        contacts.add(w.scene.bodies, w.contacts, w.constraints);
         const StepRecord r = measure_step(w.scene, w.contacts, w.constraints, 0.01);
         push += r.contact_force / steps;
         rub += r.friction_force / steps;

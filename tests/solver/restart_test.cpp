@@ -40,7 +40,9 @@ Case pressed_row(double crushing_pressure) {
 }
 
 World make_world(const Case& parameters, double floe_radius = 0.05) {
-    World w = plate_world(parameters, Vec3(3, 2, 0.4), 0.1, 0.2, -0.5);
+    // a ship that answers floats
+    const double depth = parameters.ship.any_free() ? 1.0 : 0.4;
+    World w = plate_world(parameters, Vec3(3, 2, depth), 0.1, 0.2, -0.5);
     const auto box = add_shape(w, make_box_set(Vec3(0.5, 0.4, 0.2), floe_radius, 0.1));
     for (int k = 0; k < 4; ++k)
         add_floe(w.scene, box, 900.0, Vec3(0.55 * k, 0.05 * k, -0.6 - 0.002 * k),
@@ -90,6 +92,26 @@ TEST_CASE("a run continued from a checkpoint ends with the same bits and files",
     CHECK(in_contact(whole));
     // what is crushed is part of the state that goes on
     CHECK(whole.scene.crushed.recess.empty() == std::isinf(pressure));
+
+    run_until(p, folder / "parts", stop);
+    go_on(p, folder / "parts" / "checkpoint.h5", folder / "parts");
+    check_same_runs(folder / "whole", folder / "parts", p.track);
+}
+
+TEST_CASE("a ship that answers goes on with the same bits", "[step][checkpoint][ship]") {
+    const std::int64_t stop = GENERATE(1, 25, 70);
+    CAPTURE(stop);
+    const TempFolder folder;
+    Case p = pressed_row(kSoft);
+    p.speed_table = {{0.0, 0.8}};
+    p.ship.free.fill(true);
+    p.ship.added_mass.fill(0.1);
+    p.ship.damping = {100.0, 100.0, 0.1, 0.1, 0.1, 100.0};
+    p.propulsion.hold_speed = 1.0;
+    World whole = make_world(p);
+    run(whole, {folder / "whole", "first"});
+    CHECK(in_contact(whole));
+    CHECK(whole.ship.angles().norm() > 0.0);
 
     run_until(p, folder / "parts", stop);
     go_on(p, folder / "parts" / "checkpoint.h5", folder / "parts");

@@ -2,7 +2,7 @@
 // Hull, floes and water drawn at one instant.
 
 import { BufferAttribute, BufferGeometry, Color, DoubleSide, LineBasicMaterial, LineSegments, Mesh,
-  MeshBasicMaterial, PlaneGeometry, Scene, Vector3, WebGLRenderer } from 'three';
+  MeshBasicMaterial, PlaneGeometry, Quaternion, Scene, Vector3, WebGLRenderer } from 'three';
 import { Camera } from './camera.js';
 import { findPlace } from './data.js';
 import { makeFloes } from './floes.js';
@@ -69,11 +69,20 @@ export class View {
       ship[3 * row + d] + part * (ship[3 * next + d] - ship[3 * row + d])));
   }
 
+  /** Turns the hull of a ship that answers; others keep their heading. */
+  turnShip({ row, part }) {
+    const turn = this.run.arrays.ship_turn;
+    if (!turn || turn.length === 0) return;
+    const at = (k) => new Quaternion().fromArray(turn, 4 * Math.min(k, turn.length / 4 - 1));
+    this.hull.mesh.quaternion.copy(at(row).slerp(at(row + 1), part));
+  }
+
   seek(time) {
     const place = findPlace(this.run.arrays.frame_time, time);
     if (this.floes) this.floes.material.uniforms.frame.value = place.row + place.part;
     const ship = this.shipAt(place);
     this.hull.mesh.position.copy(ship);
+    this.turnShip(place);
     this.water.position.set(ship.x, ship.y, 0);
     const snap = (x) => Math.round(x / this.gridStep) * this.gridStep;
     this.grid.position.set(snap(ship.x), snap(ship.y), 0);

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/case/check_ship.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace ice {
+
+namespace {
+
+class Checker {
+public:
+    Checker(const Case& checked, const Values& values, const Complaints& complaints)
+        : case_(checked), values_(values), complaints_(complaints) {}
+
+    void check() {
+        check_propulsion();
+        check_net_thrust();
+        check_lines();
+        if (case_.dimension != 2) return;
+        for (const auto& [freedom, name] :
+             {std::pair(sway, "sway"), std::pair(roll, "roll"), std::pair(yaw, "yaw")})
+            if (case_.ship.free[freedom])
+                complaints_.add_at(
+                    "ship.free",
+                    fmt::format("ship.free has {}, which leaves the plane y = 0 of a 2D case; it "
+                                "may have surge, heave and pitch",
+                                name));
+    }
+
+private:
+    bool has(const char* key) const {
+        // a default is given to the values, too
+        return values_.contains(key);
+    }
+    void needs_freedom(const char* key, Freedom freedom, const char* name) const {
+        if (case_.ship.free[freedom]) return;
+        complaints_.add_at(key, fmt::format("{} acts on a ship that is free in {}: write ship.free "
+                                            "= [\"{}\"], or leave it out",
+                                            key, name, name));
+    }
+
+    void check_propulsion() const {
+        std::vector<std::string> given;
+        for (const char* key :
+             {"propulsion.thrust", "propulsion.thrust_table", "propulsion.bollard_pull",
+              "propulsion.power", "propulsion.hold_speed"}) {
+            if (!has(key)) continue;
+            given.emplace_back(key);
+            needs_freedom(key, surge, "surge");
+        }
+        if (given.size() > 1)
+            complaints_.add_at(
+                given[1], fmt::format("{} are all given; keep one", fmt::join(given, " and ")));
+        if (has("propulsion.resistance_table"))
+            needs_freedom("propulsion.resistance_table", surge, "surge");
+        if (case_.propulsion.hold_heading) needs_freedom("propulsion.heading", yaw, "yaw");
+    }
+
+    void check_net_thrust() const {
+        const bool pull = has("propulsion.bollard_pull"), power = has("propulsion.power");
+        if ((pull || power) && !has("propulsion.open_water_speed"))
+            complaints_.add_at(pull ? "propulsion.bollard_pull" : "propulsion.power",
+                               "the net thrust needs propulsion.open_water_speed, where it is 0");
+        if (power && !has("propulsion.propeller_diameter"))
+            complaints_.add_at("propulsion.power",
+                               "propulsion.power needs propulsion.propeller_diameter");
+        if (!pull && !power && has("propulsion.open_water_speed"))
+            complaints_.add_at("propulsion.open_water_speed",
+                               "propulsion.open_water_speed is given, but only "
+                               "propulsion.bollard_pull and propulsion.power take it");
+        if (!power && has("propulsion.propeller_diameter"))
+            complaints_.add_at("propulsion.propeller_diameter",
+                               "propulsion.propeller_diameter is given, but only "
+                               "propulsion.power takes it");
+        if ((pull || power) && has("propulsion.resistance_table"))
+            complaints_.add_at("propulsion.resistance_table",
+                               "propulsion.resistance_table is given, but net thrust is less the "
+                               "open-water resistance already; leave it out");
+    }
+
+    void check_lines() const {
+        if (case_.tow.stiffness > 0.0 || case_.tow.damping > 0.0)
+            needs_freedom("tow.stiffness", surge, "surge");
+        const bool towed = case_.tow.stiffness > 0.0;
+        if (case_.ship.free[surge] && has("hull.speed_table") && !towed)
+            complaints_.add_at(
+                "hull.speed_table",
+                "hull.speed_table is given, but a ship free in surge goes as its thrust makes it; "
+                "give hull.speed for the start, or tow it with tow.stiffness");
+        constexpr const char* kNames[] = {"surge", "sway", "heave", "roll", "pitch", "yaw"};
+        for (std::size_t k = 0; k < kFreedoms; ++k)
+            if (!case_.ship.free[k] &&
+                (case_.mooring.stiffness[k] != 0.0 || case_.mooring.pretension[k] != 0.0))
+                needs_freedom(
+                    case_.mooring.stiffness[k] != 0.0 ? "mooring.stiffness" : "mooring.pretension",
+                    static_cast<Freedom>(k), kNames[k]);
+    }
+
+    const Case& case_;
+    const Values& values_;
+    const Complaints& complaints_;
+};
+
+}  // namespace
+
+void check_ship(const Case& checked, const Values& values, const Complaints& complaints) {
+    Checker(checked, values, complaints).check();
+}
+
+void take_drift(Case& checked, std::size_t groups, const Values& values,
+                const Complaints& complaints) {
+    const auto [x, y] = checked.drift_velocity;
+    if (x == 0.0 && y == 0.0) return;
+    if (checked.dimension == 2 && y != 0.0)
+        complaints.add_at("ice.drift_velocity",
+                          "ice.drift_velocity leaves the plane y = 0 of a 2D case");
+    if (const auto given = values.find("flow.current");
+        given == values.end() ||
+        std::get<std::vector<double>>(given->second) == std::vector<double>{0.0, 0.0})
+        checked.current = checked.drift_velocity;
+    for (std::size_t g = 0; g < groups; ++g) {
+        FloeGroup& group = checked.floes[g];
+        if (group.hold != Hold::never) {
+            complaints.add_at("ice.drift_velocity",
+                              fmt::format("ice.drift_velocity is given, but a held floe does not "
+                                          "drift; set floes.{}.hold = \"never\"",
+                                          g + 1));
+            return;
+        }
+        if (group.velocity.isZero(0.0)) group.velocity = Vec3(x, y, 0.0);
+    }
+}
+
+}  // namespace ice

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/ship/floating.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/base/error.hpp"
+#include "solver/water/hydrostatics.hpp"
+
+namespace ice {
+
+namespace {
+
+constexpr int kMostSteps = 100;
+constexpr double kBalanced = 1e-11;  // of the weight, and of weight times length
+constexpr double kStepAngle = 1e-4;  // of a difference [rad]: its error is of the order of 1e-8
+constexpr double kMostTurn = 0.1;    // of one of Newton's steps [rad]
+constexpr double kMostSink = 0.1;    // likewise, of the hull's depth
+
+// heave, roll, pitch: the motions in which water restores
+using Attitude = Vec3;
+
+class Balance {
+public:
+    Balance(const Case& p, const Scene& scene, const ShipBody& body)
+        : case_(p), hull_(scene.shapes[0]), body_(body), size_(hull_.box.sizes()) {}
+
+    // generalised force of the three motions at the centre of gravity
+    Vec3 force(const Attitude& a) const {
+        const ShipAngles angles(a[1], a[2], 0.0);
+        const ShipAxes axes = axes_of(angles);
+        const FloatingForce f = floating(a);
+        return {f.lift, axes.turn.col(0).dot(f.moment), axes.turn.col(1).dot(f.moment)};
+    }
+    FloatingForce floating(const Attitude& a) const {
+        const Mat3 r = orientation_of(ShipAngles(a[1], a[2], 0.0)).toRotationMatrix();
+        const double height = a[0] - (r * body_.centre_of_gravity).z();
+        return floating_force(hull_, body_, r, height, case_.water_density, case_.gravity);
+    }
+    // - d force_k / d attitude_j by central differences
+    Mat3 stiffness(const Attitude& a) const {
+        Mat3 out;
+        const Vec3 by(kStepAngle * size_.z(), kStepAngle, kStepAngle);
+        for (int j = 0; j < 3; ++j) {
+            const Vec3 step = by[j] * Vec3::Unit(j);
+            out.col(j) = (force(a - step) - force(a + step)) / (2.0 * by[j]);
+        }
+        return out;
+    }
+    // what each motion's force is measured against
+    Vec3 scale() const {
+        const double weight = body_.mass * case_.gravity;
+        return {weight, weight * size_.y() + (size_.y() == 0.0 ? 1.0 : 0.0), weight * size_.x()};
+    }
+    Vec3 limited(Vec3 step) const {
+        step[0] = std::clamp(step[0], -kMostSink * size_.z(), kMostSink * size_.z());
+        for (int k = 1; k < 3; ++k) step[k] = std::clamp(step[k], -kMostTurn, kMostTurn);
+        return step;
+    }
+
+private:
+    const Case& case_;
+    const Shape& hull_;
+    const ShipBody& body_;
+    Vec3 size_;
+};
+
+bool is_free(const ShipBody& body, int k) { return body.free[static_cast<std::size_t>(heave + k)]; }
+
+// The stiffness without the motions that are locked.
+Mat3 on_free(Mat3 stiffness, const ShipBody& body) {
+    for (int k = 0; k < 3; ++k) {
+        if (is_free(body, k)) continue;
+        stiffness.row(k).setZero();
+        stiffness.col(k).setZero();
+        stiffness(k, k) = 1.0;
+    }
+    return stiffness;
+}
+
+[[noreturn]] void refuse(const Case& p, const std::string& what, const std::string& remedy) {
+    throw bad_input(p.file.string() + ": [ship]", what, remedy);
+}
+
+void require_stable(const Case& p, const ShipBody& body, const Equilibrium& e) {
+    const auto unstable = [&](const char* motion, const char* gm, double value) {
+        refuse(p,
+               fmt::format("the ship does not float upright: its stiffness in {} is {:.3g}, {} = "
+                           "{:.4g} m",
+                           motion, value * body.mass * p.gravity, gm, value),
+               "lower the z of ship.centre_of_gravity, or leave that motion out of ship.free");
+    };
+    if (body.free[roll] && !(e.gm_transverse > 0.0)) unstable("roll", "GM", e.gm_transverse);
+    if (body.free[pitch] && !(e.gm_longitudinal > 0.0))
+        unstable("pitch", "the longitudinal GM", e.gm_longitudinal);
+}
+
+}  // namespace
+
+FloatingForce floating_force(const Shape& hull, const ShipBody& body, const Mat3& rotation,
+                             double height, double water_density, double gravity) {
+    const Submerged wet = measure_submerged(hull, rotation, height);
+    const double buoyancy = water_density * gravity * wet.volume;
+    const Vec3 arm = wet.centre - rotation * body.centre_of_gravity;
+    return {buoyancy - body.mass * gravity, arm.cross(Vec3(0.0, 0.0, buoyancy)), wet.volume};
+}
+
+double floating_energy(const Shape& hull, const ShipBody& body, const Mat3& rotation, double height,
+                       double water_density, double gravity) {
+    const Submerged wet = measure_submerged(hull, rotation, height);
+    return body.mass * gravity * (height + (rotation * body.centre_of_gravity).z()) -
+           water_density * gravity * wet.volume * (height + wet.centre.z());
+}
+
+Equilibrium find_equilibrium(const Case& p, const Scene& scene, const ShipBody& body) {
+    const Balance balance(p, scene, body);
+    const double place = scene.bodies.position[kShip].z();
+    Attitude at(place + body.centre_of_gravity.z(), 0.0, 0.0);
+    bool found = !body.floats() || p.gravity == 0.0;
+    for (int k = 0; k < kMostSteps && !found; ++k) {
+        Vec3 force = balance.force(at);
+        for (int j = 0; j < 3; ++j)
+            if (!is_free(body, j)) force[j] = 0.0;
+        found = (force.cwiseQuotient(balance.scale())).cwiseAbs().maxCoeff() <= kBalanced;
+        if (found) break;
+        const Mat3 stiffness = on_free(balance.stiffness(at), body);
+        const Vec3 step = stiffness.fullPivLu().solve(force);
+        if (!step.allFinite() || !(stiffness(0, 0) > 0.0)) break;  // above, or wholly under water
+        at += balance.limited(step);
+    }
+    if (!found)
+        refuse(p, fmt::format("a ship of {:.6g} kg finds no equilibrium on the water", body.mass),
+               "leave ship.mass out for what the hull displaces, or look at its "
+               "centre_of_gravity");
+    Equilibrium out;
+    out.angles = ShipAngles(at[1], at[2], 0.0);
+    const Mat3 r = orientation_of(out.angles).toRotationMatrix();
+    // what was not turned or moved stays to the bit
+    out.height = at[0] == place + body.centre_of_gravity.z() && out.angles.isZero(0.0)
+                     ? place
+                     : at[0] - (r * body.centre_of_gravity).z();
+    out.volume = balance.floating(at).volume;
+    const Mat3 stiffness = balance.stiffness(at);
+    for (int k = 0; k < 3; ++k)
+        out.stiffness[static_cast<std::size_t>(heave + k)] = stiffness(k, k);
+    const double weight = body.mass * p.gravity;
+    out.gm_transverse = out.stiffness[roll] / weight;
+    out.gm_longitudinal = out.stiffness[pitch] / weight;
+    if (p.gravity > 0.0) require_stable(p, body, out);
+    return out;
+}
+
+}  // namespace ice

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/ship/free_ship.hpp"
+
+#include <cmath>
+
+namespace ice {
+
+namespace {
+
+// The part of a motion, given along its three axes, that is free.
+Vec3 free_part(const ShipBody& body, Freedom first, Vec3 motion) {
+    for (int k = 0; k < 3; ++k)
+        if (!body.free[static_cast<std::size_t>(first + k)]) motion[k] = 0.0;
+    return motion;
+}
+
+Vec3 of_three(const SixNumbers& six, Freedom first) {
+    const auto k = static_cast<std::size_t>(first);
+    return {six[k], six[k + 1], six[k + 2]};
+}
+
+double quadratic(const Vec3& v, const Mat3& m) { return v.dot(m * v); }
+
+}  // namespace
+
+void FreeShip::begin(const Case& p, Scene& scene) {
+    if (begun_) return;
+    begun_ = true;
+    if (!p.ship.any_free()) return;
+    rig_ = make_ship_rig(p, scene);
+    velocity_ = Vec3(p.ship_speed(0.0), 0.0, 0.0);
+    angles_ = rig_->equilibrium.angles;
+    Bodies& b = scene.bodies;
+    b.position[kShip].z() = rig_->equilibrium.height;
+    b.orientation[kShip] = orientation_of(angles_);
+    b.rotation[kShip] = b.orientation[kShip].toRotationMatrix();
+}
+
+void FreeShip::place(Scene& scene, double height, const ShipAngles& angles) {
+    Bodies& b = scene.bodies;
+    const Vec3 before = b.rotation[kShip] * rig_->body.centre_of_gravity;
+    angles_ = angles;
+    b.orientation[kShip] = orientation_of(angles_);
+    b.rotation[kShip] = b.orientation[kShip].toRotationMatrix();
+    b.position[kShip] += before - b.rotation[kShip] * rig_->body.centre_of_gravity;
+    b.position[kShip].z() = height;
+}
+
+void FreeShip::start_step(const Case& p, Scene& scene, double time) {
+    begin(p, scene);
+    Bodies& b = scene.bodies;
+    const Vec3 course(p.ship_speed(time + 0.5 * p.time_step), 0.0, 0.0);
+    if (answers()) {
+        const ShipAxes axes = axes_of(angles_);
+        const Vec3 along = axes.shift.transpose() * velocity_;
+        Vec3 velocity = free_part(rig_->body, surge, along);
+        if (!rig_->body.free[surge]) velocity += course;
+        const Vec3 rates = free_part(rig_->body, roll, axes.turn.inverse() * spin_);
+        b.velocity[kShip] = axes.shift * velocity;
+        b.angular_velocity[kShip] = axes.turn * rates;
+        b.ship = response_of(rig_->body, angles_);
+        if (!energies_.kinetic_start) {
+            energies_.kinetic_start = kinetic_energy(b);
+            energies_.potential_start = potential_energy(scene, p);
+        }
+        velocity_start_ = b.velocity[kShip];
+        spin_start_ = b.angular_velocity[kShip];
+    } else {
+        b.velocity[kShip] = course;
+    }
+    scene.ship_velocity = b.velocity[kShip];
+}
+
+ShipState FreeShip::state_of(const Bodies& b, double time) const {
+    return {b.position[kShip], angles_, b.velocity[kShip], b.angular_velocity[kShip], time};
+}
+
+void FreeShip::apply_loads(const Case& p, Scene& scene, double time) {
+    if (!answers()) return;
+    Bodies& b = scene.bodies;
+    loads_ = measure_ship_loads(p, scene.shapes[0], *rig_, state_of(b, time), scene.water.current,
+                                speed_error_);
+    add_damping(p, scene);
+    const ShipForce total = loads_.total();
+    b.velocity[kShip] += b.ship.inverse_mass * (p.time_step * total.force);
+    b.angular_velocity[kShip] += b.ship.inverse_inertia * (p.time_step * total.moment);
+    if (!std::isnan(p.propulsion.hold_speed))
+        speed_error_ += p.time_step * (p.propulsion.hold_speed -
+                                       axes_of(angles_).shift.col(0).dot(b.velocity[kShip]));
+}
+
+// (M + dt D / 2) dv = dt (F - D v): damping by the mean of the velocities before and after the
+// loads, which neither overshoots nor changes what it damps to second order.
+void FreeShip::add_damping(const Case& p, Scene& scene) {
+    const Bodies& b = scene.bodies;
+    const Vec3 shift = of_three(rig_->damping, surge), turn = of_three(rig_->damping, roll);
+    if (shift.isZero(0.0) && turn.isZero(0.0)) return;
+    const double dt = p.time_step;
+    const ShipAxes axes = axes_of(angles_);
+    const ShipMasses masses = masses_of(rig_->body, angles_);
+    const ShipForce others = loads_.total();
+    const auto damped = [&](Freedom first, const Mat3& mass, const Vec3& by, const Vec3& rate,
+                            const Vec3& force) -> Vec3 {
+        const Mat3 heavier = mass + Mat3((0.5 * dt * by).asDiagonal());
+        const Vec3 change =
+            inverse_on_free(heavier, rig_->body, first) * (dt * (force - by.cwiseProduct(rate)));
+        return -by.cwiseProduct(free_part(rig_->body, first, rate) + 0.5 * change);
+    };
+    const Vec3 through_water = axes.shift.transpose() * (b.velocity[kShip] - scene.water.current);
+    const Vec3 rates = axes.turn.inverse() * b.angular_velocity[kShip];
+    const Vec3 force =
+        damped(surge, masses.shift, shift, through_water, axes.shift.transpose() * others.force);
+    const Vec3 moment =
+        damped(roll, masses.turn, turn, rates, axes.turn.transpose() * others.moment);
+    loads_.losses.force += axes.shift * force;
+    loads_.losses.moment += axes.turn.transpose().inverse() * moment;
+}
+
+void FreeShip::book(const Scene& scene, const std::vector<Constraint>& constraints, double dt) {
+    if (!answers()) return;
+    const Bodies& b = scene.bodies;
+    const ShipAxes axes = axes_of(angles_);
+    const Vec3 mean = 0.5 * (velocity_start_ + b.velocity[kShip]);
+    const Vec3 mean_spin = 0.5 * (spin_start_ + b.angular_velocity[kShip]);
+    const Vec3 v = axes.shift * free_part(rig_->body, surge, axes.shift.transpose() * mean);
+    const Vec3 w = axes.turn * free_part(rig_->body, roll, axes.turn.inverse() * mean_spin);
+    const auto work = [&](const ShipForce& f) { return dt * (f.force.dot(v) + f.moment.dot(w)); };
+    energies_.thrust += work(loads_.propulsion);
+    energies_.tow += work(loads_.tow);
+    energies_.mooring += work(loads_.mooring);
+    energies_.losses -= work(loads_.losses);
+    for (const Constraint& c : constraints) {
+        if (c.a != static_cast<std::int32_t>(kShip) || c.total_normal() <= 0.0) continue;
+        const Vec3 j = c.total_normal() * c.normal + c.total_tangent();
+        energies_.ice += j.dot(v + w.cross(c.arm_a));
+    }
+}
+
+void FreeShip::turn(Scene& scene, double dt) {
+    if (!answers()) return;
+    Bodies& b = scene.bodies;
+    const ShipAxes axes = axes_of(angles_);
+    const ShipMasses masses = masses_of(rig_->body, angles_);
+    velocity_ = b.velocity[kShip];
+    spin_ = b.angular_velocity[kShip];
+    const Vec3 rates = axes.turn.inverse() * spin_;
+    b.momentum[kShip] = axes.shift * (masses.shift * (axes.shift.transpose() * velocity_));
+    b.angular_momentum[kShip] = axes.turn.transpose().inverse() * (masses.turn * rates);
+    if (!rig_->body.turns()) return;
+    // `centre` stays that of the step, as its contacts have it
+    const ShipAngles turned = angles_ + dt * free_part(rig_->body, roll, rates);
+    const Vec3 after = orientation_of(turned).toRotationMatrix() * rig_->body.centre_of_gravity;
+    place(scene, b.position[kShip].z() + (b.ship.centre - after).z(), turned);
+}
+
+double FreeShip::kinetic_energy(const Bodies& b) const {
+    if (!answers()) return 0.0;
+    const ShipAxes axes = axes_of(angles_);
+    const ShipMasses masses = masses_of(rig_->body, angles_);
+    const Vec3 v = free_part(rig_->body, surge, axes.shift.transpose() * b.velocity[kShip]);
+    const Vec3 w = free_part(rig_->body, roll, axes.turn.inverse() * b.angular_velocity[kShip]);
+    return 0.5 * (quadratic(v, masses.shift) + quadratic(w, masses.turn));
+}
+
+double FreeShip::potential_energy(const Scene& scene, const Case& p) const {
+    if (!answers() || !rig_->body.floats()) return 0.0;
+    const Bodies& b = scene.bodies;
+    return floating_energy(scene.shapes[0], rig_->body, b.rotation[kShip], b.position[kShip].z(),
+                           p.water_density, p.gravity);
+}
+
+}  // namespace ice

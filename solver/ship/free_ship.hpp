@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// The ship of a run: on its prescribed course, or free to answer (docs/method.md, section 14).
+#pragma once
+
+#include <optional>
+
+#include "solver/contact/constraints.hpp"
+#include "solver/ship/ship_loads.hpp"
+
+namespace ice {
+
+/// Where the energy of a ship that answers goes, in its free motions, since the start [J]:
+///
+///     thrust + tow + mooring = ice + losses + dK + dU + residual,
+///
+/// each the force times the mean of the velocities at a step's start and end; U of weight and
+/// water. The residual is of second order in the time step.
+struct ShipEnergies {
+    double thrust = 0.0, tow = 0.0, mooring = 0.0;         ///< work on the ship
+    double ice = 0.0;                                      ///< work of the ship on the ice
+    double losses = 0.0;                                   ///< open-water resistance and damping
+    std::optional<double> kinetic_start, potential_start;  ///< before the first step
+};
+
+/// Answers forces in the motions that are free, and keeps to Case::ship_speed in the others.
+///
+/// The motion is that of the centre of gravity, with the matrix of mass and added mass
+/// (docs/method.md, section 14): symplectic Euler as for floes, linear damping at the middle of the
+/// step. Added mass turns with the ship; what that does to a turning ship's velocity (Munk's
+/// moment) is left out. With no freedom nothing differs from a body that moves as prescribed.
+class FreeShip {
+public:
+    /// Puts the ship where it floats, with masses. Once; nothing to do for a prescribed course.
+    /// @throws Error (exit code 2) as make_ship_rig
+    void begin(const Case& parameters, Scene& scene);
+    /// Puts it into another attitude, its centre of gravity over the same point. @pre it answers
+    /// @param height  of the mesh's origin [m]
+    void place(Scene& scene, double height, const ShipAngles& angles);
+    bool answers() const { return rig_.has_value(); }
+    /// @pre it answers
+    const ShipRig& rig() const { return *rig_; }
+
+    /// Beginning of a step: prescribed velocities, and how the ship answers impulses in it.
+    void start_step(const Case& parameters, Scene& scene, double time);
+    /// Loads change the velocity.
+    void apply_loads(const Case& parameters, Scene& scene, double time);
+    /// Books a step, before the poses advance.
+    void book(const Scene& scene, const std::vector<Constraint>& constraints, double dt);
+    /// Turns the ship, after its place has advanced with its velocity.
+    void turn(Scene& scene, double dt);
+
+    const ShipLoads& loads() const { return loads_; }  ///< of the last step
+    const ShipAngles& angles() const { return angles_; }
+    const ShipEnergies& energies() const { return energies_; }
+    /// In the free motions [J].
+    double kinetic_energy(const Bodies& bodies) const;
+    /// Of weight and water; 0 where the ship is held upright and at its height [J].
+    double potential_energy(const Scene& scene, const Case& parameters) const;
+
+private:
+    friend struct StateFields;  // step/state_fields.cpp
+
+    ShipState state_of(const Bodies& bodies, double time) const;
+    void add_damping(const Case& parameters, Scene& scene);
+
+    std::optional<ShipRig> rig_;
+    bool begun_ = false;
+    ShipLoads loads_;
+    Vec3 velocity_start_ = Vec3::Zero(), spin_start_ = Vec3::Zero();  // of the step
+
+    // state
+    ShipAngles angles_ = ShipAngles::Zero();
+    Vec3 velocity_ = Vec3::Zero(), spin_ = Vec3::Zero();  // at the end of the last step
+    double speed_error_ = 0.0;                            // int (hold_speed - U) dt [m]
+    ShipEnergies energies_;
+};
+
+}  // namespace ice

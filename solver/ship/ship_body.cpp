@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/ship/ship_body.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "solver/integrate/rotation.hpp"
+#include "solver/shape/ordered_products.hpp"
+#include "solver/water/hydrostatics.hpp"
+
+namespace ice {
+
+bool ShipBody::any_free() const {
+    return std::any_of(free.begin(), free.end(), [](bool f) { return f; });
+}
+
+ShipBody make_ship_body(const Case& p, const Scene& scene) {
+    const Shape& hull = scene.shapes[0];
+    const Submerged wet =
+        measure_submerged(hull, Mat3::Identity(), scene.bodies.position[kShip].z());
+    ShipBody out;
+    out.free = p.ship.free;
+    out.mass = std::isnan(p.ship.mass) ? p.water_density * wet.volume : p.ship.mass;
+    out.centre_of_gravity =
+        p.ship.centre_of_gravity.hasNaN() ? wet.centre : p.ship.centre_of_gravity;
+    const Vec3 size = hull.box.sizes();
+    const Vec3 usual(0.35 * size.y(), 0.25 * size.x(), 0.25 * size.x());
+    out.gyration = p.ship.gyration.hasNaN() ? usual : p.ship.gyration;
+    out.inertia = out.mass * out.gyration.cwiseAbs2();
+    for (int k = 0; k < 3; ++k) {
+        const auto shift = static_cast<std::size_t>(k), turn = shift + 3;
+        out.added[shift] = p.ship.added_mass[shift] * out.mass;
+        out.added[turn] = p.ship.added_mass[turn] * out.inertia[k];
+    }
+    return out;
+}
+
+Quaternion orientation_of(const ShipAngles& a) {
+    if (a.isZero(0.0)) return Quaternion::Identity();
+    const Quaternion pitched = ordered_product(exponential_map(Vec3(0.0, a[1], 0.0)),
+                                               exponential_map(Vec3(a[0], 0.0, 0.0)));
+    return ordered_normalized(ordered_product(exponential_map(Vec3(0.0, 0.0, a[2])), pitched));
+}
+
+ShipAxes axes_of(const ShipAngles& a) {
+    ShipAxes out;
+    if (a.isZero(0.0)) return out;
+    out.shift = exponential_map(Vec3(0.0, 0.0, a[2])).toRotationMatrix();
+    out.turn.col(0) = orientation_of(a).toRotationMatrix().col(0);
+    out.turn.col(1) = out.shift.col(1);
+    return out;
+}
+
+ShipMasses masses_of(const ShipBody& body, const ShipAngles& a) {
+    const ShipAxes axes = axes_of(a);
+    const Mat3 r = orientation_of(a).toRotationMatrix();
+    const Vec3 added(body.added[surge], body.added[sway], body.added[heave]);
+    const Vec3 added_turn(body.added[roll], body.added[pitch], body.added[yaw]);
+    const Mat3 to_ship = r.transpose() * axes.shift, turn = r.transpose() * axes.turn;
+    ShipMasses out;
+    out.shift = body.mass * Mat3::Identity() + to_ship.transpose() * added.asDiagonal() * to_ship;
+    out.turn = turn.transpose() * Vec3(body.inertia + added_turn).asDiagonal() * turn;
+    return out;
+}
+
+Mat3 inverse_on_free(const Mat3& matrix, const ShipBody& body, Freedom first) {
+    Mat3 kept = Mat3::Identity();
+    const auto is_free = [&](int k) { return body.free[static_cast<std::size_t>(first + k)]; };
+    for (int k = 0; k < 3; ++k)
+        for (int j = 0; j < 3; ++j)
+            if (is_free(k) && is_free(j)) kept(k, j) = matrix(k, j);
+    // in units of its own size: the inverse is by cofactors
+    const double size = kept.cwiseAbs().maxCoeff();
+    for (int k = 0; k < 3; ++k)
+        if (!is_free(k)) kept(k, k) = size;
+    Mat3 inverse = Mat3(kept / size).inverse() / size;
+    for (int k = 0; k < 3; ++k)
+        for (int j = 0; j < 3; ++j)
+            if (!is_free(k) || !is_free(j)) inverse(k, j) = 0.0;
+    return inverse;
+}
+
+ShipResponse response_of(const ShipBody& body, const ShipAngles& angles) {
+    const ShipAxes axes = axes_of(angles);
+    const ShipMasses masses = masses_of(body, angles);
+    ShipResponse out;
+    out.free = body.any_free();
+    out.inverse_mass =
+        axes.shift * inverse_on_free(masses.shift, body, surge) * axes.shift.transpose();
+    out.inverse_inertia =
+        axes.turn * inverse_on_free(masses.turn, body, roll) * axes.turn.transpose();
+    out.least_response = 1.0 / body.mass;
+    out.centre = orientation_of(angles).toRotationMatrix() * body.centre_of_gravity;
+    return out;
+}
+
+}  // namespace ice
