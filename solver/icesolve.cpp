@@ -28,6 +28,7 @@
 #include "solver/step/check_course.hpp"
 #include "solver/step/check_start.hpp"
 #include "solver/step/describe_case.hpp"
+#include "solver/step/describe_cost.hpp"
 #include "solver/step/make_water.hpp"
 #include "solver/step/run.hpp"
 #include "solver/step/run_folder.hpp"
@@ -120,15 +121,14 @@ void say_warnings(const std::vector<ice::Warning>& warnings) {
 }
 
 // All that --check does.
-int describe(const ice::Options& o, const ice::World& world,
-             const std::vector<ice::Warning>& warnings) {
+int describe(const ice::Options& o, ice::World& world, const std::vector<ice::Warning>& warnings) {
     say_warnings(warnings);
     ice::say(fmt::format("{}: {}, {} floes\n{}", o.case_file,
                          warnings.empty() ? "good" : "runs, with warnings",
                          world.scene.bodies.size() - 1, ice::describe_case(world)));
-    if (o.picture.empty()) return 0;
-    ice::draw_start(world, o.picture);
-    ice::say(fmt::format("wrote {}", o.picture));
+    if (!o.picture.empty()) ice::draw_start(world, o.picture);
+    ice::say(ice::describe_cost(world));  // goes some steps, so the picture is drawn before
+    if (!o.picture.empty()) ice::say(fmt::format("wrote {}", o.picture));
     return 0;
 }
 
@@ -137,6 +137,7 @@ int run_case(const ice::Options& o, const std::string& command_line) {
     ice::start_threads();
     ice::set_instruction_set(o.simd);
     const ice::Case parameters = ice::read_case(o.case_file, o.overrides);
+    ice::require_open_files(parameters);
     ice::World world = ice::build_world(parameters);
     const std::vector<ice::Warning> course = ice::check_course(world);  // before the ice moves
     std::optional<ice::SavedRun> saved;

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// What a run will take: time, disk, memory, open files.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "solver/step/step.hpp"
+
+namespace ice {
+
+/// What a run writes and keeps at most, before run.h5 is compressed. Touches of hull and floes,
+/// whose number nobody knows beforehand, are not in it.
+struct RunCost {
+    std::int64_t steps = 0, rows = 0, frames = 0;
+    double run_file = 0.0;  ///< run.h5 [B]
+    double tables = 0.0;    ///< forces.csv and those of tracked floes [B]
+    double memory = 0.0;    ///< beside the scene [B]
+};
+RunCost run_cost(const Case& parameters, std::size_t floes, std::size_t regions);
+
+/// One line for `icesolve --check`: time from some first steps, which the world then has gone, disk
+/// and memory. The time is a lower bound where the ship has not met the ice yet, and says so.
+std::string describe_cost(World& world);
+
+/// Allows the run the files that it keeps open, one for each tracked floe and some more: raises the
+/// process's soft limit as far as needed.
+/// @throws Error (exit code 2) naming output.track where the hard limit is lower
+void require_open_files(const Case& parameters);
+
+}  // namespace ice
