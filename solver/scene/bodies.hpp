@@ -75,7 +75,7 @@ struct Bodies {
         return breaking_load.empty() ? std::numeric_limits<double>::infinity() : breaking_load[i];
     }
     /// Is it held until it bends?
-    bool is_unbent(std::size_t i) const { return held[i] == 1 && !std::isinf(breaking_load_of(i)); }
+    bool is_unbent(std::size_t i) const { return !std::isinf(breaking_load_of(i)) && held[i] == 1; }
     /// From what velocity[i] is of to a point [m].
     Vec3 arm(std::int32_t i, const Vec3& point) const {
         const Vec3 from_position = point - position[static_cast<std::size_t>(i)];
