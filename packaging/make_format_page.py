@@ -29,6 +29,8 @@ def kind(sub):
     """What a value is, in a few words."""
     if "enum" in sub:
         return "one of " + ", ".join(f'"{word}"' for word in sub["enum"])
+    if "anyOf" in sub:
+        return " or ".join(kind(part) for part in sub["anyOf"])
     if sub["type"] == "string":
         return "text"
     if sub["type"] == "integer":
@@ -36,6 +38,8 @@ def kind(sub):
     if sub["type"] != "array":
         return f"number {range_text(sub)}"
     items = sub["items"]
+    if "enum" in items:
+        return "list of " + ", ".join(f'"{word}"' for word in items["enum"])
     if items["type"] == "array":
         return "list of pairs [" + ", ".join(kind(part) for part in items["items"]) + "]"
     least, most = sub.get("minItems"), sub.get("maxItems")

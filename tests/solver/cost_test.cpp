@@ -28,7 +28,7 @@ TEST_CASE("a run's rows, frames and bytes are those of its keys", "[cost]") {
     CHECK(cost.memory == 64e5);
 }
 
-TEST_CASE("more tracked floes than files may be open are refused before anything is made", "[cost]") {
+TEST_CASE("more tracked floes than files may be open are refused before the run", "[cost]") {
     Case p;
     for (int k = 1; k <= 200; ++k) p.track.push_back(k);
     const auto code_with = [&](rlim_t soft, rlim_t hard) {

@@ -2,6 +2,7 @@
 // Floes from a field file: which shapes, where, how high, and which of them may move.
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <numeric>
 
 #include "common/formats/field_file.hpp"
 #include "common/formats/spheres_file.hpp"
@@ -15,6 +16,14 @@ namespace {
 
 const Vec3 kSmall(1.0, 0.8, 0.4), kLarge(2.0, 1.0, 0.4);
 
+// Shares that add up to the surface, as a file's must.
+SphereSet box_set(const Vec3& size, double radius, double spacing) {
+    SphereSet set = test::make_box_set(size, radius, spacing);
+    const double sum = std::accumulate(set.areas.begin(), set.areas.end(), 0.0);
+    for (double& area : set.areas) area *= set.solid.area / sum;
+    return set;
+}
+
 // Two shapes, four floes; the second and the last are unbroken ice.
 Field make_field() {
     Field field;
@@ -22,7 +31,7 @@ Field make_field() {
     field.spacing = 0.2;
     field.mode = "surface";
     for (const Vec3& size : {kSmall, kLarge}) {
-        SphereSet set = test::make_box_set(size, 0.1, 0.2);
+        SphereSet set = box_set(size, 0.1, 0.2);
         set.mesh.region_names = {"ice"};
         field.shapes.push_back(set);
     }
@@ -36,7 +45,7 @@ Field make_field() {
 }
 
 Case parameters(const test::TemporaryFile& hull, const test::TemporaryFile& field) {
-    SphereSet set = test::make_box_set({4.0, 2.0, 1.0}, 0.2, 0.4);
+    SphereSet set = box_set({4.0, 2.0, 1.0}, 0.2, 0.4);
     write_spheres(hull.path(), set);
     write_field(field.path(), make_field());
     Case p;
