@@ -160,7 +160,7 @@ std::string formula_section(const Summary& s, const ForceUnit& unit) {
     intro += " " + formula_footnote(formulas);
     return section(
         "formulas", "Empirical formulas", intro,
-        figures({draw_formulas(s, unit, 600.0)}) +
+        figures({draw_formulas(s, unit, 440.0)}) +
             table({"Formula, part", "Value [" + unit.name + "]", "Comparable", "Verified"}, rows));
 }
 

@@ -15,7 +15,8 @@ struct Account {
     double sign;
 };
 
-constexpr std::string_view kWaterWork = "water_work_J";  // of runs in moving water only
+// of runs in moving water, and of pieces held until they bend, only
+constexpr std::string_view kWaterWork = "water_work_J", kBreaking = "breaking_J";
 
 constexpr Account kAccounts[]{{"Work per metre", "ship_work_J", 1.0},
                               {"Potential", "potential_J", 1.0},
@@ -23,7 +24,7 @@ constexpr Account kAccounts[]{{"Work per metre", "ship_work_J", 1.0},
                               {"Friction", "friction_J", 1.0},
                               {"Impacts", "restitution_J", 1.0},
                               {"Crushing", "crushing_J", 1.0},
-                              {"Breaking", "breaking_J", 1.0},
+                              {"Breaking", kBreaking, 1.0},
                               {"Drag", "drag_J", 1.0},
                               {"Left-out moment", "buoyancy_moment_J", 1.0},
                               {"Opened overlap", "separation_J", -1.0},
@@ -47,7 +48,7 @@ std::vector<WorkShare> share_work(const Sweep& sweep, const Point& point) {
             const SweepRun& run = sweep.runs[row];
             const auto energy = run.summary->energy.find(std::string(key));
             const bool booked = energy != run.summary->energy.end();
-            if (key == kWaterWork && !booked) continue;
+            if ((key == kWaterWork || key == kBreaking) && !booked) continue;
             sum += booked ? energy->second / travel(run) : std::numeric_limits<double>::quiet_NaN();
         }
         shares.push_back({title, sign * sum / static_cast<double>(point.runs.size())});

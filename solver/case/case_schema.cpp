@@ -214,7 +214,7 @@ std::vector<CaseKey> bending_keys() {
          "On the breaking load: 1 is a dry static plate; models of ships use about 3.1 with "
          "kashtelyan.",
          [](Case& c, G&, const Value& v) { c.bending.factor = number(v); }},
-        {"bending.factor_table", Kind::pair_list, D::none, "-", 0, 100, 0, "",
+        {"bending.factor_table", Kind::curve, D::none, "-", 0, 100, 0, "",
          "Rows [v, f]: a second factor f at the normal speed v [m/s] of hull and ice, linear "
          "between rows.",
          [](Case& c, G&, const Value& v) {

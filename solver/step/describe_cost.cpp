@@ -31,7 +31,8 @@ std::string bytes_text(double bytes) {
     static constexpr std::array<const char*, 4> kUnits{"kB", "MB", "GB", "TB"};
     std::size_t unit = 0;
     for (bytes /= 1e3; bytes >= 1e3 && unit + 1 < kUnits.size(); ++unit) bytes /= 1e3;
-    return fmt::format("{:.2g} {}", bytes < 10.0 ? bytes : std::round(bytes), kUnits[unit]);
+    return bytes < 10.0 ? fmt::format("{:.2g} {}", bytes, kUnits[unit])
+                        : fmt::format("{:.0f} {}", bytes, kUnits[unit]);
 }
 
 std::string time_text(double seconds) {
@@ -68,8 +69,8 @@ std::string describe_cost(World& w) {
     }
     const double each = timer.seconds() / std::max(taken, 1);
     return fmt::format(
-        "  cost       {} for {} steps like the first ones, of {:.2g} ms; ice along the hull makes "
-        "them longer\n"
+        "  cost       {} at least: {} steps, the first ones of {:.2g} ms; with ice along the hull "
+        "they take longer\n"
         "  output     {} rows, {} frames: run.h5 {} before it is compressed, tables {}, memory {}",
         time_text(each * static_cast<double>(cost.steps)), cost.steps, 1e3 * each, cost.rows,
         cost.frames, bytes_text(cost.run_file), bytes_text(cost.tables), bytes_text(cost.memory));

@@ -115,6 +115,9 @@ def samples(sub):
         if sub.get("x-unit") == "N":  # rows [U, force]
             return ([[[0.0, speed_low]], [["1 kn", "1 kN"], ["3 m/s", 2.0]]],
                     [[], [[0.0]], [[0.0, 1.0, 2.0]], [0.0, 1.0], 3, [["1 s", 1.0]], [[0.0, True]]])
+        if "x-unit" not in sub:  # rows [U, factor]
+            return ([[[0.0, speed_low]], [["1 kn", 1.0], ["3 m/s", 2.0]]],
+                    [[], [[0.0]], [[0.0, 1.0, 2.0]], [0.0, 1.0], 3, [["1 s", 1.0]], [[0.0, True]]])
         return ([[[0.0, speed_low]], [[time_low, "1 kn"], ["1 s", 2.0]]],
                 [[], [[0.0]], [[0.0, 1.0, 2.0]], [0.0, 1.0], 3, [["1 kn", 1.0]], [[0.0, True]]])
     good, bad = scalars(items)
