@@ -45,7 +45,7 @@ std::string solid_fault(const SphereSet& set, const MassProperties& of_mesh) {
         return unlike("an area", solid.area, "m2", area);
     const double shift = (solid.centroid - of_mesh.centroid).norm();
     if (!(shift <= kSame * size))
-        return fmt::format("a centroid {:.3g} m from that of the mesh", shift);
+        return fmt::format("a centroid {:.3g} m off the mesh's centroid", shift);
     const double most = of_mesh.inertia.cwiseAbs().maxCoeff();
     for (int r = 0; r < 3; ++r)
         for (int c = 0; c < 3; ++c)

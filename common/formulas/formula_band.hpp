@@ -28,13 +28,13 @@ bool is_level_ice(const IceParticulars& ice);
 /// Lindqvist 1989: submersion; with a flexural strength crushing, bending, total.
 /// Riska 1997 (with a strength, which says that there is level ice): total.
 /// Jeong 2010, or the user's coefficients: buoyancy, clearing, "buoyancy + clearing"; with a
-/// strength breaking, total. Parts of which an input is unknown are left out.
+/// strength breaking, total. A part with an unknown input is left out.
 /// @param speed  of the ship [m/s]; its size counts
 std::vector<FormulaValue> evaluate_formulas(const ShipParticulars& ship, const IceParticulars& ice,
                                             double speed, const FormulaOptions& options = {});
 
-/// Those that say what a run computes: in level ice totals; in ice that is broken Lindqvist's
-/// submersion, and buoyancy and clearing together.
+/// The formulas that a run can be compared with: totals in level ice; in broken ice Lindqvist's
+/// submersion, and the sum of buoyancy and clearing.
 std::vector<FormulaValue> comparable_formulas(const std::vector<FormulaValue>& formulas,
                                               bool level_ice);
 
@@ -44,7 +44,7 @@ struct FormulaBand {
 };
 std::optional<FormulaBand> band_of(const std::vector<FormulaValue>& formulas);
 
-/// "submersion part" and the like: what a part's name means, for texts.
+/// The name of a formula's part in texts, e.g. "submersion part".
 std::string part_text(const FormulaValue& formula);
 
 }  // namespace ice

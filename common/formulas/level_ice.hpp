@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// What the formulas for the resistance in level ice ask for. SI units, angles in radians.
+/// Inputs of the formulas for the resistance in level ice. SI units, angles in radians.
 #pragma once
 
 #include <limits>
@@ -14,7 +14,7 @@ struct HullForm {
     double stem_angle = 0.0;      ///< phi, of the bow's centre line from the horizontal [rad]
     double entrance_angle = 0.0;  ///< alpha, half angle of the waterline at the bow [rad]
                                   ///< both NaN where the bow has no point
-    /// L_par, the waterline's part of full breadth, and L_bow, what is before it [m]; NaN: unknown
+    /// Lengths of the waterline [m]: L_par of full breadth, L_bow before it; NaN where unknown
     double parallel_length = std::numeric_limits<double>::quiet_NaN();
     double bow_length = std::numeric_limits<double>::quiet_NaN();
 };

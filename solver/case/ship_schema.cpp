@@ -28,7 +28,7 @@ std::vector<CaseKey> body_keys() {
                  c.ship.free[static_cast<std::size_t>(place_in(word, kFreedomNames))] = true;
          }},
         {"ship.mass", Kind::number, D::mass, "-", 1e-9, kHuge, 0, "",
-         "Mass of the ship; default: what it displaces as hull.draught or hull.position places it.",
+         "Mass of the ship; default: the displacement at hull.draught or hull.position.",
          [](Case& c, G&, const Value& v) { c.ship.mass = number(v); }},
         {"ship.centre_of_gravity", Kind::vector, D::length, "-", -1e4, 1e4, 3, "",
          "In the hull mesh's axes; default: the centre of buoyancy. Its height decides how the "

@@ -150,7 +150,7 @@ TEST_CASE("a set that contradicts its own mesh is refused with both values", "[f
     CHECK_THAT(spoiled([](SphereSet& s) { s.solid.area *= 1.5; }),
                Catch::Contains("has an area of 3.48 m2 where the mesh has 2.32"));
     CHECK_THAT(spoiled([](SphereSet& s) { s.solid.centroid.z() = 0.01; }),
-               Catch::Contains("has a centroid 0.01 m from that of the mesh"));
+               Catch::Contains("has a centroid 0.01 m off the mesh's centroid"));
     CHECK_THAT(spoiled([](SphereSet& s) { s.solid.inertia *= 1.1; }),
                Catch::Contains("has an inertia of 0.00997333 m5 where the mesh has 0.00906667"));
     CHECK_THAT(spoiled([](SphereSet& s) { s.volumes[3] *= 2.0; }),
