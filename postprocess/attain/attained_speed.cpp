@@ -1,19 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "postprocess/attain/attained_speed.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "common/base/uncertainty.hpp"
+#include "common/base/least_squares.hpp"
 
 namespace ice::attain {
 
 namespace {
 
-constexpr double kNormal = 1.959963984540054;  // half widths per standard deviation, at 95 %
-constexpr double kMostSpeed = 50.0;            // of a ship [m/s], for thrusts that never end
+constexpr double kMostSpeed = 50.0;  // of a ship [m/s], for thrusts that never end
 constexpr int kSteps = 2000, kHalvings = 60;
 
 struct Trial {
@@ -27,21 +25,18 @@ Trial try_degree(const std::vector<SpeedPoint>& points, Eigen::Index degree, boo
     Eigen::VectorXd right(n);
     for (Eigen::Index i = 0; i < n; ++i) {
         const SpeedPoint& p = points[static_cast<std::size_t>(i)];
-        const double weight = weighted ? kNormal / p.half : 1.0;
+        const double weight = weighted ? kNormalHalfWidth / p.half : 1.0;
         for (Eigen::Index k = 0; k <= degree; ++k)
             j(i, k) = weight * std::pow(p.speed, static_cast<double>(k));
         right[i] = weight * p.resistance;
     }
     Trial out;
-    out.fit.coefficient = j.colPivHouseholderQr().solve(right);
-    const double chi2 = (j * out.fit.coefficient - right).squaredNorm();
-    const auto degrees = static_cast<double>(n - degree - 1);
-    out.misses = degrees > 0.0 ? chi2 / degrees : 0.0;
-    // the points' own intervals, wider where the points miss the curve by more
-    const double scale = weighted ? std::max(1.0, out.misses) : out.misses;
-    out.fit.covariance =
-        (j.transpose() * j).ldlt().solve(Eigen::MatrixXd::Identity(degree + 1, degree + 1)) * scale;
-    out.fit.t = weighted ? kNormal : degrees > 0.0 ? student_quantile(degrees, 0.05) : std::nan("");
+    const LeastSquares solved = solve_least_squares(j, right);
+    const FitSpread spread = spread_of_fit(j, solved.chi2, weighted);
+    out.fit.coefficient = solved.x;
+    out.misses = spread.scatter;
+    out.fit.covariance = spread.covariance;
+    out.fit.t = spread.t;
     return out;
 }
 

@@ -1,22 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "postprocess/fit/fit_spencer.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "common/base/error.hpp"
-#include "common/base/uncertainty.hpp"
+#include "common/base/least_squares.hpp"
 
 namespace ice::fit {
 
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kLeastExponent = -1.0, kMostExponent = 1.95, kExponentStep = 0.05;
-constexpr double kNormal = 1.959963984540054;  // half widths per standard deviation, at 95 %
-constexpr double kSame = 1e-3;                 // Froude numbers this near are one speed
+constexpr double kSame = 1e-3;  // Froude numbers this near are one speed
 constexpr int kMostSteps = 50;
 
 struct Problem {
@@ -43,18 +40,9 @@ Eigen::MatrixXd slopes(const Problem& p, double a, double c_c, int columns) {
     return out;
 }
 
-struct Linear {
-    Eigen::Vector2d c;
-    double chi2 = 0.0;
-};
-
-Linear solve_at(const Problem& p, double a) {
-    const Eigen::MatrixXd j = slopes(p, a, 1.0, 2);
-    const Eigen::VectorXd right = p.weight.cwiseProduct(p.resistance);
-    Linear out;
-    out.c = j.colPivHouseholderQr().solve(right);
-    out.chi2 = (j * out.c - right).squaredNorm();
-    return out;
+// C_B and C_C with the exponent a.
+LeastSquares solve_at(const Problem& p, double a) {
+    return solve_least_squares(slopes(p, a, 1.0, 2), p.weight.cwiseProduct(p.resistance));
 }
 
 // Gauss and Newton's steps from the best exponent of a scan; C_B and C_C follow it.
@@ -67,10 +55,10 @@ double find_exponent(const Problem& p) {
         }
     const Eigen::VectorXd right = p.weight.cwiseProduct(p.resistance);
     for (int k = 0; k < kMostSteps; ++k) {
-        const Linear now = solve_at(p, a);
-        const Eigen::MatrixXd j = slopes(p, a, now.c[1], 3);
-        const Eigen::VectorXd miss = right - j.leftCols(2) * now.c;
-        double step = j.colPivHouseholderQr().solve(miss)[2];
+        const LeastSquares now = solve_at(p, a);
+        const Eigen::MatrixXd j = slopes(p, a, now.x[1], 3);
+        const Eigen::VectorXd miss = right - j.leftCols(2) * now.x;
+        double step = solve_least_squares(j, miss).x[2];
         while (std::abs(step) > 1e-15 && solve_at(p, a + step).chi2 > now.chi2) step *= 0.5;
         if (!(std::abs(step) > 1e-14) || a + step > 2.0) break;
         a += step;
@@ -80,16 +68,8 @@ double find_exponent(const Problem& p) {
 
 // Half widths of 95 % intervals of what the columns belong to.
 Eigen::VectorXd half_widths(const Eigen::MatrixXd& j, double chi2, bool weighted) {
-    const Eigen::Index n = j.cols();
-    const auto degrees = static_cast<double>(j.rows() - n);
-    if (degrees < 1.0 && !weighted) return Eigen::VectorXd::Constant(n, kNaN);
-    const double scatter = degrees >= 1.0 ? chi2 / degrees : 0.0;
-    // the points' own intervals, wider where the points miss the curve by more
-    const double t = weighted ? kNormal : student_quantile(degrees, 0.05);
-    const Eigen::MatrixXd covariance =
-        (j.transpose() * j).ldlt().solve(Eigen::MatrixXd::Identity(n, n)) *
-        (weighted ? std::max(1.0, scatter) : scatter);
-    return t * covariance.diagonal().cwiseSqrt();
+    const FitSpread spread = spread_of_fit(j, chi2, weighted);
+    return spread.t * spread.covariance.diagonal().cwiseSqrt();
 }
 
 std::size_t count_speeds(const Problem& p) {
@@ -110,7 +90,7 @@ Problem take_broken(const std::vector<FitPoint>& points) {
         if (point.level_ice) continue;
         p.scales.push_back(point.scales);
         resistance.push_back(point.resistance);
-        weight.push_back(kNormal / point.half);
+        weight.push_back(kNormalHalfWidth / point.half);
         p.weighted = p.weighted && point.half > 0.0;  // false for NaN as well
     }
     const auto size = static_cast<Eigen::Index>(resistance.size());
@@ -133,7 +113,7 @@ void fit_breaking(const std::vector<FitPoint>& points, SpencerFit& fit) {
         if (!(left > 0.0) || !(point.scales.strength > 0.0)) continue;
         x.push_back(-std::log(point.scales.strength));
         y.push_back(std::log(left / point.scales.inertia));
-        weight.push_back(kNormal * left / point.half);
+        weight.push_back(kNormalHalfWidth * left / point.half);
         weighted = weighted && point.half > 0.0;
     }
     const auto n = static_cast<Eigen::Index>(x.size());
@@ -148,10 +128,10 @@ void fit_breaking(const std::vector<FitPoint>& points, SpencerFit& fit) {
         j.row(i) << w, w * x[k];
         right[i] = w * y[k];
     }
-    const Eigen::Vector2d line = j.colPivHouseholderQr().solve(right);
-    const Eigen::VectorXd half = half_widths(j, (j * line - right).squaredNorm(), weighted);
-    fit.coefficients.breaking = std::exp(line[0]);
-    fit.coefficients.breaking_exponent = line[1];
+    const LeastSquares line = solve_least_squares(j, right);
+    const Eigen::VectorXd half = half_widths(j, line.chi2, weighted);
+    fit.coefficients.breaking = std::exp(line.x[0]);
+    fit.coefficients.breaking_exponent = line.x[1];
     fit.intervals.breaking = fit.coefficients.breaking * half[0];
     fit.intervals.breaking_exponent = half[1];
     fit.breaking_fitted = true;
@@ -185,11 +165,11 @@ SpencerFit fit_spencer(const std::vector<FitPoint>& points) {
     fit.exponent_fitted = speeds > 2;
     if (fit.exponent_fitted) fit.coefficients.clearing_exponent = find_exponent(problem);
     const double a = fit.coefficients.clearing_exponent;
-    const Linear best = solve_at(problem, a);
-    fit.coefficients.buoyancy = best.c[0];
-    fit.coefficients.clearing = best.c[1];
+    const LeastSquares best = solve_at(problem, a);
+    fit.coefficients.buoyancy = best.x[0];
+    fit.coefficients.clearing = best.x[1];
     const Eigen::VectorXd half = half_widths(
-        slopes(problem, a, best.c[1], fit.exponent_fitted ? 3 : 2), best.chi2, problem.weighted);
+        slopes(problem, a, best.x[1], fit.exponent_fitted ? 3 : 2), best.chi2, problem.weighted);
     fit.intervals.buoyancy = half[0];
     fit.intervals.clearing = half[1];
     if (fit.exponent_fitted) fit.intervals.clearing_exponent = half[2];

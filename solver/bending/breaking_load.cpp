@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "common/base/interpolate.hpp"
@@ -27,6 +28,11 @@ PieceOutline measure_outline(const TriangleMesh& mesh, const Mat3& rotation) {
         points.emplace_back(p.x(), p.y());
         height.extend(Eigen::Matrix<double, 1, 1>(p.z()));
     }
+    double area = 0.0;
+    for (const auto& triangle : mesh.triangles) {
+        const auto corner = [&](int k) { return points[static_cast<std::size_t>(triangle[k])]; };
+        area += std::max(0.5 * cross(corner(1) - corner(0), corner(2) - corner(0)), 0.0);
+    }
     const std::vector<Vec2> corners = convex_corners(std::move(points));
     Vec2 chord = Vec2::Zero();
     for (std::size_t i = 0; i < corners.size(); ++i)
@@ -34,7 +40,7 @@ PieceOutline measure_outline(const TriangleMesh& mesh, const Mat3& rotation) {
             if ((corners[j] - corners[i]).squaredNorm() > chord.squaredNorm())
                 chord = corners[j] - corners[i];
     const double length = chord.norm();
-    PieceOutline out{length, 0.0, height.sizes().x()};
+    PieceOutline out{area, 0.0, height.sizes().x()};
     if (length == 0.0) return out;
     double low = 0.0, high = 0.0;
     for (const Vec2& p : corners) {
@@ -47,7 +53,9 @@ PieceOutline measure_outline(const TriangleMesh& mesh, const Mat3& rotation) {
 }
 
 double opening_angle(const PieceOutline& piece) {
-    return 2.0 * std::atan2(0.5 * piece.chord, piece.depth);
+    const double square = piece.depth * piece.depth;
+    return 2.0 * piece.area < std::numbers::pi * square ? 2.0 * piece.area / square
+                                                        : std::numbers::pi;
 }
 
 double breaking_load(const PieceOutline& piece, const Case& parameters) {

@@ -9,16 +9,17 @@ namespace ice {
 
 /// A piece as it lies, seen from above.
 struct PieceOutline {
-    double chord;      ///< largest distance of two of its points [m]
-    double depth;      ///< extent across the chord [m]
+    double area;       ///< of its upper side, as a level projection [m2]
+    double depth;      ///< extent across the largest distance of two of its points [m]
     double thickness;  ///< extent along z [m]
 };
 
-/// Measures a piece in the attitude `rotation`, body to world. @pre the mesh has vertices
+/// Measures a piece in the attitude `rotation`, body to world. @pre the mesh is closed
 PieceOutline measure_outline(const TriangleMesh& mesh, const Mat3& rotation);
 
-/// Angle under which the chord is seen from the piece's depth [rad]: 2 atan(chord / (2 depth)),
-/// the wedge that the piece stands for; pi where the piece has no depth.
+/// Angle of the sector that has the piece's area and its depth as radius [rad]: 2 area / depth^2,
+/// at most pi, which a half disc has; pi where the piece has no depth. Of a slender wedge with its
+/// tip at the load it is the wedge's own angle.
 double opening_angle(const PieceOutline& piece);
 
 /// Downward load that breaks the piece off [N], with bending.factor but not its table; in 2D the

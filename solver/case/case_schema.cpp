@@ -221,8 +221,8 @@ std::vector<CaseKey> bending_keys() {
              c.bending.factor_table = std::get<std::vector<std::pair<double, double>>>(v);
          }},
         {"bending.opening_angle", Kind::number, D::angle, "-", 1e-3, 3.1415926535897932, 0, "",
-         "Angle of the wedge that every piece stands for; default from its outline, 2 atan(chord / "
-         "(2 depth)).",
+         "Angle of the wedge that every piece stands for; default from its outline, that of the "
+         "sector of its area and depth.",
          [](Case& c, G&, const Value& v) { c.bending.opening_angle = number(v); }},
         {"bending.load_length", Kind::number, D::length, "0.0", 0, 1e3, 0, "",
          "Model wedge: distance from the edge over which the load is spread.",

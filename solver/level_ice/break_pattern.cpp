@@ -102,8 +102,8 @@ BrokenSheet break_sheet(IceSheet sheet, const Passage& passage) {
             const double speed = passage.speed_at(gone) * place->outwards.x();
             const double radius = cusp_radius(passage.law, passage.length, speed, cusp++);
             const double before = out.rest.area();
-            IceSheet::Broken broken = out.rest.break_off(
-                crack_outline(place->at + moved, place->outwards, radius, passage.angle));
+            IceSheet::Broken broken =
+                out.rest.break_off(crack_outline(place->at + moved, place->outwards, radius));
             out.brash += broken.brash;
             for (Loop& piece : broken.pieces) out.pieces.push_back(std::move(piece));
             if (out.rest.area() >= before) break;  // a ring: the next step tries again

@@ -22,7 +22,6 @@ struct Passage {
     /// Speed [m/s] when the ship has gone so far [m].
     std::function<double(double)> speed_at;
     double length;  ///< the ice's characteristic length [m]
-    double angle;   ///< of the cracks: crack_outline()
     CuspLaw law;
 };
 

@@ -11,9 +11,9 @@ namespace ice {
 
 namespace {
 
-constexpr double kStep = std::numbers::pi / 18.0;  // of the arc between two corners
-constexpr double kStrip = 0.5;                     // seawards of the chord, in radii
-constexpr double kLeast = 0.2;                     // of the radius at rest
+constexpr int kSides = 18;      // of the arc
+constexpr double kStrip = 0.5;  // seawards of the chord, in radii
+constexpr double kLeast = 0.2;  // of the radius at rest
 
 }  // namespace
 
@@ -23,18 +23,13 @@ double cusp_radius(const CuspLaw& law, double length, double normal_speed, std::
            (1.0 + law.scatter * random_offset(law.seed, cusp));
 }
 
-Loop crack_outline(const Vec2& at, const Vec2& inwards, double radius, double angle) {
-    const double half = radius * std::tan(0.5 * angle);
-    const double round = (half * half + radius * radius) / (2.0 * radius);  // of the circle
-    const double end = std::atan2(half, round - radius);                    // from the arc's middle
+Loop crack_outline(const Vec2& at, const Vec2& inwards, double radius) {
     const Vec2 along(inwards.y(), -inwards.x());  // to the right of one who looks into the ice
     const auto place = [&](double x, double y) -> Vec2 { return at + x * along + y * inwards; };
-    // an even number: the deepest point is a corner
-    const int pieces = 2 * std::max(1, static_cast<int>(std::ceil(end / kStep - 1e-9)));
-    Loop out{place(-half, -kStrip * radius), place(half, -kStrip * radius)};
-    for (int k = 0; k <= pieces; ++k) {
-        const double turn = end * (1.0 - 2.0 * k / pieces);  // from right to left
-        out.push_back(place(round * std::sin(turn), radius - round + round * std::cos(turn)));
+    Loop out{place(-radius, -kStrip * radius), place(radius, -kStrip * radius)};
+    for (int k = 0; k <= kSides; ++k) {
+        const double turn = std::numbers::pi * k / kSides;  // from right to left
+        out.push_back(place(radius * std::cos(turn), radius * std::sin(turn)));
     }
     return out;
 }

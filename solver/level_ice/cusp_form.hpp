@@ -31,15 +31,13 @@ struct CuspLaw {
 /// fitted speeds do not go below. @pre length > 0
 double cusp_radius(const CuspLaw& law, double length, double normal_speed, std::uint64_t cusp);
 
-/// The region that a crack cuts out: a circle's arc of height `radius` over a chord of
-/// 2 radius tan(angle / 2), as seen by opening_angle(), which is a half disc at pi / 2; seawards of
-/// the chord a strip of half a radius, for ice that stands out beside the load.
+/// The region that a crack cuts out: a half disc about the load, and seawards of its straight side
+/// a strip of half a radius, for ice that stands out beside the load.
 ///
-/// @param at       middle of the chord: where the load acts [m]
+/// @param at       where the load acts [m]
 /// @param inwards  unit vector into the ice
-/// @param angle    0 < angle < pi [rad]
-/// @return anticlockwise; a corner at least every 10 degrees of the arc
-Loop crack_outline(const Vec2& at, const Vec2& inwards, double radius, double angle);
+/// @return anticlockwise; a corner every 10 degrees of the arc
+Loop crack_outline(const Vec2& at, const Vec2& inwards, double radius);
 
 /// Area inside [m2]; negative for clockwise loops.
 double area_of(const Loop& loop);

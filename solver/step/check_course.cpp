@@ -187,7 +187,8 @@ std::vector<Warning> check_course(const World& w) {
     const Course course = measure_course(w);
     if (!(course.travel > 0.0) || any_floe_moves(w.scene.bodies)) return warnings;
     warn_of_meeting(p, course, warnings);
-    if (course.hits_fixed_at < p.duration)
+    // level ice that stays is wide of the hull's way by its making
+    if (course.hits_fixed_at < p.duration && !p.has_level_ice())
         warnings.push_back(
             {fmt::format(
                  "the ship runs into unbroken ice, which never gives way, after {:.4g} m at "

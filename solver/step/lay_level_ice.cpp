@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numbers>
 #include <string>
 
 #include "common/base/error.hpp"
@@ -31,12 +30,11 @@ namespace fs = std::filesystem;
 // read.
 constexpr std::uint64_t kFields = 1;
 
-constexpr double kAngle = 0.5 * std::numbers::pi;  // of the cracks: half discs
-constexpr double kTileLength = 4.0;                // of the ice that never moves, in radii at rest
-constexpr double kMargin = 2.0;                    // breadth of it beyond the pieces, likewise
-constexpr double kSmallest = 0.5;                  // piece, in thicknesses
-constexpr double kClear = 0.25;                    // of the sides, of points between cracks
-constexpr int kTimes = 1000;                       // at which the course is looked at
+constexpr double kTileLength = 4.0;  // of the ice that never moves, in radii at rest
+constexpr double kMargin = 2.0;      // breadth of it beyond the pieces, likewise
+constexpr double kSmallest = 0.5;    // piece, in thicknesses
+constexpr double kClear = 0.25;      // of the sides, of points between cracks
+constexpr int kTimes = 1000;         // at which the course is looked at
 
 // How fast the ship is where: (distance gone [m], speed [m/s]).
 std::vector<std::pair<double, double>> course_of(const Case& p) {
@@ -67,7 +65,6 @@ Passage passage_of(const Case& p, const TriangleMesh& hull) {
     if (passage.outline.size() >= 3)
         passage.outline =
             shrunk(passage.outline, -kClear * ice.length_factor * passage.length, 0.0).at(0);
-    passage.angle = kAngle;
     passage.law = {
         ice.length_factor, ice.speed_factor, ice.scatter,
         static_cast<std::uint64_t>(ice.seed) * 1000003u + static_cast<std::uint64_t>(p.seed)};

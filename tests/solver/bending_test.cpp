@@ -143,17 +143,26 @@ TEST_CASE("a piece's outline does not depend on how it is turned", "[bending][an
     const Mat3 turn =
         Eigen::AngleAxisd(GENERATE(0.0, 0.4, 1.0, 2.5), Vec3::UnitZ()).toRotationMatrix();
     const PieceOutline piece = measure_outline(box, turn);
-    CHECK(piece.chord == Approx(5.0));
+    CHECK(piece.area == Approx(12.0));
     CHECK(piece.depth == Approx(2.0 * 12.0 / 5.0));  // both corners' heights over the diagonal
     CHECK(piece.thickness == Approx(0.5));
-    CHECK(opening_angle(piece) == Approx(2.0 * std::atan(5.0 / 9.6)));
-    CHECK(opening_angle({3.0, 0.0, 1.0}) == Approx(kPi));
+    CHECK(opening_angle(piece) == Approx(24.0 / (4.8 * 4.8)));
+}
+
+TEST_CASE("a piece stands for the sector of its area and depth", "[bending][analytic]") {
+    CHECK(opening_angle({0.5 * kPi * 9.0, 3.0, 1.0}) == Approx(kPi));  // a half disc
+    CHECK(opening_angle({0.5 * 0.8 * 9.0, 3.0, 1.0}) == Approx(0.8));  // a sector of 0.8 rad
+    CHECK(opening_angle({100.0, 3.0, 1.0}) == kPi);                    // a long strip
+    CHECK(opening_angle({3.0, 0.0, 1.0}) == kPi);
+    // a slender wedge, tip to crack: its angle to the third order
+    const double half = 0.1;
+    CHECK(opening_angle({std::tan(half), 1.0, 1.0}) == Approx(2.0 * half).epsilon(4e-3));
 }
 
 TEST_CASE("a piece's load has the case's factor, angle and table", "[bending]") {
     Case p;
     p.water_density = 1025.0;
-    const PieceOutline piece{2.0, 1.0, 1.0};
+    const PieceOutline piece{0.25 * kPi, 1.0, 1.0};  // a quarter disc
     CHECK(breaking_load(piece, p) == Approx(wedge_breaking_load(kPlate, kPi / 2, 0.0)));
     p.bending.model = BendingModel::kashtelyan;
     p.bending.factor = 3.1;
