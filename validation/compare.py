@@ -81,7 +81,7 @@ def make_hull(folder, out, data_set, programs, options=()):
 
 def run_case(folder, out, name, settings, programs):
     """Runs the case with settings beside the hull in `out`; returns summary.json's content."""
-    case = out / "case.cfg"
+    case = out / f"{name}.cfg"
     case.write_text((folder / "case.cfg").read_text(encoding="utf-8").replace(
         "../../cases/", str(ROOT / "cases") + "/"), encoding="utf-8")
     command = [program("icesolve", programs), str(case), "--out", str(out / name), "--overwrite", "-q"]

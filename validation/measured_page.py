@@ -129,7 +129,19 @@ def section(folder, read_set, read_table):
         f"[`validation/{folder.name}`](../validation/{folder.name}/README.md).\n"])
 
 
+def ladder(rows):
+    """The checks without a table, those that miss their bound first."""
+    head = """## A ladder of checks that need no table
+
+The seed paper's ship and pieces with the project's defaults (`cases/paper-3d-defaults`). `python3 validation/ladder.py` computes
+them.
+"""
+    lines = [[r["check"], r["expected"], r["got"], r["within"], r["why"]] for r in rows]
+    return head + "\n" + table(["check", "expected", "got", "within", "why"], lines)
+
+
 def make(root, read_set, read_table):
     folders = sorted(path.parent for path in root.glob("*/set.toml"))
     missing = (root / "not-readable.md").read_text(encoding="utf-8")
-    return "\n".join([HEAD, *(section(f, read_set, read_table) for f in folders), missing])
+    return "\n".join([HEAD, *(section(f, read_set, read_table) for f in folders),
+                      ladder(read_table(root / "ladder.csv")), missing])
