@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <polyclipping/clipper.hpp>
 
 namespace ice {
@@ -12,6 +13,7 @@ namespace {
 namespace cl = ClipperLib;
 
 constexpr double kLattice = 0x1p-30;  // [m]
+constexpr double kSheet = 10.0;       // cracked regions: a part as large is a sheet by itself
 
 cl::Path to_lattice(const Loop& loop) {
     cl::Path out;
@@ -84,7 +86,11 @@ IceSheet::Broken IceSheet::break_off(const Loop& crack) {
     std::vector<Part> loose = combine(loops_, crack, cl::ctIntersection);
     if (loose.empty()) return {};
     std::vector<Part> rest = combine(loops_, crack, cl::ctDifference);
-    for (std::size_t k = 1; k < rest.size(); ++k) loose.push_back(std::move(rest[k]));
+    const double sheet = kSheet * area_of(crack);
+    const auto parted = std::find_if(rest.begin() + (rest.empty() ? 0 : 1), rest.end(),
+                                     [&](const Part& p) { return p.area < sheet; });
+    std::move(parted, rest.end(), std::back_inserter(loose));
+    rest.erase(parted, rest.end());
     const auto is_ring = [](const Part& p) { return !p.holes.empty(); };
     if (std::any_of(loose.begin(), loose.end(), is_ring)) return {};
     std::stable_sort(loose.begin(), loose.end(),
@@ -98,9 +104,10 @@ IceSheet::Broken IceSheet::break_off(const Loop& crack) {
             out.pieces.push_back(std::move(part.outer));
     }
     loops_.clear();
-    if (rest.empty()) return out;
-    loops_.push_back(std::move(rest[0].outer));
-    for (Loop& hole : rest[0].holes) loops_.push_back(std::move(hole));
+    for (Part& part : rest) {
+        loops_.push_back(std::move(part.outer));
+        for (Loop& hole : part.holes) loops_.push_back(std::move(hole));
+    }
     return out;
 }
 

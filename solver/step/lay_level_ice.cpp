@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 
 // Of the fields' content: to be raised where equal cases get other ice, so that old files are not
 // read.
-constexpr std::uint64_t kFields = 1;
+constexpr std::uint64_t kFields = 2;
 
 constexpr double kTileLength = 4.0;  // of the ice that never moves, in radii at rest
 constexpr double kMargin = 2.0;      // breadth of it beyond the pieces, likewise
@@ -69,8 +69,13 @@ Passage passage_of(const Case& p, const TriangleMesh& hull) {
         ice.length_factor, ice.speed_factor, ice.scatter,
         static_cast<std::uint64_t>(ice.seed) * 1000003u + static_cast<std::uint64_t>(p.seed)};
     auto course = course_of(p);
-    // pieces lie ready beyond the last place of the ship
+    // pieces lie ready beyond the last place of the ship; one that goes as it can may go all the way
     passage.distance = course.back().first + 2.0 * ice.length_factor * passage.length;
+    if (p.ship.free[surge] && !passage.outline.empty()) {
+        double bow = passage.outline[0].x();
+        for (const Vec2& corner : passage.outline) bow = std::max(bow, corner.x());
+        passage.distance = std::max(passage.distance, ice.extent[1] - bow);
+    }
     passage.speed_at = [course = std::move(course)](double gone) {
         return interpolate(course, gone);
     };

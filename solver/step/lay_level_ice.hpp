@@ -9,9 +9,9 @@ namespace ice {
 /// of the ice around them that never moves. Unchanged where the case has no level ice.
 ///
 /// The sheet is broken by geometry along the ship's course (break_sheet()), with the hull's outline
-/// at the height of the ice's upper face; icefield fills the pieces with spheres. The field is kept
-/// beside the hull's sphere set under a name made from all that it depends on, and read again by
-/// later runs.
+/// at the height of the ice's upper face; where the ship is free in surge, to the sheet's end.
+/// icefield fills the pieces with spheres. The field is kept beside the hull's sphere set under a
+/// name made from all that it depends on, and read again by later runs.
 /// @throws Error (exit code 2) naming level_ice where the ship meets no ice; (1) where
 /// icefield fails
 Case with_level_ice(const Case& parameters);
