@@ -9,13 +9,15 @@ import re
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 CONTENTS = {
-    "First steps": ["docs/your-own-ship", "docs/limitations", "docs/validation"],
+    "First steps": ["docs/your-own-ship", "docs/limitations", "docs/validation",
+                    "docs/validation-measured"],
     "Programs": ["docs/spherize", "docs/icefield", "docs/iceflow", "docs/icesolve",
                  "docs/icepost", "docs/case-keys", "workflow/README",
                  "python/README"],
     "Cases": ["cases/paper-2d", "cases/paper-3d/README", "cases/paper-3d-defaults/README",
               "cases/presawn-channel/README", "cases/icebreaker-100m/README",
-              "cases/broken-field/README", "meshes/README"],
+              "cases/level-ice-icebreaker/README",
+              "cases/broken-field/README", "validation/uikku/README", "meshes/README"],
     "Results": ["docs/answers", "docs/energy", "docs/convergence", "docs/soak"],
     "Reference": ["docs/method", "docs/contract", "docs/library", "docs/design-notes"],
     "Project": ["CONTRIBUTING", "SECURITY", "CHANGELOG", "packaging/README",

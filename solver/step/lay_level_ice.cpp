@@ -144,6 +144,26 @@ std::vector<Loop> all_shrunk(const std::vector<Loop>& loops, double by, double s
     return out;
 }
 
+// Size of cracks and channel beside what is seen on ships: ranges as later papers print them, not
+// read in their sources.
+std::string describe_breaking(const BrokenSheet& broken, const Passage& passage, double thickness) {
+    CuspLaw mean = passage.law;
+    mean.scatter = 0.0;
+    const double radius = cusp_radius(mean, passage.length, passage.speed_at(0.0), 0);
+    Eigen::AlignedBox2d ship, channel;
+    double area = broken.brash;
+    for (const Vec2& corner : passage.outline) ship.extend(corner);
+    for (const Loop& piece : broken.pieces) {
+        area += area_of(piece);
+        for (const Vec2& corner : piece) channel.extend(corner);
+    }
+    return fmt::format(
+        "level ice: cracks {:.2g} m from the load, {:.2g} characteristic lengths (ships: 0.1 to "
+        "0.4), {:.2g} thicknesses (3 to 10); channel {:.3g} m broad for an outline of {:.3g} m",
+        radius, radius / passage.length, radius / thickness, area / channel.sizes().x(),
+        ship.sizes().y());
+}
+
 void make_field(const Case& p, const Passage& passage, const fs::path& file) {
     const LevelIce& ice = p.level_ice;
     const Eigen::AlignedBox2d extent(Vec2(ice.extent[0], ice.extent[2]),
@@ -165,6 +185,7 @@ void make_field(const Case& p, const Passage& passage, const fs::path& file) {
     write_field(file, field);
     say(fmt::format("level ice: {} pieces, {} of ice that never moves; {:.2g} m2 of brash left out",
                     broken.pieces.size(), rest.size(), broken.brash));
+    say(describe_breaking(broken, passage, ice.thickness));
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ grep -F crush "$work/html/searchindex.js" >/dev/null || fail "the search index d
 # the same pages with two links that lead nowhere
 cd "$source"
 cp -r --parents ./*.md docs cases/*.md cases/*/README.md meshes/README.md workflow/README.md \
-    packaging/README.md python/README.md examples "$tree"
+    packaging/README.md python/README.md validation/*/README.md examples "$tree"
 echo "[no page](docs/none.$suffix) and [no heading](docs/method.md#none)" >>"$tree/README.md"
 if "$tree/docs/build_html.sh" "$work/broken" 2>"$work/faults"; then fail "bad links pass"; fi
 for link in docs/none.$suffix 'docs/method.md#none'; do
