@@ -132,7 +132,7 @@ private:
         const auto fits = fit_all(by_thickness);
         for (const Thrust& thrust : thrusts_) {
             add_course(label, thrust, fits);
-            if (!fits.empty()) add_formulas(label, thrust, rows);
+            if (!fits.empty() || !free.points.empty()) add_formulas(label, thrust, rows);
         }
     }
 

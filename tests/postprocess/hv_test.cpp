@@ -2,6 +2,7 @@
 // Attainable speeds against their closed forms.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -29,6 +30,32 @@ void write_grid_of_thickness(const TempFolder& folder, double half_share = 0.05)
             s.ice.thickness = h;
             write_bytes(run / "summary.json", summary_text(s));
         }
+}
+
+// what formulas ask for
+void give_particulars(const std::filesystem::path& run) {
+    Summary s = read_summary(run / "summary.json");
+    s.ship.length = 95.0;
+    s.ship.breadth = 22.0;
+    s.ship.draught = 8.0;
+    s.ice.water_density = 1025.0;
+    s.ice.gravity = 9.81;
+    write_bytes(run / "summary.json", summary_text(s));
+}
+
+// a ship that was free in surge in ice of h [m]
+void write_free_run(const std::filesystem::path& run, double h, double speed) {
+    write_run(run, 2.5, 0.1, 1, 1.0,
+              fmt::format("[field.ice]\nthickness = {}\n[ship]\nfree = [\"surge\"]\n", h));
+    Summary s = read_summary(run / "summary.json");
+    s.ice.thickness = h;
+    s.ship.speed_mean = speed;
+    write_bytes(run / "summary.json", summary_text(s));
+    give_particulars(run);
+    std::string text = summary_text(read_summary(run / "summary.json"));
+    const std::string key = "\"speed_mean\":";
+    text.replace(text.find(key), key.size(), "\"speed_ci95\": 0.1, \"speed_mean\":");
+    write_bytes(run / "summary.json", text);
 }
 
 Thrust constant(double newtons) { return {"constant", newtons, 0.0, {}}; }
@@ -163,18 +190,8 @@ TEST_CASE("the h-v curve of a sweep is that of its resistances, formulas beside 
 TEST_CASE("free ships have their mean speeds, on one chart with fixed courses", "[hv]") {
     const TempFolder folder;
     write_grid_of_thickness(folder);
-    for (const double h : {0.5, 1.0}) {
-        const auto run = folder / fmt::format("free{}", h);
-        write_run(run, 2.5, 0.1, 1, 1.0,
-                  fmt::format("[field.ice]\nthickness = {}\n[ship]\nfree = [\"surge\"]\n", h));
-        Summary s = read_summary(run / "summary.json");
-        s.ice.thickness = h;
-        s.ship.speed_mean = h < 0.7 ? 3.0 : 0.02;
-        std::string text = summary_text(s);
-        const std::string key = "\"speed_mean\":";
-        text.replace(text.find(key), key.size(), "\"speed_ci95\": 0.1, \"speed_mean\":");
-        write_bytes(run / "summary.json", text);
-    }
+    for (const double h : {0.5, 1.0})
+        write_free_run(folder / fmt::format("free{}", h), h, h < 0.7 ? 3.0 : 0.02);
     const auto sweep = sweep::read_sweep(folder.path());
     const HvStudy study = make_hv(sweep, {constant(8e5)}, {});
     std::size_t free = 0;
@@ -193,15 +210,8 @@ TEST_CASE("free ships have their mean speeds, on one chart with fixed courses", 
 TEST_CASE("a formula's h-v curve is where its own resistance meets the thrust", "[hv][analytic]") {
     const TempFolder folder;
     write_grid_of_thickness(folder);
-    for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
-        Summary s = read_summary(entry.path() / "summary.json");
-        s.ship.length = 95.0;
-        s.ship.breadth = 22.0;
-        s.ship.draught = 8.0;
-        s.ice.water_density = 1025.0;
-        s.ice.gravity = 9.81;
-        write_bytes(entry.path() / "summary.json", summary_text(s));
-    }
+    for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
+        give_particulars(entry.path());
     const auto sweep = sweep::read_sweep(folder.path());
     const HvStudy study = make_hv(sweep, {constant(3e5)}, {});
     const HvCurve* jeong = nullptr;
@@ -214,4 +224,19 @@ TEST_CASE("a formula's h-v curve is where its own resistance meets the thrust", 
         CHECK(spencer_resistance({95.0, 22.0, 8.0, 0.0, 0.0}, ice).broken_ice() ==
               Approx(3e5).epsilon(1e-9));
     }
+}
+
+TEST_CASE("free ships alone have the formulas beside them once their thrust is given", "[hv]") {
+    const TempFolder folder;
+    for (const double h : {0.5, 1.0}) write_free_run(folder / fmt::format("free{}", h), h, 3.0 / h);
+    const auto sweep = sweep::read_sweep(folder.path());
+    const auto formulas = [&](const std::vector<Thrust>& thrusts) {
+        const HvStudy study = make_hv(sweep, thrusts, {});
+        return std::count_if(study.curves.begin(), study.curves.end(),
+                             [](const HvCurve& c) { return c.source == Source::formula; });
+    };
+    CHECK(formulas({}) == 0);
+    CHECK(formulas({constant(3e5)}) == 1);  // the others ask for the angles of the bow
+    for (const HvCurve& curve : make_hv(sweep, {constant(3e5)}, {}).curves)
+        CHECK(curve.source != Source::fixed_course);
 }
