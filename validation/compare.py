@@ -59,7 +59,7 @@ def program(name, folder):
 def settings_of(data_set, test, distance):
     """Keys of the case for one row of data.csv: its columns, and times from the distance [m]."""
     values = {key: float(test[column]) * factor
-              for column, (key, factor) in data_set["keys"].items()}
+              for key, (column, factor) in data_set["keys"].items()}
     speed = values["hull.speed"]
     step = min(data_set["step"] / speed, data_set["longest_step"])
     steps = round(distance / speed / step)

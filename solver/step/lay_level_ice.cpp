@@ -28,11 +28,12 @@ namespace fs = std::filesystem;
 
 // Of the fields' content: to be raised where equal cases get other ice, so that old files are not
 // read.
-constexpr std::uint64_t kFields = 2;
+constexpr std::uint64_t kFields = 3;
 
 constexpr double kTileLength = 4.0;  // of the ice that never moves, in radii at rest
 constexpr double kMargin = 2.0;      // breadth of it beyond the pieces, likewise
 constexpr double kSmallest = 0.5;    // piece, in thicknesses
+constexpr double kHolds = 0.26;      // thicknesses inwards from a piece's sides, where something is
 constexpr double kClear = 0.25;      // of the sides, of points between cracks
 constexpr int kTimes = 1000;         // at which the course is looked at
 
@@ -137,10 +138,17 @@ void add_fixed(Field& field, Field other) {
     for (SphereSet& shape : other.shapes) field.shapes.push_back(std::move(shape));
 }
 
-std::vector<Loop> all_shrunk(const std::vector<Loop>& loops, double by, double smallest) {
+// Loops half a gap smaller, without those that hold no sphere of icefield's, to whose area `lost` adds.
+std::vector<Loop> all_shrunk(const std::vector<Loop>& loops, const LevelIce& ice, double smallest,
+                             double& lost) {
     std::vector<Loop> out;
     for (const Loop& loop : loops)
-        for (Loop& part : shrunk(loop, by, smallest)) out.push_back(std::move(part));
+        for (Loop& part : shrunk(loop, 0.5 * ice.gap, smallest)) {
+            if (shrunk(part, kHolds * ice.thickness, 0.0).empty())
+                lost += area_of(part);
+            else
+                out.push_back(std::move(part));
+        }
     return out;
 }
 
@@ -178,9 +186,10 @@ void make_field(const Case& p, const Passage& passage, const fs::path& file) {
     const std::vector<Loop> tiles =
         tile_rest(broken.rest, broken.pieces, kMargin * radius, kTileLength * radius);
     const fs::path stem = fs::path(file).replace_extension();
-    Field field =
-        fill(ice, all_shrunk(broken.pieces, 0.5 * ice.gap, smallest), stem.string() + ".pieces");
-    const std::vector<Loop> rest = all_shrunk(tiles, 0.5 * ice.gap, smallest);
+    Field field = fill(ice, all_shrunk(broken.pieces, ice, smallest, broken.brash),
+                       stem.string() + ".pieces");
+    double kept = 0.0;  // slivers of the sheet that never moves are no brash
+    const std::vector<Loop> rest = all_shrunk(tiles, ice, smallest, kept);
     if (!rest.empty()) add_fixed(field, fill(ice, rest, stem.string() + ".rest"));
     write_field(file, field);
     say(fmt::format("level ice: {} pieces, {} of ice that never moves; {:.2g} m2 of brash left out",
