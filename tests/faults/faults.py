@@ -82,7 +82,7 @@ def disk_full(shop, _):
     wrong = []
     for job in JOBS:
         total = sum(len(data) for data in shop.good[job.name].values())
-        for share in (0.05, 0.3, 0.6, 0.9, 20.0):
+        for share in [k / 20 for k in range(1, 20)] + [20.0]:
             folder = shop.new_folder()
             size = max(int(share * total) // 4096, 2) * 4096 + (1 << 21 if share > 1 else 0)
             mount(folder, size)
