@@ -112,6 +112,15 @@ def row_of(test, summary):
             "jeong_kN": total_of(summary, "Jeong"), "commit": summary["git_commit"]}
 
 
+def run_all(jobs, compute, what, target, columns, remark):
+    """Rows of `compute` for all of `what`; the table is written after each, so that none is lost."""
+    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+        futures = [pool.submit(compute, one) for one in what]
+        for _ in concurrent.futures.as_completed(futures):
+            write_table(target, columns, [f.result() for f in futures if f.done()], remark)
+    print(target)
+
+
 def run(arguments):
     folder = HERE / arguments.set
     data_set, tests = read_set(folder), read_table(folder / "data.csv")
@@ -130,13 +139,11 @@ def run(arguments):
               file=sys.stderr)
         return row_of(test["test"], summary)
 
-    with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
-        rows = list(pool.map(compute, [t for t in tests if t["test"] in chosen]))
     target = pathlib.Path(arguments.table or folder / "computed.csv")
-    write_table(target, COLUMNS, rows, f"python3 validation/compare.py run {arguments.set}"
-                + (f" --tests {arguments.tests}" if arguments.tests else "")
-                + (f" --distance {distance:g}" if arguments.distance else ""))
-    print(target)
+    run_all(arguments.jobs, compute, [t for t in tests if t["test"] in chosen], target, COLUMNS,
+            f"python3 validation/compare.py run {arguments.set}"
+            + (f" --tests {arguments.tests}" if arguments.tests else "")
+            + (f" --distance {distance:g}" if arguments.distance else ""))
 
 
 def sensitivity(arguments):
@@ -163,12 +170,10 @@ def sensitivity(arguments):
 
     make_hull(folder, out, data_set, arguments.programs)
     jobs = [(entry, value) for entry in data_set["uncertain"] for value in entry["values"]]
-    with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
-        rows = list(pool.map(compute, enumerate(jobs)))
     target = pathlib.Path(arguments.table or folder / "sensitivity.csv")
-    write_table(target, ["input", "value", "relative", "mean_kN", "ci95_kN"], rows,
-                f"python3 validation/compare.py sensitivity {arguments.set}")
-    print(target)
+    run_all(arguments.jobs, compute, list(enumerate(jobs)), target,
+            ["input", "value", "relative", "mean_kN", "ci95_kN"],
+            f"python3 validation/compare.py sensitivity {arguments.set}")
 
 
 def page(arguments):
