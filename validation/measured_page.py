@@ -62,7 +62,7 @@ def points(tests, computed):
     rows = []
     for test, got in found:
         mean, measured = number(got, "mean_kN"), number(test, "mean_kN")
-        rows.append([test["test"], test["thickness_m"], test["flexural_strength_kPa"], test["speed_m_s"],
+        rows.append([test["test"], test["sheet"], test["thickness_m"], test["flexural_strength_kPa"], test["speed_m_s"],
                      f"{measured:.0f}", f"{mean:.0f} +- {number(got, 'ci95_kN'):.0f}",
                      f"{100 * (mean / measured - 1):+.0f}", cell(number(got, "breaking_kN")),
                      cell(number(got, "submersion_kN")), band(test),
@@ -70,12 +70,13 @@ def points(tests, computed):
                      cell(number(got, "std_kN") / mean, "{:.2f}"),
                      cell(number(test, "max_kN") / measured, "{:.1f}"),
                      cell(number(got, "max_kN") / mean, "{:.1f}")])
-    return found, table(["test", "h [m]", "sigma_f [kPa]", "V [m/s]", "measured [kN]", "computed [kN]",
+    return found, table(["test", "sheet", "h [m]", "sigma_f [kPa]", "V [m/s]", "measured [kN]", "computed [kN]",
                          "error [%]", "breaking [kN]", "all else [kN]", "formulas as published [kN]",
                          "std / mean, measured", "computed", "max / mean, measured", "computed"], rows)
 
 
-def judgement(found):
+def judgement(found, sheets):
+    found = [(t, c) for t, c in found if not sheets or t["sheet"] in sheets]
     measured = [number(t, "mean_kN") for t, _ in found]
     rows = [["this program", *summary_of(errors(measured, [number(c, "mean_kN") for _, c in found]))]]
     for column, name in FORMULAS:
@@ -120,7 +121,8 @@ def section(folder, read_set, read_table):
     base = computed.get(data_set["base_test"])
     return "\n".join([
         f"## {data_set['title']}\n", data_set["text"].strip() + "\n", rows,
-        "Mean absolute error and bias over these tests:\n", judgement(found),
+        *(f"Mean absolute error and bias, {group['what']}:\n\n{judgement(found, group['sheets'])}"
+          for group in data_set["groups"]),
         "Trends:\n", trends(found, data_set["trends"]),
         f"One input at a time, test {data_set['base_test']}"
         + (f" ({number(base, 'mean_kN'):.0f} +- {number(base, 'ci95_kN'):.0f} kN)" if base else "") + ":\n",
