@@ -27,8 +27,8 @@ struct FitSpread {
 };
 
 /// @param weighted  the rows of `a` are in units of the points' standard deviations: the intervals
-///                  are those of the points, wider where the points miss the curve by more. Else the
-///                  misses alone decide (Student).
+///                  are those of the points, wider where the points miss the curve by more.
+///                  Else the misses alone decide (Student).
 FitSpread spread_of_fit(const Eigen::MatrixXd& a, double chi2, bool weighted);
 
 }  // namespace ice

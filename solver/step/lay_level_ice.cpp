@@ -70,7 +70,7 @@ Passage passage_of(const Case& p, const TriangleMesh& hull) {
         ice.length_factor, ice.speed_factor, ice.scatter,
         static_cast<std::uint64_t>(ice.seed) * 1000003u + static_cast<std::uint64_t>(p.seed)};
     auto course = course_of(p);
-    // pieces lie ready beyond the last place of the ship; one that goes as it can may go all the way
+    // pieces lie ready beyond the last place of the ship; a free one may go all the way
     passage.distance = course.back().first + 2.0 * ice.length_factor * passage.length;
     if (p.ship.free[surge] && !passage.outline.empty()) {
         double bow = passage.outline[0].x();
@@ -138,7 +138,7 @@ void add_fixed(Field& field, Field other) {
     for (SphereSet& shape : other.shapes) field.shapes.push_back(std::move(shape));
 }
 
-// Loops half a gap smaller, without those that hold no sphere of icefield's, to whose area `lost` adds.
+// Loops half a gap smaller, without those that hold no sphere of icefield's: `lost` is their area.
 std::vector<Loop> all_shrunk(const std::vector<Loop>& loops, const LevelIce& ice, double smallest,
                              double& lost) {
     std::vector<Loop> out;

@@ -31,13 +31,13 @@ def copy_tree(folder):
 
 
 def page_of(root):
-    page = root / "docs" / "page.md"
+    page = root / "docs" / "page.txt"
     compare(root, "page", "--page", str(page))
     return page.read_text(encoding="utf-8")
 
 
 def check_page(copy):
-    written = (ROOT / "docs" / "validation-measured.md").read_text(encoding="utf-8")
+    written = (ROOT / "docs/validation-measured.md").read_text(encoding="utf-8")
     assert page_of(copy) == written, "docs/validation-measured.md is stale: compare.py page"
 
 
