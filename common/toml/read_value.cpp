@@ -2,6 +2,7 @@
 #include "common/toml/read_value.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <sstream>
@@ -180,7 +181,7 @@ private:
                      any_length ? fmt::format("{} must be a list", key.path)
                      : key.kind == Kind::choice_or_vector
                          ? fmt::format("{} must be {}, or a list of {} numbers", key.path,
-                                       key.choices, key.length)
+                                       fmt::join(choices_of(key), " or "), key.length)
                      : least < key.length
                          ? fmt::format("{} must be a list of {} or {} numbers", key.path, least,
                                        key.length)

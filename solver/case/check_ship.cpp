@@ -18,6 +18,10 @@ public:
         check_net_thrust();
         check_lines();
         if (case_.dimension != 2) return;
+        if (case_.ship.computes_added_mass)
+            complaints_.add_at("ship.added_mass",
+                               "ship.added_mass is computed for hulls in 3D only; give a 2D case "
+                               "six numbers, or none");
         for (const auto& [freedom, name] :
              {std::pair(sway, "sway"), std::pair(roll, "roll"), std::pair(yaw, "yaw")})
             if (case_.ship.free[freedom])

@@ -25,6 +25,7 @@ struct ShipKeys {
     Vec3 centre_of_gravity = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());  ///< [m]
     Vec3 gyration = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());           ///< [m]
     std::array<double, kFreedoms> added_mass{};  ///< share of mass and of moments of inertia
+    bool computes_added_mass = false;            ///< from the hull, in place of those shares
     /// Share of critical damping where something restores, else N s/m or N m s.
     std::array<double, kFreedoms> damping{};
 

@@ -13,7 +13,7 @@ using D = Dimension;
 using G = FloeGroup;
 
 constexpr std::string_view kFreedomNames = "surge|sway|heave|roll|pitch|yaw";
-constexpr std::string_view kAddedMasses = "none";
+constexpr std::string_view kAddedMasses = "none|computed";
 constexpr std::string_view kHeadings = "free|hold";
 constexpr double kHuge = 1e15;
 
@@ -40,9 +40,11 @@ std::vector<CaseKey> body_keys() {
          [](Case& c, G&, const Value& v) { c.ship.gyration = vector3(v); }},
         {"ship.added_mass", Kind::choice_or_vector, D::none, "\"none\"", 0, 100, 6, kAddedMasses,
          "Water that moves along: shares of the mass in surge, sway, heave and of the moments of "
-         "inertia in roll, pitch, yaw.",
+         "inertia in roll, pitch, yaw; or computed for the hull in ideal water, in 3D.",
          [](Case& c, G&, const Value& v) {
              c.ship.added_mass = {};
+             c.ship.computes_added_mass = std::holds_alternative<std::string>(v) &&
+                                          place_in(text(v), kAddedMasses) == 1;
              if (std::holds_alternative<std::vector<double>>(v)) c.ship.added_mass = vector6(v);
          }},
         {"ship.damping", Kind::vector, D::none, "[0.0, 0.0, 0.0, 0.0, 0.0, 0.0]", 0, kHuge, 6, "",

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/flow/added_mass.hpp"
 #include "solver/integrate/rotation.hpp"
 #include "solver/shape/ordered_products.hpp"
 #include "solver/water/hydrostatics.hpp"
@@ -31,6 +32,12 @@ ShipBody make_ship_body(const Case& p, const Scene& scene) {
         const auto shift = static_cast<std::size_t>(k), turn = shift + 3;
         out.added[shift] = p.ship.added_mass[shift] * out.mass;
         out.added[turn] = p.ship.added_mass[turn] * out.inertia[k];
+    }
+    if (p.ship.computes_added_mass) {
+        const Mat6 found = ship_added_mass(hull.mesh, -scene.bodies.position[kShip].z(),
+                                           out.centre_of_gravity, p.water_density)
+                               .matrix;
+        for (int k = 0; k < kFreedoms; ++k) out.added[static_cast<std::size_t>(k)] = found(k, k);
     }
     return out;
 }

@@ -30,7 +30,9 @@ struct ShipBody {
 ///
 /// Default mass: water_density times the submerged volume. Default centre of gravity: the centre of
 /// buoyancy, so that the ship is upright as placed. Default radii of gyration: 0.35 of the box's
-/// breadth, 0.25 of its length (usual shares; recall, not looked up).
+/// breadth, 0.25 of its length (usual shares; recall, not looked up). Computed added mass is the
+/// diagonal of ship_added_mass() about the centre of gravity, upright at the height of the scene.
+/// @throws Error as ship_added_mass
 ShipBody make_ship_body(const Case& parameters, const Scene& scene);
 
 /// Roll, pitch and yaw [rad]: R = R_z(yaw) R_y(pitch) R_x(roll). Positive pitch is bow down,

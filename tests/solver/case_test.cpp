@@ -382,6 +382,8 @@ TEST_CASE("a ship that answers: lists of words, curves, numbers or a word, and w
     CHECK(p.propulsion.thrust_table.back() == std::pair(10.0 * kKnot, 0.0));
     CHECK_FALSE(read("").ship.any_free());
     CHECK(read("[ship]\nadded_mass = \"none\"").ship.added_mass[surge] == 0.0);
+    CHECK_FALSE(read("[ship]\nadded_mass = \"none\"").ship.computes_added_mass);
+    CHECK(read("[ship]\nadded_mass = \"computed\"").ship.computes_added_mass);
     // what is resolved is a case again, with the first one's files
     const CaseFolder first(text(table));
     const CaseFolder again(read_case(first.file(), {}).resolved);
@@ -400,7 +402,7 @@ TEST_CASE("a ship that answers: lists of words, curves, numbers or a word, and w
     wrong("[ship]\nfree = [\"surge\", \"hev\"]", "did you mean \"heave\"?");
     wrong("[ship]\nfree = [\"surge\", \"surge\"]", "names \"surge\" twice");
     wrong("[ship]\nfree = \"surge\"", "must be a list");
-    wrong("[ship]\nadded_mass = [1, 2]", "none, or a list of 6 numbers");
+    wrong("[ship]\nadded_mass = [1, 2]", "none or computed, or a list of 6 numbers");
     wrong("[propulsion]\nthrust = 1e3", "a ship that is free in surge");
     wrong(surge_free + "[propulsion]\nthrust = 1e3\nhold_speed = 1", "keep one");
     wrong(surge_free + "[propulsion]\nbollard_pull = 1e3", "needs propulsion.open_water_speed");

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "common/base/error.hpp"
+#include "solver/flow/added_mass.hpp"
 #include "tests/support/make_ships.hpp"
 
 using namespace ice;
@@ -150,6 +151,27 @@ TEST_CASE("heave decays with the logarithmic decrement of its damping ratio", "[
         const double expected = 2.0 * kPi * zeta / std::sqrt(1.0 - zeta * zeta);
         CHECK(found == Approx(expected).epsilon(0.01));
     }
+}
+
+TEST_CASE("the water that a hull's panels move along slows its heave and surge", "[ship]") {
+    const double dt = 0.01;
+    Case p = barge_case({surge, heave}, dt);
+    p.ship.computes_added_mass = true;
+    p.propulsion.thrust = 5000.0;
+    World w = barge_world(p);
+    const double water = -w.scene.bodies.position[kShip].z();
+    const Mat6 added = ship_added_mass(w.scene.shapes[0].mesh, water,
+                                       w.ship.rig().body.centre_of_gravity, 1000.0)
+                           .matrix;
+    // of a half circle as broad in strips, pi / 8 rho B^2 L, and up to twice that for a box
+    const double circle = kPi / 8.0 * 1000.0 * 4.0 * 10.0;
+    CHECK((added(2, 2) > 0.8 * circle && added(2, 2) < 2.0 * circle));
+    CHECK((added(0, 0) > 0.02 * Barge::kMass && added(0, 0) < 0.3 * Barge::kMass));
+    const std::vector<double> z = decay(w, heave, 0.01, 3000);
+    const double expected = 2.0 * kPi / kOmega * std::sqrt(1.0 + added(2, 2) / Barge::kMass);
+    CHECK(period_of(z, dt) == Approx(period_of_steps(expected, dt)).epsilon(2e-6));
+    CHECK(w.scene.bodies.velocity[kShip].x() ==
+          Approx(5000.0 * 30.0 / (Barge::kMass + added(0, 0))).epsilon(1e-12));
 }
 
 TEST_CASE("thrust accelerates mass and added mass", "[ship]") {
