@@ -16,7 +16,7 @@ CONTENTS = {
                  "python/README"],
     "Cases": ["cases/paper-2d", "cases/paper-3d/README", "cases/paper-3d-defaults/README",
               "cases/presawn-channel/README", "cases/icebreaker-100m/README",
-              "cases/level-ice-icebreaker/README",
+              "cases/level-ice-icebreaker/README", "cases/h-v-icebreaker/README",
               "cases/broken-field/README", "validation/uikku/README", "meshes/README"],
     "Results": ["docs/answers", "docs/energy", "docs/convergence", "docs/soak"],
     "Reference": ["docs/method", "docs/contract", "docs/library", "docs/design-notes"],
