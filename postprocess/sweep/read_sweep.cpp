@@ -169,7 +169,8 @@ Sweep read_sweep(const fs::path& folder) {
         if (sweep.runs.empty()) throw bad_input(folder.string(), "holds no runs", kRemedy);
         choose_axes(sweep, {});
     }
-    if (sweep.title.empty()) sweep.title = "Sweep " + fs::absolute(folder).filename().string();
+    if (sweep.title.empty())
+        sweep.title = "Sweep " + fs::weakly_canonical(folder).filename().string();
     return sweep;
 }
 
