@@ -14,8 +14,8 @@ readonly packages=(
 readonly test_packages=(chromium chromium-driver python3-selenium python3-pil python3-xarray
     python3-h5netcdf python3-jsonschema python3-sphinx python3-myst-parser lintian snakemake clang-14 libclang-rt-14-dev libomp-14-dev)
 
-# import icesolve
-readonly python_packages=(python3-h5py python3-h5netcdf python3-jsonschema python3-matplotlib python3-numpy
+# import icesolve, and its module that steps a scene
+readonly python_packages=(pybind11-dev python3-dev python3-h5py python3-h5netcdf python3-jsonschema python3-matplotlib python3-numpy
     python3-scipy python3-tomli-w python3-xarray)
 
 usage() {
@@ -73,12 +73,12 @@ preset() {
     [[ ${CI:-} == true ]] && echo ci || echo release
 }
 
-# $1: ON with the tests and benches, which take longer to compile than the programs; then the
-# programs to build, all where none is named
+# $1: ON with the tests and benches, which take longer to compile than the programs; $2: ON with the
+# Python module; then the programs to build, all where none is named
 build_programs() {
-    local tests=$1
-    shift
-    cmake --preset "$(preset)" -DICE_TESTS="$tests"
+    local tests=$1 module=$2
+    shift 2
+    cmake --preset "$(preset)" -DICE_TESTS="$tests" -DICE_PYTHON_MODULE="$module"
     cmake --build --preset "$(preset)" --parallel "$(job_count)" --target "${@:-all}"
 }
 
@@ -105,17 +105,17 @@ case $1 in
         ;;
     build)
         install_packages "${packages[@]}"
-        build_programs OFF
+        build_programs OFF OFF
         ;;
     demo)
         install_packages "${packages[@]}"
-        build_programs OFF spherize icesolve icepost
+        build_programs OFF OFF spherize icesolve icepost
         cases/demo.sh
         echo "next     ./bootstrap.sh build: icefield and iceflow as well"
         ;;
     python)
         install_packages "${packages[@]}" "${python_packages[@]}"
-        build_programs OFF
+        build_programs OFF ON
         PYTHONPATH=$PWD/python /usr/bin/python3 python/tutorial.py results/python-tutorial
         echo "curve    results/python-tutorial/resistance.pdf"
         echo "next     export PYTHONPATH=$PWD/python; python/README.md"
@@ -124,7 +124,7 @@ case $1 in
         # another source's Node has its own npm, which Debian's package would replace
         if command -v npm >/dev/null; then node=(); else node=(nodejs npm); fi
         install_packages "${packages[@]}" "${test_packages[@]}" "${python_packages[@]}" "${node[@]}"
-        build_programs ON
+        build_programs ON ON
         run_tests
         ;;
     -h | --help | help) usage ;;

@@ -2,9 +2,11 @@
 #
 # -ffp-contract=off: without it g++ fuses a*b + c where the machine can, so that results would differ
 # between instruction sets. CGAL's own -frounding-math stays with the targets that link CGAL.
+# -fPIC -fvisibility=hidden: the same libraries serve the programs and the Python module; hidden
+# names are inlined and called as in a program.
 add_library(ice_flags INTERFACE)
 # Programs that use the installed libraries choose their own warnings.
-set(own_options -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow -Wconversion
+set(own_options -ffp-contract=off -fPIC -fvisibility=hidden -Wall -Wextra -Wpedantic -Wshadow -Wconversion
   -Wno-sign-conversion $<$<CXX_COMPILER_ID:Clang>:-Wno-missing-braces>
   $<$<BOOL:${ICE_WARNINGS_AS_ERRORS}>:-Werror>)
 target_compile_options(ice_flags INTERFACE "$<BUILD_INTERFACE:${own_options}>")

@@ -42,3 +42,16 @@ icesolve.plot_resistance(curve, "resistance.pdf")
 icesolve.plot_history(run, "history.png")
 icesolve.plot_floes(run, float(run.frames.frame_time[-1]), "floes.png")
 print(curve.resistance.to_series().round(1).to_string())
+
+# %% the same case stepped from here, with a cross wind of 50 N on each floe
+scene = icesolve.Scene("curve.cfg")
+
+
+def wind(now):
+    now.applied_force[1:, 1] = 50.0
+
+
+scene.step(int(0.5 * seconds / scene.time_step), loads=wind)
+free = scene.held == 0
+print(f"t = {scene.time:.2f} s: f_x = {scene.force[0]:.0f} N, free floes "
+      f"drift at {scene.velocity[free, 1].mean():.3f} m/s")

@@ -154,6 +154,7 @@ std::string energy_table(const Summary& s) {
         {"ship_work_J", "Work of the ship"},
         {"separation_J", "Put in by opening overlaps"},
         {"water_work_J", "Put in by the moving water"},
+        {"applied_work_J", "Put in by applied loads"},
         {"potential_J", "Gained as potential energy"},
         {"kinetic_change_J", "Gained as kinetic energy"},
         {"friction_J", "Lost to friction"},

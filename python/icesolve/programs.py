@@ -104,13 +104,18 @@ def run(case: str | Path, out: str | Path | None = None, *, seeds: int | None = 
     words += ["--threads", str(threads)] if threads else []
     words += ["--overwrite"] if overwrite else []
     words += [] if report else ["--no-report"]
-    for key, value in (settings or {}).items():
-        words += ["--set", f"{key}={_value(value)}"]
+    for word in setting_words(settings or {}):
+        words += ["--set", word]
     call("icesolve", words, progress)
     result = open_run(folder)
     for text in result.warnings:
         warnings.warn(text, stacklevel=2)
     return result
+
+
+def setting_words(settings: Mapping[str, object]) -> list[str]:
+    """Keys of a case as the program's --set takes them: {"hull.speed": 1} is "hull.speed=1"."""
+    return [f"{key}={_value(value)}" for key, value in settings.items()]
 
 
 def _words(options: Mapping[str, object]) -> list[str]:

@@ -42,6 +42,18 @@ void measure_loads(const Scene& scene, const Case& parameters, std::vector<FloeL
     });
 }
 
+void add_applied(const Bodies& bodies, const std::vector<WaterLoad>& applied,
+                 std::vector<FloeLoad>& loads) {
+    if (applied.empty()) return;
+    for_each_moving(bodies, [&](std::size_t i, std::size_t k) {
+        const WaterLoad& own = applied[i];
+        loads[k].applied = own;
+        if (own.force.isZero(0.0) && own.moment.isZero(0.0)) return;
+        loads[k].force += own.force;
+        loads[k].moment += own.moment;
+    });
+}
+
 std::vector<FloeLoad> loads_by_body(const Bodies& bodies, const std::vector<FloeLoad>& loads) {
     std::vector<FloeLoad> out(bodies.size());
     for (std::size_t k = 0; k < loads.size(); ++k) out[bodies.moving[k]] = loads[k];

@@ -15,7 +15,15 @@ namespace ice {
 /// order of Bodies::moving. In 2D only x, z and the moment about y act.
 void measure_loads(const Scene& scene, const Case& parameters, std::vector<FloeLoad>& out);
 
-/// The same by body: zero for held floes and the ship.
+/// Adds the caller's own loads to those measured. Floes whose load is zero keep their bits.
+/// @param applied  by body, force and moment about the centre of mass in world axes; empty: none.
+///                 Of the ship and of held floes nothing is taken.
+/// @pre applied has one entry per body, or is empty and was so in all steps before; in 2D x, z and
+///      the moment about y alone
+void add_applied(const Bodies& bodies, const std::vector<WaterLoad>& applied,
+                 std::vector<FloeLoad>& loads);
+
+/// Loads by body: zero for held floes and the ship.
 /// @pre no floe was released since measure_loads; so for all that take its answer
 std::vector<FloeLoad> loads_by_body(const Bodies& bodies, const std::vector<FloeLoad>& loads);
 

@@ -15,6 +15,7 @@ namespace ice {
 struct FloeLoad : WaterLoad {
     WaterLoad drag;                ///< its part
     WaterLoad pressure;            ///< the part of the flow's dynamic pressure (flow.pressure)
+    WaterLoad applied;             ///< the caller's own part (World::applied_loads)
     Vec3 righting = Vec3::Zero();  ///< moment of the buoyancy, also where the model leaves it out
     double water_power = 0.0;      ///< what moving water puts in: drag times its velocity [W]
 };

@@ -39,7 +39,7 @@ void book_contact(const Bodies& now, const Constraint& c, const StepBooks& start
 }  // namespace
 
 double EnergyLedger::residual(double potential_now) const {
-    return ship_work + separation + water_work - kinetic -
+    return ship_work + separation + water_work + applied_work - kinetic -
            (potential_now - potential_start.value_or(0.0)) - friction - restitution - crushing -
            breaking - drag - buoyancy_moment;
 }
@@ -75,7 +75,9 @@ void book_step(const Scene& scene, const Case& parameters,
         if (unrighted) ledger.buoyancy_moment += dt * load.righting.dot(w);
         const WaterLoad& push = load.pressure;
         ledger.water_work += dt * (push.force.dot(v) + push.moment.dot(w));
-        const Vec3 weight = load.force - load.drag.force - push.force;
+        const WaterLoad& own = load.applied;
+        ledger.applied_work += dt * (own.force.dot(v) + own.moment.dot(w));
+        const Vec3 weight = load.force - load.drag.force - push.force - own.force;
         ledger.separation -= weight.dot(nudges.shift[i]) + load.righting.dot(nudges.turn[i]);
     }
 }
@@ -97,6 +99,7 @@ void fill_energy(const EnergyLedger& ledger, double potential_now, Summary& summ
     if (ledger.breaking != 0.0) out["breaking_J"] = ledger.breaking;
     out["drag_J"] = ledger.drag;
     if (ledger.water_work != 0.0) out["water_work_J"] = ledger.water_work;
+    if (ledger.applied_work != 0.0) out["applied_work_J"] = ledger.applied_work;
     out["separation_J"] = ledger.separation;
     out["buoyancy_moment_J"] = ledger.buoyancy_moment;
     out["residual_J"] = residual;

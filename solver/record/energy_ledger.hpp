@@ -17,8 +17,9 @@ namespace ice {
 /// Sums since the start of the run [J], in 2D per metre of breadth. With dK and dU the changes of
 /// kinetic and potential energy of the floes,
 ///
-///     ship_work + separation + water_work = dK + dU + friction + restitution + crushing + breaking
-///                                         + drag + buoyancy_moment + residual.
+///     ship_work + separation + water_work + applied_work
+///         = dK + dU + friction + restitution + crushing + breaking + drag + buoyancy_moment
+///           + residual.
 ///
 /// What each holds, J_c being the impulse of contact c on body b in a step and
 /// V = (v_r at its start + v_r at its end) / 2 the mean of the contact's relative velocity:
@@ -33,6 +34,7 @@ namespace ice {
 ///     drag             -(F . v + T . w) dt, v and w the means of start and end, and water_work
 ///     water_work       dt times the drag's work on the water's own motion, and the work of the
 ///                      flow's pressure: 0 in water at rest
+///     applied_work     (F . v + T . w) dt of the caller's own loads
 ///     separation       put in by the moves that open overlaps, to first order in the moves
 ///     buoyancy_moment  buoyancy "centre" only: work of the moment that this model leaves out,
 ///                      without which weight and buoyancy have no potential
@@ -50,7 +52,7 @@ struct EnergyLedger {
     double ship_work = 0.0;
     double kinetic = 0.0;  ///< change of kinetic energy over all steps
     double friction = 0.0, restitution = 0.0, crushing = 0.0, breaking = 0.0, drag = 0.0;
-    double water_work = 0.0;
+    double water_work = 0.0, applied_work = 0.0;
     double separation = 0.0;
     double buoyancy_moment = 0.0;
     std::optional<double> potential_start;  ///< before the first step

@@ -91,6 +91,7 @@ std::string energy_line(const Summary& s) {
           std::pair("drag_J", "drag"), std::pair("buoyancy_moment_J", "left-out buoyancy moment"),
           std::pair("separation_J", "put in by opened overlaps"),
           std::pair("water_work_J", "put in by the water"),
+          std::pair("applied_work_J", "put in by applied loads"),
           std::pair("residual_J", "unexplained")}) {
         const auto of_key = s.energy.find(key);
         if (of_key == s.energy.end()) continue;

@@ -28,6 +28,7 @@ void StateFields::carry(CheckpointFile& file, World& w) {
     file.carry("ledger.breaking", ledger.breaking);
     file.carry("ledger.drag", ledger.drag);
     file.carry("ledger.water_work", ledger.water_work);
+    file.carry("ledger.applied_work", ledger.applied_work);
     file.carry("ledger.separation", ledger.separation);
     file.carry("ledger.buoyancy_moment", ledger.buoyancy_moment);
     file.carry("ledger.potential_start", ledger.potential_start);

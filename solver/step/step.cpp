@@ -73,6 +73,7 @@ void step(World& w) {
     // gravity, buoyancy and drag change velocities; resting contacts then carry those loads
     timed(w, Stage::water, [&] {
         measure_loads(w.scene, w.parameters, w.loads);
+        add_applied(bodies, w.applied_loads, w.loads);
         apply_loads(bodies, w.loads, dt);
         w.ship.apply_loads(w.parameters, w.scene, w.time);
     });

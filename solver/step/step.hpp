@@ -34,7 +34,10 @@ struct World {
     std::vector<Contact> contacts;
     std::vector<Constraint> constraints;
     FreeShip ship;
-    std::vector<FloeLoad> loads;  ///< in the order of Bodies::moving
+    /// The caller's own loads by body (add_applied); empty: none. They stay until they are changed,
+    /// and no checkpoint carries them.
+    std::vector<WaterLoad> applied_loads;
+    std::vector<FloeLoad> loads;  ///< in the order of Bodies::moving, with those applied
     Nudges nudges;
     WarmStart warm_start;
     ContactFinder finder;

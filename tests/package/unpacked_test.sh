@@ -15,7 +15,7 @@ mkdir -p "$work"
 cd "$work"
 cpack --config "$build/CPackConfig.cmake" -G DEB -B "$work/packed" >cpack.log || fail "$(cat cpack.log)"
 package=$(ls packed/icesolve_*.deb)
-python_package=$(ls packed/python3-icesolve_*_all.deb)
+python_package=$(ls packed/python3-icesolve_*.deb)
 dpkg-deb -x "$package" "$root"
 
 # what Debian's policy asks of any package
@@ -38,6 +38,9 @@ fi
 [[ $(dpkg-deb -f "$python_package" Depends) == *"icesolve (="*python3-xarray* ]] || fail "python3-icesolve lacks dependencies"
 dpkg-deb -c "$python_package" | grep -F ./usr/lib/python3/dist-packages/icesolve/runs.py >/dev/null ||
     fail "python3-icesolve has no package"
+if grep -q '^ICE_PYTHON_MODULE:BOOL=ON' "$build/CMakeCache.txt"; then
+    dpkg-deb -c "$python_package" | grep -F /icesolve/_world. >/dev/null || fail "python3-icesolve has no module"
+fi
 dpkg-deb -c "$package" | grep -F dist-packages >/dev/null && fail "icesolve holds Python's package, too"
 # what the documents link to, and the READMEs that they name, are beside them
 while IFS=: read -r file link; do
