@@ -3,6 +3,9 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <map>
+#include <sstream>
+#include <string>
 
 using namespace ice;
 
@@ -26,6 +29,40 @@ TEST_CASE("2 kn are 1.02888... m/s, 80 mm are 0.08 m, 1.5 MPa are 1.5e6 Pa", "[b
     CHECK(si("180 deg", Dimension::angle) == Approx(3.141592653589793).epsilon(1e-15));
     CHECK(si("3.6 km/h", Dimension::speed) == Approx(1.0).epsilon(1e-15));
     CHECK(si("0.9 t/m3", Dimension::density) == Approx(900.0).epsilon(1e-15));
+}
+
+TEST_CASE("every unit is its number of SI units, and none is without a value here", "[base]") {
+    // by definition: 1 ft = 0.3048 m, 1 in = 0.0254 m, 1 kn = 1852 m / 3600 s, 180 deg = pi rad
+    const double kPi = 3.14159265358979323846;
+    const std::map<Dimension, std::map<std::string, double>> all{
+        {Dimension::share, {{"%", 1e-2}}},
+        {Dimension::length,
+         {{"m", 1}, {"km", 1e3}, {"cm", 1e-2}, {"mm", 1e-3}, {"ft", 0.3048}, {"in", 0.0254}}},
+        {Dimension::time, {{"s", 1}, {"ms", 1e-3}, {"min", 60}, {"h", 3600}}},
+        {Dimension::speed, {{"m/s", 1}, {"km/h", 1000.0 / 3600}, {"kn", 1852.0 / 3600}}},
+        {Dimension::angular_speed, {{"rad/s", 1}, {"deg/s", kPi / 180}}},
+        {Dimension::acceleration, {{"m/s2", 1}}},
+        {Dimension::pressure, {{"Pa", 1}, {"kPa", 1e3}, {"MPa", 1e6}, {"GPa", 1e9}}},
+        {Dimension::density, {{"kg/m3", 1}, {"t/m3", 1e3}}},
+        {Dimension::angle, {{"rad", 1}, {"deg", kPi / 180}}},
+        {Dimension::mass, {{"kg", 1}, {"t", 1e3}}},
+        {Dimension::force, {{"N", 1}, {"kN", 1e3}, {"MN", 1e6}}},
+        {Dimension::power, {{"W", 1}, {"kW", 1e3}, {"MW", 1e6}}}};
+    for (int k = 0; k <= static_cast<int>(Dimension::power); ++k) {
+        const auto dimension = static_cast<Dimension>(k);
+        const auto units = all.find(dimension);
+        std::istringstream names(unit_names(dimension));
+        std::size_t count = 0;
+        for (std::string name; names >> name; ++count) {
+            if (name.ends_with(',')) name.pop_back();
+            CAPTURE(name);
+            REQUIRE(units != all.end());
+            REQUIRE(units->second.contains(name));
+            CHECK(si(("2.5 " + name).c_str(), dimension) ==
+                  Approx(2.5 * units->second.at(name)).epsilon(1e-15));
+        }
+        CHECK(count == (units == all.end() ? 0 : units->second.size()));
+    }
 }
 
 TEST_CASE("a bare number is SI and says that it had no unit", "[base]") {

@@ -1,0 +1,137 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Level ice that a ship breaks, and members of an ensemble: numbers that follow from the rows."""
+import numpy as np
+
+from tables import read_csv
+
+AVERAGE_FROM, STEP = 1.5, 0.02
+
+
+def make(work):
+    work.write("level.cfg", f"""title = "level ice"
+[simulation]
+duration = 4.0
+time_step = {STEP}
+[hull]
+spheres = "raked.h5"
+position = [-2.1, 0.0]
+draught = 1.2
+speed = 0.9
+[level_ice]
+thickness = 0.2
+extent = [0, 5, -4, 4]
+spacing = 0.2
+[bending]
+flexural_strength = 4e5
+elastic_modulus = 3e9
+poisson_ratio = 0.31
+[contact]
+restitution = 0.1
+crushing_pressure = 1.1e6
+[output]
+average_from = {AVERAGE_FROM}
+""")
+    work.run("icesolve", "level.cfg", "--out", "level", "--no-report")
+    work.keep("level")
+    work.run("icesolve", "sheared.cfg", "--seeds", 3, "--out", "members", "--no-report", "--set",
+             "simulation.jitter=0.05")
+    work.files["summary.json"].append(work / "members" / "summary.json")
+
+
+def check(work, values):
+    forces, s = read_csv(work / "level" / "forces.csv"), work.summary("level")
+    kept = forces["time_s"] > AVERAGE_FROM - 1e-6
+    total = -(forces["contact_fx_N"] + forces["friction_fx_N"])
+    breaking = -forces["breaking_fx_N"]
+    # what presses on held ice is a part of the whole; the rest is that of loose pieces
+    values.within("forces.csv", "breaking_fx_N", breaking, -1e-6, total.max() + 1e-6)
+    r = s["resistance"]
+    values.close("summary.json", "resistance.breaking_mean_N", r["breaking_mean_N"],
+                 breaking[kept].mean(), 1e-6)
+    values.close("summary.json", "resistance.submersion_mean_N", r["submersion_mean_N"],
+                 (total - breaking)[kept].mean(), 1e-6)
+    for name, want in (("flexural_strength_Pa", 4e5), ("elastic_modulus_Pa", 3e9),
+                       ("poisson_ratio", 0.31), ("crushing_pressure_Pa", 1.1e6),
+                       ("thickness_m", 0.2)):
+        values.close("summary.json", "ice." + name, s["ice"][name], want, 1e-9)
+    values.equal("summary.json", "ice.hold", s["ice"]["hold"], ["until-bent", "always"])
+    energy = s["energy"]
+    # the speed is the same all the time, and what breaks is at rest until it breaks: the ship's
+    # work on held ice is all lost
+    values.close("summary.json", "energy.breaking_J", energy["breaking_J"],
+                 0.9 * STEP * breaking.sum(), 0.02)
+    spent = sum(energy[k + "_J"] for k in (
+        "kinetic_change", "potential", "friction", "restitution", "crushing", "breaking", "drag",
+        "buoyancy_moment", "residual"))
+    values.close("summary.json", "energy.breaking_J", spent,
+                 energy["ship_work_J"] + energy["separation_J"], 1e-9)
+    check_formulas(values, s)
+    check_members(work, values)
+
+
+def check_formulas(values, s):
+    """Lindqvist (1989), Riska and others (1997), Jeong (2010) as their papers' readers print them,
+    for the ship and the ice that the summary names."""
+    ship = s["ship"]
+    length, breadth, draught = (ship[k + "_m"] for k in ("length", "breadth", "draught"))
+    phi, alpha = (np.radians(ship[k + "_angle_deg"]) for k in ("stem", "entrance"))
+    h, mu, v, g, water, ice = 0.2, 0.1, 0.9, 9.81, 1000.0, 900.0
+    strength, modulus, poisson = 4e5, 3e9, 0.31
+    psi = np.arctan(np.tan(phi) / np.sin(alpha))
+    lift = (water - ice) * g * h * breadth
+    slope = np.sqrt(1 / np.sin(phi) ** 2 + 1 / np.tan(alpha) ** 2)
+    down = lift * (draught * (breadth + draught) / (breadth + 2 * draught) + mu * (
+        0.7 * length - draught / np.tan(phi) - breadth / 4 / np.tan(alpha)
+        + draught * np.cos(phi) * np.cos(psi) * slope))
+    down *= 1 + 9.4 * v / np.sqrt(g * length)
+    crush = 0.5 * strength * h * h * (np.tan(phi) + mu * np.cos(phi) / np.cos(psi)) / (
+        1 - mu * np.sin(phi) / np.cos(psi))
+    bend = 27 / 64 * strength * breadth * h ** 1.5 / np.sqrt(
+        modulus / (12 * (1 - poisson ** 2) * water * g)) * (
+        np.tan(psi) + mu * np.cos(phi) / (np.sin(alpha) * np.cos(psi))) * (1 + 1 / np.cos(psi))
+    faster = 1 + 1.4 * v / np.sqrt(g * h)
+    inertia = ice * breadth * h * v * v
+    clearing = 1.11 * (v / np.sqrt(g * h)) ** -1.157 * inertia
+    breaking = 2.73 * (v * np.sqrt(ice * breadth / strength / h)) ** -1.54 * inertia
+    buoyancy = 0.5 * lift * draught
+    want = {("Lindqvist 1989", "submersion"): down, ("Lindqvist 1989", "crushing"): crush * faster,
+            ("Lindqvist 1989", "bending"): bend * faster,
+            ("Lindqvist 1989", "total"): down + (crush + bend) * faster,
+            ("Jeong 2010", "buoyancy"): buoyancy, ("Jeong 2010", "clearing"): clearing,
+            ("Jeong 2010", "buoyancy + clearing"): buoyancy + clearing,
+            ("Jeong 2010", "breaking"): breaking,
+            ("Jeong 2010", "total"): buoyancy + clearing + breaking,
+            ("Riska 1997", "total"): riska(ship, h, v)}
+    found = {(f["name"], f["part"]): f for f in s["formulas"]}
+    key = "formulas[]."
+    values.equal("summary.json", key + "name", {k[0] for k in found}, {k[0] for k in want})
+    values.equal("summary.json", key + "part", set(found), set(want))
+    for pair, value in want.items():
+        values.close("summary.json", key + "value_N", found[pair]["value_N"], value, 1e-6)
+        values.equal("summary.json", key + "verified", found[pair]["verified"],
+                     pair in (("Jeong 2010", "breaking"), ("Jeong 2010", "total")))
+    values.close("summary.json", "lindqvist_submersion_N", s["lindqvist_submersion_N"], down, 1e-6)
+
+
+def riska(ship, h, v):
+    """In kN, m, m/s and degrees."""
+    length, breadth, draught = (ship[k + "_m"] for k in ("length", "breadth", "draught"))
+    bow, parallel, phi = ship["bow_length_m"], ship["parallel_length_m"], ship["stem_angle_deg"]
+    at_rest = 0.23 / (2 * draught / breadth + 1) * breadth * parallel * h + (1 + 0.021 * phi) * (
+        4.58 * breadth * h * h + 1.47 * bow * h * h + 0.29 * breadth * bow * h)
+    per_speed = (1 + 0.063 * phi) * (18.9 * h ** 1.5 + 0.67 * breadth * h) + 1.55 * h * (
+        1 + 1.2 * draught / breadth) * breadth ** 2 / np.sqrt(length)
+    return 1e3 * (at_rest + per_speed * v)
+
+
+def check_members(work, values):
+    """Student's interval over three means: t(2, 97.5 %) = 4.302653."""
+    s = work.summary("members")
+    means = [work.summary(f"members/seed-{k}")["resistance"]["mean_N"] for k in (1, 2, 3)]
+    e = s["ensemble"]
+    values.equal("summary.json", "ensemble.seeds", e["seeds"], [1, 2, 3])
+    values.equal("summary.json", "ensemble.members", e["members"], 3)
+    values.close("summary.json", "ensemble.means_N", e["means_N"], means, 1e-12)
+    values.close("summary.json", "ensemble.mean_N", e["mean_N"], np.mean(means), 1e-9)
+    values.close("summary.json", "ensemble.ci95_N", e["ci95_N"],
+                 4.302653 * np.std(means, ddof=1) / np.sqrt(3), 1e-6)
