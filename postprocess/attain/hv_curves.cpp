@@ -185,11 +185,17 @@ private:
             return comparable_formulas(evaluate_formulas(s.ship, ice, speed, formulas_),
                                        study_.level_ice);
         };
-        const auto names = at(low->thickness, 1.0);
-        for (std::size_t k = 0; k < names.size(); ++k) {
+        for (const FormulaValue& formula : at(low->thickness, 1.0)) {
+            // by name: a formula that is no number at some speed is missing there
+            const auto value = [&](double thickness, double speed) {
+                for (const FormulaValue& f : at(thickness, speed))
+                    if (f.name == formula.name && f.part == formula.part) return f.value;
+                return std::nan("");
+            };
+            if (std::isnan(value(low->thickness, 0.0))) continue;
             HvCurve curve{
                 Source::formula,
-                names[k].name + ", " + names[k].part + (label.empty() ? "" : " (" + label + ")"),
+                formula.name + ", " + formula.part + (label.empty() ? "" : " (" + label + ")"),
                 thrust.name,
                 {}};
             const int steps = high->thickness > low->thickness ? kFormulaSteps : 0;
@@ -197,7 +203,7 @@ private:
                 const double h =
                     low->thickness + (high->thickness - low->thickness) * i / kFormulaSteps;
                 AttainedSpeed reached;
-                reached.speed = attained_speed([&](double u) { return at(h, u)[k].value; }, thrust);
+                reached.speed = attained_speed([&](double u) { return value(h, u); }, thrust);
                 reached.low = reached.high = std::nan("");
                 if (std::isnan(reached.speed)) reached.reach = Reach::beyond;
                 if (reached.speed == 0.0) reached.reach = Reach::stuck;

@@ -226,6 +226,21 @@ TEST_CASE("a formula's h-v curve is where its own resistance meets the thrust", 
     }
 }
 
+TEST_CASE("a formula that is no number at rest has no h-v curve", "[hv][degenerate]") {
+    const TempFolder folder;
+    write_grid_of_thickness(folder);
+    for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
+        give_particulars(entry.path());
+        Summary s = read_summary(entry.path() / "summary.json");
+        s.ice.gravity = 0.0;  // the Froude number of Jeong's clearing is 0 / 0 at rest
+        write_bytes(entry.path() / "summary.json", summary_text(s));
+    }
+    const HvStudy study = make_hv(sweep::read_sweep(folder.path()), {constant(5e5)}, {});
+    CHECK(std::none_of(study.curves.begin(), study.curves.end(),
+                       [](const HvCurve& c) { return c.source == Source::formula; }));
+    CHECK(computed(study).points.size() == 2);
+}
+
 TEST_CASE("free ships alone have the formulas beside them once their thrust is given", "[hv]") {
     const TempFolder folder;
     for (const double h : {0.5, 1.0}) write_free_run(folder / fmt::format("free{}", h), h, 3.0 / h);

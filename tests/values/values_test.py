@@ -22,6 +22,7 @@ try:
     import check_sheared
     import check_ship
     import check_spheres
+    import check_tables
     import names
     from values import Values
     from workshop import Workshop
@@ -31,7 +32,7 @@ except ImportError as missing:
 
 HERE = pathlib.Path(__file__).parent
 CHECKS = [check_spheres, check_field, check_hit, check_hit_summary, check_sheared,
-          check_run_file, check_ship, check_flow, check_level, check_section]
+          check_run_file, check_ship, check_flow, check_level, check_section, check_tables]
 
 
 def elsewhere(source):
