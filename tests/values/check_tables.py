@@ -150,8 +150,8 @@ def check_page(work, values):
     """The page's first table has the points with a decimal and in knots."""
     page = (work / "sweep/page.html").read_text(encoding="utf-8")
     for speed, row in zip(SPEEDS, rows_of(work, "points.csv"), strict=True):
-        cells = (f"<td>{speed:g}</td><td>{speed * 3600 / 1852:.2f}</td>", f">{row['runs']}</a></td>",
-                 f"<td>{float(row['resistance_N']):.1f}")
+        cells = (f"<td>{speed:g}</td><td>{speed * 3600 / 1852:.2f}</td>",
+                 f">{row['runs']}</a></td>", f"<td>{float(row['resistance_N']):.1f}")
         values.equal("points.csv", "resistance_N", [cell in page for cell in cells], [True] * 3)
 
 

@@ -12,11 +12,13 @@ import tempfile
 import tomllib
 
 try:
+    import check_crush
     import check_field
     import check_flow
     import check_hit
     import check_hit_summary
     import check_level
+    import check_regions
     import check_run_file
     import check_section
     import check_sheared
@@ -31,8 +33,9 @@ except ImportError as missing:
     sys.exit(77)
 
 HERE = pathlib.Path(__file__).parent
-CHECKS = [check_spheres, check_field, check_hit, check_hit_summary, check_sheared,
-          check_run_file, check_ship, check_flow, check_level, check_section, check_tables]
+CHECKS = [check_spheres, check_regions, check_field, check_hit, check_hit_summary, check_crush,
+          check_sheared, check_run_file, check_ship, check_flow, check_level, check_section,
+          check_tables]
 
 
 def elsewhere(source):
