@@ -119,7 +119,7 @@ class Suites:
         script = os.path.join(self.tree.source, "tests", "values", "values_test.py")
         environment = dict(self.tree.env, ICE_MUTANT=str(number), OMP_NUM_THREADS="1")
         code, text = run(["/usr/bin/python3", "-B", script, os.path.join(self.tree.folder, "bin"),
-                          self.tree.source], self.tree.folder, 600, environment)
+                          self.tree.source, "--stop"], self.tree.folder, 600, environment)
         if code in (0, 77):
             return None
         return "values: " + (text.strip().splitlines() or ["hangs"])[0][:150]

@@ -61,7 +61,7 @@ class Tree:
         self.source = os.path.join(work, "tree")
         self.folder = os.path.join(self.source, "build", "release")
         # a compiler cache may then know the objects of the tree that was copied
-        self.env = dict(os.environ, CCACHE_BASEDIR=self.source, CCACHE_NOHASHDIR="1")
+        self.env = {"CCACHE_BASEDIR": self.source, "CCACHE_NOHASHDIR": "1", **os.environ}
 
     def build(self, mutants):
         """Plants and builds; those that do not compile are left out. @return the others"""

@@ -133,5 +133,32 @@ def check_members(work, values):
     values.equal("summary.json", "ensemble.members", e["members"], 3)
     values.close("summary.json", "ensemble.means_N", e["means_N"], means, 1e-12)
     values.close("summary.json", "ensemble.mean_N", e["mean_N"], np.mean(means), 1e-9)
-    values.close("summary.json", "ensemble.ci95_N", e["ci95_N"],
-                 4.302653 * np.std(means, ddof=1) / np.sqrt(3), 1e-6)
+    half = 4.302653 * np.std(means, ddof=1) / np.sqrt(3)
+    values.close("summary.json", "ensemble.ci95_N", e["ci95_N"], half, 1e-6)
+    values.close("summary.json", "resistance.ci95_N", s["resistance"]["ci95_N"], half, 1e-6)
+    check_averages(values, s, [work.summary(f"members/seed-{k}") for k in (1, 2, 3)])
+
+
+def check_averages(values, s, members):
+    """Numbers of an ensemble are its members' means, largest values or sums."""
+    forces = [f"{force}.{name}" for force in ("resistance", "lateral", "vertical")
+              for name in ("mean_N", "contact_mean_N", "friction_mean_N", "std_N")]
+    regions = [f"regions.{region}.{name}" for region in s["regions"]
+               for name in ("mean_N", "contact_mean_N", "friction_mean_N")]
+    energy = [f"energy.{name}_J" for name in ("ship_work", "kinetic_change", "friction", "crushing",
+                                              "restitution", "separation")]
+    for keys, rule in ((forces + regions + energy + ["contacts.mean", "contacts.residual_share",
+                                                     "travel.distance_m"], np.mean),
+                       (["contacts.max", "contacts.max_overlap_m", "contacts.unseen_overlap_m"],
+                        np.max),
+                       (["steps", "simulated_s", "wall_s", "contacts.unconverged_steps"], np.sum)):
+        for key in keys:
+            want = rule([at_key(member, key) for member in members], axis=0)
+            name = "regions.<region>." + key.rsplit(".", 1)[1] if "regions" in key else key
+            values.close("summary.json", name, at_key(s, key), want, 1e-9, 1e-12)
+
+
+def at_key(summary, key):
+    for part in key.split("."):
+        summary = summary[part]
+    return summary

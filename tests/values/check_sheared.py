@@ -56,7 +56,7 @@ track = [1, 2, 3]
 average_from = {AVERAGE_FROM}
 frames_every = 0.01
 """)
-    work.run("icesolve", "sheared.cfg", "--out", RUN, "--no-report")
+    work.run("icesolve", "sheared.cfg", "--out", RUN, "--no-report", "--verify")
     work.keep(RUN, floes=(1, 2, 3))
     work.run("icesolve", "sheared.cfg", "--out", ROWS, "--no-report", "--set",
              "output.history_every=0.05", "--set", "output.frames_every=0.2")
@@ -132,6 +132,9 @@ def check_summary(work, values, forces):
             values.close("summary.json", f"{key}.{name}", s[key][name], want, 1e-6)
         check_interval(values, key, s[key], both)
     # a rigid course: the ship's work is its resistance times its way
+    # --verify: the floes' momenta and the ship's force balance to rounding
+    for key, share in s["imbalance"].items():
+        values.within("summary.json", "imbalance." + key, share, 0.0, 1e-12)
     energy = s["energy"]
     work_done = -STEP * SPEED * (forces["contact_fx_N"] + forces["friction_fx_N"]).sum()
     values.close("summary.json", "energy.ship_work_J", energy["ship_work_J"], work_done, 1e-7)

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""values_test.py PROGRAMS SOURCE: every number that leaves the programs has a value that is not
-theirs.
+"""values_test.py PROGRAMS SOURCE [--stop]: every number that leaves the programs has a value that
+is not theirs. --stop ends it behind the first module that finds a fault.
 
 The modules check_*.py make small inputs and runs and compare what the programs write with values by
 hand or by numpy. elsewhere.toml names the rest, with the test that knows its value. A name that a
@@ -53,11 +53,15 @@ def elsewhere(source):
 def main():
     programs, source = (pathlib.Path(word).resolve() for word in sys.argv[1:3])
     values = Values()
+    stop = "--stop" in sys.argv[3:]
     with tempfile.TemporaryDirectory(prefix="ice-values-") as folder:
         work = Workshop(folder, programs, source)
         for module in CHECKS:
             module.make(work)
             module.check(work, values)
+            if stop and values.faults:
+                print("\n".join(values.faults))
+                sys.exit(1)
         written = {form: set().union(*(names.of_file(file) for file in files))
                    for form, files in work.files.items()}
     others, faults = elsewhere(source)
