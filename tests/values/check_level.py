@@ -149,7 +149,7 @@ def check_averages(values, s, members):
                                               "restitution", "separation")]
     for keys, rule in ((forces + regions + energy + ["contacts.mean", "contacts.residual_share",
                                                      "travel.distance_m"], np.mean),
-                       (["contacts.max", "contacts.max_overlap_m", "contacts.unseen_overlap_m"],
+                       (["contacts.max", "contacts.max_overlap_m"],
                         np.max),
                        (["steps", "simulated_s", "wall_s", "contacts.unconverged_steps"], np.sum)):
         for key in keys:

@@ -18,6 +18,7 @@ try:
     import check_hit
     import check_hit_summary
     import check_level
+    import check_page
     import check_regions
     import check_run_file
     import check_section
@@ -35,7 +36,7 @@ except ImportError as missing:
 HERE = pathlib.Path(__file__).parent
 CHECKS = [check_spheres, check_regions, check_field, check_hit, check_hit_summary, check_crush,
           check_sheared, check_run_file, check_ship, check_flow, check_level, check_section,
-          check_tables]
+          check_tables, check_page]
 
 
 def elsewhere(source):
@@ -63,7 +64,7 @@ def main():
                 print("\n".join(values.faults))
                 sys.exit(1)
         written = {form: set().union(*(names.of_file(file) for file in files))
-                   for form, files in work.files.items()}
+                   for form, files in work.files.items()} | work.names
     others, faults = elsewhere(source)
     faults += values.faults
     for form in sorted(written.keys() | others.keys() | values.seen.keys()):

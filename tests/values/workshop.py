@@ -10,12 +10,14 @@ from solids import write_obj
 
 
 class Workshop:
-    """`files` lists, for each format, the files that must have values for all their names."""
+    """`files` lists, for each format, the files that must have values for all their names, `names`
+    the names of what is no such file."""
 
     def __init__(self, folder, programs, source):
         self.folder, self.programs, self.source = (
             pathlib.Path(word) for word in (folder, programs, source))
         self.files = {}
+        self.names = {}
         self.last = ""
 
     def __truediv__(self, name):
