@@ -13,7 +13,7 @@ const fuzz::InputFolder& folder() {
     static const fuzz::InputFolder made;
     // files that a case may name must exist; what is in them is another target's matter
     static const bool filled = [] {
-        for (const char* name : {"hull.h5", "floe.h5", "field.h5"}) made.write(name, "");
+        for (const char* name : {"hull.h5", "floe.h5", "field.h5", "flow.h5"}) made.write(name, "");
         return true;
     }();
     (void)filled;

@@ -4,7 +4,7 @@
 # be built, from its seeds. Findings and new inputs go to build/fuzz/TARGET.
 set -euo pipefail
 
-[[ $# -ge 2 ]] || { echo "usage: run_fuzz.sh case|field_spec|mesh|spheres|flow SECONDS [OPTION]..." >&2; exit 2; }
+[[ $# -ge 2 ]] || { echo "usage: run_fuzz.sh case|field_spec|mesh|spheres|flow|thrust SECONDS [OPTION]..." >&2; exit 2; }
 target=$1 seconds=$2
 shift 2
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
@@ -17,7 +17,7 @@ mkdir -p "$work/new" "$work/findings"
 options=(-max_total_time="$seconds" -artifact_prefix="$work/findings/" -max_len=40000
     -timeout=120 -rss_limit_mb=2048 -malloc_limit_mb=1024 -print_final_stats=1)
 case $target in
-    case | field_spec) options+=(-dict="$here/toml.dict") ;;
+    case | field_spec | thrust) options+=(-dict="$here/toml.dict") ;;
 esac
 "$program" "${options[@]}" "$@" "$work/new" "$here/corpus/$target" 2>"$work/log" ||
     { status=$?; tail -n 60 "$work/log" >&2; exit "$status"; }
