@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// icesolve: case file in, run folder out. Command line only; the work is in step/run.cpp.
+// icesolve: case file in, run folder out. Command line only; the work is in run/run.cpp.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -25,13 +25,13 @@
 #include "solver/icesolve_options.hpp"
 #include "solver/record/recorder.hpp"
 #include "solver/record/result_text.hpp"
-#include "solver/step/check_course.hpp"
-#include "solver/step/check_start.hpp"
-#include "solver/step/describe_case.hpp"
-#include "solver/step/describe_cost.hpp"
-#include "solver/step/make_water.hpp"
-#include "solver/step/run.hpp"
-#include "solver/step/run_folder.hpp"
+#include "solver/run/check_course.hpp"
+#include "solver/run/check_start.hpp"
+#include "solver/run/describe_case.hpp"
+#include "solver/run/describe_cost.hpp"
+#include "solver/run/make_water.hpp"
+#include "solver/run/run.hpp"
+#include "solver/run/run_folder.hpp"
 
 namespace {
 

@@ -3,7 +3,7 @@
 #include <cstdio>
 
 #include "preprocess/fill/fill_spheres.hpp"
-#include "solver/step/make_world.hpp"
+#include "solver/run/make_world.hpp"
 
 namespace {
 
@@ -32,7 +32,7 @@ int main() {
     parameters.time_step = 0.01;
     parameters.speed_table = {{0.0, 0.5}};  // [s], [m/s]
     ice::World world = ice::make_world(parameters, hull);
-    const auto form = ice::add_form(world, floe);
+    const auto form = ice::add_floe_shape(world, floe);
     const auto first = ice::add_floe(world, form, {.position = {3.2, 0.0, -0.12}});
     ice::add_floe(world, form, {.position = {4.4, 0.1, -0.12}});
 

@@ -10,9 +10,9 @@
 #include "common/base/error.hpp"
 #include "common/base/parallel.hpp"
 #include "solver/case/read_case.hpp"
-#include "solver/step/check_start.hpp"
-#include "solver/step/make_world.hpp"
-#include "solver/step/run.hpp"
+#include "solver/run/check_start.hpp"
+#include "solver/run/make_world.hpp"
+#include "solver/run/run.hpp"
 
 namespace py = pybind11;
 

@@ -46,7 +46,7 @@ void Travel::update(const Scene& scene, double dt) {
     };
     for (std::size_t i = known; i < b.size(); ++i) look(i);
     if (known < b.size()) return update(scene, dt);  // `soon` of those just met
-    for (const CrushedIce::Dent& dent : scene.crushed.recent) {
+    for (const CrushedIce::CrushEvent& dent : scene.crushed.recent) {
         for (auto* sum : {&way_, &soon_, &crushed_})
             (*sum)[static_cast<std::size_t>(dent.body)] += dent.depth;
     }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "common/geometry/triangle_mesh.hpp"
+#include "solver/case/contact_law.hpp"
 #include "solver/case/ship_keys.hpp"
 
 namespace ice {
@@ -66,14 +67,6 @@ struct LevelIce {
     double length_factor = 0.32, speed_factor = -0.144, scatter = 0.2;  ///< CuspLaw
 };
 
-/// Default of contact.crushing_pressure in 3D [Pa].
-///
-/// Rigid contacts jam: one step's impulses then decide a mean. Ice crushes at about 1 MPa over
-/// contact areas of a square metre and at a few MPa over smaller ones; between 0.5 and 2 MPa the
-/// mean resistance of a pre-sawn channel changes by 5 %. In 2D the paper's rigid ice stays the
-/// default: a slice has no contact area that a pressure could be measured on.
-constexpr double kCrushingPressure = 1e6;
-
 struct Case {
     std::string title;
     int dimension = 3;
@@ -99,13 +92,8 @@ struct Case {
     /// In the case's order; behind them one group of unbroken ice for each pattern "file".
     std::vector<FloeGroup> floes;
 
-    double restitution = 0.3, friction_ship_ice = 0.1, friction_ice_ice = 0.3;
+    ContactLaw contact;
     NormalRule normal = NormalRule::surface;
-    /// [Pa]; rigid for worlds made in code, while a case file of dimension 3 has
-    /// kCrushingPressure unless it says otherwise.
-    double crushing_pressure = std::numeric_limits<double>::infinity();
-    int iterations = 30;
-    double tolerance = 1e-4;
 
     BendingLaw bending;
     LevelIce level_ice;

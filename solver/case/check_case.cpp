@@ -52,7 +52,7 @@ void check_bending(const Case& checked, std::size_t groups, const Complaints& co
         const auto wrong = [&](const std::string& why) {
             complaints.add_at(label, what + " " + why);
         };
-        if (std::isinf(checked.crushing_pressure))
+        if (checked.contact.is_rigid())
             wrong(
                 "needs a finite contact.crushing_pressure: the force of the ship on rigid ice "
                 "that is held has no value");

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "common/base/parallel.hpp"
+#include "common/formats/checkpoint_file.hpp"
 
 namespace ice {
 
@@ -30,10 +31,10 @@ bool gives_way(const ShipResponse& ship, const Vec3& arm, const Vec3& normal) {
 }
 
 // Largest normal impulse: crushing pressure on the section cut half way through the step.
-double strength(const Contact& contact, double approach, const ContactLaw& law) {
-    if (std::isinf(law.crushing_pressure)) return law.crushing_pressure;
-    const double depth = contact.patch.depth - 0.5 * law.dt * std::min(approach, 0.0);
-    return law.crushing_pressure * cut_area(contact.patch, depth) * law.dt;
+double max_impulse(const Contact& contact, double approach, const ContactLaw& law, double dt) {
+    if (law.is_rigid()) return law.crushing_pressure;
+    const double depth = contact.patch.depth - 0.5 * dt * std::min(approach, 0.0);
+    return law.crushing_pressure * cut_area(contact.patch, depth) * dt;
 }
 
 }  // namespace
@@ -57,7 +58,7 @@ double ship_response(const ShipResponse& ship, const Vec3& arm, const Vec3& dire
 }
 
 void build_constraints(const Bodies& bodies, const std::vector<Contact>& contacts,
-                       const ContactLaw& law, std::vector<Constraint>& out) {
+                       const ContactLaw& law, double dt, std::vector<Constraint>& out) {
     out.resize(contacts.size());
     parallel_for(contacts.size(), 1024, [&](std::size_t k) {
         const Contact& contact = contacts[k];
@@ -76,7 +77,7 @@ void build_constraints(const Bodies& bodies, const std::vector<Contact>& contact
             c.a == static_cast<std::int32_t>(kShip) ? law.friction_ship_ice : law.friction_ice_ice;
         c.gap = contact.gap;
         c.approach = relative_velocity(bodies, c).dot(c.normal);
-        c.strength = strength(contact, c.approach, law);
+        c.max_impulse = max_impulse(contact, c.approach, law, dt);
         c.rebounds = true;
         out[k] = c;
     });
@@ -114,7 +115,7 @@ void WarmStart::recall(const std::vector<Contact>& contacts,
         if (found == last || found->key != contact.key) continue;
         Constraint& c = constraints[k];
         if (!c.can_move) continue;
-        c.rest_normal = std::min(found->normal, std::max(c.strength - c.impact_normal, 0.0));
+        c.rest_normal = std::min(found->normal, std::max(c.max_impulse - c.impact_normal, 0.0));
         if (c.rest_normal <= 0.0) continue;
         c.rest_tangent = found->tangent - found->tangent.dot(c.normal) * c.normal;
         const double most = c.friction * c.rest_normal, size = c.rest_tangent.norm();
@@ -137,6 +138,14 @@ void WarmStart::remember(const std::vector<Contact>& contacts,
                             constraints[k].rest_normal, constraints[k].rest_tangent});
     }
     std::sort(entries_.begin() + static_cast<std::ptrdiff_t>(first), entries_.end(), less);
+}
+
+void WarmStart::carry(CheckpointFile& file) {
+    file.column("warm_start.a", entries_, &Entry::a);
+    file.column("warm_start.b", entries_, &Entry::b);
+    file.column("warm_start.key", entries_, &Entry::key);
+    file.column("warm_start.normal", entries_, &Entry::normal);
+    file.column("warm_start.tangent", entries_, &Entry::tangent);
 }
 
 }  // namespace ice

@@ -7,21 +7,13 @@
 #include <cstdint>
 #include <vector>
 
+#include "solver/case/contact_law.hpp"
 #include "solver/narrow/contact.hpp"
 #include "solver/scene/bodies.hpp"
 
 namespace ice {
 
-/// What a contact may carry; from the case.
-struct ContactLaw {
-    double restitution = 0.3;
-    double friction_ship_ice = 0.1;
-    double friction_ice_ice = 0.3;
-    double crushing_pressure = 0.0;  ///< [Pa]; inf for rigid
-    int iterations = 30;             ///< upper bound per solution; a stage takes up to 5
-    double tolerance = 1e-4;         ///< [m/s]
-    double dt = 0.0;                 ///< [s]
-};
+class CheckpointFile;
 
 /// One contact in the solver; impulses act on b, their opposites on a.
 struct Constraint {
@@ -33,7 +25,7 @@ struct Constraint {
     Vec3 normal;                 ///< from a to b
     Vec3 arm_a, arm_b;           ///< r = p - x [m]
     double approach;             ///< v_r . n at the start of the step [m/s], < 0 approaching
-    double strength;             ///< largest normal impulse per step: p A dt [N s]
+    double max_impulse;          ///< largest normal impulse per step: p A dt [N s]
     double friction;             ///< Coulomb's coefficient
     double impact_normal = 0.0;  ///< normal impulse of the impact stage [N s]
     Vec3 impact_tangent = Vec3::Zero();
@@ -42,13 +34,14 @@ struct Constraint {
 
     double total_normal() const { return impact_normal + rest_normal; }
     Vec3 total_tangent() const { return impact_tangent + rest_tangent; }
-    bool crushed() const { return total_normal() >= strength * (1.0 - 1e-9); }
+    bool crushed() const { return total_normal() >= max_impulse * (1.0 - 1e-9); }
 };
 
 /// Prepares contacts with the bodies' present pose and velocity, v_r = (v_b + w_b x r_b) -
 /// (v_a + w_a x r_a). One constraint per contact, same order.
+/// @param dt  time step [s]
 void build_constraints(const Bodies& bodies, const std::vector<Contact>& contacts,
-                       const ContactLaw& law, std::vector<Constraint>& out);
+                       const ContactLaw& law, double dt, std::vector<Constraint>& out);
 
 /// K with K j = change of v_r by an impulse j at points r_a and r_b from two bodies' centres:
 ///
@@ -89,9 +82,10 @@ public:
     void remember(const std::vector<Contact>& contacts, const std::vector<Constraint>& constraints,
                   const std::vector<std::int32_t>& which);
 
-private:
-    friend struct StateFields;  // step/state_fields.cpp
+    /// Writes or sets its state, by the file's direction.
+    void carry(CheckpointFile& file);
 
+private:
     struct Entry {
         std::int32_t a, b;
         std::uint64_t key;

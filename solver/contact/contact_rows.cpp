@@ -221,8 +221,8 @@ void ContactRows::load_motions(const Bodies& bodies) {
 void ContactRows::set(std::size_t slot, double normal, const Vec3& tangent, const Target& target) {
     ContactRow& row = rows[slot / kLanes];
     const std::size_t lane = slot % kLanes;
-    row.wanted.v[lane] = target.wanted;
-    row.bound.v[lane] = std::max(target.bound, 0.0);
+    row.target_velocity.v[lane] = target.target_velocity;
+    row.max_impulse.v[lane] = std::max(target.max_impulse, 0.0);
     row.impulse.normal.v[lane] = normal;
     put(row.impulse.tangent, lane, tangent);
 }

@@ -34,15 +34,15 @@ struct RowImpulses {
 
 /// One contact of each pair of a block; where a pair has no more contacts all is zero.
 struct ContactRow {
-    LaneVectors normal, arm_a, arm_b;      ///< as in Constraint
-    LaneVectors response;                  ///< change of v_r by a unit normal impulse [1/kg]
-    LaneValues normal_response;            ///< k(n) [1/kg]
-    LaneValues tangent_response;           ///< largest k(t) [1/kg]
-    LaneValues normal_mass, tangent_mass;  ///< 1 / the responses [kg]
-    LaneValues friction;                   ///< Coulomb's coefficient
+    LaneVectors normal, arm_a, arm_b;           ///< as in Constraint
+    LaneVectors response;                       ///< change of v_r by a unit normal impulse [1/kg]
+    LaneValues inverse_effective_mass;          ///< k(n) [1/kg]
+    LaneValues tangent_inverse_effective_mass;  ///< largest k(t) [1/kg]
+    LaneValues effective_mass, tangent_effective_mass;  ///< 1 / the responses [kg]
+    LaneValues friction;                                ///< Coulomb's coefficient
     // of the stage
-    LaneValues wanted;  ///< least v_r . n [m/s]
-    LaneValues bound;   ///< largest normal impulse, >= 0 [N s]
+    LaneValues target_velocity;  ///< least v_r . n [m/s]
+    LaneValues max_impulse;      ///< largest normal impulse, >= 0 [N s]
     RowImpulses impulse;
 };
 
@@ -82,8 +82,8 @@ public:
 
     /// What a stage asks of a contact.
     struct Target {
-        double wanted;  ///< [m/s]
-        double bound;   ///< [N s]; negative counts as 0
+        double target_velocity;  ///< least v_r . n [m/s]
+        double max_impulse;      ///< largest normal impulse [N s]; negative counts as 0
     };
 
     /// Takes velocities from the bodies, impulses and targets from the constraints.

@@ -14,8 +14,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "common/math/vector_lanes-inl.hpp"
 #include "solver/contact/contact_rows.hpp"
-#include "solver/shape/vector_lanes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace ice::HWY_NAMESPACE {

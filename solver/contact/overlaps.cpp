@@ -6,7 +6,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "solver/shape/ordered_products.hpp"
+#include "common/math/ordered_products.hpp"
 
 namespace ice {
 
@@ -39,10 +39,10 @@ double gap_after(const Bodies& bodies, const Constraint& c, double dt) {
 
 }  // namespace
 
-void Overlaps::separate(const Scene& scene, const std::vector<Constraint>& constraints,
-                        const ContactLaw& law, Nudges& out) {
+void Overlaps::correct_positions(const Scene& scene, const std::vector<Constraint>& constraints,
+                                 double dt, PositionCorrections& out) {
     const Bodies& bodies = scene.bodies;
-    const double share = std::min(law.dt / kOpeningTime, kMostInStep);
+    const double share = std::min(dt / kOpeningTime, kMostInStep);
     out.shift.resize(bodies.size(), Vec3::Zero());
     out.turn.resize(bodies.size(), Vec3::Zero());
     for (const std::int32_t i : bodies.moving) {
@@ -53,7 +53,7 @@ void Overlaps::separate(const Scene& scene, const std::vector<Constraint>& const
     for (std::size_t k = 0; k < constraints.size(); ++k) {
         const Constraint& c = constraints[k];
         const double radius = radius_of(scene, c);
-        const double overlap = -gap_after(bodies, c, law.dt) - kToleratedOverlap * radius;
+        const double overlap = -gap_after(bodies, c, dt) - kToleratedOverlap * radius;
         if (overlap <= 0.0 || c.crushed()) continue;
         // overlaps with the ship open by the floe alone; a held one keeps its own
         if (bodies.inverse_mass[c.a] + bodies.inverse_mass[c.b] == 0.0) continue;
@@ -72,7 +72,7 @@ void Overlaps::separate(const Scene& scene, const std::vector<Constraint>& const
             const Vec3 move = out.shift[c.b] + out.turn[c.b].cross(c.arm_b) - out.shift[c.a] -
                               out.turn[c.a].cross(c.arm_a);
             const double next =
-                std::max(push.done + (push.wanted - move.dot(c.normal)) * push.mass, 0.0);
+                std::max(push.done + (push.target - move.dot(c.normal)) * push.mass, 0.0);
             const double change = next - push.done;
             push.done = next;
             out.shift[c.a] -= change * bodies.inverse_mass[c.a] * c.normal;
@@ -83,31 +83,36 @@ void Overlaps::separate(const Scene& scene, const std::vector<Constraint>& const
 }
 
 void Overlaps::crush(Scene& scene, const std::vector<Contact>& contacts,
-                     const std::vector<Constraint>& constraints, const ContactLaw& law) {
+                     const std::vector<Constraint>& constraints, const ContactLaw& law, double dt) {
     const Bodies& bodies = scene.bodies;
-    dents_.clear();
+    crush_events_.clear();
     scene.crushed.recent.clear();
-    if (std::isinf(law.crushing_pressure)) return;
+    if (law.is_rigid()) return;
     for (std::size_t k = 0; k < constraints.size(); ++k) {
         const Constraint& c = constraints[k];
         if (!c.crushed()) continue;
-        const double gap = gap_after(bodies, c, law.dt);
+        const double gap = gap_after(bodies, c, dt);
         if (gap >= 0.0) continue;
         const Contact& contact = contacts[k];
         if (contact.crushes_a)
-            dents_.push_back({c.a, contact.sphere_a, k, gap, -c.normal});
+            crush_events_.push_back({c.a, contact.sphere_a, k, gap, -c.normal});
         else
-            dents_.push_back({c.b, contact.sphere_b, k, gap, c.normal});
+            crush_events_.push_back({c.b, contact.sphere_b, k, gap, c.normal});
     }
-    std::sort(dents_.begin(), dents_.end(), [](const Dent& l, const Dent& r) {
-        return std::tie(l.body, l.sphere, l.constraint) < std::tie(r.body, r.sphere, r.constraint);
-    });
-    for (std::size_t k = 0; k < dents_.size();) {
-        const std::int32_t body = dents_[k].body, sphere = dents_[k].sphere;
+    std::sort(crush_events_.begin(), crush_events_.end(),
+              [](const CrushEvent& l, const CrushEvent& r) {
+                  return std::tie(l.body, l.sphere, l.constraint) <
+                         std::tie(r.body, r.sphere, r.constraint);
+              });
+    for (std::size_t k = 0; k < crush_events_.size();) {
+        const std::int32_t body = crush_events_[k].body, sphere = crush_events_[k].sphere;
         // several hull spheres may press on one of the ice's: it gives way once
         Vec3 move = Vec3::Zero();
-        for (; k < dents_.size() && dents_[k].body == body && dents_[k].sphere == sphere; ++k)
-            move += std::max(0.0, -dents_[k].gap - move.dot(dents_[k].inwards)) * dents_[k].inwards;
+        for (; k < crush_events_.size() && crush_events_[k].body == body &&
+               crush_events_[k].sphere == sphere;
+             ++k)
+            move += std::max(0.0, -crush_events_[k].gap - move.dot(crush_events_[k].inwards)) *
+                    crush_events_[k].inwards;
         const Shape& shape = scene.shapes[static_cast<std::size_t>(bodies.shape[body])];
         scene.crushed.crush(body, sphere, shape.center.size(),
                             bodies.rotation[body].transpose() * move);

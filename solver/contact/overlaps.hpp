@@ -16,7 +16,7 @@ namespace ice {
 constexpr double kToleratedOverlap = 0.02;
 
 /// Small moves that shrink overlaps; they change poses, never velocities or reported forces.
-struct Nudges {
+struct PositionCorrections {
     std::vector<Vec3> shift;  ///< per body [m]
     std::vector<Vec3> turn;   ///< per body, rotation vector [rad]
 };
@@ -30,30 +30,31 @@ public:
     ///
     /// The same inequality solver on displacements instead of velocities: n . (d_b - d_a) >= push.
     /// Crushed contacts are left alone: that ice is gone.
-    void separate(const Scene& scene, const std::vector<Constraint>& constraints,
-                  const ContactLaw& law, Nudges& out);
+    /// @param dt  time step [s]
+    void correct_positions(const Scene& scene, const std::vector<Constraint>& constraints,
+                           double dt, PositionCorrections& out);
 
     /// Ice at its strength gives way: what overlap the step leaves at a crushed contact is taken
     /// off the ice for good; rigid ice is never at its strength.
-    /// @pre called before the poses advance, after resolve_rest, with the law of the constraints
+    /// @pre called before the poses advance, after resolve_rest, with the constraints' law and dt
     void crush(Scene& scene, const std::vector<Contact>& contacts,
-               const std::vector<Constraint>& constraints, const ContactLaw& law);
+               const std::vector<Constraint>& constraints, const ContactLaw& law, double dt);
 
 private:
     struct Push {
         std::size_t constraint;
-        double wanted, done;  // [m]
+        double target, done;  // move along the normal wanted [m]; impulse so far [kg m]
         Vec3 turn_a, turn_b;  // by a unit push: I^-1 (r x n) [rad/(kg m)]
         double mass;          // 1 / k(n) [kg]
     };
-    struct Dent {
+    struct CrushEvent {
         std::int32_t body, sphere;
         std::size_t constraint;
         double gap;    // at the end of the step [m]
         Vec3 inwards;  // world axes
     };
     std::vector<Push> pushes_;
-    std::vector<Dent> dents_;
+    std::vector<CrushEvent> crush_events_;
 };
 
 }  // namespace ice

@@ -16,7 +16,7 @@ struct BlockInverseInertias {
 };
 
 /// Measures what the contacts of a block respond to impulses, from normal, arm_a and arm_b: sets
-/// response, normal_response, tangent_response and the masses. With K of response_matrix
+/// response, the effective masses and their inverses. With K of response_matrix
 ///
 ///     k(n) = n . K n,   largest k(t) = greater eigenvalue of K in the tangent plane
 ///

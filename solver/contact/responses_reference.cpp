@@ -2,8 +2,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "common/math/ordered_products.hpp"
 #include "solver/contact/responses.hpp"
-#include "solver/shape/ordered_products.hpp"
 
 namespace ice::reference {
 
@@ -40,10 +40,10 @@ void measure(double inverse_mass, const Mat3& inverse_inertia_a, const Mat3& inv
         row.response[d].v[lane] = response[static_cast<Eigen::Index>(d)];
     const Mat3 k =
         response_matrix(inverse_mass, inverse_inertia_a, arm_a, inverse_inertia_b, arm_b);
-    row.normal_mass.v[lane] = 1.0 / ordered_dot(n, ordered_product(k, n));
-    row.tangent_mass.v[lane] = 1.0 / largest_tangent_response(k, n);
-    row.normal_response.v[lane] = 1.0 / row.normal_mass.v[lane];
-    row.tangent_response.v[lane] = 1.0 / row.tangent_mass.v[lane];
+    row.effective_mass.v[lane] = 1.0 / ordered_dot(n, ordered_product(k, n));
+    row.tangent_effective_mass.v[lane] = 1.0 / largest_tangent_response(k, n);
+    row.inverse_effective_mass.v[lane] = 1.0 / row.effective_mass.v[lane];
+    row.tangent_inverse_effective_mass.v[lane] = 1.0 / row.tangent_effective_mass.v[lane];
 }
 
 }  // namespace
@@ -61,7 +61,8 @@ void measure_responses(const PairBlock& block, const BlockInverseInertias& inver
             }
             for (LaneValues& part : row.response) part.v[lane] = 0.0;
             for (LaneValues* value :
-                 {&row.normal_response, &row.tangent_response, &row.normal_mass, &row.tangent_mass})
+                 {&row.inverse_effective_mass, &row.tangent_inverse_effective_mass,
+                  &row.effective_mass, &row.tangent_effective_mass})
                 value->v[lane] = 0.0;
         }
     }

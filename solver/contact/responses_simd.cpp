@@ -87,12 +87,12 @@ void MeasureResponses(const PairBlock& block, const BlockInverseInertias& invers
             put(response.z, row.response[2]);
             const Matrices k =
                 ResponseMatrix(inverse_mass, inverse_inertia_a, arm_a, inverse_inertia_b, arm_b);
-            const Lanes normal_mass = hn::Div(one, Dot(n, Product(k, n)));
-            const Lanes tangent_mass = hn::Div(one, LargestTangentResponse(k, n));
-            put(normal_mass, row.normal_mass);
-            put(tangent_mass, row.tangent_mass);
-            put(hn::Div(one, normal_mass), row.normal_response);
-            put(hn::Div(one, tangent_mass), row.tangent_response);
+            const Lanes effective_mass = hn::Div(one, Dot(n, Product(k, n)));
+            const Lanes tangent_effective_mass = hn::Div(one, LargestTangentResponse(k, n));
+            put(effective_mass, row.effective_mass);
+            put(tangent_effective_mass, row.tangent_effective_mass);
+            put(hn::Div(one, effective_mass), row.inverse_effective_mass);
+            put(hn::Div(one, tangent_effective_mass), row.tangent_inverse_effective_mass);
         }
     }
 }

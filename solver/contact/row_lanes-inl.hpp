@@ -13,8 +13,8 @@
 
 #include <cstddef>
 
+#include "common/math/vector_lanes-inl.hpp"
 #include "solver/contact/contact_rows.hpp"
-#include "solver/shape/vector_lanes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace ice::HWY_NAMESPACE {

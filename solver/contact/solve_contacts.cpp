@@ -3,7 +3,7 @@
 // Projected Gauss-Seidel ("sequential impulses") over the contacts in the order of ContactRows:
 // each in turn gets the impulse that satisfies its own conditions, given all others; repeated
 // until no contact velocity changes any more. The fixed point satisfies all conditions together;
-// extrapolation between the sweeps brings it near.
+// conjugate gradients between the sweeps bring it near.
 #include "solver/contact/solve_contacts.hpp"
 
 #include <algorithm>
@@ -21,7 +21,7 @@ namespace {
 constexpr int kRebounds = 2;
 
 // The last third of the iterations is plain sweeps: they end near the answer also where the
-// extrapolated ones go round it.
+// accelerated ones go round it.
 constexpr int kPlainShare = 3;
 
 // Contacts take part in the resting stage when the loads bring them this near to closing [m]: most
@@ -40,11 +40,11 @@ void drive_through(Bodies& bodies, Constraint& c) {
     const Vec3 v = relative_velocity(bodies, c);
     const Vec3 sliding = v - v.dot(c.normal) * c.normal;
     const double speed = sliding.norm();
-    c.impact_normal = c.strength;
-    if (speed > 0.0) c.impact_tangent = -(c.friction * c.strength / speed) * sliding;
+    c.impact_normal = c.max_impulse;
+    if (speed > 0.0) c.impact_tangent = -(c.friction * c.max_impulse / speed) * sliding;
     if (c.a != static_cast<std::int32_t>(kShip) || !bodies.ship.free || speed == 0.0) return;
     const double yields = ship_response(bodies.ship, c.arm_a, sliding / speed);
-    if (yields * c.friction * c.strength > speed) c.impact_tangent = -1.0 / yields * sliding;
+    if (yields * c.friction * c.max_impulse > speed) c.impact_tangent = -1.0 / yields * sliding;
     push_ship(bodies, c, c.impact_tangent);
 }
 
@@ -65,7 +65,7 @@ void add(const SolveReport& part, SolveReport& whole) {
 
 SolveReport ContactSolver::iterate(const ContactLaw& law) {
     SolveReport report;
-    extrapolation_.begin(contacts_, !std::isinf(law.crushing_pressure));
+    gradient_.begin(contacts_, !law.is_rigid());
     while (true) {
         ++report.iterations;
         contacts_.part_ship();
@@ -74,7 +74,7 @@ SolveReport ContactSolver::iterate(const ContactLaw& law) {
         report.converged = report.residual <= law.tolerance;
         if (report.converged || report.iterations >= law.iterations) return report;
         if (report.iterations * kPlainShare < law.iterations * (kPlainShare - 1))
-            extrapolation_.advance(contacts_);
+            gradient_.advance(contacts_);
     }
 }
 
@@ -83,7 +83,7 @@ SolveReport ContactSolver::solve_impacts(Bodies& bodies, std::vector<Constraint>
     contacts_.begin_stage(bodies, constraints, &Constraint::impact_normal,
                           &Constraint::impact_tangent,
                           [&](const Constraint& c) -> ContactRows::Target {
-                              return {c.rebounds ? -restitution * c.approach : 0.0, c.strength};
+                              return {c.rebounds ? -restitution * c.approach : 0.0, c.max_impulse};
                           });
     const SolveReport report = iterate(law);
     contacts_.end_stage(bodies, constraints, &Constraint::impact_normal,
@@ -96,14 +96,13 @@ SolveReport ContactSolver::solve_impacts(Bodies& bodies, std::vector<Constraint>
 // answers would take turns.
 SolveReport ContactSolver::rebound(Bodies& bodies, std::vector<Constraint>& constraints,
                                    const ContactLaw& law) {
-    if (std::isinf(law.crushing_pressure))
-        return solve_impacts(bodies, constraints, law, law.restitution);
+    if (law.is_rigid()) return solve_impacts(bodies, constraints, law, law.restitution);
     SolveReport report = solve_impacts(bodies, constraints, law, 0.0);
     for (int pass = 0; pass < kRebounds; ++pass) {
         int fresh = 0;
         for (const std::int32_t k : meeting_) {
             Constraint& c = constraints[k];
-            if (!c.rebounds || c.impact_normal < c.strength) continue;
+            if (!c.rebounds || c.impact_normal < c.max_impulse) continue;
             c.rebounds = false;
             ++fresh;
         }
@@ -114,41 +113,41 @@ SolveReport ContactSolver::rebound(Bodies& bodies, std::vector<Constraint>& cons
 }
 
 SolveReport ContactSolver::resolve_impacts(Bodies& bodies, std::vector<Constraint>& constraints,
-                                           const ContactLaw& law) {
+                                           const ContactLaw& law, double dt) {
     meeting_.clear();
     bool approaching = false;
     for (std::size_t k = 0; k < constraints.size(); ++k) {
         Constraint& c = constraints[k];
-        if (!meets_within_step(c, law.dt)) continue;
+        if (!meets_within_step(c, dt)) continue;
         meeting_.push_back(static_cast<std::int32_t>(k));
         approaching = approaching || c.approach < 0.0;
-        if (!c.can_move && !std::isinf(c.strength) && c.approach < 0.0) drive_through(bodies, c);
+        if (!c.can_move && !std::isinf(c.max_impulse) && c.approach < 0.0) drive_through(bodies, c);
     }
     if (!approaching) return {};
     contacts_.build(bodies, constraints, meeting_);
-    passive_.begin(bodies, contacts_, constraints, meeting_);
+    limiter_.begin(bodies, contacts_, constraints, meeting_);
     SolveReport report = rebound(bodies, constraints, law);
-    if (law.restitution == 0.0 || passive_.energy_gain(bodies, contacts_, constraints) <= 0.0)
+    if (law.restitution == 0.0 || limiter_.energy_gain(bodies, contacts_, constraints) <= 0.0)
         return report;
-    passive_.set_aside(bodies, contacts_, constraints);
+    limiter_.set_aside(bodies, contacts_, constraints);
     add(solve_impacts(bodies, constraints, law, 0.0), report);
-    passive_.limit_rebound(bodies, contacts_, constraints);
+    limiter_.limit_rebound(bodies, contacts_, constraints);
     return report;
 }
 
 bool ContactSolver::enlist(const Bodies& bodies, const std::vector<Constraint>& constraints,
-                           const ContactLaw& law) {
+                           double tolerance, double dt) {
     const std::size_t before = active_.size();
     double most = 0.0;
     for (std::size_t k = 0; k < constraints.size(); ++k) {
         const Constraint& c = constraints[k];
         if (is_active_[k] || !c.can_move) continue;
-        const double closes = closes_by(bodies, c, law.dt);
+        const double closes = closes_by(bodies, c, dt);
         most = std::max(most, closes);
         if (closes >= -kNear || c.rest_normal > 0.0)
             active_.push_back(static_cast<std::int32_t>(k));
     }
-    if (before > 0 && most <= law.tolerance * law.dt) {
+    if (before > 0 && most <= tolerance * dt) {
         active_.resize(before);
         return false;
     }
@@ -158,16 +157,16 @@ bool ContactSolver::enlist(const Bodies& bodies, const std::vector<Constraint>& 
 }
 
 void ContactSolver::begin_rest(const Bodies& bodies, const std::vector<Constraint>& constraints,
-                               const ContactLaw& law) {
+                               double dt) {
     contacts_.begin_stage(bodies, constraints, &Constraint::rest_normal, &Constraint::rest_tangent,
                           [&](const Constraint& c) -> ContactRows::Target {
-                              return {-std::max(c.gap, 0.0) / law.dt, c.strength - c.impact_normal};
+                              return {-std::max(c.gap, 0.0) / dt, c.max_impulse - c.impact_normal};
                           });
 }
 
 // The first guess moves copies: taken back from the bodies it would leave its rounding there.
 void ContactSolver::begin_rest_with_guess(Bodies& bodies, std::vector<Constraint>& constraints,
-                                          const ContactLaw& law) {
+                                          double dt) {
     velocities_.clear();
     for (const std::int32_t body : contacts_.bodies())
         velocities_.emplace_back(bodies.velocity[body], bodies.angular_velocity[body]);
@@ -176,7 +175,7 @@ void ContactSolver::begin_rest_with_guess(Bodies& bodies, std::vector<Constraint
         if (c.rest_normal > 0.0)
             apply_impulse(bodies, c, c.rest_normal * c.normal + c.rest_tangent);
     }
-    begin_rest(bodies, constraints, law);
+    begin_rest(bodies, constraints, dt);
     for (std::size_t k = 0; k < velocities_.size(); ++k) {
         const std::int32_t body = contacts_.bodies()[k];
         std::tie(bodies.velocity[body], bodies.angular_velocity[body]) = velocities_[k];
@@ -188,22 +187,22 @@ void ContactSolver::begin_rest_with_guess(Bodies& bodies, std::vector<Constraint
 }
 
 SolveReport ContactSolver::resolve_rest(Bodies& bodies, std::vector<Constraint>& constraints,
-                                        const ContactLaw& law) {
+                                        const ContactLaw& law, double dt) {
     active_.clear();
     is_active_.assign(constraints.size(), 0);
     SolveReport report;
     for (int solution = 0; solution < kRestSolutions; ++solution) {
-        if (!enlist(bodies, constraints, law)) return report;
+        if (!enlist(bodies, constraints, law.tolerance, dt)) return report;
         contacts_.build(bodies, constraints, active_);
-        solution == 0 ? begin_rest_with_guess(bodies, constraints, law)
-                      : begin_rest(bodies, constraints, law);
+        solution == 0 ? begin_rest_with_guess(bodies, constraints, dt)
+                      : begin_rest(bodies, constraints, dt);
         const int before = report.iterations;
         report = iterate(law);
         report.iterations += before;
         contacts_.end_stage(bodies, constraints, &Constraint::rest_normal,
                             &Constraint::rest_tangent);
     }
-    report.converged = report.converged && !enlist(bodies, constraints, law);
+    report.converged = report.converged && !enlist(bodies, constraints, law.tolerance, dt);
     return report;
 }
 

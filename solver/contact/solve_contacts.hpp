@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include "solver/contact/conjugate_gradient.hpp"
 #include "solver/contact/constraints.hpp"
-#include "solver/contact/extrapolation.hpp"
-#include "solver/contact/passive_impact.hpp"
+#include "solver/contact/impact_energy_limiter.hpp"
 
 namespace ice {
 
@@ -39,8 +39,9 @@ public:
     /// Where this would add energy (friction at e near 1) the rebound is weakened: limit_rebound().
     /// Between the ship and a held floe nothing can give way: with a finite crushing pressure the
     /// contact carries its strength and friction, without one nothing (a jam, see measure_step).
+    /// @param dt  time step [s], that of build_constraints
     SolveReport resolve_impacts(Bodies& bodies, std::vector<Constraint>& constraints,
-                                const ContactLaw& law);
+                                const ContactLaw& law, double dt);
 
     /// Resting stage, after the loads: no contact closes further than its gap,
     /// v_r . n >= -max(gap, 0) / dt, with what strength the impact stage left. Starts from
@@ -53,7 +54,7 @@ public:
     /// @pre impact_normal is the impact stage's; constraints ordered by (a, b); no rest_normal
     /// where nothing can move, no rest_tangent where there is no rest_normal
     SolveReport resolve_rest(Bodies& bodies, std::vector<Constraint>& constraints,
-                             const ContactLaw& law);
+                             const ContactLaw& law, double dt);
     /// Constraints that took part in the last resting stage, or, where it did not converge, would
     /// have to; ascending. The others carry nothing in it.
     const std::vector<std::int32_t>& resting() const { return active_; }
@@ -68,16 +69,14 @@ private:
 
     // Adds the contacts to active_ that have to take part in the resting stage; are there any new
     // ones? Once there are some, only a contact that closes brings others.
-    bool enlist(const Bodies& bodies, const std::vector<Constraint>& constraints,
-                const ContactLaw& law);
-    void begin_rest(const Bodies& bodies, const std::vector<Constraint>& constraints,
-                    const ContactLaw& law);
-    void begin_rest_with_guess(Bodies& bodies, std::vector<Constraint>& constraints,
-                               const ContactLaw& law);
+    bool enlist(const Bodies& bodies, const std::vector<Constraint>& constraints, double tolerance,
+                double dt);
+    void begin_rest(const Bodies& bodies, const std::vector<Constraint>& constraints, double dt);
+    void begin_rest_with_guess(Bodies& bodies, std::vector<Constraint>& constraints, double dt);
 
     ContactRows contacts_;
-    Extrapolation extrapolation_;
-    PassiveImpact passive_;
+    ConjugateGradient gradient_;
+    ImpactEnergyLimiter limiter_;
     std::vector<std::pair<Vec3, Vec3>> velocities_;  // of the bodies that take part
     std::vector<std::int32_t> meeting_, active_;     // constraints: of the impacts, of the rest
     std::vector<std::uint8_t> is_active_;            // by constraint

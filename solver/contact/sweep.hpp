@@ -13,7 +13,7 @@ namespace ice {
 /// Blocks one after the other, the rows of a block one after the other, its eight pairs at once.
 /// For a contact with accumulated impulses J_n n + J_t, relative velocity v_r, masses m_n, m_t:
 ///
-///     J_n'  = clamp(J_n + (wanted - v_r . n) m_n, 0, bound)
+///     J_n'  = clamp(J_n + (target_velocity - v_r . n) m_n, 0, max_impulse)
 ///     v_r'  = v_r + (J_n' - J_n) K n
 ///     J_t'  = J_t - m_t (v_r' - (v_r' . n) n), shortened to mu J_n' where longer
 ///

@@ -7,18 +7,18 @@
 
 namespace ice {
 
-/// State before a sweep and the direction of the extrapolation, beside rows and motions.
+/// State before a sweep and the direction of the conjugate gradients, beside rows and motions.
 struct SweepMemory {
-    std::vector<RowImpulses> before, way;
-    std::vector<BodyMotion> motion_before, motion_way;
+    std::vector<RowImpulses> before, direction;
+    std::vector<BodyMotion> motion_before, motion_direction;
 };
 
 /// |g|^2 = sum of k(n) (dJ_n^2 + dJ_t^2) for the changes since `memory` [J], twice the energy of
 /// them on unit masses; summed by lanes, then over the lanes.
 double measure_change(const std::vector<ContactRow>& rows, const SweepMemory& memory);
 
-/// With g the change since `before`: values += beta way, way = beta way + g, before = values; for
-/// impulses and velocities.
+/// With g the change since `before` and p the direction: values += beta p, p = beta p + g,
+/// before = values; for impulses and velocities.
 void move_on(std::vector<ContactRow>& rows, std::vector<BodyMotion>& motion, double beta,
              SweepMemory& memory);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "common/math/ordered_products.hpp"
 #include "solver/contact/sweep_memory.hpp"
-#include "solver/shape/ordered_products.hpp"
 
 namespace ice::reference {
 
@@ -11,18 +11,18 @@ double measure_change(const std::vector<ContactRow>& rows, const SweepMemory& me
             const RowImpulses &now = rows[r].impulse, &before = memory.before[r];
             const double normal = now.normal.v[lane] - before.normal.v[lane];
             const Vec3 tangent = get(now.tangent, lane) - get(before.tangent, lane);
-            sum[lane] +=
-                (normal * normal + ordered_dot(tangent, tangent)) * rows[r].normal_response.v[lane];
+            sum[lane] += (normal * normal + ordered_dot(tangent, tangent)) *
+                         rows[r].inverse_effective_mass.v[lane];
         }
     return ((sum[0] + sum[1]) + (sum[2] + sum[3])) + ((sum[4] + sum[5]) + (sum[6] + sum[7]));
 }
 
 namespace {
 
-void move_on(double& value, double& before, double& way, double beta) {
+void move_on(double& value, double& before, double& direction, double beta) {
     const double change = value - before;
-    value = value + beta * way;
-    way = beta * way + change;
+    value = value + beta * direction;
+    direction = beta * direction + change;
     before = value;
 }
 
@@ -32,15 +32,17 @@ void move_on(std::vector<ContactRow>& rows, std::vector<BodyMotion>& motion, dou
              SweepMemory& memory) {
     for (std::size_t r = 0; r < rows.size(); ++r)
         for (std::size_t lane = 0; lane < kLanes; ++lane) {
-            RowImpulses &now = rows[r].impulse, &before = memory.before[r], &way = memory.way[r];
-            move_on(now.normal.v[lane], before.normal.v[lane], way.normal.v[lane], beta);
+            RowImpulses &now = rows[r].impulse, &before = memory.before[r],
+                        &direction = memory.direction[r];
+            move_on(now.normal.v[lane], before.normal.v[lane], direction.normal.v[lane], beta);
             for (std::size_t d = 0; d < 3; ++d)
-                move_on(now.tangent[d].v[lane], before.tangent[d].v[lane], way.tangent[d].v[lane],
-                        beta);
+                move_on(now.tangent[d].v[lane], before.tangent[d].v[lane],
+                        direction.tangent[d].v[lane], beta);
         }
     for (std::size_t k = 0; k < motion.size(); ++k)
         for (std::size_t d = 0; d < 8; ++d)
-            move_on(motion[k].v[d], memory.motion_before[k].v[d], memory.motion_way[k].v[d], beta);
+            move_on(motion[k].v[d], memory.motion_before[k].v[d], memory.motion_direction[k].v[d],
+                    beta);
 }
 
 }  // namespace ice::reference

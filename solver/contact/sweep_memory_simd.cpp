@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What extrapolation does with rows and motions, as many lanes at a time as the machine has,
+// What conjugate gradients do with rows and motions, as many lanes at a time as the machine has,
 // compiled once per instruction set. The mathematics is in sweep_memory_reference.cpp.
 #include "solver/contact/sweep_memory.hpp"
 
@@ -24,7 +24,7 @@ double MeasureChange(const std::vector<ContactRow>& rows, const SweepMemory& mem
             const Lanes normal = hn::Sub(Get(now.normal, lane), Get(before.normal, lane));
             const Vectors tangent = Sub(Get(now.tangent, lane), Get(before.tangent, lane));
             part = hn::Add(part, hn::Mul(hn::Add(hn::Mul(normal, normal), Dot(tangent, tangent)),
-                                         Get(rows[r].normal_response, lane)));
+                                         Get(rows[r].inverse_effective_mass, lane)));
         }
         Put(part, sum, lane);
     }
@@ -32,15 +32,15 @@ double MeasureChange(const std::vector<ContactRow>& rows, const SweepMemory& mem
     return ((s[0] + s[1]) + (s[2] + s[3])) + ((s[4] + s[5]) + (s[6] + s[7]));
 }
 
-HWY_INLINE void MoveOn(double* values, double* before, double* way, Lanes beta) {
+HWY_INLINE void MoveOn(double* values, double* before, double* direction, Lanes beta) {
     const Tag d;
     for (std::size_t k = 0; k < kLanes; k += hn::Lanes(d)) {
-        const Lanes value = hn::LoadU(d, values + k), direction = hn::LoadU(d, way + k);
+        const Lanes value = hn::LoadU(d, values + k), old = hn::LoadU(d, direction + k);
         const Lanes change = hn::Sub(value, hn::LoadU(d, before + k));
-        const Lanes step = hn::Mul(beta, direction);
+        const Lanes step = hn::Mul(beta, old);
         const Lanes next = hn::Add(value, step);
         hn::StoreU(next, d, values + k);
-        hn::StoreU(hn::Add(step, change), d, way + k);
+        hn::StoreU(hn::Add(step, change), d, direction + k);
         hn::StoreU(next, d, before + k);
     }
 }
@@ -49,13 +49,14 @@ void MoveOnAll(std::vector<ContactRow>& rows, std::vector<BodyMotion>& motion, d
                SweepMemory& memory) {
     const Lanes share = hn::Set(Tag(), beta);
     for (std::size_t r = 0; r < rows.size(); ++r) {
-        RowImpulses &now = rows[r].impulse, &before = memory.before[r], &way = memory.way[r];
-        MoveOn(now.normal.v, before.normal.v, way.normal.v, share);
+        RowImpulses &now = rows[r].impulse, &before = memory.before[r],
+                    &direction = memory.direction[r];
+        MoveOn(now.normal.v, before.normal.v, direction.normal.v, share);
         for (std::size_t axis = 0; axis < 3; ++axis)
-            MoveOn(now.tangent[axis].v, before.tangent[axis].v, way.tangent[axis].v, share);
+            MoveOn(now.tangent[axis].v, before.tangent[axis].v, direction.tangent[axis].v, share);
     }
     for (std::size_t k = 0; k < motion.size(); ++k)
-        MoveOn(motion[k].v, memory.motion_before[k].v, memory.motion_way[k].v, share);
+        MoveOn(motion[k].v, memory.motion_before[k].v, memory.motion_direction[k].v, share);
 }
 
 }  // namespace ice::HWY_NAMESPACE

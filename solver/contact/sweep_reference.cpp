@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/math/ordered_products.hpp"
 #include "solver/contact/sweep.hpp"
-#include "solver/shape/ordered_products.hpp"
 
 namespace ice::reference {
 
@@ -52,15 +52,15 @@ void solve(ContactRow& row, std::size_t lane, Side& a, Side& b, Changes& most) {
     const Vec3 v = b.at(arm_b) - a.at(arm_a);
     double& normal = row.impulse.normal.v[lane];
     const double reached =
-        normal + (row.wanted.v[lane] - ordered_dot(n, v)) * row.normal_mass.v[lane];
-    const double next = std::min(std::max(reached, 0.0), row.bound.v[lane]);
+        normal + (row.target_velocity.v[lane] - ordered_dot(n, v)) * row.effective_mass.v[lane];
+    const double next = std::min(std::max(reached, 0.0), row.max_impulse.v[lane]);
     const double change = next - normal;
     normal = next;
 
     const Vec3 after = v + change * get(row.response, lane);
     const Vec3 sliding = after - ordered_dot(n, after) * n;
     const Vec3 before = get(row.impulse.tangent, lane);
-    Vec3 tangent = before - row.tangent_mass.v[lane] * sliding;
+    Vec3 tangent = before - row.tangent_effective_mass.v[lane] * sliding;
     const double size_sq = ordered_dot(tangent, tangent), limit = row.friction.v[lane] * next;
     if (size_sq > limit * limit) tangent = (limit / std::sqrt(size_sq)) * tangent;
     const Vec3 turned = tangent - before;
@@ -71,8 +71,8 @@ void solve(ContactRow& row, std::size_t lane, Side& a, Side& b, Changes& most) {
     const Vec3 j = change * n + turned;
     a.push(arm_a, -1.0 * j);
     b.push(arm_b, j);
-    const double k = row.tangent_response.v[lane];
-    most.normal = std::max(most.normal, std::abs(change) * row.normal_response.v[lane]);
+    const double k = row.tangent_inverse_effective_mass.v[lane];
+    most.normal = std::max(most.normal, std::abs(change) * row.inverse_effective_mass.v[lane]);
     most.tangent_sq = std::max(most.tangent_sq, ordered_dot(turned, turned) * (k * k));
 }
 

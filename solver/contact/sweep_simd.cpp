@@ -133,9 +133,9 @@ HWY_INLINE void Streams<N>::Solve(Changes& most) {
     const WideVectors<N> arm_a = vectors(&ContactRow::arm_a), arm_b = vectors(&ContactRow::arm_b);
     const WideVectors<N> v = b.At(arm_b) - a.At(arm_a);
     const auto normal_of = [](auto& row) -> auto& { return row.impulse.normal; };
-    const Wide<N> normal = Read(normal_of), bound = values(&ContactRow::bound);
-    Wide<N> next =
-        normal + (values(&ContactRow::wanted) - Dot(n, v)) * values(&ContactRow::normal_mass);
+    const Wide<N> normal = Read(normal_of), bound = values(&ContactRow::max_impulse);
+    Wide<N> next = normal + (values(&ContactRow::target_velocity) - Dot(n, v)) *
+                                values(&ContactRow::effective_mass);
     for (std::size_t s = 0; s < N; ++s)
         next.of[s] = hn::Min(hn::Max(next.of[s], hn::Zero(d)), bound.of[s]);
     const Wide<N> change = next - normal;
@@ -145,7 +145,7 @@ HWY_INLINE void Streams<N>::Solve(Changes& most) {
     const WideVectors<N> sliding = after - Dot(n, after) * n;
     const WideVectors<N> before = ReadVectors(
         [](const ContactRow& row) -> const LaneVectors& { return row.impulse.tangent; });
-    const WideVectors<N> free = before - values(&ContactRow::tangent_mass) * sliding;
+    const WideVectors<N> free = before - values(&ContactRow::tangent_effective_mass) * sliding;
     const Wide<N> size_sq = Dot(free, free), limit = values(&ContactRow::friction) * next;
     const Wide<N> limit_sq = limit * limit;
     Wide<N> shorter;
@@ -164,9 +164,9 @@ HWY_INLINE void Streams<N>::Solve(Changes& most) {
     for (std::size_t s = 0; s < N; ++s) minus.of[s] = hn::Set(d, -1.0);
     a.Push(arm_a, minus * j);
     b.Push(arm_b, j);
-    const Wide<N> k = values(&ContactRow::tangent_response);
+    const Wide<N> k = values(&ContactRow::tangent_inverse_effective_mass);
     const Wide<N> slid = Dot(turned, turned) * (k * k);
-    const Wide<N> response = values(&ContactRow::normal_response);
+    const Wide<N> response = values(&ContactRow::inverse_effective_mass);
     for (std::size_t s = 0; s < N; ++s) ++of[s].row;
     for (std::size_t s = 0; s < N; ++s) {
         most.normal = hn::Max(most.normal, hn::Mul(hn::Abs(change.of[s]), response.of[s]));

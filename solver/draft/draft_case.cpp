@@ -10,9 +10,9 @@
 #include "common/base/error.hpp"
 #include "common/formats/spheres_file.hpp"
 #include "solver/record/particulars.hpp"
+#include "solver/run/check_course.hpp"
 #include "solver/scene/build_scene.hpp"
 #include "solver/scene/ice_extent.hpp"
-#include "solver/step/check_course.hpp"
 
 namespace ice {
 

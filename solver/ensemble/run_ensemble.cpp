@@ -15,9 +15,9 @@
 #include "solver/case/read_case.hpp"
 #include "solver/ensemble/average_members.hpp"
 #include "solver/ensemble/member_field.hpp"
+#include "solver/run/lay_level_ice.hpp"
+#include "solver/run/run_folder.hpp"
 #include "solver/scene/build_scene.hpp"
-#include "solver/step/lay_level_ice.hpp"
-#include "solver/step/run_folder.hpp"
 
 namespace ice {
 

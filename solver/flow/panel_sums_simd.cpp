@@ -9,8 +9,8 @@
 #include <hwy/foreach_target.h>  // must precede highway.h
 #include <hwy/highway.h>
 
+#include "common/math/vector_lanes-inl.hpp"
 #include "solver/flow/own_functions.hpp"
-#include "solver/shape/vector_lanes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace ice::HWY_NAMESPACE {

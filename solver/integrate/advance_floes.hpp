@@ -13,12 +13,12 @@ namespace ice {
 /// What a step does to floes beside their velocities at its end.
 struct Advance {
     const std::vector<Vec3>& angular_velocity_start;  ///< by body [rad/s]
-    const Nudges& nudges;
+    const PositionCorrections& corrections;
     double dt;  ///< [s]
 };
 
 /// Takes the velocity changes of a step into the momenta and moves floes with these, then by the
-/// nudges:
+/// corrections:
 ///
 ///     P = m v,   L += I (w - w_start),   x += dt v + shift,   q by advance_orientation, then turn,
 ///

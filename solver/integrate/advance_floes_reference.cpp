@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "common/math/ordered_products.hpp"
 #include "solver/integrate/advance_floes.hpp"
 #include "solver/integrate/rotation.hpp"
-#include "solver/shape/ordered_products.hpp"
 
 namespace ice::reference {
 
@@ -13,10 +13,10 @@ void advance(Bodies& b, std::size_t i, const Advance& step) {
     if (!change.isZero(0.0))
         b.angular_momentum[i] += ordered_turned(b.rotation[i], b.inertia(i), change);
 
-    b.position[i] += step.dt * b.velocity[i] + step.nudges.shift[i];
+    b.position[i] += step.dt * b.velocity[i] + step.corrections.shift[i];
     b.orientation[i] =
         advance_orientation(b.orientation[i], b.inverse_inertia(i), b.angular_momentum[i], step.dt);
-    const Vec3& turn = step.nudges.turn[i];
+    const Vec3& turn = step.corrections.turn[i];
     if (!turn.isZero(0.0))
         b.orientation[i] =
             ordered_normalized(ordered_product(exponential_map(turn), b.orientation[i]));

@@ -98,7 +98,7 @@ void AdvancePart(Bodies& b, std::span<const std::int32_t> floes, const Advance& 
 
     const Matrices inverse_inertia = at.Load(b, &Inertia::inverse);
     const Vectors k1 = Scale(dt, Turned(r, inverse_inertia, angular_momentum));
-    const Vectors turn = at.Load(step.nudges.turn);
+    const Vectors turn = at.Load(step.corrections.turn);
     const Mask spins = NotZero(k1), nudged = NotZero(turn);
     ExponentialMap map;
     if (!hn::AllFalse(d, spins))
@@ -121,7 +121,7 @@ void AdvancePart(Bodies& b, std::span<const std::int32_t> floes, const Advance& 
     at.Store(momentum, b.momentum);
     at.Store({hn::Div(momentum.x, mass), hn::Div(momentum.y, mass), hn::Div(momentum.z, mass)},
              b.velocity);
-    const Vectors move = Add(Scale(dt, v), at.Load(step.nudges.shift));
+    const Vectors move = Add(Scale(dt, v), at.Load(step.corrections.shift));
     at.Store(Add(at.Load(b.position), move), b.position);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solver/integrate/rotation.hpp"
 
-#include "solver/shape/ordered_products.hpp"
+#include "common/math/ordered_products.hpp"
 
 namespace ice {
 

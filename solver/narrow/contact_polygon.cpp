@@ -6,7 +6,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "solver/shape/ordered_products.hpp"
+#include "common/math/ordered_products.hpp"
 
 namespace ice {
 

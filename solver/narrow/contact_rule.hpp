@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <cmath>
-
 #include "solver/case/case.hpp"
 
 namespace ice {
@@ -13,8 +11,7 @@ struct ContactRule {
     bool crushes = true;
 
     ContactRule(NormalRule n, bool c = true) : normal(n), crushes(c) {}
-    explicit ContactRule(const Case& c)
-        : ContactRule(c.normal, std::isfinite(c.crushing_pressure)) {}
+    explicit ContactRule(const Case& c) : ContactRule(c.normal, !c.contact.is_rigid()) {}
 };
 
 }  // namespace ice

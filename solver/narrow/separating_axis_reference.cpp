@@ -2,8 +2,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "common/math/ordered_products.hpp"
 #include "solver/narrow/separating_axis.hpp"
-#include "solver/shape/ordered_products.hpp"
 
 namespace ice {
 

@@ -8,7 +8,7 @@
 #include <hwy/foreach_target.h>  // must precede highway.h
 #include <hwy/highway.h>
 
-#include "solver/shape/vector_lanes-inl.hpp"
+#include "common/math/vector_lanes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace ice::HWY_NAMESPACE {

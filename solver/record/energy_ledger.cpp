@@ -15,7 +15,7 @@ namespace {
 // a warning.
 constexpr double kWorryingResidual = 0.005;
 
-void book_contact(const Bodies& now, const Constraint& c, const StepBooks& start,
+void book_contact(const Bodies& now, const Constraint& c, const StepStart& start,
                   EnergyLedger& ledger) {
     const Vec3 before = start.velocity[c.b] + start.angular_velocity[c.b].cross(c.arm_b) -
                         start.velocity[c.a] - start.angular_velocity[c.a].cross(c.arm_a);
@@ -38,37 +38,30 @@ void book_contact(const Bodies& now, const Constraint& c, const StepBooks& start
 
 }  // namespace
 
+void EnergyLedger::begin(const Scene& scene, const Case& parameters) {
+    if (!potential_start) potential_start = potential_energy(scene, parameters);
+}
+
 double EnergyLedger::residual(double potential_now) const {
     return ship_work + separation + water_work + applied_work - kinetic -
            (potential_now - potential_start.value_or(0.0)) - friction - restitution - crushing -
            breaking - drag - buoyancy_moment;
 }
 
-void StepBooks::open(const Bodies& bodies) {
-    kinetic = kinetic_energy(bodies);
-    velocity.resize(bodies.size(), Vec3::Zero());  // of held floes
-    angular_velocity.resize(bodies.size(), Vec3::Zero());
-    velocity[kShip] = bodies.velocity[kShip];
-    angular_velocity[kShip] = bodies.angular_velocity[kShip];
-    for (const std::int32_t i : bodies.moving) {
-        velocity[i] = bodies.velocity[i];
-        angular_velocity[i] = bodies.angular_velocity[i];
-    }
-}
-
 void book_step(const Scene& scene, const Case& parameters,
                const std::vector<Constraint>& constraints, const std::vector<FloeLoad>& loads,
-               const Nudges& nudges, const StepBooks& books, EnergyLedger& ledger) {
+               const PositionCorrections& corrections, const StepStart& start,
+               EnergyLedger& ledger) {
     const Bodies& b = scene.bodies;
     for (const Constraint& c : constraints)
-        if (c.total_normal() > 0.0) book_contact(b, c, books, ledger);
+        if (c.total_normal() > 0.0) book_contact(b, c, start, ledger);
     const double dt = parameters.time_step;
     const bool unrighted = parameters.buoyancy == BuoyancyModel::centre;
     for (std::size_t k = 0; k < b.moving.size(); ++k) {
         const auto i = static_cast<std::size_t>(b.moving[k]);
         const FloeLoad& load = loads[k];
-        const Vec3 v = 0.5 * (books.velocity[i] + b.velocity[i]);
-        const Vec3 w = 0.5 * (books.angular_velocity[i] + b.angular_velocity[i]);
+        const Vec3 v = 0.5 * (start.velocity[i] + b.velocity[i]);
+        const Vec3 w = 0.5 * (start.angular_velocity[i] + b.angular_velocity[i]);
         ledger.drag -= dt * (load.drag.force.dot(v) + load.drag.moment.dot(w));
         ledger.drag += dt * load.water_power;
         ledger.water_work += dt * load.water_power;
@@ -78,7 +71,8 @@ void book_step(const Scene& scene, const Case& parameters,
         const WaterLoad& own = load.applied;
         ledger.applied_work += dt * (own.force.dot(v) + own.moment.dot(w));
         const Vec3 weight = load.force - load.drag.force - push.force - own.force;
-        ledger.separation -= weight.dot(nudges.shift[i]) + load.righting.dot(nudges.turn[i]);
+        ledger.separation -=
+            weight.dot(corrections.shift[i]) + load.righting.dot(corrections.turn[i]);
     }
 }
 

@@ -8,9 +8,10 @@
 
 #include "common/formats/summary_file.hpp"
 #include "solver/case/case.hpp"
-#include "solver/contact/solve_contacts.hpp"
-#include "solver/integrate/integrate.hpp"
-#include "solver/scene/bodies.hpp"
+#include "solver/contact/overlaps.hpp"
+#include "solver/loads/load_floes.hpp"
+#include "solver/loads/potential_energy.hpp"
+#include "solver/scene/step_start.hpp"
 
 namespace ice {
 
@@ -57,23 +58,17 @@ struct EnergyLedger {
     double buoyancy_moment = 0.0;
     std::optional<double> potential_start;  ///< before the first step
 
+    /// Before each step; the first one takes the potential energy.
+    void begin(const Scene& scene, const Case& parameters);
     /// Energy at the end that the books do not explain, given the potential energy there.
     double residual(double potential_now) const;
-};
-
-/// What the ledger needs to know of the start of a step.
-struct StepBooks {
-    double kinetic = 0.0;                          ///< kinetic energy [J]
-    std::vector<Vec3> velocity, angular_velocity;  ///< after floes were released
-
-    /// Takes both from the bodies at the start of a step.
-    void open(const Bodies& bodies);
 };
 
 /// Books one step. The bodies have their velocities at the step's end and their poses before them.
 void book_step(const Scene& scene, const Case& parameters,
                const std::vector<Constraint>& constraints, const std::vector<FloeLoad>& loads,
-               const Nudges& nudges, const StepBooks& books, EnergyLedger& ledger);
+               const PositionCorrections& corrections, const StepStart& start,
+               EnergyLedger& ledger);
 
 /// Fills Summary::energy, and warns where more than 0.5 % of the ship's work, or of the losses
 /// where they are larger, is not explained.

@@ -10,6 +10,8 @@
 
 namespace ice {
 
+class CheckpointFile;
+
 /// Collects where floes press on the hull between two frames; the load map is made of it.
 class HullContacts {
 public:
@@ -21,9 +23,10 @@ public:
     /// Without a span there are none.
     std::vector<HullContact> take(double span);
 
-private:
-    friend struct StateFields;  // step/state_fields.cpp
+    /// Writes or sets its state, by the file's direction (recorder_state.cpp).
+    void carry(CheckpointFile& file);
 
+private:
     struct Sum {
         double weight = 0.0;                           ///< normal impulse [N s]
         Vec3 point = Vec3::Zero();                     ///< ship frame, times weight

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <tuple>
 
-#include "solver/integrate/integrate.hpp"
-
 namespace ice {
 
 namespace {

@@ -9,6 +9,8 @@
 
 namespace ice {
 
+class CheckpointFile;
+
 /// Collects normal forces on the hull's panels and regions as means over windows
 /// (formats/load_statistics.hpp), from the start of the statistics on.
 class PanelLoads {
@@ -28,9 +30,10 @@ public:
     /// hardest of all, by their largest line load; panels that nothing touched are left out.
     void fill(Summary& summary) const;
 
-private:
-    friend struct StateFields;  // step/state_fields.cpp: all but what the constructor sets
+    /// Writes or sets its state, by the file's direction (recorder_state.cpp).
+    void carry(CheckpointFile& file);
 
+private:
     struct Load {
         std::int64_t window;
         std::int32_t panel;

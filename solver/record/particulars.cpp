@@ -91,9 +91,9 @@ ShipParticulars measure_ship(const Scene& scene, const Case& parameters, double 
 IceParticulars measure_ice(const Scene& scene, const Case& parameters) {
     IceParticulars ice;
     ice.density = parameters.ice_density;
-    ice.friction_ship_ice = parameters.friction_ship_ice;
-    ice.friction_ice_ice = parameters.friction_ice_ice;
-    ice.crushing_pressure = parameters.crushing_pressure;
+    ice.friction_ship_ice = parameters.contact.friction_ship_ice;
+    ice.friction_ice_ice = parameters.contact.friction_ice_ice;
+    ice.crushing_pressure = parameters.contact.crushing_pressure;
     ice.concentration = scene.concentration;
     if (parameters.has_bending()) {
         ice.flexural_strength = parameters.bending.flexural_strength;

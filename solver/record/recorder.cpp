@@ -102,9 +102,9 @@ Recorder::Recorder(const Case& parameters, const Scene& scene)
     : parameters_(parameters),
       dt_(parameters.time_step),
       solids_(scene),
-      tally_({scene.shapes[0].region_names, parameters.average_from,
-              std::isinf(parameters.crushing_pressure), worrying_overlap(scene),
-              tunnelling_speed(scene, parameters.time_step), parameters.has_bending()}),
+      statistics_({scene.shapes[0].region_names, parameters.average_from,
+                   parameters.contact.is_rigid(), worrying_overlap(scene),
+                   tunnelling_speed(scene, parameters.time_step), parameters.has_bending()}),
       panel_loads_(
           divide_hull(scene.shapes[0], panel_size(scene), -scene.bodies.position[kShip].z()),
           scene.shapes[0].region_names, parameters.average_from, parameters.time_step),
@@ -166,9 +166,9 @@ void Recorder::add(const StepView& view) {
     const std::optional<double> residual =
         view.converged ? std::nullopt
                        : std::optional(residual_impulse(view.scene.bodies, view.constraints, dt_));
-    tally_.add(record, view.time, dt_, residual);
+    statistics_.add(record, view.time, dt_, residual);
     if (is_look_due(view.time))
-        tally_.add_look(solids_.measure(view.scene, view.contacts), view.time);
+        statistics_.add_look(solids_.measure(view.scene, view.contacts), view.time);
     panel_loads_.add(view.contacts, view.constraints, view.time);
     measure_floe_forces(view.constraints, dt_, track_of_, tracked_);
     for (const RegionImpulse& r : record.regions) frame_impulse_[r.floe] -= r.impulse;
@@ -187,7 +187,7 @@ bool Recorder::is_look_due(double time) const {
 
 void Recorder::add_ship(const StepView& view) {
     const FreeShip& ship = *view.ship;
-    ship_tally_.add(ship, view.scene, parameters_, view.time);
+    ship_statistics_.add(ship, view.scene, parameters_, view.time);
     row_.ship_angles = ship.angles();
     row_.ship_orientation = view.scene.bodies.orientation[kShip];
     row_.ship_velocity = view.scene.bodies.velocity[kShip];
@@ -284,7 +284,7 @@ void Recorder::add_frame(const StepView& view) {
 
 std::optional<FreeTravel> Recorder::travel(const StepView& view) const {
     if (view.ship == nullptr) return std::nullopt;
-    return ship_tally_.travel(*view.ship, view.scene, parameters_);
+    return ship_statistics_.travel(*view.ship, view.scene, parameters_);
 }
 
 void Recorder::finish(const StepView& view, Summary& summary) {
@@ -293,8 +293,8 @@ void Recorder::finish(const StepView& view, Summary& summary) {
     run_->finish(panel_loads_.panels());
     for (CsvFile& file : csv_files_) file.finish();
     fill_energy(view.ledger, potential_energy(view.scene, parameters_), summary);
-    if (view.ship != nullptr) ship_tally_.fill(*view.ship, view.scene, parameters_, summary);
-    tally_.fill(summary);  // after the energies: its warnings look at them
+    if (view.ship != nullptr) ship_statistics_.fill(*view.ship, view.scene, parameters_, summary);
+    statistics_.fill(summary);  // after the energies: its warnings look at them
     panel_loads_.fill(summary);
     // row 0 is for parts without a name, of which a mesh with names mostly has none
     const auto& names = view.scene.shapes[0].region_names;

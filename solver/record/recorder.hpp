@@ -15,10 +15,12 @@
 #include "solver/record/energy_ledger.hpp"
 #include "solver/record/hull_contacts.hpp"
 #include "solver/record/panel_loads.hpp"
-#include "solver/record/ship_tally.hpp"
-#include "solver/record/tally.hpp"
+#include "solver/record/run_statistics.hpp"
+#include "solver/record/ship_statistics.hpp"
 
 namespace ice {
+
+class CheckpointFile;
 
 /// The world after a step, as the recorder sees it.
 struct StepView {
@@ -52,7 +54,7 @@ public:
               const Scene& scene);
     /// Goes on where an earlier run stood, from its files in `earlier`, which may be `folder`:
     /// their first rows as far as `position`.
-    /// @pre the state was carried over (step/state_fields.hpp)
+    /// @pre the state was carried over (run/state_fields.hpp)
     /// @return names of the files whose earlier rows are missing there: those begin now
     std::vector<std::string> resume(const std::filesystem::path& folder,
                                     const std::string& command_line, const Scene& scene,
@@ -76,9 +78,10 @@ public:
     /// Completes and renames the files, and fills the summary's recorded part.
     void finish(const StepView& view, Summary& summary);
 
-private:
-    friend struct StateFields;  // step/state_fields.cpp: tally_ and what follows it
+    /// Writes or sets its state, by the file's direction (recorder_state.cpp).
+    void carry(CheckpointFile& file);
 
+private:
     RecordPosition position_of(RunPosition run);
     void add_history(const StepView& view, const StepRecord& record);
     void add_ship(const StepView& view);
@@ -91,9 +94,9 @@ private:
     std::optional<RunWriter> run_;    ///< from open() or resume() on
     std::vector<CsvFile> csv_files_;  ///< forces.csv, then the tracked floes'
     SolidOverlap solids_;
-    Tally tally_;
+    RunStatistics statistics_;
     PanelLoads panel_loads_;
-    ShipTally ship_tally_;
+    ShipStatistics ship_statistics_;
     std::vector<std::int32_t> track_of_;  ///< per body, its number among the tracked floes, or -1
     std::vector<FloeForces> tracked_;     ///< per tracked floe, in the last step
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "solver/shape/ordered_products.hpp"
+#include "common/math/ordered_products.hpp"
 
 namespace ice {
 
@@ -36,6 +36,14 @@ void list_moving(Bodies& bodies) {
     bodies.moving.clear();
     for (std::size_t i = kShip + 1; i < bodies.size(); ++i)
         if (!bodies.held[i]) bodies.moving.push_back(static_cast<std::int32_t>(i));
+}
+
+double kinetic_energy(const Bodies& bodies) {
+    double energy = 0.0;
+    for (const std::int32_t i : bodies.moving)
+        energy += 0.5 * (bodies.momentum[i].dot(bodies.velocity[i]) +
+                         bodies.angular_momentum[i].dot(bodies.angular_velocity[i]));
+    return energy;
 }
 
 }  // namespace ice

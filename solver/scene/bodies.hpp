@@ -121,4 +121,7 @@ void release(Bodies& bodies, std::size_t i);
 /// Makes `moving` anew from `held`.
 void list_moving(Bodies& bodies);
 
+/// Kinetic energy of the free floes [J]: sum of P.v/2 + L.w/2.
+double kinetic_energy(const Bodies& bodies);
+
 }  // namespace ice

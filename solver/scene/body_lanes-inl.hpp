@@ -14,8 +14,8 @@
 #include <cstring>
 #include <span>
 
+#include "common/math/vector_lanes-inl.hpp"
 #include "solver/scene/bodies.hpp"
-#include "solver/shape/vector_lanes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace ice::HWY_NAMESPACE {

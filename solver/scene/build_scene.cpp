@@ -73,15 +73,9 @@ void add_group(Scene& scene, const Case& parameters, std::size_t g, std::int32_t
             if (std::isnan(height)) height = floating_height(shape, rotation, fraction);
             place.z() = height;
         }
-        const std::size_t i =
-            add_floe(scene, shape_row, parameters.ice_density, place, group.orientation,
-                     static_cast<std::int32_t>(g), group.hold != Hold::never);
-        if (group.velocity.isZero(0.0) && group.angular_velocity.isZero(0.0)) continue;
-        Bodies& b = scene.bodies;
-        const Mat3 inertia_world = rotation * b.inertia(i) * rotation.transpose();
-        b.momentum[i] = b.mass[i] * group.velocity;
-        b.angular_momentum[i] = inertia_world * group.angular_velocity;
-        update_derived(b, i);
+        add_floe(scene, shape_row, parameters.ice_density,
+                 {place, group.orientation, group.velocity, group.angular_velocity, group.hold},
+                 static_cast<std::int32_t>(g));
     }
 }
 
@@ -121,16 +115,14 @@ void add_field_group(Scene& scene, const Case& parameters, std::size_t g, ShapeR
         const std::int32_t row = first_row + floe.shape;
         const double height = floating_height(scene.shapes[static_cast<std::size_t>(row)],
                                               floe.orientation.toRotationMatrix(), fraction);
-        const std::size_t i = add_floe(
-            scene, row, parameters.ice_density,
-            Vec3(group.origin[0] + floe.position[0], group.origin[1] + floe.position[1], height),
-            floe.orientation, static_cast<std::int32_t>(g), group.hold != Hold::never);
-        if (group.velocity.isZero(0.0)) continue;
-        if (group.unbroken_part)
+        const Vec3 place(group.origin[0] + floe.position[0], group.origin[1] + floe.position[1],
+                         height);
+        if (group.unbroken_part && !group.velocity.isZero(0.0))
             throw bad_input(group.file.string(), "has unbroken ice, which does not drift",
                             "leave ice.drift_velocity out and give the ship the opposite speed");
-        scene.bodies.momentum[i] = scene.bodies.mass[i] * group.velocity;
-        update_derived(scene.bodies, i);
+        add_floe(scene, row, parameters.ice_density,
+                 {place, floe.orientation, group.velocity, Vec3::Zero(), group.hold},
+                 static_cast<std::int32_t>(g));
     }
 }
 
@@ -177,16 +169,17 @@ Scene make_scene(Shape hull, const Vec3& position, const Vec3& velocity) {
     return scene;
 }
 
-std::size_t add_floe(Scene& scene, std::int32_t shape_row, double density, const Vec3& position,
-                     const Quaternion& orientation, std::int32_t group, bool held) {
+std::size_t add_floe(Scene& scene, std::int32_t shape_row, double density, const FloeStart& start,
+                     std::int32_t group) {
     const Shape& shape = scene.shapes[static_cast<std::size_t>(shape_row)];
+    const bool held = start.hold != Hold::never;
     Bodies& b = scene.bodies;
     b.shape.push_back(shape_row);
     b.group.push_back(group);
     b.mass.push_back(density * shape.solid.volume);
     b.inertia_row.push_back(share_inertia(scene, shape_row, density));
-    b.position.push_back(position);
-    b.orientation.push_back(orientation);
+    b.position.push_back(start.position);
+    b.orientation.push_back(start.orientation);
     b.momentum.push_back(Vec3::Zero());
     b.angular_momentum.push_back(Vec3::Zero());
     b.held.push_back(held ? 1 : 0);
@@ -195,9 +188,16 @@ std::size_t add_floe(Scene& scene, std::int32_t shape_row, double density, const
     b.angular_velocity.push_back(Vec3::Zero());
     b.inverse_mass.push_back(0.0);
     b.inverse_inertia_world.push_back(Mat3::Zero());
-    update_derived(b, b.size() - 1);
-    if (!held) b.moving.push_back(static_cast<std::int32_t>(b.size() - 1));
-    return b.size() - 1;
+    const std::size_t i = b.size() - 1;
+    if (!held) b.moving.push_back(static_cast<std::int32_t>(i));
+    if (!start.velocity.isZero(0.0) || !start.angular_velocity.isZero(0.0)) {
+        const Mat3 rotation = start.orientation.toRotationMatrix();
+        b.momentum[i] = b.mass[i] * start.velocity;
+        b.angular_momentum[i] =
+            rotation * b.inertia(i) * rotation.transpose() * start.angular_velocity;
+    }
+    update_derived(b, i);
+    return i;
 }
 
 Scene build_scene(const Case& parameters) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <limits>
+
 #include "solver/case/case.hpp"
 #include "solver/scene/bodies.hpp"
 
@@ -17,10 +19,24 @@ namespace ice {
 ///         does not exist, floe denser than water without a stated z, more than 10 million floes.
 Scene build_scene(const Case& parameters);
 
-/// Adds one floe of a shape; used by build_scene and by tests that build scenes in code.
+/// How a floe begins.
+struct FloeStart {
+    /// Of its centre of mass [m]; z is floating equilibrium unless given.
+    Vec3 position{0.0, 0.0, std::numeric_limits<double>::quiet_NaN()};
+    Quaternion orientation = Quaternion::Identity();  ///< body to world, unit
+    Vec3 velocity = Vec3::Zero();                     ///< [m/s]
+    Vec3 angular_velocity = Vec3::Zero();             ///< world axes [rad/s]
+    Hold hold = Hold::never;  ///< velocities of held floes are theirs once released
+};
+
+/// Adds one floe of a shape.
+/// @param shape    row of Scene::shapes
+/// @param density  [kg/m3]
+/// @param group    row of Case::floes
+/// @pre start.position.z() is given
 /// @return its body index
-std::size_t add_floe(Scene& scene, std::int32_t shape, double density, const Vec3& position,
-                     const Quaternion& orientation, std::int32_t group, bool held);
+std::size_t add_floe(Scene& scene, std::int32_t shape, double density, const FloeStart& start,
+                     std::int32_t group);
 
 /// An empty scene with the ship in it.
 Scene make_scene(Shape hull, const Vec3& position, const Vec3& velocity);

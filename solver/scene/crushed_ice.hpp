@@ -18,11 +18,11 @@ struct CrushedIce {
     std::vector<double> deepest;      ///< per body, as far as `first`: its longest recess [m]
 
     /// What the last step crushed: a body and how far one of its spheres went [m].
-    struct Dent {
+    struct CrushEvent {
         std::int32_t body;
         double depth;
     };
-    std::vector<Dent> recent;
+    std::vector<CrushEvent> recent;
 
     bool is_whole(std::int32_t body) const {
         return static_cast<std::size_t>(body) >= first.size() ||

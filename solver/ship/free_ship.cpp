@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "common/formats/checkpoint_file.hpp"
+
 namespace ice {
 
 namespace {
@@ -167,6 +169,20 @@ double FreeShip::potential_energy(const Scene& scene, const Case& p) const {
     const Bodies& b = scene.bodies;
     return floating_energy(scene.shapes[0], rig_->body, b.rotation[kShip], b.position[kShip].z(),
                            p.water_density, p.gravity);
+}
+
+void FreeShip::carry(CheckpointFile& file) {
+    file.carry("ship.angles", angles_);
+    file.carry("ship.velocity", velocity_);
+    file.carry("ship.spin", spin_);
+    file.carry("ship.speed_error", speed_error_);
+    file.carry("ship.thrust_work", energies_.thrust);
+    file.carry("ship.tow_work", energies_.tow);
+    file.carry("ship.mooring_work", energies_.mooring);
+    file.carry("ship.ice_work", energies_.ice);
+    file.carry("ship.losses", energies_.losses);
+    file.carry("ship.kinetic_start", energies_.kinetic_start);
+    file.carry("ship.potential_start", energies_.potential_start);
 }
 
 }  // namespace ice

@@ -9,6 +9,8 @@
 
 namespace ice {
 
+class CheckpointFile;
+
 /// Where the energy of a ship that answers goes, in its free motions, since the start [J]:
 ///
 ///     thrust + tow + mooring = ice + losses + dK + dU + residual,
@@ -57,9 +59,10 @@ public:
     /// Of weight and water; 0 where the ship is held upright and at its height [J].
     double potential_energy(const Scene& scene, const Case& parameters) const;
 
-private:
-    friend struct StateFields;  // step/state_fields.cpp
+    /// Writes or sets its state, by the file's direction.
+    void carry(CheckpointFile& file);
 
+private:
     ShipState state_of(const Bodies& bodies, double time) const;
     void add_damping(const Case& parameters, Scene& scene);
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/math/ordered_products.hpp"
 #include "solver/flow/added_mass.hpp"
 #include "solver/integrate/rotation.hpp"
-#include "solver/shape/ordered_products.hpp"
 #include "solver/water/hydrostatics.hpp"
 
 namespace ice {

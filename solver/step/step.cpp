@@ -32,18 +32,12 @@ double contact_margin(const Case& p) {
 
 }  // namespace
 
-ContactLaw contact_law(const Case& p) {
-    return {p.restitution, p.friction_ship_ice, p.friction_ice_ice, p.crushing_pressure,
-            p.iterations,  p.tolerance,         p.time_step};
-}
-
 void step(World& w) {
     const double dt = w.parameters.time_step;
-    const ContactLaw law = contact_law(w.parameters);
+    const ContactLaw& law = w.parameters.contact;
     Bodies& bodies = w.scene.bodies;
     release_bent(bodies);
-    if (!w.ledger.potential_start)
-        w.ledger.potential_start = potential_energy(w.scene, w.parameters);
+    w.ledger.begin(w.scene, w.parameters);
 
     // the ship goes as prescribed, its speed at mid-step carrying it to the end of the step, or
     // with the velocity it has come to
@@ -62,12 +56,12 @@ void step(World& w) {
                           contact_margin(w.parameters), w.contacts);
         });
     } while (release_touched(w.scene, w.parameters, w.contacts));
-    w.books.open(bodies);
+    w.start.take(bodies);
 
     // impacts act on the velocities before the loads, so that ice at rest does not bounce
     timed(w, Stage::contact, [&] {
-        build_constraints(bodies, w.contacts, law, w.constraints);
-        w.impacts = w.solver.resolve_impacts(bodies, w.constraints, law);
+        build_constraints(bodies, w.contacts, law, dt, w.constraints);
+        w.impacts = w.solver.resolve_impacts(bodies, w.constraints, law, dt);
     });
 
     // gravity, buoyancy and drag change velocities; resting contacts then carry those loads
@@ -79,22 +73,22 @@ void step(World& w) {
     });
     timed(w, Stage::contact, [&] {
         w.warm_start.recall(w.contacts, w.constraints);
-        w.rest = w.solver.resolve_rest(bodies, w.constraints, law);
+        w.rest = w.solver.resolve_rest(bodies, w.constraints, law, dt);
         w.warm_start.remember(w.contacts, w.constraints, w.solver.resting());
     });
 
     // overlap that the finite step left is taken out of the poses, not of the velocities; where the
     // ice crushes, out of the ice
     timed(w, Stage::contact, [&] {
-        w.overlaps.separate(w.scene, w.constraints, law, w.nudges);
-        w.overlaps.crush(w.scene, w.contacts, w.constraints, law);
+        w.overlaps.correct_positions(w.scene, w.constraints, dt, w.corrections);
+        w.overlaps.crush(w.scene, w.contacts, w.constraints, law, dt);
     });
     timed(w, Stage::integrate, [&] {
-        book_step(w.scene, w.parameters, w.constraints, w.loads, w.nudges, w.books, w.ledger);
+        book_step(w.scene, w.parameters, w.constraints, w.loads, w.corrections, w.start, w.ledger);
         w.ship.book(w.scene, w.constraints, dt);
-        advance(w.scene, {w.books.angular_velocity, w.nudges, dt});
+        advance(w.scene, {w.start.angular_velocity, w.corrections, dt});
         w.ship.turn(w.scene, dt);
-        w.ledger.kinetic += kinetic_energy(bodies) - w.books.kinetic;
+        w.ledger.kinetic += kinetic_energy(bodies) - w.start.kinetic;
     });
     w.bent.find(w.scene, w.parameters, w.constraints);
     ++w.steps;

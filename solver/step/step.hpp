@@ -10,6 +10,7 @@
 #include "solver/contact/overlaps.hpp"
 #include "solver/contact/solve_contacts.hpp"
 #include "solver/integrate/integrate.hpp"
+#include "solver/loads/measure_loads.hpp"
 #include "solver/narrow/find_contacts.hpp"
 #include "solver/record/energy_ledger.hpp"
 #include "solver/scene/bodies.hpp"
@@ -38,21 +39,18 @@ struct World {
     /// and no checkpoint carries them.
     std::vector<WaterLoad> applied_loads;
     std::vector<FloeLoad> loads;  ///< in the order of Bodies::moving, with those applied
-    Nudges nudges;
+    PositionCorrections corrections;
     WarmStart warm_start;
     ContactFinder finder;
     ContactSolver solver;
     Overlaps overlaps;
     BentFloes bent;
-    StepBooks books;
+    StepStart start;  ///< of the step in hand
     EnergyLedger ledger;
 
     SolveReport impacts, rest;  ///< of the last step
     std::array<double, static_cast<std::size_t>(Stage::count)> stage_seconds{};
 };
-
-/// Contact parameters of a case, for a step of its length.
-ContactLaw contact_law(const Case& parameters);
 
 /// Advances the world by parameters.time_step. Afterwards `constraints` hold the step's impulses.
 void step(World& world);

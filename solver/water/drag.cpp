@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "solver/shape/ordered_products.hpp"
+#include "common/math/ordered_products.hpp"
 #include "solver/water/wetted_sums.hpp"
 
 namespace ice {

@@ -10,7 +10,7 @@
 
 #include <hwy/highway.h>
 
-#include "solver/shape/vector_lanes-inl.hpp"
+#include "common/math/vector_lanes-inl.hpp"
 #include "solver/water/wetted_sums.hpp"
 
 HWY_BEFORE_NAMESPACE();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solver/water/pressure_load.hpp"
 
-#include "solver/shape/ordered_products.hpp"
+#include "common/math/ordered_products.hpp"
 #include "solver/water/cut_triangle.hpp"
 #include "solver/water/relative_drag.hpp"
 #include "solver/water/wetted_sums.hpp"

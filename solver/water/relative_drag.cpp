@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solver/shape/ordered_products.hpp"
+#include "common/math/ordered_products.hpp"
 #include "solver/water/cut_triangle.hpp"
 #include "solver/water/wetted_sums.hpp"
 

@@ -3,13 +3,13 @@
 
 # A file may include its own folder and the ones before it: of common/ and of its own tool, never of
 # another tool. The last entry of a tool is its top folder with the main program.
-set(order_common common/base common/toml common/geometry common/formats common/formulas
+set(order_common common/base common/toml common/geometry common/math common/formats common/formulas
   common/cli)
 set(order_preprocess preprocess/load preprocess/clean preprocess/measure preprocess/repair
   preprocess/slice preprocess/fill preprocess/certify preprocess/field preprocess/write preprocess)
 set(order_solver solver/case solver/shape solver/bending solver/level_ice solver/flow solver/water solver/scene
-  solver/broad solver/narrow solver/contact solver/integrate solver/ship solver/record solver/step solver/draft
-  solver/ensemble solver)
+  solver/broad solver/narrow solver/contact solver/loads solver/integrate solver/ship solver/record solver/step
+  solver/run solver/draft solver/ensemble solver)
 set(order_postprocess postprocess/read postprocess/views postprocess/statistics postprocess/report
   postprocess/sweep postprocess/fit postprocess/attain postprocess/sensitivity postprocess/paraview postprocess/check postprocess)
 set(tools preprocess solver postprocess)

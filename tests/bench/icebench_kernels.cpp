@@ -96,7 +96,7 @@ double time_sweep(const World& w) {
     rows.build(w.scene.bodies, constraints, all);
     rows.begin_stage(w.scene.bodies, constraints, &Constraint::rest_normal,
                      &Constraint::rest_tangent, [&](const Constraint& c) -> ContactRows::Target {
-                         return {-std::max(c.gap, 0.0) / w.parameters.time_step, c.strength};
+                         return {-std::max(c.gap, 0.0) / w.parameters.time_step, c.max_impulse};
                      });
     return least_ns(20, static_cast<double>(constraints.size()),
                     [&] { sweep(rows.blocks, rows.rows, rows.motion); });

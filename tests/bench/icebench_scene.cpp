@@ -49,12 +49,12 @@ Case field_case(const Models& models, double ship_speed) {
     p.speed_table = {{0.0, ship_speed}};
     p.floes.resize(1);
     p.floes[0].hold = Hold::never;
-    p.restitution = 0.3;
-    p.friction_ship_ice = 0.1;
-    p.friction_ice_ice = 0.3;
+    p.contact.restitution = 0.3;
+    p.contact.friction_ship_ice = 0.1;
+    p.contact.friction_ice_ice = 0.3;
     p.drag_coefficient = 1.0;
     p.normal = models.normal;
-    p.iterations = models.iterations;
+    p.contact.iterations = models.iterations;
     p.buoyancy = models.buoyancy;
     p.drag = models.drag;
     if (models.buoyancy == BuoyancyModel::none) p.gravity = 0.0;  // or floes would fall
@@ -68,13 +68,7 @@ World field_world(const Field& field, const SphereSet& hull, const Vec3& hull_po
     w.parameters.hull_position = hull_position;
     w.scene = make_scene(build_shape(hull, false), hull_position, Vec3(field.ship_speed, 0.0, 0.0));
     w.scene.shapes.push_back(build_shape(floe, true));
-    Bodies& b = w.scene.bodies;
-    for (const FloeStart& start : place_floes(field)) {
-        const std::size_t i =
-            add_floe(w.scene, 1, kIceDensity, start.position, start.orientation, 0, false);
-        b.momentum[i] = b.mass[i] * start.velocity;
-        update_derived(b, i);
-    }
+    for (const FloeStart& start : place_floes(field)) add_floe(w.scene, 1, kIceDensity, start, 0);
     return w;
 }
 
@@ -83,8 +77,11 @@ void add_held(World& w, const Field& field, double ahead) {
     w.parameters.floes.push_back(w.parameters.floes[0]);
     w.parameters.floes[1].hold = Hold::until_hull_contact;
     for (const FloeStart& start : place_floes(field))
-        add_floe(w.scene, 1, kIceDensity, start.position + Vec3(ahead, 0.0, 0.0), start.orientation,
-                 1, true);
+        add_floe(w.scene, 1, kIceDensity,
+                 {.position = start.position + Vec3(ahead, 0.0, 0.0),
+                  .orientation = start.orientation,
+                  .hold = Hold::until_hull_contact},
+                 1);
 }
 
 // The squarest columns x rows of this many floes.

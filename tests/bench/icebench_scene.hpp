@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "solver/scene/build_scene.hpp"
 #include "solver/step/step.hpp"
 
 namespace ice::bench {
@@ -25,13 +26,6 @@ struct Field {
     double yaw = 0.05;              ///< floes are turned by up to this [rad]
     double drift = 0.2;             ///< and move by up to this [m/s]
     double ship_speed = 0.5;        ///< [m/s]
-};
-
-/// A floe at t = 0.
-struct FloeStart {
-    Vec3 position;
-    Quaternion orientation;
-    Vec3 velocity;
 };
 
 /// One scene in the state it starts from, with the whole sphere sets of its two shapes.

@@ -4,7 +4,7 @@
 #include <cstring>
 #include <random>
 
-#include "solver/integrate/load_floes.hpp"
+#include "solver/loads/load_floes.hpp"
 #include "solver/record/energy_ledger.hpp"
 #include "solver/water/relative_drag.hpp"
 #include "tests/support/dice.hpp"

@@ -4,7 +4,7 @@
 #include <cstring>
 #include <numbers>
 
-#include "solver/integrate/load_floes.hpp"
+#include "solver/loads/load_floes.hpp"
 #include "solver/record/energy_ledger.hpp"
 #include "solver/water/hydrostatics.hpp"
 #include "solver/water/pressure_load.hpp"

@@ -14,6 +14,7 @@ QUICK = 1.0  # [s] a test that is asked of every mutant
 SCRIPT = "values"
 FIRST = {
     "solver/contact": ["solver_tests [sweep],[contact],[crushing]"],
+    "solver/loads": ["solver_tests [integrate]"],
     "solver/integrate": ["solver_tests [integrate]"],
     "solver/water": ["solver_tests [water]"],
     "solver/broad": ["solver_tests [broad]"],

@@ -61,7 +61,7 @@ private:
     b2Fixture& add_fixture(std::size_t i, const b2Shape& shape) {
         b2FixtureDef def;
         def.shape = &shape;
-        def.restitution = static_cast<float>(world_.parameters.restitution);
+        def.restitution = static_cast<float>(world_.parameters.contact.restitution);
         def.restitutionThreshold = 0.0f;
         return *bodies_[i]->CreateFixture(&def);
     }
@@ -106,7 +106,8 @@ private:
         bodies_[kShip]->SetLinearVelocity(to_box2d(ship.velocity));
         impulses_ = {};
         normals_.clear();
-        box2d_.Step(static_cast<float>(dt), world_.parameters.iterations, kPositionIterations);
+        box2d_.Step(static_cast<float>(dt), world_.parameters.contact.iterations,
+                    kPositionIterations);
         return impulses_;
     }
 

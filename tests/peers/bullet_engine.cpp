@@ -29,11 +29,11 @@ const World* pair_table = nullptr;  // of the engine that is stepping: Bullet's 
 btScalar pair_friction(const btCollisionObject* a, const btCollisionObject* b) {
     const Case& p = pair_table->parameters;
     const bool ship = a->getUserIndex() == 0 || b->getUserIndex() == 0;
-    return ship ? p.friction_ship_ice : p.friction_ice_ice;
+    return ship ? p.contact.friction_ship_ice : p.contact.friction_ice_ice;
 }
 
 btScalar pair_restitution(const btCollisionObject*, const btCollisionObject*) {
-    return pair_table->parameters.restitution;
+    return pair_table->parameters.contact.restitution;
 }
 
 Vec2 from_bullet(const btVector3& v) { return {v.x(), v.y()}; }
@@ -43,7 +43,7 @@ public:
     explicit BulletEngine(World world) : ForeignEngine(std::move(world)) {
         bullet_.setGravity(btVector3(0, 0, 0));
         btContactSolverInfo& info = bullet_.getSolverInfo();
-        info.m_numIterations = world_.parameters.iterations;
+        info.m_numIterations = world_.parameters.contact.iterations;
         info.m_restitutionVelocityThreshold = 0.0;
         info.m_splitImpulse = true;
         info.m_splitImpulsePenetrationThreshold = 0.0;

@@ -24,7 +24,7 @@
 #include "common/cli/console.hpp"
 #include "common/formats/spheres_file.hpp"
 #include "solver/case/read_case.hpp"
-#include "solver/step/run.hpp"
+#include "solver/run/run.hpp"
 #include "tests/peers/measure.hpp"
 
 using namespace ice;

@@ -42,7 +42,8 @@ ForeignEngine::ForeignEngine(World world) : world_(std::move(world)) {
 
 double ForeignEngine::friction(std::size_t a, std::size_t b) const {
     const bool ship = a == kShip || b == kShip;
-    return ship ? world_.parameters.friction_ship_ice : world_.parameters.friction_ice_ice;
+    return ship ? world_.parameters.contact.friction_ship_ice
+                : world_.parameters.contact.friction_ice_ice;
 }
 
 PlaneState ForeignEngine::start_of(std::size_t i) const {

@@ -36,7 +36,7 @@ World box_under_plate(double ship_speed) {
     p.gravity = kGravity;
     p.buoyancy = BuoyancyModel::centre;
     p.speed_table = {{0.0, ship_speed}};
-    p.iterations = 100;
+    p.contact.iterations = 100;
     World w;
     w.parameters = p;
     w.scene = make_scene(build_shape(test::make_box_set(Vec3(20.0, 1.0, 0.5), 0.1, 0.1, 2), false),

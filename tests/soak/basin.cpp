@@ -19,7 +19,7 @@ constexpr double kDraught = 0.8, kFreeboard = 1.2;        // [m]
 constexpr double kShipStart = 0.5;                        // x of its stern at t = 0 [m]
 constexpr double kSpeed = 0.1, kTurn = 6.0;               // [m/s], half a turn [s]
 const Vec3 kFloeSize(1.0, 0.8, kThickness);               // [m]
-constexpr double kFloeRadius = 0.05;                     // of their spheres [m]
+constexpr double kFloeRadius = 0.05;                      // of their spheres [m]
 constexpr double kPitchX = 1.08, kPitchY = 0.88;          // of their places at t = 0 [m]
 
 // A flared box: sloped ends and sides push floes down and let them slip out again. Keel at
@@ -68,7 +68,7 @@ Case basin_case(double duration) {
     p.floes.resize(2);
     p.floes[0].hold = Hold::never;
     p.floes[1].hold = Hold::always;  // walls
-    p.crushing_pressure = 1e6;
+    p.contact.crushing_pressure = 1e6;
     p.frames_every = 10.0;
     p.history_every = 1.0;
     return p;
@@ -79,7 +79,7 @@ void add_walls(World& w) {
         const SphereSet set = fill(test::make_box_mesh(size), 0.2, 0.4);
         w.scene.shapes.push_back(build_shape(set, true));
         add_floe(w.scene, static_cast<std::int32_t>(w.scene.shapes.size()) - 1,
-                 w.parameters.ice_density, Vec3(x, y, 0.0), Quaternion::Identity(), 1, true);
+                 w.parameters.ice_density, {.position = {x, y, 0.0}, .hold = Hold::always}, 1);
     };
     const double off = 0.5 * (kBreadth + kWall);
     add({kLength + 2.0 * kWall, kWall, kWallHeight}, 0.5 * kLength, off);
@@ -104,7 +104,7 @@ void add_floes(World& w) {
             const Vec3 at((i + 0.5) * kPitchX, (j + 0.5 - 0.5 * rows) * kPitchY, height);
             if (at.x() > ship_end + 0.5 * kFloeSize.x() ||
                 std::abs(at.y()) > 0.5 * (ship_breadth + kFloeSize.y()))
-                add_floe(w.scene, 1, density, at, Quaternion::Identity(), 0, false);
+                add_floe(w.scene, 1, density, {.position = at}, 0);
         }
 }
 

@@ -13,9 +13,9 @@
 #include "common/base/error.hpp"
 #include "common/base/parallel.hpp"
 #include "common/cli/console.hpp"
-#include "solver/integrate/integrate.hpp"
-#include "solver/step/run.hpp"
-#include "solver/step/run_folder.hpp"
+#include "solver/loads/potential_energy.hpp"
+#include "solver/run/run.hpp"
+#include "solver/run/run_folder.hpp"
 #include "tests/soak/basin.hpp"
 
 using namespace ice;

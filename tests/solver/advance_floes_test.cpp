@@ -20,7 +20,7 @@ using test::Dice;
 struct Floes {
     Bodies bodies;
     std::vector<Vec3> start;
-    Nudges nudges;
+    PositionCorrections corrections;
 
     Floes(std::size_t count, int inertias, double angle, Dice& dice) {
         Bodies& b = bodies;
@@ -45,17 +45,17 @@ struct Floes {
             b.angular_velocity.push_back(Vec3::Zero());
             b.inverse_mass.push_back(0.0);
             b.inverse_inertia_world.push_back(Mat3::Zero());
-            nudges.shift.push_back(1e-3 * dice.vector());
-            nudges.turn.push_back(angle * dice.vector());
+            corrections.shift.push_back(1e-3 * dice.vector());
+            corrections.turn.push_back(angle * dice.vector());
             if (dice.unit(dice.random) > 0.5) b.angular_momentum[k].setZero();
-            if (dice.unit(dice.random) > 0.5) nudges.turn[k].setZero();
+            if (dice.unit(dice.random) > 0.5) corrections.turn[k].setZero();
             update_derived(b, k);
             start.push_back(b.angular_velocity[k]);
             b.velocity[k] += dice.vector();
             if (dice.unit(dice.random) > 0.5) b.angular_velocity[k] += angle * dice.vector();
         }
     }
-    Advance step() const { return {start, nudges, kStep}; }
+    Advance step() const { return {start, corrections, kStep}; }
 
     static constexpr double kStep = 0.01;  // [s]
 };
@@ -113,7 +113,7 @@ TEST_CASE("floes without angular momentum keep their orientation bit for bit",
     for (std::size_t k = 0; k < floes.start.size(); ++k) {
         floes.bodies.angular_momentum[k].setZero();
         floes.bodies.angular_velocity[k] = floes.start[k];
-        floes.nudges.turn[k].setZero();
+        floes.corrections.turn[k].setZero();
     }
     const std::vector<std::int32_t> all{1, 2, 3, 4, 5, 6, 7, 8, 9};
     check_bits(floes, all);

@@ -47,7 +47,7 @@ TEST_CASE("a step that has seen as much before allocates nothing", "[step][alloc
     const NormalRule rule = GENERATE(NormalRule::centres, NormalRule::surface);
     Case p = test::empty_space(0.01);
     p.normal = rule;
-    p.crushing_pressure = GENERATE(1e5, std::numeric_limits<double>::infinity());
+    p.contact.crushing_pressure = GENERATE(1e5, std::numeric_limits<double>::infinity());
     World w = test::plate_world(p, Vec3(4, 2, 0.6), 0.1, 0.15, -0.3);
     const auto box = test::add_shape(w, test::make_box_set(Vec3(1, 0.8, 0.3), 0.05, 0.1));
     std::mt19937 random(4);

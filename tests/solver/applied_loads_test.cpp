@@ -2,8 +2,8 @@
 // Loads of the caller: motion in closed form, work in the ledger, no change where they are zero.
 #include <catch2/catch.hpp>
 
-#include "solver/step/balance.hpp"
-#include "solver/step/make_world.hpp"
+#include "solver/run/balance.hpp"
+#include "solver/run/make_world.hpp"
 #include "tests/support/make_sphere_sets.hpp"
 
 using namespace ice;
@@ -19,7 +19,7 @@ World one_floe(double drag = 0.0) {
     p.speed_table = {{0.0, 0.0}};
     p.drag_coefficient = drag;
     World world = make_world(p, test::make_box_set({4.0, 2.0, 1.0}, 0.1, 0.2));
-    const auto form = add_form(world, test::make_box_set({1.0, 0.8, 0.3}, 0.05, 0.1));
+    const auto form = add_floe_shape(world, test::make_box_set({1.0, 0.8, 0.3}, 0.05, 0.1));
     add_floe(world, form, {.position = {30.0, 0.0, std::numeric_limits<double>::quiet_NaN()}});
     world.applied_loads.resize(world.scene.bodies.size());
     return world;

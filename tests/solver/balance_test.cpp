@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The check of momentum: it passes what balances and names what does not.
-#include "solver/step/balance.hpp"
+#include "solver/run/balance.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -20,8 +20,8 @@ World pressed_floes() {
     p.buoyancy = BuoyancyModel::distributed;
     p.drag = DragModel::panel;
     p.speed_table = {{0.0, 1.0}};
-    p.iterations = 30;
-    p.tolerance = 1e-4;
+    p.contact.iterations = 30;
+    p.contact.tolerance = 1e-4;
     World w = test::plate_world(p, Vec3(8, 4, 0.4), 0.1, 0.2, -1.0);
     const auto box = test::add_shape(w, test::make_box_set(Vec3(1, 0.8, 0.3), 0.05, 0.1));
     for (const double z : {-1.16, -1.47})

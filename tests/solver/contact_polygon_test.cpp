@@ -10,8 +10,8 @@
 #include <numbers>
 #include <set>
 
-#include "solver/narrow/solid_contacts.hpp"
 #include "solver/narrow/find_contacts.hpp"
+#include "solver/narrow/solid_contacts.hpp"
 #include "tests/support/make_prisms.hpp"
 #include "tests/support/make_worlds.hpp"
 
@@ -189,7 +189,7 @@ TEST_CASE("deep pairs part, step by step, whether their ice can be crushed or no
           "[narrow][analytic]") {
     const double pressure = GENERATE(kAll, 1e6);
     World w = two_boxes(Vec3(8, 4, 1), 0.25, 0.7, Vec3(0.3, 0.2, 0.35));  // 0.65 m deep
-    w.parameters.crushing_pressure = pressure;
+    w.parameters.contact.crushing_pressure = pressure;
     for (int k = 0; k < 400; ++k) step(w);
     const Bodies& b = w.scene.bodies;
     const Vec3 apart = b.rotation[1].transpose() * (b.position[2] - b.position[1]);

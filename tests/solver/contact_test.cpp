@@ -21,9 +21,10 @@ namespace {
 // far below it.
 constexpr double kRounding = 1e-12;
 
+constexpr double kDt = 0.01;  // [s]
+
 ContactLaw exact_law(double restitution, double friction) {
-    return {restitution, friction, friction, std::numeric_limits<double>::infinity(),
-            2000,        1e-15,    0.01};
+    return {restitution, friction, friction, std::numeric_limits<double>::infinity(), 2000, 1e-15};
 }
 
 // Two free boxes; the contact is put where the test wants it.
@@ -73,11 +74,11 @@ Outcome collide(Scene& scene, const Contact& contact, const Vec3& v1, const Vec3
     b.angular_velocity[1] = Vec3(0.3, -0.2, 0.5);
     b.angular_velocity[2] = Vec3(-0.4, 0.1, 0.2);
     std::vector<Constraint> constraints;
-    build_constraints(b, {contact}, law, constraints);
+    build_constraints(b, {contact}, law, kDt, constraints);
     Outcome out;
     out.k = response(b, contact.point);
     out.velocity_before = relative_velocity(b, constraints[0]);
-    REQUIRE(ContactSolver().resolve_impacts(b, constraints, law).converged);
+    REQUIRE(ContactSolver().resolve_impacts(b, constraints, law, kDt).converged);
     out.velocity_after = relative_velocity(b, constraints[0]);
     out.impulse =
         constraints[0].total_normal() * constraints[0].normal + constraints[0].total_tangent();
@@ -152,9 +153,10 @@ TEST_CASE("a contact gives b what it takes from a: momentum and angular momentum
     b.velocity[1] = Vec3(1, 0.3, 0);
     const ContactLaw law = exact_law(0.3, 0.3);
     std::vector<Constraint> constraints;
-    build_constraints(b, {contact_at(Vec3(0.45, 0.3, 0.1), Vec3(1, 0.2, 0.5))}, law, constraints);
+    build_constraints(b, {contact_at(Vec3(0.45, 0.3, 0.1), Vec3(1, 0.2, 0.5))}, law, kDt,
+                      constraints);
     const auto before = momenta();
-    ContactSolver().resolve_impacts(b, constraints, law);
+    ContactSolver().resolve_impacts(b, constraints, law, kDt);
     const auto after = momenta();
     CHECK(constraints[0].total_normal() > 1.0);
     CHECK((after.first - before.first).norm() <= kRounding * before.first.norm());
@@ -195,7 +197,7 @@ TEST_CASE("a warm start's tangent lies in the new tangent plane and in its cone"
     WarmStart warm;
     warm.remember(contacts, last, {0});
     now[0].normal = Vec3(1, 0, 1).normalized();
-    now[0].strength = std::numeric_limits<double>::infinity();
+    now[0].max_impulse = std::numeric_limits<double>::infinity();
     now[0].friction = 0.1;
     now[0].can_move = true;
     warm.recall(contacts, now);
@@ -203,7 +205,7 @@ TEST_CASE("a warm start's tangent lies in the new tangent plane and in its cone"
     // (1/2, 0, 0) less its part along the normal is (1/4, 0, -1/4), longer than 0.1 x 2 N s
     CHECK((now[0].rest_tangent - 0.2 * Vec3(1, 0, -1).normalized()).norm() < 1e-15);
     std::vector<Constraint> stuck(1);
-    stuck[0].strength = now[0].strength;
+    stuck[0].max_impulse = now[0].max_impulse;
     stuck[0].can_move = false;
     warm.recall(contacts, stuck);
     CHECK(stuck[0].rest_normal == 0.0);
@@ -238,7 +240,7 @@ TEST_CASE("a warm start finds each contact's own impulse by bodies and key", "[c
     }
     for (Constraint& c : next) {
         c.normal = Vec3::UnitZ();
-        c.strength = std::numeric_limits<double>::infinity();
+        c.max_impulse = std::numeric_limits<double>::infinity();
         c.friction = 0.1;
         c.can_move = true;
     }
@@ -276,13 +278,13 @@ struct Row {
             contacts.back().gap = gap;
         }
         scene.bodies.velocity[1] = Vec3(speed, 0, 0);
-        build_constraints(scene.bodies, contacts, law, constraints);
+        build_constraints(scene.bodies, contacts, law, kDt, constraints);
     }
-    SolveReport rest() { return ContactSolver().resolve_rest(scene.bodies, constraints, law); }
+    SolveReport rest() { return ContactSolver().resolve_rest(scene.bodies, constraints, law, kDt); }
     // The first `moved` floes share the momentum, each slower than the one behind it by gap / dt;
     // the next one still rests.
     void check_moved(std::size_t moved, double gap, double first_speed) const {
-        const double n = static_cast<double>(moved), step = gap / law.dt;
+        const double n = static_cast<double>(moved), step = gap / kDt;
         const double least = (first_speed - 0.5 * n * (n - 1.0) * step) / n;
         const auto speed = [&](std::size_t floe) { return scene.bodies.velocity[floe].x(); };
         for (std::size_t k = 1; k <= moved; ++k)
@@ -323,11 +325,10 @@ TEST_CASE("ice that two hull spheres crush in one place gives way once", "[conta
         constraints[k].normal = -Vec3::UnitZ();
         constraints[k].arm_a = constraints[k].arm_b = Vec3::Zero();
         constraints[k].gap = -0.01;
-        constraints[k].strength = constraints[k].impact_normal = 1.0;
+        constraints[k].max_impulse = constraints[k].impact_normal = 1.0;
     }
     ContactLaw law;
     law.crushing_pressure = 1e6;
-    law.dt = 0.01;
-    Overlaps().crush(w.scene, contacts, constraints, law);
+    Overlaps().crush(w.scene, contacts, constraints, law, kDt);
     CHECK((w.scene.crushed.recess_of(1, 7) - Vec3(0, 0, -0.01)).norm() < 1e-15);
 }

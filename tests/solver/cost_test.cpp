@@ -6,7 +6,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "solver/step/describe_cost.hpp"
+#include "solver/run/describe_cost.hpp"
 #include "tests/common/fixtures.hpp"
 
 using namespace ice;

@@ -3,10 +3,10 @@
 #include <catch2/catch.hpp>
 
 #include "solver/record/open_end.hpp"
+#include "solver/run/check_course.hpp"
+#include "solver/run/describe_case.hpp"
 #include "solver/scene/ice_extent.hpp"
 #include "solver/scene/place_hull.hpp"
-#include "solver/step/check_course.hpp"
-#include "solver/step/describe_case.hpp"
 #include "tests/common/fixtures.hpp"
 #include "tests/support/make_worlds.hpp"
 
@@ -219,7 +219,7 @@ TEST_CASE("floes pushed out of a channel's open end are warned of, with count an
 
 TEST_CASE("a case described names draught, displacement, travel, clearance and spheres", "[step]") {
     World w = field_of(25);
-    w.parameters.crushing_pressure = 1e6;
+    w.parameters.contact.crushing_pressure = 1e6;
     const std::string text = describe_case(w);
     CHECK_THAT(text, Catch::Contains("10 m long, 2 m broad, draught 0.5 m of 1 m depth") &&
                          Catch::Contains("displacement 10 t") &&

@@ -94,7 +94,7 @@ TEST_CASE("an impact books 1 - e^2 of its energy as restitution, for a ship at a
           "[energy][analytic]") {
     const double e = GENERATE(0.0, 0.3, 1.0), speed = GENERATE(0.0, 2.0);
     Case p = test::empty_space(0.01);
-    p.restitution = e;
+    p.contact.restitution = e;
     World w = ball_under_plate(p, speed);
     for (int k = 0; k < 40; ++k) step(w);
     const double approach = 0.5 * w.scene.bodies.mass[1] * 0.7 * 0.7;
@@ -107,7 +107,7 @@ TEST_CASE("an impact books 1 - e^2 of its energy as restitution, for a ship at a
 
 TEST_CASE("an impact that crushes books its energy as crushing", "[energy][analytic]") {
     Case p = test::empty_space(0.01);
-    p.crushing_pressure = 8000.0;  // takes some steps to stop the ball
+    p.contact.crushing_pressure = 8000.0;  // takes some steps to stop the ball
     World w = ball_under_plate(p, 0.0);
     const double before = kinetic_energy(w.scene.bodies);
     for (int k = 0; k < 100; ++k) step(w);
@@ -121,9 +121,9 @@ TEST_CASE("a ship that drags a floe up to its speed loses as much to friction as
           "[energy][analytic]") {
     Case p = water(0.01);
     p.buoyancy = GENERATE(BuoyancyModel::centre, BuoyancyModel::distributed);
-    p.friction_ship_ice = 0.1;
+    p.contact.friction_ship_ice = 0.1;
     p.speed_table = {{0.0, 0.5}};
-    p.tolerance = 1e-9;
+    p.contact.tolerance = 1e-9;
     World w = pressed_floe(p);
     // 0.5 m/s at mu (rho_w - rho_i) / rho_i g takes 4.6 s
     for (int k = 0; k < 600; ++k) step(w);
@@ -137,7 +137,7 @@ TEST_CASE("a ship that drags a floe up to its speed loses as much to friction as
 
 TEST_CASE("a floe at rest under the ship books nothing", "[energy]") {
     Case p = water(0.01);
-    p.tolerance = 1e-12;
+    p.contact.tolerance = 1e-12;
     World w = pressed_floe(p);
     step(w);  // the first contact stops what one step of buoyancy would have moved
     const EnergyLedger settled = w.ledger;
@@ -209,12 +209,12 @@ TEST_CASE("a ship among floes: what it gives is what motion, height and losses t
     Case p = water(0.005);
     p.drag = DragModel::panel;
     p.buoyancy = GENERATE(BuoyancyModel::distributed, BuoyancyModel::centre);
-    p.crushing_pressure = GENERATE(INFINITY, 2e4);
-    p.restitution = 0.3;
-    p.friction_ship_ice = 0.1;
-    p.friction_ice_ice = 0.3;
-    p.iterations = 50;
-    p.tolerance = 1e-5;
+    p.contact.crushing_pressure = GENERATE(INFINITY, 2e4);
+    p.contact.restitution = 0.3;
+    p.contact.friction_ship_ice = 0.1;
+    p.contact.friction_ice_ice = 0.3;
+    p.contact.iterations = 50;
+    p.contact.tolerance = 1e-5;
     p.speed_table = {{0.0, 0.0}, {1.0, 1.0}};  // it starts from rest
     World w = test::plate_world(p, Vec3(2, 2, 1.0), 0.1, 0.1, -0.6);
     const auto box = test::add_shape(w, test::make_box_set(kFloe, 0.05, 0.1));

@@ -52,7 +52,7 @@ struct Booked {
 };
 Booked push_floe(const Vec3& at, double yaw_degrees, const Vec3& velocity) {
     Case p = test::empty_space(0.01);
-    p.friction_ship_ice = 0.0;
+    p.contact.friction_ship_ice = 0.0;
     World w;
     w.parameters = p;
     w.scene = make_scene(build_shape(ship_set(), false), Vec3::Zero(), Vec3::Zero());

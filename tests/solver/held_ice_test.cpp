@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "solver/step/balance.hpp"
+#include "solver/run/balance.hpp"
 #include "tests/support/make_worlds.hpp"
 
 using namespace ice;
@@ -32,8 +32,8 @@ SphereSet turned(SphereSet set, const Mat3& turn) {
 World world_with_held_floe(double rake, double ahead,
                            std::vector<std::pair<double, double>> speeds) {
     Case p = test::empty_space(0.01);
-    p.crushing_pressure = kPressure;
-    p.friction_ship_ice = kFriction;
+    p.contact.crushing_pressure = kPressure;
+    p.contact.friction_ship_ice = kFriction;
     p.floes[0].hold = Hold::always;
     p.speed_table = std::move(speeds);
     World w;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Loads on floes in lanes: bits on every instruction set, whatever floes lie beside each other.
-#include "solver/integrate/load_floes.hpp"
+#include "solver/loads/load_floes.hpp"
 
 #include <catch2/catch.hpp>
 #include <cstring>

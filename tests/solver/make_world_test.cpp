@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Worlds made in code begin as asked, and move as those of case files do.
-#include "solver/step/make_world.hpp"
+#include "solver/run/make_world.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -8,7 +8,7 @@
 #include "common/formats/spheres_file.hpp"
 #include "solver/case/read_case.hpp"
 #include "solver/record/recorder.hpp"
-#include "solver/step/run.hpp"
+#include "solver/run/run.hpp"
 #include "tests/support/make_sphere_sets.hpp"
 #include "tests/support/temporary_file.hpp"
 #include "tests/support/write_text.hpp"
@@ -55,10 +55,10 @@ TEST_CASE("a world made in code moves bit for bit as the case file's") {
 
     Case p = good_case();
     p.time_step = 0.02;
-    p.crushing_pressure = 1e6;  // case files have it unless they say otherwise
+    p.contact.crushing_pressure = 1e6;  // case files have it unless they say otherwise
     p.hull_position = Vec3(0.0, 0.0, 0.2);
     World made = make_world(p, read_spheres(hull.path()));
-    const auto form = add_form(made, read_spheres(floe.path()));
+    const auto form = add_floe_shape(made, read_spheres(floe.path()));
     CHECK(add_floe(made, form,
                    {.position = {2.6, 0.1, -0.1},
                     .velocity = {-0.2, 0.0, 0.0},
@@ -77,7 +77,7 @@ TEST_CASE("a floe without a height floats at rest") {
     World w = make_world(good_case(), kHull);
     FloeStart start;
     start.position.head<2>() << 20.0, 0.0;
-    const std::size_t floe = add_floe(w, add_form(w, kFloe), start);
+    const std::size_t floe = add_floe(w, add_floe_shape(w, kFloe), start);
     // 0.9 of the thickness below the water: the centre at -(0.9 - 0.5) 0.3 m, to the bisection's
     // 1e-12 of the height
     CHECK(w.scene.bodies.position[floe].z() == Approx(-0.12).margin(1e-12));
@@ -87,7 +87,7 @@ TEST_CASE("a floe without a height floats at rest") {
 
 TEST_CASE("floes made in code are held and let go as a case's") {
     World w = make_world(good_case(), kHull);
-    const auto form = add_form(w, kFloe);
+    const auto form = add_floe_shape(w, kFloe);
     const auto wall = add_floe(w, form, {.position = {2.6, 0.9, -0.1}, .hold = Hold::always});
     const auto waits =
         add_floe(w, form, {.position = {2.6, -0.1, -0.1}, .hold = Hold::until_hull_contact});
@@ -105,7 +105,7 @@ TEST_CASE("a ship without a speed table is at rest") {
     Case p = good_case();
     p.speed_table.clear();
     World w = make_world(p, kHull);
-    add_floe(w, add_form(w, kFloe), {.position = {9.0, 0.0, -0.12}});
+    add_floe(w, add_floe_shape(w, kFloe), {.position = {9.0, 0.0, -0.12}});
     step(w);
     CHECK(w.scene.ship_velocity == Vec3::Zero());
 }
@@ -126,13 +126,15 @@ TEST_CASE("what no world can be made of is refused by name") {
 
     World w = make_world(good_case(), kHull);
     CHECK_THAT(refusal([&] {
-                   add_form(w, test::make_box_set({1, 1, 0.3}, 0.05, 0.1, 2));
+                   add_floe_shape(w, test::make_box_set({1, 1, 0.3}, 0.05, 0.1, 2));
                }),
                Contains("the floe: is a 2D set"));
-    CHECK_THAT(refusal([&] { add_floe(w, 1, FloeStart{}); }), Contains("no form has the number 1"));
-    CHECK_THAT(refusal([&] { add_floe(w, 0, FloeStart{}); }), Contains("no form has the number 0"));
+    CHECK_THAT(refusal([&] { add_floe(w, 1, FloeStart{}); }),
+               Contains("no shape has the number 1"));
+    CHECK_THAT(refusal([&] { add_floe(w, 0, FloeStart{}); }),
+               Contains("no shape has the number 0"));
     w.parameters.ice_density = 1100.0;
-    const auto form = add_form(w, kFloe);
+    const auto form = add_floe_shape(w, kFloe);
     CHECK_THAT(refusal([&] { add_floe(w, form, FloeStart{}); }),
                Contains("no floating equilibrium"));
 }

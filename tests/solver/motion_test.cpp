@@ -12,8 +12,8 @@ using namespace ice;
 TEST_CASE("a ball that hits a plate keeps e^2 of its energy per bounce", "[step][analytic]") {
     const double e = GENERATE(0.0, 0.3, 0.8, 1.0);
     Case p = test::empty_space(0.01);
-    p.restitution = e;
-    p.friction_ship_ice = 0.1;
+    p.contact.restitution = e;
+    p.contact.friction_ship_ice = 0.1;
     p.normal = GENERATE(NormalRule::centres, NormalRule::surface);
     World w = test::plate_world(p, Vec3(2, 2, 0.4), 0.1, 0.1, 0.0);
     const auto ball = test::add_shape(w, test::make_ball_set(0.05));
@@ -54,8 +54,8 @@ TEST_CASE(
     p.gravity = 9.81;
     p.buoyancy = GENERATE(BuoyancyModel::centre, BuoyancyModel::distributed);
     p.speed_table = {{0.0, 1.0}};
-    p.tolerance = 1e-6;
-    p.iterations = 200;
+    p.contact.tolerance = 1e-6;
+    p.contact.iterations = 200;
     World w = test::plate_world(p, Vec3(20, 4, 0.4), 0.1, hull_spacing, -1.0);
     const auto box = test::add_shape(w, test::make_box_set(Vec3(1, 0.8, 0.3), 0.05, 0.1));
     add_floe(w.scene, box, 900.0, Vec3(0, 0, -1.15), Quaternion::Identity(), 0, false);
@@ -239,8 +239,9 @@ TEST_CASE("a crushed patch carries pressure x area, whatever the spheres", "[ste
     // a floe driven against a plate: p A with A the face's share of the contacts
     const double spacing = GENERATE(0.05, 0.1);
     Case p = test::empty_space(0.01);
-    p.crushing_pressure = 1e3;  // 1 kPa on about 0.8 m2: far less than what would stop the floe
-    p.friction_ship_ice = 0.0;
+    p.contact.crushing_pressure =
+        1e3;  // 1 kPa on about 0.8 m2: far less than what would stop the floe
+    p.contact.friction_ship_ice = 0.0;
     World w = test::plate_world(p, Vec3(4, 4, 0.4), 0.1, 0.1, 0.0);
     const SphereSet set = test::make_box_set(Vec3(1, 0.8, 0.3), 0.05, spacing);
     const auto box = test::add_shape(w, set);
@@ -260,8 +261,8 @@ TEST_CASE("2D: a prism that hits a plate off its centre turns as plane mechanics
           "[step][2d][analytic]") {
     Case p = test::empty_space(0.001);
     p.dimension = 2;
-    p.restitution = 0.3;
-    p.friction_ship_ice = 0.0;
+    p.contact.restitution = 0.3;
+    p.contact.friction_ship_ice = 0.0;
     World w;
     w.parameters = p;
     w.scene = make_scene(build_shape(test::make_box_set(Vec3(4, 1, 0.4), 0.1, 0.05, 2), false),

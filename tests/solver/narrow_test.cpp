@@ -123,7 +123,7 @@ TEST_CASE("pairs that are not looked at have no contacts, step after step",
     const double size = GENERATE(1.0, 10.0);  // spheres of half a metre reach farther
     World w = test::scattered_world(GENERATE(1u, 2u), 60, size);
     w.parameters.normal = GENERATE(NormalRule::centres, NormalRule::surface);
-    w.parameters.crushing_pressure = GENERATE(std::numeric_limits<double>::infinity(), 1e4);
+    w.parameters.contact.crushing_pressure = GENERATE(std::numeric_limits<double>::infinity(), 1e4);
     Bodies& b = w.scene.bodies;
     for (const std::int32_t i : b.moving) {  // towards the middle, turning
         b.velocity[i] = -0.5 / size * b.position[i];
@@ -151,7 +151,7 @@ TEST_CASE("pairs that are not looked at have no contacts, step after step",
         step(w);
     }
     CHECK(compared > 1000);
-    CHECK(std::isinf(w.parameters.crushing_pressure) == w.scene.crushed.recess.empty());
+    CHECK(std::isinf(w.parameters.contact.crushing_pressure) == w.scene.crushed.recess.empty());
 }
 
 TEST_CASE("a grid query finds every point in range", "[shape][property]") {

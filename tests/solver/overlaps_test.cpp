@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "solver/record/solid_overlap.hpp"
-#include "solver/step/unfelt_hull.hpp"
+#include "solver/run/unfelt_hull.hpp"
 #include "tests/support/make_worlds.hpp"
 
 using namespace ice;

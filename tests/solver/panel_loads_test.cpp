@@ -7,8 +7,8 @@
 
 #include "solver/record/divide_hull.hpp"
 #include "solver/record/find_peaks.hpp"
-#include "solver/step/make_world.hpp"
-#include "solver/step/run.hpp"
+#include "solver/run/make_world.hpp"
+#include "solver/run/run.hpp"
 #include "tests/common/fixtures.hpp"
 #include "tests/support/make_worlds.hpp"
 
@@ -256,7 +256,7 @@ TEST_CASE("a hull placed by its draught has the same panels as one placed by z",
     const auto panels_of = [&](const Case& p) {
         World w = make_world(p, hull);
         CHECK(w.scene.bodies.position[kShip].z() == Approx(0.5 - draught));
-        add_form(w, make_box_set(Vec3(0.5, 0.4, 0.2), 0.05, 0.1));
+        add_floe_shape(w, make_box_set(Vec3(0.5, 0.4, 0.2), 0.05, 0.1));
         add_floe(w, 1, {.position = Vec3(9, 0, 0)});
         const TempFolder folder;
         run(w, {folder / "run", "command"});

@@ -9,8 +9,8 @@
 #include "solver/record/hull_form.hpp"
 #include "solver/record/measure_step.hpp"
 #include "solver/record/recorder.hpp"
-#include "solver/record/tally.hpp"
-#include "solver/step/run.hpp"
+#include "solver/record/run_statistics.hpp"
+#include "solver/run/run.hpp"
 #include "tests/common/fixtures.hpp"
 #include "tests/support/make_worlds.hpp"
 
@@ -220,7 +220,7 @@ TEST_CASE("hull contacts between two frames add up to the forces of their steps"
 }
 
 TEST_CASE("a touch that lasts is one hit, a second touch another", "[record]") {
-    Tally tally({{"hull", "bow"}, 0.0, true, 0.01});
+    RunStatistics tally({{"hull", "bow"}, 0.0, true, 0.01});
     StepRecord touching, apart;
     touching.regions = {{3, 1, Vec3(-2, 0, 0), Vec3(-0.5, 0, 0)}};
     for (const StepRecord* r : {&touching, &touching, &apart, &touching})

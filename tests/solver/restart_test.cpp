@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "common/base/error.hpp"
-#include "solver/step/run.hpp"
+#include "solver/run/run.hpp"
 #include "tests/common/fixtures.hpp"
 #include "tests/support/compare_runs.hpp"
 #include "tests/support/make_worlds.hpp"
@@ -29,7 +29,7 @@ Case pressed_row(double crushing_pressure) {
     p.duration = kSteps * p.time_step;
     p.average_from = 0.25;
     p.speed_table = {{0.0, 0.5}, {1.0, 1.0}};
-    p.crushing_pressure = crushing_pressure;
+    p.contact.crushing_pressure = crushing_pressure;
     p.frames_every = 0.07;
     p.history_every = 0.023;
     p.track = {1, 3};
@@ -161,8 +161,8 @@ Case jam_case() {
     Case p = empty_space(0.01);
     p.duration = 0.4;
     p.speed_table = {{0.0, 0.5}};
-    p.iterations = 50;
-    p.restitution = 0.0;
+    p.contact.iterations = 50;
+    p.contact.restitution = 0.0;
     p.floes.push_back(p.floes[0]);
     p.floes[1].hold = Hold::always;
     p.resolved = "\n[simulation]\nduration = 0.4\n";

@@ -6,7 +6,7 @@
 
 #include "common/base/parallel.hpp"
 #include "solver/record/recorder.hpp"
-#include "solver/step/balance.hpp"
+#include "solver/run/balance.hpp"
 #include "tests/support/every_instruction_set.hpp"
 #include "tests/support/make_worlds.hpp"
 
@@ -18,7 +18,7 @@ namespace {
 // A box of 4 x breadth x 1 m without water, free as told, at 1 m/s.
 World box_ship(double mass, double breadth, std::initializer_list<Freedom> free) {
     Case p = empty_space(0.01);
-    p.friction_ship_ice = 0.0;
+    p.contact.friction_ship_ice = 0.0;
     p.speed_table = {{0.0, 1.0}};
     for (const Freedom k : free) p.ship.free[k] = true;
     p.ship.mass = mass;
@@ -40,9 +40,9 @@ World rough_ride(double mass, std::initializer_list<Freedom> free, int rows = 6)
     p.buoyancy = BuoyancyModel::distributed;
     p.drag = DragModel::panel;
     p.speed_table = {{0.0, 1.0}};
-    p.crushing_pressure = 2e5;
-    p.iterations = 30;
-    p.tolerance = 1e-4;
+    p.contact.crushing_pressure = 2e5;
+    p.contact.iterations = 30;
+    p.contact.tolerance = 1e-4;
     for (const Freedom k : free) p.ship.free[k] = true;
     p.ship.mass = mass;
     p.ship.centre_of_gravity = Vec3::Zero();
@@ -63,10 +63,10 @@ World rough_ride(double mass, std::initializer_list<Freedom> free, int rows = 6)
 World smooth_ride(double mass, std::initializer_list<Freedom> free, int rows = 6) {
     World w = rough_ride(mass, free, rows);
     Case& p = w.parameters;
-    p.crushing_pressure = std::numeric_limits<double>::infinity();
-    p.friction_ice_ice = 0.1;
-    p.iterations = 2000;
-    p.tolerance = 1e-11;
+    p.contact.crushing_pressure = std::numeric_limits<double>::infinity();
+    p.contact.friction_ice_ice = 0.1;
+    p.contact.iterations = 2000;
+    p.contact.tolerance = 1e-11;
     p.floes[0].hold = Hold::never;
     for (std::size_t i = 1; i < w.scene.bodies.size(); ++i)
         if (w.scene.bodies.held[i]) release(w.scene.bodies, i);
@@ -85,7 +85,7 @@ std::uint64_t hash_after(int steps) {
 TEST_CASE("one ship and one floe part as Newton's restitution says", "[ship][contact]") {
     for (const double e : {0.0, 0.3, 1.0}) {
         World w = box_ship(3000.0, 2.0, {surge});
-        w.parameters.restitution = e;
+        w.parameters.contact.restitution = e;
         const auto box = add_shape(w, make_box_set(Vec3(1, 1, 1), 0.1, 0.4));
         add_floe(w.scene, box, 900.0, Vec3(2.505, 0, 0), Quaternion::Identity(), 0, false);
         const double m_f = w.scene.bodies.mass[1], m_s = 3000.0;
@@ -100,7 +100,7 @@ TEST_CASE("one ship and one floe part as Newton's restitution says", "[ship][con
 
 TEST_CASE("an oblique hit turns a ship that is free to turn", "[ship][contact]") {
     World w = box_ship(3000.0, 2.0, {surge, sway, yaw});
-    w.parameters.restitution = 0.5;
+    w.parameters.contact.restitution = 0.5;
     // one column of spheres
     const auto box = add_shape(w, make_box_set(Vec3(1, 0.2, 1), 0.1, 0.4));
     add_floe(w.scene, box, 900.0, Vec3(2.505, 0.7, 0), Quaternion::Identity(), 0, false);
@@ -126,9 +126,9 @@ TEST_CASE("an oblique hit turns a ship that is free to turn", "[ship][contact]")
 
 TEST_CASE("ship and floes together keep their momentum", "[ship][contact][balance]") {
     World w = box_ship(2000.0, 2.0, {surge, sway, heave, roll, pitch, yaw});
-    w.parameters.friction_ship_ice = 0.2;
-    w.parameters.iterations = 30;
-    w.parameters.tolerance = 1e-4;
+    w.parameters.contact.friction_ship_ice = 0.2;
+    w.parameters.contact.iterations = 30;
+    w.parameters.contact.tolerance = 1e-4;
     w.parameters.ship.added_mass = {0.1, 0.6, 0.9, 0.2, 0.7, 0.3};
     const auto box = add_shape(w, make_box_set(Vec3(0.8, 0.6, 0.3), 0.05, 0.1));
     for (int k = 0; k < 8; ++k)
@@ -174,9 +174,9 @@ TEST_CASE("fifty floes abreast take a ship of any mass along at their common spe
         const double floe =
             900.0 * build_shape(make_box_set(Vec3(1, 0.9, 1), 0.1, 0.4), true).solid.volume;
         World w = box_ship(share * 50.0 * floe, 50.0, {surge});
-        w.parameters.restitution = 0.0;
-        w.parameters.iterations = 300;
-        w.parameters.tolerance = 1e-9;
+        w.parameters.contact.restitution = 0.0;
+        w.parameters.contact.iterations = 300;
+        w.parameters.contact.tolerance = 1e-9;
         const auto box = add_shape(w, make_box_set(Vec3(1, 0.9, 1), 0.1, 0.4));
         for (int k = 0; k < 50; ++k)
             add_floe(w.scene, box, 900.0, Vec3(2.505, -24.5 + k, 0), Quaternion::Identity(), 0,
@@ -195,7 +195,7 @@ TEST_CASE("a ship that rams held ice stops or comes back", "[ship][held]") {
     SECTION("rigid ice: with the restitution, for which a captive ship has no answer") {
         for (const double e : {0.0, 0.3}) {
             World w = box_ship(3000.0, 2.0, {surge});
-            w.parameters.restitution = e;
+            w.parameters.contact.restitution = e;
             w.parameters.floes[0].hold = Hold::always;
             const auto box = add_shape(w, make_box_set(Vec3(1, 1, 1), 0.1, 0.4));
             add_floe(w.scene, box, 900.0, Vec3(2.505, 0, 0), Quaternion::Identity(), 0, true);
@@ -205,8 +205,8 @@ TEST_CASE("a ship that rams held ice stops or comes back", "[ship][held]") {
     }
     SECTION("ice that crushes: by what its strength allows in a step, until it stands") {
         World w = box_ship(3000.0, 2.0, {surge});
-        w.parameters.restitution = 0.0;
-        w.parameters.crushing_pressure = 1e4;
+        w.parameters.contact.restitution = 0.0;
+        w.parameters.contact.crushing_pressure = 1e4;
         w.parameters.floes[0].hold = Hold::always;
         const auto box = add_shape(w, make_box_set(Vec3(1, 1, 1), 0.1, 0.4));
         add_floe(w.scene, box, 900.0, Vec3(2.505, 0, 0), Quaternion::Identity(), 0, true);
@@ -228,8 +228,8 @@ TEST_CASE("a ship that rams held ice stops or comes back", "[ship][held]") {
     }
     SECTION("a wall beside a ship that only heaves: as captive along it, rubbed down to rest") {
         World w = box_ship(3000.0, 2.0, {heave});
-        w.parameters.crushing_pressure = 1e5;
-        w.parameters.friction_ship_ice = 0.1;
+        w.parameters.contact.crushing_pressure = 1e5;
+        w.parameters.contact.friction_ship_ice = 0.1;
         w.parameters.floes[0].hold = Hold::always;
         const auto box = add_shape(w, make_box_set(Vec3(1, 1, 1), 0.1, 0.4));
         add_floe(w.scene, box, 900.0, Vec3(2.505, 0, 0), Quaternion::Identity(), 0, true);

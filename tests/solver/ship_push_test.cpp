@@ -15,8 +15,8 @@ namespace {
 World pushing_ship(double mass, double breadth, double thrust,
                    std::initializer_list<Freedom> free) {
     Case p = empty_space(0.05);
-    p.iterations = 30;
-    p.tolerance = 1e-4;
+    p.contact.iterations = 30;
+    p.contact.tolerance = 1e-4;
     for (const Freedom k : free) p.ship.free[k] = true;
     p.ship.mass = mass;
     p.ship.centre_of_gravity = Vec3::Zero();
@@ -63,7 +63,7 @@ TEST_CASE("fifty floes abreast are pushed for ten minutes by a ship of any mass"
 TEST_CASE("a ship that presses on ice which is held goes no deeper with time", "[ship][held]") {
     World w = pushing_ship(3000.0, 2.0, 500.0, {surge, sway, heave, roll, pitch, yaw});
     w.parameters.floes[0].hold = Hold::always;
-    w.parameters.friction_ship_ice = 0.1;
+    w.parameters.contact.friction_ship_ice = 0.1;
     const auto box = add_shape(w, make_box_set(Vec3(1, 4, 3), 0.1, 0.4));
     const Quaternion inclined(Eigen::AngleAxisd(0.1, Vec3::UnitZ()));
     add_floe(w.scene, box, 900.0, Vec3(2.62, 0, 0), inclined, 0, true);

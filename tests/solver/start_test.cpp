@@ -3,8 +3,8 @@
 #include <catch2/catch.hpp>
 
 #include "common/formats/widest_spacing.hpp"
+#include "solver/run/check_start.hpp"
 #include "solver/scene/tunnelling_speed.hpp"
-#include "solver/step/check_start.hpp"
 #include "tests/common/fixtures.hpp"
 #include "tests/support/make_worlds.hpp"
 

@@ -10,7 +10,7 @@
 #include <numeric>
 #include <random>
 
-#include "solver/contact/extrapolation.hpp"
+#include "solver/contact/conjugate_gradient.hpp"
 #include "tests/support/contact_problem.hpp"
 #include "tests/support/every_instruction_set.hpp"
 
@@ -84,7 +84,7 @@ TEST_CASE("a floe with more neighbours than there are colours is solved with all
     std::vector<Constraint> constraints;
     ContactLaw law;
     law.crushing_pressure = std::numeric_limits<double>::infinity();
-    build_constraints(bodies, contacts, law, constraints);
+    build_constraints(bodies, contacts, law, 0.0, constraints);
     ContactRows rows;
     std::vector<std::int32_t> all(constraints.size());
     std::iota(all.begin(), all.end(), 0);
@@ -110,7 +110,7 @@ TEST_CASE("one contact is brought to its conditions by one sweep", "[sweep][anal
     ContactLaw law;
     law.crushing_pressure = std::numeric_limits<double>::infinity();
     std::vector<Constraint> constraints;
-    build_constraints(bodies, {contact}, law, constraints);
+    build_constraints(bodies, {contact}, law, 0.0, constraints);
     ContactRows rows;
     rows.build(bodies, constraints, {0});
     rows.begin_stage(bodies, constraints, &Constraint::rest_normal, &Constraint::rest_tangent,
@@ -133,9 +133,9 @@ TEST_CASE("every instruction set sweeps to the bits of the reference", "[sweep][
         problem.begin();
         SweepMemory memory;
         memory.before = impulses_of(contacts);
-        memory.way.assign(contacts.rows.size(), RowImpulses{});
+        memory.direction.assign(contacts.rows.size(), RowImpulses{});
         memory.motion_before = contacts.motion;
-        memory.motion_way.assign(contacts.motion.size(), BodyMotion{});
+        memory.motion_direction.assign(contacts.motion.size(), BodyMotion{});
         std::vector<double> out;
         for (int k = 0; k < 4; ++k) {
             out.push_back(sweep_once(contacts.blocks, contacts.rows, contacts.motion));
@@ -156,7 +156,7 @@ TEST_CASE("every instruction set sweeps to the bits of the reference", "[sweep][
 }
 
 TEST_CASE(
-    "extrapolation goes on along steady sweeps where ice can crush, and begins afresh where "
+    "conjugate gradients go on along steady sweeps where ice can crush, and restart where "
     "nothing gives way",
     "[sweep][analytic]") {
     const bool bounded = GENERATE(true, false);
@@ -165,22 +165,22 @@ TEST_CASE(
     ContactRows contacts;
     contacts.rows.resize(1);
     ContactRow& row = contacts.rows[0];
-    row.normal_response.v[3] = 1e-3;
+    row.inverse_effective_mass.v[3] = 1e-3;
     double& impulse = row.impulse.normal.v[3];
-    Extrapolation extrapolation;
-    extrapolation.begin(contacts, bounded);
+    ConjugateGradient gradient;
+    gradient.begin(contacts, bounded);
     impulse += 1.0;
-    extrapolation.advance(contacts);
-    CHECK(impulse == 1.0);  // there is no way to go on along yet
+    gradient.advance(contacts);
+    CHECK(impulse == 1.0);  // there is no direction yet
     const double second = std::sqrt(ratio);
     impulse += second;
-    extrapolation.advance(contacts);
+    gradient.advance(contacts);
     // the limits lie between 0.75 and 0.9 for rigid bodies, 1.04 and 1.3 for ice that crushes
     const bool goes_on = bounded ? ratio < 1.1 : ratio < 0.8;
     const double beta = goes_on ? std::min(ratio, 1.0) : 0.0;
     CHECK(impulse == Approx(1.0 + second + beta).epsilon(1e-12));
-    impulse += 0.1;  // a small step follows: what remains of the way is beta p + g
-    extrapolation.advance(contacts);
+    impulse += 0.1;  // a small step follows: the direction is beta p + g
+    gradient.advance(contacts);
     const double next = 0.01 / ratio;
     CHECK(impulse == Approx(1.1 + second + beta + next * (beta + second)).epsilon(1e-12));
 }

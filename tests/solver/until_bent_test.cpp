@@ -9,8 +9,8 @@
 
 #include "common/base/parallel.hpp"
 #include "solver/record/measure_step.hpp"
-#include "solver/step/balance.hpp"
-#include "solver/step/run.hpp"
+#include "solver/run/balance.hpp"
+#include "solver/run/run.hpp"
 #include "tests/common/fixtures.hpp"
 #include "tests/support/compare_runs.hpp"
 #include "tests/support/make_worlds.hpp"
@@ -41,8 +41,8 @@ SphereSet turned(SphereSet set, const Mat3& turn) {
 // until a load of `breaking_load`; the plate goes along x and touches it at once.
 World leaning_plate(double slope, double breaking_load) {
     Case p = test::empty_space(0.01);
-    p.crushing_pressure = kPressure;
-    p.friction_ship_ice = kFriction;
+    p.contact.crushing_pressure = kPressure;
+    p.contact.friction_ship_ice = kFriction;
     p.floes[0].hold = Hold::until_bent;
     p.speed_table = {{0.0, kSpeed}};
     World w;
@@ -64,7 +64,7 @@ World leaning_plate(double slope, double breaking_load) {
 double crushing_force(const World& w) {
     double sum = 0.0;
     for (const Constraint& c : w.constraints)
-        if (c.total_normal() > 0.0) sum += c.strength / w.parameters.time_step;
+        if (c.total_normal() > 0.0) sum += c.max_impulse / w.parameters.time_step;
     return sum;
 }
 
@@ -102,8 +102,8 @@ TEST_CASE("a held piece breaks off in the step in which its load is reached",
             // with the contact's own normal to the last digits
             const double s = c.normal.x(), k = -c.normal.z();
             const Vec3 push = c.total_normal() * c.normal + c.total_tangent();
-            REQUIRE(push.x() == Approx(c.strength * (s + kFriction * k)).epsilon(1e-9));
-            REQUIRE(-push.z() == Approx(c.strength * (k - kFriction * s)).epsilon(1e-9));
+            REQUIRE(push.x() == Approx(c.max_impulse * (s + kFriction * k)).epsilon(1e-9));
+            REQUIRE(-push.z() == Approx(c.max_impulse * (k - kFriction * s)).epsilon(1e-9));
         }
         work += now.along * kSpeed * w.parameters.time_step;
         REQUIRE(w.time < 10.0);
@@ -167,8 +167,8 @@ TEST_CASE("a steep side never bends the ice: it crushes the whole thickness", "[
 }
 
 TEST_CASE("a side whose friction outweighs its slope lifts the ice", "[step][bending]") {
-    World w = leaning_plate(kDeg * 80.0, 1.0);  // any load would break it
-    w.parameters.friction_ship_ice = 0.2;       // tan 80 deg > 1 / 0.2
+    World w = leaning_plate(kDeg * 80.0, 1.0);     // any load would break it
+    w.parameters.contact.friction_ship_ice = 0.2;  // tan 80 deg > 1 / 0.2
     for (int k = 0; k < 50; ++k) {
         step(w);
         REQUIRE(push_of(w).down <= 0.0);
@@ -228,7 +228,7 @@ TEST_CASE("ice without strength is let go at the first touch", "[step][bending]"
 TEST_CASE("a moving floe that lies on held ice bends it by its weight", "[step][bending]") {
     const double share = GENERATE(0.9, 1.1);  // of the weight that the held one bears
     Case p = test::empty_space(0.01);
-    p.crushing_pressure = kPressure;
+    p.contact.crushing_pressure = kPressure;
     p.gravity = 9.81;
     p.floes.resize(2);
     p.floes[0].hold = Hold::never;

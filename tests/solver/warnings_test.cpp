@@ -6,7 +6,7 @@
 #include <random>
 
 #include "solver/record/residual_impulse.hpp"
-#include "solver/record/tally.hpp"
+#include "solver/record/run_statistics.hpp"
 #include "solver/step/step.hpp"
 #include "tests/support/make_worlds.hpp"
 
@@ -14,7 +14,7 @@ using namespace ice;
 
 namespace {
 
-TallyOptions options(bool rigid = false) { return {{"bow"}, 1.005, rigid, 0.05, 4.0}; }
+StatisticsOptions options(bool rigid = false) { return {{"bow"}, 1.005, rigid, 0.05, 4.0}; }
 
 // A step that slows the ship by `force` [N].
 StepRecord step_of(double force) {
@@ -27,7 +27,8 @@ StepRecord step_of(double force) {
 
 // 100 steps before the averaged time and 1000 in it, forces 90 and 110 N in turn
 template <class Change>
-Summary summary_of(Tally tally, const Change& change, const TravelParticulars& travel = {}) {
+Summary summary_of(RunStatistics tally, const Change& change,
+                   const TravelParticulars& travel = {}) {
     for (int k = 0; k < 1100; ++k) {
         StepRecord r = step_of(k % 2 == 0 ? 90.0 : 110.0);
         const std::optional<double> residual = change(k - 100, r);
@@ -46,7 +47,8 @@ constexpr auto kNothing = std::optional<double>();
 }  // namespace
 
 TEST_CASE("a run without a fault warns of nothing", "[record]") {
-    const Summary s = summary_of(Tally(options()), [](int, StepRecord&) { return kNothing; });
+    const Summary s =
+        summary_of(RunStatistics(options()), [](int, StepRecord&) { return kNothing; });
     CHECK(s.warnings.empty());
     CHECK(s.resistance.mean == Approx(100.0));
     CHECK(s.residual_share == 0.0);
@@ -55,7 +57,7 @@ TEST_CASE("a run without a fault warns of nothing", "[record]") {
 TEST_CASE("unconverged steps are warned of when they owe more than 2 % of the impulses",
           "[record][analytic]") {
     const auto owing = [](double residual) {
-        return summary_of(Tally(options()), [=](int k, StepRecord&) {
+        return summary_of(RunStatistics(options()), [=](int k, StepRecord&) {
             return k % 2 == 0 ? std::optional(residual) : std::nullopt;
         });
     };
@@ -74,7 +76,7 @@ TEST_CASE("unconverged steps are warned of when they owe more than 2 % of the im
 TEST_CASE("a jam's share of the mean is what the mean loses without its steps",
           "[record][analytic]") {
     const auto jammed = [](double force, int from) {
-        return summary_of(Tally(options(true)), [=](int k, StepRecord& r) {
+        return summary_of(RunStatistics(options(true)), [=](int k, StepRecord& r) {
             if (k < from || k >= from + 10) return kNothing;
             r.contact_force.x() = -force;
             r.jammed_contacts = 1;
@@ -96,7 +98,7 @@ TEST_CASE("a jam's share of the mean is what the mean loses without its steps",
 
 TEST_CASE("a deep overlap is said with the share of work that opening overlaps put in",
           "[record][analytic]") {
-    const Summary s = summary_of(Tally(options()), [](int k, StepRecord& r) {
+    const Summary s = summary_of(RunStatistics(options()), [](int k, StepRecord& r) {
         r.max_overlap = k == 300 ? 0.06 : 0.04;
         return kNothing;
     });
@@ -107,7 +109,7 @@ TEST_CASE("a deep overlap is said with the share of work that opening overlaps p
 }
 
 TEST_CASE("a mean that few hits decide is warned of, with their share", "[record][analytic]") {
-    const Summary s = summary_of(Tally(options()), [](int k, StepRecord& r) {
+    const Summary s = summary_of(RunStatistics(options()), [](int k, StepRecord& r) {
         if (k % 200 == 0 && k >= 0) r.contact_force.x() = -50000.0;
         return kNothing;
     });
@@ -122,7 +124,7 @@ TEST_CASE("a mean that few hits decide is warned of, with their share", "[record
 
 TEST_CASE("a resistance that rises over the averaged time is warned of with its share",
           "[record][analytic]") {
-    const Summary s = summary_of(Tally(options()), [](int k, StepRecord& r) {
+    const Summary s = summary_of(RunStatistics(options()), [](int k, StepRecord& r) {
         r.contact_force.x() -= 0.05 * (k - 499.5);  // 50 N over 1000 steps, mean as before
         return kNothing;
     });
@@ -140,7 +142,7 @@ TEST_CASE("averages over less than a length are warned of with the interval's sh
     const auto after = [](double lengths, double noise = 10.0) {
         std::mt19937 generator(1);
         std::normal_distribution<double> sample(100.0, noise);
-        return summary_of(Tally(options()),
+        return summary_of(RunStatistics(options()),
                           [&](int, StepRecord& r) {
                               r.contact_force.x() = -sample(generator);
                               return kNothing;
@@ -161,7 +163,7 @@ TEST_CASE("averages over less than a length are warned of with the interval's sh
     CHECK(wide.warnings.at(0).affects_mean == true);
     CHECK(narrow.warnings.at(0).affects_mean == false);
     // a trend says more, and why
-    const Summary rising = summary_of(Tally(options()),
+    const Summary rising = summary_of(RunStatistics(options()),
                                       [](int k, StepRecord& r) {
                                           r.contact_force.x() -= 0.05 * (k - 499.5);
                                           return kNothing;
@@ -173,9 +175,9 @@ TEST_CASE("averages over less than a length are warned of with the interval's sh
 }
 
 TEST_CASE("a force that changes about a mean of zero is given no share of it", "[record]") {
-    TallyOptions all = options();
+    StatisticsOptions all = options();
     all.average_from = 0.0;
-    Tally tally(all);
+    RunStatistics tally(all);
     for (int k = 0; k < 1000; ++k) tally.add(step_of(k < 500 ? -1.0 : 1.0), 0.01 * k, 0.01, {});
     Summary s;
     tally.fill(s);
@@ -185,7 +187,7 @@ TEST_CASE("a force that changes about a mean of zero is given no share of it", "
 
 TEST_CASE("bodies that meet too fast are warned of with what their steps do to the mean",
           "[record][analytic]") {
-    const Summary s = summary_of(Tally(options()), [](int k, StepRecord& r) {
+    const Summary s = summary_of(RunStatistics(options()), [](int k, StepRecord& r) {
         r.closing_speed = k == 700 ? 5.0 : 1.0;
         return kNothing;
     });
@@ -213,16 +215,16 @@ TEST_CASE("what a contact owes is the floe's mass times the speed at which it st
     c.normal = -Vec3::UnitZ();  // the floe lies under the plate
     c.arm_a.setZero();
     c.arm_b = Vec3(0, 0, 0.15);  // through the centre: k(n) = 1 / m
-    c.strength = std::numeric_limits<double>::infinity();
+    c.max_impulse = std::numeric_limits<double>::infinity();
 
     moving_at(0.2);
     CHECK(residual_impulse(b, {c}, 0.01) == Approx(0.2 * b.mass[i]));
     c.gap = 0.001;  // room for 0.1 m/s within the step
     CHECK(residual_impulse(b, {c}, 0.01) == Approx(0.1 * b.mass[i]));
     c.gap = 0.0;
-    c.strength = c.rest_normal = 3.0;  // it crushes: it may close
+    c.max_impulse = c.rest_normal = 3.0;  // it crushes: it may close
     CHECK(residual_impulse(b, {c}, 0.01) == 0.0);
-    c.strength = std::numeric_limits<double>::infinity();
+    c.max_impulse = std::numeric_limits<double>::infinity();
     moving_at(-0.2);  // pushed apart by 3 N s where less would do
     CHECK(residual_impulse(b, {c}, 0.01) == Approx(std::min(3.0, 0.2 * b.mass[i])));
     c.impact_normal = 1.0;  // unless it rebounds

@@ -62,7 +62,7 @@ inline std::vector<Constraint> make_constraints(const Bodies& bodies, std::size_
     ContactLaw law;
     law.crushing_pressure = std::numeric_limits<double>::infinity();
     std::vector<Constraint> out;
-    build_constraints(bodies, contacts, law, out);
+    build_constraints(bodies, contacts, law, 0.0, out);
     return out;
 }
 

@@ -8,6 +8,18 @@
 #include "solver/step/step.hpp"
 #include "tests/support/make_sphere_sets.hpp"
 
+namespace ice {
+
+/// A floe at rest, for tests that add many.
+inline std::size_t add_floe(Scene& scene, std::int32_t shape, double density, const Vec3& position,
+                            const Quaternion& orientation, std::int32_t group, bool held) {
+    FloeStart start{.position = position, .orientation = orientation};
+    start.hold = held ? Hold::always : Hold::never;
+    return add_floe(scene, shape, density, start, group);
+}
+
+}  // namespace ice
+
 namespace ice::test {
 
 /// No water, no gravity, one group of free floes: only contacts act.
@@ -21,8 +33,8 @@ inline Case empty_space(double dt) {
     p.speed_table = {{0.0, 0.0}};
     p.floes.resize(1);
     p.floes[0].hold = Hold::never;
-    p.iterations = 1000;
-    p.tolerance = 1e-12;
+    p.contact.iterations = 1000;
+    p.contact.tolerance = 1e-12;
     return p;
 }
 

@@ -41,8 +41,8 @@ World ship_world(double breadth, double back, Hold hold) {
     p.gravity = 9.81;
     p.buoyancy = BuoyancyModel::distributed;
     p.drag = DragModel::panel;
-    p.iterations = 30;
-    p.tolerance = 1e-4;
+    p.contact.iterations = 30;
+    p.contact.tolerance = 1e-4;
     p.speed_table = {{0.0, 0.5}};
     p.floes[0].hold = hold;
     World w;

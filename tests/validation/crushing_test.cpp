@@ -24,8 +24,8 @@ struct Driven {
 // the floe's foremost edge is `depth` inside.
 Driven drive(double heading, double radius, double depth, double dt, double speed) {
     Case p = test::empty_space(dt);
-    p.crushing_pressure = kPressure;
-    p.friction_ship_ice = 0.0;
+    p.contact.crushing_pressure = kPressure;
+    p.contact.friction_ship_ice = 0.0;
     p.speed_table = {{0.0, speed}};
     p.floes[0].hold = Hold::always;
     World w;

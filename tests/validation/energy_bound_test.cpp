@@ -51,10 +51,10 @@ World stream(double slope, double speed, int pieces, double bottom) {
     p.gravity = 9.81;
     p.buoyancy = BuoyancyModel::distributed;
     p.drag = DragModel::panel;
-    p.friction_ship_ice = p.friction_ice_ice = 0.0;
-    p.restitution = 0.3;
-    p.iterations = 200;
-    p.tolerance = 1e-5;
+    p.contact.friction_ship_ice = p.contact.friction_ice_ice = 0.0;
+    p.contact.restitution = 0.3;
+    p.contact.iterations = 200;
+    p.contact.tolerance = 1e-5;
     p.speed_table = {{0.0, speed}};
     p.floes[0].hold = Hold::until_hull_contact;
     World w;

@@ -151,11 +151,11 @@ Gain run_meeting(World& w) {
 
 Case law(double restitution, double friction, NormalRule rule) {
     Case p = test::empty_space(0.01);
-    p.restitution = restitution;
-    p.friction_ship_ice = p.friction_ice_ice = friction;
+    p.contact.restitution = restitution;
+    p.contact.friction_ship_ice = p.contact.friction_ice_ice = friction;
     p.normal = rule;
-    p.iterations = 30;
-    p.tolerance = 1e-4;
+    p.contact.iterations = 30;
+    p.contact.tolerance = 1e-4;
     return p;
 }
 
@@ -208,8 +208,8 @@ TEST_CASE("a touching row that is opening when it is struck gains no energy",
     const double e = GENERATE(0.3, 1.0);
     World w = test::plate_world(law(e, 0.0, NormalRule::surface), Vec3(1, 1, 1), 0.1, 0.2, 100.0);
     test::add_shape(w, floe_set(Meeting::head_on));
-    w.parameters.iterations = 1000;
-    w.parameters.tolerance = 1e-12;
+    w.parameters.contact.iterations = 1000;
+    w.parameters.contact.tolerance = 1e-12;
     const double speed[] = {10.0, 0.0, 1.0};
     for (int k = 0; k < 3; ++k)
         add_moving(w, {k * (1.0 - 1e-6), 0, 0}, Quaternion::Identity(), {speed[k], 0, 0},

@@ -29,10 +29,10 @@ Pressed press(double slope, double hull_radius, double hull_spacing, double floe
     p.gravity = 9.81;
     p.buoyancy = BuoyancyModel::distributed;
     p.normal = rule;
-    p.friction_ship_ice = 0.1;
-    p.restitution = 0.3;
-    p.iterations = 30;
-    p.tolerance = 1e-4;
+    p.contact.friction_ship_ice = 0.1;
+    p.contact.restitution = 0.3;
+    p.contact.iterations = 30;
+    p.contact.tolerance = 1e-4;
     p.speed_table = {{0.0, 1.0}};
     const Quaternion turn(Eigen::AngleAxisd(-slope, Vec3::UnitY()));
     World w;
@@ -118,10 +118,10 @@ Pressed slide_under_another(double radius, double offset) {
     p.gravity = 9.81;
     p.buoyancy = BuoyancyModel::distributed;
     p.normal = NormalRule::surface;
-    p.friction_ship_ice = 10.0;  // the upper floe stays where it is
-    p.friction_ice_ice = 0.3;
-    p.iterations = 30;
-    p.tolerance = 1e-4;
+    p.contact.friction_ship_ice = 10.0;  // the upper floe stays where it is
+    p.contact.friction_ice_ice = 0.3;
+    p.contact.iterations = 30;
+    p.contact.tolerance = 1e-4;
     World w;
     w.parameters = p;
     w.scene = make_scene(build_shape(test::fill_box(Vec3(4, 1.6, 0.6), 0.1, 0.1), false),

@@ -67,8 +67,8 @@ std::vector<Tip> tips() {
 
 Case driven_case(double pressure) {
     Case p = test::empty_space(kStep);
-    p.crushing_pressure = pressure;
-    p.friction_ship_ice = 0.0;
+    p.contact.crushing_pressure = pressure;
+    p.contact.friction_ship_ice = 0.0;
     p.speed_table = {{0.0, kSpeed}};
     p.floes[0].hold = Hold::always;
     return p;

@@ -5,7 +5,7 @@
 #include "preprocess/load/read_mesh.hpp"
 #include "preprocess/repair/make_solid.hpp"
 #include "solver/case/read_case.hpp"
-#include "solver/step/run.hpp"
+#include "solver/run/run.hpp"
 #include "tests/support/temporary_file.hpp"
 
 namespace ice::test {

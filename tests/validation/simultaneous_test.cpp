@@ -23,10 +23,10 @@ const Vec3 kFloe(1.0, 0.8, 0.3);
 
 Case exact(double restitution) {
     Case p = test::empty_space(0.01);
-    p.restitution = restitution;
-    p.friction_ice_ice = 0.3;
-    p.iterations = 20000;
-    p.tolerance = 1e-13;
+    p.contact.restitution = restitution;
+    p.contact.friction_ice_ice = 0.3;
+    p.contact.iterations = 20000;
+    p.contact.tolerance = 1e-13;
     return p;
 }
 
@@ -96,8 +96,8 @@ TEST_CASE("a stack of ten floes under a hull comes to rest, each layer carries t
     p.gravity = 9.81;
     p.buoyancy = BuoyancyModel::distributed;
     p.drag = DragModel::panel;
-    p.iterations = tight ? 300 : 30;
-    p.tolerance = tight ? 1e-6 : 1e-4;
+    p.contact.iterations = tight ? 300 : 30;
+    p.contact.tolerance = tight ? 1e-6 : 1e-4;
     World w = test::plate_world(p, Vec3(4, 4, 0.4), 0.1, 0.1, -1.0);
     const auto box = test::add_shape(w, test::make_box_set(kFloe, 0.05, 0.1));
     // small gaps, none exactly above the next
@@ -141,7 +141,7 @@ TEST_CASE("a step whose solver did not reach its tolerance says so, with its res
     // one iteration cannot share a load among 80 contacts; enough of them can
     const auto [iterations, enough] = GENERATE(std::pair(1, false), std::pair(20000, true));
     Case p = exact(0.3);
-    p.iterations = iterations;
+    p.contact.iterations = iterations;
     World w = test::plate_world(p, Vec3(4, 4, 0.4), 0.1, 0.1, 0.0);
     const auto box = test::add_shape(w, test::make_box_set(kFloe, 0.05, 0.1));
     add_floe(w.scene, box, 900.0, Vec3(0.013, 0.021, -0.1505), Quaternion::Identity(), 0, false);
@@ -149,7 +149,7 @@ TEST_CASE("a step whose solver did not reach its tolerance says so, with its res
     update_derived(w.scene.bodies, 1);
     step(w);
     CHECK(w.impacts.converged == enough);
-    CHECK((w.impacts.residual <= p.tolerance) == enough);
+    CHECK((w.impacts.residual <= p.contact.tolerance) == enough);
     // a stage that gains energy is solved without rebound, too
     CHECK(w.impacts.iterations <= 2 * iterations);
     CHECK((w.impacts.iterations >= iterations) == !enough);

@@ -39,8 +39,8 @@ World ship(bool water, double speed, NormalRule rule, Arrangement arrangement, H
     Case p = test::empty_space(0.01);
     p.normal = rule;
     p.speed_table = {{0.0, speed}};
-    p.iterations = 30;
-    p.tolerance = 1e-4;
+    p.contact.iterations = 30;
+    p.contact.tolerance = 1e-4;
     p.floes[0].hold = hold;
     if (water) {
         p.gravity = 9.81;

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
+
+#include "common/math/ordered_products.hpp"
+#include "solver/loads/load_floes.hpp"
+#include "solver/water/hydrostatics.hpp"
+#include "solver/water/pressure_load.hpp"
+#include "solver/water/relative_drag.hpp"
+
+namespace ice {
+
+WaterLoad flow_pressure(const Scene& scene, const Case& p, std::size_t i) {
+    const Bodies& b = scene.bodies;
+    const Shape& shape = scene.shapes[static_cast<std::size_t>(b.shape[i])];
+    const WaterFlow& water = scene.water;
+    const bool reached =
+        water.presses && water.flows() && water.reaches(b.position[i], shape.bounding_radius);
+    if (!reached) return {};
+    const auto pressure = [&](const Vec3& at) {
+        return p.water_density *
+               reference::pressure_at(water, b.position[i] + ordered_product(b.rotation[i], at));
+    };
+    WaterLoad out = pressure_load(shape, b.rotation[i], b.position[i].z(), pressure);
+    if (scene.dimension == 2) out.force.y() = out.moment.x() = out.moment.z() = 0.0;
+    return out;
+}
+
+}  // namespace ice
+
+namespace ice::reference {
+
+namespace {
+
+double length(const Vec3& v) { return std::sqrt(ordered_dot(v, v)); }
+
+// Drag slows down, it never turns a motion round: in a step longer than it takes to stop, the
+// force is the one that just stops. At the paper's steps this is never reached.
+void limit_drag(const Bodies& b, std::size_t i, double dt, WaterLoad& drag) {
+    const double stop = b.mass[i] * length(b.velocity[i]), push = dt * length(drag.force);
+    if (push > stop) drag.force *= stop / push;
+    const double halt = length(ordered_turned(b.rotation[i], b.inertia(i), b.angular_velocity[i]));
+    const double twist = dt * length(drag.moment);
+    if (twist > halt) drag.moment *= halt / twist;
+}
+
+// In moving water the same, but for motions through it: the fastest that a corner has decides.
+void limit_drag(const Bodies& b, std::size_t i, double radius, double dt, RelativeDrag& drag) {
+    const double stop = b.mass[i] * drag.fastest, push = dt * length(drag.force);
+    if (push > stop) {
+        drag.force *= stop / push;
+        drag.loss = drag.loss * (stop / push);
+    }
+    const double turning =
+        length(ordered_turned(b.rotation[i], b.inertia(i), b.angular_velocity[i])) + radius * stop;
+    const double twist = dt * length(drag.moment);
+    if (twist > turning) drag.moment *= turning / twist;
+}
+
+// In 2D the plane's other components are rounding only; they must not add up over a run.
+void keep_in_plane(WaterLoad& load) { load.force.y() = load.moment.x() = load.moment.z() = 0.0; }
+
+void add_pressure(const WaterLoad& pressure, FloeLoad& load) {
+    load.pressure = pressure;
+    load.force += pressure.force;
+    load.moment += pressure.moment;
+}
+
+WaterLoad drag_at_rest(const Scene& scene, const Case& p, std::size_t i) {
+    const Bodies& b = scene.bodies;
+    const Shape& shape = scene.shapes[static_cast<std::size_t>(b.shape[i])];
+    const Motion motion{b.rotation[i], b.position[i].z(), b.velocity[i], b.angular_velocity[i]};
+    WaterLoad drag;
+    if (p.drag == DragModel::projected)
+        drag = projected_drag(shape, motion, p.drag_coefficient, p.water_density);
+    if (p.drag == DragModel::panel)
+        drag = panel_drag(shape, motion, p.drag_coefficient, p.water_density);
+    limit_drag(b, i, p.time_step, drag);
+    return drag;
+}
+
+RelativeDrag drag_in_flow(const Scene& scene, const Case& p, std::size_t i) {
+    const Bodies& b = scene.bodies;
+    const Shape& shape = scene.shapes[static_cast<std::size_t>(b.shape[i])];
+    RelativeDrag drag;
+    if (p.drag == DragModel::projected) {
+        const Vec3 u = b.velocity[i] - water_at(scene.water, b.position[i]);
+        const Motion motion{b.rotation[i], b.position[i].z(), u, b.angular_velocity[i]};
+        static_cast<WaterLoad&>(drag) =
+            projected_drag(shape, motion, p.drag_coefficient, p.water_density);
+        drag.fastest = length(u);
+        drag.loss = -ordered_dot(drag.force, u);
+    }
+    if (p.drag == DragModel::panel) {
+        const auto water = [&](const Vec3& at) {
+            return ordered_transposed(
+                b.rotation[i],
+                water_at(scene.water, b.position[i] + ordered_product(b.rotation[i], at)));
+        };
+        const Motion motion{b.rotation[i], b.position[i].z(), b.velocity[i], b.angular_velocity[i]};
+        drag = relative_drag(shape, motion, water, p.drag_coefficient, p.water_density);
+    }
+    limit_drag(b, i, shape.bounding_radius, p.time_step, drag);
+    return drag;
+}
+
+FloeLoad load_of(const Scene& scene, const Case& p, std::size_t i) {
+    const Bodies& b = scene.bodies;
+    const Shape& shape = scene.shapes[static_cast<std::size_t>(b.shape[i])];
+    FloeLoad load;
+    if (scene.water.reaches(b.position[i], shape.bounding_radius)) {
+        const RelativeDrag drag = drag_in_flow(scene, p, i);
+        load.drag = drag;
+        load.water_power = (ordered_dot(drag.force, b.velocity[i]) +
+                            ordered_dot(drag.moment, b.angular_velocity[i])) +
+                           drag.loss;
+    } else {
+        load.drag = drag_at_rest(scene, p, i);
+    }
+    load.force = load.drag.force;
+    load.moment = load.drag.moment;
+    load.force.z() -= b.mass[i] * p.gravity;
+    if (p.buoyancy != BuoyancyModel::none) {
+        const Submerged wet = measure_submerged(shape, b.rotation[i], b.position[i].z());
+        const Vec3 lift(0.0, 0.0, p.water_density * p.gravity * wet.volume);
+        load.force += lift;
+        load.righting = wet.centre.cross(lift);
+        if (p.buoyancy == BuoyancyModel::distributed) load.moment += load.righting;
+    }
+    if (scene.dimension == 2) {
+        keep_in_plane(load);
+        keep_in_plane(load.drag);
+    }
+    if (scene.water.presses) add_pressure(flow_pressure(scene, p, i), load);
+    return load;
+}
+
+}  // namespace
+
+void load_floes(const Scene& scene, const Case& parameters, std::span<const std::int32_t> floes,
+                std::span<FloeLoad> out) {
+    for (std::size_t k = 0; k < floes.size(); ++k)
+        out[k] = load_of(scene, parameters, static_cast<std::size_t>(floes[k]));
+}
+
+}  // namespace ice::reference

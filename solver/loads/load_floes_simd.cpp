@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Loads on floes of one form, as many at a time as the machine has lanes, compiled once per
+// instruction set. The mathematics is in load_floes_reference.cpp, drag.cpp and hydrostatics.cpp.
+// Mul then Add, not MulAdd: a fused product would differ from it.
+#include "solver/loads/load_floes.hpp"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "solver/loads/load_floes_simd.cpp"
+#include <hwy/foreach_target.h>  // must precede highway.h
+#include <hwy/highway.h>
+
+#include "solver/loads/afloat_lanes-inl.hpp"
+#include "solver/loads/flow_drag_lanes-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace ice::HWY_NAMESPACE {
+
+// measure_submerged()
+struct Buoyancy {
+    Lanes volume;
+    Vectors centre;
+
+    HWY_INLINE explicit Buoyancy(const Afloat& floes) {
+        const Tag d;
+        const Shape& shape = floes.shape;
+        const Lanes height = floes.height;
+        const Mask above_deep = hn::Gt(height, All(-shape.bounding_radius));
+        const FloatingWetted wet = IntegrateFloating(floes.heights);
+        const Mask whole = hn::Not(hn::Or(floes.Clear(), hn::And(above_deep, wet.any_dry)));
+        const Mask part = hn::AndNot(hn::Or(floes.Clear(), whole),
+                                     hn::And(wet.any_wet, hn::Gt(wet.volume, hn::Zero(d))));
+        const Lanes moment = hn::Mul(
+            All(0.5), hn::Add(Dot(floes.heights.Up(), wet.first), hn::Mul(height, wet.volume)));
+        const Vectors at = Sub(wet.first, Scale(moment, floes.heights.Up()));
+        const Vectors cut{hn::Div(at.x, wet.volume), hn::Div(at.y, wet.volume),
+                          hn::Div(at.z, wet.volume)};
+        const Vectors in_body = Choose(whole, Set(shape.solid.centroid), cut);
+        const Mask any = hn::Or(whole, part);
+        volume =
+            hn::IfThenElseZero(any, hn::IfThenElse(whole, All(shape.solid.volume), wet.volume));
+        centre = Only(any, Product(floes.rotation, in_body));
+    }
+};
+
+HWY_INLINE Vectors InPlane(Vectors force) { return {force.x, hn::Zero(Tag()), force.z}; }
+HWY_INLINE Vectors AboutPlane(Vectors moment) {
+    return {hn::Zero(Tag()), moment.y, hn::Zero(Tag())};
+}
+
+// Of no more floes than there are lanes, all of one form.
+void LoadPart(const Scene& scene, const Case& p, std::span<const std::int32_t> ids,
+              std::span<FloeLoad> out) {
+    const Tag d;
+    const Bodies& b = scene.bodies;
+    const BodyLanes at(ids);
+    const auto form = static_cast<std::size_t>(b.shape[static_cast<std::size_t>(ids[0])]);
+    const Afloat floes(scene.shapes[form], b, at);
+    const Matrices inertia = at.Load(b, &Inertia::body);
+
+    const Mask flows = InFlow(scene.water, floes);
+    Load drag{Zero(), Zero()};
+    Lanes water_power = hn::Zero(d);
+    if (!hn::AllTrue(d, flows)) drag = DragAtRest(floes, p, inertia);
+    if (!hn::AllFalse(d, flows)) {
+        const RelativeLoad moved = DragInFlow(floes, p, scene.water, inertia);
+        drag = {Choose(flows, moved.force, drag.force), Choose(flows, moved.moment, drag.moment)};
+        const Lanes work =
+            hn::Add(Dot(moved.force, floes.velocity), Dot(moved.moment, floes.angular_velocity));
+        water_power = hn::IfThenElseZero(flows, hn::Add(work, moved.loss));
+    }
+    Load all = drag;
+    all.force.z = hn::Sub(all.force.z, hn::Mul(floes.mass, All(p.gravity)));
+    Vectors righting = Zero();
+    if (p.buoyancy != BuoyancyModel::none) {
+        const Buoyancy wet(floes);
+        const Vectors lift{hn::Zero(d), hn::Zero(d),
+                           hn::Mul(All(p.water_density * p.gravity), wet.volume)};
+        all.force = Add(all.force, lift);
+        righting = Cross(wet.centre, lift);
+        if (p.buoyancy == BuoyancyModel::distributed) all.moment = Add(all.moment, righting);
+    }
+    if (scene.dimension == 2) {
+        all = {InPlane(all.force), AboutPlane(all.moment)};
+        drag = {InPlane(drag.force), AboutPlane(drag.moment)};
+    }
+
+    const Vectors parts[5] = {all.force, all.moment, drag.force, drag.moment, righting};
+    HWY_ALIGN double value[5][3 * kMostLanes];
+    for (int k = 0; k < 5; ++k)
+        hn::StoreInterleaved3(parts[k].x, parts[k].y, parts[k].z, d, value[k]);
+    HWY_ALIGN double power[kMostLanes];
+    hn::Store(water_power, d, power);
+    for (std::size_t k = 0; k < ids.size(); ++k) {
+        out[k].water_power = power[k];
+        Vec3* const of_floe[5] = {&out[k].force, &out[k].moment, &out[k].drag.force,
+                                  &out[k].drag.moment, &out[k].righting};
+        for (int n = 0; n < 5; ++n)
+            std::memcpy(of_floe[n]->data(), value[n] + 3 * k, 3 * sizeof(double));
+        if (!scene.water.presses) continue;
+        // floe by floe: a choice of the case, of a cost like the drag's
+        out[k].pressure = flow_pressure(scene, p, static_cast<std::size_t>(ids[k]));
+        out[k].force += out[k].pressure.force;
+        out[k].moment += out[k].pressure.moment;
+    }
+}
+
+void LoadFloes(const Scene& scene, const Case& parameters, std::span<const std::int32_t> floes,
+               std::span<FloeLoad> out) {
+    const auto form_of = [&](std::size_t k) {
+        return scene.bodies.shape[static_cast<std::size_t>(floes[k])];
+    };
+    for (std::size_t first = 0; first < floes.size();) {
+        std::size_t last = first + 1;
+        while (last < floes.size() && last < first + kMostLanes && form_of(last) == form_of(first))
+            ++last;
+        const auto some = floes.subspan(first, last - first);
+        const auto loads = out.subspan(first, last - first);
+        // in lanes one floe takes as long as many
+        if (some.size() == 1)
+            reference::load_floes(scene, parameters, some, loads);
+        else
+            LoadPart(scene, parameters, some, loads);
+        first = last;
+    }
+}
+
+}  // namespace ice::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace ice {
+HWY_EXPORT(LoadFloes);
+
+void load_floes(const Scene& scene, const Case& parameters, std::span<const std::int32_t> floes,
+                std::span<FloeLoad> out) {
+    HWY_DYNAMIC_DISPATCH(LoadFloes)(scene, parameters, floes, out);
+}
+}  // namespace ice
+#endif

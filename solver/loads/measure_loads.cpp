@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/loads/measure_loads.hpp"
+
+#include "solver/scene/moving_floes.hpp"
+
+namespace ice {
+
+void measure_loads(const Scene& scene, const Case& parameters, std::vector<FloeLoad>& out) {
+    out.resize(scene.bodies.moving.size());
+    for_each_group(scene.bodies, [&](std::span<const std::int32_t> floes, std::size_t first) {
+        load_floes(scene, parameters, floes, std::span(out).subspan(first, floes.size()));
+    });
+}
+
+void add_applied(const Bodies& bodies, const std::vector<WaterLoad>& applied,
+                 std::vector<FloeLoad>& loads) {
+    if (applied.empty()) return;
+    for_each_moving(bodies, [&](std::size_t i, std::size_t k) {
+        const WaterLoad& own = applied[i];
+        loads[k].applied = own;
+        if (own.force.isZero(0.0) && own.moment.isZero(0.0)) return;
+        loads[k].force += own.force;
+        loads[k].moment += own.moment;
+    });
+}
+
+std::vector<FloeLoad> loads_by_body(const Bodies& bodies, const std::vector<FloeLoad>& loads) {
+    std::vector<FloeLoad> out(bodies.size());
+    for (std::size_t k = 0; k < loads.size(); ++k) out[bodies.moving[k]] = loads[k];
+    return out;
+}
+
+void apply_loads(Bodies& bodies, const std::vector<FloeLoad>& loads, double dt) {
+    for_each_moving(bodies, [&](std::size_t i, std::size_t k) {
+        bodies.velocity[i] += dt * bodies.inverse_mass[i] * loads[k].force;
+        bodies.angular_velocity[i] += dt * (bodies.inverse_inertia_world[i] * loads[k].moment);
+    });
+}
+
+}  // namespace ice

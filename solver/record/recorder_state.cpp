@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// All state of the recorder and its parts. carry() writes a field or sets it, by the file's
+// direction.
+#include <fmt/format.h>
+
+#include "common/formats/checkpoint_file.hpp"
+#include "solver/record/recorder.hpp"
+
+namespace ice {
+
+void Recorder::carry(CheckpointFile& file) {
+    file.carry("row.contact_force", row_.contact_force);
+    file.carry("row.friction_force", row_.friction_force);
+    file.carry("row.moment", row_.moment);
+    file.carry("row.breaking_x", row_.breaking_x);
+    file.carry("row.contacts", row_.contacts);
+    file.carry("row.moving_floes", row_.moving_floes);
+    file.carry("row.max_overlap", row_.max_overlap);
+    file.carry("row.kinetic_energy", row_.kinetic_energy);
+    file.column("row.region_contact", row_regions_, &RegionForce::contact);
+    file.column("row.region_friction", row_regions_, &RegionForce::friction);
+    file.carry("row.steps", row_steps_);
+    file.column("row.tracked_contact", tracked_sum_, &FloeForces::contact);
+    file.column("row.tracked_friction", tracked_sum_, &FloeForces::friction);
+    file.column("row.tracked_ice", tracked_sum_, &FloeForces::ice);
+    file.carry_each("frame.impulse", frame_impulse_);
+    hull_contacts_.carry(file);
+    file.carry("frame.last_time", last_frame_);
+    file.carry("frame.count", frames_);
+    file.carry("row.count", rows_);
+    statistics_.carry(file);
+    panel_loads_.carry(file);
+    file.carry("row.thrust", row_.thrust);
+    file.carry("row.tow_force", row_.tow_force);
+    ship_statistics_.carry(file);
+}
+
+void ShipStatistics::carry(CheckpointFile& file) {
+    file.carry("ship_tally.speed", speed_);
+    file.carry("ship_tally.thrust", thrust_);
+    file.carry("ship_tally.tow", tow_);
+    for (std::size_t k = 0; k < kFreedoms; ++k) {
+        file.carry(fmt::format("ship_tally.sum.{}", k), sum_[k]);
+        file.carry(fmt::format("ship_tally.square.{}", k), square_[k]);
+    }
+    std::uint8_t stuck = stuck_ ? 1 : 0;
+    file.carry("ship_tally.slow_since", slow_since_);
+    file.carry("ship_tally.stuck", stuck);
+    stuck_ = stuck != 0;
+}
+
+void PanelLoads::carry(CheckpointFile& file) {
+    file.carry("panels.steps", steps_);
+    file.carry("panels.windows", windows_);
+    file.carry_each("panels.on_panel", on_panel_);
+    file.carry_each("panels.on_region", on_region_);
+    file.column("panels.load_window", loads_, &Load::window);
+    file.column("panels.load_panel", loads_, &Load::panel);
+    file.column("panels.load_force", loads_, &Load::force);
+    file.carry("panels.regions", regions_);
+}
+
+void HullContacts::carry(CheckpointFile& file) {
+    std::vector<std::pair<std::int32_t, std::int32_t>> keys;
+    std::vector<Sum> sums;
+    for (const auto& [key, sum] : sums_) {  // a map goes as a table
+        keys.push_back(key);
+        sums.push_back(sum);
+    }
+    file.column("hull_contacts.floe", keys, &std::pair<std::int32_t, std::int32_t>::first);
+    file.column("hull_contacts.sphere", keys, &std::pair<std::int32_t, std::int32_t>::second);
+    file.column("hull_contacts.weight", sums, &Sum::weight);
+    file.column("hull_contacts.point", sums, &Sum::point);
+    file.column("hull_contacts.push", sums, &Sum::push);
+    file.column("hull_contacts.rub", sums, &Sum::rub);
+    sums_.clear();
+    for (std::size_t k = 0; k < keys.size(); ++k) sums_.emplace(keys[k], sums[k]);
+}
+
+void RunStatistics::carry(CheckpointFile& file) {
+    for (std::size_t d = 0; d < 3; ++d) file.carry(fmt::format("tally.total.{}", d), total_[d]);
+    file.carry("tally.contact", contact_);
+    file.carry("tally.friction", friction_);
+    file.carry("tally.breaking_x", breaking_x_);
+    file.carry("tally.averaged_time", averaged_time_);
+    file.column("tally.region_hits", regions_, &Region::hits);
+    file.column("tally.region_max_impulse", regions_, &Region::max_impulse);
+    file.column("tally.region_impulse", regions_, &Region::impulse);
+    file.column("tally.region_friction", regions_, &Region::friction);
+
+    // a set goes as a table
+    std::vector<std::pair<std::int32_t, std::int32_t>> touching(touching_.begin(), touching_.end());
+    file.column("tally.touching_floe", touching, &std::pair<std::int32_t, std::int32_t>::first);
+    file.column("tally.touching_region", touching, &std::pair<std::int32_t, std::int32_t>::second);
+    touching_ = {touching.begin(), touching.end()};
+
+    file.carry("tally.steps", steps_);
+    file.carry("tally.unconverged", unconverged_);
+    file.carry("tally.impulse", impulse_);
+    file.carry("tally.residual", residual_);
+    file.carry("tally.jam_force", jam_.force);
+    file.carry("tally.jam_averaged", jam_.steps);
+    file.carry("tally.fast_force", fast_.force);
+    file.carry("tally.fast_averaged", fast_.steps);
+    file.carry("tally.jammed_steps", jammed_steps_);
+    file.carry("tally.contacts", contacts_);
+    file.carry("tally.contacts_max", contacts_max_);
+    file.carry("tally.max_overlap", max_overlap_);
+    file.carry("tally.looks", looks_);
+    file.carry("tally.doubtful_looks", doubtful_looks_);
+    file.carry("tally.unseen_overlap", unseen_overlap_);
+    file.carry("tally.unseen_time", unseen_time_);
+    file.carry("tally.unseen_a", unseen_a_);
+    file.carry("tally.unseen_b", unseen_b_);
+    file.carry("tally.kinetic", kinetic_);
+    file.carry("tally.kinetic_max", kinetic_max_);
+    file.carry("tally.first_jam_time", first_jam_time_);
+    file.carry("tally.deepest_time", deepest_time_);
+    file.carry("tally.closing_speed", closing_speed_);
+    file.carry("tally.closing_time", closing_time_);
+    file.carry("tally.closing_a", closing_a_);
+    file.carry("tally.closing_b", closing_b_);
+    file.carry("tally.first_jam_floe", first_jam_floe_);
+    file.carry("tally.first_jam_point", first_jam_point_);
+}
+
+}  // namespace ice

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/formats/summary_file.hpp"
+#include "solver/contact/solve_contacts.hpp"
+#include "solver/record/measure_step.hpp"
+#include "solver/record/solid_overlap.hpp"
+
+namespace ice {
+
+class CheckpointFile;
+
+/// What RunStatistics needs to know of a run.
+struct StatisticsOptions {
+    std::vector<std::string> region_names;  ///< of the hull
+    double average_from = 0.0;              ///< [s]; means use steps that end at or after it
+    bool rigid = true;                      ///< contact.crushing_pressure is inf
+    double worrying_overlap = 0.0;          ///< [m]; deeper ones are worth a warning
+    double tunnelling_speed = std::numeric_limits<double>::infinity();  ///< [m/s]; faster ones, too
+    bool bends = false;  ///< are there floes held until they bend?
+};
+
+/// Collects what summary.json states, step by step.
+class RunStatistics {
+public:
+    explicit RunStatistics(StatisticsOptions options);
+
+    /// @param residual  residual_impulse() of a step of which a solver stage did not converge
+    void add(const StepRecord& record, double time, double dt, std::optional<double> residual);
+
+    /// What a look at the solids found at the end of a step.
+    void add_look(const OverlapFound& found, double time);
+
+    /// Fills in forces, regions, contacts, energy and warnings of a summary.
+    /// @pre the summary holds the ledger's energies
+    void fill(Summary& summary) const;
+
+    /// Writes or sets its state, by the file's direction (recorder_state.cpp).
+    void carry(CheckpointFile& file);
+
+private:
+    struct Region {
+        std::int64_t hits = 0;
+        double max_impulse = 0.0;
+        Vec3 impulse = Vec3::Zero();   ///< sum over the averaged time [N s]
+        Vec3 friction = Vec3::Zero();  ///< the part of friction in it
+    };
+
+    /// Averaged steps of a doubtful kind.
+    struct Doubtful {
+        double force = 0.0;  ///< sum of their forces along x [N]
+        std::int64_t steps = 0;
+    };
+
+    void add_averaged(const StepRecord& record, double dt);
+    void add_regions(const StepRecord& record, bool averaged);
+    void add_jam(const StepRecord& record, double time);
+
+    // tally_warnings.cpp
+    void warn(Summary& summary) const;
+    Warning warn_of_jam(const Summary& summary) const;
+    Warning warn_of_overlap(const Summary& summary) const;
+    Warning warn_of_unseen() const;
+    Warning warn_of_tunnelling(const Summary& summary) const;
+    std::optional<double> change_without(const Doubtful& steps, double mean) const;
+
+    StatisticsOptions options_;
+    double averaged_time_ = 0.0;
+    std::vector<double> total_[3];  ///< per averaged step, per axis [N]: the interval needs all
+    Vec3 contact_ = Vec3::Zero(), friction_ = Vec3::Zero();  ///< sums of its parts [N]
+    double breaking_x_ = 0.0;  ///< sum along x by floes held until they bend [N]
+    std::vector<Region> regions_;
+    std::set<std::pair<std::int32_t, std::int32_t>> touching_;  ///< (floe, region) of the last step
+    std::int64_t steps_ = 0, unconverged_ = 0, jammed_steps_ = 0;
+    double contacts_ = 0.0, contacts_max_ = 0.0, max_overlap_ = 0.0;
+    std::int64_t looks_ = 0,
+                 doubtful_looks_ = 0;  ///< at the solids; with a worrying unseen overlap
+    double unseen_overlap_ = 0.0, unseen_time_ = 0.0;
+    std::int32_t unseen_a_ = 0, unseen_b_ = 0;
+    double kinetic_ = 0.0, kinetic_max_ = 0.0;
+    double impulse_ = 0.0, residual_ = 0.0;  ///< sums over the averaged time [N s]
+    Doubtful jam_, fast_;
+    double first_jam_time_ = 0.0, deepest_time_ = 0.0, closing_speed_ = 0.0, closing_time_ = 0.0;
+    std::int32_t first_jam_floe_ = 0, closing_a_ = 0, closing_b_ = 0;
+    Vec3 first_jam_point_ = Vec3::Zero();
+};
+
+}  // namespace ice

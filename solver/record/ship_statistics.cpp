@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/record/ship_statistics.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <numeric>
+
+#include "solver/record/periodogram.hpp"
+#include "solver/record/statistics.hpp"
+
+namespace ice {
+
+namespace {
+
+constexpr double kSlow = 0.1;        // [m/s]
+constexpr double kStuckTime = 10.0;  // [s]
+constexpr double kDegrees = 180.0 / std::numbers::pi;
+constexpr std::size_t kMostOrdinates = 400;
+
+double mean_of(const std::vector<double>& series) {
+    return std::accumulate(series.begin(), series.end(), 0.0) / static_cast<double>(series.size());
+}
+
+// Period of the largest ordinate of the periodogram [s]; 0 where nothing changes.
+double dominant_period(std::vector<double> series, double dt) {
+    const double mean = mean_of(series);
+    for (double& value : series) value -= mean;
+    const std::size_t count = std::min((series.size() - 1) / 2, kMostOrdinates);
+    if (count == 0 || standard_deviation(series) == 0.0) return 0.0;
+    const std::vector<double> power = low_periodogram(series, count);
+    const auto most = std::max_element(power.begin(), power.end()) - power.begin() + 1;
+    return static_cast<double>(series.size()) * dt / static_cast<double>(most);
+}
+
+}  // namespace
+
+void ShipStatistics::add(const FreeShip& ship, const Scene& scene, const Case& p, double time) {
+    const Bodies& b = scene.bodies;
+    const Vec3 ahead = axes_of(ship.angles()).shift.col(0);
+    const double speed = ahead.dot(b.velocity[kShip]);
+    if (std::abs(speed) >= kSlow) slow_since_ = time;
+    stuck_ = stuck_ || time - slow_since_ >= kStuckTime;
+    if (time < p.average_from - 1e-9) return;
+    speed_.push_back(speed);
+    thrust_.push_back(ship.loads().thrust);
+    tow_.push_back(ship.loads().tow.force.x());
+    const ShipRig& rig = ship.rig();
+    const Vec3 centre = b.position[kShip] + b.rotation[kShip] * rig.body.centre_of_gravity;
+    const Vec3 off = centre - rig.anchor, turned = ship.angles();
+    for (int k = 0; k < 6; ++k) {
+        const double value = k < 3 ? off[k] : turned[k - 3];
+        sum_[static_cast<std::size_t>(k)] += value;
+        square_[static_cast<std::size_t>(k)] += value * value;
+    }
+}
+
+FreeTravel ShipStatistics::travel(const FreeShip& ship, const Scene& scene, const Case& p) const {
+    const Bodies& b = scene.bodies;
+    const ShipRig& rig = ship.rig();
+    const Vec3 centre = b.position[kShip] + b.rotation[kShip] * rig.body.centre_of_gravity;
+    const double mean = speed_.empty() ? b.velocity[kShip].x() : mean_of(speed_);
+    return {rig.equilibrium.height, mean, centre.x() - rig.anchor.x(),
+            mean * p.time_step * static_cast<double>(speed_.size())};
+}
+
+void ShipStatistics::fill(const FreeShip& ship, const Scene& scene, const Case& p,
+                          Summary& summary) const {
+    const ShipRig& rig = ship.rig();
+    std::map<std::string, double> out;
+    out["mass_kg"] = rig.body.mass;
+    if (rig.body.free[roll]) out["gm_m"] = rig.equilibrium.gm_transverse;
+    // a moored ship is meant to stay
+    if (rig.body.free[surge] && p.mooring.stiffness[surge] == 0.0) summary.ship.stuck = stuck_;
+
+    const ShipEnergies& e = ship.energies();
+    auto& energy = summary.energy;
+    const double kinetic = ship.kinetic_energy(scene.bodies) - e.kinetic_start.value_or(0.0);
+    const double potential = ship.potential_energy(scene, p) - e.potential_start.value_or(0.0);
+    energy["thrust_work_J"] = e.thrust;
+    energy["tow_work_J"] = e.tow;
+    energy["mooring_work_J"] = e.mooring;
+    energy["ship_ice_work_J"] = e.ice;
+    energy["ship_losses_J"] = e.losses;
+    energy["ship_kinetic_J"] = kinetic;
+    energy["ship_potential_J"] = potential;
+    energy["ship_residual_J"] =
+        e.thrust + e.tow + e.mooring - e.ice - e.losses - kinetic - potential;
+    if (!speed_.empty()) fill_means(rig, p, out);
+    summary.ship.motion = {out.begin(), out.end()};
+}
+
+void ShipStatistics::fill_means(const ShipRig& rig, const Case& p,
+                                std::map<std::string, double>& out) const {
+    const MeanInterval speed = mean_interval(speed_);
+    out["speed_ci95"] = speed.half_width;
+    out["speed_std"] = standard_deviation(speed_);
+    const double period = dominant_period(speed_, p.time_step);
+    out["surge_period_s"] = period;
+    // of a sinusoid with that period and the speed's deviation
+    out["surge_amplitude_m"] =
+        std::numbers::sqrt2 * out["speed_std"] * period / (2.0 * std::numbers::pi);
+    out["thrust_mean_N"] = mean_of(thrust_);
+    if (p.tow.stiffness > 0.0) {
+        out["tow_fx_mean_N"] = mean_of(tow_);
+        out["tow_fx_std_N"] = standard_deviation(tow_);
+    }
+    const auto steps = static_cast<double>(speed_.size());
+    constexpr const char* kNames[] = {"surge", "sway", "heave", "roll", "pitch", "yaw"};
+    const bool moored = p.mooring.stiffness[surge] > 0.0;
+    for (std::size_t k = 0; k < kFreedoms; ++k) {
+        if (!rig.body.free[k] || (k == surge && !moored)) continue;
+        const double unit = k < 3 ? 1.0 : kDegrees;
+        const char* const suffix = k < 3 ? "m" : "deg";
+        const double mean = sum_[k] / steps;
+        const std::string name(kNames[k]);
+        out[name + "_mean_" + suffix] = unit * mean;
+        out[name + "_std_" + suffix] =
+            unit * std::sqrt(std::max(0.0, square_[k] / steps - mean * mean));
+    }
+}
+
+}  // namespace ice

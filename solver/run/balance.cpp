@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/run/balance.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/base/error.hpp"
+#include "solver/record/measure_step.hpp"
+
+namespace ice {
+
+namespace {
+
+// A sum that should vanish, and the size of what went into it.
+struct Sum {
+    Vec3 value = Vec3::Zero();
+    double size = 0.0;
+
+    void add(const Vec3& v) {
+        value += v;
+        size += v.norm();
+    }
+    double share(const Vec3& axes) const {
+        const double off = value.cwiseProduct(axes).norm();
+        return off == 0.0 ? 0.0 : off / size;
+    }
+};
+
+struct Sums {
+    Sum linear, angular;
+};
+
+// What the contacts gave each body: impulse and moment about its own position before the step.
+void add_contacts(const std::vector<Constraint>& constraints, std::vector<Sums>& sums) {
+    for (const Constraint& c : constraints) {
+        const Vec3 j = c.total_normal() * c.normal + c.total_tangent();
+        sums[c.a].linear.add(j);
+        sums[c.b].linear.add(-j);
+        sums[c.a].angular.add(c.arm_a.cross(j));
+        sums[c.b].angular.add(-c.arm_b.cross(j));
+    }
+}
+
+// The floes' changes less the loads, and the impulses on everything that cannot move.
+Sums all_together(const Momenta& before, const World& w, const std::vector<FloeLoad>& loads,
+                  const std::vector<Sums>& contacts) {
+    const Bodies& b = w.scene.bodies;
+    const double dt = w.parameters.time_step;
+    Sums all;
+    for (std::size_t i = 1; i < b.size(); ++i) {
+        // a held floe takes its impulses into the ice around it
+        const Vec3 gain = b.held[i] ? Vec3(-contacts[i].linear.value)
+                                    : Vec3(b.momentum[i] - before.linear[i] - dt * loads[i].force);
+        const Vec3 spin =
+            b.held[i] ? Vec3(-contacts[i].angular.value)
+                      : Vec3(b.angular_momentum[i] - before.angular[i] - dt * loads[i].moment);
+        all.linear.add(gain);
+        all.angular.add(spin);
+        all.angular.add(before.position[i].cross(gain));
+        // the momenta and loads whose difference this is were rounded themselves
+        const double swing = before.position[i].norm();
+        const double linear =
+            before.linear[i].norm() + contacts[i].linear.size + dt * loads[i].force.norm();
+        all.linear.size += linear;
+        all.angular.size += before.angular[i].norm() + contacts[i].angular.size +
+                            dt * loads[i].moment.norm() + swing * linear;
+    }
+    const StepRecord ship = measure_step(w.scene, w.contacts, w.constraints, dt);
+    const Vec3 force = ship.contact_force + ship.friction_force;
+    all.linear.add(dt * force);
+    all.angular.add(dt * ship.moment);
+    all.angular.add(dt * before.position[kShip].cross(force));
+    return all;
+}
+
+}  // namespace
+
+double Imbalance::worst() const { return std::max({linear, angular, together}); }
+
+Momenta momenta_of(const Bodies& bodies) {
+    return {bodies.position, bodies.momentum, bodies.angular_momentum};
+}
+
+Imbalance measure_imbalance(const Momenta& before, const World& w) {
+    const Bodies& b = w.scene.bodies;
+    const double dt = w.parameters.time_step;
+    const bool flat = w.scene.dimension == 2;
+    const Vec3 axes = flat ? Vec3(1, 0, 1) : Vec3::Ones();
+    const Vec3 turns = flat ? Vec3(0, 1, 0) : Vec3::Ones();
+
+    std::vector<Sums> sums(b.size());
+    add_contacts(w.constraints, sums);
+    Imbalance out;
+    const std::vector<FloeLoad> loads = loads_by_body(b, w.loads);
+    const Sums all = all_together(before, w, loads, sums);
+    out.together = std::max(all.linear.share(axes), all.angular.share(turns));
+
+    for (std::size_t i = 1; i < b.size(); ++i) {
+        if (b.held[i]) continue;
+        Sums& s = sums[i];
+        s.linear.add(b.momentum[i]);
+        s.linear.add(-before.linear[i]);
+        s.linear.add(-dt * loads[i].force);
+        s.angular.add(b.angular_momentum[i]);
+        s.angular.add(-before.angular[i]);
+        s.angular.add(-dt * loads[i].moment);
+        // a not-a-number must not pass for balance
+        const double linear = s.linear.share(axes), angular = s.angular.share(turns);
+        if (!(linear <= out.linear)) out.linear = linear, out.linear_floe = int(i);
+        if (!(angular <= out.angular)) out.angular = angular, out.angular_floe = int(i);
+    }
+    return out;
+}
+
+Imbalance require_balance(const Momenta& before, const World& after) {
+    const Imbalance found = measure_imbalance(before, after);
+    const auto refuse = [&](const std::string& who, const char* what, double share) {
+        throw run_failed(
+            fmt::format("step {}, {}", after.steps, who),
+            fmt::format("the change of {} differs from loads and contact impulses by {:.2g} of "
+                        "them; rounding explains {:g}",
+                        what, share, kBalanceTolerance),
+            "this is a defect of the program: report it with the case, or run without --verify");
+    };
+    if (!(found.linear <= kBalanceTolerance))
+        refuse(fmt::format("floe {}", found.linear_floe), "momentum", found.linear);
+    if (!(found.angular <= kBalanceTolerance))
+        refuse(fmt::format("floe {}", found.angular_floe), "angular momentum", found.angular);
+    if (!(found.together <= kBalanceTolerance))
+        refuse("ship and all floes", "momentum of both", found.together);
+    return found;
+}
+
+}  // namespace ice

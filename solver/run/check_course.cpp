@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/run/check_course.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "solver/record/particulars.hpp"
+#include "solver/scene/ice_extent.hpp"
+
+namespace ice {
+
+namespace {
+
+constexpr double kNever = std::numeric_limits<double>::infinity();
+constexpr double kLeastShare = 0.02;  // of the averaged time without ice ahead
+constexpr double kMostCells = 4e6;    // of the hull's cross section
+
+// The hull's cross section in cells of y and z, with the foremost point in each [m].
+class Front {
+public:
+    // @param way  +1 or -1: the ship goes along x or against it
+    Front(const Scene& scene, double way) : way_(way) {
+        const Shape& hull = scene.shapes[0];
+        const Vec3 place = scene.bodies.position[kShip];
+        low_ = hull.box.min() + place;
+        const Vec3 size = hull.box.sizes();
+        cell_ = std::max(hull.spacing, std::sqrt(size.y() * size.z() / kMostCells));
+        columns_ = count(size.y());
+        rows_ = count(size.z());
+        foremost_.assign(columns_ * rows_, -kNever);
+        for (std::size_t k = 0; k < hull.center.size(); ++k) {
+            const Vec3 p = place + hull.center[k];
+            double& x =
+                foremost_[index(at(p.y() - low_.y(), columns_), at(p.z() - low_.z(), rows_))];
+            x = std::max(x, way_ * p.x() + hull.radius[k]);
+        }
+    }
+
+    // How far the ship goes until it meets the cube around a sphere, in whose corners the edges and
+    // corners of its floe lie; infinite where that is not in its way.
+    double distance_to(const Vec3& centre, double radius) const {
+        double least = kNever;
+        for (int k = 0; k < 9; ++k)
+            least = std::min(
+                least, distance_to_point(centre + radius * Vec3(-way_, k % 3 - 1, k / 3 - 1)));
+        return least;
+    }
+
+private:
+    double distance_to_point(const Vec3& p) const {
+        const double column = std::floor((p.y() - low_.y()) / cell_);
+        const double row = std::floor((p.z() - low_.z()) / cell_);
+        double x = foremost(column, row);
+        // a cell without a sphere among others: its neighbours tell
+        for (int k = 0; x == -kNever && k < 9; ++k)
+            x = std::max(x, foremost(column + k % 3 - 1, row + k / 3 - 1));
+        const double distance = way_ * p.x() - x;
+        // beside or behind the ship, whose bodies do not overlap the ice: passed already
+        return distance < -2.0 * cell_ ? kNever : std::max(distance, 0.0);
+    }
+
+    // -infinity outside the section
+    double foremost(double column, double row) const {
+        if (column < 0 || row < 0 || column >= static_cast<double>(columns_) ||
+            row >= static_cast<double>(rows_))
+            return -kNever;
+        return foremost_[index(static_cast<std::size_t>(column), static_cast<std::size_t>(row))];
+    }
+    std::size_t count(double length) const { return static_cast<std::size_t>(length / cell_) + 1; }
+    std::size_t at(double offset, std::size_t most) const {
+        return std::min(static_cast<std::size_t>(std::max(offset, 0.0) / cell_), most - 1);
+    }
+    std::size_t index(std::size_t column, std::size_t row) const { return row * columns_ + column; }
+
+    double way_, cell_ = 0.0;
+    Vec3 low_;
+    std::size_t columns_ = 0, rows_ = 0;
+    std::vector<double> foremost_;
+};
+
+// When the ship has gone a distance along its course [s]. @pre its speed does not change sign
+double time_of(const Case& p, double distance) {
+    if (!(std::abs(p.ship_travel(0.0, p.duration)) > distance)) return kNever;
+    double before = 0.0, after = p.duration;
+    for (int k = 0; k < 60; ++k) {
+        const double middle = 0.5 * (before + after);
+        (std::abs(p.ship_travel(0.0, middle)) < distance ? before : after) = middle;
+    }
+    return after;
+}
+
+void measure_clearance(const World& w, const Front& front, Course& course) {
+    const Bodies& b = w.scene.bodies;
+    course.clearance = course.clearance_fixed = kNever;
+    for (std::size_t i = 1; i < b.size(); ++i) {
+        const Shape& shape = w.scene.shapes[static_cast<std::size_t>(b.shape[i])];
+        double nearest = kNever;
+        for (std::size_t k = 0; k < shape.center.size(); ++k)
+            nearest =
+                std::min(nearest, front.distance_to(b.position[i] + b.rotation[i] * shape.center[k],
+                                                    shape.radius[k]));
+        course.clearance = std::min(course.clearance, nearest);
+        if (is_unbroken(w.scene, w.parameters, i))
+            course.clearance_fixed = std::min(course.clearance_fixed, nearest);
+    }
+}
+
+// How far the ship goes until its foremost point is beyond all loose floes within its breadth.
+double distance_through(const World& w, double way) {
+    const Eigen::AlignedBox3d hull = box_of(w.scene, kShip);
+    double far = -kNever;
+    for (std::size_t i = 1; i < w.scene.bodies.size(); ++i) {
+        if (is_unbroken(w.scene, w.parameters, i)) continue;
+        const Eigen::AlignedBox3d box = box_of(w.scene, i);
+        if (box.max().y() < hull.min().y() || box.min().y() > hull.max().y()) continue;
+        far = std::max(far, way > 0.0 ? box.max().x() : -box.min().x());
+    }
+    return std::max(far - (way > 0.0 ? hull.max().x() : -hull.min().x()), 0.0);
+}
+
+bool any_floe_moves(const Bodies& b) {
+    return std::any_of(b.velocity.begin() + 1, b.velocity.end(),
+                       [](const Vec3& v) { return !v.isZero(0.0); });
+}
+
+// What is wrong with when the ship meets the ice; at most one thing is said.
+void warn_of_meeting(const Case& p, const Course& c, std::vector<Warning>& warnings) {
+    const double averaged = p.duration - p.average_from;
+    if (c.clearance == kNever) {
+        warnings.push_back({fmt::format("no ice lies in the ship's way: it goes {:.4g} m and meets "
+                                        "nothing; put hull.position before the ice, along +x",
+                                        c.travel),
+                            true, 1.0});
+    } else if (c.meets_at == kNever) {
+        warnings.push_back(
+            {fmt::format("the ship never meets the ice: it goes {:.4g} m, and the first ice on its "
+                         "way is {:.4g} m ahead; move hull.position on, or lengthen "
+                         "simulation.duration",
+                         c.travel, c.clearance),
+             true, 1.0});
+    } else if (c.meets_at > p.average_from) {
+        warnings.push_back(
+            {fmt::format("forces are averaged from {:.4g} s, but the ship meets the ice at {:.4g} "
+                         "s, after {:.4g} m: set output.average_from later, or move hull.position "
+                         "on",
+                         p.average_from, c.meets_at, c.clearance),
+             true, (c.meets_at - p.average_from) / averaged});
+    } else if (c.leaves_at < p.average_from) {
+        warnings.push_back(
+            {fmt::format("the bow leaves the ice at {:.4g} s, before forces are averaged from "
+                         "{:.4g} s: set output.average_from and simulation.duration earlier, or "
+                         "use a longer field",
+                         c.leaves_at, p.average_from),
+             true, 1.0});
+    } else if (p.duration - c.leaves_at > kLeastShare * averaged) {
+        warnings.push_back(
+            {fmt::format("the bow leaves the ice at {:.4g} s, and forces are averaged "
+                         "up to {:.4g} s: shorten simulation.duration, or use a "
+                         "longer field",
+                         c.leaves_at, p.duration),
+             true, (p.duration - c.leaves_at) / averaged});
+    }
+}
+
+}  // namespace
+
+Course measure_course(const World& w) {
+    const Case& p = w.parameters;
+    Course course;
+    const double travel = p.ship_travel(0.0, p.duration), way = travel < 0.0 ? -1.0 : 1.0;
+    course.travel = std::abs(travel);
+    measure_clearance(w, Front(w.scene, way), course);
+    course.meets_at = time_of(p, course.clearance);
+    course.hits_fixed_at = time_of(p, course.clearance_fixed);
+    course.through = distance_through(w, way);
+    course.leaves_at = time_of(p, course.through);
+    return course;
+}
+
+std::vector<Warning> check_course(const World& w) {
+    std::vector<Warning> warnings;
+    const Case& p = w.parameters;
+    if (p.ship.free[surge]) return warnings;  // it goes as it can
+    const Course course = measure_course(w);
+    if (!(course.travel > 0.0) || any_floe_moves(w.scene.bodies)) return warnings;
+    warn_of_meeting(p, course, warnings);
+    // level ice that stays is wide of the hull's way by its making
+    if (course.hits_fixed_at < p.duration && !p.has_level_ice())
+        warnings.push_back(
+            {fmt::format(
+                 "the ship runs into unbroken ice, which never gives way, after {:.4g} m at "
+                 "{:.4g} s: shorten simulation.duration, or move the ship or the ice",
+                 course.clearance_fixed, course.hits_fixed_at),
+             true});
+    return warnings;
+}
+
+std::optional<Warning> warn_of_short_averages(const World& w) {
+    const Case& p = w.parameters;
+    if (p.ship.free[surge]) return std::nullopt;
+    const ShipParticulars ship = measure_ship(w.scene, p);
+    const TravelParticulars travel = measure_travel(p, ship, p.duration);
+    if (!(travel.distance > 0.0) || !is_short(travel.averaged_lengths) ||
+        any_floe_moves(w.scene.bodies))
+        return std::nullopt;
+    const double missing = (1.0 - travel.averaged_lengths) * ship.length / travel.distance;
+    return Warning{fmt::format(
+        "forces are averaged over {}: floes need about one to pass along "
+        "the hull; simulation.duration = {:.3g} with output.average_from = "
+        "{:.3g} makes it one",
+        averaged_text(travel.averaged_lengths), p.duration * (1.0 + missing), p.average_from)};
+}
+
+}  // namespace ice

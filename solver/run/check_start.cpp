@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/run/check_start.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "common/base/error.hpp"
+#include "common/base/parallel.hpp"
+#include "common/formats/widest_spacing.hpp"
+#include "solver/record/solid_overlap.hpp"
+#include "solver/run/unfelt_hull.hpp"
+#include "solver/scene/ice_extent.hpp"
+#include "solver/scene/tunnelling_speed.hpp"
+
+namespace ice {
+
+namespace {
+
+// A part of the hull in the ice belt that is worth a warning when no sphere stands for it: the
+// edges of a deck or a transom in full-bodied hulls stay below it.
+constexpr double kWorryingUnfelt = 0.005;
+
+constexpr std::size_t kMostNamed = 5;  // pairs in a message
+
+const Shape& shape_of(const Scene& scene, std::int32_t body) {
+    return scene.shapes[static_cast<std::size_t>(scene.bodies.shape[body])];
+}
+
+double smallest_radius(const Shape& shape) {
+    return *std::min_element(shape.radius.begin(), shape.radius.end());
+}
+
+// All pairs whose bounds meet, held floes among them, but not unbroken ice with unbroken ice.
+std::vector<BodyPair> pairs_at_start(Scene& scene, const Case& parameters) {
+    Bodies& b = scene.bodies;
+    std::vector<BodyPair> pairs;
+    std::vector<std::uint8_t> all_free(b.size(), 0);
+    b.held.swap(all_free);  // or two held floes would be no pair
+    list_moving(b);
+    find_pairs(scene, 0.0, pairs);
+    b.held.swap(all_free);
+    list_moving(b);
+    const auto stays = [&](std::int32_t i) {
+        return i > 0 && parameters.floes[static_cast<std::size_t>(b.group[i])].hold == Hold::always;
+    };
+    std::erase_if(pairs, [&](const BodyPair& p) { return stays(p.a) && stays(p.b); });
+    return pairs;
+}
+
+// Where floes lie in heaps, some of the heap's overlaps are enough: floes that do not overlap have
+// some 30 others within their bounds at most.
+std::size_t most_worth_a_look(const Scene& scene) { return 1000 + 100 * scene.bodies.size(); }
+
+std::string name_of(std::int32_t body) {
+    return body == 0 ? std::string("the hull") : fmt::format("floe {}", body);
+}
+
+std::string describe(const StartOverlap& o) {
+    const std::string who = o.inside < 0
+                                ? fmt::format("{} and {}", name_of(o.a), name_of(o.b))
+                                : fmt::format("{} lies wholly inside {}: they", name_of(o.inside),
+                                              name_of(o.inside == o.a ? o.b : o.a));
+    return fmt::format(
+        "{} overlap by {:.3g} m at the start, at x = {:.2f}, y = {:.2f}, z = {:.2f} m", who,
+        o.depth, o.point.x(), o.point.y(), o.point.z());
+}
+
+std::string describe(const std::vector<StartOverlap>& overlaps, const char* separator) {
+    std::string text;
+    for (std::size_t k = 0; k < std::min(overlaps.size(), kMostNamed); ++k)
+        text += (k > 0 ? separator : "") + describe(overlaps[k]);
+    if (overlaps.size() > kMostNamed)
+        text += fmt::format("{}and {} pairs more", separator, overlaps.size() - kMostNamed);
+    return text;
+}
+
+// The set with the widest spacing, if spheres of other bodies pass between its own.
+void warn_of_spacing(const World& w, std::vector<Warning>& warnings) {
+    const bool centres = w.parameters.normal == NormalRule::centres;
+    const double limit = centres ? 2.0 : kWidestSpacing;
+    std::vector<double> in_radii;
+    for (const Shape& shape : w.scene.shapes)
+        in_radii.push_back(shape.spacing / smallest_radius(shape));
+    const auto& row = w.scene.bodies.shape;
+    const auto widest = std::max_element(row.begin(), row.end(), [&](auto l, auto r) {
+        return in_radii[static_cast<std::size_t>(l)] < in_radii[static_cast<std::size_t>(r)];
+    });
+    if (in_radii[static_cast<std::size_t>(*widest)] <= limit * (1.0 + kSpacingRounding)) return;
+    const Shape& shape = w.scene.shapes[static_cast<std::size_t>(*widest)];
+    const std::string text = fmt::format(
+        "the surface spheres of {} are {:.3g} m apart, but bodies may pass between them above "
+        "{:g} radii{}: make its set with a spacing of {:.3g} m",
+        name_of(static_cast<std::int32_t>(widest - row.begin())), shape.spacing, limit,
+        centres ? " (contact.normal = \"centres\")" : "", limit * smallest_radius(shape));
+    warnings.push_back({text});
+}
+
+// The hull between the ice's lower side and the water line, where no sphere fits.
+void warn_of_unfelt_hull(const World& w, std::vector<Warning>& warnings) {
+    if (w.scene.dimension != 3) return;
+    double low = 0.0;
+    for (std::size_t i = 1; i < w.scene.bodies.size(); ++i)
+        low = std::min(low, box_of(w.scene, i).min().z());
+    const UnfeltHull hull = measure_unfelt_hull(w.scene, low, 0.0);
+    if (hull.share <= kWorryingUnfelt) return;
+    const double radius = w.scene.shapes[0].largest_radius;
+    warnings.push_back({fmt::format(
+        "no contact sphere stands for {:.2g} % of the hull between the water line and {:.3g} m "
+        "below it, as far as {:.3g} m from one at x = {:.2f}, y = {:.2f}, z = {:.2f} m of the "
+        "ship: ice goes into it unfelt; make the hull's set with spheres smaller than {:.3g} m",
+        100.0 * hull.share, -low, hull.distance, hull.at.x(), hull.at.y(), hull.at.z(), radius)});
+}
+
+void warn_of_speed(const World& w, std::vector<Warning>& warnings) {
+    const Case& p = w.parameters;
+    const double limit = tunnelling_speed(w.scene, p.time_step);
+    // rows of the table beyond the end are never reached: the end itself counts instead
+    double ship = std::abs(p.ship_speed(p.duration));
+    for (const auto& [time, speed] : p.speed_table)
+        if (time <= p.duration) ship = std::max(ship, std::abs(speed));
+    double fastest = ship;
+    std::int32_t who = 0;
+    const Bodies& b = w.scene.bodies;
+    for (std::size_t i = 1; i < b.size(); ++i) {
+        const double speed = (b.velocity[i] - b.velocity[kShip]).norm();
+        if (speed <= fastest) continue;
+        fastest = speed;
+        who = static_cast<std::int32_t>(i);
+    }
+    if (fastest <= limit) return;
+    const std::string text = fmt::format(
+        "{} goes {:.3g} m/s, but bodies may pass through each other above {:.3g} m/s, where they "
+        "go a contact sphere's diameter within a step: lower simulation.time_step to {:.2g} s",
+        who == 0 ? "the ship" : name_of(who) + ", seen from the ship,", fastest, limit,
+        p.time_step * limit / fastest);
+    warnings.push_back({text});
+}
+
+}  // namespace
+
+std::vector<StartOverlap> find_start_overlaps(Scene& scene, const Case& parameters) {
+    std::vector<BodyPair> pairs = pairs_at_start(scene, parameters);
+    const SolidOverlap solids(scene);
+    pairs.resize(std::min(pairs.size(), most_worth_a_look(scene)));
+    std::vector<StartOverlap> found(pairs.size());
+    parallel_for(pairs.size(), 2, [&](std::size_t k) {
+        const auto [a, b] = pairs[k];
+        const PairOverlap pair = solids.measure_pair(scene, a, b);
+        found[k] = {a, b, pair.depth, pair.point, pair.inside};
+    });
+
+    std::vector<Contact> contacts;
+    ContactFinder().find(scene, pairs, ContactRule(parameters), 0.0, 0.0, contacts);
+    std::size_t k = 0;
+    for (const Contact& c : contacts) {
+        while (found[k].a != c.a || found[k].b != c.b) ++k;  // both in the order of the pairs
+        // planes of faces go on beyond the corner where faces end: there a gap below zero is none
+        if (-c.gap <= found[k].depth || !solids.contains(scene, c.a, c.point) ||
+            !solids.contains(scene, c.b, c.point))
+            continue;
+        found[k].depth = -c.gap;
+        found[k].point = c.point;
+    }
+    std::erase_if(found, [&](const StartOverlap& o) {
+        return o.depth <= kToleratedOverlap * std::min(smallest_radius(shape_of(scene, o.a)),
+                                                       smallest_radius(shape_of(scene, o.b)));
+    });
+    std::stable_sort(found.begin(), found.end(),
+                     [](const auto& l, const auto& r) { return l.depth > r.depth; });
+    return found;
+}
+
+std::vector<Warning> check_start(World& world, bool allow_overlap) {
+    std::vector<Warning> warnings;
+    const auto overlaps = find_start_overlaps(world.scene, world.parameters);
+    if (!overlaps.empty() && !allow_overlap)
+        throw bad_input(world.parameters.file.string(), describe(overlaps, "\n  "),
+                        "move the hull (hull.position), widen floes.gap or lower "
+                        "simulation.jitter; --allow-overlap goes on all the same");
+    if (!overlaps.empty()) warnings.push_back({describe(overlaps, "; ")});
+    warn_of_speed(world, warnings);
+    warn_of_spacing(world, warnings);
+    warn_of_unfelt_hull(world, warnings);
+    return warnings;
+}
+
+}  // namespace ice

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/run/describe_case.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "common/formats/spheres_file.hpp"
+#include "solver/record/particulars.hpp"
+#include "solver/run/check_course.hpp"
+#include "solver/scene/ice_extent.hpp"
+
+namespace ice {
+
+namespace {
+
+std::string ship_line(const World& w, const ShipParticulars& ship) {
+    const Shape& hull = w.scene.shapes[0];
+    std::string out = fmt::format("  ship       {:.4g} m long", ship.length);
+    if (w.scene.dimension == 3) out += fmt::format(", {:.4g} m broad", ship.breadth);
+    out += fmt::format(", draught {:.4g} m of {:.4g} m depth", ship.draught,
+                       hull.mesh.vertices.empty() ? 0.0 : box_of(w.scene, kShip).sizes().z());
+    if (w.scene.dimension == 3)
+        out += fmt::format(", displacement {:.4g} t", 1e-3 * ship.displacement);
+    if (std::isfinite(ship.stem_angle_deg))
+        out += fmt::format(", stem {:.0f} deg, entrance {:.0f} deg", ship.stem_angle_deg,
+                           ship.entrance_angle_deg);
+    return out;
+}
+
+// What a ship that answers is, and how it floats.
+std::string motion_line(const World& w) {
+    if (!w.ship.answers()) return {};
+    constexpr const char* kNames[] = {"surge", "sway", "heave", "roll", "pitch", "yaw"};
+    const ShipRig& rig = w.ship.rig();
+    std::vector<std::string> free;
+    for (std::size_t k = 0; k < kFreedoms; ++k)
+        if (rig.body.free[k]) free.emplace_back(kNames[k]);
+    std::string out =
+        fmt::format("\n  free       {}: {:.4g} t", fmt::join(free, ", "), 1e-3 * rig.body.mass);
+    if (!rig.body.floats()) return out;
+    const Equilibrium& e = rig.equilibrium;
+    constexpr double kDegree = std::numbers::pi / 180.0;
+    out += fmt::format(" floats with {:.4g} t displaced, trim {:.3g} deg by the bow",
+                       1e-3 * w.parameters.water_density * e.volume, e.angles[1] / kDegree + 0.0);
+    if (w.scene.dimension == 3)
+        out += fmt::format(", heel {:.3g} deg, GM {:.4g} m", e.angles[0] / kDegree + 0.0,
+                           e.gm_transverse);
+    return out + fmt::format(", longitudinal GM {:.4g} m", e.gm_longitudinal);
+}
+
+std::string ice_line(const World& w, const IceParticulars& ice) {
+    std::string out = fmt::format("  ice        {} floes", ice.floes);
+    if (ice.floes > 0)
+        out += fmt::format(" of {:.3g} to {:.3g} m", ice.floe_size_min, ice.floe_size_max);
+    out += fmt::format(", {:.3g} m thick", ice.thickness);
+    if (std::isfinite(ice.concentration))
+        out += fmt::format(", cover {:.0f} %", 100.0 * ice.concentration);
+    const auto fixed = static_cast<std::int64_t>(w.scene.bodies.size()) - 1 - ice.floes;
+    if (fixed > 0) out += fmt::format("; {} pieces of unbroken ice", fixed);
+    return out + fmt::format("; held: {}", fmt::join(ice.hold, ", "));
+}
+
+std::string distance_text(double distance) {
+    return std::isfinite(distance) ? fmt::format("{:.3g} m", distance) : "none";
+}
+
+std::string course_line(const World& w, const ShipParticulars& ship, const Course& course) {
+    const Case& p = w.parameters;
+    if (p.ship.free[surge])
+        return fmt::format(
+            "  course     from {:g} m/s as thrust and ice make it, {} steps of {:g} s; averaged "
+            "from {:g} s\n  clearance  {} to the first ice",
+            p.ship_speed(0.0), std::llround(p.duration / p.time_step), p.time_step, p.average_from,
+            distance_text(course.clearance));
+    const TravelParticulars travel = measure_travel(p, ship, p.duration);
+    return fmt::format(
+        "  course     {:.4g} m, {:.2f} ship lengths, in {} steps of {:g} s; averaged over {}, "
+        "from {:g} s\n"
+        "  clearance  {} to the first ice, {} to unbroken ice",
+        travel.distance, travel.lengths, std::llround(p.duration / p.time_step), p.time_step,
+        averaged_text(travel.averaged_lengths), p.average_from, distance_text(course.clearance),
+        distance_text(course.clearance_fixed));
+}
+
+std::string spheres_line(const World& w) {
+    const Shape& hull = w.scene.shapes[0];
+    std::string out = fmt::format("  spheres    hull {:.3g} m, {:.3g} m apart", hull.largest_radius,
+                                  hull.spacing);
+    if (w.scene.shapes.size() > 1)
+        out += fmt::format("; ice {:.3g} m, {:.3g} m apart", w.scene.shapes[1].largest_radius,
+                           w.scene.shapes[1].spacing);
+    return out;
+}
+
+// What spherize's certificate says of the hull where the ice meets it.
+std::string belt_line(const World& w) {
+    std::error_code none;
+    if (!std::filesystem::is_regular_file(w.parameters.hull_spheres, none)) return {};  // made here
+    const std::string belt = read_ice_belt(w.parameters.hull_spheres);
+    return belt.empty() ? belt : "\n  ice belt   " + belt;
+}
+
+std::string pressure_text(double pressure) {
+    return std::isfinite(pressure) ? fmt::format("{:.3g} MPa", 1e-6 * pressure) : "rigid";
+}
+
+}  // namespace
+
+std::string describe_case(const World& w) {
+    const ShipParticulars ship = measure_ship(w.scene, w.parameters);
+    const Case& p = w.parameters;
+    return fmt::format(
+        "{}{}\n{}\n{}\n{}{}\n  contact    crushing {}, friction {:g} on the hull and {:g} between "
+        "floes",
+        ship_line(w, ship), motion_line(w), ice_line(w, measure_ice(w.scene, p)),
+        course_line(w, ship, measure_course(w)), spheres_line(w), belt_line(w),
+        pressure_text(p.contact.crushing_pressure), p.contact.friction_ship_ice,
+        p.contact.friction_ice_ice);
+}
+
+std::string describe_rules(const Summary& s) {
+    return fmt::format("floes held: {}; crushing {}; averaged over {}", fmt::join(s.ice.hold, ", "),
+                       pressure_text(s.ice.crushing_pressure),
+                       averaged_text(s.travel.averaged_lengths));
+}
+
+}  // namespace ice

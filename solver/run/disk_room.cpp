@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/run/disk_room.hpp"
+
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace ice {
+
+namespace {
+
+constexpr std::uint64_t kStride = 1 << 16;  // bytes of rows between two looks
+constexpr std::uint64_t kEnd = 1 << 19;     // HDF5's blocks and indices, summary.json, run.log
+// of a checkpoint, generous: a run of 5 floes has one of 53 kB
+constexpr std::uint64_t kFields = 1 << 16, kPerBody = 400, kPerContact = 400;
+constexpr std::uint64_t kPerStep = 64;     // statistics remember every step's forces
+constexpr std::uint64_t kFrameBytes = 68;  // per floe
+// Rows in the CSV files between two looks: text takes at most 25 bytes for the 8 of a number, and
+// the streams buffer some.
+constexpr std::uint64_t kTextStride = 4 * kStride, kTextBuffer = 1 << 14;
+constexpr const char* kRows = "run.h5.part";
+
+std::uint64_t bytes_of(const std::filesystem::path& file) {
+    std::error_code error;
+    const auto size = std::filesystem::file_size(file, error);
+    return error ? 0 : size;
+}
+
+// forces.csv and those of tracked floes, finished or not
+std::vector<std::filesystem::path> csv_files(const std::filesystem::path& folder) {
+    std::error_code ignored;
+    std::vector<std::filesystem::path> files;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
+        const std::string name = entry.path().filename().string();
+        if (name.ends_with(".csv") || name.ends_with(".csv.part")) files.push_back(entry.path());
+    }
+    return files;
+}
+
+std::uint64_t largest_file(const std::filesystem::path& folder) {
+    std::error_code ignored;
+    std::uint64_t largest = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, ignored))
+        if (const auto size = entry.file_size(ignored); !ignored)
+            largest = std::max<std::uint64_t>(largest, size);
+    return largest;
+}
+
+// What the limit of a single file (ulimit -f) leaves the largest one.
+std::uint64_t below_file_limit(const std::filesystem::path& folder) {
+    rlimit limit{};
+    if (getrlimit(RLIMIT_FSIZE, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
+        return std::numeric_limits<std::uint64_t>::max();
+    return limit.rlim_cur - std::min<std::uint64_t>(limit.rlim_cur, largest_file(folder));
+}
+
+std::uint64_t free_space(const std::filesystem::path& folder) {
+    std::error_code error;
+    const auto space = std::filesystem::space(folder, error);
+    return error ? std::numeric_limits<std::uint64_t>::max() : space.available;
+}
+
+bool is_want_of_room(int reason) { return reason == ENOSPC || reason == EDQUOT || reason == EFBIG; }
+
+// Gives a file its next blocks, so that what is written into it cannot find the disk full; its
+// length stays. 0, or why not.
+int allocate_ahead(const std::filesystem::path& path, std::uint64_t bytes) {
+    const int file = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
+    if (file < 0) return errno;
+    struct stat state {};
+    int reason = ::fstat(file, &state) == 0 ? 0 : errno;
+    const auto end = static_cast<off_t>(bytes) + state.st_size;
+    if (reason == 0 && ::fallocate(file, FALLOC_FL_KEEP_SIZE, 0, end) != 0) reason = errno;
+    ::close(file);
+    return reason;
+}
+
+}  // namespace
+
+bool DiskRoom::could_hold(std::uint64_t rows, std::uint64_t text_rows, std::uint64_t end) {
+    if (!can_hold_) return true;
+    int reason = allocate_ahead(folder_ / kRows, rows);
+    for (const auto& path : csv_files(folder_))
+        if (reason == 0) reason = allocate_ahead(path, text_rows);
+    if (reason == 0 && end > held_bytes_) {
+        if (held_ < 0) held_ = ::open(folder_.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
+        if (held_ < 0 || ::fallocate(held_, 0, 0, static_cast<off_t>(end)) != 0) reason = errno;
+    }
+    if (is_want_of_room(reason)) return false;
+    can_hold_ = reason == 0;  // not on this file system
+    held_bytes_ = std::max(held_bytes_, end);
+    return true;
+}
+
+DiskRoom::~DiskRoom() {
+    release();
+    // what the files did not need of their blocks
+    std::vector<std::filesystem::path> files = csv_files(folder_);
+    files.insert(files.end(), {folder_ / "run.h5", folder_ / kRows});
+    for (const std::filesystem::path& path : files)
+        if (const int file = ::open(path.c_str(), O_RDWR | O_CLOEXEC); file >= 0) {
+            struct stat state {};
+            if (::fstat(file, &state) == 0 && ::ftruncate(file, state.st_size) != 0)
+                looked_ = false;  // they stay allocated, which harms nobody
+            ::close(file);
+        }
+}
+
+void DiskRoom::release() {
+    if (held_ >= 0) ::close(held_);
+    held_ = -1;
+    held_bytes_ = 0;
+    can_hold_ = false;
+}
+
+void DiskRoom::saved() { saved_bytes_ = bytes_of(folder_ / kRows); }
+
+bool DiskRoom::is_used_up() const { return held_ >= 0 && free_space(folder_) < held_bytes_; }
+
+bool DiskRoom::is_short(const Recorder& recorder, const World& world, bool saves) {
+    const std::uint64_t waiting = recorder.waiting_bytes();
+    if (looked_ && !saves && !recorder.is_about_to_write() && waiting >= waiting_ &&
+        waiting - waiting_ < kStride)
+        return false;
+    looked_ = true;
+    waiting_ = waiting;
+    const std::uint64_t bodies = world.scene.bodies.size();
+    const std::uint64_t checkpoint = kFields + kPerBody * bodies +
+                                     kPerContact * world.constraints.size() +
+                                     kPerStep * static_cast<std::uint64_t>(world.steps);
+    const std::uint64_t more = waiting + 2 * kStride + kFrameBytes * bodies;  // at the next look
+    // a checkpoint comes with a copy of the rows since the last one
+    const std::uint64_t file = bytes_of(folder_ / kRows);
+    const std::uint64_t copy = saves ? file - std::min(file, saved_bytes_) + kEnd : 0;
+    const std::size_t tables = std::max<std::size_t>(csv_files(folder_).size(), 1);
+    const std::uint64_t rows = more + kEnd, text_rows = kTextStride / tables + kTextBuffer;
+    const std::uint64_t end = checkpoint + more + copy;
+    if (!could_hold(rows, text_rows, end) || below_file_limit(folder_) < rows) return true;
+    return !can_hold_ && free_space(folder_) < rows + tables * text_rows + end;
+}
+
+}  // namespace ice

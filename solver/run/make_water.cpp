@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/run/make_water.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/base/error.hpp"
+#include "common/base/state_hash.hpp"
+#include "common/base/version.hpp"
+#include "common/cli/console.hpp"
+#include "common/formats/spheres_file.hpp"
+#include "solver/flow/flow_table.hpp"
+#include "solver/record/particulars.hpp"
+
+namespace ice {
+
+namespace {
+
+// Of the tables' content: to be raised where equal hulls get other tables, so that old ones are not
+// read.
+constexpr std::uint64_t kTables = 1;
+
+constexpr double kSameDraught = 0.01;  // of the draught
+constexpr double kMostFroude = 0.2;    // waves change the flow by its square
+constexpr double kMostResidual = 0.05;
+constexpr double kOfMean = 0.25;  // 1 % of the flow is a quarter of that of a channel's resistance
+
+double thinnest_floe(const Scene& scene) {
+    double out = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 1; k < scene.shapes.size(); ++k) {
+        double low = 0.0, high = 0.0;
+        for (const Vec3& v : scene.shapes[k].mesh.vertices) {
+            low = std::min(low, v.z());
+            high = std::max(high, v.z());
+        }
+        out = std::min(out, high - low);
+    }
+    return std::isfinite(out) ? out : 0.0;
+}
+
+double keel_of(const TriangleMesh& mesh) {
+    double keel = std::numeric_limits<double>::infinity();
+    for (const Vec3& v : mesh.vertices) keel = std::min(keel, v.z());
+    return keel;
+}
+
+std::uint64_t hash_of(const TriangleMesh& mesh, int dimension, const FlowOptions& options) {
+    StateHash hash;
+    hash.add(kTables);
+    hash.add(static_cast<std::uint64_t>(dimension));
+    for (const double value : {options.water, options.panel, options.spacing, options.finest})
+        hash.add(value);
+    for (const Vec3& v : mesh.vertices)
+        for (int axis = 0; axis < 3; ++axis) hash.add(v[axis]);
+    for (const auto& t : mesh.triangles)
+        for (const std::int32_t corner : t) hash.add(static_cast<std::uint64_t>(corner));
+    return hash.value();
+}
+
+std::filesystem::path kept_as(const std::filesystem::path& spheres, std::uint64_t hash) {
+    std::filesystem::path stem = spheres.stem();
+    if (stem.extension() == ".spheres") stem = stem.stem();
+    return spheres.parent_path() / fmt::format("{}.{:016x}.flow.h5", stem.string(), hash);
+}
+
+FlowTable make_table(const Case& p, const Scene& scene) {
+    const TriangleMesh& mesh = scene.shapes[0].mesh;
+    FlowOptions options;
+    options.water = -scene.bodies.position[kShip].z();
+    options.finest = 0.5 * thinnest_floe(scene);
+    const auto file = kept_as(p.hull_spheres, hash_of(mesh, p.dimension, options));
+    if (std::filesystem::exists(file)) return read_flow(file);
+    say("computing the flow around the hull");
+    HullFlow made = make_hull_flow(mesh, p.dimension, options);
+    made.table.source_sha256 = read_spheres(p.hull_spheres).source_sha256;
+    made.table.created_by = fmt::format("icesolve {} ({})", version(), git_commit());
+    say(fmt::format(
+        "flow around the hull: {} panels, {:.1f} % of the speed left on the hull, {} x "
+        "{} x {} nodes, {:.1f} s",
+        made.table.panels, 100.0 * made.table.residual, made.table.nodes[0], made.table.nodes[1],
+        made.table.nodes[2], made.solve_seconds + made.table_seconds));
+    try {
+        write_flow(file, made.table);
+        say(fmt::format("kept in {}", file.string()));
+    } catch (const Error& error) {
+        say(fmt::format("not kept for the next run: {}", error.what()));
+    }
+    return made.table;
+}
+
+FlowTable read_table(const Case& p, const Scene& scene) {
+    FlowTable table = read_flow(p.flow_file);
+    const double draught = -scene.bodies.position[kShip].z() - keel_of(scene.shapes[0].mesh);
+    if ((table.nodes[1] == 1) != (p.dimension == 2))
+        throw bad_input(p.flow_file.string(),
+                        p.dimension == 2 ? "is of a hull in 3D" : "is of a section",
+                        "make it with iceflow from the case's hull.spheres");
+    if (std::abs(table.draught - draught) > kSameDraught * draught)
+        throw bad_input(p.flow_file.string(),
+                        fmt::format("is for a draught of {:.4g} m, the case's hull has {:.4g} m",
+                                    table.draught, draught),
+                        fmt::format("make it with iceflow --draught {:.6g}", draught));
+    return table;
+}
+
+}  // namespace
+
+WaterFlow make_water(const Case& p, const Scene& scene) {
+    WaterFlow out;
+    out.current = Vec3(p.current[0], p.current[1], 0.0);
+    if (p.flow == FlowModel::none) return out;
+    const FlowTable table = p.flow == FlowModel::file ? read_table(p, scene) : make_table(p, scene);
+    out.grid = FlowGrid(table);
+    out.presses = p.flow_pressure;
+    return out;
+}
+
+std::vector<Warning> check_water(const Case& p, const Scene& scene) {
+    std::vector<Warning> out;
+    const WaterFlow& water = scene.water;
+    if (water.grid.empty()) return out;
+    double speed = 0.0;
+    for (const auto& [time, u] : p.speed_table)
+        speed = std::max(speed, std::abs(u - water.current.x()));
+    const double froude = speed / std::sqrt(p.gravity * measure_ship(scene, p).length);
+    if (froude > kMostFroude)
+        out.push_back(judged(
+            fmt::format("flow: {:.3g} m/s is a Froude number of {:.2f}: the ship makes waves, "
+                        "which flow.model = \"double-body\" leaves out; go slower, or give a "
+                        "field with flow.model = \"file\"",
+                        speed, froude),
+            froude * froude));
+    if (water.grid.residual > kMostResidual)
+        out.push_back(
+            judged(fmt::format("flow: {:.1f} % of the ship's speed goes through the hull (rms): "
+                               "iceflow --check says where, iceflow --panel makes smaller panels",
+                               100.0 * water.grid.residual),
+                   kOfMean * water.grid.residual));
+    return out;
+}
+
+}  // namespace ice
