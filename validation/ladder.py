@@ -63,7 +63,7 @@ class Ladder:
                   "simulation.duration": steps * 0.01 * times,
                   "output.average_from": steps * 0.01 * times / 2,
                   "hull.position": f"[{-9.6 * scale}, 0, 0]",
-                  "contact.crushing_pressure": 1e6 * scale, **settings}
+                  "contact.crushing_pressure": 1e6 * scale, "flow.model": '"none"', **settings}
         command = [compare.program("icesolve", self.programs), str(folder / "case.cfg"), "-q",
                    "--overwrite", "--threads", "1", "--out", str(folder / "run")]
         for key, value in values.items():

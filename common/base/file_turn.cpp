@@ -5,25 +5,23 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <chrono>
 #include <thread>
 
 namespace ice {
 
 namespace {
 
-constexpr auto kLongestWait = std::chrono::seconds(10);
 constexpr auto kPause = std::chrono::milliseconds(1);
 
 }  // namespace
 
-FileTurn::FileTurn(const std::filesystem::path& file, Kind kind)
+FileTurn::FileTurn(const std::filesystem::path& file, Kind kind, std::chrono::seconds longest_wait)
     : file_(::open(file.c_str(), (kind == Kind::read ? O_RDONLY : O_RDWR) | O_CLOEXEC)) {
     if (file_ < 0) return;
     struct flock whole = {};
     whole.l_type = kind == Kind::read ? F_RDLCK : F_WRLCK;
     whole.l_whence = SEEK_SET;
-    const auto end = std::chrono::steady_clock::now() + kLongestWait;
+    const auto end = std::chrono::steady_clock::now() + longest_wait;
     while (::fcntl(file_, F_OFD_SETLK, &whole) != 0) {
         const bool is_taken = errno == EAGAIN || errno == EACCES;
         if (!is_taken || std::chrono::steady_clock::now() > end) return;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 
 namespace ice {
@@ -10,12 +11,13 @@ namespace ice {
 ///
 /// An advisory lock on the open file (fcntl, F_OFD_SETLK), which the system ends with the program,
 /// however that ends. It binds only programs that take a FileTurn; HDF5's own locks are others.
-/// Nobody waits longer than ten seconds: a stopped reader must not stop a run of days. Files that
-/// are missing and file systems without locks are served without one.
+/// Nobody waits longer than ten seconds, or what the caller allows: a stopped reader must not stop
+/// a run of days. Files that are missing and file systems without locks are served without one.
 class FileTurn {
 public:
     enum class Kind { read, write };
-    FileTurn(const std::filesystem::path& file, Kind kind);
+    FileTurn(const std::filesystem::path& file, Kind kind,
+             std::chrono::seconds longest_wait = std::chrono::seconds(10));
     ~FileTurn();
     FileTurn(const FileTurn&) = delete;
     FileTurn& operator=(const FileTurn&) = delete;

@@ -162,10 +162,9 @@ std::vector<CaseKey> model_keys() {
          [](Case& c, G&, const Value& v) { c.drag = choice<DragModel>(v, kDrags); }},
         {"drag.coefficient", Kind::number, D::none, "1.0", 0, 100, 0, "", "Drag coefficient C_d.",
          [](Case& c, G&, const Value& v) { c.drag_coefficient = number(v); }},
-        {"flow.model", Kind::choice, D::none, "\"none\"", 0, 0, 0, kFlows,
+        {"flow.model", Kind::choice, D::none, "\"double-body\"", 0, 0, 0, kFlows,
          "Water that the ship pushes, for drag: at rest, the potential flow around the hull "
-         "without "
-         "waves, or a file of iceflow.",
+         "without waves, or a file of iceflow.",
          [](Case& c, G&, const Value& v) { c.flow = choice<FlowModel>(v, kFlows); }},
         {"flow.file", Kind::path, D::none, "-", 0, 0, 0, "",
          "Model file: the flow, made by iceflow; relative to the case file.",

@@ -134,7 +134,7 @@ LineFlow solve_lines(std::vector<SourceLine> lines) {
     const Eigen::VectorXd strength = solver.solve(right);
     if (solver.info() != Eigen::Success)
         throw run_failed("the flow around the hull", "has no solution within 200 iterations",
-                         "look for thin parts of the section");
+                         "look for thin parts of the section, or set flow.model = \"none\"");
     flow.strength.assign(strength.data(), strength.data() + n);
     check_flow(flow);
     return flow;

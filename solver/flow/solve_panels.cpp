@@ -77,7 +77,8 @@ Eigen::MatrixXd solve_strengths(const PanelBody& body, const Eigen::MatrixXd& wa
         if (solver.info() != Eigen::Success)
             throw run_failed("the flow around the hull",
                              fmt::format("has no solution within {} iterations", kMostIterations),
-                             "look for thin plates and faces that cross in the mesh");
+                             "look for thin plates and faces that cross in the mesh, or set "
+                             "flow.model = \"none\"");
         out.col(k) = strength;
     }
     return out;

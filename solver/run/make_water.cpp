@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 
 #include "common/base/error.hpp"
+#include "common/base/file_turn.hpp"
 #include "common/base/state_hash.hpp"
 #include "common/base/version.hpp"
 #include "common/cli/console.hpp"
@@ -25,6 +27,7 @@ constexpr std::uint64_t kTables = 1;
 constexpr double kSameDraught = 0.01;  // of the draught
 constexpr double kMostFroude = 0.2;    // waves change the flow by its square
 constexpr double kMostResidual = 0.05;
+constexpr auto kOthersWork = std::chrono::minutes(10);  // the longest that a flow may take
 constexpr double kOfMean = 0.25;  // 1 % of the flow is a quarter of that of a channel's resistance
 
 double thinnest_floe(const Scene& scene) {
@@ -38,6 +41,14 @@ double thinnest_floe(const Scene& scene) {
         out = std::min(out, high - low);
     }
     return std::isfinite(out) ? out : 0.0;
+}
+
+// To three digits: floes of one thickness, in fields of several seeds, differ in the last ones, and
+// are to share a table.
+double round_down(double length) {
+    if (length <= 0.0) return 0.0;
+    const double unit = std::pow(10.0, std::floor(std::log10(length)) - 2.0);
+    return unit * std::floor(length / unit * (1.0 + 1e-9));
 }
 
 double keel_of(const TriangleMesh& mesh) {
@@ -65,12 +76,36 @@ std::filesystem::path kept_as(const std::filesystem::path& spheres, std::uint64_
     return spheres.parent_path() / fmt::format("{}.{:016x}.flow.h5", stem.string(), hash);
 }
 
+// Of several runs at once the first makes a flow, the others wait for it. The lock is a file of its
+// own, gone afterwards; where none can be made, each makes its own.
+class OneMaker {
+public:
+    explicit OneMaker(const std::filesystem::path& flow)
+        : lock_(flow.string() + ".lock"), turn_(made(lock_), FileTurn::Kind::write, kOthersWork) {}
+    ~OneMaker() {
+        std::error_code ignored;
+        std::filesystem::remove(lock_, ignored);
+    }
+    OneMaker(const OneMaker&) = delete;
+    OneMaker& operator=(const OneMaker&) = delete;
+
+private:
+    static const std::filesystem::path& made(const std::filesystem::path& lock) {
+        std::ofstream(lock, std::ios::app).flush();
+        return lock;
+    }
+    std::filesystem::path lock_;
+    FileTurn turn_;
+};
+
 FlowTable make_table(const Case& p, const Scene& scene) {
     const TriangleMesh& mesh = scene.shapes[0].mesh;
     FlowOptions options;
     options.water = -scene.bodies.position[kShip].z();
-    options.finest = 0.5 * thinnest_floe(scene);
+    options.finest = round_down(0.5 * thinnest_floe(scene));
     const auto file = kept_as(p.hull_spheres, hash_of(mesh, p.dimension, options));
+    if (std::filesystem::exists(file)) return read_flow(file);
+    const OneMaker turn(file);
     if (std::filesystem::exists(file)) return read_flow(file);
     say("computing the flow around the hull");
     HullFlow made = make_hull_flow(mesh, p.dimension, options);
@@ -105,12 +140,20 @@ FlowTable read_table(const Case& p, const Scene& scene) {
     return table;
 }
 
+// Whether the ship ever moves through the water.
+bool pushes_water(const Case& p) {
+    return p.ship.free[surge] ||
+           std::any_of(p.speed_table.begin(), p.speed_table.end(),
+                       [&](const auto& row) { return row.second != p.current[0]; });
+}
+
 }  // namespace
 
 WaterFlow make_water(const Case& p, const Scene& scene) {
     WaterFlow out;
     out.current = Vec3(p.current[0], p.current[1], 0.0);
     if (p.flow == FlowModel::none) return out;
+    if (p.flow == FlowModel::double_body && !pushes_water(p)) return out;
     const FlowTable table = p.flow == FlowModel::file ? read_table(p, scene) : make_table(p, scene);
     out.grid = FlowGrid(table);
     out.presses = p.flow_pressure;

@@ -35,6 +35,8 @@ duration = 0.2
 spheres = "hull.h5"
 position = [-9.6, 0, 0]
 speed = 0.5
+[flow]
+model = "none"
 [[floes]]
 spheres = "floe.h5"
 count = [5, 1]

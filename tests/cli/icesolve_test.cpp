@@ -122,6 +122,8 @@ duration = 0.4
 spheres = "hull.h5"
 position = [-9.3, 0, 0]
 speed = 1.0
+[flow]
+model = "none"
 [[floes]]
 spheres = "floe.h5"
 count = [30, 20]

@@ -113,7 +113,7 @@ TEST_CASE("the option --check says draught, displacement, travel, steps, clearan
     CHECK_THAT(slurp(w / "start.svg"), Catch::StartsWith("<svg"));
     const auto names = w.files();
     CHECK(std::count(names.begin(), names.end(), "case.cfg") == 1);
-    CHECK(names.size() == 5);  // sets, specification, case, picture: no run folder
+    CHECK(names.size() == 6);  // sets, specification, case, picture, flow: no run folder
 
     const Result bad = w.run("icesolve case.cfg --check --picture start.jpg");
     CHECK(bad.code == 2);

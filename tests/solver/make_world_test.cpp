@@ -50,7 +50,7 @@ TEST_CASE("a world made in code moves bit for bit as the case file's") {
                     "[[floes]]\nspheres = '" +
                     floe.path().string() +
                     "'\npattern = 'single'\nposition = [2.6, 0.1, -0.1]\nvelocity = [-0.2, 0, 0]\n"
-                    "angular_velocity = [0, 0, 0.3]\nhold = 'never'\n");
+                    "angular_velocity = [0, 0, 0.3]\nhold = 'never'\n[flow]\nmodel = 'none'\n");
     World read = build_world(read_case(file.path()));
 
     Case p = good_case();
