@@ -107,13 +107,11 @@ class Run:
             return file["shapes/vertices"][first:last].astype(float)
 
     def _group(self, name: str) -> xarray.Dataset:
-        root = xarray.open_dataset(self.file, engine="h5netcdf")
         data = xarray.open_dataset(self.file, group=name, engine="h5netcdf")
-        labels = {k: v for k, v in root.coords.items() if k in data.dims}
+        with h5py.File(self.file) as file:  # labels of dimensions lie above the groups
+            labels = {d: _label(d, file[d]) for d in data.dims
+                      if d in file and d not in data.coords}
         data = data.assign_coords(labels)
-        for label in ("xyz", "wxyz", "hull_regions"):
-            if label in data.coords and data[label].dtype.kind in "SO":
-                data = data.assign_coords({label: [_text(v) for v in data[label].values]})
         data.attrs.update(title=self.summary["title"], source=f"icesolve {self.summary['version']}",
                           history=self.summary["command_line"], Conventions="CF-1.8")
         return data
@@ -143,5 +141,11 @@ def _number(value: float | None) -> float:
     return float("nan") if value is None else value
 
 
-def _text(value: bytes | str) -> str:
-    return value.decode() if isinstance(value, bytes) else str(value)
+def _label(name: str, stored: h5py.Dataset) -> xarray.Variable:
+    known = [k for k in ("units", "long_name", "meaning") if k in stored.attrs]
+    words = {k: _text(stored.attrs[k]) for k in known}
+    return xarray.Variable(name, [_text(v) for v in stored[()]], words)
+
+
+def _text(value):
+    return value.decode() if isinstance(value, bytes) else value
