@@ -6,12 +6,12 @@
 #include <cmath>
 
 #include "common/base/parallel.hpp"
+#include "common/geometry/edge_table.hpp"
+#include "common/geometry/surface_tree.hpp"
 #include "preprocess/certify/shared_triangles.hpp"
-#include "preprocess/clean/edge_table.hpp"
 #include "preprocess/clean/find_parts.hpp"
 #include "preprocess/clean/weld.hpp"
 #include "preprocess/fill/surface_samples.hpp"
-#include "preprocess/measure/surface_tree.hpp"
 
 namespace ice {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <map>
 
-#include "preprocess/clean/edge_table.hpp"
+#include "common/geometry/edge_table.hpp"
 #include "preprocess/clean/keep_triangles.hpp"
 
 namespace ice {

@@ -3,7 +3,7 @@
 
 #include <numeric>
 
-#include "preprocess/clean/edge_table.hpp"
+#include "common/geometry/edge_table.hpp"
 #include "preprocess/clean/keep_triangles.hpp"
 
 namespace ice {

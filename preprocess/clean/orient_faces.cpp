@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "preprocess/clean/edge_table.hpp"
+#include "common/geometry/edge_table.hpp"
 
 namespace ice {
 

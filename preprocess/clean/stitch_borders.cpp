@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <map>
 
-#include "preprocess/clean/edge_table.hpp"
+#include "common/geometry/edge_table.hpp"
 #include "preprocess/clean/near_edges.hpp"
 #include "preprocess/clean/weld.hpp"
 

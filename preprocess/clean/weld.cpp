@@ -7,7 +7,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "preprocess/clean/edge_table.hpp"
+#include "common/geometry/edge_table.hpp"
 #include "preprocess/clean/find_equal.hpp"
 #include "preprocess/clean/keep_triangles.hpp"
 

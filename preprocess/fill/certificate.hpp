@@ -5,8 +5,8 @@
 
 #include "common/formats/sphere_set.hpp"
 #include "common/formats/spheres_report.hpp"
+#include "common/geometry/surface_tree.hpp"
 #include "preprocess/fill/survey.hpp"
-#include "preprocess/measure/surface_tree.hpp"
 
 namespace ice {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 
-#include "preprocess/clean/edge_table.hpp"
+#include "common/geometry/edge_table.hpp"
 
 namespace ice {
 

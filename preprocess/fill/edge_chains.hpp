@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "preprocess/measure/surface_tree.hpp"
+#include "common/geometry/surface_tree.hpp"
 
 namespace ice {
 

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "common/geometry/surface_tree.hpp"
 #include "preprocess/fill/rows_inside.hpp"
-#include "preprocess/measure/surface_tree.hpp"
 
 namespace ice {
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "preprocess/measure/surface_tree.hpp"
+#include "common/geometry/surface_tree.hpp"
 
 namespace ice {
 

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "common/formats/sphere_set.hpp"
+#include "common/geometry/surface_tree.hpp"
 #include "preprocess/fill/point_cells.hpp"
 #include "preprocess/fill/surface_samples.hpp"
-#include "preprocess/measure/surface_tree.hpp"
 
 namespace ice {
 

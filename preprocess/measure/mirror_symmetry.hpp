@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "preprocess/measure/surface_tree.hpp"
+#include "common/geometry/surface_tree.hpp"
 
 namespace ice {
 

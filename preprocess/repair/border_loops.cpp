@@ -6,7 +6,7 @@
 #include <map>
 #include <numbers>
 
-#include "preprocess/clean/edge_table.hpp"
+#include "common/geometry/edge_table.hpp"
 
 namespace ice {
 

@@ -5,7 +5,7 @@
 #include <map>
 #include <set>
 
-#include "preprocess/clean/edge_table.hpp"
+#include "common/geometry/edge_table.hpp"
 #include "preprocess/repair/border_loops.hpp"
 #include "preprocess/repair/fill_loop.hpp"
 

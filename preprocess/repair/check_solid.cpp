@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
+#include "common/geometry/edge_table.hpp"
 #include "common/geometry/mass_properties.hpp"
-#include "preprocess/clean/edge_table.hpp"
 #include "preprocess/clean/find_parts.hpp"
 #include "preprocess/clean/orient_faces.hpp"
 #include "preprocess/clean/self_intersections.hpp"

@@ -8,9 +8,9 @@
 #include <set>
 
 #include "common/base/error.hpp"
+#include "common/geometry/edge_table.hpp"
 #include "common/geometry/mass_properties.hpp"
 #include "preprocess/clean/drop_surroundings.hpp"
-#include "preprocess/clean/edge_table.hpp"
 #include "preprocess/clean/find_parts.hpp"
 #include "preprocess/clean/orient_faces.hpp"
 #include "preprocess/clean/self_intersections.hpp"

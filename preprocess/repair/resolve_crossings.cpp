@@ -6,8 +6,8 @@
 #include <numeric>
 
 #include "common/base/parallel.hpp"
+#include "common/geometry/edge_table.hpp"
 #include "common/geometry/winding_number.hpp"
-#include "preprocess/clean/edge_table.hpp"
 #include "preprocess/clean/find_equal.hpp"
 #include "preprocess/clean/keep_triangles.hpp"
 #include "preprocess/repair/cut_faces.hpp"

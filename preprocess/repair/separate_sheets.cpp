@@ -5,7 +5,7 @@
 #include <map>
 #include <numeric>
 
-#include "preprocess/clean/edge_table.hpp"
+#include "common/geometry/edge_table.hpp"
 #include "preprocess/clean/find_parts.hpp"
 
 namespace ice {

@@ -7,9 +7,9 @@
 #include <cmath>
 
 #include "common/base/parallel.hpp"
+#include "common/geometry/edge_table.hpp"
 #include "common/geometry/mass_properties.hpp"
 #include "common/geometry/winding_number.hpp"
-#include "preprocess/clean/edge_table.hpp"
 #include "preprocess/measure/row_volumes.hpp"
 
 namespace ice {

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "common/base/parallel.hpp"
+#include "common/geometry/surface_tree.hpp"
 #include "preprocess/measure/row_crossings.hpp"
-#include "preprocess/measure/surface_tree.hpp"
 #include "preprocess/repair/contour_grid.hpp"
 
 namespace ice {

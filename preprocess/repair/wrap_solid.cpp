@@ -2,8 +2,8 @@
 #include "preprocess/repair/wrap_solid.hpp"
 
 #include "common/base/parallel.hpp"
+#include "common/geometry/surface_tree.hpp"
 #include "preprocess/clean/self_intersections.hpp"
-#include "preprocess/measure/surface_tree.hpp"
 #include "preprocess/repair/winding_solid.hpp"
 
 namespace ice {

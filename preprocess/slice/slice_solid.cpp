@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "common/base/error.hpp"
-#include "preprocess/measure/surface_tree.hpp"
+#include "common/geometry/surface_tree.hpp"
 #include "preprocess/slice/section_geometry.hpp"
 
 namespace ice {

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "solver/narrow/deep_seats.hpp"
 #include "solver/narrow/separation.hpp"
 #include "solver/narrow/solid_contacts.hpp"
 
@@ -21,6 +22,13 @@ constexpr double kLeastShare = 0.3, kMostShare = 0.6;       // of the ice's radi
 
 // Up to so many entries gaps do not matter.
 constexpr std::size_t kFewest = 4096;
+
+// How far a pair has gone relative to each other from where b was in a's axes, and turned [rad].
+// |R - R0| is sqrt(8) sin(angle / 2), below half a radian at least 0.99 sqrt(2) angle.
+Leeway distance_gone(const PairView& view, const Mat3& turn, const Vec3& shift) {
+    const double turned = (view.turn - turn).norm() / (0.99 * std::numbers::sqrt2);
+    return {(view.shift - shift).norm() + Travel::arm(view.shape_b) * turned, turned};
+}
 
 }  // namespace
 
@@ -75,9 +83,25 @@ void DormantPairs::remind(Row& row, BodyPair pair, const Travel& travel, double 
                           double turned) {
     const double now = travel.way(pair.a) + travel.way(pair.b);
     // what lies deep in each other has contacts even where no spheres may touch
-    row.soon_wake = row.deep ? -std::numeric_limits<double>::infinity() : now + row.free - gone;
+    row.soon_wake = row.deep ? -std::numeric_limits<double>::infinity()
+                             : now + std::min(row.free - gone, row.room);
     row.soon_unknown = now + row.leeway.distance - gone;
     row.turn_unknown = travel.turn(pair.a) + travel.turn(pair.b) + row.leeway.angle - turned;
+}
+
+void DormantPairs::set_room(std::size_t k, const PairView& view, double room) {
+    Row& row = rows_[k];
+    row.seat_turn = view.turn;
+    row.seat_shift = view.shift;
+    row.seat_room = room;
+}
+
+double DormantPairs::room_left(const Row& row, const PairView& view, double apart) {
+    if (view.shape_a.dimension == 2 || is_convex_pair(view))
+        return std::numeric_limits<double>::infinity();  // deep solids are seen by their axis
+    if (apart > 0.0) return deep_slack(view);
+    if (row.seat_room < 0.0) return row.seat_room;
+    return row.seat_room - distance_gone(view, row.seat_turn, row.seat_shift).distance;
 }
 
 double DormantPairs::part_solids(Row& row, const PairView& view, double enough) {
@@ -117,12 +141,11 @@ DormantPairs::State DormantPairs::look(std::size_t k, const Scene& scene, BodyPa
         row.soon_wake = -row.soon_unknown;
         return State::polygon;
     }
-    row.deep = is_deep(view, apart + margin);
+    row.room = room_left(row, view, apart + margin);
+    row.deep = is_deep(view, apart + margin) || row.room <= 0.0;
     if (row.leeway.distance < 0.0) return State::unknown;  // never settled
-    // |R - R0| is sqrt(8) sin(angle / 2), below half a radian at least 0.99 sqrt(2) angle
-    const double turned = (view.turn - row.turn).norm() / (0.99 * std::numbers::sqrt2);
-    const double gone = (view.shift - row.shift).norm() + Travel::arm(view.shape_b) * turned +
-                        travel.crushed(pair.a) + travel.crushed(pair.b) - row.crushed;
+    const auto [moved, turned] = distance_gone(view, row.turn, row.shift);
+    const double gone = moved + travel.crushed(pair.a) + travel.crushed(pair.b) - row.crushed;
     const double then = gone + closing;
     if (then >= row.leeway.distance || turned >= row.leeway.angle) return State::unknown;
     remind(row, pair, travel, gone, turned);

@@ -47,9 +47,13 @@ public:
         return {near_.data() + rows_[k].first, rows_[k].count};
     }
 
-    /// Do row k's solids overlap so far that spheres may have lost each other (is_deep)?
+    /// May row k's solids overlap so far that spheres have lost each other (is_deep, DeepSeat)?
     /// @pre look() found it known or unknown
     bool deep(std::size_t k) const { return rows_[k].deep; }
+
+    /// No seat of row k lies deep before its bodies have moved `room` [m] relative to each other
+    /// (find_deep_seats). Rows may be told at the same time.
+    void set_room(std::size_t k, const PairView& view, double room);
 
     /// From now on row k is known as far as `leeway`, and cannot touch before its bodies have gone
     /// `free` [m] relative to each other. Rows may be settled at the same time.
@@ -70,14 +74,21 @@ private:
         // sums of the bodies' soon() and turn() at which to look at the poses again: going the same
         // way they come no nearer to each other
         double soon_wake = 0.0, soon_unknown = 0.0, turn_unknown = 0.0;
+        double room = 0.0;                 // until seats may lie deep, when last looked at [m]
         std::size_t axis = 0;              // of separation(), when last looked at
         SeparatingAxes axes;               // instead of it where the solids meet in a polygon
         std::size_t first = 0, count = 0;  // of near_
         bool deep = false;
+        // where b was when its seats were looked at last, and how far they may go from there
+        Mat3 seat_turn = Mat3::Zero();
+        Vec3 seat_shift = Vec3::Zero();
+        double seat_room = -1.0;
     };
     // How far apart row k's solids are at least: exact where it is no more than `enough` [m].
     static double part_solids(Row& row, const PairView& view, double enough);
     static void remind(Row& row, BodyPair pair, const Travel& travel, double gone, double turned);
+    // How far the pair may go until its seats have to be looked at [m].
+    static double room_left(const Row& row, const PairView& view, double apart);
     void close_gaps();
 
     std::vector<BodyPair> pairs_;

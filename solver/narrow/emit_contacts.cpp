@@ -95,6 +95,12 @@ Patch ice_patch(const PairView& view, std::int32_t j, const Vec3& n, double gap)
     return patch;
 }
 
+Patch patch_of_a(const PairView& view, std::int32_t i, const Vec3& n, double gap) {
+    Patch patch = patch_of(view.shape_a, i, n);
+    patch.depth = -gap + crushed_depth(view.scene, view.pair.a, i, n);
+    return patch;
+}
+
 void emit_contacts(const PairView& view, std::span<const Candidate> candidates, Contact* out) {
     const bool ship = view.pair.a == static_cast<std::int32_t>(kShip);
     const std::vector<ContactPlace>& places = places_of(view, candidates);

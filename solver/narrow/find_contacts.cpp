@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "common/base/parallel.hpp"
+#include "solver/narrow/deep_seats.hpp"
 #include "solver/narrow/emit_centres.hpp"
 #include "solver/narrow/emit_contacts.hpp"
 #include "solver/narrow/measure_spheres.hpp"
@@ -22,10 +23,12 @@ struct FoundBatch {
     std::vector<Candidate> candidates;  // that are contacts
     std::vector<SpherePair> spheres;
     std::vector<PolygonCorner> corners;
+    std::vector<DeepSeat> seats;
 
     void forget() {
         candidates.clear();
         corners.clear();
+        seats.clear();
         spheres.clear();
     }
 };
@@ -41,6 +44,7 @@ struct Workspace {
     PairSearch search;
     std::vector<SpherePair> spheres;
     std::vector<Candidate> candidates;
+    std::vector<DeepSeat> seats;
 };
 
 // Sets work.candidates to those that are contacts.
@@ -96,6 +100,13 @@ void ContactFinder::keep_polygon(const ContactPolygon* polygon, Found& found, Fo
     batch.corners.insert(batch.corners.end(), polygon->corners.begin(), polygon->corners.end());
 }
 
+void ContactFinder::keep_seats(const std::vector<DeepSeat>& seats, Found& found,
+                               FoundBatch& batch) {
+    found.seat = batch.seats.size();
+    found.seats = seats.size();
+    batch.seats.insert(batch.seats.end(), seats.begin(), seats.end());
+}
+
 void ContactFinder::keep_candidates(const std::vector<Candidate>& candidates, Found& found,
                                     FoundBatch& batch) {
     found.first = batch.candidates.size();
@@ -128,8 +139,12 @@ void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
         const double apart = separation(view);
         if (apart <= most) search_contacts(view, most, work);
         keep_candidates(work.candidates, found_[k], batch);
-        if (is_deep(view, apart))
+        if (is_deep(view, apart)) {
             keep_polygon(find_lost_polygon(view, work.candidates, most), found_[k], batch);
+        } else if (has_deep_seats(view, apart)) {
+            find_deep_seats(view, work.candidates, work.seats);
+            keep_seats(work.seats, found_[k], batch);
+        }
     });
     emit(scene, pairs, rule, out);
 }
@@ -182,8 +197,11 @@ void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
         else
             measure_known(view, most, near, work);
         keep_candidates(work.candidates, found, batch);
-        if (dormant_.deep(k))
-            keep_polygon(find_lost_polygon(view, work.candidates, most), found, batch);
+        if (!dormant_.deep(k)) return;
+        if (is_convex_pair(view))
+            return keep_polygon(find_lost_polygon(view, work.candidates, most), found, batch);
+        dormant_.set_room(k, view, find_deep_seats(view, work.candidates, work.seats));
+        keep_seats(work.seats, found, batch);
     });
     for (std::size_t n = 0; n < awake_.size(); ++n) {
         const Found& found = found_[n];
@@ -199,7 +217,7 @@ void ContactFinder::emit(const Scene& scene, const std::vector<BodyPair>& pairs,
     std::size_t contacts = 0;
     for (Found& found : found_) {
         found.contact = contacts;
-        contacts += found.count + found.corners;
+        contacts += found.count + found.corners + found.seats;
     }
     out.resize(contacts);
     parallel_for(found_.size(), kSerialPairs, [&](std::size_t n) {
@@ -208,6 +226,10 @@ void ContactFinder::emit(const Scene& scene, const std::vector<BodyPair>& pairs,
             emit_polygon(PairView(scene, pairs[awake_[n]]), rule, found.normal,
                          std::span(found.batch->corners).subspan(found.corner, found.corners),
                          out.data() + found.contact + found.count);
+        if (found.seats > 0)
+            emit_deep_seats(PairView(scene, pairs[awake_[n]]), rule,
+                            std::span(found.batch->seats).subspan(found.seat, found.seats),
+                            out.data() + found.contact + found.count);
         if (found.count > 0)
             emit_contacts(PairView(scene, pairs[awake_[n]]),
                           std::span(found.batch->candidates).subspan(found.first, found.count),
@@ -249,9 +271,16 @@ void find_contacts(const Scene& scene, BodyPair pair, ContactRule how, double ma
     out.resize(out.size() + candidates.size());
     Contact* first = out.data() + (out.size() - candidates.size());
     centres ? emit_centres(view, candidates, first) : emit_contacts(view, candidates, first);
-    if (centres || !is_deep(view, apart)) return;
-    if (const ContactPolygon* polygon = find_lost_polygon(view, candidates, margin))
-        append(*polygon);
+    if (centres) return;
+    if (is_deep(view, apart)) {
+        if (const ContactPolygon* polygon = find_lost_polygon(view, candidates, margin))
+            append(*polygon);
+    } else if (has_deep_seats(view, apart)) {
+        std::vector<DeepSeat> seats;
+        find_deep_seats(view, candidates, seats);
+        out.resize(out.size() + seats.size());
+        emit_deep_seats(view, how, seats, out.data() + (out.size() - seats.size()));
+    }
 }
 
 }  // namespace reference

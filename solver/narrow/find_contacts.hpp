@@ -11,6 +11,7 @@
 #include "solver/narrow/contact.hpp"
 #include "solver/narrow/contact_polygon.hpp"
 #include "solver/narrow/contact_rule.hpp"
+#include "solver/narrow/deep_seats.hpp"
 #include "solver/narrow/dormant_pairs.hpp"
 #include "solver/scene/bodies.hpp"
 
@@ -33,7 +34,8 @@ struct FoundBatch;
 /// Convex floes that cannot be crushed meet as solids instead: their contacts are the corners of
 /// the polygon in which they meet along their separating axis (contact_polygon), at most four.
 ///
-/// Convex bodies that overlap deeper than their spheres tell of meet in that polygon, too.
+/// Convex bodies that overlap deeper than their spheres tell of meet in that polygon, too; of
+/// other solids each seat that lies so deep in the other one is a contact (find_deep_seats).
 ///
 /// Bodies that are apart (separation) by more than the margin have none.
 ///
@@ -59,6 +61,7 @@ private:
         const FoundBatch* batch = nullptr;
         std::size_t first = 0, count = 0;     // candidates that are contacts
         std::size_t corner = 0, corners = 0;  // or corners of a polygon that are
+        std::size_t seat = 0, seats = 0;      // or deep seats
         Vec3 normal = Vec3::Zero();           // and along what
         std::size_t sphere = 0, spheres = 0;  // what is newly known
         std::size_t contact = 0;              // where they begin among all pairs' contacts
@@ -66,6 +69,7 @@ private:
     static void meet(const PairView& view, const SeparatingAxes& axes, double most, Found& found,
                      FoundBatch& batch);
     static void keep_polygon(const ContactPolygon* polygon, Found& found, FoundBatch& batch);
+    static void keep_seats(const std::vector<DeepSeat>& seats, Found& found, FoundBatch& batch);
     static void keep_candidates(const std::vector<Candidate>& candidates, Found& found,
                                 FoundBatch& batch);
     // Makes the contacts of all rows of found_.

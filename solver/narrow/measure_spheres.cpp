@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solver/narrow/measure_spheres.hpp"
 
+#include <algorithm>
+#include <compare>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <tuple>
@@ -98,11 +101,22 @@ bool is_candidate(const PairView& view, std::int32_t i, std::int32_t j, const Ga
 }
 
 void group_by_kinds(const PairView& view, std::span<SpherePair> spheres) {
-    const auto key = [&](const SpherePair& s) {
-        return std::tuple(view.shape_b.kind[s.b], view.shape_a.kind[s.a], s.b, s.a);
+    struct Row {
+        std::uint64_t kinds, spheres;  // b's before a's
+        auto operator<=>(const Row&) const = default;
     };
-    std::sort(spheres.begin(), spheres.end(),
-              [&](const SpherePair& l, const SpherePair& r) { return key(l) < key(r); });
+    thread_local std::vector<Row> rows;  // keeps its memory; sorted alone, with the kinds at hand
+    const auto join = [](std::int32_t high, std::int32_t low) {
+        return static_cast<std::uint64_t>(high) << 32 | static_cast<std::uint64_t>(low);
+    };
+    rows.clear();
+    for (const SpherePair& s : spheres)
+        rows.push_back({join(view.shape_b.kind[s.b], view.shape_a.kind[s.a]), join(s.b, s.a)});
+    std::sort(rows.begin(), rows.end());
+    std::transform(rows.begin(), rows.end(), spheres.begin(), [](const Row& row) {
+        return SpherePair{static_cast<std::int32_t>(row.spheres & 0xffffffff),
+                          static_cast<std::int32_t>(row.spheres >> 32)};
+    });
 }
 
 double bound_spheres(const PairView& view, double reach, const Leeway& leeway, std::size_t first,

@@ -5,19 +5,11 @@
 #include <cmath>
 #include <tuple>
 
+#include "solver/narrow/deep_seats.hpp"
 #include "solver/narrow/emit_contacts.hpp"
+#include "solver/narrow/nearest_sphere.hpp"
 
 namespace ice {
-
-namespace {
-
-// A pair is deep from this share of the ice's radius on, and its spheres' contacts may be less deep
-// than the solids by as much. Less asks more pairs; from two radii on spheres miss each other.
-constexpr double kDeep = 0.5;
-
-double slack_of(const PairView& view) { return kDeep * view.shape_b.largest_radius; }
-
-}  // namespace
 
 bool meets_in_polygon(const Scene& scene, BodyPair pair, const ContactRule& rule) {
     if (rule.normal != NormalRule::surface || rule.crushes) return false;
@@ -72,7 +64,7 @@ void emit_polygon(const PairView& view, const ContactRule& rule, const Vec3& nor
 }
 
 bool is_deep(const PairView& view, double apart) {
-    return !view.shape_a.convex.empty() && !view.shape_b.convex.empty() && apart < -slack_of(view);
+    return is_convex_pair(view) && apart < -deep_slack(view);
 }
 
 const ContactPolygon* find_lost_polygon(const PairView& view, std::span<const Candidate> found,
@@ -83,24 +75,9 @@ const ContactPolygon* find_lost_polygon(const PairView& view, std::span<const Ca
     for (const Candidate& c : found) least = std::min(least, c.gap.gap);
     const double crushed =
         view.scene.crushed.deepest_of(view.pair.a) + view.scene.crushed.deepest_of(view.pair.b);
-    if (axes.widest() + crushed + slack_of(view) >= least) return nullptr;
+    if (axes.widest() + crushed + deep_slack(view) >= least) return nullptr;
     const ContactPolygon& polygon = find_polygon(view, axes, most);
     return polygon.corners.empty() ? nullptr : &polygon;
-}
-
-std::int32_t nearest_sphere(const Shape& shape, const Vec3& point) {
-    std::int32_t nearest = 0;
-    const auto key = [&](std::int32_t k) {
-        const auto row = static_cast<std::size_t>(k);
-        return std::tuple((shape.center[row] - point).squaredNorm(), shape.mirror_rank[row], k);
-    };
-    auto least = key(0);
-    for (std::int32_t k = 1; k < std::ssize(shape.center); ++k)
-        if (const auto now = key(k); now < least) {
-            least = now;
-            nearest = k;
-        }
-    return nearest;
 }
 
 }  // namespace ice

@@ -25,6 +25,17 @@ const ContactPolygon& find_polygon(const PairView& view, const SeparatingAxes& a
 void emit_polygon(const PairView& view, const ContactRule& rule, const Vec3& normal,
                   std::span<const PolygonCorner> corners, Contact* out);
 
+/// Are both bodies convex solids (Shape::convex)? Then one axis tells how deep they lie.
+inline bool is_convex_pair(const PairView& view) {
+    return !view.shape_a.convex.empty() && !view.shape_b.convex.empty();
+}
+
+/// May seats of one body lie deep in the other, which are not both convex (find_deep_seats)?
+/// @param apart  [m] their separation
+inline bool has_deep_seats(const PairView& view, double apart) {
+    return view.shape_a.dimension == 3 && !is_convex_pair(view) && apart <= 0.0;
+}
+
 /// Do two convex solids overlap so far that their spheres may have passed each other?
 ///
 /// Spheres find each other within about two radii; deeper pairs are found as solids.
@@ -37,8 +48,5 @@ bool is_deep(const PairView& view, double apart);
 /// @pre is_deep() @param found  the contacts of the spheres
 const ContactPolygon* find_lost_polygon(const PairView& view, std::span<const Candidate> found,
                                         double most);
-
-/// The surface sphere nearest to a point in the shape's axes.
-std::int32_t nearest_sphere(const Shape& shape, const Vec3& point);
 
 }  // namespace ice

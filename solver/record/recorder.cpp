@@ -101,7 +101,6 @@ std::uint64_t state_hash(const Scene& scene, const std::vector<Constraint>& cons
 Recorder::Recorder(const Case& parameters, const Scene& scene)
     : parameters_(parameters),
       dt_(parameters.time_step),
-      solids_(scene),
       statistics_({scene.shapes[0].region_names, parameters.average_from,
                    parameters.contact.is_rigid(), worrying_overlap(scene),
                    tunnelling_speed(scene, parameters.time_step), parameters.has_bending()}),
@@ -168,7 +167,7 @@ void Recorder::add(const StepView& view) {
                        : std::optional(residual_impulse(view.scene.bodies, view.constraints, dt_));
     statistics_.add(record, view.time, dt_, residual);
     if (is_look_due(view.time))
-        statistics_.add_look(solids_.measure(view.scene, view.contacts), view.time);
+        statistics_.add_look(measure_overlaps(view.scene, view.contacts), view.time);
     panel_loads_.add(view.contacts, view.constraints, view.time);
     measure_floe_forces(view.constraints, dt_, track_of_, tracked_);
     for (const RegionImpulse& r : record.regions) frame_impulse_[r.floe] -= r.impulse;

@@ -93,7 +93,6 @@ private:
     double dt_;
     std::optional<RunWriter> run_;    ///< from open() or resume() on
     std::vector<CsvFile> csv_files_;  ///< forces.csv, then the tracked floes'
-    SolidOverlap solids_;
     RunStatistics statistics_;
     PanelLoads panel_loads_;
     ShipStatistics ship_statistics_;

@@ -3,7 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "solver/narrow/nearest_sphere.hpp"
 
 namespace ice {
 
@@ -11,6 +12,9 @@ namespace {
 
 // Vertices of a fine hull are as close as its seats, which stand for them.
 constexpr std::size_t kMostVertices = 1000;
+
+// A point this near to a surface is on it, and in the body [m]: rounding.
+constexpr double kOnSurface = 1e-9;
 
 const Shape& shape_of(const Scene& scene, std::int32_t body) {
     return scene.shapes[static_cast<std::size_t>(scene.bodies.shape[body])];
@@ -69,115 +73,66 @@ bool parted_by(const Scene& scene, std::int32_t a, std::int32_t b) {
     return false;
 }
 
-}  // namespace
+struct Deepest {
+    double depth;  // [m]
+    Vec3 at;       // world axes
+};
 
-SolidOverlap::SolidOverlap(const Scene& scene) {
-    for (const Shape& shape : scene.shapes) {
-        Form form{{}, {}, WindingNumber(shape.mesh), shape.bounds.hold_spheres};
-        for (std::size_t k = 0; k < shape.center.size(); ++k)
-            form.seats.push_back({shape.center[k] + shape.radius[k] * shape.normal[k],
-                                  static_cast<std::int32_t>(k), shape.normal[k]});
-        form.points = form.seats;
-        if (shape.mesh.vertices.size() <= kMostVertices)
-            for (const Vec3& v : shape.mesh.vertices) form.points.push_back({v, -1, Vec3::Zero()});
-        for (auto* list : {&form.seats, &form.points})
-            std::stable_sort(list->begin(), list->end(),
-                             [](const Point& l, const Point& r) { return l.at.x() < r.at.x(); });
-        forms_.push_back(std::move(form));
-    }
-}
-
-const SolidOverlap::Form& SolidOverlap::form_of(const Scene& scene, std::int32_t body) const {
-    return forms_[static_cast<std::size_t>(scene.bodies.shape[body])];
-}
-
-// From p's place along x both ways, as far as a nearer one may be.
-SolidOverlap::Nearest SolidOverlap::nearest_seat(const Form& form, const Vec3& p) const {
-    const auto middle = std::lower_bound(form.seats.begin(), form.seats.end(), p.x(),
-                                         [](const Point& s, double x) { return s.at.x() < x; });
-    double least = std::numeric_limits<double>::infinity();
-    const Point* best = nullptr;
-    const auto try_seat = [&](const Point& s) {
-        const double dx = s.at.x() - p.x();
-        if (dx * dx >= least) return false;
-        const double distance = (s.at - p).squaredNorm();
-        if (distance < least) {
-            least = distance;
-            best = &s;
-        }
-        return true;
-    };
-    for (auto s = middle; s != form.seats.end() && try_seat(*s);) ++s;
-    for (auto s = middle; s != form.seats.begin() && try_seat(*(s - 1));) --s;
-    return {best, std::sqrt(least)};
-}
-
-double SolidOverlap::depth_in(const Scene& scene, std::int32_t b, const Vec3& p, double least,
-                              double& clear) const {
-    const Form& form = form_of(scene, b);
-    const Shape& shape = shape_of(scene, b);
-    double depth = std::numeric_limits<double>::infinity();
-    for (std::size_t k = 0; k < shape.bounds.normals.size(); ++k) {
-        depth = std::min(depth, shape.bounds.offset[k] - shape.bounds.normals[k].dot(p));
-        if (depth <= least) return least;
-    }
-    if (form.convex && scene.crushed.is_whole(b)) return depth;
-    const Nearest near = nearest_seat(form, p);
-    const Vec3& outward = near.seat->normal;
-    const double height = outward.dot(p - near.seat->at);
-    if (!form.convex) {
-        if (height > 0.0) clear = near.distance - shape.spacing;
-        depth = std::min(depth, -height);
-    }
-    depth += scene.crushed.recess_of(b, near.seat->seat).dot(outward);
-    return depth > least && (form.convex || form.inside.contains(p)) ? depth : least;
-}
-
-SolidOverlap::Deepest SolidOverlap::deepest_point(const Scene& scene, std::int32_t a,
-                                                  std::int32_t b, const Deepest& least) const {
+// The deepest of a's points in b if deeper than `least`; else `least`.
+Deepest deepest_point(const Scene& scene, std::int32_t a, std::int32_t b, const Deepest& least) {
     Deepest out = least;
-    const Form& form = form_of(scene, a);
     const Bodies& bodies = scene.bodies;
     const Mat3 turn = bodies.rotation[b].transpose() * bodies.rotation[a];
     const Vec3 shift = bodies.rotation[b].transpose() * (bodies.position[a] - bodies.position[b]);
-    const Eigen::AlignedBox3d& target = shape_of(scene, b).box;
+    const Shape &points = shape_of(scene, a), &solid = shape_of(scene, b);
     const Eigen::AlignedBox3d seen = box_in(scene, b, a);
-    const double crushed = scene.crushed.deepest_of(a);
-    auto k = std::lower_bound(form.points.begin(), form.points.end(), seen.min().x() - crushed,
-                              [](const Point& s, double x) { return s.at.x() < x; });
-    Vec3 outside = Vec3::Zero();  // a point of b's axes that is outside, by `clear`
-    double clear = 0.0;
-    for (; k != form.points.end() && k->at.x() <= seen.max().x() + crushed; ++k) {
-        if (k->seat < 0 && !scene.crushed.is_whole(a)) continue;  // it may be gone
-        Vec3 at = k->at;
-        if (k->seat >= 0) at += scene.crushed.recess_of(a, k->seat);
+    Vec3 shallow = Vec3::Zero();  // a point of b's axes within `room` of which none is deeper
+    double room = 0.0;
+    const auto look = [&](const Vec3& at) {
+        if (!seen.contains(at)) return;
         const Vec3 p = turn * at + shift;
-        if (!target.contains(p) || (clear > 0.0 && (p - outside).norm() < clear)) continue;
-        double now = 0.0;
-        const double depth = depth_in(scene, b, p, out.depth, now);
+        if (!solid.box.contains(p) || (p - shallow).norm() < room) return;
+        const Foot foot = solid.surface->closest(p);
+        double depth = foot.inside ? foot.distance : -foot.distance;
+        shallow = p;
+        room = out.depth - depth;
+        if (depth <= out.depth) return;
+        depth -= crushed_near(scene, b, p);
         if (depth > out.depth) out = {depth, bodies.position[b] + bodies.rotation[b] * p};
-        if (now <= 0.0) continue;
-        outside = p;
-        clear = now;
+    };
+    for (std::int32_t k = 0; k < std::ssize(points.center); ++k) {
+        const Vec3 center = points.center[k] + scene.crushed.recess_of(a, k);
+        // crushing has driven it right through its body
+        if (!scene.crushed.is_whole(a) && !points.box.contains(center)) continue;
+        look(center + points.radius[k] * points.normal[k]);
     }
+    // a vertex of crushed ice may be gone
+    if (scene.crushed.is_whole(a) && points.mesh.vertices.size() <= kMostVertices)
+        for (const Vec3& v : points.mesh.vertices) look(v);
     return out;
 }
 
-bool SolidOverlap::contains(const Scene& scene, std::int32_t body, const Vec3& point) const {
-    const Bodies& b = scene.bodies;
-    const Vec3 p = b.rotation[body].transpose() * (point - b.position[body]);
-    return shape_of(scene, body).box.contains(p) && form_of(scene, body).inside.contains(p);
-}
-
-bool SolidOverlap::lies_in(const Scene& scene, std::int32_t a, std::int32_t b) const {
+// Do the centres of all of a's spheres lie in b?
+bool lies_in(const Scene& scene, std::int32_t a, std::int32_t b) {
     const Bodies& bodies = scene.bodies;
     const std::vector<Vec3>& centers = shape_of(scene, a).center;
     return std::all_of(centers.begin(), centers.end(), [&](const Vec3& c) {
-        return contains(scene, b, bodies.position[a] + bodies.rotation[a] * c);
+        return is_inside(scene, b, bodies.position[a] + bodies.rotation[a] * c);
     });
 }
 
-PairOverlap SolidOverlap::measure_pair(const Scene& scene, std::int32_t a, std::int32_t b) const {
+}  // namespace
+
+bool is_inside(const Scene& scene, std::int32_t body, const Vec3& point) {
+    const Bodies& b = scene.bodies;
+    const Vec3 p = b.rotation[body].transpose() * (point - b.position[body]);
+    const Shape& shape = shape_of(scene, body);
+    if (!shape.box.contains(p)) return false;
+    const Foot foot = shape.surface->closest(p);
+    return foot.inside || foot.distance < kOnSurface;
+}
+
+PairOverlap measure_overlap(const Scene& scene, std::int32_t a, std::int32_t b) {
     PairOverlap out;
     if (!parted_by(scene, a, b) && !parted_by(scene, b, a)) {
         Deepest found = deepest_point(scene, a, b, {0.0, Vec3::Zero()});
@@ -197,7 +152,7 @@ PairOverlap SolidOverlap::measure_pair(const Scene& scene, std::int32_t a, std::
     return out;
 }
 
-OverlapFound SolidOverlap::measure(const Scene& scene, const std::vector<Contact>& contacts) const {
+OverlapFound measure_overlaps(const Scene& scene, const std::vector<Contact>& contacts) {
     OverlapFound out;
     auto contact = contacts.begin();  // ordered by pair
     auto pairs = close_pairs(scene);

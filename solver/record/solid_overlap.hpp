@@ -4,7 +4,6 @@
 
 #include <vector>
 
-#include "common/geometry/winding_number.hpp"
 #include "solver/narrow/find_contacts.hpp"
 #include "solver/scene/bodies.hpp"
 
@@ -25,61 +24,21 @@ struct PairOverlap {
         -1;  ///< the body whose spheres' centres all lie in the other; -1: neither
 };
 
-/// Looks for overlaps with the bodies' meshes, without the contact finder: neither its pairs nor
-/// its gaps.
-///
-/// Points of one body, its mesh's vertices and its spheres' seats as far as crushed, are looked for
-/// in the other one and the other way round. In a convex floe a point's depth is exact: the
-/// distance of the nearest plane. In other forms (hulls, cusps) the winding number of the mesh says
-/// whether it is inside, and the plane at the nearest seat how deep. An edge that crosses another
-/// edge between seats is missed by up to half a spacing.
-class SolidOverlap {
-public:
-    explicit SolidOverlap(const Scene& scene);
+// Overlaps by the bodies' meshes, without the contact finder: neither its pairs nor its gaps.
+//
+// Points of one body, its mesh's vertices and its spheres' seats as far as crushed, are looked for
+// in the other one and the other way round. A point's depth is its distance from the nearest point
+// of the other's mesh. An edge that crosses another edge between seats is missed by up to half a
+// spacing.
 
-    /// @param contacts  of these poses or of those a step before; pairs that are held are left out
-    OverlapFound measure(const Scene& scene, const std::vector<Contact>& contacts) const;
+/// All bodies that are close to each other, pairs of held ones left out.
+/// @param contacts  of these poses or of those a step before, ordered by pair
+OverlapFound measure_overlaps(const Scene& scene, const std::vector<Contact>& contacts);
 
-    /// One pair, whatever its contacts know.
-    PairOverlap measure_pair(const Scene& scene, std::int32_t a, std::int32_t b) const;
+/// One pair, whatever its contacts know.
+PairOverlap measure_overlap(const Scene& scene, std::int32_t a, std::int32_t b);
 
-    /// Does a point of the world's axes lie in a body's mesh?
-    bool contains(const Scene& scene, std::int32_t body, const Vec3& point) const;
-
-private:
-    struct Point {
-        Vec3 at;            ///< of the whole body [m]
-        std::int32_t seat;  ///< its sphere; -1: a vertex
-        Vec3 normal;        ///< of a seat
-    };
-    struct Form {
-        std::vector<Point> points;  ///< by x, body axes
-        std::vector<Point> seats;   ///< those of them that are seats
-        WindingNumber inside;
-        bool convex;
-    };
-    struct Nearest {
-        const Point* seat;
-        double distance;  ///< [m]
-    };
-
-    const Form& form_of(const Scene& scene, std::int32_t body) const;
-    Nearest nearest_seat(const Form& form, const Vec3& p) const;
-    // Depth of p, of b's axes, in b if it is more than `least`; else `least`. `clear`: p is outside
-    // b by more than this [m], where known.
-    double depth_in(const Scene& scene, std::int32_t b, const Vec3& p, double least,
-                    double& clear) const;
-    struct Deepest {
-        double depth;  ///< [m]
-        Vec3 at;       ///< world axes
-    };
-    // The deepest of a's points in b if deeper than `least`; else `least`.
-    Deepest deepest_point(const Scene& scene, std::int32_t a, std::int32_t b,
-                          const Deepest& least) const;
-    // Do the centres of all of a's spheres lie in b?
-    bool lies_in(const Scene& scene, std::int32_t a, std::int32_t b) const;
-
-    std::vector<Form> forms_;  ///< of the scene's shapes
-};
+/// Does a point of the world's axes lie in a body's mesh?
+bool is_inside(const Scene& scene, std::int32_t body, const Vec3& point);
 
 }  // namespace ice

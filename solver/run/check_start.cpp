@@ -142,12 +142,11 @@ void warn_of_speed(const World& w, std::vector<Warning>& warnings) {
 
 std::vector<StartOverlap> find_start_overlaps(Scene& scene, const Case& parameters) {
     std::vector<BodyPair> pairs = pairs_at_start(scene, parameters);
-    const SolidOverlap solids(scene);
     pairs.resize(std::min(pairs.size(), most_worth_a_look(scene)));
     std::vector<StartOverlap> found(pairs.size());
     parallel_for(pairs.size(), 2, [&](std::size_t k) {
         const auto [a, b] = pairs[k];
-        const PairOverlap pair = solids.measure_pair(scene, a, b);
+        const PairOverlap pair = measure_overlap(scene, a, b);
         found[k] = {a, b, pair.depth, pair.point, pair.inside};
     });
 
@@ -157,8 +156,8 @@ std::vector<StartOverlap> find_start_overlaps(Scene& scene, const Case& paramete
     for (const Contact& c : contacts) {
         while (found[k].a != c.a || found[k].b != c.b) ++k;  // both in the order of the pairs
         // planes of faces go on beyond the corner where faces end: there a gap below zero is none
-        if (-c.gap <= found[k].depth || !solids.contains(scene, c.a, c.point) ||
-            !solids.contains(scene, c.b, c.point))
+        if (-c.gap <= found[k].depth || !is_inside(scene, c.a, c.point) ||
+            !is_inside(scene, c.b, c.point))
             continue;
         found[k].depth = -c.gap;
         found[k].point = c.point;

@@ -189,6 +189,7 @@ Shape build_shape(const SphereSet& set, bool about_centre_of_mass) {
     shape.blocks = SphereBlocks(spheres);
     shape.balls = SphereBlocks(balls);
     shape.facets = facets_of(shape.mesh);
+    shape.surface = std::make_shared<const SolidSurface>(shape.mesh);
     return shape;
 }
 

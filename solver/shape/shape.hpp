@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "solver/shape/face_regions.hpp"
 #include "solver/shape/faces.hpp"
 #include "solver/shape/solid.hpp"
+#include "solver/shape/solid_surface.hpp"
 #include "solver/shape/sphere_blocks.hpp"
 #include "solver/shape/surface_blocks.hpp"
 
@@ -40,7 +42,7 @@ struct Shape {
     std::vector<std::string> region_names;
     std::size_t sphere_count = 0;  ///< of the whole set, interior included
     ConvexBounds bounds;           ///< of mesh and spheres
-    ConvexPiece convex;       ///< the mesh where it is convex, else empty; 2D: empty
+    ConvexPiece convex;            ///< the mesh where it is convex, else empty; 2D: empty
     SphereBlocks blocks;           ///< of `center`, for the search
     SphereBlocks balls;            ///< the same without their faces, for the rule "centres"
     double largest_radius = 0.0;   ///< [m]
@@ -48,8 +50,9 @@ struct Shape {
     double reach = 0.0;            ///< how far from its centre a sphere stands for the surface [m]
     FaceBorders borders;           ///< where that ends before
 
-    TriangleMesh mesh;             ///< closed, body axes
-    FacetBlocks facets;            ///< its triangles, for the water's loads
+    TriangleMesh mesh;                            ///< closed, body axes
+    FacetBlocks facets;                           ///< its triangles, for the water's loads
+    std::shared_ptr<const SolidSurface> surface;  ///< its nearest points; never null
     MassProperties solid;          ///< unit density; centroid in body axes (floes: zero)
     Eigen::AlignedBox3d box;       ///< of mesh and spheres
     double bounding_radius = 0.0;  ///< about the body origin [m]

@@ -5,7 +5,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "preprocess/measure/surface_tree.hpp"
+#include "common/geometry/surface_tree.hpp"
 #include "solver/record/measure_step.hpp"
 #include "tests/bench/icebench_measure.hpp"
 #include "tests/bench/icebench_peer.hpp"

@@ -2,9 +2,9 @@
 // The hull of the scenes loose and packed: where its spheres are, and the solid they touch.
 #include <cmath>
 
+#include "common/geometry/surface_tree.hpp"
 #include "preprocess/fill/shares.hpp"
 #include "preprocess/fill/survey.hpp"
-#include "preprocess/measure/surface_tree.hpp"
 #include "tests/bench/icebench_scene.hpp"
 
 namespace ice::bench {

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "common/geometry/surface_tree.hpp"
 #include "preprocess/fill/lattice.hpp"
-#include "preprocess/measure/surface_tree.hpp"
 
 namespace ice::test {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/geometry/edge_table.hpp"
 #include "common/geometry/mass_properties.hpp"
-#include "preprocess/clean/edge_table.hpp"
 #include "preprocess/field/polygon_checks.hpp"
 #include "preprocess/field/prism.hpp"
 

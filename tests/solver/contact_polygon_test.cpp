@@ -11,6 +11,7 @@
 #include <set>
 
 #include "solver/narrow/find_contacts.hpp"
+#include "solver/narrow/nearest_sphere.hpp"
 #include "solver/narrow/solid_contacts.hpp"
 #include "tests/support/make_prisms.hpp"
 #include "tests/support/make_worlds.hpp"

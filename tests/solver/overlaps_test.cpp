@@ -22,7 +22,7 @@ World two_floes(double size, double dt, const Vec3& place,
 }
 
 OverlapFound look(const World& w, const std::vector<Contact>& contacts = {}) {
-    return SolidOverlap(w.scene).measure(w.scene, contacts);
+    return measure_overlaps(w.scene, contacts);
 }
 
 }  // namespace

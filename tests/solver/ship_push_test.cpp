@@ -25,7 +25,7 @@ World pushing_ship(double mass, double breadth, double thrust,
     return plate_world(p, Vec3(4, breadth, 1), 0.1, 0.4, -0.5);
 }
 
-double deepest(const World& w) { return SolidOverlap(w.scene).measure(w.scene, {}).deepest; }
+double deepest(const World& w) { return measure_overlaps(w.scene, {}).deepest; }
 
 }  // namespace
 

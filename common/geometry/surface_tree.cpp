@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "preprocess/measure/surface_tree.hpp"
+#include "common/geometry/surface_tree.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
 #include "common/geometry/closest_on_triangle.hpp"
-#include "preprocess/clean/edge_table.hpp"
+#include "common/geometry/edge_table.hpp"
 
 namespace ice {
 

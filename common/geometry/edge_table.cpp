@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "preprocess/clean/edge_table.hpp"
+#include "common/geometry/edge_table.hpp"
 
 #include <algorithm>
 

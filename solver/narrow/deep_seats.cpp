@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/narrow/deep_seats.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "solver/narrow/emit_contacts.hpp"
+#include "solver/narrow/nearest_sphere.hpp"
+
+namespace ice {
+
+namespace {
+
+constexpr double kDeepShare = 0.5;  // of the ice's radius
+
+constexpr double kSameWay = 0.5;  // cosine between directions in which one pair is pushed apart
+
+// One body's seats, seen from the other's solid.
+struct Side {
+    const Shape& of;           // whose seats
+    const Shape& in;           // whose solid
+    std::int32_t body, other;  // of both
+    Mat3 turn;                 // from the seats' axes to the solid's
+    Vec3 shift;                // [m]
+};
+
+Side side_of_b(const PairView& v) {
+    return {v.shape_b, v.shape_a, v.pair.b, v.pair.a, v.turn, v.shift};
+}
+
+Side side_of_a(const PairView& v) {
+    const Mat3 back = v.turn.transpose();
+    return {v.shape_a, v.shape_b, v.pair.a, v.pair.b, back, Vec3(-(back * v.shift))};
+}
+
+// The box of the solid in the seats' axes, where the groups of spheres lie.
+Eigen::AlignedBox3d box_of_solid(const Side& side) {
+    const Mat3 back = side.turn.transpose();
+    const Vec3 middle = back * (side.in.box.center() - side.shift);
+    const Vec3 half = back.cwiseAbs() * (0.5 * side.in.box.sizes());
+    return {Vec3(middle - half), Vec3(middle + half)};
+}
+
+bool group_meets(const SphereBlocks& blocks, std::size_t g, const Eigen::AlignedBox3d& box,
+                 double reach) {
+    for (int d = 0; d < 3; ++d)
+        if (static_cast<double>(blocks.groups.low[d][g]) - reach > box.max()[d] ||
+            static_cast<double>(blocks.groups.high[d][g]) + reach < box.min()[d])
+            return false;
+    return true;
+}
+
+// Points around which no seat can be deep: a seat is as deep as another one plus their distance at
+// most, so around one that lies outside, or less deep, there is room.
+class Clearings {
+public:
+    // @param room  the radius in which no seat is of use [m]
+    void add(const Vec3& at, double room) {
+        if (room <= 0.0) return;
+        places_[next_] = {at, room * room};
+        next_ = (next_ + 1) % places_.size();
+    }
+    bool hold(const Vec3& p) const {
+        return std::any_of(places_.begin(), places_.end(), [&](const Place& place) {
+            return (p - place.at).squaredNorm() < place.room_sq;
+        });
+    }
+
+private:
+    struct Place {
+        Vec3 at = Vec3::Zero();
+        double room_sq = 0.0;
+    };
+    std::array<Place, 4> places_;
+    std::size_t next_ = 0;
+};
+
+// Calls visit(sphere, seat) for the seats that may lie in the other's box; the solid's axes.
+template <class Visit>
+void for_each_seat(const PairView& view, const Side& side, const Visit& visit) {
+    const SphereBlocks& blocks = side.of.blocks;
+    const Eigen::AlignedBox3d box = box_of_solid(side);
+    const double reach = static_cast<double>(blocks.largest_along) +
+                         view.scene.crushed.deepest_of(side.body) +
+                         static_cast<double>(SphereBlocks::kFloatShare * blocks.size);
+    const bool whole = view.scene.crushed.is_whole(side.body);
+    for (std::size_t g = 0; g < blocks.group_count; ++g) {
+        if (!group_meets(blocks, g, box, reach)) continue;
+        for (std::size_t lane = 0; lane < SphereBlocks::kGroup; ++lane) {
+            const std::int32_t k = blocks.id[g * SphereBlocks::kGroup + lane];
+            if (k < 0) continue;
+            Vec3 at = side.of.center[k];
+            if (!whole) at += view.scene.crushed.recess_of(side.body, k);
+            if (!whole && !side.of.box.contains(at)) continue;  // driven right through its body
+            at += side.of.radius[k] * side.of.normal[k];
+            const Vec3 seat = side.turn * at + side.shift;
+            if (side.in.box.contains(seat)) visit(k, seat);
+        }
+    }
+}
+
+// How deep the deepest contact of a sphere is, 0 without one [m].
+double depth_known(std::span<const Candidate> found, bool of_b, std::int32_t sphere) {
+    double depth = 0.0;
+    for (const Candidate& c : found)
+        if ((of_b ? c.j : c.i) == sphere) depth = std::max(depth, -c.gap.gap);
+    return depth;
+}
+
+DeepSeat seat_of(const PairView& view, const Side& side, std::int32_t sphere, const Vec3& seat,
+                 const Foot& foot) {
+    DeepSeat out;
+    out.sphere = sphere;
+    out.of_b = side.body == view.pair.b;
+    out.facing = nearest_sphere(side.in, foot.point);
+    const Vec3 outward = (foot.point - seat) / foot.distance;  // of the solid
+    out.gap = crushed_near(view.scene, side.other, seat) - foot.distance;
+    const auto in_a = [&](const Vec3& p) {
+        return out.of_b ? p : Vec3(view.turn * p + view.shift);
+    };
+    out.seat = in_a(seat);
+    out.foot = in_a(foot.point);
+    out.normal = out.of_b ? outward : Vec3(view.turn * -outward);
+    return out;
+}
+
+// Appends the deep seats of one side; returns the depth of the deepest seat, at least 0 [m].
+double add_side(const PairView& view, const Side& side, double slack,
+                std::span<const Candidate> found, std::vector<DeepSeat>& out) {
+    double deepest = 0.0;
+    Clearings clear;
+    for_each_seat(view, side, [&](std::int32_t sphere, const Vec3& seat) {
+        if (clear.hold(seat)) return;
+        const Foot foot = side.in.surface->closest(seat);
+        const double depth = foot.inside ? foot.distance : -foot.distance;
+        deepest = std::max(deepest, depth);
+        clear.add(seat, std::min(deepest, slack) - depth);
+        if (depth <= slack) return;
+        const DeepSeat deep = seat_of(view, side, sphere, seat, foot);
+        if (deep.gap < -slack - depth_known(found, deep.of_b, sphere)) out.push_back(deep);
+    });
+    return deepest;
+}
+
+// Leaves the seats that are pushed the same way as the deepest one, to 60 degrees. A seat beside
+// the rim of the other's face may be nearer to the next face than to the one that it came through;
+// the deepest is not.
+void keep_one_direction(std::vector<DeepSeat>& seats) {
+    if (seats.empty()) return;
+    const auto deepest = std::min_element(
+        seats.begin(), seats.end(), [](const auto& l, const auto& r) { return l.gap < r.gap; });
+    const Vec3 way = deepest->normal;
+    std::erase_if(seats, [&](const DeepSeat& s) { return s.normal.dot(way) < kSameWay; });
+}
+
+}  // namespace
+
+double deep_slack(const PairView& view) { return kDeepShare * view.shape_b.largest_radius; }
+
+double find_deep_seats(const PairView& view, std::span<const Candidate> found,
+                       std::vector<DeepSeat>& out) {
+    out.clear();
+    const double slack = deep_slack(view);
+    const double deepest = std::max(add_side(view, side_of_b(view), slack, found, out),
+                                    add_side(view, side_of_a(view), slack, found, out));
+    std::sort(out.begin(), out.end(), [](const DeepSeat& l, const DeepSeat& r) {
+        const auto key = [](const DeepSeat& s) {
+            return std::tuple(s.seat.x(), std::abs(s.seat.y()), s.seat.z(), s.of_b, s.sphere);
+        };
+        return key(l) < key(r);
+    });
+    keep_one_direction(out);
+    return slack - deepest;
+}
+
+void emit_deep_seats(const PairView& view, const ContactRule& rule, std::span<const DeepSeat> seats,
+                     Contact* out) {
+    const Mat3& rotation = view.scene.bodies.rotation[view.pair.a];
+    const bool ship = view.pair.a == static_cast<std::int32_t>(kShip);
+    for (const DeepSeat& s : seats) {
+        Contact& contact = *out++;
+        contact.a = view.pair.a;
+        contact.b = view.pair.b;
+        contact.sphere_a = s.of_b ? s.facing : s.sphere;
+        contact.sphere_b = s.of_b ? s.sphere : s.facing;
+        // bits that no sphere's contact and no polygon's corner have
+        contact.key = std::uint64_t{3} << 62 | std::uint64_t{s.of_b} << 32 |
+                      static_cast<std::uint64_t>(s.sphere);
+        contact.point =
+            rotation * Vec3(0.5 * (s.seat + s.foot)) + view.scene.bodies.position[view.pair.a];
+        contact.normal = rotation * s.normal;
+        contact.gap = s.gap;
+        contact.region = ship ? view.shape_a.region.at(contact.sphere_a, s.normal) : -1;
+        contact.crushes_a = !ship && !s.of_b;
+        contact.patch = Patch{};
+        contact.patch.depth = -s.gap;
+        if (ship || rule.crushes)
+            contact.patch = contact.crushes_a ? patch_of_a(view, s.sphere, s.normal, s.gap)
+                                              : ice_patch(view, contact.sphere_b, s.normal, s.gap);
+    }
+}
+
+}  // namespace ice

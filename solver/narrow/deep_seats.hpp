@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Contacts of bodies that lie deep in each other and are not both convex: hulls, cusps.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "solver/narrow/contact.hpp"
+#include "solver/narrow/contact_rule.hpp"
+#include "solver/narrow/pair_view.hpp"
+
+namespace ice {
+
+/// A seat of one body that lies deep in the other's solid.
+struct DeepSeat {
+    std::int32_t sphere;  ///< whose seat it is
+    bool of_b;            ///< of b in a's solid; else of a in b's
+    std::int32_t facing;  ///< the other body's sphere nearest to `foot`
+    Vec3 seat, foot;      ///< the seat, and the other surface's point nearest to it; a's axes [m]
+    Vec3 normal;          ///< unit, from a to b, along seat - foot; a's axes
+    double gap;           ///< minus their distance, crushed ice of the other body left out [m]
+};
+
+/// So deep in the other solid [m] a seat is a contact of its own where its sphere has none.
+///
+/// Half the radius of b's spheres: spheres pass each other, and are lost, from two radii on.
+double deep_slack(const PairView& view);
+
+/// Finds the seats of either body that lie in the other's solid by more than deep_slack, and of
+/// whose sphere no contact is as deep, less that length.
+///
+/// Depth and direction are those of the nearest point of the other's mesh: exact for any closed
+/// solid, but the shortest way out is the wrong one for a seat beyond the middle of a body. The
+/// order of `out` is by place, mirror images about y = 0 alike.
+///
+/// @param found  contacts that the spheres gave @param out  what it held is forgotten
+/// @returns how far the bodies may move relative to each other before another seat can lie so deep
+/// [m]; not above 0 while one does, crushed ice counted as if it were whole
+double find_deep_seats(const PairView& view, std::span<const Candidate> found,
+                       std::vector<DeepSeat>& out);
+
+/// Makes their contacts: the patch is that of the seat, or of the ice that a hull's seat is in.
+void emit_deep_seats(const PairView& view, const ContactRule& rule, std::span<const DeepSeat> seats,
+                     Contact* out);
+
+}  // namespace ice

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/narrow/nearest_sphere.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <tuple>
+
+namespace ice {
+
+namespace {
+
+// The squared distance of a point from a group's box, less what rounding to floats may add [m2].
+double distance_sq(const SphereBlocks& blocks, std::size_t g, const Vec3& p, double rounding) {
+    double sum = 0.0;
+    for (int d = 0; d < 3; ++d) {
+        const double low = static_cast<double>(blocks.groups.low[d][g]) - rounding,
+                     high = static_cast<double>(blocks.groups.high[d][g]) + rounding;
+        const double off = std::max({low - p[d], p[d] - high, 0.0});
+        sum += off * off;
+    }
+    return sum;
+}
+
+}  // namespace
+
+std::int32_t nearest_sphere(const Shape& shape, const Vec3& point) {
+    const SphereBlocks& blocks = shape.blocks;
+    const auto key = [&](std::int32_t k) {
+        const auto row = static_cast<std::size_t>(k);
+        return std::tuple((shape.center[row] - point).squaredNorm(), shape.mirror_rank[row], k);
+    };
+    const double rounding = static_cast<double>(SphereBlocks::kFloatShare * blocks.size);
+    auto least = std::tuple(std::numeric_limits<double>::infinity(), std::int32_t{0}, 0);
+    for (std::size_t g = 0; g < blocks.group_count; ++g) {
+        if (distance_sq(blocks, g, point, rounding) > std::get<0>(least)) continue;
+        for (std::size_t lane = 0; lane < SphereBlocks::kGroup; ++lane) {
+            const std::int32_t k = blocks.id[g * SphereBlocks::kGroup + lane];
+            if (k >= 0) least = std::min(least, key(k));
+        }
+    }
+    return std::get<2>(least);
+}
+
+double crushed_near(const Scene& scene, std::int32_t body, const Vec3& point) {
+    if (scene.crushed.is_whole(body)) return 0.0;
+    const Shape& shape = scene.shapes[static_cast<std::size_t>(scene.bodies.shape[body])];
+    const std::int32_t k = nearest_sphere(shape, point);
+    return std::max(0.0, -scene.crushed.recess_of(body, k).dot(shape.normal[k]));
+}
+
+}  // namespace ice

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Bodies that are not both convex, however deep they lie in each other.
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "solver/narrow/find_contacts.hpp"
+#include "solver/record/solid_overlap.hpp"
+#include "tests/support/make_filled_sets.hpp"
+#include "tests/support/make_prisms.hpp"
+#include "tests/support/make_worlds.hpp"
+
+using namespace ice;
+
+namespace {
+
+constexpr double kRadius = 0.05;
+
+// A prism, 1 m high, over a square of 4 m without its quarter x, y > 0.
+TriangleMesh angle_mesh() {
+    std::vector<Vec3> low, high;
+    for (const auto& [x, y] : {std::pair(0, 0), {0, 2}, {-2, 2}, {-2, -2}, {2, -2}, {2, 0}}) {
+        low.emplace_back(x, y, -0.5);
+        high.emplace_back(x, y, 0.5);
+    }
+    return test::make_ring_mesh(low, high);
+}
+
+// The angle as a hull, and a box of 1.2 x 1 x 0.4 m as a floe in ice that crushes.
+World angle_and_box(const Vec3& place, const Quaternion& turn = Quaternion::Identity()) {
+    World w;
+    w.parameters = test::empty_space(0.01);
+    w.parameters.contact.crushing_pressure = 1e6;
+    w.scene = make_scene(build_shape(test::fill_surface(angle_mesh(), kRadius, 0.1), false),
+                         Vec3::Zero(), Vec3::Zero());
+    const auto box = test::add_shape(w, test::fill_box(Vec3(1.2, 1, 0.4), kRadius, 0.1));
+    add_floe(w.scene, box, 900.0, place, turn, 0, false);
+    return w;
+}
+
+std::vector<Contact> contacts_of(const World& w) {
+    std::vector<Contact> out;
+    ContactFinder().find(w.scene, {{0, 1}}, ContactRule(w.parameters), w.parameters.time_step, 5e-4,
+                         out);
+    return out;
+}
+
+}  // namespace
+
+TEST_CASE("a floe in a hull that is not convex is felt at every depth, along the hull's normal",
+          "[narrow][deep][analytic]") {
+    // the box comes along -x over the face x = 2 of the angle's leg of 2 m
+    const double depth = GENERATE(0.01, 0.06, 0.2, 0.5, 0.9);
+    const World w = angle_and_box(Vec3(2.0 + 0.6 - depth, -1.0, 0.0));
+    const std::vector<Contact> contacts = contacts_of(w);
+    REQUIRE(!contacts.empty());
+    double least = 0.0;
+    for (const Contact& c : contacts) {
+        least = std::min(least, c.gap);
+        if (depth < 0.3 && c.key >> 62 == 3) CHECK((c.normal - Vec3::UnitX()).norm() < 1e-9);
+    }
+    CAPTURE(depth, contacts.size());
+    // seats on the box's face are as deep as the face, or as half of the leg's height, 0.5 m, from
+    // which on the leg's upper and lower faces are nearer; they are up to 0.1 m from that middle
+    CHECK(least >= -std::min(depth, 0.5) - 1e-6);
+    CHECK(least <= -std::min(depth, 0.4) + 1e-6);
+    // the finder and the look at the solids agree
+    const OverlapFound found = measure_overlaps(w.scene, contacts);
+    CHECK(found.deepest <= -least + 0.5 * kRadius);
+    CHECK(found.unseen <= 0.5 * kRadius);
+}
+
+TEST_CASE(
+    "nothing is felt in the angle's notch, and contacts within half a radius are the spheres'",
+    "[narrow][deep]") {
+    CHECK(contacts_of(angle_and_box(Vec3(0.62, 0.72, 0.0))).empty());
+    const World w = angle_and_box(Vec3(0.6 - 0.02, 0.72, 0.0));
+    for (const Contact& c : contacts_of(w)) {
+        CHECK(c.key >> 62 == 0);
+        CHECK((c.normal - Vec3::UnitX()).norm() < 1e-9);
+        CHECK(c.gap == Approx(-0.02).margin(1e-9));
+    }
+}
+
+TEST_CASE("deep seats found in steps are those found afresh, to the last bit",
+          "[narrow][deep][property]") {
+    // a floe that is pulled through the hull and turns, whatever pushes it out
+    World w = angle_and_box(Vec3(2.7, -1.0, 0.1),
+                            Quaternion(Eigen::AngleAxisd(0.3, Vec3(0.3, 0.5, 0.8).normalized())));
+    Travel travel;
+    ContactFinder kept;
+    std::vector<Contact> found;
+    std::size_t deep = 0;
+    for (int k = 0; k < 400; ++k) {
+        Bodies& b = w.scene.bodies;
+        b.velocity[1] = Vec3(-1.2, 0.3, -0.1);
+        b.angular_velocity[1] = Vec3(0.2, 0.1, -0.4);
+        travel.update(w.scene, w.parameters.time_step);
+        kept.find(w.scene, {{0, 1}}, travel, ContactRule(w.parameters), w.parameters.time_step,
+                  5e-4, found);
+        const std::vector<Contact> expected = contacts_of(w);
+        REQUIRE(found.size() == expected.size());
+        for (std::size_t c = 0; c < found.size(); ++c) {
+            REQUIRE(found[c].key == expected[c].key);
+            REQUIRE(found[c].gap == expected[c].gap);
+            REQUIRE(found[c].point == expected[c].point);
+            deep += found[c].key >> 62 == 3 ? 1 : 0;
+        }
+        b.position[1] += w.parameters.time_step * b.velocity[1];
+        const Quaternion turned =
+            Quaternion(Eigen::AngleAxisd(w.parameters.time_step * b.angular_velocity[1].norm(),
+                                         b.angular_velocity[1].normalized())) *
+            b.orientation[1];
+        b.orientation[1] = turned.normalized();
+        b.rotation[1] = b.orientation[1].toRotationMatrix();
+    }
+    CHECK(deep > 100);
+}
