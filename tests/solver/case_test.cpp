@@ -87,7 +87,7 @@ TEST_CASE("a case reads with units, defaults and derived values", "[case]") {
     CHECK(c.floes[0].count == std::array<int, 2>{20, 9});
     CHECK(c.floes[0].gap[0] == Approx(0.02));
     CHECK(c.floes[0].hold == Hold::always);
-    CHECK(c.crushing_pressure == Approx(1.5e6));
+    CHECK(c.contact.crushing_pressure == Approx(1.5e6));
     CHECK(c.average_from == Approx(10.0));  // a third of the duration
     CHECK(c.track == std::vector<int>{1, 2});
     CHECK(c.normal == NormalRule::surface);
@@ -101,7 +101,7 @@ TEST_CASE("the resolved case reads back as the same case", "[case][property]") {
     const CaseFolder again(first.resolved);
     const Case second = read_case(again.file());
     CHECK(second.resolved == first.resolved);
-    CHECK(second.restitution == 0.12345678901234567);
+    CHECK(second.contact.restitution == 0.12345678901234567);
 }
 
 TEST_CASE("a title with control characters survives in the resolved case", "[case]") {
@@ -337,7 +337,7 @@ TEST_CASE("ice crushes at 1 MPa in 3D and is rigid in 2D unless a case says othe
             text.replace(text.find("[20, 9]"), 7, "[20, 1]");
         }
         const CaseFolder folder(text);
-        return read_case(folder.file(), {}).crushing_pressure;
+        return read_case(folder.file(), {}).contact.crushing_pressure;
     };
     CHECK(pressure("", 3) == kCrushingPressure);
     CHECK(std::isinf(pressure("", 2)));
