@@ -123,7 +123,8 @@ class Suites:
                           self.tree.source, "--stop"], self.tree.folder, 600, environment)
         if code in (0, 77):
             return None
-        return "values: " + (text.strip().splitlines() or ["hangs"])[0][:150]
+        lines = text.strip().splitlines() or ["hangs"]
+        return "values: " + lines[-1 if lines[0].startswith("Traceback") else 0][:150]
 
 
 def clear(name):

@@ -66,8 +66,7 @@ class Tree:
     def build(self, mutants):
         """Plants and builds; those that do not compile are left out. @return the others"""
         self.copy(mutants)
-        code, text = run(["cmake", "--preset", self.preset, "-DICE_TESTS=ON",
-                          *os.environ.get("ICE_MUTATION_CMAKE", "").split()], self.source,
+        code, text = run(["cmake", "--preset", self.preset, "-DICE_TESTS=ON"], self.source,
                          env=self.env)
         if code != 0:
             raise Failure(f"cmake --preset {self.preset} fails:\n{text}")

@@ -162,6 +162,7 @@ def check_run(work, values, file):
     for name, want in (("model", "file"), ("panels", int(file.attrs["panels"])),
                        ("residual", float(file.attrs["residual"]))):
         values.equal("summary.json", "flow." + name, s["flow"][name], want)
+    check_arrows(work, values, file)
     # no contacts: the floe's motion is the work of the water alone
     energy = s["energy"]
     track = read_csv(work / "flow" / "floe_1.csv")
@@ -171,3 +172,27 @@ def check_run(work, values, file):
     values.close("summary.json", "energy.water_work_J", energy["water_work_J"], spent, 1e-6)
     values.within("summary.json", "energy.drag_J", energy["drag_J"], 1e-3, np.inf)
     values.within("summary.json", "energy.water_work_J", energy["water_work_J"], 1e-3, np.inf)
+
+
+def check_arrows(work, values, table):
+    """Arrows of the flow in run.h5 are the table, linear between its nodes, at their points."""
+    name = "run.h5"
+    with h5py.File(work / "flow" / "run.h5") as file:
+        if "flow" not in file:
+            return
+        point, arrow = (file["flow/" + key][()].astype(float) for key in ("point", "velocity"))
+        for key, unit, word in (("point", "m", "water's surface"), ("velocity", "1", "1 m/s")):
+            values.equal(name, f"/flow/{key}@units", file["flow/" + key].attrs["units"], unit)
+            values.equal(name, f"/flow/{key}@meaning", word in file["flow/" + key].attrs["meaning"],
+                         True)
+    w = table["velocity"][()].astype(float)
+    at = (point - table.attrs["origin"]) / table.attrs["spacing"]
+    first = np.clip(np.floor(at + 1e-6).astype(int), 0, np.array(w.shape[2::-1]) - 2)
+    part = at - first
+    want = 0.0
+    for corner in np.ndindex(2, 2, 2):
+        i, j, k = (first + corner).T
+        share = np.prod(np.where(corner, part, 1 - part), axis=1)
+        want = want + share[:, None] * w[k, j, i]
+    values.close(name, "/flow/point", want, arrow, margin=1e-4)
+    values.close(name, "/flow/velocity", arrow, want, margin=1e-4)

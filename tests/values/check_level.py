@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Level ice that a ship breaks, and members of an ensemble: numbers that follow from the rows."""
+import h5py
 import numpy as np
 
+from solids import moments
 from tables import read_csv
 
 AVERAGE_FROM, STEP = 1.5, 0.02
@@ -63,10 +65,50 @@ def check(work, values):
     spent = sum(energy[k + "_J"] for k in (
         "kinetic_change", "potential", "friction", "restitution", "crushing", "breaking", "drag",
         "buoyancy_moment", "residual"))
-    values.close("summary.json", "energy.breaking_J", spent,
-                 energy["ship_work_J"] + energy["separation_J"], 1e-9)
+    given = sum(energy.get(k + "_J", 0.0) for k in ("ship_work", "separation", "water_work",
+                                                    "drift_work"))
+    values.close("summary.json", "energy.breaking_J", spent, given, 1e-9)
     check_formulas(values, s)
+    if (work / "level/pieces.h5").exists():
+        check_pieces(work, values)
     check_members(work, values)
+
+
+def check_pieces(work, values):
+    """Pieces that broke off and the rest of the sheet: prisms of its thickness, each about its own
+    centre, with the ice's density, that are together the sheet less the cracks."""
+    form = "pieces.h5"
+    work.files.setdefault(form, []).append(work / "level/pieces.h5")
+    length = (3e9 * 0.2 ** 3 / (12 * (1 - 0.31 ** 2) * 1000 * 9.81)) ** 0.25
+    with h5py.File(work / "level/pieces.h5") as file:
+        head = file.attrs
+        values.equal(form, "/@format", head["format"], "icesolve-pieces")
+        values.equal(form, "/@format_version", head["format_version"], 1)
+        whole = 0.0
+        for group in ("pieces", "rest"):
+            rows = file[group]
+            first, side = rows["vertex_offset"][()], rows["triangle_offset"][()]
+            for k, mass in enumerate(rows["mass"][()]):
+                solid = (rows["vertices"][first[k]:first[k + 1]],
+                         {"": rows["triangles"][side[k]:side[k + 1]]})
+                volume, _, centroid, _ = moments(solid)
+                whole += volume
+                values.close(form, f"/{group}/vertices", centroid, [0, 0, 0], margin=1e-6)
+                for name in ("mass", "vertex_offset", "triangle_offset", "triangles"):
+                    values.close(form, f"/{group}/{name}", mass, 900 * volume, 1e-9)
+            at = rows["at"][()]
+            values.within(form, f"/{group}/at", at[:, :2], [0, -4], [5, 4])
+        values.within(form, "/rest/mass", whole / (5 * 8 * 0.2), 0.8, 1.0 + 1e-9)
+        pieces = file["pieces"]
+        values.equal(form, "/pieces/number", len(set(pieces["number"][()])), len(pieces["mass"]))
+        for name, low, high in (("body", head["first_body"], np.inf), ("born", 0.0, 4.0),
+                                ("load", 1.0, 1e7), ("gone", pieces["born"][()], np.inf),
+                                # 0.32 of the characteristic length, 0.9 m/s at most, +- 20 %
+                                ("radius", 0.32 * length * (1 - 0.144 * 0.9) * 0.8,
+                                 0.32 * length * 1.2)):
+            values.within(form, "/pieces/" + name, pieces[name][()], low, high)
+        for name in ("first_body", "piece_group", "rest_group"):
+            values.within(form, "/@" + name, head[name], 0, 1000)
 
 
 def check_formulas(values, s):

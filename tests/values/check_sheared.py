@@ -141,7 +141,8 @@ def check_summary(work, values, forces):
     spent = sum(energy[k + "_J"] for k in ("kinetic_change", "friction", "restitution", "crushing",
                                            "potential", "drag", "buoyancy_moment", "residual"))
     values.close("summary.json", "energy.friction_J", spent,
-                 energy["ship_work_J"] + energy["separation_J"], 1e-9)
+                 energy["ship_work_J"] + energy["separation_J"] + energy.get("water_work_J", 0.0),
+                 1e-9)
     kinetic = forces["kinetic_energy_J"]
     values.close("summary.json", "energy.kinetic_J", energy["kinetic_J"], kinetic[-1], 1e-8)
     values.close("summary.json", "energy.kinetic_max_J", energy["kinetic_max_J"], kinetic.max(),
