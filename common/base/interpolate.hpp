@@ -5,11 +5,14 @@
 #include <utility>
 #include <vector>
 
+#include "common/base/assert.hpp"
+
 namespace ice {
 
 /// Value of a table of (x, y) at x: linear between rows, constant outside.
 /// @pre the table is not empty and its x rise
 inline double interpolate(const std::vector<std::pair<double, double>>& table, double x) {
+    ICE_ASSERT(!table.empty() && std::is_sorted(table.begin(), table.end()));
     if (x <= table.front().first) return table.front().second;
     if (x > table.back().first) return table.back().second;
     const auto after = std::lower_bound(table.begin(), table.end(), x,

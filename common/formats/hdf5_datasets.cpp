@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "common/base/assert.hpp"
 #include "common/base/error.hpp"
 #include "common/formats/hdf5_file.hpp"
 #include "common/formats/hdf5_handle.hpp"
@@ -172,6 +173,7 @@ template <class T>
 std::vector<T> Hdf5File::read_rows(const std::string& name, std::uint64_t first,
                                    std::uint64_t count) const {
     std::vector<hsize_t> block = to_hsize(shape(name)), start(block.size(), 0);
+    ICE_ASSERT(first + count <= block.at(0));
     start.at(0) = first;
     block[0] = count;
     take_from_limit(name, product({block.begin(), block.end()}), sizeof(T));

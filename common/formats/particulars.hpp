@@ -22,8 +22,8 @@ struct ShipParticulars {
     double stem_angle_deg = kUnknown;      ///< of the stem from the horizontal; unknown in 2D
     double entrance_angle_deg = kUnknown;  ///< half angle of the waterline at the bow; likewise
     double speed_mean = kUnknown;          ///< over the averaged time [m/s]
-    double parallel_length = kUnknown;  ///< of the waterline's full breadth [m]; 3D
-    double bow_length = kUnknown;       ///< of the waterline before it [m]; likewise
+    double parallel_length = kUnknown;     ///< of the waterline's full breadth [m]; 3D
+    double bow_length = kUnknown;          ///< of the waterline before it [m]; likewise
     /// Of a ship that answers: motions and drive by their keys in summary.json; else empty.
     std::vector<std::pair<std::string, double>> motion;
     std::optional<bool> stuck;  ///< below 0.1 m/s for 10 s on end; likewise

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "common/base/assert.hpp"
 #include "common/geometry/winding_number.hpp"
 
 namespace ice {
@@ -33,6 +34,14 @@ double surface_of(const SphereSet& set, const MassProperties& of_mesh) {
 
 std::string unlike(const char* what, double value, const char* unit, double right) {
     return fmt::format("{} of {:.6g} {} where the mesh has {:.6g}", what, value, unit, right);
+}
+
+bool has_corners(const TriangleMesh& mesh) {
+    const auto count = static_cast<std::int32_t>(mesh.vertices.size());
+    return std::all_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const auto& corners) {
+        return std::all_of(corners.begin(), corners.end(),
+                           [&](std::int32_t k) { return k >= 0 && k < count; });
+    });
 }
 
 std::string solid_fault(const SphereSet& set, const MassProperties& of_mesh) {
@@ -81,6 +90,7 @@ std::string centre_fault(const SphereSet& set) {
 }  // namespace
 
 std::string fault_of(const SphereSet& set) {
+    ICE_ASSERT(!set.mesh.triangles.empty() && has_corners(set.mesh));
     std::string fault = solid_fault(set, measure_mass(set.mesh));
     if (fault.empty()) fault = share_fault(set);
     return fault.empty() ? centre_fault(set) : fault;

@@ -4,6 +4,8 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
+#include "common/base/assert.hpp"
+
 namespace ice {
 
 namespace {
@@ -18,6 +20,7 @@ Vec3 positive(const Vec3& axis) {
 }  // namespace
 
 RigidBody rigid_body(const MassProperties& solid, double density) {
+    ICE_ASSERT(density > 0.0 && solid.volume > 0.0);
     RigidBody body;
     body.density = density;
     body.volume = solid.volume;

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <stdexcept>
 
+#include "common/base/assert.hpp"
 #include "common/base/nearest_name.hpp"
 #include "common/toml/quote_line.hpp"
 #include "common/toml/read_value.hpp"
@@ -235,6 +236,7 @@ Values read_override(const std::string& text, const Schema& schema, std::size_t 
 }
 
 Value default_value(const Key& key, const Schema& schema) {
+    ICE_ASSERT(key.default_text != "-" && !key.default_text.empty());
     // the default goes the same way as a given value
     Mistakes mistakes;
     std::size_t groups = 0;

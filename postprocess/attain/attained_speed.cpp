@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "common/base/assert.hpp"
 #include "common/base/least_squares.hpp"
 
 namespace ice::attain {
@@ -74,6 +75,8 @@ double ResistanceFit::half(double speed) const {
 }
 
 ResistanceFit fit_resistance(const std::vector<SpeedPoint>& points) {
+    ICE_ASSERT(std::any_of(points.begin(), points.end(),
+                           [&](const SpeedPoint& p) { return p.speed != points.front().speed; }));
     const bool weighted =
         std::all_of(points.begin(), points.end(), [](const SpeedPoint& p) { return p.half > 0.0; });
     Trial best = try_degree(points, 1, weighted);

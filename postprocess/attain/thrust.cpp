@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "common/base/assert.hpp"
 #include "common/base/error.hpp"
 #include "common/toml/input_file.hpp"
 
@@ -138,8 +139,9 @@ double Thrust::fastest() const {
 }
 
 double bollard_pull(double power, double diameter, int propellers) {
+    ICE_ASSERT(propellers >= 1 && propellers <= 3);
     constexpr std::array<double, 3> kFactor{0.78, 0.98, 1.12};
-    const double factor = kFactor[static_cast<std::size_t>(std::clamp(propellers, 1, 3) - 1)];
+    const double factor = kFactor[static_cast<std::size_t>(propellers - 1)];
     return 1e3 * factor * std::pow(1e-3 * power * diameter, 2.0 / 3.0);
 }
 

@@ -58,8 +58,7 @@ std::string open_page(const std::string& title) {
 
 std::string close_page() {
     return "<footer><div class=\"inner\">Made by icepost " + escape(version()) + " (" +
-           escape(git_commit()) +
-           "). Forces are those of the ice on the ship.</div></footer>\n" +
+           escape(git_commit()) + "). Forces are those of the ice on the ship.</div></footer>\n" +
            template_piece("<script id=\"tools\">", "</script>") + "</body>\n</html>\n";
 }
 

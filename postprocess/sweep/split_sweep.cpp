@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "postprocess/sweep/split_sweep.hpp"
 
+#include "common/base/assert.hpp"
 #include "postprocess/sweep/choose_axes.hpp"
 
 namespace ice::sweep {
@@ -17,6 +18,7 @@ int dimension_of_run(const SweepRun& run) {
 }  // namespace
 
 int dimension_of(const Sweep& sweep) {
+    ICE_ASSERT(split_sweep(sweep).size() <= 1);
     for (const SweepRun& run : sweep.runs)
         if (const int dimension = dimension_of_run(run)) return dimension;
     return 3;

@@ -67,7 +67,7 @@ struct Point {
 
     const Estimate& part(Part p) const { return parts[static_cast<std::size_t>(p)]; }
     /// Value of x. @pre the sweep has an x and the point a number there
-    double x(const Sweep& sweep) const { return *at.at(sweep.x).number; }
+    double x(const Sweep& sweep) const { return at.at(sweep.x).number.value(); }
     /// Value of a formula's part [N], or NaN.
     double formula(const std::string& name, const std::string& part) const;
 };

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "common/base/assert.hpp"
 #include "postprocess/sweep/formula_curves.hpp"
 #include "postprocess/sweep/key_names.hpp"
 #include "postprocess/sweep/split_sweep.hpp"
@@ -117,6 +118,7 @@ std::string point_table(const Sweep& sweep, const std::vector<Point>& points,
 
 std::string work_table(const Sweep& sweep, const std::vector<Point>& points,
                        const report::ForceUnit& unit) {
+    ICE_ASSERT(!points.empty());
     const auto axes = axis_columns(sweep, points, true), work = work_columns(sweep, points, unit);
     if (work.empty()) return "";
     std::vector<std::string> names = titles(axes);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/base/assert.hpp"
+
 namespace ice {
 
 namespace {
@@ -36,6 +38,7 @@ Vec2 centroid_of(const Outline& outline) {
         sum += cross(a, b) * (a + b);
         twice += cross(a, b);
     }
+    ICE_ASSERT(twice != 0.0);
     return outline[0] + sum / (3.0 * twice);
 }
 

@@ -8,6 +8,7 @@
 #include <array>
 #include <limits>
 
+#include "common/base/assert.hpp"
 #include "preprocess/slice/section_geometry.hpp"
 
 namespace ice {
@@ -51,6 +52,7 @@ bool is_simple(const Outline& outline) {
 }
 
 double overlap_depth(const Outline& a, const Outline& b) {
+    ICE_ASSERT(area_of(a) > 0.0 && area_of(b) > 0.0);
     Rectangle box_a, box_b;
     for (const Vec2& p : a) box_a.extend(p);
     for (const Vec2& p : b) box_b.extend(p);

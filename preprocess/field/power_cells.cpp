@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/base/assert.hpp"
+
 namespace ice {
 
 namespace {
@@ -66,6 +68,7 @@ bool collect_cells(const Regular& regular, const Rectangle& r, std::vector<Power
 
 std::vector<PowerCell> power_cells(const std::vector<Vec2>& sites,
                                    const std::vector<double>& weights, const Rectangle& rectangle) {
+    ICE_ASSERT(!sites.empty() && weights.size() == sites.size());
     const double mean = std::sqrt(rectangle.volume() / static_cast<double>(sites.size()));
     const auto [least, most] = std::minmax_element(weights.begin(), weights.end());
     double margin = kMargin * mean + 2.0 * std::sqrt(*most - *least);

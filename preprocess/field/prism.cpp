@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "common/base/assert.hpp"
 #include "common/base/error.hpp"
 #include "preprocess/slice/section_geometry.hpp"
 
@@ -37,6 +38,7 @@ std::vector<Triangle> fill_outline(const Outline& outline) {
 }  // namespace
 
 TriangleMesh make_prism(const Outline& outline, double thickness, double chamfer) {
+    ICE_ASSERT(area_of(outline) > 0.0 && chamfer >= 0.0 && chamfer < 0.5 * thickness);
     const auto n = static_cast<std::int32_t>(outline.size());
     const Outline flat = chamfer > 0.0 ? inset(outline, chamfer) : outline;
     if (flat.empty()) {

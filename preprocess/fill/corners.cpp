@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/base/assert.hpp"
 #include "common/base/parallel.hpp"
 #include "preprocess/fill/point_cells.hpp"
 #include "preprocess/fill/point_grid.hpp"
@@ -91,6 +92,7 @@ void find_corners_beside(const SurfaceTree& tree, double radius, const Seat& sea
 }
 
 CornerCount count_corners(const SurfaceTree& tree, const SphereSet& set, bool half) {
+    ICE_ASSERT(set.dimension == 3 && set.surface_count <= set.centers.size());
     std::vector<std::vector<Seat>> found(set.surface_count);
     parallel_for(set.surface_count, 64, [&](std::size_t k) {
         const bool on_face = set.normal_spread[k] == 0.0;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/base/assert.hpp"
 #include "common/base/parallel.hpp"
 #include "preprocess/fill/offset_surface.hpp"
 
@@ -50,6 +51,8 @@ SphereFinder::SphereFinder(const SphereSet& set)
     : set_(set),
       cells_(std::span(set.centers).first(set.surface_count), 2.0 * set.spacing),
       least_(set.surface_count) {
+    ICE_ASSERT(set.surface_count <= set.normals.size() &&
+               set.surface_count <= set.normal_spread.size());
     const double on_face = std::cos(kFaceTurn);
     for (std::size_t k = 0; k < least_.size(); ++k)
         least_[k] = set.normal_spread[k] == 0.0

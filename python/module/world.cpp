@@ -134,14 +134,12 @@ PYBIND11_MODULE(_world, m) {
         .def_property_readonly("orientation_xyzw", vectors(&Bodies::orientation))
         .def_property_readonly("velocity", vectors(&Bodies::velocity))
         .def_property_readonly("angular_velocity", vectors(&Bodies::angular_velocity))
-        .def_property_readonly("mass",
-                               [](py::object self) {
-                                   return values(self, self.cast<World&>().scene.bodies.mass);
-                               })
-        .def_property_readonly("held",
-                               [](py::object self) {
-                                   return values(self, self.cast<World&>().scene.bodies.held);
-                               })
+        .def_property_readonly(
+            "mass",
+            [](py::object self) { return values(self, self.cast<World&>().scene.bodies.mass); })
+        .def_property_readonly(
+            "held",
+            [](py::object self) { return values(self, self.cast<World&>().scene.bodies.held); })
         .def_property_readonly("applied_force", applied(&WaterLoad::force))
         .def_property_readonly("applied_moment", applied(&WaterLoad::moment));
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <span>
 
+#include "common/base/assert.hpp"
 #include "solver/shape/sphere_grid.hpp"
 
 namespace ice {
@@ -104,6 +105,7 @@ void find_pairs_among(const Scene& scene, double margin, std::span<const std::in
 }  // namespace
 
 void find_pairs(const Scene& scene, double margin, std::vector<BodyPair>& out) {
+    ICE_ASSERT(std::is_sorted(scene.bodies.moving.begin(), scene.bodies.moving.end()));
     std::vector<std::int32_t> floes;
     find_floes(scene, reach_of_motion(scene, margin), floes);
     find_pairs_among(scene, margin, floes, out);

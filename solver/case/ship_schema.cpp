@@ -43,8 +43,8 @@ std::vector<CaseKey> body_keys() {
          "inertia in roll, pitch, yaw; or computed for the hull in ideal water, in 3D.",
          [](Case& c, G&, const Value& v) {
              c.ship.added_mass = {};
-             c.ship.computes_added_mass = std::holds_alternative<std::string>(v) &&
-                                          place_in(text(v), kAddedMasses) == 1;
+             c.ship.computes_added_mass =
+                 std::holds_alternative<std::string>(v) && place_in(text(v), kAddedMasses) == 1;
              if (std::holds_alternative<std::vector<double>>(v)) c.ship.added_mass = vector6(v);
          }},
         {"ship.damping", Kind::vector, D::none, "[0.0, 0.0, 0.0, 0.0, 0.0, 0.0]", 0, kHuge, 6, "",

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <tuple>
 
+#include "common/base/assert.hpp"
 #include "common/base/parallel.hpp"
 #include "common/formats/checkpoint_file.hpp"
+#include "solver/contact/constraint_order.hpp"
 
 namespace ice {
 
@@ -48,6 +50,7 @@ void apply_impulse(Bodies& bodies, const Constraint& c, const Vec3& j) {
 }
 
 void push_ship(Bodies& bodies, const Constraint& c, const Vec3& j) {
+    ICE_ASSERT(c.a == static_cast<std::int32_t>(kShip) && bodies.ship.free);
     bodies.velocity[kShip] -= bodies.ship.inverse_mass * j;
     bodies.angular_velocity[kShip] -= bodies.ship.inverse_inertia * c.arm_a.cross(j);
 }
@@ -104,6 +107,7 @@ bool WarmStart::precedes(const Entry& e, const Contact& c) {
 
 void WarmStart::recall(const std::vector<Contact>& contacts,
                        std::vector<Constraint>& constraints) const {
+    ICE_ASSERT(constraints.size() == contacts.size() && are_ordered(constraints));
     auto first = entries_.begin(), last = entries_.begin();  // of the contact's pair
     for (std::size_t k = 0; k < contacts.size(); ++k) {
         const Contact& contact = contacts[k];
@@ -126,6 +130,7 @@ void WarmStart::recall(const std::vector<Contact>& contacts,
 void WarmStart::remember(const std::vector<Contact>& contacts,
                          const std::vector<Constraint>& constraints,
                          const std::vector<std::int32_t>& which) {
+    ICE_ASSERT(constraints.size() == contacts.size() && are_ordered(constraints));
     entries_.clear();
     std::size_t first = 0;  // of the pair's entries
     for (const std::int32_t k : which) {

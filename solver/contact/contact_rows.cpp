@@ -6,6 +6,8 @@
 #include <numeric>
 #include <span>
 
+#include "common/base/assert.hpp"
+#include "solver/contact/constraint_order.hpp"
 #include "solver/contact/responses.hpp"
 
 namespace ice {
@@ -190,6 +192,7 @@ void ContactRows::fill_block(const Bodies& bodies, const std::vector<Constraint>
 
 void ContactRows::build(const Bodies& bodies, const std::vector<Constraint>& constraints,
                         const std::vector<std::int32_t>& which) {
+    ICE_ASSERT(std::is_sorted(which.begin(), which.end()) && are_ordered(constraints));
     blocks.clear();
     rows.clear();
     which_.clear();

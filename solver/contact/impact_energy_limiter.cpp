@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "common/base/assert.hpp"
+
 namespace ice {
 
 namespace {
@@ -89,6 +91,7 @@ void ImpactEnergyLimiter::measure_gains(const Bodies& bodies, const ContactRows&
 void ImpactEnergyLimiter::begin(const Bodies& bodies, const ContactRows& contacts,
                                 const std::vector<Constraint>& constraints,
                                 const std::vector<std::int32_t>& which) {
+    ICE_ASSERT(which.empty() || which.back() < std::ssize(constraints));
     which_ = which;
     save(bodies, contacts, constraints, start_);
 }
@@ -117,6 +120,7 @@ void ImpactEnergyLimiter::set_aside(Bodies& bodies, const ContactRows& contacts,
 
 void ImpactEnergyLimiter::limit_rebound(Bodies& bodies, const ContactRows& contacts,
                                         std::vector<Constraint>& constraints) {
+    ICE_ASSERT(rebound_.velocity.size() == contacts.bodies().size());
     save(bodies, contacts, constraints, plastic_);
     mix(plastic_.velocity, rebound_.velocity, now_.velocity);
     mix(plastic_.angular_velocity, rebound_.angular_velocity, now_.angular_velocity);

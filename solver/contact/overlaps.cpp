@@ -6,6 +6,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "common/base/assert.hpp"
 #include "common/math/ordered_products.hpp"
 
 namespace ice {
@@ -84,6 +85,7 @@ void Overlaps::correct_positions(const Scene& scene, const std::vector<Constrain
 
 void Overlaps::crush(Scene& scene, const std::vector<Contact>& contacts,
                      const std::vector<Constraint>& constraints, const ContactLaw& law, double dt) {
+    ICE_ASSERT(constraints.size() == contacts.size());
     const Bodies& bodies = scene.bodies;
     crush_events_.clear();
     scene.crushed.recent.clear();

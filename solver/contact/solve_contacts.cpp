@@ -10,6 +10,8 @@
 #include <cmath>
 #include <tuple>
 
+#include "common/base/assert.hpp"
+#include "solver/contact/constraint_order.hpp"
 #include "solver/contact/sweep.hpp"
 
 namespace ice {
@@ -188,6 +190,7 @@ void ContactSolver::begin_rest_with_guess(Bodies& bodies, std::vector<Constraint
 
 SolveReport ContactSolver::resolve_rest(Bodies& bodies, std::vector<Constraint>& constraints,
                                         const ContactLaw& law, double dt) {
+    ICE_ASSERT(are_ordered(constraints));
     active_.clear();
     is_active_.assign(constraints.size(), 0);
     SolveReport report;

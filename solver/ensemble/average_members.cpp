@@ -8,6 +8,7 @@
 #include <functional>
 #include <limits>
 
+#include "common/base/assert.hpp"
 #include "common/base/uncertainty.hpp"
 #include "solver/record/statistics.hpp"
 #include "solver/record/trend_warning.hpp"
@@ -189,6 +190,7 @@ std::map<std::string, double> worst_imbalance(const Members& members) {
 }  // namespace
 
 Summary average_members(const std::vector<Member>& members) {
+    ICE_ASSERT(!members.empty());
     Summary out = members.front().summary;
     const double share = 1.0 / static_cast<double>(members.size());
     average_counts(members, out);

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solver/integrate/integrate.hpp"
 
+#include "common/base/assert.hpp"
 #include "solver/scene/moving_floes.hpp"
 
 namespace ice {
 
 void advance(Scene& scene, const Advance& step) {
+    ICE_ASSERT(step.angular_velocity_start.size() == scene.bodies.size());
+    ICE_ASSERT(step.corrections.shift.size() == scene.bodies.size());
     Bodies& b = scene.bodies;
     b.position[kShip] += step.dt * b.velocity[kShip];
     for_each_group(b, [&](std::span<const std::int32_t> floes, std::size_t) {

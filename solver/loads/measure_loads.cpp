@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solver/loads/measure_loads.hpp"
 
+#include "common/base/assert.hpp"
 #include "solver/scene/moving_floes.hpp"
 
 namespace ice {
@@ -14,7 +15,9 @@ void measure_loads(const Scene& scene, const Case& parameters, std::vector<FloeL
 
 void add_applied(const Bodies& bodies, const std::vector<WaterLoad>& applied,
                  std::vector<FloeLoad>& loads) {
+    ICE_ASSERT(loads.size() == bodies.moving.size());
     if (applied.empty()) return;
+    ICE_ASSERT(applied.size() == bodies.size());
     for_each_moving(bodies, [&](std::size_t i, std::size_t k) {
         const WaterLoad& own = applied[i];
         loads[k].applied = own;
@@ -25,12 +28,14 @@ void add_applied(const Bodies& bodies, const std::vector<WaterLoad>& applied,
 }
 
 std::vector<FloeLoad> loads_by_body(const Bodies& bodies, const std::vector<FloeLoad>& loads) {
+    ICE_ASSERT(loads.size() == bodies.moving.size());
     std::vector<FloeLoad> out(bodies.size());
     for (std::size_t k = 0; k < loads.size(); ++k) out[bodies.moving[k]] = loads[k];
     return out;
 }
 
 void apply_loads(Bodies& bodies, const std::vector<FloeLoad>& loads, double dt) {
+    ICE_ASSERT(loads.size() == bodies.moving.size());
     for_each_moving(bodies, [&](std::size_t i, std::size_t k) {
         bodies.velocity[i] += dt * bodies.inverse_mass[i] * loads[k].force;
         bodies.angular_velocity[i] += dt * (bodies.inverse_inertia_world[i] * loads[k].moment);

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <tuple>
 
+#include "common/base/assert.hpp"
+
 namespace ice {
 
 namespace {
@@ -45,6 +47,7 @@ void find_jam(const Scene& scene, const Constraint& c, double dt, StepRecord& ou
 
 StepRecord measure_step(const Scene& scene, const std::vector<Contact>& contacts,
                         const std::vector<Constraint>& constraints, double dt) {
+    ICE_ASSERT(contacts.size() == constraints.size() && dt > 0.0);
     StepRecord out;
     for (std::size_t k = 0; k < constraints.size(); ++k) {
         const Constraint& c = constraints[k];

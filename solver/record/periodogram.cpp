@@ -6,6 +6,8 @@
 #include <numbers>
 #include <numeric>
 
+#include "common/base/assert.hpp"
+
 namespace ice {
 
 namespace {
@@ -31,6 +33,7 @@ std::size_t correlation_window(std::span<const double> x) {
                                   0.0);
     };
     const double variance = covariance(0);
+    ICE_ASSERT(variance > 0.0);
     double time = 0.5;
     for (std::size_t lag = 1; lag < x.size(); ++lag) {
         time += covariance(lag) / variance;
@@ -41,6 +44,7 @@ std::size_t correlation_window(std::span<const double> x) {
 
 std::vector<double> low_periodogram(std::span<const double> x, std::size_t count) {
     const std::size_t n = x.size();
+    ICE_ASSERT(2 * count < n);
     std::vector<double> cosine(n), sine(n);
     for (std::size_t t = 0; t < n; ++t) {
         const double angle =

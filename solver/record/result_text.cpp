@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/base/assert.hpp"
 #include "common/base/units.hpp"
 
 namespace ice {
@@ -110,6 +111,7 @@ std::string energy_line(const Summary& s) {
 }
 
 std::string ensemble_line(const Summary& s) {
+    ICE_ASSERT(s.ensemble.has_value());
     const Ensemble& e = *s.ensemble;
     const Format format = format_for(e.mean, e.ci95, s.dimension, "N");
     std::vector<std::string> means;

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "common/base/assert.hpp"
 #include "solver/record/periodogram.hpp"
 #include "solver/record/statistics.hpp"
 
@@ -57,6 +58,7 @@ void ShipStatistics::add(const FreeShip& ship, const Scene& scene, const Case& p
 }
 
 FreeTravel ShipStatistics::travel(const FreeShip& ship, const Scene& scene, const Case& p) const {
+    ICE_ASSERT(ship.answers());
     const Bodies& b = scene.bodies;
     const ShipRig& rig = ship.rig();
     const Vec3 centre = b.position[kShip] + b.rotation[kShip] * rig.body.centre_of_gravity;
@@ -67,6 +69,7 @@ FreeTravel ShipStatistics::travel(const FreeShip& ship, const Scene& scene, cons
 
 void ShipStatistics::fill(const FreeShip& ship, const Scene& scene, const Case& p,
                           Summary& summary) const {
+    ICE_ASSERT(ship.answers());
     const ShipRig& rig = ship.rig();
     std::map<std::string, double> out;
     out["mass_kg"] = rig.body.mass;

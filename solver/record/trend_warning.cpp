@@ -5,10 +5,13 @@
 
 #include <cmath>
 
+#include "common/base/assert.hpp"
+
 namespace ice {
 
 Warning warn_of_trend(const Summary& summary) {
     const ForceStatistics& r = summary.resistance;
+    ICE_ASSERT(r.mean != 0.0);
     const double share = std::abs(r.trend / r.mean);
     const double lengths = summary.travel.averaged_lengths;
     const std::string because =

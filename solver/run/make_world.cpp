@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "common/base/assert.hpp"
 #include "common/base/error.hpp"
 #include "solver/scene/breaking_loads.hpp"
 #include "solver/scene/build_scene.hpp"
@@ -77,6 +78,7 @@ std::int32_t add_floe_shape(World& world, const SphereSet& floe) {
 }
 
 std::size_t add_floe(World& world, std::int32_t shape, const FloeStart& start) {
+    ICE_ASSERT(world.steps == 0);
     Case& p = world.parameters;
     const auto& shapes = world.scene.shapes;
     if (shape < 1 || shape >= static_cast<std::int32_t>(shapes.size()))

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "common/base/assert.hpp"
 #include "common/base/error.hpp"
 #include "common/formats/field_file.hpp"
 #include "common/formats/spheres_file.hpp"
@@ -172,6 +173,7 @@ Scene make_scene(Shape hull, const Vec3& position, const Vec3& velocity) {
 std::size_t add_floe(Scene& scene, std::int32_t shape_row, double density, const FloeStart& start,
                      std::int32_t group) {
     const Shape& shape = scene.shapes[static_cast<std::size_t>(shape_row)];
+    ICE_ASSERT(std::isfinite(start.position.z()));
     const bool held = start.hold != Hold::never;
     Bodies& b = scene.bodies;
     b.shape.push_back(shape_row);

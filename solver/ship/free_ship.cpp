@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "common/base/assert.hpp"
 #include "common/formats/checkpoint_file.hpp"
 
 namespace ice {
@@ -39,6 +40,7 @@ void FreeShip::begin(const Case& p, Scene& scene) {
 }
 
 void FreeShip::place(Scene& scene, double height, const ShipAngles& angles) {
+    ICE_ASSERT(answers());
     Bodies& b = scene.bodies;
     const Vec3 before = b.rotation[kShip] * rig_->body.centre_of_gravity;
     angles_ = angles;

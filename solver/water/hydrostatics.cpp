@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "common/base/assert.hpp"
 #include "common/math/ordered_products.hpp"
 #include "solver/water/wetted_sums.hpp"
 
@@ -50,6 +51,7 @@ Submerged measure_submerged(const Shape& shape, const Mat3& rotation, double hei
 }
 
 double floating_height(const Shape& shape, const Mat3& rotation, double fraction) {
+    ICE_ASSERT(fraction > 0.0);
     const auto [low, high] = vertical_extent(shape, rotation);
     double wet = -high, dry = -low;  // heights of the origin: all below, all above the water
     const double target = fraction * shape.solid.volume;

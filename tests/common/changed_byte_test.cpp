@@ -93,10 +93,9 @@ void refuse_all(const Write& write, const Read& read) {
 }  // namespace
 
 TEST_CASE("a sphere set with a changed bit is refused or as before", "[formats][seal]") {
-    refuse_all([](const auto& path) { write_spheres(path, make_set()); },
-               [](const auto& path, const auto& again) {
-                   write_spheres(again, read_spheres(path));
-               });
+    refuse_all(
+        [](const auto& path) { write_spheres(path, make_set()); },
+        [](const auto& path, const auto& again) { write_spheres(again, read_spheres(path)); });
 }
 
 TEST_CASE("a field with a changed bit is refused or as before", "[formats][seal]") {

@@ -157,7 +157,9 @@ TEST_CASE("a set that contradicts its own mesh is refused with both values", "[f
                Catch::Contains("has shares of the volume that add up to 0.182857 of 0.16 m3"));
     CHECK_THAT(spoiled([](SphereSet& s) { s.areas[0] = 0.0; }),
                Catch::Contains("has shares of the area that add up to 1.93333 of 2.32 m2"));
-    CHECK_THAT(spoiled([](SphereSet& s) { s.centers[6] = {0.6, 0.0, 0.0}; }),
+    CHECK_THAT(spoiled([](SphereSet& s) {
+                   s.centers[6] = {0.6, 0.0, 0.0};
+               }),
                Catch::Contains("has sphere 6 at (0.6, 0, 0) m outside its mesh"));
 }
 

@@ -108,8 +108,8 @@ TEST_CASE("a trend stands where more members show one than chance explains", "[e
         });
     };
     CHECK(warnings(1, 1) == 1);
-    CHECK(warnings(3, 1) == 0);  // 1 - 0.99^3 = 3.0 %
-    CHECK(warnings(3, 2) == 2);  // 3 x 0.01^2 = 0.03 %
+    CHECK(warnings(3, 1) == 0);   // 1 - 0.99^3 = 3.0 %
+    CHECK(warnings(3, 2) == 2);   // 3 x 0.01^2 = 0.03 %
     CHECK(warnings(15, 2) == 2);  // 0.96 %
     CHECK(warnings(16, 2) == 0);  // 1.09 %
     CHECK(warnings(16, 3) == 3);

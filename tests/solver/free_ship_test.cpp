@@ -160,9 +160,9 @@ TEST_CASE("the water that a hull's panels move along slows its heave and surge",
     p.propulsion.thrust = 5000.0;
     World w = barge_world(p);
     const double water = -w.scene.bodies.position[kShip].z();
-    const Mat6 added = ship_added_mass(w.scene.shapes[0].mesh, water,
-                                       w.ship.rig().body.centre_of_gravity, 1000.0)
-                           .matrix;
+    const Mat6 added =
+        ship_added_mass(w.scene.shapes[0].mesh, water, w.ship.rig().body.centre_of_gravity, 1000.0)
+            .matrix;
     // of a half circle as broad in strips, pi / 8 rho B^2 L, and up to twice that for a box
     const double circle = kPi / 8.0 * 1000.0 * 4.0 * 10.0;
     CHECK((added(2, 2) > 0.8 * circle && added(2, 2) < 2.0 * circle));

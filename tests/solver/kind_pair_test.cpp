@@ -90,9 +90,8 @@ TEST_CASE("two spheres have the gap that their kinds give, bit for bit", "[narro
     CHECK(valid > 200);
 }
 
-TEST_CASE(
-    "no gap comes below the bound of two spheres' kinds, while the bodies keep to the leeway",
-    "[narrow][property]") {
+TEST_CASE("no gap comes below the bound of two spheres' kinds, while the bodies keep to the leeway",
+          "[narrow][property]") {
     const int form_a = GENERATE(0, 1, 2), form_b = GENERATE(0, 1, 2);
     const bool prefer_a = GENERATE(false, true);
     Dice dice(static_cast<unsigned>(100 + 10 * form_a + form_b));
