@@ -243,6 +243,7 @@ int run_spherize(Options& o, const std::string& command_line) {
         throw ice::bad_input("--spacing", "has no meaning for a lattice, whose pitch is 2 R",
                              "leave it out, or use --arrangement conforming");
 
+    // refuse before the long work whatever can be refused
     const std::string out = o.out.empty() ? ice::mesh_stem(o.mesh) + ".spheres.h5" : o.out;
     check_outputs(o, out);
     ice::SpheresReport report;
@@ -257,6 +258,8 @@ int run_spherize(Options& o, const std::string& command_line) {
     ice::certify_solid(o.mesh, std::move(surface), mesh, o.fill.radius, o.repair == "wrap", report);
     ice::SphereSet set = fill_solid(o, mesh, report);
     ice::find_cut_back(set, report);
+
+    // where the set comes from goes with it
     const std::filesystem::path source(o.mesh);
     set.source_mesh = report.source_mesh = source.filename().string();
     set.source_sha256 = ice::file_sha256(source);

@@ -35,6 +35,28 @@ void declare_new(CLI::App& app, Options& o) {
             ->needs(fresh);
 }
 
+// What a run says and what it lets pass.
+void declare_messages(CLI::App& app, Options& o) {
+    app.add_flag("--allow-overlap", o.allow_overlap,
+                 "Run a case whose bodies overlap at the start, with a warning");
+    app.add_flag("--verify", o.verify,
+                 "Stop at a step that loses momentum; the worst imbalance goes into the summary");
+    app.add_option("--explain", o.explain, "Tell what a case key takes")->type_name("KEY");
+    app.add_flag("--print-schema", o.schema, "JSON schema of the case file");
+    app.add_flag("--print-defaults", o.defaults, "A complete case with all defaults");
+    app.add_flag("--no-report", o.no_report,
+                 "Do not write report.html at the end; icepost report writes it later");
+    app.add_flag("--json", o.json, "Print the summary as JSON on stdout")
+        ->excludes(app.get_option("--hash-every"));
+    app.add_flag("-q,--quiet", o.messages.quiet, "No progress, no messages but errors");
+    app.add_option("--color", o.messages.colour, "Colour of messages")
+        ->check(CLI::IsMember({"auto", "always", "never"}));
+    app.footer(
+        "Exit codes: 0 ok; 1 the run failed; 2 bad command line or case; 130 interrupted,\n"
+        "checkpoint written. Ctrl-C (SIGINT) and SIGTERM finish the step first; a second "
+        "one ends at once.");
+}
+
 }  // namespace
 
 void declare_options(CLI::App& app, Options& o) {
@@ -85,23 +107,7 @@ void declare_options(CLI::App& app, Options& o) {
         ->type_name("FILE")
         ->needs(check);
     declare_new(app, o);
-    app.add_flag("--allow-overlap", o.allow_overlap,
-                 "Run a case whose bodies overlap at the start, with a warning");
-    app.add_flag("--verify", o.verify,
-                 "Stop at a step that loses momentum; the worst imbalance goes into the summary");
-    app.add_option("--explain", o.explain, "Tell what a case key takes")->type_name("KEY");
-    app.add_flag("--print-schema", o.schema, "JSON schema of the case file");
-    app.add_flag("--print-defaults", o.defaults, "A complete case with all defaults");
-    app.add_flag("--no-report", o.no_report,
-                 "Do not write report.html at the end; icepost report writes it later");
-    app.add_flag("--json", o.json, "Print the summary as JSON on stdout")->excludes(hashes);
-    app.add_flag("-q,--quiet", o.messages.quiet, "No progress, no messages but errors");
-    app.add_option("--color", o.messages.colour, "Colour of messages")
-        ->check(CLI::IsMember({"auto", "always", "never"}));
-    app.footer(
-        "Exit codes: 0 ok; 1 the run failed; 2 bad command line or case; 130 interrupted,\n"
-        "checkpoint written. Ctrl-C (SIGINT) and SIGTERM finish the step first; a second "
-        "one ends at once.");
+    declare_messages(app, o);
 }
 
 }  // namespace ice

@@ -32,9 +32,9 @@ int main() {
     parameters.time_step = 0.01;
     parameters.speed_table = {{0.0, 0.5}};  // [s], [m/s]
     ice::World world = ice::make_world(parameters, hull);
-    const auto form = ice::add_floe_shape(world, floe);
-    const auto first = ice::add_floe(world, form, {.position = {3.2, 0.0, -0.12}});
-    ice::add_floe(world, form, {.position = {4.4, 0.1, -0.12}});
+    const auto shape = ice::add_floe_shape(world, floe);
+    const auto first = ice::add_floe(world, shape, {.position = {3.2, 0.0, -0.12}});
+    ice::add_floe(world, shape, {.position = {4.4, 0.1, -0.12}});
 
     while (world.time < 4.0) {
         ice::step(world);

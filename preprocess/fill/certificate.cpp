@@ -94,6 +94,7 @@ std::vector<ThinFeature> group(const std::vector<Vec3>& points, double distance)
     std::map<std::array<std::int64_t, 3>, std::size_t> known;
     std::vector<Clump> clumps;
     std::vector<Vec3> first_points;
+    // samples that share a cube are one clump
     const double cube = 0.25 * distance;
     for (const Vec3& p : points) {
         std::array<std::int64_t, 3> at;
@@ -108,6 +109,7 @@ std::vector<ThinFeature> group(const std::vector<Vec3>& points, double distance)
     }
     std::vector<ThinFeature> out;
     if (clumps.empty()) return out;
+    // clumps within the distance of each other join: a flood fill from each one not taken yet
     const PointCells cells(first_points, distance);
     const double reach = distance + 2.0 * std::sqrt(3.0) * cube;
     std::vector<std::size_t> front;

@@ -85,6 +85,7 @@ TriangleMesh main_parts(const TriangleMesh& mesh, std::int64_t& left_out) {
     for (std::size_t p = 0; p < parts.size(); ++p)
         if (!parts[p].box.isEmpty()) present.push_back(p);
     if (present.size() < 2) return mesh;
+    // a box around much smaller parts is the domain of a flow computation, no part of the ship
     const auto is_around = [&](std::size_t p) {
         return parts[p].on_box && std::any_of(present.begin(), present.end(), [&](std::size_t q) {
                    return q != p && !parts[q].flat() && parts[p].box.contains(parts[q].box) &&
@@ -98,6 +99,7 @@ TriangleMesh main_parts(const TriangleMesh& mesh, std::int64_t& left_out) {
     const std::size_t largest = *std::max_element(
         solid.begin(), solid.end(),
         [&](std::size_t l, std::size_t r) { return parts[l].area < parts[r].area; });
+    // solid parts stay within a length of the largest one, flat ones within the box of those
     const double length = parts[largest].box.sizes().maxCoeff();
     std::vector<std::uint8_t> keep(parts.size(), 0);
     Eigen::AlignedBox3d about;

@@ -129,7 +129,7 @@ std::vector<CaseKey> floe_keys() {
     };
 }
 
-std::vector<CaseKey> model_keys() {
+std::vector<CaseKey> contact_keys() {
     return {
         {"contact.restitution", Kind::number, D::share, "0.3", 0, 1, 0, "",
          "Normal speed after an impact over the speed before it.",
@@ -154,6 +154,11 @@ std::vector<CaseKey> model_keys() {
         {"contact.tolerance", Kind::number, D::speed, "1e-4", 0, 10, 0, "",
          "The solver stops when no contact's velocity changes by more than this in an iteration.",
          [](Case& c, G&, const Value& v) { c.contact.tolerance = number(v); }},
+    };
+}
+
+std::vector<CaseKey> water_keys() {
+    return {
         {"buoyancy.model", Kind::choice, D::none, "\"distributed\"", 0, 0, 0, kBuoyancies,
          "Buoyancy at the centre of gravity (the paper), or with its moment, or none.",
          [](Case& c, G&, const Value& v) { c.buoyancy = choice<BuoyancyModel>(v, kBuoyancies); }},
@@ -175,6 +180,11 @@ std::vector<CaseKey> model_keys() {
         {"flow.pressure", Kind::boolean, D::none, "false", 0, 0, 0, "",
          "The dynamic pressure of the flow around the hull acts on the floes, beside its drag.",
          [](Case& c, G&, const Value& v) { c.flow_pressure = integer(v) != 0; }},
+    };
+}
+
+std::vector<CaseKey> output_keys() {
+    return {
         {"output.frames_every", Kind::number, D::time, "0.1", kTiny, 1e6, 0, "",
          "Time between stored poses.",
          [](Case& c, G&, const Value& v) { c.frames_every = number(v); }},
@@ -268,8 +278,8 @@ std::vector<CaseKey> level_ice_keys() {
 const std::vector<CaseKey>& case_keys() {
     static const std::vector<CaseKey> keys = [] {
         std::vector<CaseKey> all = run_keys();
-        for (const auto& part :
-             {ship_keys(), floe_keys(), level_ice_keys(), bending_keys(), model_keys()})
+        for (const auto& part : {ship_keys(), floe_keys(), level_ice_keys(), bending_keys(),
+                                 contact_keys(), water_keys(), output_keys()})
             all.insert(all.end(), part.begin(), part.end());
         return all;
     }();

@@ -165,6 +165,7 @@ void ContactRows::fill_block(const Bodies& bodies, const std::vector<Constraint>
         const std::size_t a = body(pair.a), b = body(pair.b);
         block.a[lane] = pair.a;
         block.b[lane] = pair.b;
+        // of a ship that answers each pair has a lighter copy
         const bool copy = a == kShip && !copies_.empty();
         const Mat3& inertia_a = copy ? copy_inverse_inertia_ : bodies.inverse_inertia_world[a];
         block.inverse_mass_a.v[lane] = copy ? copy_inverse_mass_ : bodies.inverse_mass[a];
@@ -181,6 +182,7 @@ void ContactRows::fill_block(const Bodies& bodies, const std::vector<Constraint>
             put(row.arm_a, lane, c.arm_a);
             put(row.arm_b, lane, c.arm_b);
             row.friction.v[lane] = c.friction;
+            // where end_stage() finds the impulse of constraint which_[n]
             slot_[n] =
                 static_cast<std::int32_t>(kLanes) * (block.first_row + k) + static_cast<int>(lane);
         }

@@ -50,6 +50,7 @@ void Overlaps::correct_positions(const Scene& scene, const std::vector<Constrain
         out.shift[i].setZero();
         out.turn[i].setZero();
     }
+    // which overlaps, as the final velocities leave them, open by how much
     pushes_.clear();
     for (std::size_t k = 0; k < constraints.size(); ++k) {
         const Constraint& c = constraints[k];
@@ -67,6 +68,7 @@ void Overlaps::correct_positions(const Scene& scene, const std::vector<Constrain
                            ordered_product(of_b, c.arm_b.cross(c.normal)),
                            1.0 / ordered_dot(c.normal, ordered_product(response, c.normal))});
     }
+    // Gauss-Seidel on the moves: n . (d_b - d_a) >= target with a push that never pulls
     for (int iteration = 0; iteration < kSeparationIterations; ++iteration)
         for (Push& push : pushes_) {
             const Constraint& c = constraints[push.constraint];

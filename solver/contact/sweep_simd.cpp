@@ -129,6 +129,7 @@ HWY_INLINE void Streams<N>::Solve(Changes& most) {
     const auto values = [&](LaneValues ContactRow::*part) HWY_ATTR {
         return Read([=](const ContactRow& row) -> const LaneValues& { return row.*part; });
     };
+    // normal impulse: what brings v_r . n to its target, between 0 and its bound
     const WideVectors<N> n = vectors(&ContactRow::normal);
     const WideVectors<N> arm_a = vectors(&ContactRow::arm_a), arm_b = vectors(&ContactRow::arm_b);
     const WideVectors<N> v = b.At(arm_b) - a.At(arm_a);
@@ -141,6 +142,7 @@ HWY_INLINE void Streams<N>::Solve(Changes& most) {
     const Wide<N> change = next - normal;
     Write(next, normal_of);
 
+    // friction against the sliding that is left, cut back to the cone
     const WideVectors<N> after = v + change * vectors(&ContactRow::response);
     const WideVectors<N> sliding = after - Dot(n, after) * n;
     const WideVectors<N> before = ReadVectors(
@@ -159,6 +161,7 @@ HWY_INLINE void Streams<N>::Solve(Changes& most) {
     Write(tangent.y, [](ContactRow& row) -> LaneValues& { return row.impulse.tangent[1]; });
     Write(tangent.z, [](ContactRow& row) -> LaneValues& { return row.impulse.tangent[2]; });
 
+    // both bodies take the change; the largest change of a velocity decides when sweeps end
     const WideVectors<N> j = change * n + turned;
     Wide<N> minus;
     for (std::size_t s = 0; s < N; ++s) minus.of[s] = hn::Set(d, -1.0);

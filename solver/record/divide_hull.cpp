@@ -93,6 +93,7 @@ HullPanels divide_hull(const Shape& hull, double size, double waterline) {
     const bool flat = hull.dimension == 2;
     const double whole = flat ? size : size * size;
     const Grid grid{size, waterline, hull.box.max().x(), hull.dimension};
+    // spheres of one cell of the grid, facing one way, are one panel
     std::map<Key, std::size_t> rows;
     std::vector<Sum> sums;
     std::vector<std::size_t> row_of;
@@ -108,6 +109,7 @@ HullPanels divide_hull(const Shape& hull, double size, double waterline) {
         sums[place->second].add({area, across * area, area * hull.center[k], area * n, region});
         row_of.push_back(place->second);
     }
+    // panels too small for a load of their own join a neighbour
     const std::vector<std::size_t> taker = join_small(sums, kSmall * whole, kNeighbours * size);
     for (std::size_t k = 0; k < sums.size(); ++k)
         if (taker[k] != k) sums[taker[k]].add(sums[k]);

@@ -220,6 +220,7 @@ void Recorder::add_history(const StepView& view, const StepRecord& record) {
 
 void Recorder::flush_history(const StepView& view) {
     if (row_steps_ == 0) return;
+    // sums over the row's steps become means; impulses on regions become forces
     const double share = 1.0 / row_steps_;
     row_.time = view.time;
     row_.contact_force *= share;
@@ -238,6 +239,7 @@ void Recorder::flush_history(const StepView& view) {
     std::fill(row_regions_.begin(), row_regions_.end(), RegionForce{});
     csv_files_[0].add(csv_row(row_, parameters_.has_bending(), parameters_.ship.any_free()));
 
+    // tracked floes: forces as means, poses at the end of the row
     std::vector<TrackRow> tracks(tracked_sum_.size());
     const Bodies& b = view.scene.bodies;
     for (std::size_t k = 0; k < tracks.size(); ++k) {
