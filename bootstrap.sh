@@ -27,6 +27,7 @@ usage: ./bootstrap.sh COMMAND
          speeds: resistance curve and report
   python build, then what `import icesolve` needs, and its tutorial: a resistance curve from Python
   test   build with the tests, then the whole test suite (CI=true: compiler warnings are errors)
+  sanitize  the tests of solver and file formats with the address and undefined-behaviour sanitizers
 END
 }
 
@@ -82,9 +83,10 @@ build_programs() {
     cmake --build --preset "$(preset)" --parallel "$(job_count)" --target "${@:-all}"
 }
 
+# $1: preset, $2: its build folder, then further options of ctest
 run_tests() {
-    local log=build/release/ctest.log status=0
-    ctest --preset "$(preset)" --parallel "$(nproc)" --no-tests=error 2>&1 | tee "$log" || status=$?
+    local log=$2/ctest.log status=0
+    ctest --preset "$1" --parallel "$(nproc)" --no-tests=error "${@:3}" 2>&1 | tee "$log" || status=$?
 
     # "98% tests passed, 2 tests failed out of 120": count what ran, from ctest's own words
     local total failed skipped
@@ -125,7 +127,14 @@ case $1 in
         if command -v npm >/dev/null; then node=(); else node=(nodejs npm); fi
         install_packages "${packages[@]}" "${test_packages[@]}" "${python_packages[@]}" "${node[@]}"
         build_programs ON ON
-        run_tests
+        run_tests "$(preset)" build/release
+        ;;
+    sanitize)
+        # preconditions are alive here, too; one set of precompiled headers halves the compile time
+        install_packages "${packages[@]}" "${test_packages[@]}"
+        cmake --preset asan-ubsan -DICE_TESTS=ON -DICE_PRECOMPILED_HEADERS=ON
+        cmake --build --preset asan-ubsan --parallel "$(job_count)" --target solver_tests common_tests
+        run_tests asan-ubsan build/asan-ubsan -R '^(solver|common)_tests: '
         ;;
     -h | --help | help) usage ;;
     *) usage >&2; exit 2 ;;
