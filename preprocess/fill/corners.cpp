@@ -3,17 +3,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "common/base/assert.hpp"
 #include "common/base/parallel.hpp"
-#include "preprocess/fill/point_cells.hpp"
 #include "preprocess/fill/point_grid.hpp"
 
 namespace ice {
 
 namespace {
 
-constexpr double kReach = 1.01;  // spacings: an edge has a sphere in every one of them
+constexpr double kEdgeReach = 1.01;  // spacings: an edge has a sphere in every one of them
 
 // How far a settled sphere may go along a unit vector until it touches one more face [m]; `most`
 // where there is none before.
@@ -32,21 +32,39 @@ double way_to_next(const SurfaceTree& tree, const Vec3& center, const Vec3& alon
 
 constexpr double kSameNormal = 0.9999;  // cosine: touches 0.01 rad apart are one
 
-// Has the set a sphere in this corner that knows its faces?
-bool is_known(const SphereSet& set, const PointCells& cells, const Seat& corner) {
-    bool known = false;
-    cells.visit(corner.center, kSameCorner * set.spacing, [&](std::int32_t k, double) {
-        const auto low = std::lower_bound(
-            set.creases.begin(), set.creases.end(), k,
-            [](const CreaseNormal& crease, std::int32_t sphere) { return crease.sphere < sphere; });
-        known = known || std::all_of(corner.touch.begin(), corner.touch.end(), [&](const Vec3& n) {
-                    for (auto c = low; c != set.creases.end() && c->sphere == k; ++c)
-                        if (c->normal.dot(n) > kSameNormal) return true;
-                    return false;
+// The spheres that touch several faces: few of a ship's, and the only ones that can know a corner.
+class CreasedSpheres {
+public:
+    explicit CreasedSpheres(const SphereSet& set) : set_(set), grid_(set.spacing) {
+        const auto& creases = set.creases;
+        for (std::size_t k = 0; k < creases.size(); ++k) {
+            if (k > 0 && creases[k].sphere == creases[k - 1].sphere) continue;
+            first_.push_back(k);
+            grid_.add(set.centers[static_cast<std::size_t>(creases[k].sphere)]);
+        }
+        first_.push_back(creases.size());
+    }
+
+    // Is one of them in this corner and knows its faces?
+    bool know(const Seat& corner) const {
+        return grid_.any_within(
+            corner.center, kSameCorner * set_.spacing, [&](std::int32_t sphere) {
+                const auto at = static_cast<std::size_t>(sphere);
+                const auto normals =
+                    std::span(set_.creases).subspan(first_[at], first_[at + 1] - first_[at]);
+                return std::all_of(corner.touch.begin(), corner.touch.end(), [&](const Vec3& n) {
+                    return std::any_of(normals.begin(), normals.end(), [&](const auto& crease) {
+                        return crease.normal.dot(n) > kSameNormal;
+                    });
                 });
-    });
-    return known;
-}
+            });
+    }
+
+private:
+    const SphereSet& set_;
+    PointGrid grid_;
+    std::vector<std::size_t> first_;  // of each one's normals in set.creases, and the end
+};
 
 }  // namespace
 
@@ -102,11 +120,11 @@ CornerCount count_corners(const SurfaceTree& tree, const SphereSet& set, bool ha
         if (is_corner(seat))
             found[k].push_back(seat);
         else
-            find_corners_beside(tree, set.radius, seat, kReach * set.spacing, found[k]);
+            find_corners_beside(tree, set.radius, seat, kEdgeReach * set.spacing, found[k]);
     });
     CornerCount out;
     if (set.surface_count == 0) return out;
-    const PointCells cells(std::span(set.centers).first(set.surface_count), set.spacing);
+    const CreasedSpheres creased(set);
     PointGrid counted(set.spacing);
     std::vector<Seat> all;
     for (const auto& corners : found)
@@ -120,7 +138,7 @@ CornerCount count_corners(const SurfaceTree& tree, const SphereSet& set, bool ha
             all.push_back(corner);
             const bool has_image = half && corner.center.y() > kSameCorner * set.spacing;
             out.all += has_image ? 2 : 1;
-            if (is_known(set, cells, corner)) continue;
+            if (creased.know(corner)) continue;
             const Vec3& c = corner.center;
             out.blind.push_back(c);
             if (has_image) out.blind.emplace_back(c.x(), -c.y(), c.z());
