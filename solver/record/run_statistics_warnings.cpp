@@ -36,6 +36,17 @@ std::string name_of(std::int32_t body) {
 // A share that was not measured counts as unknown, and is worth a warning.
 bool matters(std::optional<double> share) { return !share || *share > kMatters; }
 
+// Moves that open overlaps put energy in, which the ship did not have to deliver: as a share of its
+// work. The report has the deepest overlap in any case.
+std::optional<double> share_of_separation(const Summary& summary) {
+    const auto energy = [&](const char* key) {
+        const auto found = summary.energy.find(key);
+        return found == summary.energy.end() ? 0.0 : found->second;
+    };
+    const double work = std::abs(energy("ship_work_J"));
+    return work > 0.0 ? std::optional(std::abs(energy("separation_J")) / work) : std::nullopt;
+}
+
 // Averages over less than a length, of which the mean's interval says how well it is known. The
 // text is the same for all members of an ensemble.
 Warning warn_of_short_averages(const Summary& summary) {
@@ -86,7 +97,8 @@ void RunStatistics::warn(Summary& summary) const {
                 "the mean's interval may be too narrow: run several seeds (icesolve --seeds)",
                 100.0 * peaks),
             peaks));
-    if (max_overlap_ > options_.worrying_overlap) warnings.push_back(warn_of_overlap(summary));
+    if (max_overlap_ > options_.worrying_overlap && matters(share_of_separation(summary)))
+        warnings.push_back(warn_of_overlap(summary));
     if (unseen_overlap_ > options_.worrying_overlap) warnings.push_back(warn_of_unseen());
     if (closing_speed_ > options_.tunnelling_speed) warnings.push_back(warn_of_tunnelling(summary));
     warn_of_averages(summary);
@@ -111,21 +123,13 @@ Warning RunStatistics::warn_of_jam(const Summary& summary) const {
         change_without(jam_, summary.resistance.mean));
 }
 
-// Moves that open overlaps put energy in, which the ship did not have to deliver.
 Warning RunStatistics::warn_of_overlap(const Summary& summary) const {
-    const auto energy = [&](const char* key) {
-        const auto found = summary.energy.find(key);
-        return found == summary.energy.end() ? 0.0 : found->second;
-    };
-    const double work = std::abs(energy("ship_work_J"));
-    const std::optional<double> share =
-        work > 0.0 ? std::optional(std::abs(energy("separation_J")) / work) : std::nullopt;
     return judged(
         fmt::format("overlap reached {:.1f} mm at t = {:.2f} s: bodies were pushed into each "
                     "other, so pictures and single loads are wrong there; use finer ice spheres, "
                     "lower simulation.time_step or raise contact.iterations",
                     1e3 * max_overlap_, deepest_time_),
-        share);
+        share_of_separation(summary));
 }
 
 // What force they miss is not known: nothing measured it.

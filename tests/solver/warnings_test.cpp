@@ -27,8 +27,8 @@ StepRecord step_of(double force) {
 
 // 100 steps before the averaged time and 1000 in it, forces 90 and 110 N in turn
 template <class Change>
-Summary summary_of(RunStatistics tally, const Change& change,
-                   const TravelParticulars& travel = {}) {
+Summary summary_of(RunStatistics tally, const Change& change, const TravelParticulars& travel = {},
+                   double separation_work = -6.0) {
     for (int k = 0; k < 1100; ++k) {
         StepRecord r = step_of(k % 2 == 0 ? 90.0 : 110.0);
         const std::optional<double> residual = change(k - 100, r);
@@ -37,7 +37,7 @@ Summary summary_of(RunStatistics tally, const Change& change,
     Summary s;
     s.travel = travel;
     s.energy["ship_work_J"] = 1000.0;
-    s.energy["separation_J"] = -6.0;
+    s.energy["separation_J"] = separation_work;
     tally.fill(s);
     return s;
 }
@@ -96,16 +96,25 @@ TEST_CASE("a jam's share of the mean is what the mean loses without its steps",
     CHECK(jammed(50000.0, -50).warnings.empty());  // before the averaged time
 }
 
-TEST_CASE("a deep overlap is said with the share of work that opening overlaps put in",
+TEST_CASE("a deep overlap is warned of where opening overlaps put in much of the ship's work",
           "[record][analytic]") {
-    const Summary s = summary_of(RunStatistics(options()), [](int k, StepRecord& r) {
-        r.max_overlap = k == 300 ? 0.06 : 0.04;
-        return kNothing;
-    });
-    REQUIRE(s.warnings.size() == 1);
-    CHECK_THAT(s.warnings[0].text, Catch::Contains("overlap reached 60.0 mm at t = 4.01 s"));
-    CHECK(s.warnings[0].affects_mean == false);
-    CHECK(s.warnings[0].share.value() == Approx(0.006));
+    const auto put_in = [](double work) {  // of the ship's 1000 J
+        return summary_of(
+            RunStatistics(options()),
+            [](int k, StepRecord& r) {
+                r.max_overlap = k == 300 ? 0.06 : 0.04;
+                return kNothing;
+            },
+            {}, -work);
+    };
+    const Summary much = put_in(50.0);
+    REQUIRE(much.warnings.size() == 1);
+    CHECK_THAT(much.warnings[0].text, Catch::Contains("overlap reached 60.0 mm at t = 4.01 s"));
+    CHECK(much.warnings[0].affects_mean == true);
+    CHECK(much.warnings[0].share.value() == Approx(0.05));
+    const Summary little = put_in(6.0);
+    CHECK(little.warnings.empty());
+    CHECK(little.max_overlap == 0.06);  // the report's figure
 }
 
 TEST_CASE("a mean that few hits decide is warned of, with their share", "[record][analytic]") {
