@@ -8,6 +8,7 @@
 #include "common/geometry/surface_tree.hpp"
 #include "preprocess/measure/row_crossings.hpp"
 #include "preprocess/repair/contour_grid.hpp"
+#include "preprocess/repair/sharpen_contour.hpp"
 
 namespace ice {
 
@@ -158,7 +159,9 @@ WindingSolid winding_solid(const TriangleMesh& mesh, SolidKind kind, double fine
         }
         return left / length;
     });
-    if (!out.mesh.triangles.empty()) copy_regions(mesh, out.mesh);
+    if (out.mesh.triangles.empty()) return out;
+    sharpen_contour(out.mesh, tree, grid.step);
+    copy_regions(mesh, out.mesh);
     return out;
 }
 

@@ -20,7 +20,8 @@ struct WindingSolid {
 /// narrower than a cell are filled. The winding number is that of rows through the nodes of a grid,
 /// about 200 cells along the longest side and two million nodes in all, or with cells of `finest`
 /// [m] and up to eight million; between nodes the surface is found by steps of its own distance
-/// from outside, so that smooth parts keep their place. Edges sharper than a cell are rounded off.
+/// from outside, so that smooth parts keep their place, and creases are put back (sharpen_contour).
+/// Parts thinner than a cell are lost.
 /// @pre the surface has no boundary as a chain; parts face outwards. Cost: about a second.
 WindingSolid winding_solid(const TriangleMesh& mesh, SolidKind kind, double finest = 0.0);
 
