@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <limits>
 #include <map>
 
 #include "common/geometry/edge_table.hpp"
@@ -13,8 +14,10 @@ namespace ice {
 
 namespace {
 
-constexpr double kTolerances[] = {3e-4, 1e-3};  // of the diagonal
-constexpr double kOfEdge = 1.0 / 3.0;           // of an open edge: a crack beside it is not wider
+constexpr double kStitchTolerances[] = {3e-4, 1e-3};  // of the diagonal
+constexpr double kOfEdge = 1.0 / 3.0;  // of an open edge: a crack beside it is not wider
+constexpr double kBeside = 0.9;        // of an open edge: nearer, another border runs beside it
+constexpr int kRounds = 4;
 
 using Triple = std::array<std::int32_t, 3>;
 
@@ -28,14 +31,14 @@ struct Borders {
     std::vector<double> reach;  // per vertex of the mesh: how wide a crack may be there; 0: none
 };
 
-Borders find_borders(const TriangleMesh& mesh, double tolerance) {
+Borders find_borders(const TriangleMesh& mesh, double tolerance, double of_edge = kOfEdge) {
     Borders out;
     out.reach.assign(mesh.vertices.size(), 0.0);
     for (const MeshEdge& edge : edge_table(mesh)) {
         if (edge.count != 1) continue;
         out.edges.push_back(edge);
         const double most =
-            std::min(tolerance, kOfEdge * (at(mesh, edge.b) - at(mesh, edge.a)).norm());
+            std::min(tolerance, of_edge * (at(mesh, edge.b) - at(mesh, edge.a)).norm());
         for (const std::int32_t v : {edge.a, edge.b}) {
             double& reach = out.reach[static_cast<std::size_t>(v)];
             if (reach == 0.0) out.vertices.push_back(v);
@@ -120,17 +123,44 @@ StitchCounts stitch_borders(TriangleMesh& mesh) {
     StitchCounts counts;
     Eigen::AlignedBox3d box;
     for (const Vec3& v : mesh.vertices) box.extend(v);
-    for (const double of_diagonal : kTolerances) {
+    for (const double of_diagonal : kStitchTolerances) {
         const double tolerance = of_diagonal * box.diagonal().norm();
         const auto merge_ends = [&] {
             WeldCounts dropped;
             counts.merged += merge_near(mesh, find_borders(mesh, tolerance).reach, dropped);
         };
         merge_ends();
-        if (!split_edges(mesh, tolerance, counts)) continue;
-        merge_ends();  // drops pieces that repeat or collapse
+        // a crack of short steps closes from its ends
+        for (int round = 0; round < kRounds && split_edges(mesh, tolerance, counts); ++round)
+            merge_ends();  // drops pieces that repeat or collapse
     }
     return counts;
+}
+
+WideCracks find_wide_cracks(const TriangleMesh& mesh) {
+    const double longest = std::numeric_limits<double>::infinity();
+    const Borders borders = find_borders(mesh, longest, kBeside);
+    std::vector<Vec3> points;
+    for (const std::int32_t v : borders.vertices) points.push_back(at(mesh, v));
+    std::vector<std::pair<Vec3, Vec3>> segments;
+    std::vector<double> reach;
+    for (const MeshEdge& edge : borders.edges) {
+        segments.emplace_back(at(mesh, edge.a), at(mesh, edge.b));
+        reach.push_back(kBeside * (segments.back().second - segments.back().first).norm());
+    }
+    WideCracks out;
+    out.vertices = static_cast<std::int64_t>(points.size());
+    std::size_t last = points.size();
+    for (const NearEdge& near : find_near_edges(points, segments, reach)) {
+        const MeshEdge& edge = borders.edges[near.edge];
+        const std::int32_t v = borders.vertices[near.point];
+        if (near.point == last || v == edge.a || v == edge.b) continue;
+        if (near.distance > borders.reach[static_cast<std::size_t>(v)]) continue;
+        last = near.point;
+        ++out.beside_another;
+        out.widest = std::max(out.widest, near.distance);
+    }
+    return out;
 }
 
 }  // namespace ice

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "preprocess/clean/stitch_borders.hpp"
+
 namespace ice {
 
 namespace {
@@ -12,6 +14,7 @@ namespace {
 constexpr double kWorthWarning = 0.002;       // of the surface: one cap
 constexpr double kDoubtWorthWarning = 0.005;  // of the volume: all caps together
 constexpr std::size_t kMostNamed = 5;         // openings
+constexpr double kCracked = 0.25;             // of the open edges' vertices: of a hole it is none
 
 }  // namespace
 
@@ -56,6 +59,17 @@ std::string fault_of(const CapVerdict& cap, const ClosedSurface& closed) {
     return fmt::format(
         "an opening of {:.3g} m2 ({:.3g} % of the surface) at {} is too large to guess", cap.area,
         100.0 * cap.area / closed.surface, place(cap.at));
+}
+
+std::string fault_of_cracks(const TriangleMesh& open) {
+    const WideCracks cracks = find_wide_cracks(open);
+    const auto all = static_cast<double>(cracks.vertices);
+    if (static_cast<double>(cracks.beside_another) <= kCracked * all) return "";
+    return fmt::format(
+        "of the {} vertices on those left, {} lie beside another open edge, up to {:.2g} m away: "
+        "cracks between patches that were tessellated one by one, too wide to be stitched (a "
+        "thousandth of the diagonal, a third of the edges beside them)",
+        cracks.vertices, cracks.beside_another, cracks.widest);
 }
 
 }  // namespace ice

@@ -19,4 +19,7 @@ std::vector<std::string> cap_warnings(const ClosedSurface& closed);
 /// Why a cap that is a guess is refused: what all openings leave in doubt together, or its size.
 std::string fault_of(const CapVerdict& cap, const ClosedSurface& closed);
 
+/// That many openings are cracks between patches which stitch_borders() left; "" where not.
+std::string fault_of_cracks(const TriangleMesh& open);
+
 }  // namespace ice

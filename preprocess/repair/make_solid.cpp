@@ -149,6 +149,10 @@ private:
             fmt::format("{} open edges; {}", open_edges_, fault_of(cap, closed));
         if (!options_.suspect.empty())
             return refusal(fault + ", and " + options_.suspect, "export or copy the file again");
+        if (const std::string cracks = fault_of_cracks(closed.open); !cracks.empty())
+            return refusal(fmt::format("{} open edges; {}", open_edges_, cracks),
+                           "sew the patches in the program that made them, or export it with finer "
+                           "edges; or try --repair wrap");
         return refusal(fault,
                        "close it in the program that made it; if it is the open deck, give --up; "
                        "--repair wrap closes it whatever it is");

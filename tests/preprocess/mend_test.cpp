@@ -115,6 +115,23 @@ TEST_CASE("patches that were tessellated one by one are stitched, and stay where
     CHECK(added.size() < 100);
 }
 
+TEST_CASE(
+    "patches with cracks as wide as their chords' heights become one surface, or are refused "
+    "as cracks",
+    "[repair][mend]") {
+    const double volume = measure_mass(test::container_ship(test::Stern::clean)).volume;
+    for (const double crack : {3e-4, 5e-4}) {
+        const Mended mended = mend(test::patchwise_ship(crack));
+        INFO(crack << ": " << mended.said());
+        CHECK(mended.volume == Approx(volume).epsilon(2e-3));
+    }
+    for (const double crack : {7e-4, 2e-3})
+        CHECK_THROWS_WITH(mend(test::patchwise_ship(crack)),
+                          Catch::Contains("lie beside another open edge") &&
+                              Catch::Contains("cracks between patches") &&
+                              Catch::Contains("--repair wrap"));
+}
+
 TEST_CASE("triangles one by one with gaps of 1e-4 L become one surface", "[repair][mend]") {
     TriangleMesh ship = test::container_ship(test::Stern::clean, 60, 20);
     const double volume = measure_mass(ship).volume;
