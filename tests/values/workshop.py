@@ -56,7 +56,7 @@ class Workshop:
         cmake = (self.source / "CMakeLists.txt").read_text(encoding="utf-8")
         version = re.search(r"project\(icesolve VERSION ([\d.]+)", cmake).group(1)
         values.equal(form, "version", report["version"], version)
-        commit = re.fullmatch(r"unknown|[0-9a-f]{12}(-dirty)?", report["git_commit"])
+        commit = re.fullmatch(r"unknown|[0-9a-f]{12,40}(-dirty)?", report["git_commit"])
         values.equal(form, "git_commit", commit is not None, True)
         compiler = re.fullmatch(r"(GNU|Clang) [\d.]+", report["compiler"])
         values.equal(form, "compiler", compiler is not None, True)
