@@ -16,7 +16,7 @@ namespace ice {
 
 namespace {
 
-constexpr const char* kFormat = "icesolve-checkpoint";
+constexpr const char* kCheckpointFormat = "icesolve-checkpoint";
 constexpr std::int64_t kFormatVersion = 1;
 constexpr const char* kStartAnew = "restart from another checkpoint, or run the case anew";
 
@@ -81,7 +81,7 @@ void CheckpointFile::Parts::create() {
     created_by = fmt::format("icesolve {} ({})", version(), git_commit());
     part = std::make_unique<PartFile>(path);
     file = std::make_unique<Hdf5File>(part->path(), Hdf5File::Mode::create);
-    file->write_attribute("/", "format", std::string(kFormat));
+    file->write_attribute("/", "format", std::string(kCheckpointFormat));
     file->write_attribute("/", "format_version", kFormatVersion);
     file->write_attribute("/", "created_by", created_by);
 }
@@ -89,7 +89,8 @@ void CheckpointFile::Parts::create() {
 void CheckpointFile::Parts::open() {
     check_seal(path);
     file = std::make_unique<Hdf5File>(path, Hdf5File::Mode::read);
-    if (!file->has_attribute("/", "format") || file->read_text_attribute("/", "format") != kFormat)
+    if (!file->has_attribute("/", "format") ||
+        file->read_text_attribute("/", "format") != kCheckpointFormat)
         throw bad_input(path.string(), "is not a checkpoint of icesolve", kStartAnew);
     created_by = file->read_text_attribute("/", "created_by");
     const double format_version = file->read_number_attribute("/", "format_version")[0];

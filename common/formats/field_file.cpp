@@ -49,7 +49,7 @@ void write_rows_of(Hdf5File& file, const std::string& name, const std::vector<T>
     file.write(name, flat.data(), {flat.size() / width, width});
 }
 
-void write_arrays(Hdf5File& file, const FieldArrays& all) {
+void write_field_arrays(Hdf5File& file, const FieldArrays& all) {
     for (const char* group : {"/shape", "/sphere", "/surface", "/crease", "/mesh"})
         file.create_group(group);
     file.write("/shape/spheres", all.spheres);
@@ -109,7 +109,7 @@ void write_field(const std::filesystem::path& path, const Field& field) {
         file.write_attribute("/", "created_by", field.created_by);
         file.write_attribute("/", "command_line", field.command_line);
         write_floes(file, field.floes);
-        write_arrays(file, all);
+        write_field_arrays(file, all);
     });
 }
 

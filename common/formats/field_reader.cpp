@@ -18,14 +18,14 @@ namespace {
 constexpr const char* kRegion = "ice";
 
 // All that is read over what is stored: 3 where most spheres are inside, without rows of their own
-constexpr std::uint64_t kMostTimes = 16;
+constexpr std::uint64_t kMostTimesField = 16;
 
 // Reads one file, with every complaint naming the file and the dataset.
-class Reader {
+class FieldReader {
 public:
-    explicit Reader(const std::filesystem::path& path)
+    explicit FieldReader(const std::filesystem::path& path)
         : path_(path), file_(path, Hdf5File::Mode::read) {
-        file_.limit_reading(kMostTimes);
+        file_.limit_reading(kMostTimesField);
     }
 
     Field read() {
@@ -224,10 +224,10 @@ private:
 }  // namespace
 
 Field read_field(const std::filesystem::path& path) {
-    std::error_code missing;  // is what Reader complains of
+    std::error_code missing;  // is what FieldReader complains of
     const auto size = std::filesystem::file_size(path, missing);
-    if (!missing) rehearse(path, ReadBounds::for_size(size), [&] { Reader(path).read(); });
-    return Reader(path).read();
+    if (!missing) rehearse(path, ReadBounds::for_size(size), [&] { FieldReader(path).read(); });
+    return FieldReader(path).read();
 }
 
 }  // namespace ice

@@ -13,24 +13,24 @@ namespace ice {
 
 namespace {
 
-constexpr const char* kFormat = "icesolve-flow";
-constexpr std::int64_t kVersion = 1;
-constexpr std::uint64_t kMostTimes = 16;      // memory over file size; arrays are not compressed
+constexpr const char* kFlowFormat = "icesolve-flow";
+constexpr std::int64_t kFlowVersion = 1;
+constexpr std::uint64_t kMostTimesFlow = 16;  // memory over file size; arrays are not compressed
 constexpr std::uint64_t kMostAlong = 100000;  // nodes along an axis
 constexpr double kSurface = 1e-6;  // of the spacing: how near to z = 0 the topmost nodes lie
 
-class Reader {
+class FlowReader {
 public:
-    explicit Reader(const std::filesystem::path& path)
+    explicit FlowReader(const std::filesystem::path& path)
         : path_(path), file_(path, Hdf5File::Mode::read) {
-        file_.limit_reading(kMostTimes);
+        file_.limit_reading(kMostTimesFlow);
     }
 
     FlowTable read() const {
         check(file_.has_attribute("/", "format") &&
-                  file_.read_text_attribute("/", "format") == kFormat,
+                  file_.read_text_attribute("/", "format") == kFlowFormat,
               "/", "is not a flow (no attribute format = \"icesolve-flow\")");
-        check(number("format_version") == kVersion, "/",
+        check(number("format_version") == kFlowVersion, "/",
               "has a format_version this program does not know");
         refuse_changed(path_, file_, "iceflow");
         FlowTable out;
@@ -101,8 +101,8 @@ private:
 
 void write_flow(const std::filesystem::path& path, const FlowTable& table) {
     write_sealed(path, [&](Hdf5File& file) {
-        file.write_attribute("/", "format", std::string(kFormat));
-        file.write_attribute("/", "format_version", kVersion);
+        file.write_attribute("/", "format", std::string(kFlowFormat));
+        file.write_attribute("/", "format_version", kFlowVersion);
         file.write_attribute("/", "units", std::string("SI"));
         file.write_attribute("/", "origin", {table.origin.begin(), table.origin.end()}, {3});
         file.write_attribute("/", "spacing", {table.spacing}, {});
@@ -123,10 +123,10 @@ void write_flow(const std::filesystem::path& path, const FlowTable& table) {
 }
 
 FlowTable read_flow(const std::filesystem::path& path) {
-    std::error_code missing;  // is what Reader complains of
+    std::error_code missing;  // is what FlowReader complains of
     const auto size = std::filesystem::file_size(path, missing);
-    if (!missing) rehearse(path, ReadBounds::for_size(size), [&] { Reader(path).read(); });
-    return Reader(path).read();
+    if (!missing) rehearse(path, ReadBounds::for_size(size), [&] { FlowReader(path).read(); });
+    return FlowReader(path).read();
 }
 
 }  // namespace ice

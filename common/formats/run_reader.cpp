@@ -17,9 +17,9 @@ namespace {
 
 constexpr const char* kRegionForces[] = {"/regions/contact_force", "/regions/friction_force"};
 
-class Reader : RunArrays {
+class RunFileReader : RunArrays {
 public:
-    explicit Reader(const std::filesystem::path& path) : RunArrays(path) {}
+    explicit RunFileReader(const std::filesystem::path& path) : RunArrays(path) {}
 
     RunData read() {
         RunData run;
@@ -336,7 +336,7 @@ RunData read_run(const std::filesystem::path& path) {
         try {
             std::optional<FileTurn> turn;
             if (is_growing(path)) turn.emplace(path, FileTurn::Kind::read);
-            return Reader(path).read();
+            return RunFileReader(path).read();
         } catch (const Error&) {
             if (left == 0) throw;
         }

@@ -15,8 +15,8 @@ namespace ice {
 
 namespace {
 
-constexpr const char* kFormat = "icesolve-spheres";
-constexpr std::int64_t kVersion = 1;
+constexpr const char* kSpheresFormat = "icesolve-spheres";
+constexpr std::int64_t kSpheresVersion = 1;
 
 std::vector<Vec3> unflatten(const std::vector<double>& flat) {
     std::vector<Vec3> points(flat.size() / 3);
@@ -47,14 +47,14 @@ void write_mesh(Hdf5File& file, const TriangleMesh& mesh) {
 }
 
 // All that is read over what is stored: 3 where most spheres are inside, without rows of their own
-constexpr std::uint64_t kMostTimes = 16;
+constexpr std::uint64_t kMostTimesSpheres = 16;
 
 // Reads one file, with every complaint naming the file and the dataset.
-class Reader {
+class SpheresReader {
 public:
-    explicit Reader(const std::filesystem::path& path)
+    explicit SpheresReader(const std::filesystem::path& path)
         : path_(path), file_(path, Hdf5File::Mode::read) {
-        file_.limit_reading(kMostTimes);
+        file_.limit_reading(kMostTimesSpheres);
     }
 
     SphereSet read() {
@@ -91,9 +91,9 @@ private:
 
     void read_header(SphereSet& set) const {
         check(file_.has_attribute("/", "format") &&
-                  file_.read_text_attribute("/", "format") == kFormat,
+                  file_.read_text_attribute("/", "format") == kSpheresFormat,
               "/", "is not a sphere set (no attribute format = \"icesolve-spheres\")");
-        check(file_.read_number_attribute("/", "format_version")[0] == kVersion, "/",
+        check(file_.read_number_attribute("/", "format_version")[0] == kSpheresVersion, "/",
               "has a format_version this program does not know");
         const double dimension = file_.read_number_attribute("/", "dimension")[0];
         check(dimension == 2.0 || dimension == 3.0, "dimension", "is neither 2 nor 3");
@@ -248,7 +248,7 @@ void write_certificate(Hdf5File& file, SpheresReport& c) {
 
 // Arrays of the surface are written for its spheres only: the interior's rows read as the fill
 // value, and a set of millions costs little more than its centres.
-void write_arrays(Hdf5File& file, const SphereSet& set) {
+void write_spheres_arrays(Hdf5File& file, const SphereSet& set) {
     const std::uint64_t n = set.size(), s = set.surface_count;
     static_assert(sizeof(Vec3) == 3 * sizeof(double));
     file.write("/center", set.centers.data()->data(), {n, 3});
@@ -284,8 +284,8 @@ void write_arrays(Hdf5File& file, const SphereSet& set) {
 }
 
 void write_all(Hdf5File& file, const SphereSet& set, SpheresReport& certificate) {
-    file.write_attribute("/", "format", std::string(kFormat));
-    file.write_attribute("/", "format_version", kVersion);
+    file.write_attribute("/", "format", std::string(kSpheresFormat));
+    file.write_attribute("/", "format_version", kSpheresVersion);
     file.write_attribute("/", "dimension", std::int64_t{set.dimension});
     file.write_attribute("/", "radius", {set.radius}, {});
     file.write_attribute("/", "spacing", {set.spacing}, {});
@@ -297,7 +297,7 @@ void write_all(Hdf5File& file, const SphereSet& set, SpheresReport& certificate)
     file.write_attribute("/", "units", std::string("SI"));
     write_certificate(file, certificate);
 
-    write_arrays(file, set);
+    write_spheres_arrays(file, set);
     file.write_strings("/region_names", set.mesh.region_names);
     write_solid(file, set.solid);
     write_mesh(file, set.mesh);
@@ -317,10 +317,10 @@ std::string read_ice_belt(const std::filesystem::path& path) {
 }
 
 SphereSet read_spheres(const std::filesystem::path& path) {
-    std::error_code missing;  // is what Reader complains of
+    std::error_code missing;  // is what SpheresReader complains of
     const auto size = std::filesystem::file_size(path, missing);
-    if (!missing) rehearse(path, ReadBounds::for_size(size), [&] { Reader(path).read(); });
-    return Reader(path).read();
+    if (!missing) rehearse(path, ReadBounds::for_size(size), [&] { SpheresReader(path).read(); });
+    return SpheresReader(path).read();
 }
 
 }  // namespace ice

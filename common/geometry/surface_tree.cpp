@@ -12,7 +12,7 @@ namespace ice {
 
 namespace {
 
-constexpr std::int32_t kLeafSize = 4;
+constexpr std::int32_t kLeafTriangles = 4;
 
 double corner_angle(const Vec3& at, const Vec3& b, const Vec3& c) {
     const Vec3 u = (b - at).normalized(), v = (c - at).normalized();
@@ -81,7 +81,7 @@ std::int32_t SurfaceTree::build(std::int32_t first, std::int32_t count) {
     std::array<std::pair<std::int32_t, std::int32_t>, 4> part{};
     int parts = 0;
     const auto divide = [&](std::int32_t from, std::int32_t size, int more, auto&& self) -> void {
-        if (more == 0 || size <= kLeafSize) {
+        if (more == 0 || size <= kLeafTriangles) {
             if (size > 0) part[static_cast<std::size_t>(parts++)] = {from, size};
             return;
         }
@@ -102,7 +102,7 @@ std::int32_t SurfaceTree::build(std::int32_t first, std::int32_t count) {
             node.low[d][k] = node.high[d][k] = std::numeric_limits<float>::infinity();
     }
     for (int k = 0; k < parts; ++k)
-        if (node.count[k] > kLeafSize) {
+        if (node.count[k] > kLeafTriangles) {
             node.child[k] = build(node.child[k], node.count[k]);
             node.count[k] = 0;
         }

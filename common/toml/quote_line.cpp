@@ -11,7 +11,7 @@ namespace ice {
 
 namespace {
 
-constexpr std::size_t kMostShown = 120;  // characters of a line
+constexpr std::size_t kMostOfLine = 120;  // characters of a line
 const char* const kReplacement = "\xEF\xBF\xBD";
 
 bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
@@ -70,12 +70,12 @@ std::string quote_line(std::string_view line, std::size_t number, std::size_t at
                        std::size_t width) {
     if (line.ends_with('\r')) line.remove_suffix(1);
     const std::vector<std::string> all = printable_characters(line);
-    const std::size_t first = at > kMostShown / 2 ? at - kMostShown / 2 : 0;
+    const std::size_t first = at > kMostOfLine / 2 ? at - kMostOfLine / 2 : 0;
     std::string part;
-    for (std::size_t k = first; k < std::min(first + kMostShown, all.size()); ++k) part += all[k];
-    if (first + kMostShown < all.size()) part += "...";
+    for (std::size_t k = first; k < std::min(first + kMostOfLine, all.size()); ++k) part += all[k];
+    if (first + kMostOfLine < all.size()) part += "...";
     return fmt::format("\n{:5} | {}\n      | {}{}", number, part, std::string(at - first, ' '),
-                       std::string(std::clamp<std::size_t>(width, 1, kMostShown), '^'));
+                       std::string(std::clamp<std::size_t>(width, 1, kMostOfLine), '^'));
 }
 
 bool has_decimal_comma(std::string_view value) {

@@ -18,7 +18,7 @@ namespace ice {
 
 namespace {
 
-constexpr std::size_t kMostShown = 120;     // characters of a key in a message
+constexpr std::size_t kMostOfKey = 120;     // characters of a key in a message
 constexpr std::size_t kMostTables = 10000;  // [[floes]]
 
 class Document {
@@ -141,7 +141,7 @@ private:
 
     // what was meant is not looked for in thousands of keys, nor in very long ones
     bool worth_a_guess(const std::string& path) const {
-        return !mistakes_.full() && path.size() < kMostShown;
+        return !mistakes_.full() && path.size() < kMostOfKey;
     }
 
     void walk_repeated(const toml::array& rows, Values& values, std::size_t& groups) {

@@ -12,25 +12,25 @@ namespace ice {
 namespace {
 
 // A kind of TOML file, known by tables and keys that only it has at the top.
-struct Kind {
+struct FileKind {
     std::string_view title, what, remedy;
     std::array<std::string_view, 3> signs;
 };
 
 constexpr std::array kKinds{
-    Kind{"icesolve case",
-         "a case for icesolve",
-         "icesolve FILE runs it",
-         {"simulation", "hull", "contact"}},
-    Kind{"icefield specification",
-         "the specification of an ice field for icefield",
-         "icefield FILE -o field.h5 makes the field; a case names it: [[floes]], pattern = "
-         "\"file\", file = \"field.h5\"",
-         {"pattern", "edges", "area"}},
-    Kind{"expected numbers",
-         "a list of expected numbers for icepost",
-         "icepost check RUN FILE compares a run with it",
-         {"expect", "expect", "expect"}},
+    FileKind{"icesolve case",
+             "a case for icesolve",
+             "icesolve FILE runs it",
+             {"simulation", "hull", "contact"}},
+    FileKind{"icefield specification",
+             "the specification of an ice field for icefield",
+             "icefield FILE -o field.h5 makes the field; a case names it: [[floes]], pattern = "
+             "\"file\", file = \"field.h5\"",
+             {"pattern", "edges", "area"}},
+    FileKind{"expected numbers",
+             "a list of expected numbers for icepost",
+             "icepost check RUN FILE compares a run with it",
+             {"expect", "expect", "expect"}},
 };
 
 constexpr std::string_view kMeshes[] = {".obj", ".stl",  ".ply", ".off", ".dae",
@@ -85,13 +85,13 @@ std::optional<Recognised> recognise_file(const std::filesystem::path& file, std:
 std::optional<Recognised> recognise_tables(const std::filesystem::path& file,
                                            const std::vector<std::string>& names,
                                            std::string_view wanted) {
-    const auto shows = [&](const Kind& kind) {
+    const auto shows = [&](const FileKind& kind) {
         return std::any_of(kind.signs.begin(), kind.signs.end(), [&](std::string_view sign) {
             return std::find(names.begin(), names.end(), sign) != names.end();
         });
     };
-    const Kind* found = nullptr;
-    for (const Kind& kind : kKinds) {
+    const FileKind* found = nullptr;
+    for (const FileKind& kind : kKinds) {
         if (!shows(kind)) continue;
         if (kind.title == wanted) return std::nullopt;
         if (found == nullptr) found = &kind;

@@ -20,8 +20,9 @@ using views::readable;
 namespace {
 
 constexpr std::size_t kMostRows = 10;  // of the panels' table; summary.json and run.h5 have more
-constexpr const char* kColours[] = {views::kBlue,  views::kOrange, views::kGreen, views::kPurple,
-                                    views::kBlack, "#e69f00",      "#56b4e9"};
+constexpr const char* kCurveColours[] = {views::kBlue,   views::kOrange, views::kGreen,
+                                         views::kPurple, views::kBlack,  "#e69f00",
+                                         "#56b4e9"};
 
 using Regions = std::vector<std::pair<std::string, RegionStatistics>>;
 
@@ -120,8 +121,8 @@ std::string draw_exceedance(const std::string& title, const std::string& y_title
     chart.x_logarithmic = true;
     for (const auto& [name, region] : regions) {
         if (!(region.*peaks)) continue;
-        const std::size_t colour = chart.curves.size() % std::size(kColours);
-        views::Curve curve{name, kColours[colour], {}, 1.8, "", 1.0};
+        const std::size_t colour = chart.curves.size() % std::size(kCurveColours);
+        views::Curve curve{name, kCurveColours[colour], {}, 1.8, "", 1.0};
         for (const Exceedance& e : (region.*peaks)->exceeded)
             curve.points.emplace_back(e.per_hour, e.level / newtons);
         chart.curves.push_back(std::move(curve));

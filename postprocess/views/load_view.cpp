@@ -20,7 +20,8 @@ namespace {
 constexpr int kSteps = 20;
 constexpr double kEdgeOn = 0.05;  // cosine between a face's normal and the way to the viewer
 constexpr double kCell = 3.0;     // [px]
-constexpr double kLeft = 52.0, kRight = 10.0, kTop = 26.0, kBottom = 40.0;  // margins [px]
+constexpr double kMapLeft = 52.0, kMapRight = 10.0, kMapTop = 26.0,
+                 kMapBottom = 40.0;  // margins [px]
 const HullColours kBare{{222, 226, 230}, {236, 239, 241}};
 
 // the viewer's ramp (web/src/colours.js)
@@ -100,18 +101,18 @@ std::string draw_load_view(const HullLoad& hull, ViewFrom from, double width) {
     const double left = page.min().x() - room, right = page.max().x() + room;
     const double low = page.min().y() - room, high = page.max().y() + room;
     const double per_metre =
-        std::min((width - kLeft - kRight) / (right - left), 0.55 * width / (high - low));
+        std::min((width - kMapLeft - kMapRight) / (right - left), 0.55 * width / (high - low));
     const double wide = per_metre * (right - left), tall = per_metre * (high - low);
-    const PageScale scale{left, high, kLeft, kTop, per_metre};
+    const PageScale scale{left, high, kMapLeft, kMapTop, per_metre};
 
     const std::string title = view_caption(from) + name_sides(from);
-    std::string out = svg_open(kLeft + wide + kRight, kTop + tall + kBottom, title);
-    out += text_element(kLeft, 17.0, title, "start", "font-weight=\"600\"");
+    std::string out = svg_open(kMapLeft + wide + kMapRight, kMapTop + tall + kMapBottom, title);
+    out += text_element(kMapLeft, 17.0, title, "start", "font-weight=\"600\"");
     const bool below = from == ViewFrom::below;
-    Axis x{left, right, kLeft, kLeft + wide};
-    if (from == ViewFrom::port) x = {-left, -right, kLeft, kLeft + wide};
-    Axis y{low, high, kTop + tall, kTop};
-    if (below) y = {-low, -high, kTop + tall, kTop};
+    Axis x{left, right, kMapLeft, kMapLeft + wide};
+    if (from == ViewFrom::port) x = {-left, -right, kMapLeft, kMapLeft + wide};
+    Axis y{low, high, kMapTop + tall, kMapTop};
+    if (below) y = {-low, -high, kMapTop + tall, kMapTop};
     out += draw_axes(x, y,
                      from == ViewFrom::front ? "y on the ship [m], to port" : "x on the ship [m]",
                      below ? "y on the ship [m]" : "z on the ship [m]");

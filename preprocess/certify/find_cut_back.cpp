@@ -9,8 +9,8 @@ namespace ice {
 
 namespace {
 
-constexpr double kWorthSaying = 0.5;  // radii
-constexpr double kStep = 0.25;        // radii between levels, at least
+constexpr double kDepthWorthSaying = 0.5;  // radii
+constexpr double kStep = 0.25;             // radii between levels, at least
 constexpr int kMostLevels = 2000;
 constexpr double kNone = std::numeric_limits<double>::infinity();
 
@@ -109,7 +109,7 @@ void find_cut_back(const SphereSet& set, SpheresReport& report) {
     if (set.dimension != 3) return;
     Eigen::AlignedBox3d box;
     for (const Vec3& v : set.mesh.vertices) box.extend(v);
-    const double r = set.radius, least = kWorthSaying * r;
+    const double r = set.radius, least = kDepthWorthSaying * r;
     const IceBelt& belt = report.belt;
     const Levels heights(belt ? std::max(belt.low, box.min().z()) : box.min().z() + r,
                          belt ? std::min(belt.high, box.max().z()) : box.max().z() - r, r);

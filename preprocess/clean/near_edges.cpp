@@ -10,12 +10,12 @@ namespace ice {
 
 namespace {
 
-using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::size_t>;
+using EdgeBox = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::size_t>;
 
-Box box_around(const Vec3& a, const Vec3& b, double margin, std::size_t row) {
+EdgeBox box_around(const Vec3& a, const Vec3& b, double margin, std::size_t row) {
     const Vec3 low = a.cwiseMin(b) - Vec3::Constant(margin);
     const Vec3 high = a.cwiseMax(b) + Vec3::Constant(margin);
-    return Box(CGAL::Bbox_3(low.x(), low.y(), low.z(), high.x(), high.y(), high.z()), row);
+    return EdgeBox(CGAL::Bbox_3(low.x(), low.y(), low.z(), high.x(), high.y(), high.z()), row);
 }
 
 }  // namespace
@@ -23,14 +23,14 @@ Box box_around(const Vec3& a, const Vec3& b, double margin, std::size_t row) {
 std::vector<NearEdge> find_near_edges(const std::vector<Vec3>& points,
                                       const std::vector<std::pair<Vec3, Vec3>>& edges,
                                       const std::vector<double>& reach) {
-    std::vector<Box> of_points, of_edges;
+    std::vector<EdgeBox> of_points, of_edges;
     for (std::size_t k = 0; k < points.size(); ++k)
         of_points.push_back(box_around(points[k], points[k], 0.0, k));
     for (std::size_t k = 0; k < edges.size(); ++k)
         of_edges.push_back(box_around(edges[k].first, edges[k].second, reach[k], k));
     std::vector<NearEdge> out;
     CGAL::box_intersection_d(of_points.begin(), of_points.end(), of_edges.begin(), of_edges.end(),
-                             [&](const Box& point, const Box& edge) {
+                             [&](const EdgeBox& point, const EdgeBox& edge) {
                                  const auto& [a, b] = edges[edge.info()];
                                  const Vec3 along = b - a, to = points[point.info()] - a;
                                  const double part = along.dot(to) / along.squaredNorm();

@@ -17,7 +17,7 @@ namespace {
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Kernel::Point_3;
 using Triple = std::array<std::int32_t, 3>;
-using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::int32_t>;
+using TriangleBox = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::int32_t>;
 
 struct Soup {
     std::vector<Point> points;
@@ -78,7 +78,7 @@ std::vector<std::pair<std::size_t, std::size_t>> find_self_intersections(const T
     soup.points.reserve(mesh.vertices.size());
     for (const Vec3& v : mesh.vertices) soup.points.emplace_back(v.x(), v.y(), v.z());
     const auto equal = find_equal_vertices(mesh.vertices);
-    std::vector<Box> boxes;
+    std::vector<TriangleBox> boxes;
     soup.triangles.reserve(mesh.triangles.size());
     boxes.reserve(mesh.triangles.size());
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -90,9 +90,10 @@ std::vector<std::pair<std::size_t, std::size_t>> find_self_intersections(const T
             static_cast<std::int32_t>(t));
     }
     std::vector<std::pair<std::size_t, std::size_t>> candidates;
-    CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box& a, const Box& b) {
-        candidates.emplace_back(std::min(a.info(), b.info()), std::max(a.info(), b.info()));
-    });
+    CGAL::box_self_intersection_d(
+        boxes.begin(), boxes.end(), [&](const TriangleBox& a, const TriangleBox& b) {
+            candidates.emplace_back(std::min(a.info(), b.info()), std::max(a.info(), b.info()));
+        });
     std::vector<std::uint8_t> found(candidates.size(), 0);
     parallel_for(candidates.size(), 1000, [&](std::size_t k) {
         found[k] =

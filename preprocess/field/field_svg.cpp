@@ -32,7 +32,7 @@ double round_step(double raw) {
     return 10.0 * power;
 }
 
-std::string text(double x, double y, const char* anchor, const std::string& words) {
+std::string svg_text(double x, double y, const char* anchor, const std::string& words) {
     return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\">{}</text>\n", x, y,
                        anchor, words);
 }
@@ -53,15 +53,15 @@ std::string draw_axes(const Page& page, double step) {
     };
     ticks(page.box.min().x(), page.box.max().x(), [&](double v, const std::string& label) {
         return tick(page.x(v), page.bottom(), page.x(v), page.bottom() + 6.0) +
-               text(page.x(v), page.bottom() + 26.0, "middle", label);
+               svg_text(page.x(v), page.bottom() + 26.0, "middle", label);
     });
     ticks(page.box.min().y(), page.box.max().y(), [&](double v, const std::string& label) {
         return tick(kLeft - 6.0, page.y(v), kLeft, page.y(v)) +
-               text(kLeft - 10.0, page.y(v) + 6.0, "end", label);
+               svg_text(kLeft - 10.0, page.y(v) + 6.0, "end", label);
     });
     const double middle = 0.5 * (kTop + page.bottom());
-    out += text(0.5 * (kLeft + page.right()), page.bottom() + 52.0, "middle",
-                "x [m], the ship's way \u2192");
+    out += svg_text(0.5 * (kLeft + page.right()), page.bottom() + 52.0, "middle",
+                    "x [m], the ship's way \u2192");
     return out + fmt::format(
                      "<text x=\"24\" y=\"{0:.1f}\" text-anchor=\"middle\" "
                      "transform=\"rotate(-90 24 {0:.1f})\">y [m], to port</text>\n",
@@ -78,7 +78,7 @@ std::string draw_key(const Page& page, const FieldPlan& plan, double step) {
             "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"28\" height=\"18\" fill=\"{}\" "
             "stroke=\"#54738f\"/>\n",
             x, y - 14.0, fill);
-        out += text(x + 38.0, y, "start", words);
+        out += svg_text(x + 38.0, y, "start", words);
         x += 60.0 + 11.0 * static_cast<double>(words.size());
     };
     add("#eef4f8", fmt::format("{} loose floes", plan.loose.size()));
@@ -89,7 +89,7 @@ std::string draw_key(const Page& page, const FieldPlan& plan, double step) {
         "fill=\"none\" "
         "stroke=\"#222\" stroke-width=\"2\"/>\n",
         x, y - 12.0, y - 2.0, x + page.scale * step);
-    return out + text(x + page.scale * step + 10.0, y, "start", fmt::format("{:g} m", step));
+    return out + svg_text(x + page.scale * step + 10.0, y, "start", fmt::format("{:g} m", step));
 }
 
 }  // namespace
@@ -108,8 +108,9 @@ std::string field_svg(const FieldPlan& plan) {
         "sans-serif\" font-size=\"20\" fill=\"#222\">\n"
         "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n",
         std::max(page.right() + kRight, 900.0), page.bottom() + kBottom);
-    out += text(kLeft, 36.0, "start",
-                fmt::format("Ice field from above, {:.4g} m \u00d7 {:.4g} m", size.x(), size.y()));
+    out +=
+        svg_text(kLeft, 36.0, "start",
+                 fmt::format("Ice field from above, {:.4g} m \u00d7 {:.4g} m", size.x(), size.y()));
     out += fmt::format(
         "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"#20466b\"/>\n",
         kLeft, kTop, page.right() - kLeft, page.bottom() - kTop);

@@ -12,10 +12,10 @@ namespace ice {
 
 namespace {
 
-constexpr std::size_t kSerialTriangles = 1000;  // below, waking threads costs more than it saves
-constexpr std::size_t kGroup = 16;              // triangles worked at together
-constexpr double kPiece = 32.0;                 // pitches: longer triangles visit in pieces
-constexpr double kMostPieces = 1000.0;          // along the box
+constexpr std::size_t kSerialClearing = 1000;  // below, waking threads costs more than it saves
+constexpr std::size_t kGroup = 16;             // triangles worked at together
+constexpr double kPiece = 32.0;                // pitches: longer triangles visit in pieces
+constexpr double kMostPieces = 1000.0;         // along the box
 using detail::Corners;
 using detail::Range;
 using Near = detail::NearTriangle;
@@ -172,7 +172,7 @@ void clear_near(const TriangleMesh& mesh, const LatticeFrame& frame, double dist
     };
     const std::size_t count = mesh.triangles.size(), groups = (count + kGroup - 1) / kGroup;
     std::vector<std::uint8_t> large(count, 0);
-    parallel_for(groups, kSerialTriangles / kGroup, [&](std::size_t g) {
+    parallel_for(groups, kSerialClearing / kGroup, [&](std::size_t g) {
         std::array<Corners, kGroup> group;
         std::size_t n = 0;
         for (std::size_t t = g * kGroup; t < std::min(count, (g + 1) * kGroup); ++t) {

@@ -69,7 +69,7 @@ void follow(const TriangleMesh& mesh,
 }
 
 // An edge of the outline or of a chain, and by how much its points are moved inwards.
-struct Piece {
+struct ChainPiece {
     Vec3 a, b, shift;
 };
 
@@ -82,7 +82,7 @@ Vec3 meeting_shift(const Vec3& one, const Vec3& other) {
 // Start points along edges that follow one another. Where they turn, edges moved inwards each by
 // its own shift overlap, or gape: points would go back and forth, and miss the corner in which a
 // sphere touches both. They meet where both shifts are done, unless the corner is sharp.
-std::vector<Vec3> walk(const std::vector<Piece>& pieces, bool closed, double step) {
+std::vector<Vec3> walk(const std::vector<ChainPiece>& pieces, bool closed, double step) {
     constexpr double kSharpTurn =
         0.2;  // cosine between shifts: sharper corners are left to settling
     std::vector<Vec3> out;
@@ -124,7 +124,7 @@ std::vector<std::vector<Vec3>> trace_sharp_edges(const SurfaceTree& tree, double
         const Vec3 heading = (point(edges[e].b) - point(edges[e].a)).normalized();
         follow(mesh, at_vertex, edges, edges[e].b, heading, sharp, forth);
         follow(mesh, at_vertex, edges, edges[e].a, -heading, sharp, back);
-        std::vector<Piece> line;
+        std::vector<ChainPiece> line;
         std::int32_t from = back.empty() ? edges[e].a : back.back().second;
         for (std::size_t k = back.size(); k-- > 0;) {
             const std::int32_t to = k == 0 ? edges[e].a : back[k - 1].second;
@@ -162,7 +162,7 @@ std::vector<std::vector<Vec3>> trace_section(const SurfaceTree& tree, double rad
     }
     std::vector<std::vector<Vec3>> out;
     while (!next.empty()) {
-        std::vector<Piece> line;
+        std::vector<ChainPiece> line;
         for (auto at = next.begin(); at != next.end();) {
             const auto [to, n] = at->second;
             Vec3 a = mesh.vertices[static_cast<std::size_t>(at->first)],

@@ -7,14 +7,14 @@ namespace ice {
 
 namespace {
 
-constexpr int kMostSteps = 40;
+constexpr int kMostMirrorSteps = 40;
 
 // Newton on the distance, along its gradient within the centre plane.
 std::optional<Seat> on_centre_plane(const SurfaceTree& tree, const Seat& seat, double radius) {
     Vec3 c = seat.center;
     c.y() = 0.0;
     std::int32_t hint = seat.triangle;
-    for (int step = 0; step < kMostSteps; ++step) {
+    for (int step = 0; step < kMostMirrorSteps; ++step) {
         const Foot foot = tree.closest(c, hint);
         hint = foot.triangle;
         const double lack = radius - foot.distance;

@@ -18,11 +18,11 @@ namespace ice {
 namespace {
 
 // In units of the spacing.
-constexpr double kTile = 32.0;     // a tile's edge
-constexpr double kSeedSize = 0.7;  // between the samples that fronts may start from
-constexpr double kLineSize = 0.1;  // the same in 2D, where samples alone close the gaps
-constexpr double kCovered = 0.62;  // in 2D a sample that has no seat this near gets one
-constexpr double kDeep = 0.75;     // radii that a seed of use is from the surface
+constexpr double kTile = 32.0;            // a tile's edge
+constexpr double kSeedSize = 0.7;         // between the samples that fronts may start from
+constexpr double kLineSize = 0.1;         // the same in 2D, where samples alone close the gaps
+constexpr double kCoveredInPlane = 0.62;  // in 2D a sample that has no seat this near gets one
+constexpr double kDeep = 0.75;            // radii that a seed of use is from the surface
 constexpr std::size_t kManySeeds = 20000;
 
 struct Tile {
@@ -132,7 +132,7 @@ private:
         PointGrid placed(o_.spacing);
         for (const Seat& seat : lines_) placed.add(seat.center);
         const auto taken = [&](const Vec3& p, const Vec3& normal) {
-            return placed.any_within(p, kCovered * o_.spacing, [&](std::int32_t k) {
+            return placed.any_within(p, kCoveredInPlane * o_.spacing, [&](std::int32_t k) {
                 return lines_[static_cast<std::size_t>(k)].agrees(normal);
             });
         };

@@ -17,9 +17,9 @@ namespace ice {
 namespace {
 
 // In units of the spacing.
-constexpr double kSeparation = 0.5;  // between spheres of different edges
-constexpr double kRounding = 1e-6;
-constexpr double kMirrorGap = 0.25;  // half of it: a sphere and its image
+constexpr double kEdgeSeparation = 0.5;  // between spheres of different edges
+constexpr double kEdgeRounding = 1e-6;
+constexpr double kEdgeMirrorGap = 0.25;  // half of it: a sphere and its image
 
 using Line = std::vector<Vec3>;
 
@@ -197,7 +197,7 @@ public:
         for (const Seat& seat : seats_) {
             const std::span<const Vec3> normals = normals_at(tree_, o_.radius, seat, found_);
             const bool beside = placed_.any_within(
-                seat.center, (kSeparation - kRounding) * o_.spacing, [&](std::int32_t k) {
+                seat.center, (kEdgeSeparation - kEdgeRounding) * o_.spacing, [&](std::int32_t k) {
                     const Seat& other = seats_[static_cast<std::size_t>(k)];
                     return is_corner(other) && other.agrees(normals);
                 });
@@ -211,14 +211,14 @@ private:
     std::optional<Seat> in_half(const Seat& seat) const {
         if (!o_.mirror) return seat;
         if (is_corner(seat) && seat.center.y() > kSameCorner * o_.spacing) return seat;
-        return mirror_seat(tree_, seat, o_.radius, kMirrorGap * o_.spacing);
+        return mirror_seat(tree_, seat, o_.radius, kEdgeMirrorGap * o_.spacing);
     }
 
     // Unless there is one near that stands for the same faces, or in a corner touches them.
     void place(const Seat& found) {
         const auto seat = in_half(found);
         if (!seat) return;
-        const double separation = is_corner(*seat) ? kSameCorner : kSeparation;
+        const double separation = is_corner(*seat) ? kSameCorner : kEdgeSeparation;
         const std::span<const Vec3> normals = normals_at(tree_, o_.radius, *seat, found_);
         if (placed_.any_within(seat->center, separation * o_.spacing, [&](std::int32_t k) {
                 const Seat& other = seats_[static_cast<std::size_t>(k)];

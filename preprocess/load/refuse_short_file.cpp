@@ -166,7 +166,7 @@ void check_off(const std::filesystem::path& file, std::ifstream& in) {
 }
 
 // A binary STL says how many triangles follow, 50 bytes each; text begins with "solid".
-void check_stl(const std::filesystem::path& file, std::ifstream& in) {
+void check_stl_length(const std::filesystem::path& file, std::ifstream& in) {
     std::array<char, 84> head{};
     in.read(head.data(), head.size());
     const auto size = static_cast<std::int64_t>(std::filesystem::file_size(file));
@@ -196,7 +196,7 @@ void refuse_short_file(const std::filesystem::path& file) {
     if (!in) return;
     if (kind == ".ply") check_ply(file, in);
     if (kind == ".off") check_off(file, in);
-    if (kind == ".stl") check_stl(file, in);
+    if (kind == ".stl") check_stl_length(file, in);
 }
 
 }  // namespace ice

@@ -13,7 +13,7 @@ namespace ice {
 
 namespace {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using LoopKernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Triple = std::array<std::int32_t, 3>;
 
 constexpr std::size_t kCubic = 400;  // corners: up to here CGAL's cubic search takes below a second
@@ -33,7 +33,7 @@ void align_with_loop(std::vector<Triple>& patch) {
 std::vector<std::array<std::int32_t, 3>> fill_loop(const std::vector<Vec3>& points,
                                                    const std::vector<Vec3>& across) {
     if (points.size() == 3) return {{0, 1, 2}};
-    std::vector<Kernel::Point_3> loop, third;
+    std::vector<LoopKernel::Point_3> loop, third;
     for (const Vec3& p : points) loop.emplace_back(p.x(), p.y(), p.z());
     for (const Vec3& p : across) third.emplace_back(p.x(), p.y(), p.z());
     std::vector<std::array<std::int32_t, 3>> out;
@@ -53,17 +53,17 @@ std::vector<std::array<std::int32_t, 3>> fill_loop(const std::vector<Vec3>& poin
 }
 
 std::vector<std::array<std::int32_t, 3>> fill_loop_in_plan(const std::vector<Vec3>& points) {
-    using Vertex = CGAL::Triangulation_vertex_base_with_info_2<std::int32_t, Kernel>;
-    using Face = CGAL::Constrained_triangulation_face_base_2<Kernel>;
+    using Vertex = CGAL::Triangulation_vertex_base_with_info_2<std::int32_t, LoopKernel>;
+    using Face = CGAL::Constrained_triangulation_face_base_2<LoopKernel>;
     using Delaunay = CGAL::Constrained_Delaunay_triangulation_2<
-        Kernel, CGAL::Triangulation_data_structure_2<Vertex, Face>,
+        LoopKernel, CGAL::Triangulation_data_structure_2<Vertex, Face>,
         CGAL::No_constraint_intersection_tag>;
     Delaunay plan;
     std::vector<Triple> out;
     try {
         std::vector<Delaunay::Vertex_handle> handles;
         for (const Vec3& p : points) {
-            handles.push_back(plan.insert(Kernel::Point_2(p.x(), p.y())));
+            handles.push_back(plan.insert(LoopKernel::Point_2(p.x(), p.y())));
             handles.back()->info() = static_cast<std::int32_t>(handles.size()) - 1;
         }
         if (plan.number_of_vertices() != points.size()) return {};

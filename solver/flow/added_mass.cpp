@@ -11,7 +11,7 @@ namespace ice {
 
 namespace {
 
-constexpr std::size_t kMostPanels = 4000;  // of the whole body: 128 MB of coefficients
+constexpr std::size_t kMostBodyPanels = 4000;  // of the whole body: 128 MB of coefficients
 using Vec6 = Eigen::Matrix<double, 6, 1>;
 using Mat6X = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 
@@ -66,18 +66,18 @@ Mat6 added_mass(const PanelBody& body, const Vec3& about, double density) {
 }
 
 PanelBody whole_body(const TriangleMesh& mesh, double longest_edge, double image) {
-    PanelBody out{split_triangles(mesh, longest_edge, kMostPanels), false, image};
+    PanelBody out{split_triangles(mesh, longest_edge, kMostBodyPanels), false, image};
     if (out.panels.empty())
         throw bad_input(
             "panel size",
-            fmt::format("edges of {:g} m give more than {} panels", longest_edge, kMostPanels),
+            fmt::format("edges of {:g} m give more than {} panels", longest_edge, kMostBodyPanels),
             "allow longer edges");
     return out;
 }
 
 ShipAddedMass ship_added_mass(const TriangleMesh& hull, double water, const Vec3& about,
                               double density, double longest_edge) {
-    const WettedHull wetted = make_wetted_hull(hull, water, {longest_edge, kMostPanels / 2});
+    const WettedHull wetted = make_wetted_hull(hull, water, {longest_edge, kMostBodyPanels / 2});
     PanelBody body = both_halves(wetted.body);
     const Vec3 centre = about - Vec3(0, 0, water);  // panels have the water at z = 0
     ShipAddedMass out;

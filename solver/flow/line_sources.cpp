@@ -52,7 +52,7 @@ Vec3 point_on(const SourceLine& line, double share) {
     return line.from + share * (line.to - line.from) + kOffPanel * line.length * line.normal;
 }
 
-void check_flow(LineFlow& flow) {
+void check_line_flow(LineFlow& flow) {
     std::vector<Vec3> points;
     for (const SourceLine& line : flow.lines)
         for (const double share : {0.25, 0.5, 0.75}) points.push_back(point_on(line, share));
@@ -136,7 +136,7 @@ LineFlow solve_lines(std::vector<SourceLine> lines) {
         throw run_failed("the flow around the hull", "has no solution within 200 iterations",
                          "look for thin parts of the section, or set flow.model = \"none\"");
     flow.strength.assign(strength.data(), strength.data() + n);
-    check_flow(flow);
+    check_line_flow(flow);
     return flow;
 }
 

@@ -42,18 +42,19 @@ struct CentresFinder::Batch {
 namespace {
 
 // A pair takes about a microsecond: below this many, waking threads costs more than they save.
-constexpr std::size_t kSerialPairs = 128;
+constexpr std::size_t kSerialLists = 128;
 
 // A pair's spheres are listed as far ahead as it goes in so many steps, within these bounds: more
 // keeps more spheres, less has to be found anew sooner.
-constexpr double kLookAhead = 5.0;
-constexpr double kLeastShare = 0.6, kMostShare = 0.8;  // of the ice's radius
+constexpr double kListLookAhead = 5.0;
+constexpr double kLeastListShare = 0.6, kMostListShare = 0.8;  // of the ice's radius
 
 // What rounding may add to a separation, by far [m].
 constexpr double kRounding = 1e-6;
 
 // Finds the spheres whose gap is at most `range` [m], and others.
-void find_near(const PairView& view, double range, PairSearch& search, std::vector<Near>& out) {
+void find_near_centres(const PairView& view, double range, PairSearch& search,
+                       std::vector<Near>& out) {
     out.clear();
     search.for_each_near(
         view, range, 0.0,
@@ -144,13 +145,13 @@ CentresFinder::Found CentresFinder::look(std::size_t k, BodyPair pair, const Ste
         }
         const double radius = view.shape_b.largest_radius;
         const double ahead =
-            std::clamp(kLookAhead * closing, kLeastShare * radius, kMostShare * radius);
+            std::clamp(kListLookAhead * closing, kLeastListShare * radius, kMostListShare * radius);
         row.range = margin + std::max(ahead, closing);
         row.turn = view.turn;
         row.shift = view.shift;
         row.crushed = crushed;
         gone = 0.0;
-        find_near(view, row.range, batch.search, batch.near);
+        find_near_centres(view, row.range, batch.search, batch.near);
         row.unit = list_spheres(batch.near, batch.listed);
         found.anew = true;
         found.blocks = batch.listed.size() - found.block;
@@ -183,7 +184,7 @@ void CentresFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
     }
     awake_.resize(count);
     found_.resize(awake_.size());
-    parallel_for(awake_.size(), kSerialPairs, [&](std::size_t n) {
+    parallel_for(awake_.size(), kSerialLists, [&](std::size_t n) {
         found_[n] =
             look(awake_[n], pairs[awake_[n]], {scene, travel, dt, margin}, batch_of<Batch>(call));
     });
@@ -199,7 +200,7 @@ void CentresFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
         contacts += found.count;
     }
     out.resize(contacts);
-    parallel_for(touching_.size(), kSerialPairs, [&](std::size_t n) {
+    parallel_for(touching_.size(), kSerialLists, [&](std::size_t n) {
         const Touching& t = touching_[n];
         const Found& found = found_[t.found];
         emit_centres(PairView(scene, t.pair),

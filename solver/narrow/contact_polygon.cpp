@@ -78,7 +78,7 @@ Border border_of(const Meeting& m, std::size_t k) {
     return {outward, std::max(ordered_dot(outward, from), ordered_dot(outward, to))};
 }
 
-double slack_of(double gap) { return PolygonTolerances::kBorder + std::max(gap, 0.0); }
+double slack_of_gap(double gap) { return PolygonTolerances::kBorder + std::max(gap, 0.0); }
 
 // The corners of the incident face clipped by the reference's borders; their places are found from
 // the features that meet there, not from those found while clipping: so mirror images, clipped in
@@ -152,7 +152,7 @@ void meet_faces(const Meeting& m, double gap, double most, std::uint32_t kind,
                 ContactPolygon& out) {
     const Vec3 n = m.reference.normals[m.face];
     const std::uint32_t face_id = kind << 30 | static_cast<std::uint32_t>(m.face) << 14;
-    ClippedFace(m, slack_of(gap)).for_each([&](const Vec3& at, std::uint32_t id) {
+    ClippedFace(m, slack_of_gap(gap)).for_each([&](const Vec3& at, std::uint32_t id) {
         const double height = ordered_dot(n, at) - m.reference.offsets[m.face];
         if (height <= most) out.corners.push_back({at - 0.5 * height * n, height, face_id | id});
     });
@@ -174,7 +174,7 @@ void meet_edges(const ConvexPiece& a, const ConvexPiece& b, const RelativePose& 
         const SolidEdge& e = piece.edges[k];
         return (piece.corners[static_cast<std::size_t>(e.end)] - piece.edge_middle[k]).norm();
     };
-    const double slack = slack_of(axes.edges);
+    const double slack = slack_of_gap(axes.edges);
     if (std::abs(along_a) > half(a, ka) + slack || std::abs(along_b) > half(b, kb) + slack) return;
     out.corners.push_back({0.5 * (pa + along_a * ea + pb + along_b * eb), axes.edges,
                            3u << 30 | static_cast<std::uint32_t>(ka << 12 | kb)});

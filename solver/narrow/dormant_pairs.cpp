@@ -21,7 +21,7 @@ constexpr double kLeastAngle = 0.0075, kMostAngle = 0.015;  // [rad]
 constexpr double kLeastShare = 0.3, kMostShare = 0.6;       // of the ice's radius
 
 // Up to so many entries gaps do not matter.
-constexpr std::size_t kFewest = 4096;
+constexpr std::size_t kFewestDormant = 4096;
 
 // How far a pair has gone relative to each other from where b was in a's axes, and turned [rad].
 // |R - R0| is sqrt(8) sin(angle / 2), below half a radian at least 0.99 sqrt(2) angle.
@@ -52,7 +52,7 @@ void DormantPairs::keep(std::size_t k, std::span<const SpherePair> near) {
     row.count = near.size();
     row.first = near_.size();
     near_.insert(near_.end(), near.begin(), near.end());
-    if (near_.size() > kFewest && near_.size() > 2 * kept_) close_gaps();
+    if (near_.size() > kFewestDormant && near_.size() > 2 * kept_) close_gaps();
 }
 
 void DormantPairs::close_gaps() {

@@ -12,13 +12,13 @@ namespace ice {
 namespace {
 
 // An edge that presses sideways still has some area, so that no contact is without strength.
-constexpr double kLeastFacing = 0.05;
+constexpr double kLeastFacingCentres = 0.05;
 
 // Surface of an ice sphere as seen along the contact normal: with the mean normal m and the
 // half-angle s of the faces that meet there, cos(s) m is the sphere's vector area per area.
 double facing_area(const Shape& shape, std::int32_t k, const Vec3& outward) {
     const double facing = shape.spread_cos[k] * shape.normal[k].dot(outward);
-    return shape.area[k] * std::max(facing, kLeastFacing);
+    return shape.area[k] * std::max(facing, kLeastFacingCentres);
 }
 
 // Contacts per sphere of one side; of spheres not in contact the entry is not set.

@@ -8,7 +8,7 @@ namespace ice {
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 // More than any two directions differ by [rad]: every normal is possible, nothing is known.
 constexpr double kMostTurn = 4.0;
@@ -68,21 +68,21 @@ void KindBound::list_crossings() {
 double KindBound::least(const Vec3& center_a, const Vec3& center_b) {
     if (rule_ == KindRule::edges) return least_of_edges(center_a, center_b);
     if (rule_ == KindRule::direction) return least_along(center_a, center_b);
-    return rule_ == KindRule::never ? kInfinity : -kInfinity;
+    return rule_ == KindRule::never ? kUnbounded : -kUnbounded;
 }
 
 double KindBound::least_along(const Vec3& center_a, const Vec3& center_b) const {
     const Vec3& n = face_[0].normal;
-    if (n.dot(center_b - center_a) <= -leeway_.distance) return kInfinity;
+    if (n.dot(center_b - center_a) <= -leeway_.distance) return kUnbounded;
     const Vec3 point_a = center_a + offset_a_, point_b = center_b + offset_b_;
     const Vec3 at =
         part_across(a_is_surface_ ? Vec3(point_b - center_a) : Vec3(point_a - center_b), n);
-    return at.squaredNorm() > far_ * far_ ? kInfinity : n.dot(point_b - point_a);
+    return at.squaredNorm() > far_ * far_ ? kUnbounded : n.dot(point_b - point_a);
 }
 
 double KindBound::least_across(const Vec3& d, const Vec3& between) {
     if (crossings_ < 0) list_crossings();
-    double least = kInfinity;
+    double least = kUnbounded;
     const double apart = d.norm(), length = between.norm();
     for (std::int8_t k = 0; k < crossings_; ++k) {
         const auto& [n, turn, skew, edge] = crossing_[k];
@@ -105,7 +105,7 @@ double KindBound::least_of_edges(const Vec3& center_a, const Vec3& center_b) {
     const Vec3 d = center_b - center_a;
     const Vec3 point_a = center_a + offset_a_, point_b = center_b + offset_b_;
     const Vec3 between = point_b - point_a;
-    double certain = -kInfinity, possible = kInfinity;
+    double certain = -kUnbounded, possible = kUnbounded;
     bool near = false;
     for (std::uint8_t k = 0; k < faces_; ++k) {
         const Vec3& n = face_[k].normal;
@@ -120,8 +120,8 @@ double KindBound::least_of_edges(const Vec3& center_a, const Vec3& center_b) {
                is_near(face_[k].under_b, b_->radius, point_a - center_b);
     }
     const double across = least_across(d, between);
-    if (!near && across == kInfinity) return kInfinity;
-    return std::min(certain > -kInfinity ? certain : possible, across);
+    if (!near && across == kUnbounded) return kUnbounded;
+    return std::min(certain > -kUnbounded ? certain : possible, across);
 }
 
 }  // namespace ice

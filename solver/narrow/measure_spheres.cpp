@@ -51,16 +51,16 @@ private:
     Vec3 center_a_, center_b_;
 };
 
-double slack_of(const Shape& shape, std::int32_t sphere, const Gap& gap) {
+double slack_of_sphere(const Shape& shape, std::int32_t sphere, const Gap& gap) {
     return kBeyond * shape.radius[sphere] + std::max(gap.gap, 0.0);
 }
 
 // Is the point, in a's axes, on what a's or b's sphere stands for?
 bool a_holds(const PairView& view, std::int32_t i, const Gap& gap, const Vec3& point) {
-    return view.shape_a.borders.hold(i, point, slack_of(view.shape_a, i, gap));
+    return view.shape_a.borders.hold(i, point, slack_of_sphere(view.shape_a, i, gap));
 }
 bool b_holds(const PairView& view, std::int32_t j, const Gap& gap, const Vec3& point) {
-    return view.shape_b.borders.hold(j, view.to_b(point), slack_of(view.shape_b, j, gap));
+    return view.shape_b.borders.hold(j, view.to_b(point), slack_of_sphere(view.shape_b, j, gap));
 }
 
 bool edges_hold(const PairView& view, std::int32_t i, std::int32_t j, const Gap& gap) {

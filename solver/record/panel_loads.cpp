@@ -11,7 +11,7 @@ namespace ice {
 
 namespace {
 
-constexpr double kWindow = 0.1;          // [s]
+constexpr double kPanelWindow = 0.1;     // [s]
 constexpr std::int64_t kLeastSteps = 5;  // a window of fewer would still be single hits
 constexpr std::size_t kMostPanels = 40;  // in summary.json; run.h5 has all
 
@@ -23,7 +23,7 @@ PanelLoads::PanelLoads(HullPanels hull, std::vector<std::string> region_names, d
       region_names_(std::move(region_names)),
       average_from_(average_from),
       dt_(dt),
-      steps_per_window_(std::max<std::int64_t>(kLeastSteps, std::llround(kWindow / dt))),
+      steps_per_window_(std::max<std::int64_t>(kLeastSteps, std::llround(kPanelWindow / dt))),
       on_panel_(hull_.panels.size(), 0.0),
       on_region_(region_names_.size(), 0.0) {
     hull_.window = static_cast<double>(steps_per_window_) * dt;

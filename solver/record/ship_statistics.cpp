@@ -17,16 +17,16 @@ namespace {
 
 constexpr double kSlow = 0.1;        // [m/s]
 constexpr double kStuckTime = 10.0;  // [s]
-constexpr double kDegrees = 180.0 / std::numbers::pi;
+constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
 constexpr std::size_t kMostOrdinates = 400;
 
-double mean_of(const std::vector<double>& series) {
+double mean_of_history(const std::vector<double>& series) {
     return std::accumulate(series.begin(), series.end(), 0.0) / static_cast<double>(series.size());
 }
 
 // Period of the largest ordinate of the periodogram [s]; 0 where nothing changes.
 double dominant_period(std::vector<double> series, double dt) {
-    const double mean = mean_of(series);
+    const double mean = mean_of_history(series);
     for (double& value : series) value -= mean;
     const std::size_t count = std::min((series.size() - 1) / 2, kMostOrdinates);
     if (count == 0 || standard_deviation(series) == 0.0) return 0.0;
@@ -62,7 +62,7 @@ FreeTravel ShipStatistics::travel(const FreeShip& ship, const Scene& scene, cons
     const Bodies& b = scene.bodies;
     const ShipRig& rig = ship.rig();
     const Vec3 centre = b.position[kShip] + b.rotation[kShip] * rig.body.centre_of_gravity;
-    const double mean = speed_.empty() ? b.velocity[kShip].x() : mean_of(speed_);
+    const double mean = speed_.empty() ? b.velocity[kShip].x() : mean_of_history(speed_);
     return {rig.equilibrium.height, mean, centre.x() - rig.anchor.x(),
             mean * p.time_step * static_cast<double>(speed_.size())};
 }
@@ -104,9 +104,9 @@ void ShipStatistics::fill_means(const ShipRig& rig, const Case& p,
     // of a sinusoid with that period and the speed's deviation
     out["surge_amplitude_m"] =
         std::numbers::sqrt2 * out["speed_std"] * period / (2.0 * std::numbers::pi);
-    out["thrust_mean_N"] = mean_of(thrust_);
+    out["thrust_mean_N"] = mean_of_history(thrust_);
     if (p.tow.stiffness > 0.0) {
-        out["tow_fx_mean_N"] = mean_of(tow_);
+        out["tow_fx_mean_N"] = mean_of_history(tow_);
         out["tow_fx_std_N"] = standard_deviation(tow_);
     }
     const auto steps = static_cast<double>(speed_.size());
@@ -114,7 +114,7 @@ void ShipStatistics::fill_means(const ShipRig& rig, const Case& p,
     const bool moored = p.mooring.stiffness[surge] > 0.0;
     for (std::size_t k = 0; k < kFreedoms; ++k) {
         if (!rig.body.free[k] || (k == surge && !moored)) continue;
-        const double unit = k < 3 ? 1.0 : kDegrees;
+        const double unit = k < 3 ? 1.0 : kDegreesPerRadian;
         const char* const suffix = k < 3 ? "m" : "deg";
         const double mean = sum_[k] / steps;
         const std::string name(kNames[k]);

@@ -28,14 +28,14 @@ namespace fs = std::filesystem;
 
 // Of the fields' content: to be raised where equal cases get other ice, so that old files are not
 // read.
-constexpr std::uint64_t kFields = 3;
+constexpr std::uint64_t kSheetFields = 3;
 
-constexpr double kTileLength = 4.0;  // of the ice that never moves, in radii at rest
-constexpr double kMargin = 2.0;      // breadth of it beyond the pieces, likewise
-constexpr double kSmallest = 0.5;    // piece, in thicknesses
-constexpr double kHolds = 0.26;      // thicknesses inwards from a piece's sides, where something is
-constexpr double kClear = 0.25;      // of the sides, of points between cracks
-constexpr int kTimes = 1000;         // at which the course is looked at
+constexpr double kTileLength = 4.0;   // of the ice that never moves, in radii at rest
+constexpr double kSheetMargin = 2.0;  // breadth of it beyond the pieces, likewise
+constexpr double kSmallest = 0.5;     // piece, in thicknesses
+constexpr double kHolds = 0.26;  // thicknesses inwards from a piece's sides, where something is
+constexpr double kClear = 0.25;  // of the sides, of points between cracks
+constexpr int kTimes = 1000;     // at which the course is looked at
 
 // How fast the ship is where: (distance gone [m], speed [m/s]).
 std::vector<std::pair<double, double>> course_of(const Case& p) {
@@ -83,10 +83,10 @@ Passage passage_of(const Case& p, const TriangleMesh& hull) {
     return passage;
 }
 
-std::uint64_t hash_of(const Case& p, const Passage& passage) {
+std::uint64_t hash_of_passage(const Case& p, const Passage& passage) {
     const LevelIce& ice = p.level_ice;
     StateHash hash;
-    hash.add(kFields);
+    hash.add(kSheetFields);
     hash.add(passage.law.seed);
     for (const double value : {ice.thickness, ice.extent[0], ice.extent[1], ice.extent[2],
                                ice.extent[3], ice.spacing, ice.gap, ice.length_factor,
@@ -184,7 +184,7 @@ void make_field(const Case& p, const Passage& passage, const fs::path& file) {
                         "the ship does not reach the ice on its course",
                         "move the ice or the ship, or lengthen simulation.duration");
     const std::vector<Loop> tiles =
-        tile_rest(broken.rest, broken.pieces, kMargin * radius, kTileLength * radius);
+        tile_rest(broken.rest, broken.pieces, kSheetMargin * radius, kTileLength * radius);
     const fs::path stem = fs::path(file).replace_extension();
     Field field = fill(ice, all_shrunk(broken.pieces, ice, smallest, broken.brash),
                        stem.string() + ".pieces");
@@ -209,7 +209,7 @@ Case with_level_ice(const Case& parameters) {
                         "the hull does not reach the height of the ice",
                         "change hull.draught or level_ice.thickness");
     const fs::path file = parameters.hull_spheres.parent_path() /
-                          fmt::format("level-ice.{:016x}.h5", hash_of(parameters, passage));
+                          fmt::format("level-ice.{:016x}.h5", hash_of_passage(parameters, passage));
     if (!fs::exists(file)) make_field(parameters, passage, file);
     Case out = parameters;
     FloeGroup pieces;

@@ -57,7 +57,7 @@ double keel_of(const TriangleMesh& mesh) {
     return keel;
 }
 
-std::uint64_t hash_of(const TriangleMesh& mesh, int dimension, const FlowOptions& options) {
+std::uint64_t hash_of_flow(const TriangleMesh& mesh, int dimension, const FlowOptions& options) {
     StateHash hash;
     hash.add(kTables);
     hash.add(static_cast<std::uint64_t>(dimension));
@@ -103,7 +103,7 @@ FlowTable make_table(const Case& p, const Scene& scene) {
     FlowOptions options;
     options.water = -scene.bodies.position[kShip].z();
     options.finest = round_down(0.5 * thinnest_floe(scene));
-    const auto file = kept_as(p.hull_spheres, hash_of(mesh, p.dimension, options));
+    const auto file = kept_as(p.hull_spheres, hash_of_flow(mesh, p.dimension, options));
     if (std::filesystem::exists(file)) return read_flow(file);
     const OneMaker turn(file);
     if (std::filesystem::exists(file)) return read_flow(file);

@@ -8,7 +8,7 @@ namespace ice {
 namespace {
 
 // Normals whose cosine is above this are one: facets of a flat face differ by rounding.
-constexpr double kSameNormal = 1.0 - 1e-12;
+constexpr double kSameAxis = 1.0 - 1e-12;
 
 // Tips are where the mesh's corners are to less than this [m], unless these are cut off.
 constexpr double kSettled = 1e-6;
@@ -35,7 +35,7 @@ bool list_normals(const TriangleMesh& mesh, std::vector<Vec3>& out) {
             (mesh.corner(t, 1) - mesh.corner(t, 0)).cross(mesh.corner(t, 2) - mesh.corner(t, 0));
         const double length = across.norm();
         if (length == 0.0) continue;
-        const auto same = [](const Vec3& l, const Vec3& r) { return l.dot(r) > kSameNormal; };
+        const auto same = [](const Vec3& l, const Vec3& r) { return l.dot(r) > kSameAxis; };
         if (!keep(out, across / length, same)) return false;
     }
     return !out.empty();

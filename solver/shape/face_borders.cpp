@@ -16,7 +16,7 @@ namespace {
 constexpr double kOneFace = 0.999, kOnePlane = 0.1;
 
 // Planes this near (cosine, radii) are one: spheres along a straight edge differ by rounding.
-constexpr double kSameNormal = 1.0 - 1e-9, kRounding = 1e-6;
+constexpr double kSameBorderNormal = 1.0 - 1e-9, kBorderRounding = 1e-6;
 
 // A plane that leaves this much (radii) of another edge's sphere before it cuts nothing off.
 constexpr double kCutOff = 0.01;
@@ -101,8 +101,8 @@ private:
     }
     bool is_new(const Face& face, std::size_t k, const std::vector<Face>& known) const {
         return std::none_of(known.begin(), known.end(), [&](const Face& f) {
-            return f.normal.dot(face.normal) > kSameNormal &&
-                   std::abs(f.offset - face.offset) <= kRounding * shape_.radius[k];
+            return f.normal.dot(face.normal) > kSameBorderNormal &&
+                   std::abs(f.offset - face.offset) <= kBorderRounding * shape_.radius[k];
         });
     }
     // Does all that is known of the face lie before the plane?

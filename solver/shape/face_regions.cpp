@@ -14,7 +14,7 @@ namespace {
 constexpr double kSameFace = 0.999;
 
 // A face whose normal is nearer by less than this (cosine) lies in the same plane.
-constexpr double kSamePlane = 1e-6;
+constexpr double kSameRegionPlane = 1e-6;
 
 struct NearFace {
     double distance_sq;  // from the sphere's centre [m2]
@@ -89,7 +89,7 @@ std::int32_t FaceRegions::at(std::int32_t sphere, const Vec3& n) const {
     double nearest = -2.0;  // below any cosine
     for (std::size_t f = first_[k]; f < first_[k + 1]; ++f) {
         const double along = n.dot(faces_[f].normal);
-        if (along <= nearest + kSamePlane) continue;
+        if (along <= nearest + kSameRegionPlane) continue;
         nearest = along;
         region = faces_[f].region;
     }
