@@ -11,6 +11,7 @@
 
 #include "solver/loads/afloat_lanes-inl.hpp"
 #include "solver/loads/flow_drag_lanes-inl.hpp"
+#include "solver/loads/flow_pressure_lanes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace ice::HWY_NAMESPACE {
@@ -47,6 +48,22 @@ HWY_INLINE Vectors AboutPlane(Vectors moment) {
     return {hn::Zero(Tag()), moment.y, hn::Zero(Tag())};
 }
 
+// What water that moves does to floes.
+struct FlowLoads {
+    RelativeLoad drag;
+    Load pressure;
+};
+HWY_INLINE FlowLoads LoadsInFlow(const Scene& scene, const Case& p, const Afloat& floes,
+                                 const Matrices& inertia) {
+    const FlowNear near(floes, scene.water);
+    FlowLoads out{DragInFlow(floes, p, scene.water, near, inertia), {Zero(), Zero()}};
+    if (!scene.water.presses || !scene.water.flows()) return out;
+    out.pressure = PressureInFlow(floes, p, scene.water, near);
+    if (scene.dimension == 2)
+        out.pressure = {InPlane(out.pressure.force), AboutPlane(out.pressure.moment)};
+    return out;
+}
+
 // Of no more floes than there are lanes, all of one form.
 void LoadPart(const Scene& scene, const Case& p, std::span<const std::int32_t> ids,
               std::span<FloeLoad> out) {
@@ -58,11 +75,13 @@ void LoadPart(const Scene& scene, const Case& p, std::span<const std::int32_t> i
     const Matrices inertia = at.Load(b, &Inertia::body);
 
     const Mask flows = InFlow(scene.water, floes);
-    Load drag{Zero(), Zero()};
+    Load drag{Zero(), Zero()}, pressure{Zero(), Zero()};
     Lanes water_power = hn::Zero(d);
     if (!hn::AllTrue(d, flows)) drag = DragAtRest(floes, p, inertia);
     if (!hn::AllFalse(d, flows)) {
-        const RelativeLoad moved = DragInFlow(floes, p, scene.water, inertia);
+        const FlowLoads in_flow = LoadsInFlow(scene, p, floes, inertia);
+        const RelativeLoad& moved = in_flow.drag;
+        pressure = {Only(flows, in_flow.pressure.force), Only(flows, in_flow.pressure.moment)};
         drag = {Choose(flows, moved.force, drag.force), Choose(flows, moved.moment, drag.moment)};
         const Lanes work =
             hn::Add(Dot(moved.force, floes.velocity), Dot(moved.moment, floes.angular_velocity));
@@ -84,23 +103,22 @@ void LoadPart(const Scene& scene, const Case& p, std::span<const std::int32_t> i
         drag = {InPlane(drag.force), AboutPlane(drag.moment)};
     }
 
-    const Vectors parts[5] = {all.force, all.moment, drag.force, drag.moment, righting};
-    HWY_ALIGN double value[5][3 * kMostLanes];
-    for (int k = 0; k < 5; ++k)
+    if (scene.water.presses)
+        all = {Add(all.force, pressure.force), Add(all.moment, pressure.moment)};
+    const Vectors parts[7] = {all.force, all.moment,     drag.force,     drag.moment,
+                              righting,  pressure.force, pressure.moment};
+    HWY_ALIGN double value[7][3 * kMostLanes];
+    for (int k = 0; k < 7; ++k)
         hn::StoreInterleaved3(parts[k].x, parts[k].y, parts[k].z, d, value[k]);
     HWY_ALIGN double power[kMostLanes];
     hn::Store(water_power, d, power);
     for (std::size_t k = 0; k < ids.size(); ++k) {
         out[k].water_power = power[k];
-        Vec3* const of_floe[5] = {&out[k].force, &out[k].moment, &out[k].drag.force,
-                                  &out[k].drag.moment, &out[k].righting};
-        for (int n = 0; n < 5; ++n)
+        Vec3* const of_floe[7] = {&out[k].force,          &out[k].moment,   &out[k].drag.force,
+                                  &out[k].drag.moment,    &out[k].righting, &out[k].pressure.force,
+                                  &out[k].pressure.moment};
+        for (int n = 0; n < 7; ++n)
             std::memcpy(of_floe[n]->data(), value[n] + 3 * k, 3 * sizeof(double));
-        if (!scene.water.presses) continue;
-        // floe by floe: a choice of the case, of a cost like the drag's
-        out[k].pressure = flow_pressure(scene, p, static_cast<std::size_t>(ids[k]));
-        out[k].force += out[k].pressure.force;
-        out[k].moment += out[k].pressure.moment;
     }
 }
 

@@ -104,7 +104,8 @@ HWY_INLINE void AddWetted(const Cut& h, const RelativeTriangles& t, RelativeSums
     sums.AddOnly(h.any, SizeOf(tip), IntegratePart(RelativeTriangles(t, h, tip), h.any));
 }
 
-// Over the wetted surface. @param u  relative to the water, body axes: at a vertex, or at a point
+// Over the wetted surface. @param u  relative to the water, body axes: at the vertices and,
+// numbered behind them, at the middles of the triangles' sides
 template <class Relative>
 HWY_INLINE RelativeSums IntegrateRelative(const Shape& form, const Water& water,
                                           const Relative& u) {
@@ -114,10 +115,11 @@ HWY_INLINE RelativeSums IntegrateRelative(const Shape& form, const Water& water,
         Vec3 p[6];
         Lanes z[6], f[6];
         Vectors at[6];
-        std::size_t corner[3];
+        std::size_t place[6];
         for (std::size_t k = 0; k < 3; ++k) {
-            corner[k] = static_cast<std::size_t>(form.mesh.triangles[n][k]);
-            p[k] = form.mesh.vertices[corner[k]];
+            place[k] = static_cast<std::size_t>(form.mesh.triangles[n][k]);
+            place[3 + k] = form.mesh.vertices.size() + 3 * n + k;
+            p[k] = form.mesh.vertices[place[k]];
             z[k] = water.HeightOf(Set(p[k]));
         }
         if (hn::AllFalse(d, CutByWater({z[0], z[1], z[2]}).AnyInside())) continue;
@@ -126,10 +128,11 @@ HWY_INLINE RelativeSums IntegrateRelative(const Shape& form, const Water& water,
         for (std::size_t k = 0; k < 3; ++k) {
             p[3 + k] = 0.5 * (p[k] + p[(k + 1) % 3]);
             z[3 + k] = water.HeightOf(Set(p[3 + k]));
-            at[k] = u.AtVertex(corner[k]);
-            at[3 + k] = u.At(p[3 + k]);
         }
-        for (std::size_t k = 0; k < 6; ++k) f[k] = Dot(quarter, at[k]);
+        for (std::size_t k = 0; k < 6; ++k) {
+            at[k] = u.At(place[k]);
+            f[k] = Dot(quarter, at[k]);
+        }
         for (const auto& [i, j, k] : kQuarters) {
             RelativeTriangles t;
             const std::size_t of[3] = {i, j, k};
