@@ -116,6 +116,19 @@ namespace {
 // The list is made for bodies that go this far [m]; more makes it longer, less makes it anew often.
 constexpr double kSkin = 0.1;
 
+// The held floe that drifts fastest, or -1 where none does.
+std::int32_t fastest_held(const Bodies& b) {
+    std::int32_t found = -1;
+    double most = 0.0;
+    for (std::size_t i = 1; i < b.size(); ++i) {
+        const double speed = b.held[i] ? b.velocity[i].norm() : 0.0;
+        if (speed <= most) continue;
+        most = speed;
+        found = static_cast<std::int32_t>(i);
+    }
+    return found;
+}
+
 // The vicinity is larger than what the moving bodies reach by this [m]. More puts more floes in the
 // list's grid, less has all floes looked through more often: a ship at 2 m/s every 2.5 s.
 constexpr double kVicinityRoom = 5.0;
@@ -129,14 +142,15 @@ bool PairList::is_good(const Scene& scene, const Travel& travel) const {
     if (!stays(kShipId, ship_way_)) return false;
     for (std::size_t k = 0; k < moving_.size(); ++k)
         if (!stays(moving_[k], way_[k])) return false;
-    return true;
+    return drifting_ < 0 || stays(drifting_, drift_way_);
 }
 
 void PairList::update(const Scene& scene, const Travel& travel, double margin) {
     if (is_good(scene, travel)) return;
     const double reach = margin + 2.0 * kSkin;  // both bodies of a pair may go as far
     const Eigen::AlignedBox3d box = reach_of_motion(scene, reach);
-    if (bodies_ != scene.bodies.size() || !vicinity_.contains(box)) {
+    drifting_ = fastest_held(scene.bodies);
+    if (bodies_ != scene.bodies.size() || !vicinity_.contains(box) || drifting_ >= 0) {
         vicinity_ = grown(box, kVicinityRoom);
         find_floes(scene, vicinity_, floes_);
         bodies_ = scene.bodies.size();
@@ -144,6 +158,7 @@ void PairList::update(const Scene& scene, const Travel& travel, double margin) {
     find_pairs_among(scene, reach, floes_, pairs_);
     moving_ = scene.bodies.moving;
     ship_way_ = travel.way(kShipId);
+    if (drifting_ >= 0) drift_way_ = travel.way(drifting_);
     way_.resize(moving_.size());
     for (std::size_t k = 0; k < way_.size(); ++k) way_[k] = travel.way(moving_[k]);
 }

@@ -31,7 +31,7 @@ void find_pairs(const Scene& scene, double margin, std::vector<BodyPair>& out);
 
 /// The pairs of bodies that may touch within a step, kept until bodies have gone too far. To make
 /// it anew costs what lies in the box of all that moves; held floes elsewhere are not looked at,
-/// and are taken to stay where they are.
+/// and are taken to stay where they are, or, where they drift, looked through each time.
 class PairList {
 public:
     /// Brings the list up to date: afterwards it holds all pairs that find_pairs gives for bodies
@@ -47,7 +47,8 @@ private:
     std::vector<BodyPair> pairs_;
     std::vector<std::int32_t> moving_;  // the floes that moved when the list was made
     std::vector<double> way_;           // theirs then [m]
-    double ship_way_ = 0.0;
+    double ship_way_ = 0.0, drift_way_ = 0.0;
+    std::int32_t drifting_ = -1;       // the held floe that drifts fastest; -1: none does
     Eigen::AlignedBox3d vicinity_;     // of all that moves
     std::vector<std::int32_t> floes_;  // in it, held ones too
     std::size_t bodies_ = 0;           // that were looked at for them

@@ -52,6 +52,8 @@ void Travel::update(const Scene& scene, double dt) {
     }
     look(kShip);
     for (const std::int32_t i : b.moving) look(static_cast<std::size_t>(i));
+    for (std::size_t i = 1; i < b.size(); ++i)
+        if (b.held[i] && !b.velocity[i].isZero(0.0)) look(i);
 }
 
 }  // namespace ice

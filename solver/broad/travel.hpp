@@ -13,8 +13,8 @@ namespace ice {
 /// A body's way grows by |dx| + theta (R + 0.5 m) from look to look: no point of it, nor of a body
 /// that touches it, moves further in its axes, or it in theirs. Of two bodies the relative motion
 /// of surfaces near each other is at most the sum of their ways. Taken from the poses themselves,
-/// so that nothing that moves a body is overlooked; held floes are not looked at. How far the last
-/// step crushed a body counts, too.
+/// so that nothing that moves a body is overlooked; of held floes those that drift. How far the
+/// last step crushed a body counts, too.
 class Travel {
 public:
     /// Looks at the present poses. @param dt  [s] for `soon`: the step that is to come

@@ -75,7 +75,7 @@ std::vector<CaseKey> run_keys() {
          "Density of the ice.", [](Case& c, G&, const Value& v) { c.ice_density = number(v); }},
         {"ice.drift_velocity", Kind::vector, D::speed, "[0.0, 0.0]", -50, 50, 2, "",
          "Velocity of all floes at the start along x and y, and of the water unless flow.current "
-         "is given: ice that drifts past a moored or towed ship.",
+         "is given: ice that drifts past a moored or towed ship. Held floes keep it.",
          [](Case& c, G&, const Value& v) { c.drift_velocity = vector2(v); }},
     };
 }

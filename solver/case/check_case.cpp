@@ -92,9 +92,9 @@ void check_level_ice(const Case& checked, const Complaints& complaints) {
 void check_case(Case& checked, std::size_t groups, const Values& values,
                 const Complaints& complaints) {
     check_ship(checked, values, complaints);
-    take_drift(checked, groups, values, complaints);
     for (std::size_t g = 0; g < groups; ++g)
         check_group(checked.floes[g], g, checked.dimension, values, complaints);
+    take_drift(checked, groups, values, complaints);
     check_bending(checked, groups, complaints);
     check_level_ice(checked, complaints);
     if (checked.average_from >= checked.duration)

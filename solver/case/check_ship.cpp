@@ -123,15 +123,12 @@ void take_drift(Case& checked, std::size_t groups, const Values& values,
         given == values.end() ||
         std::get<std::vector<double>>(given->second) == std::vector<double>{0.0, 0.0})
         checked.current = checked.drift_velocity;
+    if (checked.has_level_ice())
+        complaints.add_at("ice.drift_velocity",
+                          "ice.drift_velocity is given, but level ice is broken along the ship's "
+                          "course over ground; leave it out and give the ship the opposite speed");
     for (std::size_t g = 0; g < groups; ++g) {
         FloeGroup& group = checked.floes[g];
-        if (group.hold != Hold::never) {
-            complaints.add_at("ice.drift_velocity",
-                              fmt::format("ice.drift_velocity is given, but a held floe does not "
-                                          "drift; set floes.{}.hold = \"never\"",
-                                          g + 1));
-            return;
-        }
         if (group.velocity.isZero(0.0)) group.velocity = Vec3(x, y, 0.0);
     }
 }

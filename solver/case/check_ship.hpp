@@ -12,7 +12,7 @@ namespace ice {
 void check_ship(const Case& checked, const Values& values, const Complaints& complaints);
 
 /// Gives drift_velocity to the floes that have no velocity of their own, and to the water unless
-/// flow.current is given. Complains of held floes, which do not drift.
+/// flow.current is given.
 /// @param groups  of the case; there are no others yet
 void take_drift(Case& checked, std::size_t groups, const Values& values,
                 const Complaints& complaints);

@@ -38,7 +38,33 @@ double gap_after(const Bodies& bodies, const Constraint& c, double dt) {
     return c.gap + dt * relative_velocity(bodies, c).dot(c.normal);
 }
 
+bool is_of_ship(const Bodies& bodies, const Constraint& c) {
+    return c.a == static_cast<std::int32_t>(kShip) && bodies.ship.free;
+}
+
 }  // namespace
+
+Overlaps::Push Overlaps::push_of(const Bodies& bodies, const Constraint& c, std::size_t row,
+                                 double wanted) {
+    const bool ship = is_of_ship(bodies, c);
+    const Mat3 &of_a = ship ? bodies.ship.inverse_inertia : bodies.inverse_inertia_world[c.a],
+               &of_b = bodies.inverse_inertia_world[c.b];
+    const Mat3 response = response_matrix(bodies.inverse_mass[c.a] + bodies.inverse_mass[c.b], of_a,
+                                          c.arm_a, of_b, c.arm_b);
+    double yields = ordered_dot(c.normal, ordered_product(response, c.normal));
+    Vec3 shift = Vec3::Zero();
+    if (ship) {
+        shift = ordered_product(bodies.ship.inverse_mass, c.normal);
+        yields += ordered_dot(c.normal, shift);
+    }
+    return {row,
+            wanted,
+            0.0,
+            ordered_product(of_a, c.arm_a.cross(c.normal)),
+            ordered_product(of_b, c.arm_b.cross(c.normal)),
+            1.0 / yields,
+            shift};
+}
 
 void Overlaps::correct_positions(const Scene& scene, const std::vector<Constraint>& constraints,
                                  double dt, PositionCorrections& out) {
@@ -46,6 +72,8 @@ void Overlaps::correct_positions(const Scene& scene, const std::vector<Constrain
     const double share = std::min(dt / kOpeningTime, kMostInStep);
     out.shift.resize(bodies.size(), Vec3::Zero());
     out.turn.resize(bodies.size(), Vec3::Zero());
+    out.shift[kShip].setZero();
+    out.turn[kShip].setZero();
     for (const std::int32_t i : bodies.moving) {
         out.shift[i].setZero();
         out.turn[i].setZero();
@@ -56,17 +84,9 @@ void Overlaps::correct_positions(const Scene& scene, const std::vector<Constrain
         const Constraint& c = constraints[k];
         const double radius = radius_of(scene, c);
         const double overlap = -gap_after(bodies, c, dt) - kToleratedOverlap * radius;
-        if (overlap <= 0.0 || c.crushed()) continue;
-        // overlaps with the ship open by the floe alone; a held one keeps its own
-        if (bodies.inverse_mass[c.a] + bodies.inverse_mass[c.b] == 0.0) continue;
-        const Mat3 &of_a = bodies.inverse_inertia_world[c.a],
-                   &of_b = bodies.inverse_inertia_world[c.b];
-        const Mat3 response = response_matrix(bodies.inverse_mass[c.a] + bodies.inverse_mass[c.b],
-                                              of_a, c.arm_a, of_b, c.arm_b);
-        pushes_.push_back({k, share * std::min(overlap, kMostOpened * radius), 0.0,
-                           ordered_product(of_a, c.arm_a.cross(c.normal)),
-                           ordered_product(of_b, c.arm_b.cross(c.normal)),
-                           1.0 / ordered_dot(c.normal, ordered_product(response, c.normal))});
+        // a captive ship and held ice keep theirs
+        if (overlap <= 0.0 || c.crushed() || !c.can_move) continue;
+        pushes_.push_back(push_of(bodies, c, k, share * std::min(overlap, kMostOpened * radius)));
     }
     // Gauss-Seidel on the moves: n . (d_b - d_a) >= target with a push that never pulls
     for (int iteration = 0; iteration < kSeparationIterations; ++iteration)
@@ -82,6 +102,7 @@ void Overlaps::correct_positions(const Scene& scene, const std::vector<Constrain
             out.shift[c.b] += change * bodies.inverse_mass[c.b] * c.normal;
             out.turn[c.a] -= change * push.turn_a;
             out.turn[c.b] += change * push.turn_b;
+            if (is_of_ship(bodies, c)) out.shift[kShip] -= change * push.ship_shift;
         }
 }
 

@@ -29,7 +29,8 @@ public:
     /// radii a second, at any scale and time step.
     ///
     /// The same inequality solver on displacements instead of velocities: n . (d_b - d_a) >= push.
-    /// Crushed contacts are left alone: that ice is gone.
+    /// Crushed contacts are left alone: that ice is gone. A ship that answers moves by its share,
+    /// of its mass and the water's that moves along; where it is captive floes move alone.
     /// @param dt  time step [s]
     void correct_positions(const Scene& scene, const std::vector<Constraint>& constraints,
                            double dt, PositionCorrections& out);
@@ -46,7 +47,10 @@ private:
         double target, done;  // move along the normal wanted [m]; impulse so far [kg m]
         Vec3 turn_a, turn_b;  // by a unit push: I^-1 (r x n) [rad/(kg m)]
         double mass;          // 1 / k(n) [kg]
+        Vec3 ship_shift;      // by a unit push, of a ship that answers [1/kg]
     };
+    static Push push_of(const Bodies& bodies, const Constraint& c, std::size_t row, double wanted);
+
     struct CrushEvent {
         std::int32_t body, sphere;
         std::size_t constraint;

@@ -27,6 +27,11 @@ void book_contact(const Bodies& now, const Constraint& c, const StepStart& start
         (c.crushed() ? ledger.crushing : ledger.restitution) -= push.dot(mean);
         ledger.friction -= rub.dot(mean);
     }
+    const auto works_on = [&](std::int32_t i) {  // held ice that drifts, on what it touches
+        return i != static_cast<std::int32_t>(kShip) && now.held[i] != 0;
+    };
+    if (works_on(c.a)) ledger.drift_work += (push + rub).dot(now.velocity[c.a]);
+    if (works_on(c.b)) ledger.drift_work -= (push + rub).dot(now.velocity[c.b]);
     if (c.a != static_cast<std::int32_t>(kShip)) return;
     const Vec3 ship =
         now.ship.free ? Vec3(0.5 * (start.velocity[kShip] + now.velocity[kShip]) +
@@ -43,7 +48,7 @@ void EnergyLedger::begin(const Scene& scene, const Case& parameters) {
 }
 
 double EnergyLedger::residual(double potential_now) const {
-    return ship_work + separation + water_work + applied_work - kinetic -
+    return ship_work + drift_work + separation + water_work + applied_work - kinetic -
            (potential_now - potential_start.value_or(0.0)) - friction - restitution - crushing -
            breaking - drag - buoyancy_moment;
 }
@@ -78,13 +83,14 @@ void book_step(const Scene& scene, const Case& parameters,
 
 void fill_energy(const EnergyLedger& ledger, double potential_now, Summary& summary) {
     const double residual = ledger.residual(potential_now);
-    const double work = std::abs(ledger.ship_work);
+    const double work = std::abs(ledger.ship_work) + std::abs(ledger.drift_work);
     const double share = work > 0.0 ? residual / work : 0.0;
     // a ship that has hardly touched anything must not be blamed for floes that bob
     const double turnover = std::max(work, ledger.friction + ledger.restitution + ledger.crushing +
                                                ledger.breaking + ledger.drag);
     auto& out = summary.energy;
     out["ship_work_J"] = ledger.ship_work;
+    if (ledger.drift_work != 0.0) out["drift_work_J"] = ledger.drift_work;
     out["kinetic_change_J"] = ledger.kinetic;
     out["potential_J"] = potential_now - ledger.potential_start.value_or(potential_now);
     out["friction_J"] = ledger.friction;

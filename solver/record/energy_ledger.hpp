@@ -18,7 +18,7 @@ namespace ice {
 /// Sums since the start of the run [J], in 2D per metre of breadth. With dK and dU the changes of
 /// kinetic and potential energy of the floes,
 ///
-///     ship_work + separation + water_work + applied_work
+///     ship_work + drift_work + separation + water_work + applied_work
 ///         = dK + dU + friction + restitution + crushing + breaking + drag + buoyancy_moment
 ///           + residual.
 ///
@@ -27,6 +27,7 @@ namespace ice {
 ///
 ///     ship_work        sum of J_c . v_ship over the ship's contacts; of a ship that answers, the
 ///                      mean of its velocities there at the step's start and end
+///     drift_work       sum of J_c . v over the contacts of held ice that drifts at v
 ///     friction         -J_t . V
 ///     crushing         -J_n n . V where the contact is at its strength
 ///     restitution      -J_n n . V elsewhere: what a plastic or partly elastic impact takes
@@ -42,7 +43,7 @@ namespace ice {
 ///
 /// Velocities are linear in impulses and loads, so that for any of them, exactly,
 ///
-///     dK = sum J_c . V + ship_work + dt sum (F . v + T . w)   in every step.
+///     dK = sum J_c . V + ship_work + drift_work + dt sum (F . v + T . w)   in every step.
 ///
 /// A floe at rest under load books nothing. The residual is what weight and buoyancy do by this
 /// sum less what they do by -dU. Their force at the pose between two steps acts on the mean of both
@@ -50,7 +51,7 @@ namespace ice {
 /// means over the impact stage alone instead, as first tried, every impact under load leaves
 /// dt F . (change of v) / 2: 0.8 % of the ship's work in the paper's 2D case at 0.5 m/s.
 struct EnergyLedger {
-    double ship_work = 0.0;
+    double ship_work = 0.0, drift_work = 0.0;
     double kinetic = 0.0;  ///< change of kinetic energy over all steps
     double friction = 0.0, restitution = 0.0, crushing = 0.0, breaking = 0.0, drag = 0.0;
     double water_work = 0.0, applied_work = 0.0;

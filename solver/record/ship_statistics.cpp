@@ -86,10 +86,10 @@ void ShipStatistics::fill(const FreeShip& ship, const Scene& scene, const Case& 
     energy["mooring_work_J"] = e.mooring;
     energy["ship_ice_work_J"] = e.ice;
     energy["ship_losses_J"] = e.losses;
+    energy["ship_separation_J"] = e.separation;
     energy["ship_kinetic_J"] = kinetic;
     energy["ship_potential_J"] = potential;
-    energy["ship_residual_J"] =
-        e.thrust + e.tow + e.mooring - e.ice - e.losses - kinetic - potential;
+    energy["ship_residual_J"] = e.residual(kinetic + potential);
     if (!speed_.empty()) fill_means(rig, p, out);
     summary.ship.motion = {out.begin(), out.end()};
 }

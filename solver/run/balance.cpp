@@ -44,8 +44,8 @@ void add_contacts(const std::vector<Constraint>& constraints, std::vector<Sums>&
 }
 
 // The floes' changes less the loads, and the impulses on everything that cannot move.
-Sums all_together(const Momenta& before, const World& w, const std::vector<FloeLoad>& loads,
-                  const std::vector<Sums>& contacts) {
+Sums all_together(const Momenta& before, const World& w, const StepRecord& ship,
+                  const std::vector<FloeLoad>& loads, const std::vector<Sums>& contacts) {
     const Bodies& b = w.scene.bodies;
     const double dt = w.parameters.time_step;
     Sums all;
@@ -67,7 +67,6 @@ Sums all_together(const Momenta& before, const World& w, const std::vector<FloeL
         all.angular.size += before.angular[i].norm() + contacts[i].angular.size +
                             dt * loads[i].moment.norm() + swing * linear;
     }
-    const StepRecord ship = measure_step(w.scene, w.contacts, w.constraints, dt);
     const Vec3 force = ship.contact_force + ship.friction_force;
     all.linear.add(dt * force);
     all.angular.add(dt * ship.moment);
@@ -75,12 +74,52 @@ Sums all_together(const Momenta& before, const World& w, const std::vector<FloeL
     return all;
 }
 
+// How far the free ones of three motions are from balance: change of momentum less impulse, in
+// their axes. @param given  size of what the impulse is the sum of
+double off_balance(const ShipBody& body, Freedom first, const Mat3& masses, const Vec3& from,
+                   const Vec3& to, const Vec3& impulse, double given) {
+    const auto is_free = [&](int k) { return body.free[static_cast<std::size_t>(first + k)]; };
+    double off = 0.0, size = given;
+    for (int k = 0; k < 3; ++k) {
+        if (!is_free(k)) continue;
+        Vec3 row = masses.row(k);
+        for (int j = 0; j < 3; ++j)
+            if (!is_free(j)) row[j] = 0.0;
+        off += std::abs(row.dot(to - from) - impulse[k]);
+        size += row.cwiseAbs().dot(to.cwiseAbs() + from.cwiseAbs()) + std::abs(impulse[k]);
+    }
+    return off == 0.0 ? 0.0 : off / size;
+}
+
+double imbalance_of_ship(const Momenta& before, const World& w, const StepRecord& reported,
+                         const Sums& contacts) {
+    const Bodies& b = w.scene.bodies;
+    const double dt = w.parameters.time_step;
+    const ShipBody& body = w.ship.rig().body;
+    const ShipAxes axes = axes_of(before.ship_angles);
+    const ShipMasses masses = masses_of(body, before.ship_angles);
+    const ShipForce loads = w.ship.loads().total();
+    const Vec3 ice = reported.contact_force + reported.friction_force;
+    const Vec3 ice_moment = reported.moment - b.ship.centre.cross(ice);
+    const Mat3 to_axes = axes.shift.transpose(), to_rates = axes.turn.inverse();
+    const double linear = off_balance(body, surge, masses.shift, to_axes * w.ship.velocity_start(),
+                                      to_axes * b.velocity[kShip],
+                                      dt * (to_axes * (loads.force + ice)), contacts.linear.size);
+    const double angular =
+        off_balance(body, roll, masses.turn, to_rates * w.ship.spin_start(),
+                    to_rates * b.angular_velocity[kShip],
+                    dt * (axes.turn.transpose() * (loads.moment + ice_moment)),
+                    contacts.angular.size + b.ship.centre.norm() * contacts.linear.size);
+    return std::max(linear, angular);
+}
+
 }  // namespace
 
-double Imbalance::worst() const { return std::max({linear, angular, together}); }
+double Imbalance::worst() const { return std::max({linear, angular, together, ship}); }
 
-Momenta momenta_of(const Bodies& bodies) {
-    return {bodies.position, bodies.momentum, bodies.angular_momentum};
+Momenta momenta_of(const World& w) {
+    const Bodies& b = w.scene.bodies;
+    return {b.position, b.momentum, b.angular_momentum, w.ship.angles()};
 }
 
 Imbalance measure_imbalance(const Momenta& before, const World& w) {
@@ -94,8 +133,10 @@ Imbalance measure_imbalance(const Momenta& before, const World& w) {
     add_contacts(w.constraints, sums);
     Imbalance out;
     const std::vector<FloeLoad> loads = loads_by_body(b, w.loads);
-    const Sums all = all_together(before, w, loads, sums);
+    const StepRecord reported = measure_step(w.scene, w.contacts, w.constraints, dt);
+    const Sums all = all_together(before, w, reported, loads, sums);
     out.together = std::max(all.linear.share(axes), all.angular.share(turns));
+    if (w.ship.answers()) out.ship = imbalance_of_ship(before, w, reported, sums[kShip]);
 
     for (std::size_t i = 1; i < b.size(); ++i) {
         if (b.held[i]) continue;
@@ -130,6 +171,7 @@ Imbalance require_balance(const Momenta& before, const World& after) {
         refuse(fmt::format("floe {}", found.angular_floe), "angular momentum", found.angular);
     if (!(found.together <= kBalanceTolerance))
         refuse("ship and all floes", "momentum of both", found.together);
+    if (!(found.ship <= kBalanceTolerance)) refuse("ship", "momentum", found.ship);
     return found;
 }
 

@@ -15,6 +15,7 @@ constexpr double kBalanceTolerance = 1e-12;
 /// State that a step changes.
 struct Momenta {
     std::vector<Vec3> position, linear, angular;  ///< per body, as in Bodies
+    ShipAngles ship_angles = ShipAngles::Zero();
 };
 
 /// How far a step was from balance, as a share of the magnitudes that should cancel.
@@ -23,13 +24,15 @@ struct Imbalance {
     double angular = 0.0;   ///< of the worst floe: change of L likewise
     double together = 0.0;  ///< momentum that all floes gained beyond the loads, against what the
                             ///< forces reported for the ship and the impulses on held floes say
+    double ship = 0.0;      ///< momentum that a ship that answers gained beyond its own loads,
+                            ///< against those forces; 0 for a prescribed course
     std::int32_t linear_floe = 0, angular_floe = 0;  ///< the worst ones; 0 where there is none
 
     double worst() const;
 };
 
 /// To be taken before a step. Held floes count with the momentum they will be released with.
-Momenta momenta_of(const Bodies& bodies);
+Momenta momenta_of(const World& world);
 
 /// Compares a step with the momenta before it. For every free floe, with F, T the water's loads and
 /// gravity and J the contact impulses on it at p:
@@ -40,6 +43,15 @@ Momenta momenta_of(const Bodies& bodies);
 /// the impulses J_h on floes still held, about the world's origin at the start of the step,
 ///
 ///     sum (P' - P - dt F) + dt f_ship + sum J_h = 0,   likewise for the moments.
+///
+/// A ship that answers has in its free motions, with the matrix of (26) at the step's start and F_s
+/// of thrust, lines and water,
+///
+///     (M + A) (v' - v) = dt F_s + dt f_ship,
+///
+/// likewise for the moments about its centre of gravity. With the sum above that is: loads, thrust,
+/// lines, held ice and what holds the locked motions change the momentum of ship and floes, and
+/// nothing else does.
 ///
 /// Each residual is divided by the sum of the magnitudes of its terms; 2D looks at x, z and the
 /// moment about y only.

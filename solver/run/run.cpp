@@ -49,7 +49,7 @@ void check_finite(const World& w) {
 
 // A step that must balance; the summary keeps the worst of each kind.
 void verified_step(World& w, Summary& summary) {
-    const Momenta before = momenta_of(w.scene.bodies);
+    const Momenta before = momenta_of(w);
     step(w);
     const Imbalance found = require_balance(before, w);
     const auto keep = [&](const char* key, double value) {
@@ -59,6 +59,7 @@ void verified_step(World& w, Summary& summary) {
     keep("floe_momentum", found.linear);
     keep("floe_angular_momentum", found.angular);
     keep("ship_and_floes", found.together);
+    if (w.ship.answers()) keep("ship", found.ship);
 }
 
 void fill_run(const World& w, double wall_seconds, Summary& s) {

@@ -11,7 +11,8 @@ void update_derived(Bodies& bodies, std::size_t i) {
     bodies.rotation[i] = bodies.orientation[i].toRotationMatrix();
     if (i == kShip) return;
     if (bodies.held[i]) {
-        bodies.velocity[i] = bodies.angular_velocity[i] = Vec3::Zero();
+        bodies.velocity[i] = bodies.momentum[i] / bodies.mass[i];  // of ice that drifts
+        bodies.angular_velocity[i] = Vec3::Zero();
         bodies.inverse_mass[i] = 0.0;
         bodies.inverse_inertia_world[i] = Mat3::Zero();
         return;

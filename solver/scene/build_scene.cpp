@@ -118,9 +118,6 @@ void add_field_group(Scene& scene, const Case& parameters, std::size_t g, ShapeR
                                               floe.orientation.toRotationMatrix(), fraction);
         const Vec3 place(group.origin[0] + floe.position[0], group.origin[1] + floe.position[1],
                          height);
-        if (group.unbroken_part && !group.velocity.isZero(0.0))
-            throw bad_input(group.file.string(), "has unbroken ice, which does not drift",
-                            "leave ice.drift_velocity out and give the ship the opposite speed");
         add_floe(scene, row, parameters.ice_density,
                  {place, floe.orientation, group.velocity, Vec3::Zero(), group.hold},
                  static_cast<std::int32_t>(g));

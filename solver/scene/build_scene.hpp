@@ -26,7 +26,7 @@ struct FloeStart {
     Quaternion orientation = Quaternion::Identity();  ///< body to world, unit
     Vec3 velocity = Vec3::Zero();                     ///< [m/s]
     Vec3 angular_velocity = Vec3::Zero();             ///< world axes [rad/s]
-    Hold hold = Hold::never;  ///< velocities of held floes are theirs once released
+    Hold hold = Hold::never;  ///< held floes keep their velocity, whatever pushes
 };
 
 /// Adds one floe of a shape.

@@ -10,7 +10,7 @@ namespace ice {
 /// Motion at the start of a step: changes of momentum and the ledger's work are measured from it.
 struct StepStart {
     double kinetic = 0.0;  ///< kinetic energy of the free floes [J]
-    /// Per body [m/s], [rad/s] in world axes, after floes were released; zero for held floes.
+    /// Per body [m/s], [rad/s] in world axes, after floes were released; of held ice its drift.
     std::vector<Vec3> velocity, angular_velocity;
 
     /// Takes all three from the bodies.

@@ -120,7 +120,8 @@ void FreeShip::add_damping(const Case& p, Scene& scene) {
     loads_.losses.moment += axes.turn.transpose().inverse() * moment;
 }
 
-void FreeShip::book(const Scene& scene, const std::vector<Constraint>& constraints, double dt) {
+void FreeShip::book(const Scene& scene, const std::vector<Constraint>& constraints,
+                    const PositionCorrections& corrections, double dt) {
     if (!answers()) return;
     const Bodies& b = scene.bodies;
     const ShipAxes axes = axes_of(angles_);
@@ -133,6 +134,8 @@ void FreeShip::book(const Scene& scene, const std::vector<Constraint>& constrain
     energies_.tow += work(loads_.tow);
     energies_.mooring += work(loads_.mooring);
     energies_.losses -= work(loads_.losses);
+    energies_.separation -= loads_.water.force.dot(corrections.shift[kShip]) +
+                            loads_.water.moment.dot(corrections.turn[kShip]);
     for (const Constraint& c : constraints) {
         if (c.a != static_cast<std::int32_t>(kShip) || c.total_normal() <= 0.0) continue;
         const Vec3 j = c.total_normal() * c.normal + c.total_tangent();
@@ -140,7 +143,7 @@ void FreeShip::book(const Scene& scene, const std::vector<Constraint>& constrain
     }
 }
 
-void FreeShip::turn(Scene& scene, double dt) {
+void FreeShip::turn(Scene& scene, const PositionCorrections& corrections, double dt) {
     if (!answers()) return;
     Bodies& b = scene.bodies;
     const ShipAxes axes = axes_of(angles_);
@@ -150,9 +153,12 @@ void FreeShip::turn(Scene& scene, double dt) {
     const Vec3 rates = axes.turn.inverse() * spin_;
     b.momentum[kShip] = axes.shift * (masses.shift * (axes.shift.transpose() * velocity_));
     b.angular_momentum[kShip] = axes.turn.transpose().inverse() * (masses.turn * rates);
+    const Vec3 shift = axes.shift.transpose() * corrections.shift[kShip];
+    b.position[kShip] += axes.shift * free_part(rig_->body, surge, shift);
     if (!rig_->body.turns()) return;
     // `centre` stays that of the step, as its contacts have it
-    const ShipAngles turned = angles_ + dt * free_part(rig_->body, roll, rates);
+    const Vec3 turn = dt * rates + axes.turn.inverse() * corrections.turn[kShip];
+    const ShipAngles turned = angles_ + free_part(rig_->body, roll, turn);
     const Vec3 after = orientation_of(turned).toRotationMatrix() * rig_->body.centre_of_gravity;
     place(scene, b.position[kShip].z() + (b.ship.centre - after).z(), turned);
 }
@@ -183,6 +189,7 @@ void FreeShip::carry(CheckpointFile& file) {
     file.carry("ship.mooring_work", energies_.mooring);
     file.carry("ship.ice_work", energies_.ice);
     file.carry("ship.losses", energies_.losses);
+    file.carry("ship.separation", energies_.separation);
     file.carry("ship.kinetic_start", energies_.kinetic_start);
     file.carry("ship.potential_start", energies_.potential_start);
 }

@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "solver/contact/constraints.hpp"
+#include "solver/contact/overlaps.hpp"
 #include "solver/ship/ship_loads.hpp"
 
 namespace ice {
@@ -13,15 +13,21 @@ class CheckpointFile;
 
 /// Where the energy of a ship that answers goes, in its free motions, since the start [J]:
 ///
-///     thrust + tow + mooring = ice + losses + dK + dU + residual,
+///     thrust + tow + mooring + separation = ice + losses + dK + dU + residual,
 ///
 /// each the force times the mean of the velocities at a step's start and end; U of weight and
 /// water. The residual is of second order in the time step.
 struct ShipEnergies {
-    double thrust = 0.0, tow = 0.0, mooring = 0.0;         ///< work on the ship
-    double ice = 0.0;                                      ///< work of the ship on the ice
-    double losses = 0.0;                                   ///< open-water resistance and damping
+    double thrust = 0.0, tow = 0.0, mooring = 0.0;  ///< work on the ship
+    double ice = 0.0;                               ///< work of the ship on the ice
+    double losses = 0.0;                            ///< open-water resistance and damping
+    double separation = 0.0;                        ///< put in by the moves that open overlaps
     std::optional<double> kinetic_start, potential_start;  ///< before the first step
+
+    /// What the books do not explain. @param gained  dK + dU [J]
+    double residual(double gained) const {
+        return thrust + tow + mooring + separation - ice - losses - gained;
+    }
 };
 
 /// Answers forces in the motions that are free, and keeps to Case::ship_speed in the others.
@@ -47,13 +53,17 @@ public:
     /// Loads change the velocity.
     void apply_loads(const Case& parameters, Scene& scene, double time);
     /// Books a step, before the poses advance.
-    void book(const Scene& scene, const std::vector<Constraint>& constraints, double dt);
-    /// Turns the ship, after its place has advanced with its velocity.
-    void turn(Scene& scene, double dt);
+    void book(const Scene& scene, const std::vector<Constraint>& constraints,
+              const PositionCorrections& corrections, double dt);
+    /// Turns the ship, after its place has advanced with its velocity, and moves it by its nudge.
+    void turn(Scene& scene, const PositionCorrections& corrections, double dt);
 
     const ShipLoads& loads() const { return loads_; }  ///< of the last step
     const ShipAngles& angles() const { return angles_; }
     const ShipEnergies& energies() const { return energies_; }
+    /// Of the centre of gravity and about it, at the start of the last step: what it answers from.
+    const Vec3& velocity_start() const { return velocity_start_; }
+    const Vec3& spin_start() const { return spin_start_; }
     /// In the free motions [J].
     double kinetic_energy(const Bodies& bodies) const;
     /// Of weight and water; 0 where the ship is held upright and at its height [J].

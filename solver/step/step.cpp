@@ -85,9 +85,9 @@ void step(World& w) {
     });
     timed(w, Stage::integrate, [&] {
         book_step(w.scene, w.parameters, w.constraints, w.loads, w.corrections, w.start, w.ledger);
-        w.ship.book(w.scene, w.constraints, dt);
+        w.ship.book(w.scene, w.constraints, w.corrections, dt);
         advance(w.scene, {w.start.angular_velocity, w.corrections, dt});
-        w.ship.turn(w.scene, dt);
+        w.ship.turn(w.scene, w.corrections, dt);
         w.ledger.kinetic += kinetic_energy(bodies) - w.start.kinetic;
     });
     w.bent.find(w.scene, w.parameters, w.constraints);

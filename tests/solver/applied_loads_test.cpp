@@ -34,7 +34,7 @@ TEST_CASE("a steady force and a moment about the vertical move a floe as Newton 
     world.applied_loads[1] = {force, Vec3(0.0, 0.0, 7.0)};
     constexpr int kSteps = 200;
     for (int k = 0; k < kSteps; ++k) {
-        const Momenta before = momenta_of(bodies);
+        const Momenta before = momenta_of(world);
         step(world);
         CHECK(measure_imbalance(before, world).worst() < kBalanceTolerance);
     }

@@ -33,7 +33,7 @@ World pressed_floes() {
 Momenta advance(World& w, int steps) {
     Momenta before;
     for (int k = 0; k < steps; ++k) {
-        before = momenta_of(w.scene.bodies);
+        before = momenta_of(w);
         step(w);
     }
     return before;

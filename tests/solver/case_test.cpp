@@ -416,5 +416,4 @@ TEST_CASE("a ship that answers: lists of words, curves, numbers or a word, and w
     wrong(surge_free + "[propulsion]\nthrust_table = [[1, 0], [1, 5]]", "above the row before");
     wrong("[tow]\nstiffness = 1e3", "free in surge");
     wrong("[mooring]\nstiffness = [0, 1e3, 0, 0, 0, 0]", "free in sway");
-    wrong("[ice]\ndrift_velocity = [1, 0]", "a held floe does not drift");
 }

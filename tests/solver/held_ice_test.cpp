@@ -50,7 +50,7 @@ World world_with_held_floe(double rake, double ahead,
 }
 
 void advance_balanced(World& w) {
-    const Momenta before = momenta_of(w.scene.bodies);
+    const Momenta before = momenta_of(w);
     step(w);
     REQUIRE_NOTHROW(require_balance(before, w));
 }

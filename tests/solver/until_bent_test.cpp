@@ -89,7 +89,7 @@ TEST_CASE("a held piece breaks off in the step in which its load is reached",
     double work = 0.0;
     while (w.scene.bodies.held[1] == 1) {
         before = now;
-        const Momenta momenta = momenta_of(w.scene.bodies);
+        const Momenta momenta = momenta_of(w);
         step(w);
         REQUIRE_NOTHROW(require_balance(momenta, w));
         now = push_of(w);

@@ -20,7 +20,7 @@ void keep_worst(Imbalance& worst, const Imbalance& now) {
 Imbalance worst_until(World& w, double time) {
     Imbalance worst;
     while (w.time < time) {
-        const Momenta before = momenta_of(w.scene.bodies);
+        const Momenta before = momenta_of(w);
         step(w);
         keep_worst(worst, measure_imbalance(before, w));
     }

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A ship that answers, in the limits where a ship on its course knows the answer.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "solver/run/balance.hpp"
+#include "tests/support/ships_in_ice.hpp"
+
+using namespace ice;
+using namespace ice::test;
+
+namespace {
+
+// The same world in axes that go along with the ship's course: all ice drifts towards the ship.
+World drifting(World w) {
+    const Vec3 drift(-w.parameters.ship_speed(0.0), 0.0, 0.0);
+    w.parameters.speed_table = {{0.0, 0.0}};
+    w.scene.water.current = drift;
+    Bodies& b = w.scene.bodies;
+    for (std::size_t i = 1; i < b.size(); ++i) {
+        b.momentum[i] = b.mass[i] * drift;
+        update_derived(b, i);
+    }
+    return w;
+}
+
+}  // namespace
+
+TEST_CASE("a ship of a thousand million times the mass goes as a captive one", "[ship]") {
+    World captive = smooth_ride(4000.0, {});
+    World heavy = smooth_ride(4e12, {surge, sway, yaw});
+    for (World* w : {&captive, &heavy})
+        for (int k = 0; k < 100; ++k) step(*w);
+    double moved = 0.0;
+    for (std::size_t i = 1; i < captive.scene.bodies.size(); ++i) {
+        const Vec3 &x = captive.scene.bodies.position[i], &y = heavy.scene.bodies.position[i];
+        CHECK((x - y).norm() < 1e-6);
+        moved = std::max(moved, captive.scene.bodies.velocity[i].norm());
+    }
+    CHECK(moved > 0.1);
+}
+
+TEST_CASE("ice that drifts past a ship at rest is a ship in still ice", "[ship][drift]") {
+    World goes = smooth_ride(4000.0, {}, 1), rests = smooth_ride(4000.0, {}, 1);
+    rests.parameters.speed_table = {{0.0, 0.0}};
+    rests.scene.water.current = Vec3(-1.0, 0.0, 0.0);
+    Bodies& b = rests.scene.bodies;
+    for (const std::int32_t i : b.moving) {
+        b.momentum[i] = b.mass[i] * Vec3(-1.0, 0.0, 0.0);
+        update_derived(b, static_cast<std::size_t>(i));
+    }
+    double most = 0.0;
+    for (int k = 0; k < 60; ++k) {
+        step(goes);
+        step(rests);
+        const auto [normal, tangent] = ship_on_ice(goes);
+        const auto [normal_2, tangent_2] = ship_on_ice(rests);
+        most = std::max(most, normal.norm());
+        CAPTURE(k);
+        // rounding of places that grow in one world and not in the other
+        REQUIRE((normal - normal_2).norm() <= 1e-9 * (1.0 + most));
+        REQUIRE((tangent - tangent_2).norm() <= 1e-9 * (1.0 + most));
+    }
+    CHECK(most > 10.0);
+}
+
+TEST_CASE("a heavy ship crushes held ice and jams as a captive one", "[ship][held]") {
+    // held before the bow, behind the first row, and let go by the hull's touch
+    for (const auto& [row, hold] :
+         {std::pair(0, Hold::always), {1, Hold::always}, {1, Hold::until_hull_contact}}) {
+        World captive = rough_ride(4000.0, {}, 6, row);
+        World heavy = rough_ride(4e12, {surge, sway, yaw}, 6, row);
+        bool held = false, jammed = false;
+        for (World* w : {&captive, &heavy}) {
+            w->parameters.floes[0].hold = hold;
+            for (int k = 0; k < 100; ++k) {
+                step(*w);
+                for (const Constraint& c : w->constraints) {
+                    if (c.total_normal() == 0.0 || !c.crushed()) continue;
+                    const bool fixed = w->scene.bodies.held[c.b];
+                    held = held || (c.a == 0 && fixed);
+                    jammed = jammed || (c.a > 0 && fixed);
+                }
+            }
+        }
+        CAPTURE(row);
+        CHECK((row == 0 ? held : jammed));
+        double moved = 0.0;
+        for (std::size_t i = 1; i < captive.scene.bodies.size(); ++i) {
+            const Vec3 &x = captive.scene.bodies.position[i], &y = heavy.scene.bodies.position[i];
+            CHECK((x - y).norm() < 1e-6);
+            moved = std::max(moved, captive.scene.bodies.velocity[i].norm());
+        }
+        CHECK(moved > 0.1);
+        CHECK((captive.scene.bodies.position[kShip] - heavy.scene.bodies.position[kShip]).norm() <
+              1e-6);
+    }
+}
+
+TEST_CASE("held ice that drifts past a ship at rest is a ship in held ice", "[ship][drift][held]") {
+    // without drag, whose bound on a slow floe is another one where the water moves
+    for (const auto& [row, hold] :
+         {std::pair(0, Hold::always), {1, Hold::always}, {1, Hold::until_hull_contact}}) {
+        World goes = rough_ride(4000.0, {}, 6, row);
+        goes.parameters.floes[0].hold = hold;
+        goes.parameters.drag = DragModel::none;
+        World rests = drifting(goes);
+        double most = 0.0;
+        bool held = false;
+        CAPTURE(row);
+        for (int k = 0; k < 100; ++k) {
+            step(goes);
+            const Momenta before = momenta_of(rests);
+            step(rests);
+            REQUIRE_NOTHROW(require_balance(before, rests));
+            const auto [normal, tangent] = ship_on_ice(goes);
+            const auto [normal_2, tangent_2] = ship_on_ice(rests);
+            most = std::max(most, normal.norm());
+            REQUIRE((normal - normal_2).norm() <= 1e-9 * (1.0 + most));
+            REQUIRE((tangent - tangent_2).norm() <= 1e-9 * (1.0 + most));
+            for (const Constraint& c : rests.constraints)
+                held = held || (c.total_normal() > 0.0 && rests.scene.bodies.held[c.b]);
+        }
+        CHECK(held);
+        CHECK(most > 10.0);
+        const Bodies &a = goes.scene.bodies, &b = rests.scene.bodies;
+        for (std::size_t i = 1; i < a.size(); ++i)
+            CHECK((a.position[i] - b.position[i] - a.position[kShip]).norm() < 1e-9);
+        // the ship is still: the held ice does the work
+        CHECK(rests.ledger.ship_work == 0.0);
+        const double potential = potential_energy(rests.scene, rests.parameters);
+        CHECK(std::abs(rests.ledger.residual(potential)) <
+              0.005 * std::abs(rests.ledger.drift_work));
+    }
+}
