@@ -185,7 +185,7 @@ TEST_CASE("a run stopped in the middle of a jam has the summary of the whole run
     // all that the tally remembers of a jam is there to be compared, and of bodies too fast
     CHECK(warned("jam: in "));
     CHECK(warned("first floe 1 at t = 0.0"));
-    CHECK(warned("mm at t = "));
+    CHECK(expected.max_overlap > 0.0);
     CHECK(warned("the hull and floe 3 met at 12 m/s at t = "));
 
     World w = jam_world(p);
