@@ -79,7 +79,12 @@ preset() {
 build_programs() {
     local tests=$1 module=$2
     shift 2
-    cmake --preset "$(preset)" -DICE_TESTS="$tests" -DICE_PYTHON_MODULE="$module"
+    # small sources together, which compiles in less time; by themselves, beside tests, they
+    # show missing includes
+    local united=OFF
+    if [[ $tests$module == OFFOFF ]]; then united=ON; fi
+    cmake --preset "$(preset)" -DICE_TESTS="$tests" -DICE_PYTHON_MODULE="$module" \
+        -DICE_UNITED_SOURCES="$united"
     cmake --build --preset "$(preset)" --parallel "$(job_count)" --target "${@:-all}"
 }
 
