@@ -123,9 +123,11 @@ void say_warnings(const std::vector<ice::Warning>& warnings) {
 // All that --check does.
 int describe(const ice::Options& o, ice::World& world, const std::vector<ice::Warning>& warnings) {
     say_warnings(warnings);
-    ice::say(fmt::format("{}: {}, {} floes\n{}", o.case_file,
-                         warnings.empty() ? "good" : "runs, with warnings",
-                         world.scene.bodies.size() - 1, ice::describe_case(world)));
+    const std::string ice =
+        world.edge.lives() ? "level ice" : fmt::format("{} floes", world.scene.bodies.size() - 1);
+    ice::say(fmt::format("{}: {}, {}\n{}", o.case_file,
+                         warnings.empty() ? "good" : "runs, with warnings", ice,
+                         ice::describe_case(world)));
     if (!o.picture.empty()) ice::draw_start(world, o.picture);
     ice::say(ice::describe_cost(world));  // goes some steps, so the picture is drawn before
     if (!o.picture.empty()) ice::say(fmt::format("wrote {}", o.picture));

@@ -8,6 +8,7 @@
 
 #include "common/base/error.hpp"
 #include "common/base/file_turn.hpp"
+#include "common/formats/pieces_file.hpp"
 #include "common/formats/run_arrays.hpp"
 #include "common/formats/run_file.hpp"
 
@@ -336,7 +337,10 @@ RunData read_run(const std::filesystem::path& path) {
         try {
             std::optional<FileTurn> turn;
             if (is_growing(path)) turn.emplace(path, FileTurn::Kind::read);
-            return RunFileReader(path).read();
+            RunData run = RunFileReader(path).read();
+            const std::filesystem::path pieces = path.parent_path() / kPiecesName;
+            if (std::filesystem::exists(pieces)) show_pieces(read_pieces(pieces), run);
+            return run;
         } catch (const Error&) {
             if (left == 0) throw;
         }

@@ -13,18 +13,14 @@
 #include "common/base/error.hpp"
 #include "common/base/parallel.hpp"
 #include "common/base/timer.hpp"
+#include "preprocess/field/fill_prism.hpp"
 #include "preprocess/field/plan_floes.hpp"
-#include "preprocess/field/prism.hpp"
-#include "preprocess/fill/fill_spheres.hpp"
 
 namespace ice {
 
 namespace {
 
-constexpr double kEqual = 1e-6;  // [m]
-// Cosine of 6.3 degrees: the sides of an arc meet in edges and corners, too. Without them no sphere
-// has the normals between two sides, and another piece's edge goes in there.
-constexpr double kSharp = 0.994;
+constexpr double kEqual = 1e-6;       // [m]
 constexpr double kMostSpheres = 2e8;  // of all shapes together; 100 bytes each in the file
 
 // Outlines about their centroids, each form once, and which of them every floe has.
@@ -57,69 +53,6 @@ private:
     std::map<std::vector<std::int64_t>, std::int32_t> rows_;
 };
 
-bool is_mirror_symmetric(const Outline& outline) {
-    return std::all_of(outline.begin(), outline.end(), [&](const Vec2& p) {
-        return std::any_of(outline.begin(), outline.end(), [&](const Vec2& q) {
-            return (q - Vec2(p.x(), -p.y())).norm() < kEqual;
-        });
-    });
-}
-
-// Turns about x by a quarter: the middle plane of a prism, z = 0, becomes y = 0, and back.
-Vec3 turned(const Vec3& p) { return {p.x(), -p.z() + 0.0, p.y()}; }
-Vec3 turned_back(const Vec3& p) { return {p.x(), p.z(), -p.y() + 0.0}; }
-
-// How a floe lies while it is filled.
-//
-// The fill makes half of what is symmetric about y = 0 and mirrors it, which takes half the time. A
-// prism is symmetric about its middle plane: it is turned so that this one is y = 0, and back. One
-// that is symmetric about y = 0 as it lies stays so, and its port and starboard spheres are alike.
-//
-// The shell is made in tiles of 32 spacings, and their corner is the origin. A floe about its
-// centroid would lie in eight of them; it is moved into one.
-class FillPose {
-public:
-    FillPose(const Outline& outline, double spacing)
-        : turn_(!is_mirror_symmetric(outline)), move_(16.0 * spacing, 0.0, 16.0 * spacing) {}
-
-    bool turns() const { return turn_; }
-    Vec3 to(const Vec3& p) const { return (turn_ ? turned(p) : p) + move_; }
-    Vec3 from(const Vec3& p) const { return turn_ ? turned_back(p - move_) : Vec3(p - move_); }
-    Vec3 direction_from(const Vec3& d) const { return turn_ ? turned_back(d) : d; }
-
-private:
-    bool turn_;
-    Vec3 move_;
-};
-
-// @param corners  becomes the number of the form's corners, each with a sphere of its own
-SphereSet fill_form(const FieldSpec& spec, const Outline& outline, std::int64_t& corners) {
-    FillOptions options;
-    options.radius = spec.radius;
-    options.spacing = spec.spacing;
-    options.surface_only = spec.surface_only;
-    options.quick = true;
-    const FillPose pose(outline, spec.spacing);
-    options.sharp = kSharp;
-    options.edges_by_ends = pose.turns();  // the others are those of grids: a few for all floes
-    TriangleMesh prism = make_prism(outline, spec.thickness, spec.chamfer);
-    for (Vec3& vertex : prism.vertices) vertex = pose.to(vertex);
-    SpheresReport report;
-    SphereSet set = fill_spheres(prism, options, report);
-    if (report.blind_corners > 0)
-        throw bad_input("--radius",
-                        fmt::format("{} of {} corners have no sphere that knows their three faces",
-                                    report.blind_corners, report.corners),
-                        "");
-    corners = report.corners;
-    for (Vec3& vertex : set.mesh.vertices) vertex = pose.from(vertex);
-    for (Vec3& center : set.centers) center = pose.from(center);
-    for (Vec3& normal : set.normals) normal = pose.direction_from(normal);
-    for (CreaseNormal& crease : set.creases) crease.normal = pose.direction_from(crease.normal);
-    set.solid = measure_mass(set.mesh);
-    return set;
-}
-
 // Surface spheres: a hexagonal layer.
 void refuse_too_many(const FieldSpec& spec, const std::vector<Outline>& outlines) {
     double surface = 0.0;
@@ -136,12 +69,14 @@ void refuse_too_many(const FieldSpec& spec, const std::vector<Outline>& outlines
 std::vector<SphereSet> fill_forms(const FieldSpec& spec, const std::vector<Outline>& outlines,
                                   FieldReport& report) {
     refuse_too_many(spec, outlines);
+    const PrismForm form{spec.thickness, spec.chamfer, spec.radius, spec.spacing,
+                         spec.surface_only};
     std::vector<SphereSet> shapes(outlines.size());
     std::vector<std::optional<Error>> errors(outlines.size());
     std::vector<std::int64_t> corners(outlines.size(), 0);
     parallel_tasks(outlines.size(), true, [&](std::size_t k) {
         try {
-            shapes[k] = fill_form(spec, outlines[k], corners[k]);
+            shapes[k] = fill_prism(outlines[k], form, &corners[k]);
         } catch (const Error& error) {
             errors[k] = error;
         }

@@ -22,26 +22,6 @@ const Vec2& previous(const Outline& outline, std::size_t k) {
 
 }  // namespace
 
-// about the first corner, so that an outline far from the origin loses no digits
-double area_of(const Outline& outline) {
-    double twice = 0.0;
-    for (std::size_t k = 1; k + 1 < outline.size(); ++k)
-        twice += cross(outline[k] - outline[0], outline[k + 1] - outline[0]);
-    return 0.5 * twice;
-}
-
-Vec2 centroid_of(const Outline& outline) {
-    Vec2 sum = Vec2::Zero();
-    double twice = 0.0;
-    for (std::size_t k = 1; k + 1 < outline.size(); ++k) {
-        const Vec2 a = outline[k] - outline[0], b = outline[k + 1] - outline[0];
-        sum += cross(a, b) * (a + b);
-        twice += cross(a, b);
-    }
-    ICE_ASSERT(twice != 0.0);
-    return outline[0] + sum / (3.0 * twice);
-}
-
 double size_of(const Outline& outline) {
     return 2.0 * std::sqrt(area_of(outline) / std::numbers::pi);
 }

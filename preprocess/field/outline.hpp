@@ -4,6 +4,8 @@
 #include <Eigen/Geometry>
 #include <vector>
 
+#include "common/geometry/loop_area.hpp"
+
 namespace ice {
 
 using Vec2 = Eigen::Vector2d;
@@ -26,12 +28,6 @@ struct FieldPlan {
 inline Outline rectangle(double x, double y, double length, double breadth) {
     return {{x, y}, {x + length, y}, {x + length, y + breadth}, {x, y + breadth}};
 }
-
-/// Area inside [m2]; negative for clockwise outlines.
-double area_of(const Outline& outline);
-
-/// Centroid of the area inside. @pre the area is not zero
-Vec2 centroid_of(const Outline& outline);
 
 /// Diameter of the circle with that area [m]: what "size" of a floe means in the whole program.
 double size_of(const Outline& outline);

@@ -8,7 +8,6 @@
 
 #include "common/base/interpolate.hpp"
 #include "solver/bending/convex_corners.hpp"
-#include "solver/bending/ice_plate.hpp"
 
 namespace ice {
 
@@ -19,6 +18,12 @@ using Vec2 = Eigen::Vector2d;
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 }  // namespace
+
+IcePlate plate_of(double thickness, const Case& parameters) {
+    const BendingLaw& law = parameters.bending;
+    return {thickness, law.flexural_strength, law.elastic_modulus, law.poisson_ratio,
+            parameters.water_density * parameters.gravity};
+}
 
 PieceOutline measure_outline(const TriangleMesh& mesh, const Mat3& rotation) {
     std::vector<Vec2> points;
@@ -59,11 +64,16 @@ double opening_angle(const PieceOutline& piece) {
 }
 
 double breaking_load(const PieceOutline& piece, const Case& parameters) {
+    if (parameters.dimension == 2)
+        return parameters.bending.factor *
+               beam_breaking_load(plate_of(piece.thickness, parameters));
+    return breaking_load(opening_angle(piece), piece.thickness, parameters);
+}
+
+double breaking_load(double angle, double thickness, const Case& parameters) {
     const BendingLaw& law = parameters.bending;
-    const IcePlate plate{piece.thickness, law.flexural_strength, law.elastic_modulus,
-                         law.poisson_ratio, parameters.water_density * parameters.gravity};
-    if (parameters.dimension == 2) return law.factor * beam_breaking_load(plate);
-    const double angle = std::isnan(law.opening_angle) ? opening_angle(piece) : law.opening_angle;
+    const IcePlate plate = plate_of(thickness, parameters);
+    if (!std::isnan(law.opening_angle)) angle = law.opening_angle;
     return law.factor * (law.model == BendingModel::wedge
                              ? wedge_breaking_load(plate, angle, law.load_length)
                              : kashtelyan_breaking_load(plate, angle));

@@ -3,9 +3,13 @@
 #pragma once
 
 #include "common/geometry/triangle_mesh.hpp"
+#include "solver/bending/ice_plate.hpp"
 #include "solver/case/case.hpp"
 
 namespace ice {
+
+/// A case's ice as a plate of that thickness [m].
+IcePlate plate_of(double thickness, const Case& parameters);
 
 /// A piece as it lies, seen from above.
 struct PieceOutline {
@@ -25,6 +29,9 @@ double opening_angle(const PieceOutline& piece);
 /// Downward load that breaks the piece off [N], with bending.factor but not its table; in 2D the
 /// beam's [N/m].
 double breaking_load(const PieceOutline& piece, const Case& parameters);
+
+/// The same of a piece with the opening angle `angle` [rad], unless the case gives an angle. 3D.
+double breaking_load(double angle, double thickness, const Case& parameters);
 
 /// bending.factor_table at a normal speed [m/s], linear between its rows and constant outside; 1
 /// without a table.

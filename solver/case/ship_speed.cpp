@@ -7,8 +7,9 @@
 namespace ice {
 
 bool Case::has_bending() const {
-    return std::any_of(floes.begin(), floes.end(),
-                       [](const FloeGroup& g) { return g.hold == Hold::until_bent; });
+    return has_level_ice() || std::any_of(floes.begin(), floes.end(), [](const FloeGroup& g) {
+               return g.hold == Hold::until_bent;
+           });
 }
 
 double Case::ship_speed(double time) const { return interpolate(speed_table, time); }

@@ -15,7 +15,6 @@
 #include "solver/case/read_case.hpp"
 #include "solver/ensemble/average_members.hpp"
 #include "solver/ensemble/member_field.hpp"
-#include "solver/run/lay_level_ice.hpp"
 #include "solver/run/run_folder.hpp"
 #include "solver/scene/build_scene.hpp"
 
@@ -29,7 +28,7 @@ constexpr double kJitter = 0.01;  // of the smallest ice sphere's radius
 
 // Where no field changes with the seed and the case moves no floe, jitter makes the difference.
 double default_jitter(const Case& parameters) {
-    const Scene scene = build_scene(with_level_ice(parameters));
+    const Scene scene = build_scene(parameters);
     double smallest = std::numeric_limits<double>::infinity();
     for (std::size_t k = 1; k < scene.shapes.size(); ++k)
         for (const double radius : scene.shapes[k].radius) smallest = std::min(smallest, radius);
@@ -43,7 +42,8 @@ std::vector<std::string> member_overrides(const EnsembleOptions& o, const Case& 
     out.push_back(fmt::format("simulation.seed={}", seed));
     const auto fields = made.overrides(seed);
     out.insert(out.end(), fields.begin(), fields.end());
-    if (fields.empty() && parameters.jitter == 0.0)
+    // the sizes of cracks in level ice come from the seed
+    if (fields.empty() && parameters.jitter == 0.0 && !parameters.has_level_ice())
         out.push_back(fmt::format("simulation.jitter={:g}", default_jitter(parameters)));
     return out;
 }

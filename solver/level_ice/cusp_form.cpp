@@ -34,15 +34,6 @@ Loop crack_outline(const Vec2& at, const Vec2& inwards, double radius) {
     return out;
 }
 
-double area_of(const Loop& loop) {
-    double twice = 0.0;
-    for (std::size_t k = 1; k + 1 < loop.size(); ++k) {
-        const Vec2 a = loop[k] - loop[0], b = loop[k + 1] - loop[0];
-        twice += a.x() * b.y() - a.y() * b.x();
-    }
-    return 0.5 * twice;
-}
-
 double length_of(const Loop& loop) {
     double sum = 0.0;
     for (std::size_t k = 0; k < loop.size(); ++k)

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "common/geometry/loop_area.hpp"
+
 namespace ice {
 
 using Vec2 = Eigen::Vector2d;
@@ -38,9 +40,6 @@ double cusp_radius(const CuspLaw& law, double length, double normal_speed, std::
 /// @param inwards  unit vector into the ice
 /// @return anticlockwise; a corner every 10 degrees of the arc
 Loop crack_outline(const Vec2& at, const Vec2& inwards, double radius);
-
-/// Area inside [m2]; negative for clockwise loops.
-double area_of(const Loop& loop);
 
 /// Length all around [m].
 double length_of(const Loop& loop);

@@ -69,6 +69,21 @@ std::vector<Part> combine(const std::vector<Loop>& sheet, const Loop& crack, cl:
     return parts_of(tree);
 }
 
+std::vector<Loop> outer_loops(std::vector<Part> parts) {
+    std::vector<Loop> out;
+    for (Part& part : parts) out.push_back(std::move(part.outer));
+    return out;
+}
+
+std::vector<Loop> all_loops(std::vector<Part> parts) {
+    std::vector<Loop> out;
+    for (Part& part : parts) {
+        out.push_back(std::move(part.outer));
+        for (Loop& hole : part.holes) out.push_back(std::move(hole));
+    }
+    return out;
+}
+
 bool is_too_small(const Loop& loop, double smallest) {
     const double area = area_of(loop);
     return area < smallest * smallest || 2.0 * area < 0.25 * smallest * length_of(loop);
@@ -78,8 +93,7 @@ bool is_too_small(const Loop& loop, double smallest) {
 
 IceSheet::IceSheet(const Eigen::AlignedBox2d& extent, double smallest) : smallest_(smallest) {
     const Vec2 a = extent.min(), b = extent.max();
-    loops_ = {
-        from_lattice(to_lattice({{a.x(), a.y()}, {b.x(), a.y()}, {b.x(), b.y()}, {a.x(), b.y()}}))};
+    loops_ = {from_lattice(to_lattice(loop_of({a, b})))};
 }
 
 IceSheet::Broken IceSheet::break_off(const Loop& crack) {
@@ -103,10 +117,47 @@ IceSheet::Broken IceSheet::break_off(const Loop& crack) {
         else
             out.pieces.push_back(std::move(part.outer));
     }
-    loops_.clear();
-    for (Part& part : rest) {
-        loops_.push_back(std::move(part.outer));
-        for (Loop& hole : part.holes) loops_.push_back(std::move(hole));
+    loops_ = all_loops(std::move(rest));
+    return out;
+}
+
+double IceSheet::take(const Loop& region) {
+    const double before = area();
+    std::vector<Part> rest = combine(loops_, region, cl::ctDifference);
+    std::erase_if(rest, [&](const Part& p) { return is_too_small(p.outer, smallest_); });
+    loops_ = all_loops(std::move(rest));
+    return before - area();
+}
+
+double IceSheet::area_in(const Loop& region) const {
+    double sum = 0.0;
+    for (const Part& part : combine(loops_, region, cl::ctIntersection)) sum += part.area;
+    return sum;
+}
+
+IceSheet IceSheet::in_box(const Eigen::AlignedBox2d& box) const {
+    IceSheet out = *this;
+    out.loops_ = all_loops(combine(loops_, loop_of(box), cl::ctIntersection));
+    return out;
+}
+
+std::vector<Loop> IceSheet::parts_in(const Eigen::AlignedBox2d& box) const {
+    std::vector<Loop> out;
+    for (Part& part : combine(loops_, loop_of(box), cl::ctIntersection)) {
+        if (part.holes.empty()) {
+            out.push_back(std::move(part.outer));
+            continue;
+        }
+        // through the middle of the first hole, across
+        Eigen::AlignedBox2d hole;
+        for (const Vec2& p : part.holes[0]) hole.extend(p);
+        IceSheet ring = *this;
+        ring.loops_ = all_loops({part});
+        const double middle = hole.center().x();
+        Eigen::AlignedBox2d low = box, high = box;
+        low.max().x() = high.min().x() = middle;
+        for (const auto& half : {low, high})
+            for (Loop& loop : ring.parts_in(half)) out.push_back(std::move(loop));
     }
     return out;
 }
@@ -127,6 +178,25 @@ bool IceSheet::contains(const Vec2& point) const {
             inside = inside != (point.x() < x);
         }
     return inside;
+}
+
+Loop loop_of(const Eigen::AlignedBox2d& box) {
+    const Vec2 a = box.min(), b = box.max();
+    return {{a.x(), a.y()}, {b.x(), a.y()}, {b.x(), b.y()}, {a.x(), b.y()}};
+}
+
+std::vector<Loop> common_part(const Loop& loop, const Loop& region) {
+    return outer_loops(combine({loop}, region, cl::ctIntersection));
+}
+
+std::vector<Loop> without(const Loop& loop, const Loop& region) {
+    return outer_loops(combine({loop}, region, cl::ctDifference));
+}
+
+Loop joined(const Loop& a, const Loop& b) {
+    std::vector<Part> parts = combine({a}, b, cl::ctUnion);
+    if (parts.size() != 1 || !parts[0].holes.empty()) return {};
+    return std::move(parts[0].outer);
 }
 
 std::vector<Loop> shrunk(const Loop& loop, double by, double smallest) {

@@ -35,6 +35,17 @@ public:
     /// @pre crack is simple
     Broken break_off(const Loop& crack);
 
+    /// Takes a region away: ice that was crushed. What that leaves too small for a piece goes, too.
+    /// @return area taken [m2]
+    double take(const Loop& region);
+
+    /// Area of the ice in a region [m2].
+    double area_in(const Loop& region) const;
+    /// The ice in a box, as a sheet of its own.
+    IceSheet in_box(const Eigen::AlignedBox2d& box) const;
+    /// The ice in a box, in loops without holes, largest first: what has one is cut in two.
+    std::vector<Loop> parts_in(const Eigen::AlignedBox2d& box) const;
+
     /// Outer loops anticlockwise, holes clockwise; the first is the largest. Empty once all is
     /// gone.
     const std::vector<Loop>& loops() const { return loops_; }
@@ -49,6 +60,17 @@ private:
     double smallest_;
     std::vector<Loop> loops_;
 };
+
+/// Corners of a box.
+Loop loop_of(const Eigen::AlignedBox2d& box);
+
+/// What two loops have in common, and what `loop` has without `region`: outer loops, largest first.
+/// Holes are left out: theirs is the area that is missing to the loop's.
+std::vector<Loop> common_part(const Loop& loop, const Loop& region);
+std::vector<Loop> without(const Loop& loop, const Loop& region);
+
+/// Two loops that share an edge as one; empty where they do not become one without a hole.
+Loop joined(const Loop& a, const Loop& b);
 
 /// A loop moved inwards by `by` [m], which may part it: parts of at least `smallest` in the sense
 /// of IceSheet, without corners nearer to each other than 1 mm.

@@ -10,6 +10,9 @@
 #include "common/base/error.hpp"
 #include "common/base/state_hash.hpp"
 #include "common/base/version.hpp"
+#include "common/cli/console.hpp"
+#include "solver/live_edge/describe_edge.hpp"
+#include "solver/live_edge/edge_record.hpp"
 #include "solver/record/divide_hull.hpp"
 #include "solver/record/residual_impulse.hpp"
 #include "solver/scene/tunnelling_speed.hpp"
@@ -125,6 +128,7 @@ Recorder::Recorder(const Case& parameters, const Scene& scene)
 
 void Recorder::open(const std::filesystem::path& folder, const std::string& command_line,
                     const Scene& scene) {
+    folder_ = folder;
     run_.emplace(folder / "run.h5", make_header(parameters_, scene, command_line));
     for (const CsvTable& table : csv_tables(parameters_))
         csv_files_.emplace_back(folder / table.name, table.columns, parameters_.dimension);
@@ -138,6 +142,7 @@ std::vector<std::string> Recorder::resume(const std::filesystem::path& folder,
                                           const std::filesystem::path& earlier,
                                           const RecordPosition& position) {
     std::vector<std::string> late;
+    folder_ = folder;
     run_.emplace(folder / "run.h5", make_header(parameters_, scene, command_line), earlier,
                  position.run);
     if (run_->begins_late()) late.push_back("run.h5");
@@ -292,6 +297,10 @@ void Recorder::finish(const StepView& view, Summary& summary) {
     flush_history(view);
     if (view.time > last_frame_) add_frame(view);
     run_->finish(panel_loads_.panels());
+    if (view.edge != nullptr) {
+        write_pieces(folder_ / kPiecesName, record_edge(*view.edge));
+        say(describe_edge(*view.edge));
+    }
     for (CsvFile& file : csv_files_) file.finish();
     fill_energy(view.ledger, potential_energy(view.scene, parameters_), summary);
     if (view.ship != nullptr) ship_statistics_.fill(*view.ship, view.scene, parameters_, summary);
@@ -303,6 +312,11 @@ void Recorder::finish(const StepView& view, Summary& summary) {
     summary.state_hash = state_hash(view.scene, view.constraints);
     const Bodies& b = view.scene.bodies;
     summary.floes_total = static_cast<std::int64_t>(b.size()) - 1;
+    if (view.edge != nullptr) {  // slots are no floes: pieces are
+        const auto pieces = static_cast<std::int64_t>(view.edge->pieces().size());
+        summary.floes_total = static_cast<std::int64_t>(view.edge->first_body()) - 1 + pieces;
+        summary.floes_moved = summary.floes_behind = view.edge->retired();
+    }
     for (std::size_t i = 1; i < b.size(); ++i) {
         summary.floes_moved += b.held[i] ? 0 : 1;
         summary.floes_behind += is_behind(view.scene, i) ? 1 : 0;

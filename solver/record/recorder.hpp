@@ -11,6 +11,7 @@
 #include "common/formats/run_file.hpp"
 #include "common/formats/summary_file.hpp"
 #include "solver/case/case.hpp"
+#include "solver/live_edge/live_edge.hpp"
 #include "solver/record/csv_file.hpp"
 #include "solver/record/energy_ledger.hpp"
 #include "solver/record/hull_contacts.hpp"
@@ -31,6 +32,7 @@ struct StepView {
     double time;                     ///< at the end of the step [s]
     bool converged;                  ///< both stages of the contact solver
     const FreeShip* ship = nullptr;  ///< null for a prescribed course
+    const LiveEdge* edge = nullptr;  ///< null without level ice
 };
 
 /// Where the files of a run stand, for a run that is continued from them.
@@ -91,7 +93,8 @@ private:
 
     Case parameters_;
     double dt_;
-    std::optional<RunWriter> run_;    ///< from open() or resume() on
+    std::filesystem::path folder_;    ///< from open() or resume() on
+    std::optional<RunWriter> run_;    ///< likewise
     std::vector<CsvFile> csv_files_;  ///< forces.csv, then the tracked floes'
     RunStatistics statistics_;
     PanelLoads panel_loads_;

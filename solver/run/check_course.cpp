@@ -95,7 +95,11 @@ double time_of(const Case& p, double distance) {
 void measure_clearance(const World& w, const Front& front, Course& course) {
     const Bodies& b = w.scene.bodies;
     course.clearance = course.clearance_fixed = kNever;
+    if (w.edge.lives())  // the sheet's tiles come with the ship
+        course.clearance =
+            std::max(w.parameters.level_ice.extent[0] - box_of(w.scene, kShip).max().x(), 0.0);
     for (std::size_t i = 1; i < b.size(); ++i) {
+        if (w.edge.has_slot(i)) continue;
         const Shape& shape = w.scene.shapes[static_cast<std::size_t>(b.shape[i])];
         double nearest = kNever;
         for (std::size_t k = 0; k < shape.center.size(); ++k)
@@ -111,7 +115,7 @@ void measure_clearance(const World& w, const Front& front, Course& course) {
 // How far the ship goes until its foremost point is beyond all loose floes within its breadth.
 double distance_through(const World& w, double way) {
     const Eigen::AlignedBox3d hull = box_of(w.scene, kShip);
-    double far = -kNever;
+    double far = w.edge.lives() ? w.parameters.level_ice.extent[1] : -kNever;
     for (std::size_t i = 1; i < w.scene.bodies.size(); ++i) {
         if (is_unbroken(w.scene, w.parameters, i)) continue;
         const Eigen::AlignedBox3d box = box_of(w.scene, i);

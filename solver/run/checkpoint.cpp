@@ -56,8 +56,9 @@ Identity identity_of(const World& w) {
     // the floes of a field have forms of their own
     std::vector<StateHash> of_group(w.parameters.floes.size());
     for (std::size_t i = 1; i < b.size(); ++i)
-        of_group[static_cast<std::size_t>(b.group[i])].add(
-            of_row[static_cast<std::size_t>(b.shape[i])]);
+        if (!w.edge.has_slot(i))  // whose forms are state
+            of_group[static_cast<std::size_t>(b.group[i])].add(
+                of_row[static_cast<std::size_t>(b.shape[i])]);
     Identity identity{w.parameters.resolved, {of_row[0]}};
     for (const StateHash& hash : of_group) identity.shapes.push_back(hash.value());
     return identity;
@@ -163,6 +164,7 @@ SavedRun read_checkpoint(const std::filesystem::path& path, World& world) {
                    std::filesystem::absolute(path).parent_path(),
                    file.created_by()};
     carry(file, world);
+    if (world.edge.lives()) world.edge.restore(world.scene, world.parameters);
     saved.recorder.carry(file);
     carry(file, saved.position);
     carry(file, saved.progress);

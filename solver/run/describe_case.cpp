@@ -53,6 +53,13 @@ std::string motion_line(const World& w) {
 }
 
 std::string ice_line(const World& w, const IceParticulars& ice) {
+    if (w.edge.lives()) {
+        const auto& extent = w.parameters.level_ice.extent;
+        return fmt::format(
+            "  ice        level, {:.3g} m thick, x from {:g} to {:g} m, y from {:g} "
+            "to {:g} m; cracks {:.3g} m from the load at rest",
+            w.edge.thickness(), extent[0], extent[1], extent[2], extent[3], w.edge.radius());
+    }
     std::string out = fmt::format("  ice        {} floes", ice.floes);
     if (ice.floes > 0)
         out += fmt::format(" of {:.3g} to {:.3g} m", ice.floe_size_min, ice.floe_size_max);

@@ -17,7 +17,6 @@
 #include "solver/record/recorder.hpp"
 #include "solver/run/balance.hpp"
 #include "solver/run/disk_room.hpp"
-#include "solver/run/lay_level_ice.hpp"
 #include "solver/run/make_water.hpp"
 #include "solver/run/run_folder.hpp"
 #include "solver/scene/build_scene.hpp"
@@ -33,7 +32,8 @@ StepView view_of(const World& w) {
             w.ledger,
             w.time,
             w.impacts.converged && w.rest.converged,
-            w.ship.answers() ? &w.ship : nullptr};
+            w.ship.answers() ? &w.ship : nullptr,
+            w.edge.lives() ? &w.edge : nullptr};
 }
 
 constexpr double kFarAway = 1e7;  // [m]
@@ -211,8 +211,9 @@ void advance(Job& job) {
 
 World build_world(const Case& parameters) {
     World world;
-    world.parameters = with_level_ice(parameters);
+    world.parameters = parameters;
     world.scene = build_scene(world.parameters);
+    if (parameters.has_level_ice()) world.edge.begin(world.scene, world.parameters);
     world.scene.water = make_water(parameters, world.scene);
     world.ship.begin(parameters, world.scene);
     return world;

@@ -35,6 +35,7 @@ void carry(CheckpointFile& file, World& w) {
     file.carry("ledger.potential_start", ledger.potential_start);
 
     w.ship.carry(file);
+    w.edge.carry(file);
     file.carry("crushed.first", w.scene.crushed.first);
     file.carry("crushed.recess", w.scene.crushed.recess);
     file.carry("crushed.deepest", w.scene.crushed.deepest);

@@ -15,7 +15,7 @@ struct RunProgress {
 
 /// All state that a run carries from one step to the next, in lists that both write and read a
 /// checkpoint: here that of the world, in record/recorder_state.cpp that of the recorder, and in
-/// WarmStart::carry and FreeShip::carry theirs.
+/// WarmStart::carry, FreeShip::carry and LiveEdge::carry theirs.
 ///
 /// To add a field: give it a line there. Nothing else is needed, but that its name is new and its
 /// type one of CheckpointFile's; an array per body goes through carry_each(), a table through one

@@ -12,6 +12,7 @@
 #include "common/formats/spheres_file.hpp"
 #include "solver/scene/breaking_loads.hpp"
 #include "solver/scene/ice_extent.hpp"
+#include "solver/scene/inertia_of.hpp"
 #include "solver/scene/jitter.hpp"
 #include "solver/scene/place_hull.hpp"
 #include "solver/water/hydrostatics.hpp"
@@ -130,18 +131,21 @@ std::int32_t share_inertia(Scene& scene, std::int32_t shape_row, double density)
     b.inertia_of_shape.resize(scene.shapes.size(), -1);
     std::int32_t& row = b.inertia_of_shape[static_cast<std::size_t>(shape_row)];
     if (row >= 0 && b.inertias[static_cast<std::size_t>(row)].density == density) return row;
-    const Mat3& solid = scene.shapes[static_cast<std::size_t>(shape_row)].solid.inertia;
-    Inertia inertia{density, density * solid, Mat3::Zero()};
-    if (scene.dimension == 2)
-        inertia.inverse(1, 1) = 1.0 / inertia.body(1, 1);
-    else
-        inertia.inverse = inertia.body.inverse();
     row = static_cast<std::int32_t>(b.inertias.size());
-    b.inertias.push_back(inertia);
+    b.inertias.push_back(inertia_of(scene.shapes[static_cast<std::size_t>(shape_row)], density));
     return row;
 }
 
 }  // namespace
+
+Inertia inertia_of(const Shape& shape, double density) {
+    Inertia inertia{density, density * shape.solid.inertia, Mat3::Zero()};
+    if (shape.dimension == 2)
+        inertia.inverse(1, 1) = 1.0 / inertia.body(1, 1);
+    else
+        inertia.inverse = inertia.body.inverse();
+    return inertia;
+}
 
 Scene make_scene(Shape hull, const Vec3& position, const Vec3& velocity) {
     Scene scene;

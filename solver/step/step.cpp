@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "common/base/timer.hpp"
+#include "solver/loads/potential_energy.hpp"
 #include "solver/step/release_floes.hpp"
 
 namespace ice {
@@ -30,6 +31,19 @@ double contact_margin(const Case& p) {
     return kMargin + lift * p.gravity * p.time_step * p.time_step;
 }
 
+// The edge of level ice breaks and goes with the ship: what was known of the bodies' contacts is
+// forgotten, as some have another form now. Mass that comes into the scene or leaves it is no work.
+void renew_edge(World& w) {
+    if (!w.edge.is_due(w.scene)) return;
+    const double before = potential_energy(w.scene, w.parameters);
+    if (!w.edge.renew(w.scene, w.parameters, w.time)) return;
+    *w.ledger.potential_start += potential_energy(w.scene, w.parameters) - before;
+    w.warm_start = {};
+    w.travel = {};
+    w.pairs = {};
+    w.finder = {};
+}
+
 }  // namespace
 
 void step(World& w) {
@@ -38,6 +52,7 @@ void step(World& w) {
     Bodies& bodies = w.scene.bodies;
     release_bent(bodies);
     w.ledger.begin(w.scene, w.parameters);
+    timed(w, Stage::broad, [&] { renew_edge(w); });
 
     // the ship goes as prescribed, its speed at mid-step carrying it to the end of the step, or
     // with the velocity it has come to
@@ -91,6 +106,7 @@ void step(World& w) {
         w.ledger.kinetic += kinetic_energy(bodies) - w.start.kinetic;
     });
     w.bent.find(w.scene, w.parameters, w.constraints);
+    w.edge.find(w.parameters, w.contacts, w.constraints);
     ++w.steps;
     w.time = static_cast<double>(w.steps) * dt;
 }

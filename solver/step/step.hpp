@@ -10,6 +10,7 @@
 #include "solver/contact/overlaps.hpp"
 #include "solver/contact/solve_contacts.hpp"
 #include "solver/integrate/integrate.hpp"
+#include "solver/live_edge/live_edge.hpp"
 #include "solver/loads/measure_loads.hpp"
 #include "solver/narrow/find_contacts.hpp"
 #include "solver/record/energy_ledger.hpp"
@@ -35,6 +36,7 @@ struct World {
     std::vector<Contact> contacts;
     std::vector<Constraint> constraints;
     FreeShip ship;
+    LiveEdge edge;  ///< of level ice; has no sheet unless begin() was called
     /// The caller's own loads by body (add_applied); empty: none. They stay until they are changed,
     /// and no checkpoint carries them.
     std::vector<WaterLoad> applied_loads;

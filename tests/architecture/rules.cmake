@@ -8,11 +8,15 @@ set(order_common common/base common/toml common/geometry common/math common/form
 set(order_preprocess preprocess/load preprocess/clean preprocess/measure preprocess/repair
   preprocess/slice preprocess/fill preprocess/certify preprocess/field preprocess/write preprocess)
 set(order_solver solver/case solver/shape solver/bending solver/level_ice solver/flow solver/water solver/scene
-  solver/broad solver/narrow solver/contact solver/loads solver/integrate solver/ship solver/record solver/step
-  solver/run solver/draft solver/ensemble solver)
+  solver/broad solver/narrow solver/contact solver/live_edge solver/loads solver/integrate solver/ship
+  solver/record solver/step solver/run solver/draft solver/ensemble solver)
 set(order_postprocess postprocess/read postprocess/views postprocess/statistics postprocess/report
   postprocess/sweep postprocess/fit postprocess/attain postprocess/sensitivity postprocess/paraview postprocess/check postprocess)
 set(tools preprocess solver postprocess)
+
+# One tool may look into another here alone: a folder and the header. Level ice is cut and filled
+# while the solver runs.
+set(bridges "solver/live_edge preprocess/field/fill_prism.hpp" "solver/live_edge preprocess/field/prism.hpp")
 
 # Third-party headers and the files that may include them: pairs of regular expressions. Tests may
 # include all of them but those whose home is in tests/: OpenVDB is no dependency of the project,

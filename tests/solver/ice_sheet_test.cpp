@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Level ice as a polygon: areas that can be said beforehand, then ten thousand random breaks.
+#include "solver/level_ice/ice_sheet.hpp"
+
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
 #include <random>
 
-#include "solver/level_ice/break_pattern.hpp"
+#include "solver/level_ice/section_outline.hpp"
 #include "tests/support/make_sphere_sets.hpp"
 
 using namespace ice;
@@ -210,67 +212,27 @@ TEST_CASE("random breaks keep the area, the polygon and a least size of pieces",
     CHECK(fields > 10);
 }
 
-namespace {
-
-// A wedge-shaped bow of 60 degrees before a parallel body, its tip at x = 0.
-Loop wedge_bow() {
-    return {{-30, -4}, {-4 * std::sqrt(3.0), -4}, {0, 0}, {-4 * std::sqrt(3.0), 4}, {-30, 4}};
-}
-
-Passage passage_of(double speed, double scatter = 0.0) {
-    return {wedge_bow(), 40.0, [=](double) { return speed; }, 10.0, {0.32, -0.144, scatter, 7}};
-}
-
-}  // namespace
-
-TEST_CASE("a ship's way is broken through, and pieces, rest and brash are the sheet",
-          "[level_ice][bow]") {
-    const BrokenSheet broken = break_sheet(field(), passage_of(0.0));
-    CHECK(sum_of(broken.pieces) + broken.rest.area() + broken.brash ==
-          Approx(4000.0).epsilon(1e-9));
-    CHECK(broken.brash < 0.02 * sum_of(broken.pieces));
-    // a channel of 8 m and scallops on both sides
-    CHECK(sum_of(broken.pieces) > 8.0 * 36.0);
-    CHECK(sum_of(broken.pieces) < (8.0 + 2.0 * 3.2) * (40.0 + 3.2));
-    for (double y = -3.9; y < 4.0; y += 0.3)
-        for (double x = 0.1; x < 40.0 - std::sqrt(3.0) * std::abs(y) - 0.2; x += 0.3)
-            REQUIRE_FALSE(broken.rest.contains({x, y}));
-    CHECK(is_simple(broken.rest.loops()));
-    for (const Loop& piece : broken.pieces) {
-        REQUIRE(is_simple({piece}));
-        REQUIRE(left_in(broken.rest, piece) <= 1e-6);
-    }
-}
-
-TEST_CASE("a fast ship breaks smaller pieces, another seed others", "[level_ice][bow]") {
-    const BrokenSheet slow = break_sheet(field(), passage_of(0.0)),
-                      fast = break_sheet(field(), passage_of(6.0));
-    CHECK(fast.pieces.size() > slow.pieces.size());
-    const BrokenSheet one = break_sheet(field(), passage_of(1.0, 0.2)),
-                      same = break_sheet(field(), passage_of(1.0, 0.2));
-    CHECK(one.pieces == same.pieces);
-    Passage other = passage_of(1.0, 0.2);
-    other.law.seed = 8;
-    CHECK(break_sheet(field(), other).pieces != one.pieces);
-}
-
-TEST_CASE("tiles of the rest hold the channel on both sides", "[level_ice][bow]") {
-    const BrokenSheet broken = break_sheet(field(), passage_of(1.0));
-    const std::vector<Loop> tiles = tile_rest(broken.rest, broken.pieces, 5.0, 10.0);
-    double reach = 0.0;
-    for (const Loop& tile : tiles) {
-        REQUIRE(is_simple({tile}));
-        for (const Vec2& p : tile) reach = std::max(reach, std::abs(p.y()));
-    }
-    REQUIRE(tiles.size() >= 8);
-    CHECK(reach > 4.0 + 5.0);
-    // nothing of a tile lies on another one or on a piece
-    IceSheet left = broken.rest;
-    const double before = left.area();
-    for (const Loop& tile : tiles) left.break_off(tile);
-    CHECK(sum_of(tiles) <= before);
-    // cutting all tiles out leaves strips outside them, of which the cut may part some
-    CHECK(before - left.area() >= sum_of(tiles) - 1e-6);
+TEST_CASE("what is taken away, what is in a box and what two loops share add up", "[level_ice]") {
+    IceSheet sheet = field();
+    const Box box(Vec2(-1, -2), Vec2(5, 3));
+    CHECK(sheet.area_in(loop_of(box)) == Approx(25.0));
+    CHECK(sheet.in_box(box).area() == Approx(25.0));
+    CHECK(sheet.parts_in(box).size() == 1);
+    CHECK(sheet.take(loop_of(box)) == Approx(25.0).epsilon(1e-9));
+    CHECK(sheet.area() == Approx(4000.0 - 25.0));
+    CHECK(sheet.area_in(loop_of(box)) == Approx(0.0).margin(1e-9));
+    // around a hole two parts
+    sheet.take(loop_of(Box(Vec2(50, -1), Vec2(52, 1))));
+    const auto parts = sheet.parts_in(Box(Vec2(45, -5), Vec2(55, 5)));
+    CHECK(parts.size() == 2);
+    CHECK(sum_of(parts) == Approx(96.0));
+    const Loop square = loop_of(Box(Vec2(0, 0), Vec2(2, 2))),
+               other = loop_of(Box(Vec2(1, 0), Vec2(4, 2)));
+    CHECK(sum_of(common_part(square, other)) == Approx(2.0));
+    CHECK(sum_of(without(square, other)) == Approx(2.0));
+    const Loop beside = loop_of(Box(Vec2(2, 0), Vec2(3, 1)));
+    CHECK(area_of(joined(square, beside)) == Approx(5.0));
+    CHECK(joined(square, loop_of(Box(Vec2(5, 5), Vec2(6, 6)))).empty());
 }
 
 TEST_CASE("a loop that shrinks loses a strip, and what becomes too thin", "[level_ice]") {

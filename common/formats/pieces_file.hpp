@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// `pieces.h5`: what level ice broke into during a run, beside run.h5.
+///
+/// The bodies of run.h5 are slots then: one after the other stands for several pieces. Layout (K
+/// rows of a group; /pieces: floes by number, /rest: what is left of the sheet at the end):
+///
+///     / format, format_version, first_body, piece_group, rest_group
+///     /pieces/number, body [K]  born, gone [K] s (gone: inf while it is there)
+///     /pieces/load [K] N, radius [K] m   that broke it off, of its crack
+///     and in both groups: at [K,3] m  centre of mass as it lay   mass [K] kg
+///     vertex_offset [K+1], vertices [V,3] m about that centre, triangle_offset [K+1], triangles
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "common/formats/run_file.hpp"
+
+namespace ice {
+
+constexpr const char* kPiecesName = "pieces.h5";
+
+/// A piece of level ice. Of the rest only the first three members count.
+struct PieceRow {
+    TriangleMesh mesh;  ///< about the centre of mass, axes of the world as it lay [m]
+    Vec3 at;            ///< centre of mass as it lay [m]
+    double mass;        ///< [kg]
+    std::int32_t number = 0, body = 0;
+    double born = 0.0, gone = 0.0;  ///< [s]
+    double load = 0.0;              ///< downwards, that broke it off [N]
+    double radius = 0.0;            ///< of its crack [m]
+};
+
+struct PiecesFile {
+    std::int32_t first_body = 0;                   ///< id of the first slot
+    std::int32_t piece_group = 0, rest_group = 0;  ///< rows of the case's groups
+    std::vector<PieceRow> pieces, rest;
+};
+
+/// @throws Error (exit code 1) naming the file when it cannot be written
+void write_pieces(const std::filesystem::path& path, const PiecesFile& file);
+
+/// @throws Error (exit code 2) naming file and dataset
+PiecesFile read_pieces(const std::filesystem::path& path);
+
+/// Puts pieces and rest in the place of the slots, as floes of the run: before it breaks off, a
+/// piece lies held in the sheet; after it was taken out of the scene, it stays where it was last
+/// seen, behind. What hull contacts say of the sheet's edge goes to the first row of the rest.
+void show_pieces(const PiecesFile& file, RunData& run);
+
+}  // namespace ice

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "common/geometry/loop_area.hpp"
+
+namespace ice {
+
+namespace {
+
+using Vec2 = Eigen::Vector2d;
+
+double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+}  // namespace
+
+// about the first corner, so that a loop far from the origin loses no digits
+double area_of(const std::vector<Vec2>& loop) {
+    double twice = 0.0;
+    for (std::size_t k = 1; k + 1 < loop.size(); ++k)
+        twice += cross(loop[k] - loop[0], loop[k + 1] - loop[0]);
+    return 0.5 * twice;
+}
+
+Vec2 centroid_of(const std::vector<Vec2>& loop) {
+    Vec2 sum = Vec2::Zero();
+    double twice = 0.0;
+    for (std::size_t k = 1; k + 1 < loop.size(); ++k) {
+        const Vec2 a = loop[k] - loop[0], b = loop[k + 1] - loop[0];
+        sum += cross(a, b) * (a + b);
+        twice += cross(a, b);
+    }
+    return loop[0] + sum / (3.0 * twice);
+}
+
+}  // namespace ice

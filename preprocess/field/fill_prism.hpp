@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+
+#include "common/formats/sphere_set.hpp"
+#include "preprocess/field/outline.hpp"
+
+namespace ice {
+
+/// What a floe's outline becomes: a slab of ice with contact spheres.
+struct PrismForm {
+    double thickness, chamfer;  ///< [m]
+    double radius, spacing;     ///< of the spheres [m]
+    bool surface_only = true;
+};
+
+/// A floe as a closed solid (make_prism) filled with spheres (fill_spheres), in the axes of its
+/// outline, z = 0 midway.
+///
+/// The solver cuts pieces from level ice with it while it runs: no file, no CGAL in its headers.
+///
+/// @param corners  where given, becomes the number of corners, each with a sphere of its own
+/// @throws Error (exit code 2) when no sphere fits, or a corner gets none
+SphereSet fill_prism(const Outline& outline, const PrismForm& form,
+                     std::int64_t* corners = nullptr);
+
+}  // namespace ice

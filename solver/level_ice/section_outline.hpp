@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "common/geometry/triangle_mesh.hpp"
+#include "solver/level_ice/cusp_form.hpp"
+
+namespace ice {
+
+/// A body's outline at the height z of the mesh's axes: the convex hull of the section,
+/// anticlockwise. Empty where the height misses the mesh.
+Loop section_outline(const TriangleMesh& mesh, double z);
+
+}  // namespace ice

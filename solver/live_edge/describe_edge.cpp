@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/live_edge/describe_edge.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numbers>
+
+namespace ice {
+
+std::string describe_edge(const LiveEdge& edge) {
+    const IceAreas areas = edge.areas();
+    const auto& pieces = edge.pieces();
+    std::string out = fmt::format(
+        "level ice: {} pieces broke off, {:.4g} m2; crushed {:.3g} m2, brash {:.3g} m2; {} pieces "
+        "far astern taken out",
+        pieces.size(), areas.pieces, areas.crushed, areas.brash, edge.retired());
+    if (pieces.empty()) return out;
+    double radius = 0.0, load = 0.0, angle = 0.0;
+    Eigen::AlignedBox1d channel;
+    for (const IcePiece& piece : pieces) {
+        radius += piece.radius;
+        load += piece.load;
+        angle += std::min(2.0 * area_of(piece.outline) / (piece.radius * piece.radius),
+                          std::numbers::pi);
+        for (const Vec2& p : piece.outline) channel.extend(Eigen::Matrix<double, 1, 1>(p.x()));
+    }
+    const auto count = static_cast<double>(pieces.size());
+    radius /= count;
+    const double broken = areas.pieces + areas.crushed + areas.brash;
+    return out + fmt::format(
+                     "\nlevel ice: cracks {:.2g} m from the load, {:.2g} characteristic lengths "
+                     "(ships: 0.1 to 0.4), {:.2g} thicknesses (3 to 10); opening {:.0f} degrees; "
+                     "{:.3g} kN each; channel {:.3g} m broad",
+                     radius, radius / edge.length(), radius / edge.thickness(),
+                     angle / count * 180.0 / std::numbers::pi, 1e-3 * load / count,
+                     broken / channel.sizes().x());
+}
+
+}  // namespace ice

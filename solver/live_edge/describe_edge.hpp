@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include "solver/live_edge/live_edge.hpp"
+
+namespace ice {
+
+/// Size of cracks and channel beside what is seen on ships, and where the sheet's area went: one
+/// line each. The ranges are as later papers print them, not read in their sources.
+std::string describe_edge(const LiveEdge& edge);
+
+}  // namespace ice

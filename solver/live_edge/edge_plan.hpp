@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// The inside of LiveEdge: what one renewal lays. Used by live_edge.cpp and lay_edge.cpp only.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "solver/live_edge/live_edge.hpp"
+#include "solver/shape/shape.hpp"
+
+namespace ice {
+
+constexpr double kSmallestPiece = 0.5;  // in the sense of IceSheet, in thicknesses
+
+struct LiveEdge::Plan {
+    struct Body {
+        Loop outline;
+        bool is_tile;
+        double load, radius;         // of the crack
+        double area;                 // of the part of the sheet that it stands for
+        std::optional<Shape> shape;  // none: no spheres fit
+    };
+    std::vector<Body> bodies;
+    std::vector<std::int32_t> changed;
+};
+
+/// Is there room for a sphere in ice of that outline?
+bool can_be_filled(const Loop& outline, double thickness);
+
+}  // namespace ice

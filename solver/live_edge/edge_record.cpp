@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/live_edge/edge_record.hpp"
+
+#include "preprocess/field/prism.hpp"
+
+namespace ice {
+
+namespace {
+
+PieceRow row_of(const LiveEdge& edge, const Loop& outline) {
+    const Vec2 centre = centroid_of(outline);
+    Loop centred;
+    for (const Vec2& p : outline) centred.push_back(p - centre);
+    PieceRow row;
+    row.mesh = make_prism(centred, edge.thickness(), 0.0);
+    row.at = Vec3(centre.x(), centre.y(), edge.height());
+    row.mass = edge.density() * edge.thickness() * area_of(outline);
+    return row;
+}
+
+}  // namespace
+
+PiecesFile record_edge(const LiveEdge& edge) {
+    PiecesFile out;
+    out.first_body = static_cast<std::int32_t>(edge.first_body());
+    out.piece_group = edge.piece_group();
+    out.rest_group = edge.tile_group();
+    for (const IcePiece& piece : edge.pieces()) {
+        PieceRow row = row_of(edge, piece.outline);
+        row.number = static_cast<std::int32_t>(piece.number);
+        row.body = piece.body;
+        row.born = piece.born;
+        row.gone = piece.gone;
+        row.load = piece.load;
+        row.radius = piece.radius;
+        out.pieces.push_back(std::move(row));
+    }
+    for (const Loop& loop : edge.rest()) out.rest.push_back(row_of(edge, loop));
+    return out;
+}
+
+}  // namespace ice

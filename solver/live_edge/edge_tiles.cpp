@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/live_edge/edge_tiles.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace ice {
+
+namespace {
+
+constexpr double kWhole = 1e-6;  // share of a cell that may miss from a whole one
+
+using Box = Eigen::AlignedBox2d;
+
+// The cells that a box touches, and one more around them.
+class Cells {
+public:
+    Cells(const IceSheet& sheet, const EdgeGrid& grid, const Box& reach) : grid_(grid) {
+        for (int d = 0; d < 2; ++d) {
+            first_[d] = index_of(reach.min()[d], d) - 1;
+            count_[d] = index_of(reach.max()[d], d) + 2 - first_[d];
+        }
+        parts_.resize(static_cast<std::size_t>(count_[0] * count_[1]));
+        whole_.resize(parts_.size(), 0);
+        for (std::int64_t i = 0; i < count_[0]; ++i) fill_column(sheet, i);
+    }
+
+    void join_slivers(const std::function<bool(const Loop&)>& holds) {
+        for (std::int64_t i = 0; i < count_[0]; ++i)
+            for (std::int64_t j = 0; j < count_[1]; ++j) {
+                std::vector<Loop> kept;
+                for (Loop& part : parts(i, j)) {
+                    if (holds(part))
+                        kept.push_back(std::move(part));
+                    else
+                        join(part, i, j);
+                }
+                parts(i, j) = std::move(kept);
+            }
+    }
+
+    // Those of the cells that the box touches which may be met.
+    std::vector<Loop> met() {
+        std::vector<Loop> out;
+        for (std::int64_t i = 1; i + 1 < count_[0]; ++i)
+            for (std::int64_t j = 1; j + 1 < count_[1]; ++j) {
+                if (is_inside(i, j)) continue;
+                for (Loop& part : parts(i, j)) out.push_back(std::move(part));
+            }
+        return out;
+    }
+
+private:
+    std::int64_t index_of(double x, int d) const {
+        return static_cast<std::int64_t>(std::floor((x - grid_.origin[d]) / grid_.cell));
+    }
+    Vec2 corner(std::int64_t i, std::int64_t j) const {
+        return grid_.origin + grid_.cell * Vec2(static_cast<double>(first_[0] + i),
+                                                static_cast<double>(first_[1] + j));
+    }
+    std::size_t row(std::int64_t i, std::int64_t j) const {
+        return static_cast<std::size_t>(i * count_[1] + j);
+    }
+    std::vector<Loop>& parts(std::int64_t i, std::int64_t j) { return parts_[row(i, j)]; }
+
+    // the sheet's many corners are looked at once for each column, not for each cell
+    void fill_column(const IceSheet& sheet, std::int64_t i) {
+        const Box box(corner(i, 0), corner(i + 1, count_[1]));
+        const IceSheet column = sheet.in_box(box);
+        const double whole = grid_.cell * grid_.cell * (1.0 - kWhole);
+        for (std::int64_t j = 0; j < count_[1]; ++j) {
+            parts(i, j) = column.parts_in(Box(corner(i, j), corner(i + 1, j + 1)));
+            whole_[row(i, j)] = parts(i, j).size() == 1 && area_of(parts(i, j)[0]) >= whole;
+        }
+    }
+
+    void join(const Loop& sliver, std::int64_t i, std::int64_t j) {
+        constexpr std::array<std::pair<int, int>, 4> kBeside{{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
+        for (const auto& [di, dj] : kBeside) {
+            const std::int64_t k = i + di, l = j + dj;
+            if (k < 0 || l < 0 || k >= count_[0] || l >= count_[1]) continue;
+            for (Loop& part : parts(k, l)) {
+                Loop both = joined(part, sliver);
+                if (both.empty()) continue;
+                part = std::move(both);
+                return;
+            }
+        }
+    }
+
+    // Is the cell whole, and all around it?
+    bool is_inside(std::int64_t i, std::int64_t j) const {
+        for (std::int64_t k = i - 1; k <= i + 1; ++k)
+            for (std::int64_t l = j - 1; l <= j + 1; ++l)
+                if (!whole_[row(k, l)]) return false;
+        return true;
+    }
+
+    EdgeGrid grid_;
+    std::array<std::int64_t, 2> first_, count_;
+    std::vector<std::vector<Loop>> parts_;  // by cell
+    std::vector<std::uint8_t> whole_;
+};
+
+}  // namespace
+
+std::vector<Loop> edge_tiles(const IceSheet& sheet, const EdgeGrid& grid, const Box& reach,
+                             const std::function<bool(const Loop&)>& holds) {
+    Cells cells(sheet, grid, reach);
+    cells.join_slivers(holds);
+    std::vector<Loop> tiles = cells.met();
+    for (Loop& tile : tiles) {
+        const auto first =
+            std::min_element(tile.begin(), tile.end(), [](const Vec2& l, const Vec2& r) {
+                return std::pair(l.x(), l.y()) < std::pair(r.x(), r.y());
+            });
+        std::rotate(tile.begin(), first, tile.end());
+    }
+    return tiles;
+}
+
+}  // namespace ice

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "solver/level_ice/cusp_form.hpp"
+
+namespace ice {
+
+/// What one contact gave the edge of the ice in a step.
+struct EdgeLoad {
+    Vec2 at;         ///< where [m]
+    double down;     ///< impulse downwards, friction included [N s]
+    double normal;   ///< normal impulse [N s]
+    double closing;  ///< the same times the closing speed [N m]
+    Vec2 push;       ///< normal impulse on the ice, seen from above [N s]
+};
+
+/// A stretch of edge and what presses on it.
+struct EdgeWindow {
+    Vec2 at;              ///< centre of the downward impulses [m]
+    Vec2 inwards;         ///< unit vector along the push
+    double down;          ///< impulse downwards [N s], > 0
+    double closing;       ///< mean closing speed along the contacts' normals [m/s]
+    double normal_speed;  ///< the same along their level parts: a ship's along its outline's normal
+};
+
+/// Loads that act on one piece of ice together, the heaviest first.
+///
+/// A window holds all loads within `radius` [m] of one of them: of that with the largest sum
+/// downwards, the first of equal ones. Its loads are left out of the next one. Windows that do not
+/// press downwards, and those whose push has no direction seen from above, are none.
+std::vector<EdgeWindow> edge_windows(std::vector<EdgeLoad> loads, double radius);
+
+}  // namespace ice

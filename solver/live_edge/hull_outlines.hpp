@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "solver/level_ice/cusp_form.hpp"
+#include "solver/scene/bodies.hpp"
+
+namespace ice {
+
+/// The ship's outlines at the upper and the lower face of ice, world axes (section_outline); none
+/// at a height that misses the hull.
+std::vector<Loop> hull_outlines(const Scene& scene, double top, double bottom);
+
+}  // namespace ice

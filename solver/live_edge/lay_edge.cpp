@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Tiles and pieces become bodies.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "common/base/error.hpp"
+#include "common/base/parallel.hpp"
+#include "preprocess/field/fill_prism.hpp"
+#include "solver/bending/breaking_load.hpp"
+#include "solver/live_edge/edge_plan.hpp"
+#include "solver/live_edge/edge_tiles.hpp"
+#include "solver/live_edge/hull_outlines.hpp"
+#include "solver/live_edge/put_ice.hpp"
+#include "solver/scene/build_scene.hpp"
+
+namespace ice {
+
+namespace {
+
+using Box = Eigen::AlignedBox2d;
+
+constexpr double kRadius = 0.25;     // of the spheres, in thicknesses: icefield's default
+constexpr double kHolds = 0.26;      // thicknesses inwards from its sides, where something is
+constexpr double kAhead = 2.0;       // of the hull, in radii of a crack at rest
+constexpr double kAstern = 0.5;      // in the hull's lengths
+constexpr double kParked = 1000.0;   // from the sheet to slots without ice [m]
+constexpr double kCover = 0.25;      // share of half a disc that a piece has, at least
+constexpr double kRestLength = 8.0;  // of what is drawn of the sheet, in radii
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
+PrismForm prism_form(const Case& p) {
+    const LevelIce& ice = p.level_ice;
+    return {ice.thickness, 0.0, kRadius * ice.thickness, ice.spacing, true};
+}
+
+// About its centroid; none where no sphere fits, or a corner gets none.
+std::optional<Shape> shape_of(const Loop& outline, const PrismForm& form) {
+    Loop centred;
+    const Vec2 centre = centroid_of(outline);
+    for (const Vec2& p : outline) centred.push_back(p - centre);
+    try {
+        return build_shape(fill_prism(centred, form), true);
+    } catch (const Error&) {
+        return std::nullopt;
+    }
+}
+
+// Where a slot without ice is: one beside the other, beyond the sheet.
+Vec2 parked_at(const Box& sheet, double thickness, std::size_t slot) {
+    return {sheet.max().x() + kParked + 2.0 * thickness * static_cast<double>(slot), 0.0};
+}
+
+std::int32_t add_group(Case& p, Hold hold) {
+    FloeGroup group;
+    group.pattern = Pattern::single;
+    group.hold = hold;
+    p.floes.push_back(group);
+    return static_cast<std::int32_t>(p.floes.size()) - 1;
+}
+
+}  // namespace
+
+bool can_be_filled(const Loop& outline, double thickness) {
+    return !shrunk(outline, kHolds * thickness, 0.0).empty();
+}
+
+void LiveEdge::set_up(const Scene& scene, const Case& p) {
+    const LevelIce& ice = p.level_ice;
+    thickness_ = ice.thickness;
+    gap_ = ice.gap;
+    length_ = characteristic_length(plate_of(ice.thickness, p));
+    density_ = p.ice_density;
+    share_ = p.ice_density / p.water_density;
+    extent_ = {Vec2(ice.extent[0], ice.extent[2]), Vec2(ice.extent[1], ice.extent[3])};
+    law_ = {ice.length_factor, ice.speed_factor, ice.scatter,
+            static_cast<std::uint64_t>(ice.seed) * 1000003u + static_cast<std::uint64_t>(p.seed)};
+    radius_ = cusp_radius({ice.length_factor}, length_, 0.0, 0);
+    ahead_ = kAhead * radius_;
+    astern_ = kAstern * scene.shapes[0].box.sizes().x();
+}
+
+// As many as pieces of a quarter of a half disc can lie in the channel within reach, and the tiles
+// on both sides of it.
+void LiveEdge::add_slots(Scene& scene, const Case& p) {
+    const Vec2 size = reach(scene).sizes();
+    const double pieces = size.x() * size.y() / (kCover * 1.57 * radius_ * radius_);
+    const double tiles = 6.0 * size.x() / radius_ + 4.0 * size.y() / radius_;
+    const double half = 0.5 * thickness_;
+    const Loop square = loop_of(Box(Vec2(-half, -half), Vec2(half, half)));
+    if (std::optional<Shape> shape = shape_of(square, prism_form(p)))
+        empty_ = std::move(*shape);
+    else
+        throw bad_input(p.file.string() + ": level_ice.spacing",
+                        "no contact sphere fits into ice of that thickness",
+                        "leave it out, or make it smaller");
+    const double height = (0.5 - share_) * thickness_;
+    first_ = scene.bodies.size();
+    slots_.resize(static_cast<std::size_t>(std::ceil(pieces + tiles)));
+    for (std::size_t k = 0; k < slots_.size(); ++k) {
+        scene.shapes.push_back(empty_);
+        add_floe(scene, static_cast<std::int32_t>(scene.shapes.size()) - 1, density_,
+                 Vec3(parked_at(extent_, thickness_, k).x(), 0.0, height), Quaternion::Identity(),
+                 tile_group_, true);
+    }
+    scene.bodies.breaking_load.resize(scene.bodies.size(), kNever);
+}
+
+void LiveEdge::begin(Scene& scene, Case& p) {
+    set_up(scene, p);
+    const double top = (1.0 - share_) * thickness_;
+    const std::vector<Loop> hull = hull_outlines(scene, top, top - thickness_);
+    if (hull.empty())
+        throw bad_input(p.file.string() + ": level_ice",
+                        "the hull does not reach the height of the ice",
+                        "change hull.draught or level_ice.thickness");
+    sheet_ = IceSheet(extent_, kSmallestPiece * thickness_);
+    for (const Loop& loop : hull) gone_.crushed += sheet_.take(loop);
+    piece_group_ = add_group(p, Hold::until_bent);
+    tile_group_ = add_group(p, Hold::always);
+    add_slots(scene, p);
+    scene.start = {extent_, true, true};
+    looked_at_ = laid_at_ = scene.bodies.position[kShip].head<2>();
+    Plan plan;
+    lay_tiles(scene, plan);
+    fill(p, plan);
+    put(scene, 0.0, plan);
+}
+
+// Tiles that stay as they are keep their bodies, and what was crushed of them.
+void LiveEdge::lay_tiles(const Scene& scene, Plan& plan) {
+    std::vector<Loop> wanted;
+    const auto tiles = edge_tiles(sheet_, {extent_.min(), radius_}, reach(scene),
+                                  [&](const Loop& part) { return !bodies_of(part).empty(); });
+    for (const Loop& tile : tiles)
+        for (Loop& body : bodies_of(tile)) wanted.push_back(std::move(body));
+    for (std::size_t k = 0; k < slots_.size(); ++k) {
+        Slot& slot = slots_[k];
+        if (slot.use != Use::tile) continue;
+        const auto same = std::find(wanted.begin(), wanted.end(), slot.outline);
+        if (same != wanted.end()) {
+            wanted.erase(same);
+            continue;
+        }
+        slot = {};  // a free one that is not used again is parked by put()
+        plan.changed.push_back(static_cast<std::int32_t>(first_ + k));
+    }
+    for (Loop& outline : wanted)
+        plan.bodies.push_back({std::move(outline), true, 0.0, 0.0, 0.0, {}});
+}
+
+void LiveEdge::fill(const Case& p, Plan& plan) const {
+    const PrismForm form = prism_form(p);
+    parallel_tasks(plan.bodies.size(), true, [&](std::size_t k) {
+        plan.bodies[k].shape = shape_of(plan.bodies[k].outline, form);
+    });
+}
+
+void LiveEdge::put(Scene& scene, double time, Plan& plan) {
+    Bodies& b = scene.bodies;
+    for (Plan::Body& body : plan.bodies) {
+        if (!body.shape) continue;
+        const std::size_t k = free_slot(scene, time, plan), i = first_ + k;
+        const Vec2 centre = centroid_of(body.outline);
+        b.group[i] = body.is_tile ? tile_group_ : piece_group_;
+        // a tile breaks where a window of the edge does, never as a whole
+        b.breaking_load[i] = body.is_tile ? std::numeric_limits<double>::max() : kNever;
+        put_ice(scene, i, std::move(*body.shape), centre, density_, share_, body.is_tile);
+        Slot& slot = slots_[k];
+        slot = {body.is_tile ? Use::tile : Use::piece, std::move(body.outline), 0};
+        plan.changed.push_back(static_cast<std::int32_t>(i));
+        if (body.is_tile) continue;
+        slot.piece = static_cast<std::int64_t>(pieces_.size()) + 1;
+        gone_.pieces += body.area;
+        gone_.brash -= body.area;
+        pieces_.push_back({slot.piece, static_cast<std::int32_t>(i), time, kNever, body.load,
+                           body.radius, centre, slot.outline});
+    }
+    for (const std::int32_t i : plan.changed) {
+        const auto body = static_cast<std::size_t>(i);
+        if (slots_[body - first_].use != Use::free) continue;
+        b.group[body] = tile_group_;
+        b.breaking_load[body] = kNever;
+        put_ice(scene, body, empty_, parked_at(extent_, thickness_, body - first_), density_,
+                share_, true);
+    }
+}
+
+void LiveEdge::retire(std::size_t slot, double time, Plan& plan) {
+    pieces_[static_cast<std::size_t>(slots_[slot].piece) - 1].gone = time;
+    slots_[slot] = {};
+    plan.changed.push_back(static_cast<std::int32_t>(first_ + slot));
+}
+
+// The first free one; where there is none, that of the floe furthest astern.
+std::size_t LiveEdge::free_slot(const Scene& scene, double time, Plan& plan) {
+    const auto found = std::find_if(slots_.begin(), slots_.end(),
+                                    [](const Slot& s) { return s.use == Use::free; });
+    if (found != slots_.end()) return static_cast<std::size_t>(found - slots_.begin());
+    std::size_t last = slots_.size();
+    for (std::size_t k = 0; k < slots_.size(); ++k)
+        if (slots_[k].use == Use::piece &&
+            (last == slots_.size() ||
+             scene.bodies.position[first_ + k].x() < scene.bodies.position[first_ + last].x()))
+            last = k;
+    if (last == slots_.size())
+        throw run_failed("level_ice", "its edge has more tiles than there is room for",
+                         "this is a fault of the program: please report it");
+    retire(last, time, plan);
+    return last;
+}
+
+std::vector<Loop> LiveEdge::rest() const {
+    Box box;
+    for (const Loop& loop : sheet_.loops())
+        for (const Vec2& p : loop) box.extend(p);
+    std::vector<Loop> out;
+    const double step = kRestLength * radius_;
+    for (double x = box.min().x(); x < box.max().x(); x += step)
+        for (Loop& part : sheet_.parts_in(Box(
+                 Vec2(x, box.min().y()), Vec2(std::min(x + step, box.max().x()), box.max().y()))))
+            out.push_back(std::move(part));
+    return out;
+}
+
+void LiveEdge::restore(Scene& scene, const Case& p) {
+    ++changes_;
+    std::vector<std::optional<Shape>> shapes(slots_.size());
+    parallel_tasks(slots_.size(), true, [&](std::size_t k) {
+        if (slots_[k].use != Use::free) shapes[k] = shape_of(slots_[k].outline, prism_form(p));
+    });
+    Bodies& b = scene.bodies;
+    for (std::size_t k = 0; k < slots_.size(); ++k) {
+        const bool is_piece = slots_[k].use == Use::piece, is_tile = slots_[k].use == Use::tile;
+        put_form(scene, first_ + k, shapes[k] ? std::move(*shapes[k]) : empty_, density_);
+        b.group[first_ + k] = is_piece ? piece_group_ : tile_group_;
+        b.breaking_load[first_ + k] = is_tile ? std::numeric_limits<double>::max() : kNever;
+    }
+}
+
+}  // namespace ice

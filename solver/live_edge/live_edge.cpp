@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/live_edge/live_edge.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "solver/bending/breaking_load.hpp"
+#include "solver/live_edge/edge_plan.hpp"
+#include "solver/live_edge/hull_outlines.hpp"
+
+namespace ice {
+
+namespace {
+
+using Box = Eigen::AlignedBox2d;
+
+// Depth to which crushed ice stays in the polygon, in thicknesses: spheres that lie deeper in their
+// body by as much still stand for its edge. Where the hull is twice as deep, the ice goes.
+constexpr double kCrushed = 0.125;
+
+Vec2 place_of(const Scene& scene) { return scene.bodies.position[kShip].head<2>(); }
+
+double angle_of(double area, double radius) {
+    return std::min(2.0 * area / (radius * radius), std::numbers::pi);
+}
+
+}  // namespace
+
+bool LiveEdge::is_tile(std::int32_t body) const {
+    const auto i = static_cast<std::size_t>(body);
+    return i >= first_ && slots_[i - first_].use == Use::tile;
+}
+
+IceAreas LiveEdge::areas() const {
+    IceAreas out = gone_;
+    out.sheet = sheet_.area();
+    return out;
+}
+
+std::int64_t LiveEdge::alive() const {
+    return std::count_if(slots_.begin(), slots_.end(),
+                         [](const Slot& s) { return s.use == Use::piece; });
+}
+
+Box LiveEdge::reach(const Scene& scene) const {
+    const Bodies& b = scene.bodies;
+    const Eigen::AlignedBox3d& hull = scene.shapes[0].box;
+    const Vec3 half = b.rotation[kShip].cwiseAbs() * (0.5 * hull.sizes());
+    const Vec3 middle = b.position[kShip] + b.rotation[kShip] * hull.center();
+    const double aside = 3.0 * radius_;
+    return {Vec2(middle.x() - half.x() - astern_, middle.y() - half.y() - aside),
+            Vec2(middle.x() + half.x() + ahead_, middle.y() + half.y() + aside)};
+}
+
+void LiveEdge::find(const Case& parameters, const std::vector<Contact>& contacts,
+                    const std::vector<Constraint>& constraints) {
+    if (!lives()) return;
+    loads_.clear();
+    for (std::size_t k = 0; k < constraints.size(); ++k) {
+        const Constraint& c = constraints[k];
+        if (c.total_normal() <= 0.0) continue;
+        // impulses act on b, their opposites on a
+        for (const auto& [body, sign] : {std::pair(c.b, 1.0), std::pair(c.a, -1.0)}) {
+            if (!is_tile(body)) continue;
+            const double up = c.total_normal() * c.normal.z() + c.total_tangent().z();
+            loads_.push_back({contacts[k].point.head<2>(), -sign * up, c.total_normal(),
+                              c.total_normal() * std::max(-c.approach, 0.0),
+                              sign * c.total_normal() * c.normal.head<2>()});
+        }
+    }
+    for (const EdgeWindow& window : edge_windows(loads_, radius_)) {
+        const double radius =
+            cusp_radius(law_, length_, window.normal_speed, cusp_ + cracks_.size());
+        const double area = sheet_.area_in(crack_outline(window.at, window.inwards, radius));
+        const double bears = breaking_load(angle_of(area, radius), thickness_, parameters) *
+                             speed_factor(parameters.bending, window.closing);
+        const double load = window.down / parameters.time_step;
+        if (load >= bears) cracks_.push_back({window.at, window.inwards, radius, load});
+    }
+}
+
+bool LiveEdge::is_due(const Scene& scene) const {
+    if (!lives()) return false;
+    if (!cracks_.empty()) return true;
+    return (place_of(scene) - looked_at_).norm() >= kCrushed * thickness_;
+}
+
+bool LiveEdge::renew(Scene& scene, const Case& parameters, double time) {
+    const double top = (1.0 - share_) * thickness_;
+    const std::vector<Loop> hull = hull_outlines(scene, top, top - thickness_);
+    looked_at_ = place_of(scene);
+    bool is_new = crush_through(hull);
+    Plan plan;
+    for (const Crack& crack : std::exchange(cracks_, {})) {
+        break_off(crack, hull, plan);
+        is_new = true;
+    }
+    if (!is_new && (looked_at_ - laid_at_).norm() < radius_) return false;
+    laid_at_ = looked_at_;
+    const double behind = reach(scene).min().x();
+    if (behind > extent_.min().x())
+        gone_.astern += sheet_.take(
+            loop_of({extent_.min() - Vec2(1.0, 1.0), Vec2(behind, extent_.max().y() + 1.0)}));
+    for (std::size_t k = 0; k < slots_.size(); ++k)
+        if (slots_[k].use == Use::piece && scene.bodies.position[first_ + k].x() < behind)
+            retire(k, time, plan);
+    lay_tiles(scene, plan);
+    fill(parameters, plan);
+    put(scene, time, plan);
+    if (plan.changed.empty()) return false;
+    ++changes_;
+    return true;
+}
+
+// What the hull has gone through at both faces is gone. A strip stays, whose spheres know.
+bool LiveEdge::crush_through(const std::vector<Loop>& hull) {
+    if (hull.size() < 2) return false;
+    bool any = false;
+    for (const Loop& core : common_part(hull[0], hull[1]))
+        for (const Loop& deep : shrunk(core, 2.0 * kCrushed * thickness_, 0.0)) {
+            if (sheet_.area_in(deep) <= kCrushed * thickness_ * thickness_) continue;
+            for (const Loop& gone : shrunk(core, kCrushed * thickness_, 0.0))
+                gone_.crushed += sheet_.take(gone);
+            any = true;
+        }
+    return any;
+}
+
+// The ice around a crack is laid anew, and the hull's notch in it is gone through all of its
+// thickness: what is laid does not overlap with the hull.
+void LiveEdge::break_off(const Crack& crack, const std::vector<Loop>& hull, Plan& plan) {
+    ++cusp_;
+    const Loop outline = crack_outline(crack.at, crack.inwards, crack.radius);
+    const IceSheet::Broken broken = sheet_.break_off(outline);
+    gone_.brash += broken.brash;
+    for (const Loop& piece : broken.pieces) add_piece(piece, crack, hull, plan);
+    Box around;
+    for (const Vec2& corner : outline)
+        for (int d = 0; d < 2; ++d) {
+            const double cell = (corner[d] - extent_.min()[d]) / radius_;
+            Vec2 line = corner;
+            line[d] = extent_.min()[d] + radius_ * std::floor(cell);
+            around.extend(line);
+            line[d] = extent_.min()[d] + radius_ * std::ceil(cell);
+            around.extend(line);
+        }
+    for (const Loop& loop : hull)
+        for (const Loop& notch : common_part(loop, loop_of(around)))
+            gone_.crushed += sheet_.take(notch);
+}
+
+void LiveEdge::add_piece(const Loop& piece, const Crack& crack, const std::vector<Loop>& hull,
+                         Plan& plan) {
+    std::vector<Loop> parts{piece};
+    for (const Loop& loop : hull) {
+        std::vector<Loop> left;
+        for (const Loop& part : parts)
+            for (Loop& rest : without(part, loop)) left.push_back(std::move(rest));
+        parts = std::move(left);
+    }
+    gone_.crushed += area_of(piece);
+    for (const Loop& part : parts) {
+        gone_.crushed -= area_of(part);
+        gone_.brash += area_of(part);  // until it is filled
+        std::vector<Loop> bodies = bodies_of(part);
+        if (bodies.empty()) continue;
+        Plan::Body body{std::move(bodies[0]), false, crack.load, crack.radius, area_of(part), {}};
+        plan.bodies.push_back(std::move(body));
+        for (std::size_t k = 1; k < bodies.size(); ++k)
+            plan.bodies.push_back({std::move(bodies[k]), false, crack.load, crack.radius, 0.0, {}});
+    }
+}
+
+bool LiveEdge::holds(const Loop& outline) const { return can_be_filled(outline, thickness_); }
+
+std::vector<Loop> LiveEdge::bodies_of(const Loop& part) const {
+    std::vector<Loop> out;
+    for (Loop& loop : shrunk(part, 0.5 * gap_, kSmallestPiece * thickness_))
+        if (holds(loop)) out.push_back(std::move(loop));
+    return out;
+}
+
+}  // namespace ice

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// The edge of level ice, of which the ship breaks pieces while it goes (docs/method.md, section
+/// 5).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "solver/case/case.hpp"
+#include "solver/contact/constraints.hpp"
+#include "solver/level_ice/ice_sheet.hpp"
+#include "solver/live_edge/edge_window.hpp"
+#include "solver/narrow/contact.hpp"
+#include "solver/scene/bodies.hpp"
+
+namespace ice {
+
+class CheckpointFile;
+
+/// Where the area of a sheet has gone [m2]; the five add up to the sheet's at the start.
+struct IceAreas {
+    double sheet = 0.0;    ///< unbroken, within reach and ahead
+    double pieces = 0.0;   ///< floes that broke off, those far astern too
+    double crushed = 0.0;  ///< where the hull was when ice broke or was crushed through
+    double brash = 0.0;    ///< broken off, too small for a floe
+    double astern = 0.0;   ///< unbroken, left behind
+};
+
+/// A piece that broke off.
+struct IcePiece {
+    std::int64_t number;  ///< from 1, in the order of breaking
+    std::int32_t body;    ///< that it is, or was
+    double born, gone;    ///< [s]; gone: inf while it is there
+    double load;          ///< downwards, that broke it off [N]
+    double radius;        ///< of its crack [m]
+    Vec2 at;              ///< centre of mass as it broke off [m]
+    Loop outline;         ///< of the floe, then [m]
+};
+
+/// A sheet of level ice whose edge is contact geometry where the ship can meet it.
+///
+/// The sheet is a polygon. Its edge around the ship is laid out in tiles (edge_tiles), bodies that
+/// are held: the hull crushes them. Where the downward load on a window of the edge (edge_windows)
+/// reaches the load that breaks the piece off which a crack around the load's centre would cut out,
+/// that piece becomes a floe, the polygon loses it, and the tiles around are laid anew.
+///
+/// Bodies come from a fixed number of slots; floes further astern than half a ship's length, or the
+/// last one where no slot is left, are taken out of the scene.
+class LiveEdge {
+public:
+    /// Is there a sheet?
+    bool lives() const { return first_ > 0; }
+
+    /// Lays the sheet of a case into a scene that has no floes yet, or others; adds the groups of
+    /// its bodies to the case. Ice where the ship is, is taken away.
+    /// @throws Error (exit code 2) naming level_ice where the hull does not reach the ice's height
+    void begin(Scene& scene, Case& parameters);
+
+    /// Does renew() have something to do?
+    bool is_due(const Scene& scene) const;
+    /// Breaks off what the last step's loads have broken, takes away what the hull has crushed
+    /// through, lays the edge anew around a ship that has gone on.
+    /// @param time  [s]
+    /// @return whether bodies have another form now
+    bool renew(Scene& scene, const Case& parameters, double time);
+
+    /// Sums the loads of the step just done and finds what they break.
+    /// @pre the constraints hold the step's impulses
+    void find(const Case& parameters, const std::vector<Contact>& contacts,
+              const std::vector<Constraint>& constraints);
+
+    /// Lays out again what a checkpoint holds. @pre state, poses and momenta are those of the saved
+    /// run; the scene came from begin()
+    void restore(Scene& scene, const Case& parameters);
+
+    const IceSheet& sheet() const { return sheet_; }
+    double thickness() const { return thickness_; }
+    /// Of level ice afloat: its middle's height [m].
+    double height() const { return (0.5 - share_) * thickness_; }
+    double density() const { return density_; }
+    double length() const { return length_; }  ///< characteristic length of the plate [m]
+    /// Side of the cells of its tiles: how far from a load it cracks at rest [m].
+    double radius() const { return radius_; }
+    /// The sheet that is left, in strips across it, in loops without holes.
+    std::vector<Loop> rest() const;
+    /// Body of the first slot, and the groups of floes and tiles in the case.
+    std::size_t first_body() const { return first_; }
+    std::int32_t piece_group() const { return piece_group_; }
+    std::int32_t tile_group() const { return tile_group_; }
+    IceAreas areas() const;
+    /// All that have broken off, by number.
+    const std::vector<IcePiece>& pieces() const { return pieces_; }
+    /// Floes in the scene now.
+    std::int64_t alive() const;
+    /// How often forms were exchanged since begin() or restore().
+    std::int64_t changes() const { return changes_; }
+    /// Taken out of the scene.
+    std::int64_t retired() const { return static_cast<std::int64_t>(pieces_.size()) - alive(); }
+    /// Is the body one of this edge's slots?
+    bool has_slot(std::size_t body) const { return first_ > 0 && body >= first_; }
+
+    /// Writes its state, or reads it: polygon, slots, cracks, pieces.
+    void carry(CheckpointFile& file);
+
+private:
+    enum class Use : std::uint8_t { free, tile, piece };
+    struct Slot {
+        Use use = Use::free;
+        Loop outline;            // of the body, as it was laid [m]
+        std::int64_t piece = 0;  // its number
+    };
+    // A crack that the last step's loads opened.
+    struct Crack {
+        Vec2 at, inwards;
+        double radius, load;
+    };
+    struct Plan;  // what one renewal lays
+
+    void set_up(const Scene& scene, const Case& parameters);
+    void add_slots(Scene& scene, const Case& parameters);
+    bool is_tile(std::int32_t body) const;
+    Eigen::AlignedBox2d reach(const Scene& scene) const;
+    bool crush_through(const std::vector<Loop>& hull);
+    void break_off(const Crack& crack, const std::vector<Loop>& hull, Plan& plan);
+    void add_piece(const Loop& piece, const Crack& crack, const std::vector<Loop>& hull,
+                   Plan& plan);
+    void lay_tiles(const Scene& scene, Plan& plan);
+    void fill(const Case& parameters, Plan& plan) const;
+    void put(Scene& scene, double time, Plan& plan);
+    void retire(std::size_t slot, double time, Plan& plan);
+    std::size_t free_slot(const Scene& scene, double time, Plan& plan);
+    bool holds(const Loop& outline) const;
+    std::vector<Loop> bodies_of(const Loop& part) const;
+
+    // from the case and the hull
+    std::size_t first_ = 0;  // body of slots_[0]; 0: there is no sheet
+    double thickness_ = 0.0, gap_ = 0.0, length_ = 0.0, radius_ = 0.0;
+    double density_ = 0.0, share_ = 0.0;
+    Eigen::AlignedBox2d extent_;
+    CuspLaw law_;
+    Shape empty_;  // of slots without ice
+    std::int32_t piece_group_ = 0, tile_group_ = 0;
+    double ahead_ = 0.0, astern_ = 0.0;  // of the hull's box, that is within reach [m]
+
+    // the state
+    IceSheet sheet_{Eigen::AlignedBox2d(Vec2::Zero(), Vec2::Ones()), 1.0};
+    std::vector<Slot> slots_;
+    std::vector<Crack> cracks_;
+    std::vector<IcePiece> pieces_;
+    std::uint64_t cusp_ = 0;                                  // number of the next crack
+    IceAreas gone_;                                           // all but `sheet`
+    Vec2 laid_at_ = Vec2::Zero(), looked_at_ = Vec2::Zero();  // the ship then
+
+    std::int64_t changes_ = 0;     // no state: forms are looked at anew after a restart
+    std::vector<EdgeLoad> loads_;  // memory of find()
+};
+
+}  // namespace ice

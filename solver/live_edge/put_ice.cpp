@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/live_edge/put_ice.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "solver/scene/inertia_of.hpp"
+#include "solver/water/hydrostatics.hpp"
+
+namespace ice {
+
+namespace {
+
+// What was crushed of a body with `spheres` surface spheres is whole again, and forgotten.
+void make_whole(CrushedIce& crushed, std::int32_t body, std::size_t spheres) {
+    if (crushed.is_whole(body)) return;
+    const auto i = static_cast<std::size_t>(body);
+    const std::int64_t gone = std::exchange(crushed.first[i], -1);
+    const auto count = static_cast<std::int64_t>(spheres);
+    crushed.deepest[i] = 0.0;
+    crushed.recess.erase(crushed.recess.begin() + gone, crushed.recess.begin() + gone + count);
+    for (std::int64_t& row : crushed.first)
+        if (row > gone) row -= count;
+}
+
+}  // namespace
+
+void put_form(Scene& scene, std::size_t body, Shape shape, double density) {
+    Bodies& b = scene.bodies;
+    b.mass[body] = density * shape.solid.volume;
+    b.inertias[static_cast<std::size_t>(b.inertia_row[body])] = inertia_of(shape, density);
+    scene.shapes[static_cast<std::size_t>(b.shape[body])] = std::move(shape);
+}
+
+void put_ice(Scene& scene, std::size_t body, Shape shape, const Eigen::Vector2d& at, double density,
+             double share, bool held) {
+    Bodies& b = scene.bodies;
+    const Shape& old = scene.shapes[static_cast<std::size_t>(b.shape[body])];
+    make_whole(scene.crushed, static_cast<std::int32_t>(body), old.center.size());
+    const double height = floating_height(shape, Mat3::Identity(), share);
+    put_form(scene, body, std::move(shape), density);
+    b.position[body] = {at.x(), at.y(), height};
+    b.orientation[body] = Quaternion::Identity();
+    b.momentum[body] = b.angular_momentum[body] = Vec3::Zero();
+    b.held[body] = held ? 1 : 0;
+    update_derived(b, body);
+    const auto number = static_cast<std::int32_t>(body);
+    const auto place = std::lower_bound(b.moving.begin(), b.moving.end(), number);
+    const bool listed = place != b.moving.end() && *place == number;
+    if (held && listed) b.moving.erase(place);
+    if (!held && !listed) b.moving.insert(place, number);
+}
+
+}  // namespace ice

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Level ice whose edge breaks where and when it is loaded: a small icebreaker goes into a sheet.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "common/base/parallel.hpp"
+#include "solver/live_edge/edge_tiles.hpp"
+#include "solver/live_edge/edge_window.hpp"
+#include "solver/record/solid_overlap.hpp"
+#include "solver/step/run.hpp"
+#include "tests/common/fixtures.hpp"
+#include "tests/support/compare_runs.hpp"
+#include "tests/support/make_filled_sets.hpp"
+#include "tests/support/make_prisms.hpp"
+#include "tests/support/make_worlds.hpp"
+
+using namespace ice;
+using namespace ice::test;
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+using Box = Eigen::AlignedBox2d;
+
+// A wedge of a bow that leans forward, 12 m long and 4 m broad on deck.
+SphereSet wedge_ship() {
+    const std::vector<Vec3> low{
+        {-6, -1.4, -0.8}, {0.5, -1.4, -0.8}, {3.2, 0, -0.8}, {0.5, 1.4, -0.8}, {-6, 1.4, -0.8}},
+        high{{-6, -2, 0.6}, {2, -2, 0.6}, {6, 0, 0.6}, {2, 2, 0.6}, {-6, 2, 0.6}};
+    return fill_surface(make_ring_mesh(low, high), 0.15, 0.22);
+}
+
+// Soft ice 0.3 m thick whose cracks are about 1 m from the load.
+Case sheet_case(double speed, double duration) {
+    Case p;
+    p.time_step = 0.02;
+    p.duration = duration;
+    p.average_from = 0.5 * duration;
+    p.speed_table = {{0.0, speed}};
+    p.restitution = 0.1;
+    p.crushing_pressure = 1e6;
+    p.frames_every = 0.5;
+    p.history_every = 0.1;
+    p.level_ice.thickness = 0.3;
+    p.level_ice.extent = {0.0, 40.0, -8.0, 8.0};
+    p.level_ice.spacing = 0.2;
+    p.level_ice.gap = 0.02;
+    p.bending.elastic_modulus = 3.7e8;
+    p.bending.flexural_strength = 3e5;
+    p.hull_position = Vec3(-5.8, 0, 0);
+    p.resolved = "\n[simulation]\nduration = 1.2\n";
+    return p;
+}
+
+World make_world(const Case& p) {
+    static const Shape ship = build_shape(wedge_ship(), false);
+    World w;
+    w.parameters = p;
+    w.scene = make_scene(ship, p.hull_position, Vec3(p.ship_speed(0.0), 0, 0));
+    w.edge.begin(w.scene, w.parameters);
+    return w;
+}
+
+double sum_of(const IceAreas& a) { return a.sheet + a.pieces + a.crushed + a.brash + a.astern; }
+
+}  // namespace
+
+TEST_CASE("tiles of a straight edge are its cells and those behind", "[level_ice][edge]") {
+    const IceSheet sheet(Box(Vec2(0, -10), Vec2(30, 10)), 0.5);
+    const auto any = [](const Loop&) { return true; };
+    // x of -4 to 2: the cells at the edge; those behind have whole ones all around from x = 2 on
+    const auto tiles = edge_tiles(sheet, {Vec2(0, -10), 2.0}, Box(Vec2(-3, -3), Vec2(9, 3)), any);
+    double area = 0.0;
+    for (const Loop& tile : tiles) {
+        area += area_of(tile);
+        REQUIRE(tile[0].x() == 0.0);
+    }
+    CHECK(tiles.size() == 4);
+    CHECK(area == Approx(16.0));
+}
+
+TEST_CASE("a strip that the grid cuts off goes to the cell beside it", "[level_ice][edge]") {
+    const IceSheet sheet(Box(Vec2(-0.1, -10), Vec2(30, 10)), 0.05);
+    const auto broad = [](const Loop& l) { return area_of(l) > 0.5; };
+    const Box reach(Vec2(-3, -2.9), Vec2(1, 2.9));
+    const auto tiles = edge_tiles(sheet, {Vec2(0, -10), 2.0}, reach, broad);
+    double area = 0.0;
+    for (const Loop& tile : tiles) {
+        area += area_of(tile);
+        REQUIRE(area_of(tile) == Approx(2.1 * 2.0));
+    }
+    CHECK(area == Approx(2.1 * 8.0));
+}
+
+TEST_CASE("loads on one piece are one window, the heaviest first", "[level_ice][edge][analytic]") {
+    const Vec2 along(3, 4);
+    const std::vector<EdgeLoad> loads{{{0, 0}, 1.0, 2.0, 2.0, along},
+                                      {{1, 0}, 3.0, 2.0, 4.0, along},
+                                      {{9, 0}, 5.0, 1.0, 3.0, Vec2(0, -0.5)},
+                                      {{9.5, 0}, -2.0, 1.0, 3.0, Vec2(0, -0.5)},
+                                      {{20, 0}, -1.0, 1.0, 1.0, along}};
+    const auto windows = edge_windows(loads, 2.0);
+    REQUIRE(windows.size() == 2);
+    CHECK(windows[0].down == 4.0);
+    CHECK(windows[0].at.x() == Approx(0.75));
+    CHECK(windows[0].inwards.x() == Approx(0.6));
+    CHECK(windows[0].closing == Approx(6.0 / 4.0));
+    CHECK(windows[0].normal_speed == Approx(6.0 / 10.0));
+    CHECK(windows[1].down == 3.0);
+    CHECK(windows[1].at.x() == 9.0);
+    CHECK(edge_windows({}, 2.0).empty());
+}
+
+TEST_CASE("a ship breaks its way; ice is neither lost nor made, and no piece is born in another",
+          "[level_ice][edge][step]") {
+    World w = make_world(sheet_case(0.8, 1e3));
+    const double whole = 40.0 * 16.0;
+    const std::size_t bodies = w.scene.bodies.size();
+    REQUIRE(sum_of(w.edge.areas()) == Approx(whole).epsilon(1e-12));
+    std::size_t seen = 0;
+    double deepest = 0.0;
+    while (w.time < 10.0) {
+        step(w);
+        REQUIRE(std::abs(sum_of(w.edge.areas()) - whole) <= 1e-9 * whole);
+        REQUIRE(w.scene.bodies.size() == bodies);
+        const auto& pieces = w.edge.pieces();
+        for (; seen < pieces.size(); ++seen) {
+            const IcePiece& piece = pieces[seen];
+            REQUIRE(w.edge.sheet().area_in(piece.outline) <= 1e-6);
+            REQUIRE(area_of(piece.outline) >= 0.15 * 0.15);
+            REQUIRE(piece.load > 0.0);
+            const SolidOverlap solids(w.scene);
+            deepest = std::max(deepest, solids.measure_pair(w.scene, 0, piece.body).depth);
+            // a step after its birth
+            REQUIRE(w.scene.bodies.velocity[static_cast<std::size_t>(piece.body)].norm() < 2.0);
+        }
+    }
+    CAPTURE(seen, w.edge.areas().crushed, w.edge.areas().brash, deepest);
+    CHECK(seen > 15);
+    CHECK(w.edge.areas().brash < 0.1 * w.edge.areas().pieces);
+    // a step's way of the ship, and how far the hull's convex outlines stand for it
+    CHECK(deepest < 0.02);
+}
+
+TEST_CASE("level ice goes on from a checkpoint, and by any number of threads, with the same bits",
+          "[level_ice][edge][checkpoint]") {
+    const TempFolder folder;
+    const Case p = sheet_case(0.8, 4.0);
+    World whole = make_world(p);
+    run(whole, {folder / "whole", "first"});
+    REQUIRE(whole.edge.pieces().size() > 3);
+    for (const std::int64_t stop : {1, 90, 151}) {
+        CAPTURE(stop);
+        World first = make_world(p);
+        RunOptions options{folder / "parts", "first"};
+        options.keep_going = [&](double, const World& now) { return now.steps < stop; };
+        REQUIRE(run(first, options).status == "interrupted");
+        World second = make_world(p);
+        SavedRun saved = read_checkpoint(folder / "parts" / "checkpoint.h5", second);
+        options = {folder / "parts", "first"};
+        options.saved = &saved;
+        const int before = thread_count();
+        set_thread_count(stop % 2 == 0 ? 1 : 3);
+        run(second, options);
+        set_thread_count(before);
+        check_same_runs(folder / "whole", folder / "parts", p.track);
+        REQUIRE(second.edge.pieces().size() == whole.edge.pieces().size());
+        REQUIRE(second.edge.sheet().loops() == whole.edge.sheet().loops());
+    }
+}
