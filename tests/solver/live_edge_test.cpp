@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <random>
 
 #include "common/base/parallel.hpp"
 #include "solver/live_edge/edge_tiles.hpp"
@@ -113,7 +114,7 @@ TEST_CASE("loads on one piece are one window, the heaviest first", "[level_ice][
     CHECK(edge_windows({}, 2.0).empty());
 }
 
-TEST_CASE("a ship breaks its way; ice is neither lost nor made, and no piece is born in another",
+TEST_CASE("a ship breaks its way, ice is neither lost nor made, and no piece is born in another",
           "[level_ice][edge][step]") {
     World w = make_world(sheet_case(0.8, 1e3));
     const double whole = 40.0 * 16.0;
@@ -169,4 +170,108 @@ TEST_CASE("level ice goes on from a checkpoint, and by any number of threads, wi
         REQUIRE(second.edge.pieces().size() == whole.edge.pieces().size());
         REQUIRE(second.edge.sheet().loops() == whole.edge.sheet().loops());
     }
+}
+
+namespace {
+
+// A load that nothing bears, on a random corner of a random tile and in a random direction.
+void press(World& w, std::mt19937& random) {
+    const Bodies& b = w.scene.bodies;
+    std::vector<std::int32_t> tiles;
+    for (std::size_t i = 1; i < b.size(); ++i)
+        if (b.is_unbent(i)) tiles.push_back(static_cast<std::int32_t>(i));
+    REQUIRE_FALSE(tiles.empty());
+    const auto pick = [&](std::size_t count) {
+        return std::uniform_int_distribution<std::size_t>(0, count - 1)(random);
+    };
+    const std::int32_t tile = tiles[pick(tiles.size())];
+    const auto i = static_cast<std::size_t>(tile);
+    const auto& corners = w.scene.shapes[static_cast<std::size_t>(b.shape[i])].mesh.vertices;
+    const double turn = std::uniform_real_distribution<double>(0.0, 2.0 * kPi)(random);
+    Contact contact{};
+    contact.a = 0;
+    contact.b = tile;
+    contact.point = b.position[i] + corners[pick(corners.size())];
+    Constraint load{};
+    load.a = 0;
+    load.b = tile;
+    load.normal = Vec3(std::cos(turn), std::sin(turn), -0.5).normalized();
+    load.approach = -0.5;
+    load.arm_a = load.arm_b = Vec3::Zero();
+    contact.normal = load.normal;
+    load.impact_normal = 1e9;
+    w.edge.find(w.parameters, {contact}, {load});
+}
+
+// @return pieces that broke off
+std::size_t press_at_random(int loads) {
+    std::mt19937 random(12);
+    Case p = sheet_case(0.0, 1e3);
+    p.hull_position.x() = 4.0;  // within the sheet: an edge on all sides of the ship
+    const double whole = 40.0 * 16.0;
+    std::size_t pieces = 0;
+    for (int done = 0; done < loads;) {
+        World w = make_world(p);
+        std::size_t seen = 0;
+        for (; done < loads && w.edge.pieces().size() < 100; ++done) {
+            press(w, random);
+            REQUIRE(w.edge.is_due(w.scene));
+            REQUIRE(w.edge.renew(w.scene, w.parameters, 0.01 * done));
+            const IceAreas areas = w.edge.areas();
+            REQUIRE(std::abs(sum_of(areas) - whole) <= 1e-9 * whole);
+            REQUIRE(std::min({areas.sheet, areas.pieces, areas.crushed, areas.brash}) >= -1e-9);
+            for (const Loop& loop : w.edge.sheet().loops()) REQUIRE(loop.size() >= 3);
+            const auto& all = w.edge.pieces();
+            for (; seen < all.size(); ++seen) {
+                const IcePiece& piece = all[seen];
+                REQUIRE(area_of(piece.outline) >= 0.15 * 0.15);
+                REQUIRE(w.edge.sheet().area_in(piece.outline) <= 1e-6);
+                REQUIRE(common_part(piece.outline, piece.outline).size() == 1);
+            }
+        }
+        pieces += seen;
+    }
+    return pieces;
+}
+
+}  // namespace
+
+TEST_CASE("loads anywhere on the edge leave a valid sheet and keep its area",
+          "[level_ice][edge][fuzz]") {
+    CHECK(press_at_random(200) > 100);
+}
+
+TEST_CASE("ten thousand loads anywhere on the edge leave a valid sheet",
+          "[.][level_ice][edge][slow]") {
+    CHECK(press_at_random(10000) > 5000);
+}
+
+TEST_CASE("a long way through level ice takes no more memory than what is within reach",
+          "[level_ice][edge][step]") {
+    Case p = sheet_case(1.5, 1e3);
+    p.level_ice.extent[1] = 400.0;
+    World w = make_world(p);
+    std::size_t corners = 0, recesses = 0;
+    std::int64_t alive = 0;
+    const auto look = [&](double until) {
+        corners = recesses = 0;
+        alive = 0;
+        while (w.time < until) {
+            step(w);
+            std::size_t now = 0;
+            for (const Loop& loop : w.edge.sheet().loops()) now += loop.size();
+            corners = std::max(corners, now);
+            recesses = std::max(recesses, w.scene.crushed.recess.size());
+            alive = std::max(alive, w.edge.alive());
+        }
+    };
+    look(20.0);
+    const std::size_t corners_then = corners, recesses_then = recesses;
+    const std::int64_t alive_then = alive;
+    REQUIRE(w.edge.retired() > 0);
+    look(40.0);
+    CAPTURE(corners, corners_then, recesses, recesses_then, alive, alive_then);
+    CHECK(static_cast<double>(corners) < 1.5 * static_cast<double>(corners_then));
+    CHECK(static_cast<double>(recesses) < 2.0 * static_cast<double>(recesses_then));
+    CHECK(static_cast<double>(alive) < 1.5 * static_cast<double>(alive_then));
 }
