@@ -102,9 +102,11 @@ void LiveEdge::add_slots(Scene& scene, const Case& p) {
     slots_.resize(static_cast<std::size_t>(std::ceil(pieces + tiles)));
     for (std::size_t k = 0; k < slots_.size(); ++k) {
         scene.shapes.push_back(empty_);
-        add_floe(scene, static_cast<std::int32_t>(scene.shapes.size()) - 1, density_,
-                 Vec3(parked_at(extent_, thickness_, k).x(), 0.0, height), Quaternion::Identity(),
-                 tile_group_, true);
+        FloeStart start;
+        start.position = Vec3(parked_at(extent_, thickness_, k).x(), 0.0, height);
+        start.hold = Hold::always;
+        add_floe(scene, static_cast<std::int32_t>(scene.shapes.size()) - 1, density_, start,
+                 tile_group_);
     }
     scene.bodies.breaking_load.resize(scene.bodies.size(), kNever);
 }

@@ -10,7 +10,7 @@
 #include "solver/live_edge/edge_tiles.hpp"
 #include "solver/live_edge/edge_window.hpp"
 #include "solver/record/solid_overlap.hpp"
-#include "solver/step/run.hpp"
+#include "solver/run/run.hpp"
 #include "tests/common/fixtures.hpp"
 #include "tests/support/compare_runs.hpp"
 #include "tests/support/make_filled_sets.hpp"
@@ -40,8 +40,8 @@ Case sheet_case(double speed, double duration) {
     p.duration = duration;
     p.average_from = 0.5 * duration;
     p.speed_table = {{0.0, speed}};
-    p.restitution = 0.1;
-    p.crushing_pressure = 1e6;
+    p.contact.restitution = 0.1;
+    p.contact.crushing_pressure = 1e6;
     p.frames_every = 0.5;
     p.history_every = 0.1;
     p.level_ice.thickness = 0.3;
