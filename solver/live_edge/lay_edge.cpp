@@ -228,8 +228,7 @@ std::vector<Loop> LiveEdge::rest() const {
     return out;
 }
 
-void LiveEdge::restore(Scene& scene, const Case& p) {
-    ++changes_;
+void LiveEdge::restore(Scene& scene, const Case& p) const {
     std::vector<std::optional<Shape>> shapes(slots_.size());
     parallel_tasks(slots_.size(), true, [&](std::size_t k) {
         if (slots_[k].use != Use::free) shapes[k] = shape_of(slots_[k].outline, prism_form(p));

@@ -110,9 +110,7 @@ bool LiveEdge::renew(Scene& scene, const Case& parameters, double time) {
     lay_tiles(scene, plan);
     fill(parameters, plan);
     put(scene, time, plan);
-    if (plan.changed.empty()) return false;
-    ++changes_;
-    return true;
+    return !plan.changed.empty();
 }
 
 // What the hull has gone through at both faces is gone. A strip stays, whose spheres know.

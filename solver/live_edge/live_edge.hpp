@@ -71,7 +71,7 @@ public:
 
     /// Lays out again what a checkpoint holds. @pre state, poses and momenta are those of the saved
     /// run; the scene came from begin()
-    void restore(Scene& scene, const Case& parameters);
+    void restore(Scene& scene, const Case& parameters) const;
 
     const IceSheet& sheet() const { return sheet_; }
     double thickness() const { return thickness_; }
@@ -92,8 +92,6 @@ public:
     const std::vector<IcePiece>& pieces() const { return pieces_; }
     /// Floes in the scene now.
     std::int64_t alive() const;
-    /// How often forms were exchanged since begin() or restore().
-    std::int64_t changes() const { return changes_; }
     /// Taken out of the scene.
     std::int64_t retired() const { return static_cast<std::int64_t>(pieces_.size()) - alive(); }
     /// Is the body one of this edge's slots?
@@ -151,7 +149,6 @@ private:
     IceAreas gone_;                                           // all but `sheet`
     Vec2 laid_at_ = Vec2::Zero(), looked_at_ = Vec2::Zero();  // the ship then
 
-    std::int64_t changes_ = 0;     // no state: forms are looked at anew after a restart
     std::vector<EdgeLoad> loads_;  // memory of find()
 };
 

@@ -132,8 +132,7 @@ TEST_CASE("a ship breaks its way, ice is neither lost nor made, and no piece is 
             REQUIRE(w.edge.sheet().area_in(piece.outline) <= 1e-6);
             REQUIRE(area_of(piece.outline) >= 0.15 * 0.15);
             REQUIRE(piece.load > 0.0);
-            const SolidOverlap solids(w.scene);
-            deepest = std::max(deepest, solids.measure_pair(w.scene, 0, piece.body).depth);
+            deepest = std::max(deepest, measure_overlap(w.scene, 0, piece.body).depth);
             // a step after its birth
             REQUIRE(w.scene.bodies.velocity[static_cast<std::size_t>(piece.body)].norm() < 2.0);
         }
