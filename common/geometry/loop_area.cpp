@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "common/geometry/loop_area.hpp"
 
+#include "common/base/assert.hpp"
+
 namespace ice {
 
 namespace {
@@ -27,6 +29,7 @@ Vec2 centroid_of(const std::vector<Vec2>& loop) {
         sum += cross(a, b) * (a + b);
         twice += cross(a, b);
     }
+    ICE_ASSERT(twice != 0.0);
     return loop[0] + sum / (3.0 * twice);
 }
 

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "common/base/assert.hpp"
-
 namespace ice {
 
 namespace {

@@ -62,8 +62,7 @@ void LiveEdge::carry(CheckpointFile& file) {
     std::vector<std::uint8_t> use;
     for (const Slot& slot : slots_) use.push_back(static_cast<std::uint8_t>(slot.use));
     file.carry_each("edge.slot_use", use);
-    for (std::size_t k = 0; k < use.size(); ++k)
-        slots_[k].use = static_cast<Use>(use[k]);
+    for (std::size_t k = 0; k < use.size(); ++k) slots_[k].use = static_cast<Use>(use[k]);
     file.column("edge.slot_piece", slots_, &Slot::piece);
     carry_outlines(file, "edge.slot_outline", slots_);
     file.column("edge.crack_radius", cracks_, &Crack::radius);
