@@ -15,7 +15,7 @@ namespace ice {
 
 namespace {
 
-void write_rows(Hdf5File& file, const std::string& group, const std::vector<PieceRow>& rows) {
+void write_piece_rows(Hdf5File& file, const std::string& group, const std::vector<PieceRow>& rows) {
     std::vector<std::int64_t> vertex_offset{0}, triangle_offset{0};
     std::vector<Vec3> vertices, at;
     std::vector<std::int32_t> triangles;
@@ -39,16 +39,16 @@ void write_rows(Hdf5File& file, const std::string& group, const std::vector<Piec
 }
 
 template <class T>
-void write_column(Hdf5File& file, const std::string& name, const std::vector<PieceRow>& rows,
-                  T PieceRow::*member) {
+void write_piece_column(Hdf5File& file, const std::string& name, const std::vector<PieceRow>& rows,
+                        T PieceRow::*member) {
     std::vector<T> values;
     for (const PieceRow& row : rows) values.push_back(row.*member);
     file.write("/pieces/" + name, values);
 }
 
-class Reader : RunArrays {
+class PiecesReader : RunArrays {
 public:
-    explicit Reader(const std::filesystem::path& path) : RunArrays(path) {}
+    explicit PiecesReader(const std::filesystem::path& path) : RunArrays(path) {}
 
     PiecesFile read() const {
         check(file().has_attribute("/", "format") &&
@@ -60,8 +60,8 @@ public:
         out.first_body = number("first_body");
         out.piece_group = number("piece_group");
         out.rest_group = number("rest_group");
-        out.pieces = read_rows("/pieces");
-        out.rest = read_rows("/rest");
+        out.pieces = read_piece_rows("/pieces");
+        out.rest = read_piece_rows("/rest");
         read_column("number", out.pieces, &PieceRow::number);
         read_column("body", out.pieces, &PieceRow::body);
         read_column("born", out.pieces, &PieceRow::born);
@@ -85,7 +85,7 @@ private:
         for (std::size_t k = 0; k < rows.size(); ++k) rows[k].*member = values[k];
     }
 
-    std::vector<PieceRow> read_rows(const std::string& group) const {
+    std::vector<PieceRow> read_piece_rows(const std::string& group) const {
         const auto mass = file().read<double>(group + "/mass");
         std::vector<PieceRow> rows(mass.size());
         const auto at = points(group + "/at", {rows.size()});
@@ -215,20 +215,20 @@ void write_pieces(const std::filesystem::path& path, const PiecesFile& pieces) {
         file.write_attribute("/", "first_body", std::int64_t{pieces.first_body});
         file.write_attribute("/", "piece_group", std::int64_t{pieces.piece_group});
         file.write_attribute("/", "rest_group", std::int64_t{pieces.rest_group});
-        write_rows(file, "/pieces", pieces.pieces);
-        write_column(file, "number", pieces.pieces, &PieceRow::number);
-        write_column(file, "body", pieces.pieces, &PieceRow::body);
-        write_column(file, "born", pieces.pieces, &PieceRow::born);
-        write_column(file, "gone", pieces.pieces, &PieceRow::gone);
-        write_column(file, "load", pieces.pieces, &PieceRow::load);
-        write_column(file, "radius", pieces.pieces, &PieceRow::radius);
-        write_rows(file, "/rest", pieces.rest);
+        write_piece_rows(file, "/pieces", pieces.pieces);
+        write_piece_column(file, "number", pieces.pieces, &PieceRow::number);
+        write_piece_column(file, "body", pieces.pieces, &PieceRow::body);
+        write_piece_column(file, "born", pieces.pieces, &PieceRow::born);
+        write_piece_column(file, "gone", pieces.pieces, &PieceRow::gone);
+        write_piece_column(file, "load", pieces.pieces, &PieceRow::load);
+        write_piece_column(file, "radius", pieces.pieces, &PieceRow::radius);
+        write_piece_rows(file, "/rest", pieces.rest);
         file.close();
     }
     keep_file(part, path);
 }
 
-PiecesFile read_pieces(const std::filesystem::path& path) { return Reader(path).read(); }
+PiecesFile read_pieces(const std::filesystem::path& path) { return PiecesReader(path).read(); }
 
 void show_pieces(const PiecesFile& file, RunData& run) {
     RunHeader& header = run.header;
