@@ -89,6 +89,7 @@ RunWriter::Buffers::Buffers(const std::filesystem::path& path, const std::filesy
     write_labels(file, "/wxyz", {"w", "x", "y", "z"});
     write_labels(file, "/pose_parts", {"x", "y", "z", "qw", "qx", "qy", "qz"});
     run_parts::write_shapes(file, header);
+    run_parts::write_flow_arrows(file, header);
     create_history(header);
     create_frames(header);
     create_contacts(header);

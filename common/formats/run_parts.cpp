@@ -57,6 +57,20 @@ void write_shapes(Hdf5File& file, const RunHeader& header) {
     write_labels(file, "/region_names", names.empty() ? std::vector<std::string>{"hull"} : names);
 }
 
+void write_flow_arrows(Hdf5File& file, const RunHeader& header) {
+    if (header.flow_point.empty()) return;
+    file.create_group("/flow");
+    const auto write = [&](const char* name, const std::vector<Vec3>& rows, const char* unit,
+                           const char* meaning) {
+        file.write(name, flatten<float>(rows).data(), {rows.size(), 3});
+        file.write_attribute(name, "units", unit);
+        file.write_attribute(name, "meaning", meaning);
+    };
+    write("/flow/point", header.flow_point, "m",
+          "from below the ship's origin, z = 0 in the water's surface; does not turn");
+    write("/flow/velocity", header.flow_velocity, "1", "of the water, for a ship at 1 m/s");
+}
+
 void write_bodies(Hdf5File& file, const RunHeader& header) {
     const std::uint64_t count = header.body_shape.size();
     std::vector<std::int32_t> ids(count);

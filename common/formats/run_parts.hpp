@@ -14,6 +14,9 @@ namespace ice::run_parts {
 /// offset is where shape s begins. All shapes share one list of region names, the hull's first.
 void write_shapes(Hdf5File& file, const RunHeader& header);
 
+/// /flow/point and /flow/velocity; nothing for a run without a flow around its hull.
+void write_flow_arrows(Hdf5File& file, const RunHeader& header);
+
 /// /frames/body and what belongs to a body for the whole run; needs /frames and /xyz.
 void write_bodies(Hdf5File& file, const RunHeader& header);
 

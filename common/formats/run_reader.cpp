@@ -27,6 +27,7 @@ public:
         read_header(run.header);
         read_shapes(run.header.shapes);
         read_bodies(run.header);
+        read_flow_arrows(run.header);
         read_history(run);
         read_regions(run);
         read_tracks(run);
@@ -120,6 +121,13 @@ private:
         for (const std::int32_t id : header.tracked)
             check(id >= 1 && id <= static_cast<std::int32_t>(bodies), "/tracked/floe",
                   "names a floe that does not exist");
+    }
+
+    void read_flow_arrows(RunHeader& header) const {
+        if (!file().has("/flow/point")) return;
+        const std::uint64_t rows = rows_of("/flow/point");
+        header.flow_point = points("/flow/point", {rows});
+        header.flow_velocity = points("/flow/velocity", {rows});
     }
 
     void read_history(RunData& run) const {

@@ -51,6 +51,7 @@ public:
         add_orientations(floes);
         add_loads(floes);
         add_hull();
+        add_flow();
         meta_["arrays"] = pack_.table();
         return {safe_text(meta_.dump()), pack_.text()};
     }
@@ -233,6 +234,17 @@ private:
                          {"scale_text", views::readable(end / unit.pascals)},
                          {"half_text", views::readable(0.5 * end / unit.pascals)},
                          {"unit", unit.name}};
+    }
+
+    void add_flow() {
+        std::vector<float> points, velocities;
+        for (std::size_t k = 0; k < run_.header.flow_point.size(); ++k)
+            for (int d = 0; d < 3; ++d) {
+                points.push_back(static_cast<float>(run_.header.flow_point[k][d]));
+                velocities.push_back(static_cast<float>(run_.header.flow_velocity[k][d]));
+            }
+        pack_.add("flow_point", points);
+        pack_.add("flow_velocity", velocities);
     }
 
     void add_triangles(const TriangleMesh& mesh) {

@@ -14,6 +14,7 @@
 #include "solver/live_edge/describe_edge.hpp"
 #include "solver/live_edge/edge_record.hpp"
 #include "solver/record/divide_hull.hpp"
+#include "solver/record/flow_arrows.hpp"
 #include "solver/record/residual_impulse.hpp"
 #include "solver/scene/tunnelling_speed.hpp"
 
@@ -39,6 +40,9 @@ RunHeader make_header(const Case& parameters, const Scene& scene, const std::str
         header.body_mass.push_back(b.mass[i]);
         header.body_inertia.push_back(b.inertia(i).diagonal());
     }
+    FlowArrows arrows = flow_arrows(scene);
+    header.flow_point = std::move(arrows.point);
+    header.flow_velocity = std::move(arrows.velocity);
     header.ship_answers = parameters.ship.any_free();
     header.tracked.assign(parameters.track.begin(), parameters.track.end());
     return header;

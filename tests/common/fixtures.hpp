@@ -120,6 +120,8 @@ inline RunData make_run(const RunSize& size = {}) {
         header.body_mass.push_back(144.0);
         header.body_inertia.emplace_back(8.16, 12.48, 19.68);
     }
+    header.flow_point = {Vec3(8.5, 0.0, -0.125), Vec3(8.0, 1.5, 0.0), Vec3(-1.0, 0.0, -0.5)};
+    header.flow_velocity = {Vec3(0.5, 0.0, -0.125), Vec3(0.25, 0.25, 0.0), Vec3(0.25, 0.0, 0.0)};
     if (size.floes > 1) header.tracked = {1, static_cast<std::int32_t>(size.floes)};
     run.tracks.resize(header.tracked.size());
     run.regions = {{"hull", {}, {}}, {"bottom", {}, {}}};  // a quarter and the rest of all forces

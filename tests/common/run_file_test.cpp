@@ -92,6 +92,8 @@ TEST_CASE("a run of 6 floes, 45 frames and 450 samples comes back", "[formats]")
     CHECK(back.header.body_mass == run.header.body_mass);
     CHECK(back.header.body_inertia == run.header.body_inertia);
     CHECK(back.header.tracked == run.header.tracked);
+    CHECK(back.header.flow_point == run.header.flow_point);
+    CHECK(back.header.flow_velocity == run.header.flow_velocity);
     CHECK(back.header.average_from == 1.5);
     check_history(run, back, 450);
     CHECK(back.panels.size == 0.5);

@@ -152,7 +152,7 @@ def check_pictures(page):
             select.select_by_visible_text(option)
             must_differ(f"{name} by {option}")
         select.select_by_visible_text(first)
-    for box in ("water", "through"):
+    for box in ("water", "through", "flow"):
         page.find(f'[name="{box}"]').click()
         must_differ(box)
         page.find(f'[name="{box}"]').click()

@@ -13,6 +13,8 @@ export const HULL_DRY = [112, 124, 136];
 // Lightness falls all along, so that both are read without colour, too.
 const FORCE = [[226, 237, 245], [255, 214, 120], [240, 128, 40], [178, 24, 24], [90, 6, 36]];
 const LOAD = [[214, 219, 224], [250, 212, 120], [238, 120, 60], [176, 42, 90], [66, 10, 104]];
+// Speed of the water: from pale to dark blue.
+const FLOW = [[176, 214, 240], [66, 146, 198], [8, 69, 148], [8, 24, 88]];
 
 function ramp(stops, x) {
   const at = Math.min(Math.max(x, 0), 1) * (stops.length - 1);
@@ -21,6 +23,7 @@ function ramp(stops, x) {
 }
 export const forceColour = (x) => ramp(FORCE, x);
 export const loadColour = (x) => ramp(LOAD, x);
+export const flowColour = (x) => ramp(FLOW, x);
 
 const REGIONS = [[148, 160, 172], [204, 102, 119], [221, 204, 119], [68, 170, 153],
   [136, 204, 238], [170, 68, 153], [153, 153, 51], [51, 34, 136], [17, 119, 51]];

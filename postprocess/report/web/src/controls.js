@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Buttons, slider and legends of the 3D view.
 
-import { STATES, css, cssGradient, forceColour, loadColour, regionColour } from './colours.js';
+import { STATES, css, cssGradient, flowColour, forceColour, loadColour, regionColour }
+  from './colours.js';
+import { FLOW_END } from './flow.js';
 
 const KEY_STEP = 1 / 60; // of the run, per arrow key
 
@@ -85,6 +87,10 @@ export class Controls {
     });
     on('follow', (follow) => { view.follow = follow; });
     on('water', (shown) => view.setWater(shown));
+    if (view.flow) {
+      find('flow').closest('label').hidden = false;
+      on('flow', (shown) => { view.flow.visible = shown; });
+    }
     on('through', (through) => view.hull.setSeeThrough(through));
     on('ice', (mode) => view.setIceColours(mode));
     on('hull', (mode) => view.hull.setColours(mode));
@@ -125,6 +131,9 @@ export class Controls {
       parts.push(scaleBar('Mean load on the hull', loadColour, meta.hull));
     if (hull === 'regions')
       parts.push(swatches(meta.hull.regions.map(([k, name]) => [name, regionColour(k)])));
+    if (this.view.flow?.visible)
+      parts.push(scaleBar('Speed of the water', flowColour, { half_text: FLOW_END / 2,
+        scale_text: FLOW_END, unit: "of the ship's speed" }));
     place.replaceChildren(...parts);
   }
 

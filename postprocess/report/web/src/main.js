@@ -41,7 +41,7 @@ function makeView(section, run, playback) {
 /** #t=12.5&camera=below&ice=state&hull=load opens the page there. */
 function followAddress(playback, view, controls) {
   const wanted = new URLSearchParams(window.location.hash.slice(1));
-  for (const name of ['ice', 'hull', 'follow', 'water', 'through'])
+  for (const name of ['ice', 'hull', 'follow', 'water', 'through', 'flow'])
     if (wanted.has(name)) controls?.set(name, wanted.get(name));
   if (wanted.has('t')) playback.seek(Number(wanted.get('t')) || 0);
   if (view && wanted.has('camera')) view.camera.apply(wanted.get('camera'));

@@ -6,6 +6,7 @@ import { BufferAttribute, BufferGeometry, Color, DoubleSide, LineBasicMaterial, 
 import { Camera } from './camera.js';
 import { findPlace } from './data.js';
 import { makeFloes } from './floes.js';
+import { makeFlow } from './flow.js';
 import { Hull } from './hull.js';
 
 const ABOVE = new Color(0xeef4f8);
@@ -47,6 +48,8 @@ export class View {
     this.grid.renderOrder = 3;
     this.scene.add(this.hull.mesh, this.water, this.grid);
     if (this.floes) this.scene.add(this.floes);
+    this.flow = makeFlow(run, length);
+    if (this.flow) this.scene.add(this.flow);
     this.follow = true;
     this.canvas = canvas;
     this.resize();
@@ -84,6 +87,7 @@ export class View {
     this.hull.mesh.position.copy(ship);
     this.turnShip(place);
     this.water.position.set(ship.x, ship.y, 0);
+    this.flow?.position.set(ship.x, ship.y, 0);
     const snap = (x) => Math.round(x / this.gridStep) * this.gridStep;
     this.grid.position.set(snap(ship.x), snap(ship.y), 0);
     this.camera.moveShip(ship, this.follow);

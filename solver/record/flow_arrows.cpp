@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/record/flow_arrows.hpp"
+
+#include <cmath>
+#include <set>
+
+#include "common/geometry/winding_number.hpp"
+#include "solver/flow/wetted_panels.hpp"
+
+namespace ice {
+
+namespace {
+
+constexpr double kOnSurface = 1200.0, kAlong = 25.0;  // places on the water, cells along the hull
+constexpr double kLeast = 0.01;                       // shorter ones are not seen
+constexpr std::size_t kMostPanels = 20000;
+
+class Sampler {
+public:
+    explicit Sampler(const Scene& scene)
+        : scene_(scene),
+          grid_(scene.water.grid),
+          height_(scene.bodies.position[kShip].z()),
+          hull_(scene.shapes[0].mesh) {}
+
+    FlowArrows sample() {
+        const double d = 1.0 / grid_.per_spacing;
+        low_ = grid_.origin;
+        high_ = low_ + d * Vec3(grid_.last_x, grid_.last_y, grid_.last_z);
+        if (grid_.symmetric) low_.y() = -high_.y();
+        if (scene_.dimension == 2)
+            sample_plane(2);
+        else
+            sample_plane(1);
+        if (scene_.dimension == 3) sample_hull();
+        return std::move(out_);
+    }
+
+private:
+    void add(const Vec3& at) {
+        const Vec3 w = reference::look_up_flow(grid_, at).velocity;
+        if (w.norm() < kLeast) return;
+        out_.point.push_back(at);
+        out_.velocity.push_back(w);
+    }
+
+    // Even places in the plane of x and `axis`.
+    void sample_plane(Eigen::Index axis) {
+        const double step =
+            std::sqrt((high_.x() - low_.x()) * (high_[axis] - low_[axis]) / kOnSurface);
+        for (double x = low_.x() + 0.5 * step; x < high_.x(); x += step)
+            for (double other = high_[axis] - 0.5 * step; other > low_[axis]; other -= step) {
+                Vec3 at(x, 0.0, 0.0);
+                at[axis] = other;
+                // in the surface itself the hull may end
+                if (!hull_.contains(Vec3(x, at.y(), std::min(at.z(), -1e-3 * step) - height_)))
+                    add(at);
+            }
+    }
+
+    // One place of each cell that the wetted surface crosses.
+    void sample_hull() {
+        const Eigen::AlignedBox3d& box = scene_.shapes[0].box;
+        const double cell = (box.max().x() - box.min().x()) / kAlong;
+        const auto panels = split_triangles(scene_.shapes[0].mesh, cell, kMostPanels);
+        std::set<std::array<long, 3>> taken;
+        for (const SourcePanel& panel : panels) {
+            const Vec3 at = panel.centre + Vec3(0, 0, height_) + 0.1 * cell * panel.normal;
+            if (at.z() > -0.1 * cell) continue;
+            const Vec3 c = (at / cell).array().floor();
+            if (taken.insert({std::lround(c.x()), std::lround(c.y()), std::lround(c.z())}).second)
+                add(at);
+        }
+    }
+
+    const Scene& scene_;
+    const FlowGrid& grid_;
+    double height_;  // of the hull mesh's origin
+    WindingNumber hull_;
+    Vec3 low_ = Vec3::Zero(), high_ = Vec3::Zero();
+    FlowArrows out_;
+};
+
+}  // namespace
+
+FlowArrows flow_arrows(const Scene& scene) {
+    return scene.water.grid.empty() ? FlowArrows{} : Sampler(scene).sample();
+}
+
+}  // namespace ice
