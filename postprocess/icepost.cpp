@@ -182,8 +182,8 @@ int paraview(const Options& o) {
     const double load_from = run.summary ? run.summary->average_from : 0.0;
     const std::size_t count =
         ice::paraview::write_paraview(run.data, folder, {o.every, o.points_only, load_from});
-    ice::say(fmt::format("wrote {} frames: open {}", count,
-                         (folder / (o.points_only ? "bodies.pvd" : "run.pvd")).string()));
+    ice::say(fmt::format("wrote {} frames: open {}, or paraview --script={}", count,
+                         (folder / "run.xdmf").string(), (folder / "view.py").string()));
     return 0;
 }
 

@@ -88,7 +88,7 @@ PostCommands declare_post(CLI::App& app, PostOptions& o) {
     PostCommands c{};
     declare_runs(app, o, c);
     declare_sweeps(app, o, c);
-    c.paraview = add_command(app, o, "paraview", "write PVD and VTP files for ParaView");
+    c.paraview = add_command(app, o, "paraview", "write XDMF and HDF5 files for ParaView");
     c.paraview->add_option("-o,--out", o.out, "folder (default RUN/paraview)");
     c.paraview->add_option("--every", o.every, "keep each N-th frame")
         ->check(CLI::Range(1, 1000000));

@@ -14,24 +14,30 @@ struct ParaviewOptions {
     double load_from = 0.0;    ///< the load map averages from here on [s]
 };
 
-/// Writes a run for ParaView; open one of the .pvd files:
+/// Writes a run for ParaView, four files whatever its length:
 ///
-///     run.pvd        hull and floes together
-///     floes.pvd      posed surfaces; per triangle body, shape, group, state, contact_force and
-///                    velocity
-///     hull.pvd       the hull where it was; per triangle region
-///     bodies.pvd     a point per floe with orientation (w, x, y, z), shape, state and forces, to
-///                    be drawn with "3D Glyphs" (orientation mode Quaternion) and shapes.vtm as
-///                    table; contact_force is that of the ship on the floe [N]
-///     contacts.pvd   a point where a floe pressed on the hull, with floe, sphere of the hull and
-///                    the normal_force and friction_force of the floe on the ship [N], means since
-///                    the stored frame before: glyphs of type arrow show them
-///     hull_load.vtp  the hull in the ship frame; per triangle region and load, the time-averaged
-///                    normal load [Pa]
-///     frames/        the .vtp files, one per frame and kind
+///     run.xdmf       the run over time, to be opened with ParaView's "XDMF Reader"
+///     shapes.xdmf    hull and floes in their own axes, without times: sources of 3D glyphs
+///     arrays.h5      the numbers of both
+///     view.py        opens run.xdmf coloured, with the water's plane: paraview --script=view.py
 ///
-/// With points_only there are bodies.pvd, contacts.pvd, hull_load.vtp and shapes.vtm.
-/// One file per frame, because readers of VTK 9.2 handle several steps in one file wrongly.
+/// The parts of run.xdmf, blocks in ParaView:
+///
+///     hull: NAME     a named region of the hull, where it was; per triangle load_Pa, the
+///                    time-averaged normal load
+///     floes          posed surfaces; per triangle body, shape, group, state, contact_force_N and
+///                    velocity_m_s
+///     bodies         a point per floe with the same, angular_velocity_rad_s and orientation
+///                    (w, x, y, z): "3D Glyphs" with orientation mode Quaternion draw them;
+///                    contact_force_N is that of the ship on the floe
+///     contacts       a point where a floe pressed on the hull, with floe, sphere of the hull and
+///                    normal_force_N and friction_force_N of the floe on the ship, means since the
+///                    stored frame before; absent at times without
+///     water          the plane z = 0 about ice and ship
+///
+/// With points_only there are bodies, contacts and water alone. In 2D forces are per metre of
+/// breadth, and their names end in _N_per_m.
+/// XDMF, because ParaView before 5.12 does not read VTKHDF files with several steps.
 /// @return number of frames written
 /// @throws Error (exit code 1) naming the file that cannot be written; (2) for a run without frames
 std::size_t write_paraview(const RunData& run, const std::filesystem::path& folder,

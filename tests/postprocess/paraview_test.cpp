@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <zlib.h>
-
 #include <catch2/catch.hpp>
-#include <cstring>
 
-#include "postprocess/paraview/vtp.hpp"
+#include "common/formats/hdf5_file.hpp"
 #include "postprocess/paraview/write_paraview.hpp"
+#include "postprocess/paraview/xdmf.hpp"
 #include "tests/postprocess/make_folder.hpp"
 
 using namespace ice;
@@ -14,84 +12,82 @@ using namespace ice::paraview;
 
 namespace {
 
-std::string attribute(const std::string& element, const std::string& name) {
-    const std::size_t at = element.find(" " + name + "=\"");
-    REQUIRE(at != std::string::npos);
-    const std::size_t begin = at + name.size() + 3;
-    return element.substr(begin, element.find('"', begin) - begin);
+// The grid of a part at a time, as XDMF text; "" where it is not there.
+std::string grid_at(const std::string& text, const std::string& part, const std::string& time) {
+    const std::string name = "<Grid Name=\"" + part + "\" GridType=\"Uniform\">";
+    for (std::size_t at = text.find(name); at != std::string::npos; at = text.find(name, at + 1)) {
+        const std::string grid = text.substr(at, text.find("</Grid>", at) - at);
+        if (grid.find("<Time Value=\"" + time + "\"/>") != std::string::npos) return grid;
+    }
+    return "";
 }
 
-// The values of an array of a .vtp text: finds its offset, reads the header, decompresses.
+// The array that an element of a grid names.
 template <class T>
-std::vector<T> values_of(const std::string& text, const std::string& name, const char* type) {
-    const std::size_t at = text.find("Name=\"" + name + "\"");
+std::vector<T> array_of(const Hdf5File& file, const std::string& grid, const std::string& element) {
+    const std::size_t at = grid.find(element), item = grid.find("<DataItem", at);
     REQUIRE(at != std::string::npos);
-    const std::size_t begin = text.rfind('<', at);
-    const std::string element = text.substr(begin, text.find('>', at) - begin);
-    CHECK(attribute(element, "type") == type);
-    const std::size_t data = text.find("encoding=\"raw\">_") + 16;
-    const std::size_t offset = data + std::stoul(attribute(element, "offset"));
-    std::uint64_t header[4] = {};
-    REQUIRE(offset + 8 <= text.size());
-    std::memcpy(header, text.data() + offset, 8);
-    if (header[0] == 0) return {};
-    std::memcpy(header, text.data() + offset, 32);
-    CHECK(header[0] == 1);
-    CHECK(header[2] == 0);
-    std::vector<T> values(header[1] / sizeof(T));
-    uLongf size = header[1];
-    REQUIRE(uncompress(reinterpret_cast<Bytef*>(values.data()), &size,
-                       reinterpret_cast<const Bytef*>(text.data() + offset + 32),
-                       header[3]) == Z_OK);
-    CHECK(size == header[1]);
+    const std::size_t begin = grid.find(".h5:", item) + 4;
+    const std::string path = grid.substr(begin, grid.find('<', begin) - begin);
+    const auto values = file.read<T>(path);
+    // the text says how many there are
+    const std::size_t size = grid.find("Dimensions=\"", item) + 12;
+    std::uint64_t count = 1;
+    for (const std::uint64_t n : file.shape(path)) count *= n;
+    const std::string said = grid.substr(size, grid.find('"', size) - size);
+    const std::size_t space = said.find(' ');
+    CHECK(std::stoull(said) * (space == std::string::npos ? 1 : std::stoull(said.substr(space))) ==
+          count);
     return values;
 }
 
 }  // namespace
 
-TEST_CASE("points, triangles and data of a .vtp file come back from the compressed blocks",
-          "[paraview]") {
-    VtpFile file;
-    file.points = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
-    file.triangles = {0, 1, 2, 0, 2, 3};
-    file.cell_data = {make_array("body", 1, std::vector<std::int32_t>{7, 8}),
-                      make_array("force", 3, std::vector<float>{1, 2, 3, 4, 5, 6})};
-    const std::string text = vtp_text(file);
-    CHECK_THAT(text, Catch::Contains("NumberOfPoints=\"4\" NumberOfVerts=\"0\""));
-    CHECK_THAT(text, Catch::Contains("NumberOfPolys=\"2\""));
-    CHECK_THAT(text, Catch::Contains("header_type=\"UInt64\""));
-    CHECK(values_of<float>(text, "Points", "Float32") == file.points);
-    CHECK(values_of<std::int32_t>(text, "body", "Int32") == std::vector<std::int32_t>{7, 8});
-    CHECK(values_of<float>(text, "force", "Float32") == std::vector<float>{1, 2, 3, 4, 5, 6});
-    CHECK(text.ends_with("</AppendedData></VTKFile>\n"));
+TEST_CASE("a grid without cells is left out, names are quoted", "[paraview]") {
+    const TempFolder folder;
+    ArrayFile arrays(folder / "a.h5");
+    const Grid empty{arrays.add("/p", std::vector<float>{}, 3),
+                     arrays.add("/c", std::vector<std::int32_t>{}),
+                     {}};
+    const Grid one{arrays.add("/q", std::vector<float>{1, 2, 3}, 3),
+                   arrays.add("/d", std::vector<std::int32_t>{0}),
+                   {}};
+    XdmfFile file;
+    file.add("a & \"b\" < c", 1.0, empty);
+    CHECK(count(file.text(), "<Grid") == 0);
+    file.add("a & \"b\" < c", 2.0, one);
+    file.add("still", one);
+    CHECK(count(file.text(), "Name=\"a &amp; &quot;b&quot; &lt; c\"") == 2);
+    CHECK(count(file.text(), "<Time") == 1);
+    CHECK(tag_fault(file.text()).empty());
 }
 
-TEST_CASE("points without triangles become one vertex each, an empty file has no cells",
-          "[paraview]") {
-    VtpFile file;
-    file.points = {1, 2, 3, 4, 5, 6};
-    const std::string text = vtp_text(file);
-    CHECK_THAT(text, Catch::Contains("NumberOfVerts=\"2\""));
-    CHECK(values_of<std::int32_t>(text, "connectivity", "Int32") ==
-          std::vector<std::int32_t>{0, 1});
-    CHECK_THAT(vtp_text({}), Catch::Contains("NumberOfPoints=\"0\" NumberOfVerts=\"0\""));
-}
-
-TEST_CASE("a run of 45 frames exported with every 10th gives 5 files of each kind", "[paraview]") {
+TEST_CASE("a run of 45 frames exported with every 10th gives 4 files with 5 times", "[paraview]") {
     const TempFolder folder;
     const RunData run = make_run();
     CHECK(write_paraview(run, folder / "pv", {10}) == 5);
-    for (const char* name : {"run.pvd", "floes.pvd", "hull.pvd", "bodies.pvd", "shapes.vtm"}) {
-        CAPTURE(name);
-        CHECK(tag_fault(read_bytes(folder / "pv" / name)).empty());
+    std::size_t files = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(folder / "pv")) {
+        CAPTURE(entry.path());
+        CHECK(entry.is_regular_file());
+        ++files;
     }
-    const std::string list = read_bytes(folder / "pv/floes.pvd");
-    CHECK(count(list, "<DataSet") == 5);
-    CHECK_THAT(list, Catch::Contains("timestep=\"4\""));
-    CHECK(count(read_bytes(folder / "pv/run.pvd"), "<DataSet") == 10);
-    for (const char* kind : {"floes", "hull", "bodies"})
-        CHECK(std::filesystem::exists(folder / "pv/frames" / (std::string(kind) + "_00004.vtp")));
-    CHECK_FALSE(std::filesystem::exists(folder / "pv/frames/floes_00005.vtp"));
+    CHECK(files == 4);
+    for (const char* name : {"run.xdmf", "shapes.xdmf"})
+        CHECK(tag_fault(read_bytes(folder / "pv" / name)).empty());
+    const std::string text = read_bytes(folder / "pv/run.xdmf");
+    for (const char* part : {"water", "hull: bottom", "floes", "bodies"}) {
+        CAPTURE(part);
+        CHECK(count(text, "<Grid Name=\"" + std::string(part) + "\" GridType=\"Uniform\"") == 5);
+        CHECK_FALSE(grid_at(text, part, "4").empty());
+    }
+    // no floe touches the hull at first
+    CHECK(grid_at(text, "contacts", "0").empty());
+    CHECK_FALSE(grid_at(text, "contacts", "4").empty());
+    write_paraview(run, folder / "dots", {.points_only = true});
+    const std::string dots = read_bytes(folder / "dots/run.xdmf");
+    CHECK(count(dots, "Triangle") == 45);  // the water
+    CHECK(count(dots, "<Grid Name=\"bodies\" GridType=\"Uniform\"") == 45);
 }
 
 TEST_CASE("exported corners are position + rotation of the mesh, states and forces the frame's",
@@ -100,8 +96,11 @@ TEST_CASE("exported corners are position + rotation of the mesh, states and forc
     const RunData run = make_run();
     write_paraview(run, folder / "pv", {1});
     const RunFrame& frame = run.frames[40];
-    const std::string text = read_bytes(folder / "pv/frames/floes_00040.vtp");
-    const auto points = values_of<float>(text, "Points", "Float32");
+    const std::string text = read_bytes(folder / "pv/run.xdmf");
+    const Hdf5File file(folder / "pv/arrays.h5", Hdf5File::Mode::read);
+
+    const std::string floes = grid_at(text, "floes", "4");
+    const auto points = array_of<float>(file, floes, "<Geometry");
     const TriangleMesh& mesh = run.header.shapes[1].mesh;
     REQUIRE(points.size() == 6 * 8 * 3);
     for (std::size_t b = 0; b < 6; ++b)
@@ -110,28 +109,47 @@ TEST_CASE("exported corners are position + rotation of the mesh, states and forc
             const float* p = points.data() + 3 * (8 * b + v);
             CHECK((Vec3(p[0], p[1], p[2]) - expected).norm() < 1e-5);
         }
-    const auto body = values_of<std::int32_t>(text, "body", "Int32");
-    const auto state = values_of<std::int32_t>(text, "state", "Int32");
-    const auto force = values_of<float>(text, "contact_force", "Float32");
+    const auto triangles = array_of<std::int32_t>(file, floes, "<Topology");
+    REQUIRE(triangles.size() == 6 * 12 * 3);
+    CHECK(triangles[3 * 12] == 8 + mesh.triangles[0][0]);
+    const auto body = array_of<std::int32_t>(file, floes, "Name=\"body\"");
+    const auto state = array_of<std::int32_t>(file, floes, "Name=\"state\"");
+    const auto force = array_of<float>(file, floes, "Name=\"contact_force_N\"");
     REQUIRE(body.size() == 6 * 12);
     REQUIRE(force.size() == 6 * 12 * 3);
     CHECK(body[0] == 1);
     CHECK(body[71] == 6);
     CHECK(state[0] == static_cast<int>(frame.state[0]));
-    CHECK(force[0] == static_cast<float>(frame.contact_force[0].x()));
+    for (std::size_t b = 0; b < 6; ++b)
+        for (int d = 0; d < 3; ++d)
+            CHECK(force[3 * (12 * b + 11) + static_cast<std::size_t>(d)] ==
+                  static_cast<float>(frame.contact_force[b][d]));
 
-    const std::string bodies = read_bytes(folder / "pv/frames/bodies_00040.vtp");
-    const auto turn = values_of<float>(bodies, "orientation", "Float32");
+    const std::string bodies = grid_at(text, "bodies", "4");
+    const auto turn = array_of<float>(file, bodies, "Name=\"orientation\"");
     REQUIRE(turn.size() == 6 * 4);
     CHECK(turn[0] == static_cast<float>(frame.orientation[0].w()));
-    const std::string hull = read_bytes(folder / "pv/frames/hull_00040.vtp");
-    CHECK(values_of<float>(hull, "Points", "Float32")[0] == Approx(4.0));  // 0 m + 1 m/s * 4 s
+    const auto hull = array_of<float>(file, grid_at(text, "hull: bottom", "4"), "<Geometry");
+    float aft = hull[0];
+    for (std::size_t k = 0; k < hull.size(); k += 3) aft = std::min(aft, hull[k]);
+    CHECK(aft == Approx(4.0));  // 0 m + 1 m/s * 4 s
+    const auto water = array_of<float>(file, grid_at(text, "water", "4"), "<Geometry");
+    for (std::size_t k = 2; k < water.size(); k += 3) CHECK(water[k] == 0.0F);
 }
 
-TEST_CASE("0 floes are exported as empty surfaces, a run without frames is an error",
-          "[paraview]") {
+TEST_CASE("forces of a 2D run are named per metre of breadth", "[paraview]") {
+    const TempFolder folder;
+    write_paraview(make_run({.dimension = 2}), folder / "pv", {40});
+    const std::string text = read_bytes(folder / "pv/run.xdmf");
+    CHECK(count(text, "\"contact_force_N_per_m\"") > 0);
+    CHECK(count(text, "\"contact_force_N\"") == 0);
+    CHECK_THAT(read_bytes(folder / "pv/view.py"), Catch::Contains("UNIT = \"_N_per_m\""));
+}
+
+TEST_CASE("0 floes are exported as no surfaces, a run without frames is an error", "[paraview]") {
     const TempFolder folder;
     CHECK(write_paraview(make_run({.floes = 0, .frames = 2}), folder / "pv", {1}) == 2);
+    CHECK(count(read_bytes(folder / "pv/run.xdmf"), "Name=\"floes\"") == 0);
     RunData none = make_run();
     none.frames.clear();
     CHECK_THAT(error_text([&] { write_paraview(none, folder / "pv", {1}); }),

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// A set of grids over time: an XDMF text that names the arrays of an HDF5 file beside it.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "common/formats/hdf5_file.hpp"
+
+namespace ice::paraview {
+
+/// An array of the HDF5 file, as XDMF names it.
+struct StoredArray {
+    std::string item;  ///< the DataItem element
+    std::uint64_t rows = 0;
+    std::uint64_t columns = 1;
+};
+
+/// The HDF5 file; arrays are written once and may serve many grids.
+class ArrayFile {
+public:
+    /// @throws Error (exit code 1) naming the path
+    explicit ArrayFile(const std::filesystem::path& path);
+
+    void begin_group(const std::string& name) { file_.create_group(name); }
+    /// @param name  its path in the file @param columns  numbers in a row
+    StoredArray add(const std::string& name, const std::vector<float>& values,
+                    std::uint64_t columns = 1);
+    StoredArray add(const std::string& name, const std::vector<std::int32_t>& values,
+                    std::uint64_t columns = 1);
+    void close() { file_.close(); }
+
+private:
+    template <class T>
+    StoredArray store(const std::string& name, const std::vector<T>& values, std::uint64_t columns,
+                      const char* type);
+
+    std::string file_name_;
+    Hdf5File file_;
+};
+
+struct NamedArray {
+    std::string name;
+    StoredArray values;
+};
+
+/// Points with triangles between them, or a vertex per point.
+struct Grid {
+    StoredArray points;              ///< 3 columns [m]
+    StoredArray cells;               ///< points of each triangle, 3 columns; of each vertex, 1
+    std::vector<NamedArray> values;  ///< a row per triangle, or per point
+};
+
+/// Parts of a scene, each a grid at some of the times. A part's name is its block's in ParaView.
+class XdmfFile {
+public:
+    /// A grid without cells is left out: readers refuse it. The part is not there at that time.
+    void add(const std::string& part, double time, const Grid& grid);
+    /// The same without times.
+    void add(const std::string& part, const Grid& grid);
+    std::string text() const;
+
+private:
+    struct Part {
+        std::string name, grids;
+        bool timed;
+    };
+    Part& part(const std::string& name, bool timed);
+    std::vector<Part> parts_;
+};
+
+}  // namespace ice::paraview
