@@ -95,11 +95,10 @@ scene = simple.GetAnimationScene()
 scene.UpdateAnimationUsingDataTimeSteps()
 scene.GoToLast()
 view.ViewSize = [1200, 700]
-simple.ResetActiveCameraToPositiveX()
-view.CameraViewUp = [0, 0, 1]
+simple.ResetCamera(view)
 focus = list(view.CameraFocalPoint)
-far = abs(view.CameraPosition[0] - focus[0])
-view.CameraPosition = [focus[0] + 0.6 * far, focus[1] - 0.7 * far, focus[2] + 0.5 * far]
+view.CameraViewUp = [0, 0, 1]
+view.CameraPosition = [focus[0] + 0.6, focus[1] - 0.7, focus[2] + 0.5]
 simple.ResetCamera(view)
 simple.Render(view)
 if len(sys.argv) > 1 and sys.argv[-1].endswith(".png"):
