@@ -18,7 +18,8 @@
 ///     /contacts/frame, floe, sphere [C]   /contacts/point [C,3] m in the ship frame
 ///     /contacts/normal_force, friction_force [C,3]
 ///     /shapes/vertex_offset, vertices, triangle_offset, triangles, region, sphere_offset, spheres
-///     of a case with a flow around its hull: /flow/point [A,3] m, /flow/velocity [A,3]
+///     of a case with a flow around its hull: /flow/point [A,3] m, /flow/velocity [A,3],
+///     /flow/arrow [A]
 ///     /tracked/floe [K] ids            /tracked/<id> [S,22], columns named in track_columns()
 ///     /region_names, /hull_regions, /xyz, /wxyz, /pose_parts, /track_columns   labels
 ///

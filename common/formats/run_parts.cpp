@@ -2,6 +2,7 @@
 #include "common/formats/run_parts.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 #include "common/formats/flatten.hpp"
 
@@ -60,14 +61,19 @@ void write_shapes(Hdf5File& file, const RunHeader& header) {
 void write_flow_arrows(Hdf5File& file, const RunHeader& header) {
     if (header.flow_point.empty()) return;
     file.create_group("/flow");
+    std::vector<std::int32_t> ids(header.flow_point.size());
+    std::iota(ids.begin(), ids.end(), 0);
+    file.write("/flow/arrow", ids);
+    file.make_scale("/flow/arrow");
     const auto write = [&](const char* name, const std::vector<Vec3>& rows, const char* unit,
                            const char* meaning) {
         file.write(name, flatten<float>(rows).data(), {rows.size(), 3});
+        attach_scales(file, name, {"/flow/arrow", "/xyz"});
         file.write_attribute(name, "units", unit);
         file.write_attribute(name, "meaning", meaning);
     };
     write("/flow/point", header.flow_point, "m",
-          "from below the ship's origin, z = 0 in the water's surface; does not turn");
+          "from the point of the water's surface above the ship's origin; does not turn with her");
     write("/flow/velocity", header.flow_velocity, "1", "of the water, for a ship at 1 m/s");
 }
 

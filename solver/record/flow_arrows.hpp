@@ -10,7 +10,7 @@ namespace ice {
 
 /// Velocities of the water for a ship at 1 m/s, at places that move with the ship but do not turn.
 struct FlowArrows {
-    std::vector<Vec3> point;     ///< from below the ship's origin, z = 0 in the water's surface [m]
+    std::vector<Vec3> point;     ///< from the water's surface above the ship's origin [m]
     std::vector<Vec3> velocity;  ///< [1]
 };
 

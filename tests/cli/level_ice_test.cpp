@@ -11,7 +11,7 @@ namespace {
 
 // A 30 m model of the icebreaker in thin ice, a few pieces long.
 const char* const kCase =
-    "[simulation]\nduration = 4.0\ntime_step = 0.02\n[hull]\nspheres = \"hull.h5\"\n"
+    "[simulation]\nduration = 8.0\ntime_step = 0.02\n[hull]\nspheres = \"hull.h5\"\n"
     "position = [-30.0, 0]\ndraught = 2.6\nspeed = 1.0\n"
     "[level_ice]\nthickness = 0.3\nextent = [0, 12, -8, 8]\nspacing = 0.3\n"
     "[contact]\nrestitution = 0.1\n";

@@ -22,6 +22,10 @@ README_BYTES = 8192  # a front page is read in ten minutes
 ELSEWHERE = {  # beginning of a command -> test that runs it, and that test's file
     "./bootstrap.sh demo": ('"cases: run the demo"', "tests/cases/CMakeLists.txt"),
     "./bootstrap.sh test": ("./bootstrap.sh test", ".ci/run"),
+    # where ParaView is installed
+    "paraview --script": ("ParaView reads and draws the exported run", "tests/postprocess/CMakeLists.txt"),
+    "pvpython run/paraview": ("ParaView reads and draws the exported run",
+                              "tests/postprocess/CMakeLists.txt"),
     # numbers of a whole run
     "icepost check results/": ('"cases: check ${name}"', "tests/cases/CMakeLists.txt"),
 }

@@ -181,6 +181,7 @@ def check_arrows(work, values, table):
         if "flow" not in file:
             return
         point, arrow = (file["flow/" + key][()].astype(float) for key in ("point", "velocity"))
+        values.equal(name, "/flow/arrow", list(file["flow/arrow"][()]), list(range(len(point))))
         for key, unit, word in (("point", "m", "water's surface"), ("velocity", "1", "1 m/s")):
             values.equal(name, f"/flow/{key}@units", file["flow/" + key].attrs["units"], unit)
             values.equal(name, f"/flow/{key}@meaning", word in file["flow/" + key].attrs["meaning"],
