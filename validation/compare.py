@@ -107,7 +107,8 @@ def row_of(test, summary):
     r = summary["resistance"]
     values = {"mean": r["mean_N"], "ci95": r["ci95_N"], "breaking": r["breaking_mean_N"],
               "submersion": r["submersion_mean_N"], "std": r["std_N"], "max": r["max_N"]}
-    return {"test": test, **{f"{k}_kN": f"{v / 1e3:.1f}" for k, v in values.items()},
+    # a run too short for an interval has none
+    return {"test": test, **{f"{k}_kN": "" if v is None else f"{v / 1e3:.1f}" for k, v in values.items()},
             "lindqvist_kN": total_of(summary, "Lindqvist"), "riska_kN": total_of(summary, "Riska"),
             "jeong_kN": total_of(summary, "Jeong"), "commit": summary["git_commit"]}
 

@@ -34,8 +34,8 @@ struct RunHeader {
     std::vector<Vec3> body_inertia;        ///< [Nb] diagonal about the mesh's axes [kg m2]
     std::vector<std::int32_t> tracked;     ///< ids of floes with their own histories
     bool ship_answers = false;             ///< the ship moves by forces: rows have its motion
-    /// Places at which the water's flow is known, from the point of the water's surface above the
-    /// ship's origin [m], and its velocity there for a ship at 1 m/s [1]. They do not turn with her.
+    /// Places at which the water's flow is known, from the water's surface above the ship's origin
+    /// [m], and its velocity there for a ship at 1 m/s [1]. They do not turn with the ship.
     std::vector<Vec3> flow_point, flow_velocity;
 };
 

@@ -35,7 +35,14 @@ std::string grid_text(const std::string& name, const std::string& time, const Gr
 }  // namespace
 
 ArrayFile::ArrayFile(const std::filesystem::path& path)
-    : file_name_(path.filename().string()), file_(path, Hdf5File::Mode::create) {}
+    : file_name_(path.filename().string()),
+      part_(path),
+      file_(part_.path(), Hdf5File::Mode::create) {}
+
+void ArrayFile::close() {
+    file_.close();
+    part_.keep();
+}
 
 template <class T>
 StoredArray ArrayFile::store(const std::string& name, const std::vector<T>& values,

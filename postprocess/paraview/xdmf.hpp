@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "common/base/part_file.hpp"
 #include "common/formats/hdf5_file.hpp"
 
 namespace ice::paraview {
@@ -18,7 +19,8 @@ struct StoredArray {
     std::uint64_t columns = 1;
 };
 
-/// The HDF5 file; arrays are written once and may serve many grids.
+/// The HDF5 file; arrays are written once and may serve many grids. Without close() it leaves
+/// nothing.
 class ArrayFile {
 public:
     /// @throws Error (exit code 1) naming the path
@@ -30,7 +32,8 @@ public:
                     std::uint64_t columns = 1);
     StoredArray add(const std::string& name, const std::vector<std::int32_t>& values,
                     std::uint64_t columns = 1);
-    void close() { file_.close(); }
+    /// @throws Error (exit code 1) naming the path
+    void close();
 
 private:
     template <class T>
@@ -38,6 +41,7 @@ private:
                       const char* type);
 
     std::string file_name_;
+    PartFile part_;
     Hdf5File file_;
 };
 

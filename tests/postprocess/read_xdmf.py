@@ -94,8 +94,8 @@ def main():
             return code
         picture = os.path.join(folder, "view.png")
         subprocess.run([*inside, os.path.join(files, "view.py"), picture], check=True)
-        # an empty view packs into a few kilobytes
-        assert os.path.getsize(picture) > 20_000, os.path.getsize(picture)
+        # an empty view of this size packs into 5.7 kB, the sample run into 19 kB
+        assert os.path.getsize(picture) > 10_000, os.path.getsize(picture)
         return 0
 
 
