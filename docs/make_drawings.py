@@ -7,69 +7,7 @@ import math
 import pathlib
 import sys
 
-ICE, ICE_LINE = "#d6ebf7", "#2b6c8f"
-HULL, HULL_LINE = "#e4e4e4", "#444444"
-FORCE, NOTE, FAINT = "#b8312f", "#222222", "#8a8a8a"
-GOOD = "#2e7d32"
-
-
-class Drawing:
-    """Shapes in the order in which they are drawn; x to the right, y down, in pixels."""
-
-    def __init__(self, width, height):
-        self.size = (width, height)
-        self.rows = []
-
-    def add(self, text):
-        self.rows.append(text)
-
-    def polygon(self, points, fill=ICE, line=ICE_LINE, width=1.5, opacity=1.0):
-        at = " ".join(f"{x:.1f},{y:.1f}" for x, y in points)
-        self.add(f'<polygon points="{at}" fill="{fill}" fill-opacity="{opacity}" stroke="{line}" '
-                 f'stroke-width="{width}" stroke-linejoin="round"/>')
-
-    def path(self, points, line=NOTE, width=1.5, dash=""):
-        at = " ".join(f"{x:.1f},{y:.1f}" for x, y in points)
-        self.add(f'<polyline points="{at}" fill="none" stroke="{line}" stroke-width="{width}"'
-                 + (f' stroke-dasharray="{dash}"' if dash else "") + "/>")
-
-    def circle(self, x, y, r, fill="none", line=FAINT, width=1.2, dash=""):
-        self.add(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="{r:.1f}" fill="{fill}" stroke="{line}" '
-                 f'stroke-width="{width}"' + (f' stroke-dasharray="{dash}"' if dash else "") + "/>")
-
-    def dot(self, x, y, colour=NOTE, r=3.2):
-        self.circle(x, y, r, colour, colour)
-
-    def text(self, x, y, words, colour=NOTE, size=14, anchor="middle", bold=False):
-        for k, line in enumerate(words.split("\n")):
-            self.add(f'<text x="{x:.1f}" y="{y + 1.25 * size * k:.1f}" font-size="{size}" '
-                     f'fill="{colour}" text-anchor="{anchor}"'
-                     + (' font-weight="bold"' if bold else "") + f">{line}</text>")
-
-    def arrow(self, x0, y0, x1, y1, colour=FORCE, width=2.2, both=False, dash=""):
-        length = math.hypot(x1 - x0, y1 - y0)
-        ux, uy = (x1 - x0) / length, (y1 - y0) / length
-        tip = min(9.0, 0.5 * length)
-        ends = [(x1, y1, ux, uy)] + ([(x0, y0, -ux, -uy)] if both else [])
-        start = (x0 + ux * tip * 0.8, y0 + uy * tip * 0.8) if both else (x0, y0)
-        self.path([start, (x1 - ux * tip * 0.8, y1 - uy * tip * 0.8)], colour, width, dash)
-        for x, y, a, b in ends:
-            self.polygon([(x, y), (x - tip * a - 0.45 * tip * b, y - tip * b + 0.45 * tip * a),
-                          (x - tip * a + 0.45 * tip * b, y - tip * b - 0.45 * tip * a)],
-                         colour, colour, 0.5)
-
-    def arc(self, x, y, r, first, last, colour=FORCE, width=2.0):
-        """From angle first to last, in degrees anticlockwise from +x as seen."""
-        steps = [first + (last - first) * k / 40 for k in range(41)]
-        self.path([(x + r * math.cos(math.radians(a)), y - r * math.sin(math.radians(a)))
-                   for a in steps], colour, width)
-
-    def svg(self):
-        w, h = self.size
-        head = (f'<svg xmlns="http://www.w3.org/2000/svg" width="{w}" height="{h}" '
-                f'viewBox="0 0 {w} {h}" font-family="DejaVu Sans, Arial, sans-serif">\n'
-                f'<rect width="{w}" height="{h}" fill="#ffffff"/>\n')
-        return head + "\n".join(self.rows) + "\n</svg>\n"
+from drawing import (FAINT, FORCE, GOOD, HULL, HULL_LINE, ICE, ICE_LINE, NOTE, Drawing)
 
 
 def step():
@@ -229,7 +167,7 @@ def axes():
 
 def reduction():
     d = Drawing(1000, 340)
-    d.text(165, 34, "reach", size=17, bold=True)
+    d.text(165, 34, "patch radius", size=17, bold=True)
     d.polygon([(35, 60), (295, 60), (295, 290), (35, 290)], HULL, HULL_LINE)
     for i in range(4):
         for j in range(3):
@@ -237,8 +175,8 @@ def reduction():
     d.circle(136, 174, 50, "#f6d9d6", FORCE, 1.6)
     d.dot(136, 174, FORCE)
     d.dot(160, 150, ICE_LINE, 4.5)
-    d.text(165, 316, "what one sphere represents: 0.75 spacings", size=13)
-    d.text(500, 34, "borders", size=17, bold=True)
+    d.text(165, 316, "surface of one sphere: 0.75 spacings", size=13)
+    d.text(500, 34, "side planes", size=17, bold=True)
     d.polygon([(370, 60), (520, 60), (520, 290), (370, 290)], HULL, HULL_LINE)
     for i in range(3):
         for j in range(3):
@@ -249,7 +187,7 @@ def reduction():
     d.text(488, 146, "contact", GOOD, 13, "end")
     d.dot(545, 185, ICE_LINE, 4.5)
     d.text(556, 182, "none: beyond\nthe next face's\nplane", FORCE, 13, "start")
-    d.text(500, 316, "within reach, but past the face's end", size=13)
+    d.text(500, 316, "within the patch radius, past the side plane", size=13)
     d.text(835, 34, "reduction", size=17, bold=True)
     d.polygon([(700, 90), (970, 90), (970, 150), (700, 150)], HULL, HULL_LINE)
     for i in range(5):
@@ -379,13 +317,13 @@ def skin():
     d.polygon([(60, 80), (220, 60), (235, 150), (75, 170)])
     d.polygon([(420, 90), (560, 75), (570, 160), (432, 175)])
     d.arrow(229, 115, 424, 125, FORCE, 2, True)
-    d.text(326, 106, "clearance when last looked at", FORCE, 13)
+    d.text(326, 106, "clearance when last measured", FORCE, 13)
     d.arrow(150, 200, 225, 200, ICE_LINE)
     d.text(187, 225, "path of a", ICE_LINE, 13)
     d.arrow(490, 200, 432, 200, ICE_LINE)
     d.text(461, 225, "path of b", ICE_LINE, 13)
     d.path([(640, 150), (950, 150)], NOTE, 1.4)
-    d.text(640, 40, "not looked at while", NOTE, 15, "start", True)
+    d.text(640, 40, "not measured while", NOTE, 15, "start", True)
     d.text(640, 66, "path of a + path of b + closing of this step", ICE_LINE, 14, "start")
     d.text(640, 88, "&lt; clearance − margin", FORCE, 14, "start")
     d.polygon([(640, 140), (790, 140), (790, 160), (640, 160)], "#c9e0ee", ICE_LINE, 1)
@@ -393,7 +331,7 @@ def skin():
     d.text(715, 182, "paths so far", ICE_LINE, 12)
     d.text(826, 182, "this step", ICE_LINE, 12)
     d.path([(930, 128), (930, 172)], FORCE, 3)
-    d.text(930, 120, "look again", FORCE, 12)
+    d.text(930, 120, "measure again", FORCE, 12)
     return d
 
 

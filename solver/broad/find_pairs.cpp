@@ -135,18 +135,20 @@ constexpr double kVicinityRoom = 5.0;
 
 }  // namespace
 
-bool PairList::is_good(const Scene& scene, const Travel& travel) const {
+bool PairList::is_good(const Scene& scene, const MotionBounds& motion) const {
     if (bodies_ != scene.bodies.size() || moving_ != scene.bodies.moving) return false;
     // what is no number is never good
-    const auto stays = [&](std::int32_t i, double way) { return travel.soon(i) <= way + kSkin; };
-    if (!stays(kShipId, ship_way_)) return false;
+    const auto stays = [&](std::int32_t i, double way) {
+        return motion.path_after_step(i) <= way + kSkin;
+    };
+    if (!stays(kShipId, ship_path_)) return false;
     for (std::size_t k = 0; k < moving_.size(); ++k)
-        if (!stays(moving_[k], way_[k])) return false;
-    return drifting_ < 0 || stays(drifting_, drift_way_);
+        if (!stays(moving_[k], path_[k])) return false;
+    return drifting_ < 0 || stays(drifting_, drift_path_);
 }
 
-void PairList::update(const Scene& scene, const Travel& travel, double margin) {
-    if (is_good(scene, travel)) return;
+void PairList::update(const Scene& scene, const MotionBounds& motion, double margin) {
+    if (is_good(scene, motion)) return;
     const double reach = margin + 2.0 * kSkin;  // both bodies of a pair may go as far
     const Eigen::AlignedBox3d box = reach_of_motion(scene, reach);
     drifting_ = fastest_held(scene.bodies);
@@ -157,10 +159,10 @@ void PairList::update(const Scene& scene, const Travel& travel, double margin) {
     }
     find_pairs_among(scene, reach, floes_, pairs_);
     moving_ = scene.bodies.moving;
-    ship_way_ = travel.way(kShipId);
-    if (drifting_ >= 0) drift_way_ = travel.way(drifting_);
-    way_.resize(moving_.size());
-    for (std::size_t k = 0; k < way_.size(); ++k) way_[k] = travel.way(moving_[k]);
+    ship_path_ = motion.path(kShipId);
+    if (drifting_ >= 0) drift_path_ = motion.path(drifting_);
+    path_.resize(moving_.size());
+    for (std::size_t k = 0; k < path_.size(); ++k) path_[k] = motion.path(moving_[k]);
 }
 
 namespace reference {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "solver/broad/travel.hpp"
+#include "solver/broad/motion_bounds.hpp"
 #include "solver/scene/bodies.hpp"
 
 namespace ice {
@@ -29,27 +29,27 @@ namespace reference {
 void find_pairs(const Scene& scene, double margin, std::vector<BodyPair>& out);
 }  // namespace reference
 
-/// The pairs of bodies that may touch within a step, kept until bodies have gone too far. To make
-/// it anew costs what lies in the box of all that moves; held floes elsewhere are not looked at,
-/// and are taken to stay where they are, or, where they drift, looked through each time.
+/// The pairs of bodies that may touch within a step: a neighbour list, renewed when a path exceeds
+/// the skin. A renewal costs as much as there are floes in the box of all moving bodies. Held floes
+/// outside it are assumed to stay in place; drifting ones are searched each time.
 class PairList {
 public:
     /// Brings the list up to date: afterwards it holds all pairs that find_pairs gives for bodies
-    /// that keep their velocities for the step that `travel` looks ahead, and others.
+    /// that keep their velocities for the coming step (MotionBounds::update), and others.
     /// @param margin  [m] beyond that motion
-    void update(const Scene& scene, const Travel& travel, double margin);
+    void update(const Scene& scene, const MotionBounds& motion, double margin);
 
     const std::vector<BodyPair>& pairs() const { return pairs_; }
 
 private:
-    bool is_good(const Scene& scene, const Travel& travel) const;
+    bool is_good(const Scene& scene, const MotionBounds& motion) const;
 
     std::vector<BodyPair> pairs_;
     std::vector<std::int32_t> moving_;  // the floes that moved when the list was made
-    std::vector<double> way_;           // theirs then [m]
-    double ship_way_ = 0.0, drift_way_ = 0.0;
+    std::vector<double> path_;          // theirs then [m]
+    double ship_path_ = 0.0, drift_path_ = 0.0;
     std::int32_t drifting_ = -1;       // the held floe that drifts fastest; -1: none does
-    Eigen::AlignedBox3d vicinity_;     // of all that moves
+    Eigen::AlignedBox3d vicinity_;     // of all moving bodies
     std::vector<std::int32_t> floes_;  // in it, held ones too
     std::size_t bodies_ = 0;           // that were looked at for them
 };

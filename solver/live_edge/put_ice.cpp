@@ -18,7 +18,8 @@ void make_whole(CrushedIce& crushed, std::int32_t body, std::size_t spheres) {
     const std::int64_t gone = std::exchange(crushed.first[i], -1);
     const auto count = static_cast<std::int64_t>(spheres);
     crushed.deepest[i] = 0.0;
-    crushed.recess.erase(crushed.recess.begin() + gone, crushed.recess.begin() + gone + count);
+    crushed.displacement.erase(crushed.displacement.begin() + gone,
+                               crushed.displacement.begin() + gone + count);
     for (std::int64_t& row : crushed.first)
         if (row > gone) row -= count;
 }

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "solver/narrow/contact_polygon.hpp"
-#include "solver/narrow/emit_contacts.hpp"
 #include "solver/narrow/gap_rule.hpp"
+#include "solver/narrow/make_contacts.hpp"
 
 namespace ice {
 
@@ -27,23 +27,23 @@ double section_of(const Contact& c, double lean) {
 Contact* edge_over(const PairView& view, std::span<Contact> contacts, std::int32_t ice,
                    const Vec3& axis) {
     const Shape& hull = view.shape_a;
-    const Vec3 seat = view.turn * (view.shape_b.center[ice] +
-                                   view.shape_b.radius[ice] * view.shape_b.normal[ice]) +
-                      view.shift;
+    const Vec3 seat = view.rotation_ab * (view.shape_b.center[ice] +
+                                          view.shape_b.radius[ice] * view.shape_b.normal[ice]) +
+                      view.translation_ab;
     const auto beside = [&](const Contact& c) {
         return part_across(seat - view.support_a(c.sphere_a, axis), axis);
     };
     double least = std::numeric_limits<double>::infinity();
     Contact* nearest = nullptr;
     for (Contact& c : contacts) {
-        if (b_is_probe(c)) continue;
+        if (incident_is_b(c)) continue;
         const double distance = beside(c).norm();
         if (distance >= least) continue;
         least = distance;
         nearest = &c;
     }
     if (nearest == nullptr) return nullptr;
-    const Faces& faces = hull.faces[nearest->sphere_a];
+    const NormalCone& faces = hull.cone[nearest->sphere_a];
     Vec3 from_edge = beside(*nearest);
     if (faces.count == 2) from_edge = part_across(from_edge, faces.edge(0));
     const Patch& patch = nearest->patch;
@@ -55,22 +55,26 @@ Contact* edge_over(const PairView& view, std::span<Contact> contacts, std::int32
 void carry_shares(const PairView& view, std::span<Contact> contacts) {
     const ConvexPiece &a = view.shape_a.convex, &b = view.shape_b.convex;
     if (view.pair.a != static_cast<std::int32_t>(kShip) || a.empty() || b.empty()) return;
-    const RelativePose pose{view.turn, view.shift};
+    const RelativePose pose{view.rotation_ab, view.translation_ab};
     const Vec3 axis = axis_normal(a, b, pose, find_axes(a, b, pose, 0.0));
     thread_local std::vector<double> carried;  // by contact: of its part of the section [m2]
     carried.assign(contacts.size(), 0.0);
     for (Contact& c : contacts) {
-        if (!b_is_probe(c)) continue;
+        if (!incident_is_b(c)) continue;
         const Vec3 n = in_axes_of_a(view, c.normal),
-                   m = view.turn * -view.shape_b.normal[c.sphere_b];
+                   m = view.rotation_ab * -view.shape_b.normal[c.sphere_b];
         const double facing = m.dot(n), lean = n.dot(axis);
         if (facing <= 0.0 || lean <= 0.0) continue;
+        // A (-n_j . s) / (n . s) of docs/method.md, section 3: the share's projection on the
+        // separating axis, brought to the contact's normal.
         c.patch.share *= std::clamp(m.dot(axis) / (facing * lean), 1.0, 1.0 / (facing * facing));
         if (Contact* edge = edge_over(view, contacts, c.sphere_b, axis))
             carried[static_cast<std::size_t>(edge - contacts.data())] += section_of(c, lean);
     }
     for (std::size_t k = 0; k < contacts.size(); ++k) {
         if (carried[k] == 0.0) continue;
+        // Area that the ice's spheres already cover is taken from the edge's own section, so
+        // nothing counts twice.
         const double own =
             section_of(contacts[k], in_axes_of_a(view, contacts[k].normal).dot(axis));
         contacts[k].patch.share *= own > carried[k] ? 1.0 - carried[k] / own : 0.0;

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "common/base/parallel.hpp"
-#include "solver/narrow/emit_centres.hpp"
+#include "solver/narrow/make_centre_contacts.hpp"
 #include "solver/narrow/search_pair.hpp"
 #include "solver/narrow/separation.hpp"
 #include "solver/narrow/thread_batch.hpp"
@@ -49,7 +49,7 @@ constexpr std::size_t kSerialLists = 128;
 constexpr double kListLookAhead = 5.0;
 constexpr double kLeastListShare = 0.6, kMostListShare = 0.8;  // of the ice's radius
 
-// What rounding may add to a separation, by far [m].
+// Generous bound of the rounding error of a separation [m].
 constexpr double kRounding = 1e-6;
 
 // Finds the spheres whose gap is at most `range` [m], and others.
@@ -59,9 +59,10 @@ void find_near_centres(const PairView& view, double range, PairSearch& search,
     search.for_each_near(
         view, range, 0.0,
         [&](std::int32_t i, std::int32_t j) {
-            out.push_back({view.center_a(i) - view.shift,
-                           view.shape_b.center[j] + view.scene.crushed.recess_of(view.pair.b, j),
-                           view.shape_a.radius[i] + view.shape_b.radius[j], i, j});
+            out.push_back(
+                {view.center_a(i) - view.translation_ab,
+                 view.shape_b.center[j] + view.scene.crushed.displacement_of(view.pair.b, j),
+                 view.shape_a.radius[i] + view.shape_b.radius[j], i, j});
         },
         &Shape::balls);
 }
@@ -100,8 +101,9 @@ double list_spheres(const std::vector<Near>& near, std::vector<ListedSpheres>& o
 // How far a sphere of b may have gone relative to one of a since they were listed [m]: two
 // rotations differ by sqrt(8) sin(angle / 2), and a point at 1 goes 2 sin(angle / 2).
 double gone_since(const SphereLists::Row& row, const PairView& view, double crushed) {
-    return (view.shift - row.shift).norm() + crushed +
-           view.shape_b.bounding_radius * (view.turn - row.turn).norm() / std::numbers::sqrt2;
+    return (view.translation_ab - row.shift).norm() + crushed +
+           view.shape_b.bounding_radius * (view.rotation_ab - row.turn).norm() /
+               std::numbers::sqrt2;
 }
 
 // Measures the spheres that touch in whole units; appends the candidates.
@@ -126,13 +128,13 @@ bool are_held(const PairView& view) {
 
 CentresFinder::Found CentresFinder::look(std::size_t k, BodyPair pair, const Step& step,
                                          Batch& batch) {
-    const auto& [scene, travel, dt, margin] = step;
+    const auto& [scene, motion, dt, margin] = step;
     Found found{&batch, batch.candidates.size(), 0, batch.listed.size(), 0, false};
     const PairView view(scene, pair);
     SphereLists::Row& row = lists_.row(k);
     const double closing = dt * closing_speed(scene, pair), most = closing + margin;
-    const double way = travel.way(pair.a) + travel.way(pair.b);
-    const double crushed = travel.crushed(pair.a) + travel.crushed(pair.b);
+    const double way = motion.path(pair.a) + motion.path(pair.b);
+    const double crushed = motion.crushed(pair.a) + motion.crushed(pair.b);
     double gone = gone_since(row, view, crushed - row.crushed);
     std::span<const ListedSpheres> listed = lists_.listed(k);
     const bool held = are_held(view);
@@ -147,8 +149,8 @@ CentresFinder::Found CentresFinder::look(std::size_t k, BodyPair pair, const Ste
         const double ahead =
             std::clamp(kListLookAhead * closing, kLeastListShare * radius, kMostListShare * radius);
         row.range = margin + std::max(ahead, closing);
-        row.turn = view.turn;
-        row.shift = view.shift;
+        row.turn = view.rotation_ab;
+        row.shift = view.translation_ab;
         row.crushed = crushed;
         gone = 0.0;
         find_near_centres(view, row.range, batch.search, batch.near);
@@ -159,7 +161,8 @@ CentresFinder::Found CentresFinder::look(std::size_t k, BodyPair pair, const Ste
     }
     const double rounding = ListedSpheres::kError * row.unit;
     const double unsure = rounding + crushed - row.crushed;
-    const FloatPose pose = to_floats(view.turn, (view.shift - row.shift) / row.unit);
+    const FloatPose pose =
+        to_floats(view.rotation_ab, (view.translation_ab - row.shift) / row.unit);
     find_touching(listed, pose, static_cast<float>((most + unsure) / row.unit), batch.touching);
     const double least = batch.touching.least * row.unit;
     lists_.wake(k) = way + std::min(least - unsure - margin, row.range - margin - gone);
@@ -172,7 +175,7 @@ CentresFinder::Found CentresFinder::look(std::size_t k, BodyPair pair, const Ste
 }
 
 void CentresFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
-                         const Travel& travel, double dt, double margin,
+                         const MotionBounds& motion, double dt, double margin,
                          std::vector<Contact>& out) {
     const std::uint64_t call = next_call();
     lists_.match(pairs);
@@ -180,13 +183,16 @@ void CentresFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
     std::size_t count = 0;
     for (std::size_t k = 0; k < pairs.size(); ++k) {
         awake_[count] = k;  // without a branch that nothing foretells; what is no number is awake
-        count += travel.soon(pairs[k].a) + travel.soon(pairs[k].b) < lists_.wake(k) ? 0 : 1;
+        count +=
+            motion.path_after_step(pairs[k].a) + motion.path_after_step(pairs[k].b) < lists_.wake(k)
+                ? 0
+                : 1;
     }
     awake_.resize(count);
     found_.resize(awake_.size());
     parallel_for(awake_.size(), kSerialLists, [&](std::size_t n) {
         found_[n] =
-            look(awake_[n], pairs[awake_[n]], {scene, travel, dt, margin}, batch_of<Batch>(call));
+            look(awake_[n], pairs[awake_[n]], {scene, motion, dt, margin}, batch_of<Batch>(call));
     });
     touching_.clear();
     std::size_t contacts = 0;
@@ -203,9 +209,9 @@ void CentresFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
     parallel_for(touching_.size(), kSerialLists, [&](std::size_t n) {
         const Touching& t = touching_[n];
         const Found& found = found_[t.found];
-        emit_centres(PairView(scene, t.pair),
-                     std::span(found.batch->candidates).subspan(found.first, found.count),
-                     out.data() + t.contact);
+        make_centre_contacts(PairView(scene, t.pair),
+                             std::span(found.batch->candidates).subspan(found.first, found.count),
+                             out.data() + t.contact);
     });
 }
 

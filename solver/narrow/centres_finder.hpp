@@ -15,14 +15,14 @@ namespace ice {
 /// are listed in advance, pair by pair, and the lists measured many spheres at a time.
 class CentresFinder {
 public:
-    /// As ContactFinder::find. @pre travel was updated with the present poses and dt
-    void find(const Scene& scene, const std::vector<BodyPair>& pairs, const Travel& travel,
+    /// As ContactFinder::find. @pre motion was updated with the present poses and dt
+    void find(const Scene& scene, const std::vector<BodyPair>& pairs, const MotionBounds& motion,
               double dt, double margin, std::vector<Contact>& out);
 
 private:
-    // What one thread finds of its pairs, one after the other; of use within find() only.
+    // Results of one thread for its pairs, one after the other; valid within find() only.
     struct Batch;
-    // What was found of a pair: pieces of what one thread found.
+    // Results of a pair: a part of one thread's results.
     struct Found {
         Batch* batch = nullptr;
         std::size_t first = 0, count = 0;   // candidates
@@ -36,14 +36,14 @@ private:
     };
     struct Step {
         const Scene& scene;
-        const Travel& travel;
+        const MotionBounds& motion;
         double dt, margin;
     };
     Found look(std::size_t k, BodyPair pair, const Step& step, Batch& batch);
 
     // kept between steps: no allocation once warm
     SphereLists lists_;
-    std::vector<std::size_t> awake_;  // rows of the pairs that are looked at
+    std::vector<std::size_t> awake_;  // rows of the pairs that are measured
     std::vector<Found> found_;        // of these
     std::vector<Touching> touching_;
 };

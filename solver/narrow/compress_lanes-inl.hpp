@@ -42,7 +42,7 @@ static_assert(kCompressTable.lanes[0b10110][0] == 1 && kCompressTable.lanes[0b10
 static_assert(kCompressTable.lanes[0b1000][0] == 3 && kCompressTable.lanes[0b1000][3] == 2);
 #endif
 
-// Lanes of four bytes; what follows those that are chosen means nothing.
+// Lanes of four bytes; lanes after the chosen ones mean nothing.
 template <class D, class V, class M>
 HWY_INLINE V Compressed(D d, V values, M chosen) {
 #if ICE_OWN_COMPRESS

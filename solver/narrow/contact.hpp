@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// What the narrow phase finds and the solver takes.
+/// The output of the narrow phase and input of the contact solver.
 #pragma once
 
 #include <cstdint>

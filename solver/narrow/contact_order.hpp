@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// What contacts of both rules have in common: their order within a pair, in which the solver takes
-/// them (its answer depends on it), and most of what is in them.
+/// Common parts of contacts under both rules: their order within a pair, in which the solver takes
+/// them (its answer depends on it), and most of their members.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,7 @@ inline ContactPlace place_of(const PairView& view, const Candidate& c, std::uint
     return {(std::uint64_t{a} << 32) | b, key, &c};
 }
 
-/// Sets all of a contact but its patch and what it crushes. @param meeting  its point, a's axes [m]
+/// Sets all of a contact but its patch and `crushes_a`. @param meeting  its point, a's axes [m]
 inline void fill_contact(const PairView& view, const ContactPlace& place, const Vec3& meeting,
                          Contact& out) {
     const Candidate& c = *place.candidate;

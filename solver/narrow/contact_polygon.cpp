@@ -180,7 +180,7 @@ void meet_edges(const ConvexPiece& a, const ConvexPiece& b, const RelativePose& 
                            3u << 30 | static_cast<std::uint32_t>(ka << 12 | kb)});
 }
 
-// What mirror images about y = 0 have in common.
+// A sort key that mirror images about y = 0 have in common.
 auto mirror_key(const PolygonCorner& c) {
     return std::tuple(c.point.x(), std::abs(c.point.y()), c.point.z());
 }

@@ -49,7 +49,7 @@ void make_contact_polygon(const ConvexPiece& a, const ConvexPiece& b, const Rela
 Vec3 axis_normal(const ConvexPiece& a, const ConvexPiece& b, const RelativePose& pose,
                  const SeparatingAxes& axes);
 
-/// So many corners carry what a polygon with more can.
+/// This many corners carry the same force and moment as a polygon with more.
 constexpr std::size_t kManifoldCorners = 4;
 
 /// Leaves at most `count` corners: those go whose loss takes the least of the polygon's area, the

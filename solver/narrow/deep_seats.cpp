@@ -5,7 +5,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "solver/narrow/emit_contacts.hpp"
+#include "solver/narrow/make_contacts.hpp"
 #include "solver/narrow/nearest_sphere.hpp"
 
 namespace ice {
@@ -26,12 +26,12 @@ struct Side {
 };
 
 Side side_of_b(const PairView& v) {
-    return {v.shape_b, v.shape_a, v.pair.b, v.pair.a, v.turn, v.shift};
+    return {v.shape_b, v.shape_a, v.pair.b, v.pair.a, v.rotation_ab, v.translation_ab};
 }
 
 Side side_of_a(const PairView& v) {
-    const Mat3 back = v.turn.transpose();
-    return {v.shape_a, v.shape_b, v.pair.a, v.pair.b, back, Vec3(-(back * v.shift))};
+    const Mat3 back = v.rotation_ab.transpose();
+    return {v.shape_a, v.shape_b, v.pair.a, v.pair.b, back, Vec3(-(back * v.translation_ab))};
 }
 
 // The box of the solid in the seats' axes, where the groups of spheres lie.
@@ -81,7 +81,7 @@ template <class Visit>
 void for_each_seat(const PairView& view, const Side& side, const Visit& visit) {
     const SphereBlocks& blocks = side.of.blocks;
     const Eigen::AlignedBox3d box = box_of_solid(side);
-    const double reach = static_cast<double>(blocks.largest_along) +
+    const double reach = static_cast<double>(blocks.largest_normal_extent) +
                          view.scene.crushed.deepest_of(side.body) +
                          static_cast<double>(SphereBlocks::kFloatShare * blocks.size);
     const bool whole = view.scene.crushed.is_whole(side.body);
@@ -91,7 +91,7 @@ void for_each_seat(const PairView& view, const Side& side, const Visit& visit) {
             const std::int32_t k = blocks.id[g * SphereBlocks::kGroup + lane];
             if (k < 0) continue;
             Vec3 at = side.of.center[k];
-            if (!whole) at += view.scene.crushed.recess_of(side.body, k);
+            if (!whole) at += view.scene.crushed.displacement_of(side.body, k);
             if (!whole && !side.of.box.contains(at)) continue;  // driven right through its body
             at += side.of.radius[k] * side.of.normal[k];
             const Vec3 seat = side.turn * at + side.shift;
@@ -117,11 +117,11 @@ DeepSeat seat_of(const PairView& view, const Side& side, std::int32_t sphere, co
     const Vec3 outward = (foot.point - seat) / foot.distance;  // of the solid
     out.gap = crushed_near(view.scene, side.other, seat) - foot.distance;
     const auto in_a = [&](const Vec3& p) {
-        return out.of_b ? p : Vec3(view.turn * p + view.shift);
+        return out.of_b ? p : Vec3(view.rotation_ab * p + view.translation_ab);
     };
     out.seat = in_a(seat);
     out.foot = in_a(foot.point);
-    out.normal = out.of_b ? outward : Vec3(view.turn * -outward);
+    out.normal = out.of_b ? outward : Vec3(view.rotation_ab * -outward);
     return out;
 }
 
@@ -131,6 +131,8 @@ double add_side(const PairView& view, const Side& side, double slack,
     double deepest = 0.0;
     Clearings clear;
     for_each_seat(view, side, [&](std::int32_t sphere, const Vec3& seat) {
+        // Depth changes by at most the distance of two seats: most seats of a side that lies
+        // outside are ruled out by the last few nearest points.
         if (clear.hold(seat)) return;
         const Foot foot = side.in.surface->closest(seat);
         const double depth = foot.inside ? foot.distance : -foot.distance;
@@ -164,6 +166,7 @@ double find_deep_seats(const PairView& view, std::span<const Candidate> found,
     const double slack = deep_slack(view);
     const double deepest = std::max(add_side(view, side_of_b(view), slack, found, out),
                                     add_side(view, side_of_a(view), slack, found, out));
+    // By place with y and -y alike: mirror images are solved in the same order.
     std::sort(out.begin(), out.end(), [](const DeepSeat& l, const DeepSeat& r) {
         const auto key = [](const DeepSeat& s) {
             return std::tuple(s.seat.x(), std::abs(s.seat.y()), s.seat.z(), s.of_b, s.sphere);

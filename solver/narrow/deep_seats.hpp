@@ -34,7 +34,7 @@ double deep_slack(const PairView& view);
 /// solid, but the shortest way out is the wrong one for a seat beyond the middle of a body. The
 /// order of `out` is by place, mirror images about y = 0 alike.
 ///
-/// @param found  contacts that the spheres gave @param out  what it held is forgotten
+/// @param found  contacts that the spheres gave @param out  its old content is dropped
 /// @returns how far the bodies may move relative to each other before another seat can lie so deep
 /// [m]; not above 0 while one does, crushed ice counted as if it were whole
 double find_deep_seats(const PairView& view, std::span<const Candidate> found,

@@ -8,10 +8,10 @@
 
 #include "common/base/parallel.hpp"
 #include "solver/narrow/deep_seats.hpp"
-#include "solver/narrow/emit_centres.hpp"
-#include "solver/narrow/emit_contacts.hpp"
+#include "solver/narrow/make_centre_contacts.hpp"
+#include "solver/narrow/make_contacts.hpp"
 #include "solver/narrow/measure_spheres.hpp"
-#include "solver/narrow/one_per_face.hpp"
+#include "solver/narrow/reduce_manifold.hpp"
 #include "solver/narrow/search_pair.hpp"
 #include "solver/narrow/separation.hpp"
 #include "solver/narrow/solid_contacts.hpp"
@@ -39,7 +39,7 @@ namespace {
 // threads costs more than they save.
 constexpr std::size_t kSerialPairs = 64, kSerialLooks = 1024;
 
-// What the search of a pair needs; kept between pairs.
+// Work memory for the search of a pair; kept between pairs.
 struct Workspace {
     PairSearch search;
     std::vector<SpherePair> spheres;
@@ -47,7 +47,7 @@ struct Workspace {
     std::vector<DeepSeat> seats;
 };
 
-// Sets work.candidates to those that are contacts.
+// Sets work.candidates to the contacts of a pair.
 // @pre the bodies are apart (separation) by no more than the margin
 void search_contacts(const PairView& view, double margin, Workspace& work) {
     const SphereRange range(view, margin);
@@ -55,33 +55,34 @@ void search_contacts(const PairView& view, double margin, Workspace& work) {
     work.search.for_each_near(view, range.margin, range.reach, [&](std::int32_t i, std::int32_t j) {
         work.spheres.push_back({i, j});
     });
-    group_by_kinds(view, work.spheres);
+    group_by_types(view, work.spheres);
     measure_spheres(view, range, work.spheres, work.candidates);
-    keep_one_per_face(view, margin, work.candidates);
+    reduce_manifold(view, margin, work.candidates);
 }
 
 // The same of what is known to be near.
 void measure_known(const PairView& view, double margin, std::span<const SpherePair> near,
                    Workspace& work) {
     measure_spheres(view, SphereRange(view, margin), near, work.candidates);
-    keep_one_per_face(view, margin, work.candidates);
+    reduce_manifold(view, margin, work.candidates);
 }
 
-// The spheres that may be candidates while the pair moves within `leeway`, and the least gap that
+// The spheres that may be candidates while the pair moves within `skin`, and the least gap that
 // they may have, less that motion; appends them.
-double find_near(const PairView& view, double margin, const Leeway& leeway, PairSearch& search,
+double find_near(const PairView& view, double margin, const Skin& skin, PairSearch& search,
                  std::vector<SpherePair>& out) {
     const std::size_t first = out.size();
-    const SphereRange range(view, margin + leeway.distance);
-    search.for_each_near(view, range.margin, range.reach + leeway.distance,
+    const SphereRange range(view, margin + skin.distance);
+    search.for_each_near(view, range.margin, range.reach + skin.distance,
                          [&](std::int32_t i, std::int32_t j) {
                              out.push_back({i, j});
                          });
-    return bound_spheres(view, range.reach, leeway, first, out);
+    return bound_spheres(view, range.reach, skin, first, out);
 }
 
 SeparatingAxes axes_of(const PairView& view, double enough) {
-    return find_axes(view.shape_a.convex, view.shape_b.convex, {view.turn, view.shift}, enough);
+    return find_axes(view.shape_a.convex, view.shape_b.convex,
+                     {view.rotation_ab, view.translation_ab}, enough);
 }
 
 }  // namespace
@@ -117,9 +118,9 @@ void ContactFinder::keep_candidates(const std::vector<Candidate>& candidates, Fo
 void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs, ContactRule rule,
                          double dt, double margin, std::vector<Contact>& out) {
     if (rule.normal == NormalRule::centres) {
-        Travel travel;  // of which nothing is known: all pairs are looked at
-        travel.update(scene, dt);
-        return CentresFinder().find(scene, pairs, travel, dt, margin, out);
+        MotionBounds motion;  // no paths yet: all pairs are measured
+        motion.update(scene, dt);
+        return CentresFinder().find(scene, pairs, motion, dt, margin, out);
     }
     awake_.resize(pairs.size());
     std::iota(awake_.begin(), awake_.end(), std::size_t{0});
@@ -150,19 +151,19 @@ void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
 }
 
 void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
-                         const Travel& travel, ContactRule rule, double dt, double margin,
+                         const MotionBounds& motion, ContactRule rule, double dt, double margin,
                          std::vector<Contact>& out) {
     if (rule.normal == NormalRule::centres)
-        return centres_.find(scene, pairs, travel, dt, margin, out);
-    dormant_.match(pairs);
+        return centres_.find(scene, pairs, motion, dt, margin, out);
+    cache_.carry_over(pairs);
     states_.resize(pairs.size());
     parallel_for(pairs.size(), kSerialLooks, [&](std::size_t k) {
-        states_[k] = dormant_.look(k, scene, pairs[k], travel, dt, margin,
-                                   meets_in_polygon(scene, pairs[k], rule));
+        states_[k] = cache_.state(k, scene, pairs[k], motion, dt, margin,
+                                  meets_in_polygon(scene, pairs[k], rule));
     });
     awake_.clear();
     for (std::size_t k = 0; k < pairs.size(); ++k)
-        if (states_[k] != DormantPairs::State::asleep) awake_.push_back(k);
+        if (states_[k] != PairCache::State::separated) awake_.push_back(k);
     found_.assign(awake_.size(), Found{});
     const std::uint64_t call = next_call();
     parallel_for(awake_.size(), kSerialPairs, [&](std::size_t n) {
@@ -173,47 +174,49 @@ void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
         found.batch = &batch;
         found.sphere = batch.spheres.size();
         auto state = states_[k];
-        if (state == DormantPairs::State::polygon) {
+        if (state == PairCache::State::polygon) {
             const double most = dt * closing_speed(scene, pairs[k]) + margin;
-            meet(PairView(scene, pairs[k]), dormant_.axes(k), most, found, batch);
+            meet(PairView(scene, pairs[k]), cache_.axes(k), most, found, batch);
             return;
         }
-        std::span<const SpherePair> near = dormant_.near(k);
-        if (state == DormantPairs::State::unknown) {
+        std::span<const SpherePair> near = cache_.listed(k);
+        if (state == PairCache::State::stale) {
             const PairView view(scene, pairs[k]);
-            const Leeway leeway = dormant_leeway(scene, pairs[k], dt);
-            const double least = find_near(view, margin, leeway, work.search, batch.spheres);
+            const Skin skin = skin_of(scene, pairs[k], dt);
+            const double least = find_near(view, margin, skin, work.search, batch.spheres);
             near = std::span(batch.spheres).subspan(found.sphere);
             found.spheres = near.size();
-            dormant_.settle(k, view, travel, leeway, std::min(least - margin, leeway.distance));
-            state = dormant_.look(k, scene, pairs[k], travel, dt, margin, false);
-            if (state == DormantPairs::State::asleep) return;
+            cache_.renew(k, view, motion, skin, std::min(least - margin, skin.distance));
+            state = cache_.state(k, scene, pairs[k], motion, dt, margin, false);
+            if (state == PairCache::State::separated) return;
         }
         const PairView view(scene, pairs[k]);
         const double most = dt * closing_speed(scene, pairs[k]) + margin;
         // a pair too fast for what can be known in advance is searched afresh
-        if (state == DormantPairs::State::unknown)
+        if (state == PairCache::State::stale)
             search_contacts(view, most, work);
         else
             measure_known(view, most, near, work);
         keep_candidates(work.candidates, found, batch);
-        if (!dormant_.deep(k)) return;
+        if (!cache_.deep(k)) return;
         if (is_convex_pair(view))
             return keep_polygon(find_lost_polygon(view, work.candidates, most), found, batch);
-        dormant_.set_room(k, view, find_deep_seats(view, work.candidates, work.seats));
+        cache_.set_room(k, view, find_deep_seats(view, work.candidates, work.seats));
         keep_seats(work.seats, found, batch);
     });
     for (std::size_t n = 0; n < awake_.size(); ++n) {
         const Found& found = found_[n];
-        if (states_[awake_[n]] == DormantPairs::State::unknown)
-            dormant_.keep(awake_[n],
-                          std::span(found.batch->spheres).subspan(found.sphere, found.spheres));
+        if (states_[awake_[n]] == PairCache::State::stale)
+            cache_.keep(awake_[n],
+                        std::span(found.batch->spheres).subspan(found.sphere, found.spheres));
     }
     emit(scene, pairs, rule, out);
 }
 
 void ContactFinder::emit(const Scene& scene, const std::vector<BodyPair>& pairs, ContactRule rule,
                          std::vector<Contact>& out) {
+    // Counted first, then made in place by all threads: the order is that of the pairs, whatever
+    // the number of threads.
     std::size_t contacts = 0;
     for (Found& found : found_) {
         found.contact = contacts;
@@ -231,7 +234,7 @@ void ContactFinder::emit(const Scene& scene, const std::vector<BodyPair>& pairs,
                             std::span(found.batch->seats).subspan(found.seat, found.seats),
                             out.data() + found.contact + found.count);
         if (found.count > 0)
-            emit_contacts(PairView(scene, pairs[awake_[n]]),
+            make_contacts(PairView(scene, pairs[awake_[n]]),
                           std::span(found.batch->candidates).subspan(found.first, found.count),
                           out.data() + found.contact);
     });
@@ -259,18 +262,20 @@ void find_contacts(const Scene& scene, BodyPair pair, ContactRule how, double ma
     for (std::int32_t i = 0; i < std::ssize(view.shape_a.center); ++i)
         for (std::int32_t j = 0; j < std::ssize(view.shape_b.center); ++j) {
             if (view.is_gone_a(i) || view.is_gone_b(j)) continue;
-            const SphereSurface a = view.sphere_a(i), b = view.sphere_b(j);
+            const Feature a = view.sphere_a(i), b = view.sphere_b(j);
             const Gap gap = centres ? measure_gap_centres(a.center, a.radius, b.center, b.radius)
-                                    : measure_gap_surface(a, b, prefers_a(view));
+                                    : measure_gap_surface(a, b, prefers_reference_a(view));
             const bool counts =
                 centres ? gap.valid && gap.gap <= margin
                         : SphereRange(view, margin).holds(a, b) && is_candidate(view, i, j, gap);
             if (counts) candidates.push_back({i, j, gap});
         }
-    if (!centres) keep_one_per_face(view, margin, candidates);
+    if (!centres) reduce_manifold(view, margin, candidates);
     out.resize(out.size() + candidates.size());
     Contact* first = out.data() + (out.size() - candidates.size());
-    centres ? emit_centres(view, candidates, first) : emit_contacts(view, candidates, first);
+    centres ? make_centre_contacts(view, candidates, first)
+            : make_contacts(view, candidates, first);
+    // Under "centres" bodies are their spheres: no solid can be deeper than these tell.
     if (centres) return;
     if (is_deep(view, apart)) {
         if (const ContactPolygon* polygon = find_lost_polygon(view, candidates, margin))

@@ -8,45 +8,46 @@
 #include <optional>
 #include <tuple>
 
+#include "solver/narrow/feature_pair.hpp"
+#include "solver/narrow/feature_pair_bound.hpp"
 #include "solver/narrow/gap_rule.hpp"
-#include "solver/narrow/kind_bound.hpp"
-#include "solver/narrow/kind_pair.hpp"
 
 namespace ice {
 
 namespace {
 
-// The spheres and kinds measured last: the next ones are mostly the same.
+// The spheres and feature types measured last: the next ones are mostly the same.
 class LastMeasured {
 public:
     LastMeasured(const PairView& view, const SphereRange& range) : view_(view), range_(range) {}
 
     /// Is it in range?
     bool meet(const SpherePair& s) {
-        const std::int32_t kind_a = view_.shape_a.kind[s.a], kind_b = view_.shape_b.kind[s.b];
-        if (kind_a != kind_a_ || kind_b != kind_b_) {
-            if (kind_a != kind_a_) surface_a_ = view_.sphere_a(s.a);
-            if (kind_b != kind_b_) surface_b_ = view_.sphere_b(s.b);
-            kinds_.reset();
-            near_sq_ = range_.squared(surface_a_.faces, surface_b_.faces);
-            kind_a_ = kind_a;
-            kind_b_ = kind_b;
+        const std::int32_t type_a = view_.shape_a.feature_type[s.a],
+                           type_b = view_.shape_b.feature_type[s.b];
+        if (type_a != type_a_ || type_b != type_b_) {
+            if (type_a != type_a_) feature_a_ = view_.sphere_a(s.a);
+            if (type_b != type_b_) feature_b_ = view_.sphere_b(s.b);
+            pair_.reset();
+            near_sq_ = range_.squared(feature_a_.cone, feature_b_.cone);
+            type_a_ = type_a;
+            type_b_ = type_b;
         }
         if (s.a != sphere_a_) center_a_ = view_.center_a(sphere_a_ = s.a);
         if (s.b != sphere_b_) center_b_ = view_.center_b(sphere_b_ = s.b);
         return (center_a_ - center_b_).squaredNorm() <= near_sq_;
     }
     Gap gap() {
-        if (!kinds_) kinds_.emplace(surface_a_, surface_b_, prefers_a(view_));
-        return kinds_->measure(center_a_, center_b_);
+        if (!pair_) pair_.emplace(feature_a_, feature_b_, prefers_reference_a(view_));
+        return pair_->measure(center_a_, center_b_);
     }
 
 private:
     const PairView& view_;
     const SphereRange& range_;
-    std::int32_t kind_a_ = -1, kind_b_ = -1, sphere_a_ = -1, sphere_b_ = -1;
-    SphereSurface surface_a_, surface_b_;  // of the kinds, wherever their centres are
-    std::optional<KindPair> kinds_;        // refers to both
+    std::int32_t type_a_ = -1, type_b_ = -1, sphere_a_ = -1, sphere_b_ = -1;
+    Feature feature_a_, feature_b_;    // of the types, whatever their centres
+    std::optional<FeaturePair> pair_;  // refers to both
     double near_sq_ = 0.0;
     Vec3 center_a_, center_b_;
 };
@@ -55,38 +56,41 @@ double slack_of_sphere(const Shape& shape, std::int32_t sphere, const Gap& gap) 
     return kBeyond * shape.radius[sphere] + std::max(gap.gap, 0.0);
 }
 
-// Is the point, in a's axes, on what a's or b's sphere stands for?
+// Is the point, in a's axes, inside the side planes of a's or b's sphere?
 bool a_holds(const PairView& view, std::int32_t i, const Gap& gap, const Vec3& point) {
-    return view.shape_a.borders.hold(i, point, slack_of_sphere(view.shape_a, i, gap));
+    return view.shape_a.side_planes.contain(i, point, slack_of_sphere(view.shape_a, i, gap));
 }
 bool b_holds(const PairView& view, std::int32_t j, const Gap& gap, const Vec3& point) {
-    return view.shape_b.borders.hold(j, view.to_b(point), slack_of_sphere(view.shape_b, j, gap));
+    return view.shape_b.side_planes.contain(j, view.to_b(point),
+                                            slack_of_sphere(view.shape_b, j, gap));
 }
 
 bool edges_hold(const PairView& view, std::int32_t i, std::int32_t j, const Gap& gap) {
     const Vec3 point_a = view.support_a(i, gap.normal), point_b = view.support_b(j, -gap.normal);
-    const Vec3 edge_a = view.shape_a.faces[i].edge(gap.edge_a);
-    const Vec3 edge_b = view.turn * view.shape_b.faces[j].edge(gap.edge_b);
-    const Crossing at = find_crossing(point_a, edge_a, point_b, edge_b);
-    return (!view.shape_a.borders.has(i) || a_holds(view, i, gap, point_a + at.along_a * edge_a)) &&
-           (!view.shape_b.borders.has(j) || b_holds(view, j, gap, point_b + at.along_b * edge_b));
+    const Vec3 edge_a = view.shape_a.cone[i].edge(gap.edge_a);
+    const Vec3 edge_b = view.rotation_ab * view.shape_b.cone[j].edge(gap.edge_b);
+    const LineParameters at = closest_on_lines(point_a, edge_a, point_b, edge_b);
+    return (!view.shape_a.side_planes.has(i) ||
+            a_holds(view, i, gap, point_a + at.along_a * edge_a)) &&
+           (!view.shape_b.side_planes.has(j) ||
+            b_holds(view, j, gap, point_b + at.along_b * edge_b));
 }
 
-// Do spheres i of a and j of b meet on what there is of their faces and edges (FaceBorders)?
+// Do spheres i of a and j of b meet on what there is of their faces and edges (SidePlanes)?
 //
-// A face is asked about the probe's foremost point, where two edges cross each edge about the
-// point on it. What has not touched yet may be past a border by its gap: it may come from beside.
-bool is_within_borders(const PairView& view, std::int32_t i, std::int32_t j, const Gap& gap) {
+// Tested is the incident support point on the face, and of two edges the crossing on each. A
+// contact that has not touched yet may lie outside by its gap: it may come from beside.
+bool is_within_side_planes(const PairView& view, std::int32_t i, std::int32_t j, const Gap& gap) {
     if (gap.crossing) {
-        if (!view.shape_a.borders.has(i) && !view.shape_b.borders.has(j)) return true;
+        if (!view.shape_a.side_planes.has(i) && !view.shape_b.side_planes.has(j)) return true;
         return edges_hold(view, i, j, gap);
     }
-    // the probe's point itself where it is inside, else below it on the face
+    // the incident support point where it is inside, else its projection on the face
     const Vec3 rise = std::max(gap.gap, 0.0) * gap.normal;
-    if (gap.a_is_surface)
-        return !view.shape_a.borders.has(i) ||
+    if (gap.reference_is_a)
+        return !view.shape_a.side_planes.has(i) ||
                a_holds(view, i, gap, view.support_b(j, -gap.normal) - rise);
-    return !view.shape_b.borders.has(j) ||
+    return !view.shape_b.side_planes.has(j) ||
            b_holds(view, j, gap, view.support_a(i, gap.normal) + rise);
 }
 
@@ -94,24 +98,26 @@ bool is_within_borders(const PairView& view, std::int32_t i, std::int32_t j, con
 
 bool is_candidate(const PairView& view, std::int32_t i, std::int32_t j, const Gap& gap) {
     if (!gap.valid) return false;
-    const double a = view.shape_a.reach, b = view.shape_b.reach;
-    const double reach = gap.a_is_surface ? a : b, of_probe = gap.a_is_surface ? b : a;
-    return gap.lateral_sq <= reach * reach && gap.probe_sq <= of_probe * of_probe &&
-           is_within_borders(view, i, j, gap);
+    const double a = view.shape_a.patch_radius, b = view.shape_b.patch_radius;
+    const double reach = gap.reference_is_a ? a : b, of_incident = gap.reference_is_a ? b : a;
+    return gap.reference_offset_sq <= reach * reach &&
+           gap.incident_offset_sq <= of_incident * of_incident &&
+           is_within_side_planes(view, i, j, gap);
 }
 
-void group_by_kinds(const PairView& view, std::span<SpherePair> spheres) {
+void group_by_types(const PairView& view, std::span<SpherePair> spheres) {
     struct Row {
-        std::uint64_t kinds, spheres;  // b's before a's
+        std::uint64_t types, spheres;  // b's before a's
         auto operator<=>(const Row&) const = default;
     };
-    thread_local std::vector<Row> rows;  // keeps its memory; sorted alone, with the kinds at hand
+    thread_local std::vector<Row> rows;  // keeps its memory; small rows sort faster than pairs
     const auto join = [](std::int32_t high, std::int32_t low) {
         return static_cast<std::uint64_t>(high) << 32 | static_cast<std::uint64_t>(low);
     };
     rows.clear();
     for (const SpherePair& s : spheres)
-        rows.push_back({join(view.shape_b.kind[s.b], view.shape_a.kind[s.a]), join(s.b, s.a)});
+        rows.push_back(
+            {join(view.shape_b.feature_type[s.b], view.shape_a.feature_type[s.a]), join(s.b, s.a)});
     std::sort(rows.begin(), rows.end());
     std::transform(rows.begin(), rows.end(), spheres.begin(), [](const Row& row) {
         return SpherePair{static_cast<std::int32_t>(row.spheres & 0xffffffff),
@@ -119,24 +125,24 @@ void group_by_kinds(const PairView& view, std::span<SpherePair> spheres) {
     });
 }
 
-double bound_spheres(const PairView& view, double reach, const Leeway& leeway, std::size_t first,
+double bound_spheres(const PairView& view, double reach, const Skin& skin, std::size_t first,
                      std::vector<SpherePair>& spheres) {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    group_by_kinds(view, std::span(spheres).subspan(first));
-    std::optional<KindBound> bound;  // of the kinds met last; refers to both surfaces
-    SphereSurface surface_a, surface_b;
-    std::int32_t kind_a = -1, kind_b = -1;
+    group_by_types(view, std::span(spheres).subspan(first));
+    std::optional<FeaturePairBound> bound;  // of the types met last; refers to both features
+    Feature feature_a, feature_b;
+    std::int32_t type_a = -1, type_b = -1;
     double least = kInfinity;
     std::size_t kept = first;
     for (std::size_t k = first; k < spheres.size(); ++k) {
         const auto [i, j] = spheres[k];
         if (view.is_gone_a(i) || view.is_gone_b(j)) continue;
-        if (view.shape_a.kind[i] != kind_a || view.shape_b.kind[j] != kind_b) {
-            if (view.shape_a.kind[i] != kind_a) surface_a = view.sphere_a(i);
-            if (view.shape_b.kind[j] != kind_b) surface_b = view.sphere_b(j);
-            bound.emplace(surface_a, surface_b, prefers_a(view), reach, leeway);
-            kind_a = view.shape_a.kind[i];
-            kind_b = view.shape_b.kind[j];
+        if (view.shape_a.feature_type[i] != type_a || view.shape_b.feature_type[j] != type_b) {
+            if (view.shape_a.feature_type[i] != type_a) feature_a = view.sphere_a(i);
+            if (view.shape_b.feature_type[j] != type_b) feature_b = view.sphere_b(j);
+            bound.emplace(feature_a, feature_b, prefers_reference_a(view), reach, skin);
+            type_a = view.shape_a.feature_type[i];
+            type_b = view.shape_b.feature_type[j];
         }
         const double gap = bound->least(view.center_a(i), view.center_b(j));
         if (gap == kInfinity) continue;

@@ -18,12 +18,12 @@ struct FloatPose {
 
 /// How far apart two spheres may be and still matter: see in_range.
 struct SearchRange {
-    float along, across;  ///< added to the two spheres' own `along` and `aside` [m]
+    float along, across;  ///< added to the two spheres' own extents [m]
 };
 
 /// Spheres picked from a body, in the axes of the search; entries from `count` on mean nothing.
 struct NearSpheres {
-    std::vector<float> x, y, z, along, aside, own;
+    std::vector<float> x, y, z, normal_extent, tangent_extent, own;
     std::vector<std::int32_t> id;
     std::size_t count = 0;
     FloatBox box;  ///< of their centres; empty (low > high) where there are none
@@ -41,7 +41,8 @@ void find_groups(const SphereBlocks& spheres, const FloatBox& box, float reach,
                  std::vector<std::int32_t>& out);
 
 /// Picks, of these groups, the spheres whose centres, moved by `pose`, lie in `box` grown by
-/// `grow` + the sphere's own hypot(along, aside) on all sides; order of the groups is kept.
+/// `grow` + the sphere's own hypot(normal_extent, tangent_extent) on all sides; order of the groups
+/// is kept.
 void pick_spheres(const SphereBlocks& spheres, const std::vector<std::int32_t>& groups,
                   const FloatPose& pose, const FloatBox& box, float grow, NearSpheres& out);
 
@@ -50,9 +51,9 @@ void pick_spheres(const NearSpheres& from, const FloatBox& box, float grow, Near
 
 /// For rows f = first .. last - 1 of `few` finds all spheres of `many` with
 ///
-///     |c_f - c_m|^2 <= (along_f + along_m + range.along)^2 + (aside_f + aside_m + range.across)^2
+///     |c_f - c_m|^2 <= (n_f + n_m + range.along)^2 + (t_f + t_m + range.across)^2,
 ///
-/// in the order of `many`.
+/// n and t being the normal and tangent extents, in the order of `many`.
 void find_near_pairs(const NearSpheres& few, std::size_t first, std::size_t last,
                      const NearSpheres& many, const SearchRange& range, NearPairs& out);
 

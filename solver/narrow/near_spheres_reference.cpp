@@ -23,7 +23,8 @@ namespace {
 constexpr float kNone = 1e18f;
 
 void clear(NearSpheres& out) {
-    for (auto* values : {&out.x, &out.y, &out.z, &out.along, &out.aside, &out.own}) values->clear();
+    for (auto* values : {&out.x, &out.y, &out.z, &out.normal_extent, &out.tangent_extent, &out.own})
+        values->clear();
     out.id.clear();
     out.count = 0;
     out.box = {{kNone, kNone, kNone}, {-kNone, -kNone, -kNone}};
@@ -39,8 +40,8 @@ void pick(const Spheres& from, std::size_t k, const float (&at)[3], const FloatB
     out.x.push_back(at[0]);
     out.y.push_back(at[1]);
     out.z.push_back(at[2]);
-    out.along.push_back(from.along[k]);
-    out.aside.push_back(from.aside[k]);
+    out.normal_extent.push_back(from.normal_extent[k]);
+    out.tangent_extent.push_back(from.tangent_extent[k]);
     out.own.push_back(from.own[k]);
     out.id.push_back(from.id[k]);
     ++out.count;
@@ -61,6 +62,7 @@ void pick_spheres(const SphereBlocks& spheres, const std::vector<std::int32_t>& 
             float at[3];
             for (int d = 0; d < 3; ++d) {
                 const float* row = pose.turn[d];
+                // The order of the SIMD kernel's operations: both must round alike.
                 at[d] = (row[0] * spheres.x[k] + row[1] * spheres.y[k]) +
                         (row[2] * spheres.z[k] + pose.shift[d]);
             }
@@ -82,8 +84,8 @@ void find_near_pairs(const NearSpheres& few, std::size_t first, std::size_t last
         for (std::size_t m = 0; m < many.count; ++m) {
             const float dx = many.x[m] - few.x[f], dy = many.y[m] - few.y[f],
                         dz = many.z[m] - few.z[f];
-            const float along = many.along[m] + (few.along[f] + range.along);
-            const float across = many.aside[m] + (few.aside[f] + range.across);
+            const float along = many.normal_extent[m] + (few.normal_extent[f] + range.along);
+            const float across = many.tangent_extent[m] + (few.tangent_extent[f] + range.across);
             if (dx * dx + dy * dy + dz * dz <= along * along + across * across)
                 out.partner.push_back(many.id[m]);
         }

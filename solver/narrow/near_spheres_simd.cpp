@@ -74,7 +74,8 @@ public:
         : box_(box), grow_(grow), out_(out) {
         const std::size_t room = most + kBlock;  // full vectors are stored behind the last
         if (out.id.size() >= room) return;
-        for (auto* values : {&out.x, &out.y, &out.z, &out.along, &out.aside, &out.own})
+        for (auto* values :
+             {&out.x, &out.y, &out.z, &out.normal_extent, &out.tangent_extent, &out.own})
             values->resize(room);
         out.id.resize(room);
     }
@@ -95,8 +96,10 @@ public:
         Append(x, picked, out_.x.data() + count_);
         Append(y, picked, out_.y.data() + count_);
         Append(z, picked, out_.z.data() + count_);
-        Append(hn::LoadU(d, from.along.data() + k), picked, out_.along.data() + count_);
-        Append(hn::LoadU(d, from.aside.data() + k), picked, out_.aside.data() + count_);
+        Append(hn::LoadU(d, from.normal_extent.data() + k), picked,
+               out_.normal_extent.data() + count_);
+        Append(hn::LoadU(d, from.tangent_extent.data() + k), picked,
+               out_.tangent_extent.data() + count_);
         Append(own, picked, out_.own.data() + count_);
         Append(from.id.data() + k, picked, out_.id.data() + count_);
         count_ += hn::CountTrue(d, picked);
@@ -179,21 +182,21 @@ HWY_INLINE void TestRows(const NearSpheres& few, std::size_t f, const NearSphere
         x[r] = hn::Set(d, few.x[f + r]);
         y[r] = hn::Set(d, few.y[f + r]);
         z[r] = hn::Set(d, few.z[f + r]);
-        along[r] = hn::Set(d, few.along[f + r] + range.along);
-        across[r] = hn::Set(d, few.aside[f + r] + range.across);
+        along[r] = hn::Set(d, few.normal_extent[f + r] + range.along);
+        across[r] = hn::Set(d, few.tangent_extent[f + r] + range.across);
         hits[r] = hn::FirstN(d, 0);
     }
     std::uint8_t* to = masks;
     for (std::size_t m = 0; m < many.count; m += lanes, to += kMaskBytes) {
         const Lanes mx = hn::LoadU(d, many.x.data() + m), my = hn::LoadU(d, many.y.data() + m);
         const Lanes mz = hn::LoadU(d, many.z.data() + m);
-        const Lanes m_along = hn::LoadU(d, many.along.data() + m);
-        const Lanes m_aside = hn::LoadU(d, many.aside.data() + m);
+        const Lanes m_normal = hn::LoadU(d, many.normal_extent.data() + m);
+        const Lanes m_tangent = hn::LoadU(d, many.tangent_extent.data() + m);
         Mask valid = all;
         if (many.count - m < lanes) valid = hn::FirstN(d, many.count - m);
         for (std::size_t r = 0; r < N; ++r) {
             const Lanes dx = hn::Sub(mx, x[r]), dy = hn::Sub(my, y[r]), dz = hn::Sub(mz, z[r]);
-            const Lanes a = hn::Add(m_along, along[r]), c = hn::Add(m_aside, across[r]);
+            const Lanes a = hn::Add(m_normal, along[r]), c = hn::Add(m_tangent, across[r]);
             const Lanes apart = hn::Add(hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy)), hn::Mul(dz, dz));
             const Mask near = hn::And(hn::Le(apart, hn::Add(hn::Mul(a, a), hn::Mul(c, c))), valid);
             hits[r] = hn::Or(hits[r], near);

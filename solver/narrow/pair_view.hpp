@@ -13,50 +13,53 @@ struct PairView {
     BodyPair pair;
     const Shape& shape_a;
     const Shape& shape_b;
-    Mat3 turn;   // b's axes to a's
-    Vec3 shift;  // b's origin in a's axes
+    Mat3 rotation_ab;     // b's axes to a's
+    Vec3 translation_ab;  // b's origin in a's axes
 
     PairView(const Scene& s, BodyPair p)
         : scene(s),
           pair(p),
           shape_a(s.shapes[static_cast<std::size_t>(s.bodies.shape[p.a])]),
           shape_b(s.shapes[static_cast<std::size_t>(s.bodies.shape[p.b])]),
-          turn(s.bodies.rotation[p.a].transpose() * s.bodies.rotation[p.b]),
-          shift(s.bodies.rotation[p.a].transpose() *
-                (s.bodies.position[p.b] - s.bodies.position[p.a])) {}
+          rotation_ab(s.bodies.rotation[p.a].transpose() * s.bodies.rotation[p.b]),
+          translation_ab(s.bodies.rotation[p.a].transpose() *
+                         (s.bodies.position[p.b] - s.bodies.position[p.a])) {}
 
     Vec3 center_a(std::int32_t i) const {
-        return shape_a.center[i] + scene.crushed.recess_of(pair.a, i);
+        return shape_a.center[i] + scene.crushed.displacement_of(pair.a, i);
     }
     Vec3 center_b(std::int32_t j) const {  // in a's axes
-        return turn * (shape_b.center[j] + scene.crushed.recess_of(pair.b, j)) + shift;
+        return rotation_ab * (shape_b.center[j] + scene.crushed.displacement_of(pair.b, j)) +
+               translation_ab;
     }
-    Vec3 to_b(const Vec3& in_a) const { return turn.transpose() * (in_a - shift); }
+    Vec3 to_b(const Vec3& in_a) const { return rotation_ab.transpose() * (in_a - translation_ab); }
     /// Has the sphere been driven right through its body?
     bool is_gone_a(std::int32_t i) const {
         return !scene.crushed.is_whole(pair.a) && !shape_a.box.contains(center_a(i));
     }
     bool is_gone_b(std::int32_t j) const {
         return !scene.crushed.is_whole(pair.b) &&
-               !shape_b.box.contains(Vec3(shape_b.center[j] + scene.crushed.recess_of(pair.b, j)));
+               !shape_b.box.contains(
+                   Vec3(shape_b.center[j] + scene.crushed.displacement_of(pair.b, j)));
     }
-    SphereSurface sphere_a(std::int32_t i) const {
-        return {center_a(i),           shape_a.radius[i], shape_a.normal[i], shape_a.spread_cos[i],
-                shape_a.spread_sin[i], shape_a.faces[i],  shape_a.reach};
+    Feature sphere_a(std::int32_t i) const {
+        return {center_a(i),           shape_a.radius[i],     shape_a.normal[i],
+                shape_a.spread_cos[i], shape_a.spread_sin[i], shape_a.cone[i],
+                shape_a.patch_radius};
     }
-    SphereSurface sphere_b(std::int32_t j) const {
-        return {center_b(j),           shape_b.radius[j],     turn * shape_b.normal[j],
-                shape_b.spread_cos[j], shape_b.spread_sin[j], shape_b.faces[j].turned(turn),
-                shape_b.reach};
+    Feature sphere_b(std::int32_t j) const {
+        return {center_b(j),           shape_b.radius[j],     rotation_ab * shape_b.normal[j],
+                shape_b.spread_cos[j], shape_b.spread_sin[j], shape_b.cone[j].turned(rotation_ab),
+                shape_b.patch_radius};
     }
     /// support_point of sphere_a(i) and sphere_b(j), whose faces need not be turned for it.
     Vec3 support_a(std::int32_t i, const Vec3& n) const {
         return center_a(i) +
-               support_offset(shape_a.faces[i], shape_a.radius[i], shape_a.normal[i], n);
+               support_offset(shape_a.cone[i], shape_a.radius[i], shape_a.normal[i], n);
     }
     Vec3 support_b(std::int32_t j, const Vec3& n) const {
-        return center_b(j) +
-               support_offset(shape_b.faces[j], shape_b.radius[j], turn * shape_b.normal[j], n);
+        return center_b(j) + support_offset(shape_b.cone[j], shape_b.radius[j],
+                                            rotation_ab * shape_b.normal[j], n);
     }
 };
 
@@ -74,7 +77,7 @@ inline double closing_speed(const Scene& scene, BodyPair pair) {
 struct Candidate {
     std::int32_t i, j;  // spheres of a and b
     Gap gap;
-    std::int32_t probe() const { return gap.a_is_surface ? j : i; }
+    std::int32_t incident() const { return gap.reference_is_a ? j : i; }
 };
 
 }  // namespace ice

@@ -4,20 +4,21 @@
 
 namespace ice {
 
-/// A probe sphere's share of its surface, seen along the contact normal.
+/// An incident sphere's share of its surface, seen along the contact normal.
 ///
 /// The share is two wings of equal area that meet at the foot, where the sphere's normal leaves the
 /// surface; their outward normals are turned by +-s from it: one plane on a face (s = 0), a roof on
 /// an edge.
 struct Patch {
-    double share = 0.0;   ///< surface the sphere stands for [m2]
+    double share = 0.0;   ///< of the surface, that the sphere represents [m2]
     double facing = 1.0;  ///< cosine of the tilt t between the sphere's and the contact's normal
     double spread_cos = 1.0;  ///< of s
     double spread_sin = 0.0;
     double wing = 0.0;  ///< length of a wing, from the foot [m]
-    double foot = 0.0;  ///< height of the foot below the probe's support along the normal [m]
+    double foot =
+        0.0;  ///< height of the foot below the incident support point along the normal [m]
     double depth =
-        0.0;  ///< how far the face lies inside the probe's support, crushed ice included;
+        0.0;  ///< depth of the face inside the incident support point, crushed ice included;
               ///< negative before touch [m]
 };
 

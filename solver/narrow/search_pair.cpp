@@ -27,9 +27,11 @@ FloatBox move_box(const FloatBox& box, const Mat3& turn, const Vec3& shift) {
     return out;
 }
 
-// How far a sphere's partner among `others` may be, less its own hypot(along, aside).
+// How far a sphere's partner among `others` may be, less its own hypot(normal_extent,
+// tangent_extent).
 float reach_of(const SphereBlocks& others, const SearchRange& range) {
-    return std::hypot(others.largest_along + range.along, others.largest_aside + range.across);
+    return std::hypot(others.largest_normal_extent + range.along,
+                      others.largest_tangent_extent + range.across);
 }
 
 }  // namespace
@@ -49,8 +51,9 @@ void PairSearch::pick(const PairView& view, double along, double across,
     const SphereBlocks& few = (few_a ? view.shape_a : view.shape_b).*blocks;
     const SphereBlocks& many = (few_a ? view.shape_b : view.shape_a).*blocks;
     // to and from the axes of the few
-    const Mat3 turn = few_a ? view.turn : Mat3(view.turn.transpose());
-    const Vec3 shift = few_a ? view.shift : Vec3(-(view.turn.transpose() * view.shift));
+    const Mat3 turn = few_a ? view.rotation_ab : Mat3(view.rotation_ab.transpose());
+    const Vec3 shift =
+        few_a ? view.translation_ab : Vec3(-(view.rotation_ab.transpose() * view.translation_ab));
     const Mat3 back = turn.transpose();
 
     const double extent = 2.0 * (few.size + 2.0 * many.size) + shift.norm();

@@ -13,18 +13,19 @@ FloatPose to_floats(const Mat3& turn, const Vec3& shift);
 
 /// Finds the spheres of two bodies that are near each other; keeps its memory between pairs.
 ///
-/// The body with fewer spheres asks the other one: of that one the groups and then the spheres near
-/// its own box are picked, of its own those near what was picked, and these are compared all with
-/// all. Crushed spheres are searched where they were before the crushing, further by its depth.
+/// Picks the groups, then the spheres of the body with more spheres that are near the other body's
+/// box; of that body the spheres near the picked ones; and compares these all with all. Crushed
+/// spheres are searched at their places before the crushing, in a range wider by its depth.
 class PairSearch {
 public:
     /// Calls visit(i, j) for all spheres i of a and j of b with
     ///
-    ///     |c_i - c_j|^2 <= (corner_i + corner_j + along)^2 + (aside_i + aside_j + across)^2,
+    ///     |c_i - c_j|^2 <= (apex_i + apex_j + along)^2 + (tangent_i + tangent_j + across)^2,
     ///
-    /// corner and aside as in Faces, and for some that are farther by rounding to floats or by
-    /// crushing. A sphere of the body with fewer spheres comes with all its partners at once.
-    /// @param blocks  the shapes' spheres; of `balls` corner is the radius and aside 0
+    /// with apex_distance and tangent_extent of NormalCone, and for some that are farther by
+    /// rounding to floats or by crushing. A sphere of the body with fewer spheres comes with all
+    /// its partners at once.
+    /// @param blocks  the shapes' spheres; in `balls` apex_distance is the radius, tangent_extent 0
     template <class Visit>
     void for_each_near(const PairView& view, double along, double across, const Visit& visit,
                        SphereBlocks Shape::*blocks = &Shape::blocks) {
@@ -56,7 +57,8 @@ private:
     const NearSpheres& partners_of(std::size_t first, std::size_t last);
 
     SearchRange range_{};
-    float reach_ = 0.0f;  // of the few, less a sphere's own hypot(along, aside) [m]
+    float reach_ =
+        0.0f;  // of the few, less a sphere's own hypot(normal_extent, tangent_extent) [m]
     std::vector<std::int32_t> groups_;
     NearSpheres few_, many_, partners_;
     NearPairs pairs_;

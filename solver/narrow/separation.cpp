@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "solver/broad/travel.hpp"
+#include "solver/broad/motion_bounds.hpp"
 
 namespace ice {
 
@@ -31,14 +31,15 @@ double gap_along(const ConvexBounds& from, std::size_t k, const ConvexBounds& ot
 double separation(const PairView& view, double enough, std::size_t& axis) {
     const ConvexBounds &a = view.shape_a.bounds, &b = view.shape_b.bounds;
     if (!a.known() || !b.known()) return -kInfinity;
-    const Mat3 back = view.turn.transpose();
-    const Vec3 shift_back = -(back * view.shift);
+    const Mat3 back = view.rotation_ab.transpose();
+    const Vec3 shift_back = -(back * view.translation_ab);
     const std::size_t axes_a = a.normals.size(), axes = axes_a + b.normals.size();
     const double excess = a.excess + b.excess;
     double widest = -kInfinity;
     const auto attempt = [&](std::size_t k) {
-        const double gap = k < axes_a ? gap_along(a, k, b, view.turn, view.shift, widest)
-                                      : gap_along(b, k - axes_a, a, back, shift_back, widest);
+        const double gap = k < axes_a
+                               ? gap_along(a, k, b, view.rotation_ab, view.translation_ab, widest)
+                               : gap_along(b, k - axes_a, a, back, shift_back, widest);
         if (gap <= widest) return;
         widest = gap;
         axis = k;
@@ -56,10 +57,12 @@ double separation(const PairView& view) {
 }
 
 double separation_share(const PairView& view) {
-    // a turn moves the other body's far end by its distance from there, and counts as Travel::arm
-    const double apart = view.shift.norm();
-    return std::max({1.0, (apart + view.shape_b.bounding_radius) / Travel::arm(view.shape_a),
-                     (apart + view.shape_a.bounding_radius) / Travel::arm(view.shape_b)});
+    // a turn moves the other body's far end by its distance from there, and counts as
+    // MotionBounds::lever
+    const double apart = view.translation_ab.norm();
+    return std::max({1.0,
+                     (apart + view.shape_b.bounding_radius) / MotionBounds::lever(view.shape_a),
+                     (apart + view.shape_a.bounding_radius) / MotionBounds::lever(view.shape_b)});
 }
 
 }  // namespace ice

@@ -18,7 +18,7 @@ double separation(const PairView& view);
 /// which the gap is, where there are any
 double separation(const PairView& view, double enough, std::size_t& axis);
 
-/// The separation is less by at most this times the way that both bodies go (Travel::way).
+/// The separation is less by at most this times the way that both bodies go (MotionBounds::path).
 double separation_share(const PairView& view);
 
 }  // namespace ice

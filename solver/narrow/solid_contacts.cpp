@@ -6,7 +6,7 @@
 #include <tuple>
 
 #include "solver/narrow/deep_seats.hpp"
-#include "solver/narrow/emit_contacts.hpp"
+#include "solver/narrow/make_contacts.hpp"
 #include "solver/narrow/nearest_sphere.hpp"
 
 namespace ice {
@@ -22,9 +22,10 @@ bool meets_in_polygon(const Scene& scene, BodyPair pair, const ContactRule& rule
 
 const ContactPolygon& find_polygon(const PairView& view, const SeparatingAxes& axes, double most) {
     thread_local ContactPolygon polygon;  // keeps its memory
-    make_contact_polygon(view.shape_a.convex, view.shape_b.convex, {view.turn, view.shift}, axes,
-                         most, polygon);
+    make_contact_polygon(view.shape_a.convex, view.shape_b.convex,
+                         {view.rotation_ab, view.translation_ab}, axes, most, polygon);
     reduce_polygon(kManifoldCorners, polygon);
+    // By place with y and -y alike: mirror images are solved in the same order.
     std::sort(polygon.corners.begin(), polygon.corners.end(),
               [](const PolygonCorner& l, const PolygonCorner& r) {
                   const auto key = [](const PolygonCorner& c) {
@@ -45,6 +46,7 @@ void emit_polygon(const PairView& view, const ContactRule& rule, const Vec3& nor
         contact.a = view.pair.a;
         contact.b = view.pair.b;
         contact.sphere_a = contact.sphere_b = -1;
+        // The warm start finds a corner again by the two features that meet in it.
         contact.key = std::uint64_t{1} << 63 | corner.id;  // no sphere has this bit
         contact.point = rotation * corner.point + view.scene.bodies.position[view.pair.a];
         contact.normal = rotation * normal;
@@ -69,9 +71,11 @@ bool is_deep(const PairView& view, double apart) {
 
 const ContactPolygon* find_lost_polygon(const PairView& view, std::span<const Candidate> found,
                                         double most) {
-    const SeparatingAxes axes =
-        find_axes(view.shape_a.convex, view.shape_b.convex, {view.turn, view.shift}, 0.0);
+    const SeparatingAxes axes = find_axes(view.shape_a.convex, view.shape_b.convex,
+                                          {view.rotation_ab, view.translation_ab}, 0.0);
     double least = 0.0;
+    // A polygon is needed only if no sphere's contact is as deep as the solids, less what was
+    // crushed and half a radius.
     for (const Candidate& c : found) least = std::min(least, c.gap.gap);
     const double crushed =
         view.scene.crushed.deepest_of(view.pair.a) + view.scene.crushed.deepest_of(view.pair.b);

@@ -16,8 +16,8 @@ namespace ice {
 /// that are convex and cannot be crushed: then no contact needs a sphere's share of the surface.
 bool meets_in_polygon(const Scene& scene, BodyPair pair, const ContactRule& rule);
 
-/// Finds their contacts within `most` [m]; those of the last pair that the thread asked about are
-/// forgotten. @pre meets_in_polygon @param axes  of the two solids, all kinds
+/// Finds their contacts within `most` [m]; valid until the thread's next call.
+/// @pre meets_in_polygon @param axes  of the two solids, all kinds
 const ContactPolygon& find_polygon(const PairView& view, const SeparatingAxes& axes, double most);
 
 /// Makes contacts of a polygon's corners, in their order. Between floes that cannot be crushed they

@@ -10,8 +10,8 @@
 
 namespace ice {
 
-/// What the rule "centres" remembers of pairs of bodies: which of their spheres may touch while the
-/// bodies do not go too far, and until when they need not be looked at at all.
+/// Neighbour lists of the rule "centres": the spheres of a pair of bodies that may touch while the
+/// bodies move within the skin, and the paths up to which the pair need not be measured at all.
 class SphereLists {
 public:
     /// Of one pair.
@@ -19,23 +19,24 @@ public:
         // when its spheres were listed
         Mat3 turn = Mat3::Zero();   ///< PairView's
         Vec3 shift = Vec3::Zero();  ///< PairView's, the list's origin [m]
-        double crushed = 0.0;       ///< Travel::crushed of both bodies [m]
+        double crushed = 0.0;       ///< MotionBounds::crushed of both bodies [m]
         double range = -1.0;        ///< all whose gap was at most this are listed [m]; < 0: none
         double unit = 1.0;          ///< of the list [m]
 
-        std::size_t axis = 0;  ///< of separation(), when last looked at
+        std::size_t axis = 0;  ///< of separation(), when last measured
 
     private:
         friend class SphereLists;
         std::size_t first = 0, count = 0;  // of blocks_
     };
 
-    /// Takes what is known of pairs over to a new list; both sorted.
+    /// Keeps the rows of pairs that are in the new list, too; both lists are sorted.
     void match(const std::vector<BodyPair>& pairs);
 
     Row& row(std::size_t k) { return rows_[k]; }
 
-    /// Pair k has no contact while the sum of its bodies' Travel::soon is less than this [m].
+    /// Pair k has no contact while the sum of its bodies' MotionBounds::path_after_step is less
+    /// than this [m].
     double& wake(std::size_t k) { return wake_[k]; }
 
     /// Spheres of pair k that may touch; good until the next keep() or match().
@@ -48,7 +49,7 @@ private:
     void close_gaps();
 
     std::vector<BodyPair> pairs_;
-    std::vector<double> wake_, moved_wake_;  // by pair; all of them are asked in every step
+    std::vector<double> wake_, moved_wake_;  // by pair; all of them are read in every step
     std::vector<Row> rows_, moved_rows_;     // by pair
     std::vector<ListedSpheres> blocks_, moved_blocks_;
     std::size_t kept_ = 0;  // of blocks_ that rows use

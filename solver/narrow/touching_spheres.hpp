@@ -15,7 +15,8 @@ namespace ice {
 /// of a length that their list has.
 ///
 /// Lists are read in every step, those of many bodies from beyond the caches: with 16 bits a number
-/// they take two thirds of the room of floats. What touches is measured in double precision.
+/// they take two thirds of the room of floats. Touching spheres are measured again in double
+/// precision.
 struct alignas(64) ListedSpheres {
     static constexpr std::size_t kPairs = 16;
 
@@ -25,12 +26,12 @@ struct alignas(64) ListedSpheres {
     std::int16_t radii[kPairs];                       ///< sum of both radii; -kMost - 1 in the fill
 
     static constexpr int kMost = 32767;  ///< largest number of units
-    /// What a gap may be off: 0.5 (2 sqrt(3) + 1) = 2.24 by rounding to units, 0.1 by floats.
+    /// Largest error of a gap: 0.5 (2 sqrt(3) + 1) = 2.24 by rounding to units, 0.1 by floats.
     static constexpr double kError = 2.5;
     static constexpr float kNowhere = 1e9f;  ///< a gap that is wider than any
 };
 
-/// What find_touching found; entries from `count` on mean nothing.
+/// Results of find_touching; entries from `count` on mean nothing.
 struct TouchingSpheres {
     std::vector<std::int32_t> a, b;
     std::size_t count = 0;

@@ -101,7 +101,7 @@ Deepest deepest_point(const Scene& scene, std::int32_t a, std::int32_t b, const 
         if (depth > out.depth) out = {depth, bodies.position[b] + bodies.rotation[b] * p};
     };
     for (std::int32_t k = 0; k < std::ssize(points.center); ++k) {
-        const Vec3 center = points.center[k] + scene.crushed.recess_of(a, k);
+        const Vec3 center = points.center[k] + scene.crushed.displacement_of(a, k);
         // crushing has driven it right through its body
         if (!scene.crushed.is_whole(a) && !points.box.contains(center)) continue;
         look(center + points.radius[k] * points.normal[k]);

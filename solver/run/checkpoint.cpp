@@ -16,7 +16,7 @@ namespace {
 
 using Direction = CheckpointFile::Direction;
 
-// What a checkpoint says about the run it belongs to.
+// The identity of a checkpoint's run.
 struct Identity {
     std::string resolved;               // the case, every key
     std::vector<std::uint64_t> shapes;  // hash of the hull's form, then of each group's floes
@@ -34,9 +34,9 @@ std::uint64_t hash_of(const Shape& shape) {
     add(shape.mesh.vertices);
     for (const auto* list : {&shape.radius, &shape.area, &shape.spread_cos, &shape.spread_sin})
         for (const double value : *list) hash.add(value);
-    for (const Faces& faces : shape.faces) {
+    for (const NormalCone& faces : shape.cone) {
         hash.add(static_cast<std::uint64_t>(faces.count));
-        hash.add(faces.corner);
+        hash.add(faces.apex_distance);
         for (const Vec3& n : faces.normal)
             for (int d = 0; d < 3; ++d) hash.add(n[d]);
     }
@@ -92,11 +92,11 @@ std::map<std::string, std::string> keys_of(const std::string& resolved) {
 
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& what) {
     throw bad_input(path.string(), what,
-                    "a run goes on as it began, only simulation.duration may change: give the "
+                    "a resumed run keeps its case, only simulation.duration may change: give the "
                     "checkpoint's value with --set, or run the case anew without --restart");
 }
 
-// What holds another form than at the checkpoint: the hull, k = 0, or the k-th group of floes.
+// The part with another shape than at the checkpoint: the hull, k = 0, or the k-th group of floes.
 std::string other_shapes(const Case& parameters, std::size_t k) {
     constexpr auto other_set = "spheres: the file holds another sphere set than at the checkpoint";
     if (k == 0) return fmt::format("hull.{}", other_set);
@@ -112,6 +112,7 @@ void check_case(const std::filesystem::path& path, const Identity& then, const I
         const auto found = keys.find(name);
         return found == keys.end() ? std::string("not given") : found->second;
     };
+    // All differences at once: a user mends the command line in one go.
     auto all = old_keys;
     all.insert(new_keys.begin(), new_keys.end());
     std::string differences;
@@ -124,7 +125,7 @@ void check_case(const std::filesystem::path& path, const Identity& then, const I
         if (then.shapes[k] != now.shapes[k]) refuse(path, other_shapes(parameters, k));
 }
 
-// A seal is no proof of sense: what a faulty program sealed must not go on.
+// A seal does not prove the numbers: a faulty program may have sealed NaN.
 void check_numbers(const std::filesystem::path& path, const Bodies& b) {
     for (std::size_t i = 0; i < b.size(); ++i)
         if (!b.position[i].allFinite() || !b.orientation[i].coeffs().allFinite() ||
@@ -170,6 +171,8 @@ SavedRun read_checkpoint(const std::filesystem::path& path, World& world) {
     carry(file, saved.progress);
     Bodies& b = world.scene.bodies;
     check_numbers(path, b);
+    // Velocities and matrices are functions of the state and not stored: computed by the same code,
+    // they have the same bits.
     for (std::size_t i = 0; i < b.size(); ++i) update_derived(b, i);
     list_moving(b);
     if (world.time > world.parameters.duration + 0.5 * world.parameters.time_step)

@@ -37,12 +37,12 @@ void carry(CheckpointFile& file, World& w) {
     w.ship.carry(file);
     w.edge.carry(file);
     file.carry("crushed.first", w.scene.crushed.first);
-    file.carry("crushed.recess", w.scene.crushed.recess);
+    file.carry("crushed.recess", w.scene.crushed.displacement);
     file.carry("crushed.deepest", w.scene.crushed.deepest);
 
     w.warm_start.carry(file);
 
-    // the last step's impulses: they are part of the state hash, which may be asked for at once
+    // the last step's impulses: they are part of the state hash, which may be read at once
     file.column("impulses.impact_normal", w.constraints, &Constraint::impact_normal);
     file.column("impulses.impact_tangent", w.constraints, &Constraint::impact_tangent);
     file.column("impulses.rest_normal", w.constraints, &Constraint::rest_normal);

@@ -18,8 +18,8 @@ std::vector<Vec3> places_felt(const Shape& hull) {
     std::vector<Vec3> out;
     for (std::size_t k = 0; k < hull.center.size(); ++k) {
         out.push_back(hull.center[k] + hull.radius[k] * hull.normal[k]);
-        if (hull.faces[k].count > 0)
-            out.push_back(hull.center[k] + hull.faces[k].corner * hull.normal[k]);
+        if (hull.cone[k].count > 0)
+            out.push_back(hull.center[k] + hull.cone[k].apex_distance * hull.normal[k]);
     }
     std::sort(out.begin(), out.end(), [](const Vec3& l, const Vec3& r) { return l.x() < r.x(); });
     return out;

@@ -9,15 +9,14 @@
 
 namespace ice {
 
-/// How far contact has crushed the ice: crushed ice does not come back, so its sphere lies deeper.
-///
-/// Mass, buoyancy and drag stay those of the whole floe: the crushed ice floats on.
+/// Depths to which contact has crushed the ice. Crushed ice is gone for good, so its sphere lies
+/// deeper in the floe. Mass, buoyancy and drag remain those of the whole floe.
 struct CrushedIce {
-    std::vector<std::int64_t> first;  ///< per body: its row of recess, -1 while whole
-    std::vector<Vec3> recess;         ///< per surface sphere of crushed bodies, body axes [m]
-    std::vector<double> deepest;      ///< per body, as far as `first`: its longest recess [m]
+    std::vector<std::int64_t> first;  ///< per body: its row of displacement, -1 while whole
+    std::vector<Vec3> displacement;   ///< per surface sphere of crushed bodies, body axes [m]
+    std::vector<double> deepest;      ///< per body, as far as `first`: its longest displacement [m]
 
-    /// What the last step crushed: a body and how far one of its spheres went [m].
+    /// A sphere's crushing in the last step: its body and depth [m].
     struct CrushEvent {
         std::int32_t body;
         double depth;
@@ -29,9 +28,10 @@ struct CrushedIce {
                first[static_cast<std::size_t>(body)] < 0;
     }
     /// Place of a surface sphere relative to its place in the whole floe, body axes [m].
-    Vec3 recess_of(std::int32_t body, std::int32_t sphere) const {
+    Vec3 displacement_of(std::int32_t body, std::int32_t sphere) const {
         if (is_whole(body)) return Vec3::Zero();
-        return recess[static_cast<std::size_t>(first[static_cast<std::size_t>(body)] + sphere)];
+        return displacement[static_cast<std::size_t>(first[static_cast<std::size_t>(body)] +
+                                                     sphere)];
     }
     double deepest_of(std::int32_t body) const {
         return is_whole(body) ? 0.0 : deepest[static_cast<std::size_t>(body)];
@@ -44,11 +44,11 @@ struct CrushedIce {
         }
         auto& row = first[static_cast<std::size_t>(body)];
         if (row < 0) {
-            row = static_cast<std::int64_t>(recess.size());
-            recess.resize(recess.size() + spheres, Vec3::Zero());
+            row = static_cast<std::int64_t>(displacement.size());
+            displacement.resize(displacement.size() + spheres, Vec3::Zero());
         }
         recent.push_back({body, move.norm()});
-        Vec3& total = recess[static_cast<std::size_t>(row + sphere)];
+        Vec3& total = displacement[static_cast<std::size_t>(row + sphere)];
         total += move;
         double& most = deepest[static_cast<std::size_t>(body)];
         most = std::max(most, total.norm());

@@ -9,7 +9,7 @@
 namespace ice {
 
 /// A sphere as a bound sees it: nothing of it is farther than this from its centre but the tip of
-/// the sharp edge or corner that it stands for.
+/// the sharp edge or corner that it represents.
 struct BoundedSphere {
     Vec3 center;              ///< [m]
     double radius;            ///< [m]

@@ -8,12 +8,12 @@
 
 namespace ice {
 
-/// The regions of the faces that surface spheres stand for, to book contacts on.
+/// The regions of the faces that surface spheres represent, to book contacts on.
 ///
 /// Most spheres have one region, that of the mesh around them. One beside a border of regions, in
-/// an edge or near its end, stands for faces of both: which of them a contact presses, its normal
-/// says. Faces are the mesh's triangles up to half a spacing farther from the sphere's centre than
-/// its radius.
+/// an edge or near its end, represents faces of both: the contact's normal decides which of them
+/// it presses. Faces are the mesh's triangles up to half a spacing farther from the sphere's centre
+/// than its radius.
 class FaceRegions {
 public:
     FaceRegions() = default;

@@ -14,8 +14,8 @@ namespace ice {
 
 namespace {
 
-// Faces whose normals are this far apart (cosine) meet in a knife edge of less than 20 degrees, or
-// are the two sides of a plate as thin as the sphere: that is left round.
+// Faces whose normals are this far apart (cosine) meet in a knife edge of less than 20
+// degrees, or are the two sides of a plate as thin as the sphere: that is left round.
 constexpr double kKnife = -0.94;
 
 // Normals whose box product with two others is below this lie in their plane: an edge, no corner.
@@ -30,7 +30,7 @@ FacetBlocks facets_of(const TriangleMesh& mesh) {
 
 // Of the normals that meet at a sphere three at most: the two farthest apart and the one farthest
 // out of their plane. Edges of smooth strips list many that lie between these.
-Faces outermost_faces(const std::vector<Vec3>& normals) {
+NormalCone outermost_faces(const std::vector<Vec3>& normals) {
     if (normals.size() < 2) return {};
     double least = 2.0, most = kSamePlane;
     std::array<Vec3, 3> out{normals[0], normals[1], Vec3::Zero()};
@@ -50,29 +50,30 @@ Faces outermost_faces(const std::vector<Vec3>& normals) {
             out[2] = n;
             count = 3;
         }
-    return Faces::meeting({out.data(), count});
+    return NormalCone::meeting({out.data(), count});
 }
 
-std::vector<Faces> meeting_faces(const SphereSet& set) {
+std::vector<NormalCone> meeting_faces(const SphereSet& set) {
     std::vector<std::vector<Vec3>> normals(set.surface_count);
     for (const CreaseNormal& c : set.creases)
         normals[static_cast<std::size_t>(c.sphere)].push_back(c.normal);
-    std::vector<Faces> out;
+    std::vector<NormalCone> out;
     for (std::size_t k = 0; k < set.surface_count; ++k) {
-        Faces faces = outermost_faces(normals[k]);
+        NormalCone faces = outermost_faces(normals[k]);
         // the point along the middle normal that no face's plane leaves outside
         double nearest = 0.0;
         for (const Vec3& n : normals[k]) nearest = std::max(nearest, n.dot(set.normals[k]));
-        faces.corner = faces.count > 0 && nearest > 0.0 ? set.radii[k] / nearest : set.radii[k];
-        faces.aside =
-            std::sqrt(std::max(0.0, faces.corner * faces.corner - set.radii[k] * set.radii[k]));
+        faces.apex_distance =
+            faces.count > 0 && nearest > 0.0 ? set.radii[k] / nearest : set.radii[k];
+        faces.tangent_extent = std::sqrt(
+            std::max(0.0, faces.apex_distance * faces.apex_distance - set.radii[k] * set.radii[k]));
         out.push_back(faces);
     }
     return out;
 }
 
 void copy_surface_spheres(const SphereSet& set, const Vec3& origin, Shape& shape) {
-    shape.faces = meeting_faces(set);
+    shape.cone = meeting_faces(set);
     for (std::size_t k = 0; k < set.surface_count; ++k) {
         shape.center.push_back(set.centers[k] - origin);
         shape.radius.push_back(set.radii[k]);
@@ -86,21 +87,21 @@ void copy_surface_spheres(const SphereSet& set, const Vec3& origin, Shape& shape
     }
 }
 
-// Numbers the kinds by their first spheres.
+// Numbers the feature types by their first spheres.
 void find_kinds(Shape& shape) {
     std::map<std::array<double, 18>, std::int32_t> known;
     for (std::size_t k = 0; k < shape.center.size(); ++k) {
-        const Faces& faces = shape.faces[k];
-        std::array<double, 18> key{shape.radius[k], shape.spread_cos[k], faces.corner, faces.aside,
-                                   static_cast<double>(faces.count)};
+        const NormalCone& faces = shape.cone[k];
+        std::array<double, 18> key{shape.radius[k], shape.spread_cos[k], faces.apex_distance,
+                                   faces.tangent_extent, static_cast<double>(faces.count)};
         auto to = key.begin() + 5;
         for (int d = 0; d < 3; ++d) *to++ = shape.normal[k][d];
         for (const Vec3& n : faces.normal)
             for (int d = 0; d < 3; ++d) *to++ = n[d];
         const auto next = static_cast<std::int32_t>(known.size());
-        shape.kind.push_back(known.try_emplace(key, next).first->second);
+        shape.feature_type.push_back(known.try_emplace(key, next).first->second);
     }
-    shape.kinds = known.size();
+    shape.feature_types = known.size();
 }
 
 void rank_places(Shape& shape) {
@@ -121,7 +122,7 @@ void rank_places(Shape& shape) {
 // The largest distance from a surface sphere to its nearest neighbour is the set's real spacing s.
 // A square lattice leaves points s / sqrt(2) from every sphere, a hexagonal one s / sqrt(3). On a
 // thin plate the nearest is across the thickness: along the edges they are the nominal apart.
-double measure_reach(const Shape& shape, double nominal_spacing) {
+double measure_patch_radius(const Shape& shape, double nominal_spacing) {
     const double limit = 3.0 * std::max(nominal_spacing, 2.0 * shape.largest_radius);
     const SphereGrid grid(shape.center, 2.0 * shape.largest_radius);
     double spacing = 0.0;
@@ -172,18 +173,20 @@ Shape build_shape(const SphereSet& set, bool about_centre_of_mass) {
     for (std::size_t k = 0; k < shape.center.size(); ++k) {
         bounded.push_back({shape.center[k], shape.radius[k]});
         // the edges of a chamfer narrower than the sphere are one sharp edge, outside the mesh
-        if (shape.faces[k].count > 0) bounded.back().tip = shape.faces[k].corner * shape.normal[k];
+        if (shape.cone[k].count > 0)
+            bounded.back().tip = shape.cone[k].apex_distance * shape.normal[k];
     }
     shape.bounds = ConvexBounds(shape.mesh, bounded);
     if (set.dimension == 3) shape.convex = make_convex_piece(shape.mesh);
     shape.spacing = set.spacing;
-    shape.reach = measure_reach(shape, set.spacing);
-    shape.borders = FaceBorders(shape);
+    shape.patch_radius = measure_patch_radius(shape, set.spacing);
+    shape.side_planes = SidePlanes(shape);
     std::vector<SearchSphere> spheres, balls;
-    for (Faces& faces : shape.faces)  // an edge's sphere stands for that much of it either way
-        if (faces.count > 0) faces.aside += 0.5 * shape.reach;
+    for (NormalCone& faces : shape.cone)  // half the part of an edge that its sphere represents
+        if (faces.count > 0) faces.tangent_extent += 0.5 * shape.patch_radius;
     for (std::size_t k = 0; k < shape.center.size(); ++k) {
-        spheres.push_back({shape.center[k], shape.faces[k].corner, shape.faces[k].aside});
+        spheres.push_back(
+            {shape.center[k], shape.cone[k].apex_distance, shape.cone[k].tangent_extent});
         balls.push_back({shape.center[k], shape.radius[k], 0.0});
     }
     shape.blocks = SphereBlocks(spheres);

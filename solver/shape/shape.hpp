@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// What all bodies made from one sphere file share: contact spheres, mesh and mass integrals.
+/// The data that all bodies made from one sphere file share: contact spheres, mesh, mass integrals.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -11,9 +11,9 @@
 
 #include "common/formats/sphere_set.hpp"
 #include "solver/shape/convex_bounds.hpp"
-#include "solver/shape/face_borders.hpp"
 #include "solver/shape/face_regions.hpp"
-#include "solver/shape/faces.hpp"
+#include "solver/shape/normal_cone.hpp"
+#include "solver/shape/side_planes.hpp"
 #include "solver/shape/solid.hpp"
 #include "solver/shape/solid_surface.hpp"
 #include "solver/shape/sphere_blocks.hpp"
@@ -31,11 +31,12 @@ struct Shape {
     std::vector<Vec3> normal;        ///< outward, unit
     std::vector<double> spread_cos;  ///< of the half-angle between `normal` and the surface
     std::vector<double> spread_sin;  ///<   normals met there: 1 and 0 on a face
-    std::vector<Faces> faces;        ///< that meet at the sphere; none on a face
-    std::vector<std::int32_t> kind;  ///< spheres of one kind differ by place, area and region only
-    std::size_t kinds = 0;
+    std::vector<NormalCone> cone;    ///< of the faces that meet at the sphere; empty on a face
+    /// Spheres of one feature type differ in place, area and region only.
+    std::vector<std::int32_t> feature_type;
+    std::size_t feature_types = 0;
     /// Rank by place, mirror images about y = 0 alike. Decisions and orders that look at this
-    /// before any index make mirror-image states go on as mirror images, bit for bit.
+    /// before any index keep mirror-image states mirror images, bit for bit.
     std::vector<std::int32_t> mirror_rank;
     std::vector<double> area;  ///< share of the surface [m2]
     FaceRegions region;        ///< rows of region_names
@@ -47,8 +48,9 @@ struct Shape {
     SphereBlocks balls;            ///< the same without their faces, for the rule "centres"
     double largest_radius = 0.0;   ///< [m]
     double spacing = 0.0;          ///< nominal distance of the surface spheres [m]
-    double reach = 0.0;            ///< how far from its centre a sphere stands for the surface [m]
-    FaceBorders borders;           ///< where that ends before
+    double patch_radius =
+        0.0;                 ///< of each sphere: it represents the surface that near its centre [m]
+    SidePlanes side_planes;  ///< at which the faces end within it
 
     TriangleMesh mesh;                            ///< closed, body axes
     FacetBlocks facets;                           ///< its triangles, for the water's loads

@@ -21,7 +21,7 @@ struct Plane {
     double offset;
 };
 
-// What mirror images about y = 0 have in common, then y.
+// A sort key: first the coordinates that mirror images about y = 0 have in common, then y.
 std::tuple<double, double, double, double> mirror_key(const Vec3& v) {
     return {v.x(), std::abs(v.y()), v.z(), v.y()};
 }

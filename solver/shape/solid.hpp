@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// The solid that a body's spheres stand for, as its planes, corners and edges.
+/// The solid that a body's spheres represent, as its planes, corners and edges.
 #pragma once
 
 #include <Eigen/Geometry>

@@ -61,28 +61,30 @@ SphereBlocks::SphereBlocks(std::span<const SearchSphere> spheres) : count(sphere
     std::iota(order.begin(), order.end(), 0);
     sort_by_place(spheres, order);
 
+    // The last group is filled up with spheres far from everything: kernels need no remainder loop.
     group_count = (count + kGroup - 1) / kGroup;
     const std::size_t padded = group_count * kGroup;
     x.assign(padded, kFarAway);
     y = z = x;
-    along.assign(padded, 0.0f);
-    aside = own = along;
+    normal_extent.assign(padded, 0.0f);
+    tangent_extent = own = normal_extent;
     id.assign(padded, -1);
     for (std::size_t k = 0; k < count; ++k) {
         const SearchSphere& s = spheres[static_cast<std::size_t>(order[k])];
         x[k] = static_cast<float>(s.center.x());
         y[k] = static_cast<float>(s.center.y());
         z[k] = static_cast<float>(s.center.z());
-        along[k] = static_cast<float>(s.along);
-        aside[k] = static_cast<float>(s.aside);
-        own[k] = static_cast<float>(std::hypot(s.along, s.aside));
+        normal_extent[k] = static_cast<float>(s.normal_extent);
+        tangent_extent[k] = static_cast<float>(s.tangent_extent);
+        own[k] = static_cast<float>(std::hypot(s.normal_extent, s.tangent_extent));
         id[k] = order[k];
-        largest_along = std::max(largest_along, along[k]);
-        largest_aside = std::max(largest_aside, aside[k]);
+        largest_normal_extent = std::max(largest_normal_extent, normal_extent[k]);
+        largest_tangent_extent = std::max(largest_tangent_extent, tangent_extent[k]);
         largest_own = std::max(largest_own, own[k]);
         size = std::max({size, std::abs(x[k]), std::abs(y[k]), std::abs(z[k])});
     }
     if (count == 0) return;
+    // Two levels of boxes: most of a hull's 16 x 16 clusters are ruled out by one test each.
     const BoxRows points{{x, y, z}, {x, y, z}};
     groups = box_every_16(points, count);
     clusters = box_every_16(groups, group_count);

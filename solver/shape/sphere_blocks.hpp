@@ -10,11 +10,11 @@
 
 namespace ice {
 
-/// A sphere as the search sees it: where it is and how far from there its surface may be.
+/// A sphere for the search, with the extents of the patch that it represents.
 struct SearchSphere {
-    Vec3 center;   ///< [m]
-    double along;  ///< along a contact normal: Faces::corner [m]
-    double aside;  ///< and across it: Faces::aside [m]
+    Vec3 center;            ///< [m]
+    double normal_extent;   ///< along a contact normal, NormalCone::apex_distance [m]
+    double tangent_extent;  ///< across it, NormalCone::tangent_extent [m]
 };
 
 /// Axis-aligned box [m].
@@ -31,25 +31,25 @@ struct BoxRows {
 
 /// The surface spheres of a shape in groups of 16 neighbours, for the search of near spheres.
 ///
-/// Floats: the search may find too much, never too little, so its user adds what rounding to
-/// floats costs (kFloatShare) to all distances; what it found is measured in double precision.
+/// Floats: the search may find too much, never too little, so its user adds the error of rounding
+/// to floats (kFloatShare) to all distances; the pairs found are measured in double precision.
 struct SphereBlocks {
     static constexpr std::size_t kGroup = 16;
     /// Distances between floats are right to this share of the coordinates' size.
     static constexpr float kFloatShare = 1e-6f;
 
     // per sphere; the last group is filled up with spheres that are far from everything
-    std::vector<float> x, y, z;       ///< centre, body axes [m]
-    std::vector<float> along, aside;  ///< SearchSphere's [m]
-    std::vector<float> own;           ///< hypot(along, aside) [m]
-    std::vector<std::int32_t> id;     ///< the shape's number of the sphere; -1 in the fill
+    std::vector<float> x, y, z;                        ///< centre, body axes [m]
+    std::vector<float> normal_extent, tangent_extent;  ///< SearchSphere's [m]
+    std::vector<float> own;                            ///< hypot(normal_extent, tangent_extent) [m]
+    std::vector<std::int32_t> id;  ///< the shape's number of the sphere; -1 in the fill
 
     BoxRows groups;         ///< of the centres of each group
     BoxRows clusters;       ///< of 16 groups each; both rows are filled up to 16 with empty boxes
     std::size_t count = 0;  ///< spheres
     std::size_t group_count = 0;
     FloatBox box{};  ///< of all centres
-    float largest_along = 0.0f, largest_aside = 0.0f, largest_own = 0.0f;
+    float largest_normal_extent = 0.0f, largest_tangent_extent = 0.0f, largest_own = 0.0f;
     float size = 0.0f;  ///< largest coordinate of a centre [m]
 
     SphereBlocks() = default;

@@ -35,6 +35,7 @@ void BentFloes::find(Scene& scene, const Case& parameters,
     loads_.resize(b.size());
     for (const Constraint& c : constraints) {
         if (c.total_normal() <= 0.0) continue;
+        // The downward load (26) of ship and moving floes, summed in the order of the contacts.
         const double up = c.total_normal() * c.normal.z() + c.total_tangent().z();  // on b
         if (b.is_unbent(static_cast<std::size_t>(c.b))) add(c.b, up, c);
         if (b.is_unbent(static_cast<std::size_t>(c.a))) add(c.a, -up, c);
@@ -42,6 +43,8 @@ void BentFloes::find(Scene& scene, const Case& parameters,
     for (const std::int32_t floe : pressed_) {
         const auto i = static_cast<std::size_t>(floe);
         const Load load = std::exchange(loads_[i], Load{});
+        // Impulses of a step against load times step: P_f f(v_n) dt with the mean closing speed,
+        // weighted by normal impulse.
         const double bears =
             b.breaking_load[i] * speed_factor(parameters.bending, load.closing / load.normal);
         if (load.down >= bears * parameters.time_step) b.held[i] = kBent;

@@ -12,6 +12,7 @@ bool touches(const Bodies& b, const Contact& c, double dt) {
     const auto velocity_at = [&](std::int32_t i) -> Vec3 {
         return b.velocity[i] + b.angular_velocity[i].cross(b.arm(i, c.point));
     };
+    // The same criterion as for impacts: the gap closes within the step.
     const double approach = (velocity_at(c.b) - velocity_at(c.a)).dot(c.normal);
     return c.gap + dt * std::min(approach, 0.0) <= 0.0;
 }
@@ -40,6 +41,8 @@ bool lets_go(const Scene& scene, const Case& parameters, std::int32_t touched, s
 
 bool release_touched(Scene& scene, const Case& parameters, const std::vector<Contact>& contacts) {
     if (scene.bodies.moving.size() + 1 == scene.bodies.size()) return false;  // none is held
+    // The caller searches contacts again while floes are released: a floe let go may press on the
+    // next.
     bool any = false;
     for (const Contact& c : contacts) {
         const bool a = lets_go(scene, parameters, c.a, c.b);

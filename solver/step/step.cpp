@@ -39,7 +39,7 @@ void renew_edge(World& w) {
     if (!w.edge.renew(w.scene, w.parameters, w.time)) return;
     *w.ledger.potential_start += potential_energy(w.scene, w.parameters) - before;
     w.warm_start = {};
-    w.travel = {};
+    w.motion = {};
     w.pairs = {};
     w.finder = {};
 }
@@ -63,11 +63,11 @@ void step(World& w) {
     // who touches whom; a floe let go may touch neighbours that did not matter while it was held
     do {
         timed(w, Stage::broad, [&] {
-            w.travel.update(w.scene, dt);
-            w.pairs.update(w.scene, w.travel, contact_margin(w.parameters));
+            w.motion.update(w.scene, dt);
+            w.pairs.update(w.scene, w.motion, contact_margin(w.parameters));
         });
         timed(w, Stage::narrow, [&] {
-            w.finder.find(w.scene, w.pairs.pairs(), w.travel, ContactRule(w.parameters), dt,
+            w.finder.find(w.scene, w.pairs.pairs(), w.motion, ContactRule(w.parameters), dt,
                           contact_margin(w.parameters), w.contacts);
         });
     } while (release_touched(w.scene, w.parameters, w.contacts));

@@ -31,7 +31,7 @@ struct World {
     double time = 0.0;  ///< [s]
     std::int64_t steps = 0;
 
-    Travel travel;
+    MotionBounds motion;
     PairList pairs;
     std::vector<Contact> contacts;
     std::vector<Constraint> constraints;

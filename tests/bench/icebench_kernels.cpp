@@ -42,8 +42,8 @@ NearSpheres row_of_spheres(std::size_t count, float y) {
         out.x.push_back(0.1f * static_cast<float>(k));
         out.y.push_back(y);
         out.z.push_back(0.0f);
-        out.along.push_back(0.05f);
-        out.aside.push_back(0.0f);
+        out.normal_extent.push_back(0.05f);
+        out.tangent_extent.push_back(0.0f);
         out.own.push_back(0.05f);
         out.id.push_back(static_cast<std::int32_t>(k));
     }
@@ -71,7 +71,7 @@ double time_hull_search(const World& w) {
     PairSearch search;
     std::size_t found = 0;
     const double reach =
-        w.scene.shapes[static_cast<std::size_t>(w.scene.bodies.shape[kShip])].reach;
+        w.scene.shapes[static_cast<std::size_t>(w.scene.bodies.shape[kShip])].patch_radius;
     return least_ns(5, spheres, [&] {
         for (const PairView& view : views)
             search.for_each_near(view, kMargin, reach,

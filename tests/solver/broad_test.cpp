@@ -44,7 +44,7 @@ TEST_CASE("a list of pairs follows a ship, and a floe let go far from it, throug
     for (std::size_t i = 2; i < b.size(); ++i)
         if (way * b.position[i].x() > way * b.position[far].x()) far = i;
     const double dt = 0.05, margin = 0.01;
-    Travel travel;
+    MotionBounds motion;
     PairList list;
     std::size_t of_ship = 0, of_floe = 0, longest = 0;
     for (int k = 0; k < 800; ++k) {
@@ -53,8 +53,8 @@ TEST_CASE("a list of pairs follows a ship, and a floe let go far from it, throug
             list_moving(b);
             b.velocity[far] = Vec3(-0.3 * way, 0, 0);
         }
-        travel.update(w.scene, dt);
-        list.update(w.scene, travel, margin);
+        motion.update(w.scene, dt);
+        list.update(w.scene, motion, margin);
         std::vector<BodyPair> expected;
         reference::find_pairs(w.scene, margin, expected);
         REQUIRE(std::includes(list.pairs().begin(), list.pairs().end(), expected.begin(),
@@ -83,11 +83,11 @@ TEST_CASE("a floe whose place is no number is in no pair with floes, and hides n
     std::erase_if(after, of_lost);
     CHECK(after == before);
     // a list is made anew until it is a number again
-    Travel travel;
+    MotionBounds motion;
     PairList list;
     for (int k = 0; k < 3; ++k) {
-        travel.update(w.scene, 0.01);
-        list.update(w.scene, travel, 0.05);
+        motion.update(w.scene, 0.01);
+        list.update(w.scene, motion, 0.05);
         CHECK(
             std::includes(list.pairs().begin(), list.pairs().end(), before.begin(), before.end()));
     }

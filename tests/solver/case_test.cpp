@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Case files: values, units, overrides, and the text of every complaint.
-#include <unistd.h>
-
+// Case files: values, units, defaults and overrides.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <filesystem>
@@ -11,72 +9,10 @@
 #include "common/toml/read_toml.hpp"
 #include "solver/case/case_schema.hpp"
 #include "solver/case/read_case.hpp"
+#include "tests/solver/case_support.hpp"
 
 using namespace ice;
-
-namespace {
-
-const std::string kGood = R"(title = "test"
-[simulation]
-duration = 30.0
-time_step = "5 ms"
-[hull]
-spheres = "hull.spheres.h5"
-speed = "2 kn"
-[[floes]]
-spheres = "floe.spheres.h5"
-count = [20, 9]
-gap = ["20 mm", 0.02]
-hold = "always"
-[contact]
-crushing_pressure = "1.5 MPa"
-[output]
-track = [1, 2]
-)";
-
-// A folder with a case file and the files it names.
-class CaseFolder {
-public:
-    explicit CaseFolder(const std::string& text) {
-        static int number = 0;
-        folder_ =
-            std::filesystem::temp_directory_path() /
-            ("icesolve-case-test-" + std::to_string(::getpid()) + "-" + std::to_string(++number));
-        std::filesystem::create_directories(folder_);
-        std::ofstream(folder_ / "hull.spheres.h5") << "x";
-        std::ofstream(folder_ / "floe.spheres.h5") << "x";
-        std::ofstream(file()) << text;
-    }
-    ~CaseFolder() { std::filesystem::remove_all(folder_); }
-    std::filesystem::path file() const { return folder_ / "case.cfg"; }
-
-private:
-    std::filesystem::path folder_;
-};
-
-std::string complaint(const std::string& text, const std::vector<std::string>& overrides = {}) {
-    const CaseFolder folder(text);
-    try {
-        read_case(folder.file(), overrides);
-    } catch (const Error& error) {
-        CHECK(error.code() == ExitCode::bad_input);
-        return error.what();
-    }
-    return "";
-}
-
-std::string with(const std::string& from, const std::string& to) {
-    std::string text = kGood;
-    return text.replace(text.find(from), from.size(), to);
-}
-
-bool contains(const std::string& text, const std::string& part) {
-    if (text.find(part) != std::string::npos) return true;
-    UNSCOPED_INFO("not found: " << part << "\nin: " << text);
-    return false;
-}
-
-}  // namespace
+using namespace ice::test;
 
 TEST_CASE("a case reads with units, defaults and derived values", "[case]") {
     const CaseFolder folder(kGood);
@@ -125,59 +61,6 @@ TEST_CASE("overrides are read as TOML, then as text with a unit", "[case]") {
     CHECK(c.floes[0].gap[1] == 0.2);
 }
 
-TEST_CASE("mistakes are named with line, column and remedy", "[case][errors]") {
-    CHECK(contains(complaint(with("duration", "duratoin")),
-                   ":3:1: error: unknown key 'simulation.duratoin'; did you mean "
-                   "'simulation.duration'?"));
-    CHECK(contains(complaint(with("\"5 ms\"", "\"5 kg\"")), "use s, ms, min, h"));
-    CHECK(contains(complaint(with("30.0", "-1.0")), "simulation.duration = -1 is outside"));
-    CHECK(contains(complaint(with("30.0", "nan")), "simulation.duration = nan is outside"));
-    CHECK(contains(complaint(with("\"always\"", "\"forever\"")),
-                   "never|until-hull-contact|until-contact|until-bent|always"));
-    CHECK(contains(complaint(with("[20, 9]", "[20]")), "must be a list of 2 numbers"));
-    CHECK(contains(complaint(with("[20, 9]", "[2.5, 9]")), "holds whole numbers"));
-    CHECK(contains(complaint(with("speed = \"2 kn\"", "")), "'hull.speed' (or hull.speed_table)"));
-    CHECK(contains(complaint(with("duration = 30.0", "")),
-                   "required key 'simulation.duration' is missing"));
-    CHECK(contains(complaint(with("hull.spheres.h5", "hulk.spheres.h5")), "make it with spherize"));
-    CHECK(contains(complaint(with("[[floes]]", "[floes]")), "floes"));
-    CHECK(contains(complaint(with("duration = 30.0", "duration = ")), ":3:"));
-    CHECK(contains(complaint(with("time_step = \"5 ms\"", "time_step = 0.01\ntime_step = 0.02")),
-                   ":5:"));
-    CHECK(contains(complaint(kGood, {"ice.densty=900"}), "did you mean 'ice.density'?"));
-    CHECK(contains(complaint(kGood, {"nonsense"}), "write it as key=value"));
-    CHECK(contains(complaint(kGood, {"floes.pattern=file"}), "takes its shapes from the field"));
-    CHECK(contains(complaint(kGood, {"floes.pattern=single"}), "position is missing"));
-    CHECK(contains(complaint(kGood, {"output.average_from=99"}), "not before the end"));
-    CHECK(contains(complaint(kGood, {"output.track=[2,2]"}), "names floe 2 twice"));
-    CHECK(contains(complaint(kGood, {"floes.2.gap=[0,0]"}), "there is no floes.2"));
-    CHECK(contains(complaint(kGood, {"floes.0.gap=[0,0]"}), "there is no floes.0"));
-    CHECK(contains(complaint(kGood, {"simulation.time_step=1e-6", "simulation.duration=1e6"}),
-                   "more than 1e+08 steps"));
-    CHECK(contains(complaint(with("spheres = \"floe.spheres.h5\"", "")),
-                   "'floes.1.spheres' is missing"));
-    CHECK(contains(complaint(with("floe.spheres.h5", "flow.spheres.h5")), ":9:1: error:"));
-    const std::vector<std::string> single{"floes.pattern=single", "floes.position=[0,0]",
-                                          "floes.velocity=[1,0,0]"};
-    CHECK(contains(complaint(kGood, single), "a held floe does not move"));
-    for (const char* out : {"floes.position=[0,3,0]", "floes.orientation=[1,0.1,0,0]",
-                            "floes.count=[5,3]", "floes.velocity=[0,1,0]"})
-        CHECK(contains(
-            complaint(kGood, {"simulation.dimension=2", "floes.hold=never", "floes.pattern=single",
-                              "floes.position=[0,0,0]", "floes.count=[5,1]", out}),
-            " 2D case"));
-}
-
-TEST_CASE("all mistakes come in one go", "[case][errors]") {
-    const std::string text =
-        complaint(with("duration = 30.0", "duration = -1.0\nspeeed = 3\n") + "foo = 1\n");
-    CHECK(contains(text, "3 mistakes"));
-}
-
-TEST_CASE("a missing case file is named", "[case][errors]") {
-    CHECK_THROWS_WITH(read_case("/nonexistent/case.cfg"), Catch::Contains("not found"));
-}
-
 TEST_CASE("the default case parses as TOML and every key explains itself", "[case]") {
     for (const Key& key : case_schema().keys)
         CHECK(contains(explain_key(case_schema(), std::string(key.path)), key.path.data()));
@@ -219,71 +102,6 @@ TEST_CASE("pattern file takes a field, and its unbroken ice is a group of its ow
     CHECK(contains(
         complaint(with("spheres = \"floe.spheres.h5\"", "file = \"lost.h5\"\npattern = \"file\"")),
         "make it with icefield"));
-}
-
-TEST_CASE("every number of a case refuses NaN and, but for the crushing pressure, infinity",
-          "[case][errors]") {
-    int tried = 0;
-    for (const Key& key : case_schema().keys) {
-        for (const std::string number : {"nan", "+inf", "-inf"}) {
-            std::string value;
-            if (key.kind == Kind::number || key.kind == Kind::integer)
-                value = number;
-            else if (key.kind == Kind::vector || key.kind == Kind::place)
-                for (std::size_t k = 0; k < key.length; ++k)
-                    value += (k == 0 ? "[" : ", ") + number + (k + 1 == key.length ? "]" : "");
-            else if (key.kind == Kind::integer_list || key.kind == Kind::counts)
-                value = "[" + number + ", " + number + "]";
-            else if (key.kind == Kind::pair_list)
-                value = "[[0.0, " + number + "]]";
-            else
-                continue;
-            if (key.path == "contact.crushing_pressure" && number == "+inf") continue;
-            CAPTURE(key.path, value);
-            ++tried;
-            Mistakes mistakes;
-            const Values values =
-                read_override(std::string(key.path) + "=" + value, case_schema(), 1, mistakes);
-            CHECK(values.empty());
-            REQUIRE_FALSE(mistakes.texts.empty());
-            CHECK_THAT(mistakes.texts[0], Catch::Contains(std::string(key.path)));
-        }
-    }
-    CHECK(tried > 80);
-}
-
-TEST_CASE("of a file full of mistakes the first twenty are shown, the others counted",
-          "[case][errors]") {
-    std::string text;
-    for (int k = 0; k < 50; ++k) text += "wrong_" + std::to_string(k) + " = 1\n";
-    const CaseFolder folder(text + kGood);
-    try {
-        read_case(folder.file());
-        FAIL("accepted");
-    } catch (const Error& error) {
-        const std::string what = error.what();
-        CHECK_THAT(what, Catch::Contains("50 mistakes") && Catch::Contains("and 30 more"));
-        std::size_t shown = 0;
-        for (std::size_t at = 0; (at = what.find("unknown key", at)) != std::string::npos; ++at)
-            ++shown;
-        CHECK(shown == 20);
-    }
-}
-
-TEST_CASE("of a long line a message shows what is around the mistake", "[case][errors]") {
-    const CaseFolder folder(kGood + "[drag]\n" + std::string(5000, ' ') + "coefficient = 700 # " +
-                            std::string(5000, 'x') + "\n");
-    try {
-        read_case(folder.file());
-        FAIL("accepted");
-    } catch (const Error& error) {
-        const std::string what = error.what();
-        CHECK(what.size() < 800);
-        const auto value = what.find("700 # xxx"), caret = what.find('^');
-        REQUIRE(value != std::string::npos);
-        // the caret stands under the value
-        CHECK(caret - what.rfind('\n', caret) == value - what.rfind('\n', value));
-    }
 }
 
 TEST_CASE("the ship's speed between, on and beyond the rows of its table", "[case]") {

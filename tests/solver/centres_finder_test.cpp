@@ -2,7 +2,7 @@
 // How long lists of spheres are good under the rule "centres".
 #include <catch2/catch.hpp>
 
-#include "solver/broad/travel.hpp"
+#include "solver/broad/motion_bounds.hpp"
 #include "solver/narrow/find_contacts.hpp"
 #include "tests/support/make_worlds.hpp"
 
@@ -37,13 +37,13 @@ TEST_CASE("a ball that passes one sphere comes upon the next, which was out of r
     const std::vector<BodyPair> pairs{
         {static_cast<std::int32_t>(still), static_cast<std::int32_t>(moving)}};
 
-    Travel travel;
+    MotionBounds motion;
     ContactFinder kept;
     std::vector<Contact> found;
     std::size_t met = 0;
     for (int k = 0; k < 7; ++k) {
-        travel.update(w.scene, p.time_step);
-        kept.find(w.scene, pairs, travel, p.normal, p.time_step, margin, found);
+        motion.update(w.scene, p.time_step);
+        kept.find(w.scene, pairs, motion, p.normal, p.time_step, margin, found);
         std::vector<Contact> expected;
         reference::find_contacts(w.scene, pairs[0], p.normal, go + margin, expected);
         REQUIRE(found.size() == expected.size());

@@ -330,5 +330,5 @@ TEST_CASE("ice that two hull spheres crush in one place gives way once", "[conta
     ContactLaw law;
     law.crushing_pressure = 1e6;
     Overlaps().crush(w.scene, contacts, constraints, law, kDt);
-    CHECK((w.scene.crushed.recess_of(1, 7) - Vec3(0, 0, -0.01)).norm() < 1e-15);
+    CHECK((w.scene.crushed.displacement_of(1, 7) - Vec3(0, 0, -0.01)).norm() < 1e-15);
 }

@@ -260,7 +260,7 @@ TEST_CASE("a long way through level ice takes no more memory than what is within
             std::size_t now = 0;
             for (const Loop& loop : w.edge.sheet().loops()) now += loop.size();
             corners = std::max(corners, now);
-            recesses = std::max(recesses, w.scene.crushed.recess.size());
+            recesses = std::max(recesses, w.scene.crushed.displacement.size());
             alive = std::max(alive, w.edge.alive());
         }
     };

@@ -14,11 +14,11 @@ using namespace ice;
 
 namespace {
 
-SphereSurface face(const Vec3& center, double radius, const Vec3& normal) {
+Feature face(const Vec3& center, double radius, const Vec3& normal) {
     return {center, radius, normal, 1.0, 0.0};
 }
 
-SphereSurface edge(const Vec3& center, double radius, const Vec3& normal) {
+Feature edge(const Vec3& center, double radius, const Vec3& normal) {
     return {center, radius, normal, std::sqrt(0.5), std::sqrt(0.5)};
 }
 
@@ -38,7 +38,7 @@ TEST_CASE("two unit spheres 3 m apart leave a gap of 1 m", "[narrow][analytic]")
 }
 
 TEST_CASE("coincident centres give no contact", "[narrow][degenerate]") {
-    const SphereSurface s = face(Vec3(1, 2, 3), 0.1, Vec3::UnitZ());
+    const Feature s = face(Vec3(1, 2, 3), 0.1, Vec3::UnitZ());
     CHECK_FALSE(measure_gap_centres(s.center, 0.1, s.center, 0.1).valid);
     CHECK_FALSE(measure_gap_surface(s, s, true).valid);
 }
@@ -46,38 +46,38 @@ TEST_CASE("coincident centres give no contact", "[narrow][degenerate]") {
 TEST_CASE("a sphere beside another on a flat face has the face's gap, not the spheres'",
           "[narrow][analytic]") {
     // surface z = 0.1 under which a's face looks up; b is 7 cm aside, its lowest point at z = 0.13
-    const SphereSurface a = face(Vec3::Zero(), 0.1, Vec3::UnitZ());
-    const SphereSurface b = face(Vec3(0.07, 0, 0.18), 0.05, -Vec3::UnitZ());
+    const Feature a = face(Vec3::Zero(), 0.1, Vec3::UnitZ());
+    const Feature b = face(Vec3(0.07, 0, 0.18), 0.05, -Vec3::UnitZ());
     const Gap gap = measure_gap_surface(a, b, true);
     CHECK(gap.gap == Approx(0.03).epsilon(1e-14));
     CHECK(gap.normal == Vec3::UnitZ());
-    CHECK(gap.lateral_sq == Approx(0.0049).epsilon(1e-12));
+    CHECK(gap.reference_offset_sq == Approx(0.0049).epsilon(1e-12));
     CHECK(measure_gap_surface(a, b, false).gap == Approx(0.03).epsilon(1e-14));
 }
 
 TEST_CASE("an edge on a face takes the face's normal, whichever body has it",
           "[narrow][analytic]") {
-    const SphereSurface flat = face(Vec3::Zero(), 0.1, Vec3::UnitZ());
-    const SphereSurface sharp = edge(Vec3(0.03, 0, 0.14), 0.05, Vec3(1, 0, -1).normalized());
+    const Feature flat = face(Vec3::Zero(), 0.1, Vec3::UnitZ());
+    const Feature sharp = edge(Vec3(0.03, 0, 0.14), 0.05, Vec3(1, 0, -1).normalized());
     const Gap forth = measure_gap_surface(flat, sharp, false);
     const Gap back = measure_gap_surface(sharp, flat, false);
     CHECK(forth.normal == Vec3::UnitZ());
-    CHECK(forth.a_is_surface);
+    CHECK(forth.reference_is_a);
     CHECK(back.normal == -Vec3::UnitZ());
-    CHECK_FALSE(back.a_is_surface);
+    CHECK_FALSE(back.reference_is_a);
     CHECK(forth.gap == Approx(-0.01).epsilon(1e-12));
     CHECK(back.gap == Approx(-0.01).epsilon(1e-12));
 }
 
 TEST_CASE("an edge across an edge meets along the line of centres", "[narrow][analytic]") {
-    const SphereSurface a = edge(Vec3::Zero(), 0.1, Vec3::UnitX());
-    const SphereSurface b = edge(Vec3(0.15, 0.03, 0), 0.05, -Vec3::UnitX());
+    const Feature a = edge(Vec3::Zero(), 0.1, Vec3::UnitX());
+    const Feature b = edge(Vec3(0.15, 0.03, 0), 0.05, -Vec3::UnitX());
     const Gap gap = measure_gap_surface(a, b, false);
     CHECK((gap.normal - Vec3(0.15, 0.03, 0).normalized()).norm() < 1e-15);
 }
 
 TEST_CASE("faces turned away from each other do not touch", "[narrow]") {
-    const SphereSurface a = face(Vec3::Zero(), 0.1, -Vec3::UnitZ());
+    const Feature a = face(Vec3::Zero(), 0.1, -Vec3::UnitZ());
     CHECK_FALSE(measure_gap_surface(a, face(Vec3(0, 0, 0.1), 0.05, Vec3::UnitZ()), false).valid);
 }
 
@@ -133,7 +133,7 @@ TEST_CASE("pairs that are not looked at have no contacts, step after step",
     }
     const NormalRule rule = w.parameters.normal;
     const double dt = w.parameters.time_step;
-    Travel travel;
+    MotionBounds travel;
     PairList list;
     ContactFinder kept;
     std::vector<Contact> found, expected;
@@ -151,7 +151,8 @@ TEST_CASE("pairs that are not looked at have no contacts, step after step",
         step(w);
     }
     CHECK(compared > 1000);
-    CHECK(std::isinf(w.parameters.contact.crushing_pressure) == w.scene.crushed.recess.empty());
+    CHECK(std::isinf(w.parameters.contact.crushing_pressure) ==
+          w.scene.crushed.displacement.empty());
 }
 
 TEST_CASE("a grid query finds every point in range", "[shape][property]") {

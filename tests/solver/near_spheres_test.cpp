@@ -17,8 +17,8 @@ std::vector<SearchSphere> random_spheres(std::size_t count, unsigned seed) {
     std::vector<SearchSphere> out(count);
     for (SearchSphere& s : out) {
         s.center = Vec3(2.0 * place(random), place(random), 0.2 * place(random));
-        s.along = size(random);
-        s.aside = size(random) - 0.05;
+        s.normal_extent = size(random);
+        s.tangent_extent = size(random) - 0.05;
     }
     return out;
 }
@@ -42,8 +42,8 @@ void check_same(const NearSpheres& got, const NearSpheres& expected) {
     CHECK(same(got.x, expected.x));
     CHECK(same(got.y, expected.y));
     CHECK(same(got.z, expected.z));
-    CHECK(same(got.along, expected.along));
-    CHECK(same(got.aside, expected.aside));
+    CHECK(same(got.normal_extent, expected.normal_extent));
+    CHECK(same(got.tangent_extent, expected.tangent_extent));
     CHECK(same(got.own, expected.own));
     CHECK(same(got.id, expected.id));
     CHECK(std::equal(got.box.low, got.box.low + 3, expected.box.low));
@@ -66,7 +66,7 @@ TEST_CASE("blocks hold every sphere once, near others, within the boxes of group
         const SearchSphere& s = spheres[static_cast<std::size_t>(blocks.id[k])];
         ++seen[static_cast<std::size_t>(blocks.id[k])];
         REQUIRE(blocks.x[k] == static_cast<float>(s.center.x()));
-        REQUIRE(blocks.own[k] == Approx(std::hypot(s.along, s.aside)));
+        REQUIRE(blocks.own[k] == Approx(std::hypot(s.normal_extent, s.tangent_extent)));
         const std::size_t group = k / 16, cluster = group / 16;
         REQUIRE(blocks.groups.low[1][group] <= blocks.y[k]);
         REQUIRE(blocks.groups.high[1][group] >= blocks.y[k]);

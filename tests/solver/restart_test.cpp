@@ -91,7 +91,7 @@ TEST_CASE("a run continued from a checkpoint ends with the same bits and files",
     run(whole, {folder / "whole", "first"});
     CHECK(in_contact(whole));
     // what is crushed is part of the state that goes on
-    CHECK(whole.scene.crushed.recess.empty() == std::isinf(pressure));
+    CHECK(whole.scene.crushed.displacement.empty() == std::isinf(pressure));
 
     run_until(p, folder / "parts", stop);
     go_on(p, folder / "parts" / "checkpoint.h5", folder / "parts");
@@ -133,7 +133,7 @@ TEST_CASE("ice is crushed before the runs above are stopped and goes on being cr
     for (int k = 0; k < 24; ++k) step(w);
     const auto crushed = [&] {
         double sum = 0.0;
-        for (const Vec3& r : w.scene.crushed.recess) sum += r.norm();
+        for (const Vec3& r : w.scene.crushed.displacement) sum += r.norm();
         return sum;
     };
     const double before = crushed();

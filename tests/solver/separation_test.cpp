@@ -10,7 +10,7 @@
 #include <numbers>
 #include <random>
 
-#include "solver/broad/travel.hpp"
+#include "solver/broad/motion_bounds.hpp"
 #include "solver/narrow/find_contacts.hpp"
 #include "tests/support/make_worlds.hpp"
 
@@ -54,7 +54,7 @@ double distance_of_points(const World& w) {
     for (double x = -0.5; x < 0.51; x += 0.05)
         for (double y = -0.4; y < 0.41; y += 0.05)
             for (double z = -0.15; z < 0.16; z += 0.05) {
-                const Vec3 at = view.turn * Vec3(x, y, z) + view.shift;
+                const Vec3 at = view.rotation_ab * Vec3(x, y, z) + view.translation_ab;
                 const Vec3 beyond = (at.cwiseAbs() - 0.5 * kSize).cwiseMax(0.0);
                 least = std::min(least, beyond.norm());
             }
@@ -106,7 +106,7 @@ TEST_CASE("a separation shrinks by no more than its share of the way that bodies
             const Vec3 go = 0.05 * dice.vector();
             const double angle = 0.05 * dice();
             const Quaternion turn(Eigen::AngleAxisd(angle, dice.vector().normalized()));
-            way += go.norm() + std::abs(angle) * Travel::arm(w.scene.shapes[1]);
+            way += go.norm() + std::abs(angle) * MotionBounds::lever(w.scene.shapes[1]);
             place(w, body, w.scene.bodies.position[body] + go,
                   turn * w.scene.bodies.orientation[body]);
         }

@@ -87,7 +87,7 @@ TEST_CASE("deep seats found in steps are those found afresh, to the last bit",
     // a floe that is pulled through the hull and turns, whatever pushes it out
     World w = angle_and_box(Vec3(2.7, -1.0, 0.1),
                             Quaternion(Eigen::AngleAxisd(0.3, Vec3(0.3, 0.5, 0.8).normalized())));
-    Travel travel;
+    MotionBounds motion;
     ContactFinder kept;
     std::vector<Contact> found;
     std::size_t deep = 0;
@@ -95,8 +95,8 @@ TEST_CASE("deep seats found in steps are those found afresh, to the last bit",
         Bodies& b = w.scene.bodies;
         b.velocity[1] = Vec3(-1.2, 0.3, -0.1);
         b.angular_velocity[1] = Vec3(0.2, 0.1, -0.4);
-        travel.update(w.scene, w.parameters.time_step);
-        kept.find(w.scene, {{0, 1}}, travel, ContactRule(w.parameters), w.parameters.time_step,
+        motion.update(w.scene, w.parameters.time_step);
+        kept.find(w.scene, {{0, 1}}, motion, ContactRule(w.parameters), w.parameters.time_step,
                   5e-4, found);
         const std::vector<Contact> expected = contacts_of(w);
         REQUIRE(found.size() == expected.size());

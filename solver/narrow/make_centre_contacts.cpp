@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "solver/narrow/emit_centres.hpp"
+#include "solver/narrow/make_centre_contacts.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -33,11 +33,12 @@ void count_contacts(std::span<const Candidate> all, std::int32_t Candidate::*sid
 
 // Every pair of spheres is a contact, and shares of the surface are split. The point is midway
 // between the surfaces, the gap small against the radii.
-void emit_centres(const PairView& view, std::span<const Candidate> candidates, Contact* out) {
+void make_centre_contacts(const PairView& view, std::span<const Candidate> candidates,
+                          Contact* out) {
     const bool ship = view.pair.a == static_cast<std::int32_t>(kShip);
     thread_local std::vector<std::int32_t> shared_a, shared_b;  // keep their memory
     count_contacts(candidates, &Candidate::j, view.shape_b.center.size(), shared_b);
-    // the hull has many spheres and its shares are not asked for
+    // shares are the ice's: the hull's many spheres are not counted
     if (!ship) count_contacts(candidates, &Candidate::i, view.shape_a.center.size(), shared_a);
     const std::int32_t *contacts_of_a = shared_a.data(), *contacts_of_b = shared_b.data();
     thread_local std::vector<ContactPlace> places;
@@ -52,8 +53,8 @@ void emit_centres(const PairView& view, std::span<const Candidate> candidates, C
         const Vec3 surface = view.center_b(c.j) + view.shape_b.radius[c.j] * inward;
         fill_contact(view, place, surface + 0.5 * c.gap.gap * inward, *contact);
         contact->crushes_a = false;
-        double area =
-            facing_area(view.shape_b, c.j, view.turn.transpose() * inward) / contacts_of_b[c.j];
+        double area = facing_area(view.shape_b, c.j, view.rotation_ab.transpose() * inward) /
+                      contacts_of_b[c.j];
         if (!ship)
             area =
                 std::min(area, facing_area(view.shape_a, c.i, c.gap.normal) / contacts_of_a[c.i]);

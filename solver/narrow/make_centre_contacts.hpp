@@ -10,6 +10,7 @@ namespace ice {
 
 /// Makes contacts of a pair's candidates under the rule "centres", in the order that ContactFinder
 /// gives them; the candidates' own order does not matter. @param out  room for as many
-void emit_centres(const PairView& view, std::span<const Candidate> candidates, Contact* out);
+void make_centre_contacts(const PairView& view, std::span<const Candidate> candidates,
+                          Contact* out);
 
 }  // namespace ice

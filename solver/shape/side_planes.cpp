@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "solver/shape/face_borders.hpp"
+#include "solver/shape/side_planes.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +21,7 @@ constexpr double kSameBorderNormal = 1.0 - 1e-9, kBorderRounding = 1e-6;
 // A plane that leaves this much (radii) of another edge's sphere before it cuts nothing off.
 constexpr double kCutOff = 0.01;
 
-// The face of a sphere: all that it stands for lies in a plane tangent to it.
+// The face of a sphere: its patch lies in a plane tangent to it.
 struct Face {
     Vec3 normal;
     double offset;  // normal . x in it
@@ -32,10 +32,10 @@ public:
     BorderFinder(const Shape& shape, const std::vector<std::int32_t>& edges, const SphereGrid& grid)
         : shape_(shape), edges_(edges), grid_(grid) {}
 
-    // The planes that end what sphere k stands for; valid until the next question.
+    // The planes that end the patch of sphere k; valid until the next call.
     const std::vector<Face>& of(std::size_t k) {
         found_.clear();
-        const Faces& faces = shape_.faces[k];
+        const NormalCone& faces = shape_.cone[k];
         if (faces.count > 2 || (faces.count == 0 && shape_.spread_cos[k] != 1.0)) return found_;
         find_near(k);
         if (near_.empty()) return found_;
@@ -62,12 +62,12 @@ private:
     }
     // The point that the sphere's faces have in common, a face's point of touch.
     Vec3 tip(std::size_t sphere) const {
-        return shape_.center[sphere] + shape_.faces[sphere].corner * shape_.normal[sphere];
+        return shape_.center[sphere] + shape_.cone[sphere].apex_distance * shape_.normal[sphere];
     }
 
     void find_near(std::size_t k) {
         near_.clear();
-        const double range = 2.0 * shape_.reach + shape_.radius[k];
+        const double range = 2.0 * shape_.patch_radius + shape_.radius[k];
         grid_.for_each_near(shape_.center[k], range, [&](std::int32_t row) {
             const auto m = static_cast<std::size_t>(edges_[static_cast<std::size_t>(row)]);
             if (m != k && (shape_.center[m] - shape_.center[k]).squaredNorm() <= range * range)
@@ -85,7 +85,7 @@ private:
         beside_.clear();
         const Face own = face_of(k, normal);
         for (const std::size_t m : near_) {
-            const Faces& faces = shape_.faces[m];
+            const NormalCone& faces = shape_.cone[m];
             const auto first = faces.normal.begin(), last = first + faces.count;
             if (std::any_of(first, last, [&](const Vec3& n) {
                     return is_same(own, face_of(m, n), shape_.radius[k]);
@@ -93,8 +93,8 @@ private:
                 beside_.push_back(m);
         }
         for (const std::size_t m : beside_)
-            for (int f = 0; f < shape_.faces[m].count; ++f) {
-                const Face next = face_of(m, shape_.faces[m].normal[static_cast<std::size_t>(f)]);
+            for (int f = 0; f < shape_.cone[m].count; ++f) {
+                const Face next = face_of(m, shape_.cone[m].normal[static_cast<std::size_t>(f)]);
                 if (!is_same(own, next, shape_.radius[k]) && is_new(next, k, out) && ends(next, k))
                     out.push_back(next);
             }
@@ -122,15 +122,15 @@ private:
 
 }  // namespace
 
-FaceBorders::FaceBorders(const Shape& shape) {
+SidePlanes::SidePlanes(const Shape& shape) {
     std::vector<std::int32_t> edges;  // and corners
     std::vector<Vec3> centers;
     for (std::size_t k = 0; k < shape.center.size(); ++k) {
-        if (shape.faces[k].count == 0) continue;
+        if (shape.cone[k].count == 0) continue;
         edges.push_back(static_cast<std::int32_t>(k));
         centers.push_back(shape.center[k]);
     }
-    const SphereGrid grid(centers, 2.0 * shape.reach);
+    const SphereGrid grid(centers, 2.0 * shape.patch_radius);
     BorderFinder finder(shape, edges, grid);
     first_.push_back(0);
     for (std::size_t k = 0; k < shape.center.size(); ++k) {

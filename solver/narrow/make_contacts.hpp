@@ -10,13 +10,13 @@ namespace ice {
 
 /// Makes contacts of a pair's candidates under the rule "surface", in the order that ContactFinder
 /// gives them: points, patches, keys and hull regions. @param out  room for as many
-/// @pre the candidates of a probe stand together
-void emit_contacts(const PairView& view, std::span<const Candidate> candidates, Contact* out);
+/// @pre the candidates of an incident sphere are adjacent (reduce_manifold)
+void make_contacts(const PairView& view, std::span<const Candidate> candidates, Contact* out);
 
-/// Is the probe b's sphere? @param c  one of these contacts
-inline bool b_is_probe(const Contact& c) { return (c.key >> 32 & 1) != 0; }
+/// Is b's sphere the incident one? @param c  one of these contacts
+inline bool incident_is_b(const Contact& c) { return (c.key >> 32 & 1) != 0; }
 
-/// How deep contact along n, from a to b in a's axes, has crushed b's sphere j [m].
+/// Depth by which contact along n, from a to b in a's axes, has crushed b's sphere j [m].
 double crushed_depth(const PairView& view, std::int32_t j, const Vec3& n);
 
 /// The patch of b's sphere j behind a contact along n with this gap [m].

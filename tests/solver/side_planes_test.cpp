@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Where the faces and edges end that spheres stand for.
-#include "solver/shape/face_borders.hpp"
+#include "solver/shape/side_planes.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -72,57 +72,58 @@ SphereSet without_ends(const SphereSet& set) {
     return out;
 }
 
-// Spheres made by hand: what borders are found from and nothing else.
+// Spheres made by hand: the data that side planes are made from, and nothing else.
 struct Patchwork {
     Shape shape;
 
-    Patchwork() { shape.reach = 0.75 * kSpacing; }
+    Patchwork() { shape.patch_radius = 0.75 * kSpacing; }
     // Tangent to faces that meet at `tip`: one of a face, two of an edge.
     void add(const Vec3& tip, std::initializer_list<Vec3> normals) {
         Vec3 middle = Vec3::Zero();
         for (const Vec3& n : normals) middle += n;
         middle.normalize();
-        Faces faces;
-        if (normals.size() > 1) faces = Faces::meeting(normals);
-        faces.corner = kRadius / middle.dot(*normals.begin());
-        shape.center.push_back(tip - faces.corner * middle);
+        NormalCone faces;
+        if (normals.size() > 1) faces = NormalCone::meeting(normals);
+        faces.apex_distance = kRadius / middle.dot(*normals.begin());
+        shape.center.push_back(tip - faces.apex_distance * middle);
         shape.radius.push_back(kRadius);
         shape.normal.push_back(middle);
-        shape.spread_cos.push_back(normals.size() > 1 ? kRadius / faces.corner : 1.0);
-        shape.faces.push_back(faces);
+        shape.spread_cos.push_back(normals.size() > 1 ? kRadius / faces.apex_distance : 1.0);
+        shape.cone.push_back(faces);
         shape.mirror_rank.push_back(static_cast<std::int32_t>(shape.mirror_rank.size()));
     }
     // Is there a border of the first sphere's?
-    bool has_border() const { return FaceBorders(shape).has(0); }
+    bool has_border() const { return SidePlanes(shape).has(0); }
 };
 
 // The part of a vector along the edge, or across the face's normal, of sphere k.
 Vec3 part_within(const Shape& shape, std::size_t k, const Vec3& v) {
-    if (shape.faces[k].count == 2) return v.dot(shape.faces[k].edge(0)) * shape.faces[k].edge(0);
+    if (shape.cone[k].count == 2) return v.dot(shape.cone[k].edge(0)) * shape.cone[k].edge(0);
     return v - v.dot(shape.normal[k]) * shape.normal[k];
 }
 
 }  // namespace
 
-TEST_CASE("a box's faces and edges end where the box does", "[narrow][borders][analytic]") {
+TEST_CASE("a box's faces and edges end where the box does", "[narrow][side_planes][analytic]") {
     const Vec3 size(1.0, 0.8, 0.3);
     const bool corners = GENERATE(true, false);
-    const SphereSet set = make_box_set(size, 0.2 * kSpacing, kSpacing);  // near the borders
+    const SphereSet set = make_box_set(size, 0.2 * kSpacing, kSpacing);  // near the edges
     const Shape shape = build_shape(corners ? set : without_corners(set), true);
     std::mt19937 random(3);
     std::uniform_real_distribution<double> unit(-1.0, 1.0);
     int within = 0, beyond = 0;
     for (std::size_t k = 0; k < shape.center.size(); ++k) {
-        if (shape.faces[k].count == 3) continue;
-        const Vec3 tip = shape.center[k] + shape.faces[k].corner * shape.normal[k];
+        if (shape.cone[k].count == 3) continue;
+        const Vec3 tip = shape.center[k] + shape.cone[k].apex_distance * shape.normal[k];
         for (int n = 0; n < 20; ++n) {
             // as far as this the planes around are known, and more than a sphere stands for
-            const Vec3 way = 1.7 * shape.reach * Vec3(unit(random), unit(random), unit(random));
+            const Vec3 way =
+                1.7 * shape.patch_radius * Vec3(unit(random), unit(random), unit(random));
             const Vec3 point = tip + part_within(shape, k, way);
             const double past = (point.cwiseAbs() - 0.5 * size).maxCoeff();
             const auto holds = [&](double slack) {
                 const auto row = static_cast<std::int32_t>(k);
-                return !shape.borders.has(row) || shape.borders.hold(row, point, slack);
+                return !shape.side_planes.has(row) || shape.side_planes.contain(row, point, slack);
             };
             (past <= kRounding ? within : beyond) += 1;
             CAPTURE(k, point.transpose(), past);
@@ -135,7 +136,7 @@ TEST_CASE("a box's faces and edges end where the box does", "[narrow][borders][a
     CHECK(beyond > 100);
 }
 
-TEST_CASE("a face ends at outward edges only", "[narrow][borders][analytic]") {
+TEST_CASE("a face ends at outward edges only", "[narrow][side_planes][analytic]") {
     Patchwork outward, inward, flat;
     for (Patchwork* p : {&outward, &inward, &flat}) p->add(Vec3(-0.1, 0, 0), {kZ});
     SECTION("where the next face goes down") {
@@ -153,7 +154,7 @@ TEST_CASE("a face ends at outward edges only", "[narrow][borders][analytic]") {
     }
 }
 
-TEST_CASE("a face goes on where its edge is hollow in plan", "[narrow][borders][analytic]") {
+TEST_CASE("a face goes on where its edge is hollow in plan", "[narrow][side_planes][analytic]") {
     // edges along a circle of 0.5 m about (0, 0): inside it solid, or outside
     const bool hollow = GENERATE(false, true);
     Patchwork p;
@@ -165,7 +166,7 @@ TEST_CASE("a face goes on where its edge is hollow in plan", "[narrow][borders][
     CHECK(p.has_border() != hollow);
 }
 
-TEST_CASE("an edge ends at planes that are next to both of its faces", "[narrow][borders]") {
+TEST_CASE("an edge ends at planes that are next to both of its faces", "[narrow][side_planes]") {
     Patchwork p;
     p.add(Vec3::Zero(), {kZ, kX});
     p.add(Vec3(-0.1, 0.1, 0), {kZ, kY});
@@ -174,7 +175,7 @@ TEST_CASE("an edge ends at planes that are next to both of its faces", "[narrow]
     CHECK(p.has_border());
 }
 
-TEST_CASE("floes past the end of a ship's edges touch nothing", "[narrow][borders][property]") {
+TEST_CASE("floes past the end of a ship's edges touch nothing", "[narrow][side_planes][property]") {
     // planes that would part the bodies are not known: of a hull of many facets they are not
     World w;
     w.scene = make_scene(

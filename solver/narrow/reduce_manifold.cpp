@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "solver/narrow/one_per_face.hpp"
+#include "solver/narrow/reduce_manifold.hpp"
 
 #include <algorithm>
 #include <tuple>
@@ -16,8 +16,8 @@ struct Face {
 };
 
 Face face_of(const PairView& view, const Candidate& c) {
-    const Vec3 outward = c.gap.a_is_surface ? c.gap.normal : Vec3(-c.gap.normal);
-    return {c.gap.a_is_surface ? view.support_a(c.i, outward) : view.support_b(c.j, outward),
+    const Vec3 outward = c.gap.reference_is_a ? c.gap.normal : Vec3(-c.gap.normal);
+    return {c.gap.reference_is_a ? view.support_a(c.i, outward) : view.support_b(c.j, outward),
             outward};
 }
 
@@ -27,27 +27,28 @@ bool meet_outwards(const Face& l, const Face& r) {
     return between.dot(l.outward) < 0.0 && between.dot(r.outward) > 0.0;
 }
 
-bool same_probe(const Candidate& l, const Candidate& r) {
-    return l.gap.a_is_surface == r.gap.a_is_surface && l.probe() == r.probe();
+bool same_incident(const Candidate& l, const Candidate& r) {
+    return l.gap.reference_is_a == r.gap.reference_is_a && l.incident() == r.incident();
 }
 
-// A candidate's place in the order: by probe, of a probe by distance, ties by what mirror images
-// have in common. Candidates are large, these are moved instead.
+// A candidate's place in the order: by incident sphere, then by distance, ties by the mirror rank.
+// Candidates are large: rows are sorted in their place.
 struct Row {
-    std::int64_t probe;
-    double lateral_sq;
+    std::int64_t incident;
+    double reference_offset_sq;
     const Candidate* candidate;
 };
 
-void sort_by_probe(const PairView& view, const std::vector<Candidate>& candidates,
-                   std::vector<Row>& out) {
+void sort_by_incident(const PairView& view, const std::vector<Candidate>& candidates,
+                      std::vector<Row>& out) {
     out.clear();
     for (const Candidate& c : candidates)
-        out.push_back(
-            {2 * std::int64_t{c.probe()} + (c.gap.a_is_surface ? 1 : 0), c.gap.lateral_sq, &c});
+        out.push_back({2 * std::int64_t{c.incident()} + (c.gap.reference_is_a ? 1 : 0),
+                       c.gap.reference_offset_sq, &c});
     std::sort(out.begin(), out.end(), [&](const Row& l, const Row& r) {
-        if (l.probe != r.probe) return l.probe < r.probe;
-        if (l.lateral_sq != r.lateral_sq) return l.lateral_sq < r.lateral_sq;
+        if (l.incident != r.incident) return l.incident < r.incident;
+        if (l.reference_offset_sq != r.reference_offset_sq)
+            return l.reference_offset_sq < r.reference_offset_sq;
         const auto tie = [&](const Candidate& c) {
             return std::tuple(view.shape_a.mirror_rank[c.i], view.shape_b.mirror_rank[c.j], c.i,
                               c.j);
@@ -58,18 +59,18 @@ void sort_by_probe(const PairView& view, const std::vector<Candidate>& candidate
 
 }  // namespace
 
-void keep_one_per_face(const PairView& view, double margin, std::vector<Candidate>& candidates) {
+void reduce_manifold(const PairView& view, double margin, std::vector<Candidate>& candidates) {
     if (std::none_of(candidates.begin(), candidates.end(),
                      [&](const Candidate& c) { return c.gap.gap <= margin; }))
         return candidates.clear();
     thread_local std::vector<Row> rows;  // keep their memory
     thread_local std::vector<Candidate> kept;
-    sort_by_probe(view, candidates, rows);
+    sort_by_incident(view, candidates, rows);
     kept.clear();
-    std::size_t group = 0;  // [group, kept.size()) are the kept ones of the present probe
+    std::size_t group = 0;  // [group, kept.size()) are the kept ones of the present incident sphere
     for (const Row& row : rows) {
         const Candidate& now = *row.candidate;
-        if (kept.size() > group && !same_probe(kept[group], now)) group = kept.size();
+        if (kept.size() > group && !same_incident(kept[group], now)) group = kept.size();
         const auto first = kept.begin() + static_cast<std::ptrdiff_t>(group), last = kept.end();
         if (std::any_of(first, last, [&](const Candidate& other) {
                 return other.gap.normal.dot(now.gap.normal) > kSameFace;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "solver/narrow/emit_contacts.hpp"
+#include "solver/narrow/make_contacts.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,7 @@ namespace {
 // How deep contact has crushed a sphere along its side's outward direction [m].
 double crushed_depth(const Scene& scene, std::int32_t body, std::int32_t sphere,
                      const Vec3& outward) {
-    return std::max(0.0, -scene.crushed.recess_of(body, sphere).dot(outward));
+    return std::max(0.0, -scene.crushed.displacement_of(body, sphere).dot(outward));
 }
 
 Patch patch_of(const Shape& shape, std::int32_t k, const Vec3& outward) {
@@ -28,7 +28,7 @@ Patch patch_of(const Shape& shape, std::int32_t k, const Vec3& outward) {
     patch.wing = wing_length(shape.radius[k], patch.share, patch.spread_cos, patch.spread_sin);
     // depth counts from an edge's corner, but on a face that leans from the sphere's foremost point
     const double facing = std::clamp(patch.facing, -1.0, 1.0);
-    if (shape.faces[k].count == 0 && facing < patch.spread_cos) {
+    if (shape.cone[k].count == 0 && facing < patch.spread_cos) {
         const double lean = facing * patch.spread_cos +
                             std::sqrt(1.0 - facing * facing) * patch.spread_sin;  // cos(t - s)
         patch.foot = shape.radius[k] * (1.0 - lean);
@@ -36,33 +36,33 @@ Patch patch_of(const Shape& shape, std::int32_t k, const Vec3& outward) {
     return patch;
 }
 
-// The probe's patch. Where the hull is the probe, the ice it digs into is still what crushes.
+// The incident sphere's patch. If that is the hull's, the ice still is the body that crushes.
 Patch probe_patch(const PairView& view, const Candidate& c) {
-    const Vec3 out_a = c.gap.normal, out_b = view.turn.transpose() * -c.gap.normal;
+    const Vec3 out_a = c.gap.normal, out_b = view.rotation_ab.transpose() * -c.gap.normal;
     const bool ship = view.pair.a == static_cast<std::int32_t>(kShip);
-    Patch patch = c.gap.a_is_surface ? patch_of(view.shape_b, c.j, out_b)
-                                     : patch_of(view.shape_a, c.i, out_a);
-    patch.depth = -c.gap.gap + (c.gap.a_is_surface || ship
+    Patch patch = c.gap.reference_is_a ? patch_of(view.shape_b, c.j, out_b)
+                                       : patch_of(view.shape_a, c.i, out_a);
+    patch.depth = -c.gap.gap + (c.gap.reference_is_a || ship
                                     ? crushed_depth(view.scene, view.pair.b, c.j, out_b)
                                     : crushed_depth(view.scene, view.pair.a, c.i, out_a));
     return patch;
 }
 
 // Midway between two edges where they cross.
-Vec3 crossing_point(const SphereSurface& a, const SphereSurface& b, const Gap& gap) {
+Vec3 crossing_point(const Feature& a, const Feature& b, const Gap& gap) {
     const Vec3 pa = support_point(a, gap.normal), pb = support_point(b, -gap.normal);
-    const Vec3 ea = a.faces.edge(gap.edge_a), eb = b.faces.edge(gap.edge_b);
-    const Crossing at = find_crossing(pa, ea, pb, eb);
+    const Vec3 ea = a.cone.edge(gap.edge_a), eb = b.cone.edge(gap.edge_b);
+    const LineParameters at = closest_on_lines(pa, ea, pb, eb);
     return 0.5 * (pa + at.along_a * ea + pb + at.along_b * eb);
 }
 
-// The probe decides where the bodies meet: midway between its surface and the other one's.
+// The incident sphere decides where the bodies meet: midway between both surfaces at its support.
 Vec3 meeting_point(const PairView& view, const Candidate& c) {
     if (c.gap.crossing) return crossing_point(view.sphere_a(c.i), view.sphere_b(c.j), c.gap);
-    const double sign = c.gap.a_is_surface ? -1.0 : 1.0;
+    const double sign = c.gap.reference_is_a ? -1.0 : 1.0;
     const Vec3 outward = sign * c.gap.normal;
     const Vec3 surface =
-        c.gap.a_is_surface ? view.support_b(c.j, outward) : view.support_a(c.i, outward);
+        c.gap.reference_is_a ? view.support_b(c.j, outward) : view.support_a(c.i, outward);
     return surface + 0.5 * c.gap.gap * outward;
 }
 
@@ -71,13 +71,14 @@ const std::vector<ContactPlace>& places_of(const PairView& view,
                                            std::span<const Candidate> candidates) {
     thread_local std::vector<ContactPlace> places;  // keeps its memory
     places.clear();
-    std::int32_t last_probe = -1, face = 0;
+    std::int32_t last_incident = -1, face = 0;
     for (const Candidate& c : candidates) {
-        // a probe slides over many surface spheres: the probe and its face's rank are what lasts
-        const std::int32_t probe = (c.probe() << 1) | (c.gap.a_is_surface ? 1 : 0);
-        face = probe == last_probe ? face + 1 : 0;
-        last_probe = probe;
-        places.push_back(place_of(view, c, std::uint64_t(probe) << 32 | std::uint64_t(face)));
+        // an incident sphere slides over many reference spheres: the key is that sphere and its
+        // face's rank, which last from step to step
+        const std::int32_t incident = (c.incident() << 1) | (c.gap.reference_is_a ? 1 : 0);
+        face = incident == last_incident ? face + 1 : 0;
+        last_incident = incident;
+        places.push_back(place_of(view, c, std::uint64_t(incident) << 32 | std::uint64_t(face)));
     }
     sort_places(places);
     return places;
@@ -86,11 +87,11 @@ const std::vector<ContactPlace>& places_of(const PairView& view,
 }  // namespace
 
 double crushed_depth(const PairView& view, std::int32_t j, const Vec3& n) {
-    return crushed_depth(view.scene, view.pair.b, j, view.turn.transpose() * -n);
+    return crushed_depth(view.scene, view.pair.b, j, view.rotation_ab.transpose() * -n);
 }
 
 Patch ice_patch(const PairView& view, std::int32_t j, const Vec3& n, double gap) {
-    Patch patch = patch_of(view.shape_b, j, view.turn.transpose() * -n);
+    Patch patch = patch_of(view.shape_b, j, view.rotation_ab.transpose() * -n);
     patch.depth = -gap + crushed_depth(view, j, n);
     return patch;
 }
@@ -101,14 +102,14 @@ Patch patch_of_a(const PairView& view, std::int32_t i, const Vec3& n, double gap
     return patch;
 }
 
-void emit_contacts(const PairView& view, std::span<const Candidate> candidates, Contact* out) {
+void make_contacts(const PairView& view, std::span<const Candidate> candidates, Contact* out) {
     const bool ship = view.pair.a == static_cast<std::int32_t>(kShip);
     const std::vector<ContactPlace>& places = places_of(view, candidates);
     Contact* contact = out;
     for (const ContactPlace& place : places) {
         const Candidate& c = *place.candidate;
         fill_contact(view, place, meeting_point(view, c), *contact);
-        contact->crushes_a = !ship && !c.gap.a_is_surface;
+        contact->crushes_a = !ship && !c.gap.reference_is_a;
         contact->patch = probe_patch(view, c);
         ++contact;
     }

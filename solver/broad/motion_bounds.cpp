@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "solver/broad/travel.hpp"
+#include "solver/broad/motion_bounds.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -23,32 +23,33 @@ double turn_between(const Quaternion& p, const Quaternion& q) {
 
 }  // namespace
 
-void Travel::update(const Scene& scene, double dt) {
+void MotionBounds::update(const Scene& scene, double dt) {
     const Bodies& b = scene.bodies;
-    const std::size_t known = std::min(way_.size(), b.size());
-    way_.resize(b.size(), 0.0);
-    soon_.resize(b.size(), 0.0);
-    turn_.resize(b.size(), 0.0);
+    const std::size_t known = std::min(path_.size(), b.size());
+    path_.resize(b.size(), 0.0);
+    path_after_step_.resize(b.size(), 0.0);
+    rotation_.resize(b.size(), 0.0);
     crushed_.resize(b.size(), 0.0);
     position_.resize(b.size());
     orientation_.resize(b.size());
     const auto look = [&](std::size_t i) {
         if (i < known) {
-            double arm = Travel::arm(scene.shapes[static_cast<std::size_t>(b.shape[i])]);
+            double arm = MotionBounds::lever(scene.shapes[static_cast<std::size_t>(b.shape[i])]);
             const double turn = turn_between(orientation_[i], b.orientation[i]);
-            turn_[i] += turn;
-            way_[i] += (b.position[i] - position_[i]).norm() + arm * turn;
+            rotation_[i] += turn;
+            path_[i] += (b.position[i] - position_[i]).norm() + arm * turn;
             if (i == kShip) arm += b.ship.centre.norm();  // its velocity is of that point
-            soon_[i] = way_[i] + dt * (b.velocity[i].norm() + arm * b.angular_velocity[i].norm());
+            path_after_step_[i] =
+                path_[i] + dt * (b.velocity[i].norm() + arm * b.angular_velocity[i].norm());
         }
         position_[i] = b.position[i];
         orientation_[i] = b.orientation[i];
     };
     for (std::size_t i = known; i < b.size(); ++i) look(i);
     if (known < b.size()) return update(scene, dt);  // `soon` of those just met
-    for (const CrushedIce::CrushEvent& dent : scene.crushed.recent) {
-        for (auto* sum : {&way_, &soon_, &crushed_})
-            (*sum)[static_cast<std::size_t>(dent.body)] += dent.depth;
+    for (const CrushedIce::CrushEvent& event : scene.crushed.recent) {
+        for (auto* sum : {&path_, &path_after_step_, &crushed_})
+            (*sum)[static_cast<std::size_t>(event.body)] += event.depth;
     }
     look(kShip);
     for (const std::int32_t i : b.moving) look(static_cast<std::size_t>(i));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "solver/shape/faces.hpp"
+#include "solver/shape/normal_cone.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -7,8 +7,8 @@
 
 namespace ice {
 
-Faces Faces::meeting(std::span<const Vec3> normals) {
-    Faces out;
+NormalCone NormalCone::meeting(std::span<const Vec3> normals) {
+    NormalCone out;
     out.count = static_cast<int>(normals.size());
     for (std::size_t k = 0; k < normals.size(); ++k) out.normal[k] = normals[k];
     const Vec3 &f = out.normal[0], &g = out.normal[1], &h = out.normal[2];
@@ -30,8 +30,8 @@ Faces Faces::meeting(std::span<const Vec3> normals) {
     return out;
 }
 
-Faces Faces::turned(const Mat3& turn) const {
-    Faces out = *this;
+NormalCone NormalCone::turned(const Mat3& turn) const {
+    NormalCone out = *this;
     if (count == 0) return out;
     for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k)
         out.normal[k] = turn * normal[k];
@@ -39,7 +39,7 @@ Faces Faces::turned(const Mat3& turn) const {
     return out;
 }
 
-double Faces::least_along(const Vec3& n, double around) const {
+double NormalCone::least_along(const Vec3& n, double around) const {
     // into the solid it goes against the parts: along each of a corner's edges, or within each of
     // an edge's faces and along the edge; a face's or the solid's points go so far along several
     const auto along = [&](std::size_t k) { return n.dot(part[k]) * per_length[k]; };

@@ -10,35 +10,38 @@
 
 namespace ice {
 
-/// The faces that meet in an edge (2) or a corner (3), by their outward normals.
-struct Faces {
+/// The faces that meet in an edge (2) or a vertex (3), by their outward normals, and the cone of
+/// all outward normals there (docs/method.md, section 3).
+struct NormalCone {
     int count = 0;
     std::array<Vec3, 3> normal{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
-    double corner = 0.0;  ///< from the sphere's centre along its normal to where they meet [m]
-    double aside = 0.0;   ///< how far across a contact's normal what it stands for may be [m]
+    double apex_distance =
+        0.0;  ///< from the sphere's centre along its normal to where they meet [m]
+    double tangent_extent = 0.0;  ///< largest extent of its patch across a contact normal [m]
 
-    /// None, or the 2 or 3 faces with these unit normals; `corner` and `aside` are left 0.
-    static Faces meeting(std::span<const Vec3> normals);
+    /// None, or the 2 or 3 faces with these unit normals; `apex_distance` and `tangent_extent` are
+    /// left 0.
+    static NormalCone meeting(std::span<const Vec3> normals);
 
     /// The same in other axes.
-    Faces turned(const Mat3& turn) const;
+    NormalCone turned(const Mat3& turn) const;
 
-    /// Is n an outward normal of the edge or corner: are its parts along the faces' normals
-    /// positive, to some degrees? Beyond them the corner is not the body's foremost point, another
-    /// sphere's is. Nor is it where n runs along the edge, by more than `most_along` (cosine).
-    /// @param slack  all bounds are wider by this [rad]; negative: narrower
+    /// Is n in the cone: are its components along the faces' normals positive, to some degrees?
+    /// Outside the cone another sphere has the body's foremost point; so it has where n leans along
+    /// the edge, by more than `most_along` (cosine).
+    /// @param slack  widens all bounds [rad]; negative: narrows them
     /// @pre count > 0
-    bool have(const Vec3& n, double most_along, double slack = 0.0) const {
-        return have_either(n, most_along, slack).forth;
+    bool contains(const Vec3& n, double most_along, double slack = 0.0) const {
+        return contains_either_sign(n, most_along, slack).forth;
     }
-    /// Is n, and is -n?
-    struct Ways {
+    /// Is n in the cone (forth), and is -n (back)?
+    struct Signs {
         bool forth, back;
     };
-    Ways have_either(const Vec3& n, double most_along, double slack = 0.0) const {
+    Signs contains_either_sign(const Vec3& n, double most_along, double slack = 0.0) const {
         const double least = kBelongs * size - slack;  // no `part` is longer than 1
         const double first = n.dot(part[0]), second = n.dot(part[1]), last = n.dot(part[2]);
-        Ways out{first >= least && second >= least, -first >= least && -second >= least};
+        Signs out{first >= least && second >= least, -first >= least && -second >= least};
         if (count == 2) {
             const bool across = std::abs(last) <= most_along + slack;
             return {out.forth && across, out.back && across};
@@ -46,19 +49,19 @@ struct Faces {
         return {out.forth && last >= least, out.back && -last >= least};
     }
 
-    /// Least of n . (p - corner) [m] for the points p of the solid that the faces bound: at a
+    /// Least of n . (p - apex) [m] for the points p of the solid that the faces bound: at a
     /// corner those within the parallelepiped of its edges, each `around` [m] long; at an edge
     /// those so far along it either way and into both faces. At most 0. @pre count > 0
     double least_along(const Vec3& n, double around) const;
 
-    /// Edges that end or pass there: 3 of a corner, 1 of two faces, else none.
+    /// Number of edges: 3 end at a vertex, 1 passes between two faces, else none.
     int edges() const { return count == 3 ? 3 : count / 2; }
-    /// Unit vector along edge k: of a corner from there into the solid, else either way.
+    /// Unit vector along edge k: of a vertex from there into the solid, else of either sign.
     Vec3 edge(int k) const {
         const auto n = static_cast<std::size_t>(k);
         return count == 2 ? part[2] : Vec3(-per_length[n] * part[n]);
     }
-    /// Does edge k end there? Then it goes one way only.
+    /// Do the edges end there, as at a vertex?
     bool ends() const { return count == 3; }
 
 private:

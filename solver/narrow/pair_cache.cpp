@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/narrow/pair_cache.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "solver/narrow/deep_seats.hpp"
+#include "solver/narrow/separation.hpp"
+#include "solver/narrow/solid_contacts.hpp"
+
+namespace ice {
+
+namespace {
+
+// The skin covers a pair's motion in this many steps, within the bounds below: a thicker skin lists
+// more spheres, a thinner one is renewed more often.
+constexpr double kLookAhead = 5.0;
+constexpr double kLeastAngle = 0.0075, kMostAngle = 0.015;  // [rad]
+constexpr double kLeastShare = 0.3, kMostShare = 0.6;       // of the ice's radius
+
+// Below this many entries, rows that are no longer in use cost less than closing the gaps.
+constexpr std::size_t kFewestListed = 4096;
+
+// Relative motion and rotation [rad] of a pair since b had the pose (turn, shift) in a's axes.
+// |R - R0| is sqrt(8) sin(angle / 2), below half a radian at least 0.99 sqrt(2) angle.
+Skin relative_motion(const PairView& view, const Mat3& turn, const Vec3& shift) {
+    const double turned = (view.rotation_ab - turn).norm() / (0.99 * std::numbers::sqrt2);
+    return {(view.translation_ab - shift).norm() + MotionBounds::lever(view.shape_b) * turned,
+            turned};
+}
+
+}  // namespace
+
+void PairCache::carry_over(const std::vector<BodyPair>& pairs) {
+    if (pairs == pairs_) return;
+    moved_.assign(pairs.size(), Row{});
+    kept_ = 0;
+    std::size_t old = 0;
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+        while (old < pairs_.size() && pairs_[old] < pairs[k]) ++old;
+        if (old < pairs_.size() && pairs_[old] == pairs[k]) moved_[k] = rows_[old];
+        kept_ += moved_[k].count;
+    }
+    rows_.swap(moved_);
+    pairs_ = pairs;
+}
+
+void PairCache::keep(std::size_t k, std::span<const SpherePair> near) {
+    Row& row = rows_[k];
+    kept_ += near.size() - row.count;
+    row.count = near.size();
+    row.first = listed_.size();
+    listed_.insert(listed_.end(), near.begin(), near.end());
+    if (listed_.size() > kFewestListed && listed_.size() > 2 * kept_) close_gaps();
+}
+
+void PairCache::close_gaps() {
+    moved_listed_.clear();
+    for (Row& row : rows_) {
+        const auto first = listed_.begin() + static_cast<std::ptrdiff_t>(row.first);
+        row.first = moved_listed_.size();
+        moved_listed_.insert(moved_listed_.end(), first,
+                             first + static_cast<std::ptrdiff_t>(row.count));
+    }
+    listed_.swap(moved_listed_);
+}
+
+void PairCache::renew(std::size_t k, const PairView& view, const MotionBounds& motion,
+                      const Skin& skin, double clearance) {
+    Row& row = rows_[k];
+    row.turn = view.rotation_ab;
+    row.shift = view.translation_ab;
+    row.crushed = motion.crushed(view.pair.a) + motion.crushed(view.pair.b);
+    row.clearance = clearance;
+    row.skin = skin;
+    set_wakeups(row, view.pair, motion, 0.0, 0.0);
+}
+
+// Turns the unused part of the skin into wake-up thresholds: until the sum of both bodies' paths
+// reaches them, their poses need not be compared. `gone` and `turned` are the relative motion since
+// the row was renewed.
+void PairCache::set_wakeups(Row& row, BodyPair pair, const MotionBounds& motion, double gone,
+                            double turned) {
+    const double now = motion.path(pair.a) + motion.path(pair.b);
+    // solids deep in each other have contacts even where no spheres may touch: never asleep
+    row.path_wake = row.deep ? -std::numeric_limits<double>::infinity()
+                             : now + std::min(row.clearance - gone, row.room);
+    row.path_stale = now + row.skin.distance - gone;
+    row.rotation_stale =
+        motion.rotation(pair.a) + motion.rotation(pair.b) + row.skin.angle - turned;
+}
+
+void PairCache::set_room(std::size_t k, const PairView& view, double room) {
+    Row& row = rows_[k];
+    row.seat_turn = view.rotation_ab;
+    row.seat_shift = view.translation_ab;
+    row.seat_room = room;
+}
+
+double PairCache::room_left(const Row& row, const PairView& view, double apart) {
+    if (view.shape_a.dimension == 2 || is_convex_pair(view))
+        return std::numeric_limits<double>::infinity();  // their axis tells the depth of solids
+    if (apart > 0.0) return deep_slack(view);
+    if (row.seat_room < 0.0) return row.seat_room;
+    return row.seat_room - relative_motion(view, row.seat_turn, row.seat_shift).distance;
+}
+
+double PairCache::part_solids(Row& row, const PairView& view, double enough) {
+    const ConvexPiece &a = view.shape_a.convex, &b = view.shape_b.convex;
+    const RelativePose pose{view.rotation_ab, view.translation_ab};
+    // the plane that separated them last mostly still does: one plane instead of all
+    const SeparatingAxes& last = row.axes;
+    if (last.plane_a >= 0 || last.plane_b >= 0) {
+        const bool of_a = last.plane_b < 0 || last.face_a >= last.face_b;
+        const double gap = gap_along_plane(a, b, pose, of_a ? last.plane_a : -1, last.plane_b);
+        if (gap > enough) return gap;
+    }
+    row.axes = find_axes(a, b, pose, enough);
+    return row.axes.widest();
+}
+
+PairCache::State PairCache::state(std::size_t k, const Scene& scene, BodyPair pair,
+                                  const MotionBounds& motion, double dt, double margin,
+                                  bool polygon) {
+    Row& row = rows_[k];
+    const double path = motion.path_after_step(pair.a) + motion.path_after_step(pair.b);
+    if (path < std::min(row.path_wake, row.path_stale) &&
+        motion.rotation(pair.a) + motion.rotation(pair.b) < row.rotation_stale)
+        return State::separated;
+    const PairView view(scene, pair);
+    const double closing = dt * closing_speed(scene, pair);
+    const double apart = (polygon ? part_solids(row, view, closing + margin)
+                                  : separation(view, closing + margin, row.axis)) -
+                         margin;
+    if (apart > closing) {
+        row.path_wake = motion.path(pair.a) + motion.path(pair.b) + apart / separation_share(view);
+        row.path_stale = row.rotation_stale = std::numeric_limits<double>::infinity();
+        return State::separated;
+    }
+    if (polygon) {
+        row.path_stale = row.rotation_stale = std::numeric_limits<double>::infinity();
+        row.path_wake = -row.path_stale;
+        return State::polygon;
+    }
+    row.room = room_left(row, view, apart + margin);
+    row.deep = is_deep(view, apart + margin) || row.room <= 0.0;
+    if (row.skin.distance < 0.0) return State::stale;  // never settled
+    const auto [moved, turned] = relative_motion(view, row.turn, row.shift);
+    const double gone = moved + motion.crushed(pair.a) + motion.crushed(pair.b) - row.crushed;
+    const double then = gone + closing;
+    if (then >= row.skin.distance || turned >= row.skin.angle) return State::stale;
+    set_wakeups(row, pair, motion, gone, turned);
+    return row.deep || then >= row.clearance ? State::listed : State::separated;
+}
+
+Skin skin_of(const Scene& scene, BodyPair pair, double dt) {
+    const Bodies& b = scene.bodies;
+    const auto shape = static_cast<std::size_t>(b.shape[static_cast<std::size_t>(pair.b)]);
+    const double radius = scene.shapes[shape].largest_radius, ahead = kLookAhead * dt;
+    const Vec3 turning = b.angular_velocity[pair.b] - b.angular_velocity[pair.a];
+    return {
+        std::clamp(ahead * closing_speed(scene, pair), kLeastShare * radius, kMostShare * radius),
+        std::clamp(ahead * turning.norm(), kLeastAngle, kMostAngle)};
+}
+
+}  // namespace ice

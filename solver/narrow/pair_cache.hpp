@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "solver/broad/find_pairs.hpp"
+#include "solver/narrow/feature_pair_bound.hpp"
+#include "solver/narrow/pair_view.hpp"
+#include "solver/narrow/separating_axis.hpp"
+#include "solver/scene/bodies.hpp"
+
+namespace ice {
+
+/// Two spheres that may touch while their bodies move within the skin.
+struct SpherePair {
+    std::int32_t a, b;
+};
+
+/// Neighbour lists of pairs of bodies: the clearance before they can touch, and the spheres that
+/// may touch, both valid while the bodies move within the skin.
+class PairCache {
+public:
+    /// Keeps the rows of pairs that are in the new list, too; both lists are sorted.
+    void carry_over(const std::vector<BodyPair>& pairs);
+
+    /// State of a pair for the coming step.
+    enum class State {
+        separated,  ///< the bodies cannot touch
+        polygon,    ///< they may touch, along axes(k)
+        listed,     ///< they may touch, with the spheres of listed(k)
+        stale       ///< the list is no longer valid
+    };
+    /// @param margin  [m] bodies that are further apart at the end of the step have no contact
+    /// @param polygon  the solids meet in a polygon (meets_in_polygon)
+    /// @pre motion was updated with the present poses and dt
+    State state(std::size_t k, const Scene& scene, BodyPair pair, const MotionBounds& motion,
+                double dt, double margin, bool polygon);
+
+    /// The separating axes of row k's solids. @pre state() returned State::polygon
+    const SeparatingAxes& axes(std::size_t k) const { return rows_[k].axes; }
+
+    /// Spheres of row k that may touch; valid until the next keep() or carry_over().
+    std::span<const SpherePair> listed(std::size_t k) const {
+        return {listed_.data() + rows_[k].first, rows_[k].count};
+    }
+
+    /// May row k's solids overlap so far that spheres have lost each other (is_deep, DeepSeat)?
+    /// @pre state() returned State::listed or State::stale
+    bool deep(std::size_t k) const { return rows_[k].deep; }
+
+    /// No seat of row k lies deep before its bodies have moved `room` [m] relative to each other
+    /// (find_deep_seats). Different rows may be set at the same time.
+    void set_room(std::size_t k, const PairView& view, double room);
+
+    /// Starts a new list of row k: valid within `skin`; its bodies cannot touch before they have
+    /// moved by `clearance` [m] relative to each other. Different rows may be renewed at the same
+    /// time.
+    void renew(std::size_t k, const PairView& view, const MotionBounds& motion, const Skin& skin,
+               double clearance);
+
+    /// Stores the spheres of row k that may touch.
+    void keep(std::size_t k, std::span<const SpherePair> near);
+
+private:
+    struct Row {
+        // pose of b in a's axes when the row was renewed
+        Mat3 turn = Mat3::Zero();
+        Vec3 shift = Vec3::Zero();
+        double crushed = 0.0;    // of both bodies then [m]
+        double clearance = 0.0;  // relative motion before they can touch [m]
+        Skin skin{-1.0, -1.0};
+        // Sums of both bodies' paths and rotations up to which their poses need not be compared:
+        // the relative motion is at most that sum. Until the pair may touch; until it is stale.
+        double path_wake = 0.0, path_stale = 0.0, rotation_stale = 0.0;
+        double room = 0.0;     // motion before seats can lie deep, when last compared [m]
+        std::size_t axis = 0;  // of separation(), when last compared
+        SeparatingAxes axes;   // instead of it where the solids meet in a polygon
+        std::size_t first = 0, count = 0;  // of listed_
+        bool deep = false;
+        // pose of b when its seats were last searched, and the motion allowed since then
+        Mat3 seat_turn = Mat3::Zero();
+        Vec3 seat_shift = Vec3::Zero();
+        double seat_room = -1.0;
+    };
+    // A lower bound of the distance of row k's solids; exact where it is at most `enough` [m].
+    static double part_solids(Row& row, const PairView& view, double enough);
+    static void set_wakeups(Row& row, BodyPair pair, const MotionBounds& motion, double gone,
+                            double turned);
+    // Motion of the pair before its seats must be searched [m].
+    static double room_left(const Row& row, const PairView& view, double apart);
+    void close_gaps();
+
+    std::vector<BodyPair> pairs_;
+    std::vector<Row> rows_, moved_;  // by pair
+    std::vector<SpherePair> listed_, moved_listed_;
+    std::size_t kept_ = 0;  // entries of listed_ that rows use
+};
+
+/// The skin of a pair: its motion within some steps, bounded. @param dt  the step [s]
+Skin skin_of(const Scene& scene, BodyPair pair, double dt);
+
+}  // namespace ice
