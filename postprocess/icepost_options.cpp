@@ -26,14 +26,16 @@ void add_formula_options(CLI::App& sub, PostOptions& o) {
                    "a ship's own coefficients of the component formula (icepost fit), for Jeong's");
     sub.add_option(
            "--flexural-strength", o.flexural_strength,
-           "of level ice, for the formulas (default: the case's; level ice without: 500 kPa)")
+           "flexural strength of level ice, for the formulas (default: the case's, or 500 kPa)")
         ->transform(positive_quantity(Dimension::pressure, "500 kPa"));
 }
 
 void declare_runs(CLI::App& app, PostOptions& o, PostCommands& c) {
     c.report = add_command(app, o, "report", "write RUN/report.html, one file that opens anywhere");
     c.report->add_option("-o,--out", o.out, "another file");
-    c.report->add_option("--frames", o.frames, "of the 3D playback at most, evenly chosen")
+    c.report
+        ->add_option("--frames", o.frames,
+                     "largest number of frames in the 3D playback, evenly chosen")
         ->capture_default_str()
         ->check(CLI::Range(2, 1000000));
     add_formula_options(*c.report, o);
@@ -63,8 +65,10 @@ void declare_sweeps(CLI::App& app, PostOptions& o, PostCommands& c) {
     c.fit = add_folder_command(app, o, "fit",
                                "fit the component formula to a sweep: DIR/coefficients.toml",
                                "folder of run folders");
-    c.fit->add_option("--name", o.name, "of the ship (default: the sweep's title)");
-    c.fit->add_option("--flexural-strength", o.flexural_strength, "of level ice in the sweep")
+    c.fit->add_option("--name", o.name, "name of the ship (default: the sweep's title)");
+    c.fit
+        ->add_option("--flexural-strength", o.flexural_strength,
+                     "flexural strength of level ice in the sweep")
         ->transform(positive_quantity(Dimension::pressure, "500 kPa"));
     c.hv = add_folder_command(app, o, "hv", "write DIR/hv.html, attainable speed against thickness",
                               "folder of run folders over speed and thickness");
@@ -72,10 +76,10 @@ void declare_sweeps(CLI::App& app, PostOptions& o, PostCommands& c) {
     c.hv->add_option("--svg", o.svg, "also write the chart: .svg, .png or .pdf");
     c.hv->add_option("--csv", o.csv_file, "also write the points as CSV");
     add_formula_options(*c.hv, o);
-    c.sensitivity =
-        add_folder_command(app, o, "sensitivity",
-                           "write DIR/sensitivity.html and print what decides a case's resistance",
-                           "folder of a sensitivity study");
+    c.sensitivity = add_folder_command(
+        app, o, "sensitivity",
+        "write DIR/sensitivity.html and print the inputs by their effect on resistance",
+        "folder of a sensitivity study");
     c.sensitivity->add_option("--svg", o.svg, "also write the tornado chart");
 }
 

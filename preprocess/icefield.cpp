@@ -30,13 +30,13 @@ struct Options {
 
 void declare(CLI::App& app, Options& o) {
     ice::declare_version(app);
-    app.add_option("specification", o.spec, "What the field should be (TOML)");
+    app.add_option("specification", o.spec, "Specification of the field (TOML)");
     app.add_option("-o,--output", o.out, "Field file (default <specification stem>.h5)");
     app.add_option("--set", o.overrides, "key=value, replaces a key; repeatable")
         ->allow_extra_args(false)
         ->take_all();
     app.add_option("--seed", o.seed, "Another seed than the specification's");
-    app.add_option("--json", o.json, "Write what was made as JSON");
+    app.add_option("--json", o.json, "Write the field's measures as JSON");
     app.add_option("--preview", o.preview, "Draw the field from above: .svg, .png or .pdf");
     app.add_option("--explain", o.explain, "Explain a key of the specification");
     app.add_flag("--print-defaults", o.defaults, "Print all keys with their defaults");

@@ -92,12 +92,12 @@ void declare(CLI::App& app, Options& o) {
                    "Water over the lowest point, in m or with a unit: judges the ice belt")
         ->transform(length);
     app.add_option("--ice-thickness", o.ice_thickness,
-                   "Of the ice in that belt, in m or with a unit (a tenth of the draught)")
+                   "Ice thickness of that belt, in m or with a unit (a tenth of the draught)")
         ->transform(length);
-    app.add_option("--repair", o.repair,
-                   "auto, strict (refuse what is not closed) or wrap (shrink-wrap)")
+    app.add_option("--repair", o.repair, "auto, strict (refuse an open mesh) or wrap (shrink-wrap)")
         ->check(CLI::IsMember({"auto", "strict", "wrap"}));
-    app.add_flag("--check", o.check, "Diagnose the mesh only: what it is, what --repair would do");
+    app.add_flag("--check", o.check,
+                 "Diagnose the mesh only: its faults, and the repairs it would get");
     app.add_option("--export", o.exports,
                    "Also write the set as csv, vtp, yade, liggghts or chrono; repeatable")
         ->check(CLI::IsMember(ice::export_formats()));

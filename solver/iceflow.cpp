@@ -50,15 +50,15 @@ void declare(CLI::App& app, Options& o) {
         ->type_name("H")
         ->transform(length("0.5"));
     app.add_option("--spacing", o.spacing,
-                   "Of the table's nodes; half a floe's thickness or less (default: for 300 000 "
-                   "nodes)")
+                   "Spacing of the table's nodes; half a floe's thickness or less (default: that "
+                   "of 300 000 nodes)")
         ->type_name("S")
         ->transform(length("0.15"));
     app.add_flag("--check", o.check,
-                 "Solve the flow and say how well the panels do; write no flow file");
+                 "Solve the flow and report the panels' residual; write no flow file");
     app.add_flag("--added-mass", o.added_mass,
-                 "Also say the hull's added mass: surge, sway, yaw under a flat surface, heave, "
-                 "roll, pitch under one that yields");
+                 "Also print the hull's added mass: surge, sway, yaw for slow motions, heave, "
+                 "roll, pitch for fast ones");
     app.add_option("--about", o.about,
                    "Point for rotations, in the mesh's axes (default: midships in the water)")
         ->expected(3);
@@ -69,7 +69,7 @@ void declare(CLI::App& app, Options& o) {
     app.add_option("--export", o.exports, "Also write the flow for another program (repeatable)")
         ->check(CLI::IsMember({"vti"}))
         ->allow_extra_args(false);
-    app.add_option("--json", o.json, "Write what was made as JSON");
+    app.add_option("--json", o.json, "Write the flow's measures as JSON");
     app.add_option("--threads", o.threads, "Threads (default: all cores)")
         ->check(CLI::Range(1, 4096));
     app.add_option("--simd", o.simd, "Instruction set; results are the same on all")

@@ -35,7 +35,7 @@
 
 namespace {
 
-// The command that goes on with an interrupted run.
+// The command that resumes an interrupted run.
 std::string command_to_go_on(const ice::Options& o, const std::filesystem::path& folder) {
     std::string line = ice::typed_program() + " " + ice::shell_word(o.case_file);
     for (const std::string& text : o.overrides) line += " --set " + ice::shell_word(text);
@@ -92,7 +92,7 @@ std::filesystem::path folder_of_run(const ice::Options& o) {
     return ice::default_run_folder(o.case_file);
 }
 
-// What may be in the run folder before: nothing, a run to replace, or the run that goes on.
+// Allowed content of the run folder: none, a run to replace, or the resumed run.
 ice::Existing may_exist(const ice::Options& o, const std::filesystem::path& folder) {
     std::error_code ignored;
     if (!o.restart.empty() &&
@@ -102,7 +102,7 @@ ice::Existing may_exist(const ice::Options& o, const std::filesystem::path& fold
     return o.overwrite ? ice::Existing::replace : ice::Existing::refuse;
 }
 
-// A run that ends with an error leaves what it wrote; the error says so, and how to go on.
+// A run that ends with an error keeps its files; the error says so, with the command that resumes.
 ice::Summary run_or_tell(ice::World& world, const ice::RunOptions& options, const ice::Options& o) {
     try {
         return ice::run(world, options);
@@ -200,7 +200,7 @@ std::vector<std::string> member_words(const ice::Options& o) {
     return words;
 }
 
-// The command of an ensemble in a folder, which also goes on with it.
+// The command of an ensemble in a folder, which also resumes it.
 std::string command_of_seeds(const ice::Options& o, const std::filesystem::path& folder) {
     std::vector<std::string> words{o.case_file, "--seeds", std::to_string(o.seeds), "--out",
                                    folder.string()};

@@ -35,13 +35,14 @@ void declare_new(CLI::App& app, Options& o) {
             ->needs(fresh);
 }
 
-// What a run says and what it lets pass.
+// Options of messages and checks.
 void declare_messages(CLI::App& app, Options& o) {
     app.add_flag("--allow-overlap", o.allow_overlap,
                  "Run a case whose bodies overlap at the start, with a warning");
     app.add_flag("--verify", o.verify,
                  "Stop at a step that loses momentum; the worst imbalance goes into the summary");
-    app.add_option("--explain", o.explain, "Tell what a case key takes")->type_name("KEY");
+    app.add_option("--explain", o.explain, "Explain a case key: unit, values, default")
+        ->type_name("KEY");
     app.add_flag("--print-schema", o.schema, "JSON schema of the case file");
     app.add_flag("--print-defaults", o.defaults, "A complete case with all defaults");
     app.add_flag("--no-report", o.no_report,
@@ -85,7 +86,7 @@ void declare_options(CLI::App& app, Options& o) {
         ->transform(positive_quantity(Dimension::time, "5 min"))
         ->excludes(app.get_option("--checkpoint-every"));
     app.add_option("--restart", o.restart,
-                   "Go on from a checkpoint, in its folder (or --out), to the same bits; only "
+                   "Resume from a checkpoint, in its folder (or --out), with the same bits; only "
                    "simulation.duration may have changed")
         ->type_name("FILE");
     auto* restart = app.get_option("--restart");
@@ -94,7 +95,7 @@ void declare_options(CLI::App& app, Options& o) {
             ->check(CLI::PositiveNumber);
     app.add_option("--seeds", o.seeds,
                    "Run an ensemble of N members in turn, in seed-1, seed-2, ... of the run "
-                   "folder; the same command again goes on with it")
+                   "folder; the same command again resumes it")
         ->type_name("N")
         ->check(CLI::Range(1, 10000))
         ->excludes(restart)

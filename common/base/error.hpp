@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// The one exception of the project: what is wrong, where, and what to do about it.
+/// The one exception of the project: place, fault and remedy.
 #pragma once
 
 #include <stdexcept>

@@ -11,7 +11,7 @@ namespace ice {
 ///
 /// An advisory lock on the open file (fcntl, F_OFD_SETLK), which the system ends with the program,
 /// however that ends. It binds only programs that take a FileTurn; HDF5's own locks are others.
-/// Nobody waits longer than ten seconds, or what the caller allows: a stopped reader must not stop
+/// Nobody waits longer than ten seconds, or than the caller allows: a stopped reader must not stop
 /// a run of days. Files that are missing and file systems without locks are served without one.
 class FileTurn {
 public:

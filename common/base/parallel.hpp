@@ -12,7 +12,7 @@
 namespace ice {
 
 /// Threads used by parallel_for from now on; 0 leaves OpenMP's own choice. They stay the same ones:
-/// what a thread found in one region is read in the next.
+/// a thread's results in one region are read in the next.
 inline void set_thread_count(int threads) {
     omp_set_dynamic(0);
     if (threads > 0) omp_set_num_threads(threads);
@@ -47,7 +47,7 @@ private:
 
 /// Calls body(k) for k in [0, count), in chunks shared among the threads.
 ///
-/// body(k) may write only what belongs to k: then the result has the same bits for any thread
+/// body(k) may write only the data of k: then the result has the same bits for any thread
 /// count. Below `serial_below` items it runs on the calling thread, because waking threads costs
 /// more than the work (about 5 us).
 /// @throws what body throws, of several items what the first of them throws; others may have run

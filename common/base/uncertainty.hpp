@@ -6,7 +6,7 @@
 
 namespace ice {
 
-/// What the model itself may be wrong by, as a share of the resistance: stated, not computed. An
+/// Uncertainty of the model itself, as a share of the resistance: stated, not computed. An
 /// independent model of the same problem, convex solids with compliant contact, lay 3 to 12 % below
 /// this one on the pre-sawn channel; see docs/limitations.md.
 inline constexpr double kModelUncertainty = 0.10;

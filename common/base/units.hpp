@@ -10,7 +10,7 @@ namespace ice {
 
 inline constexpr double kKnot = 1852.0 / 3600.0;  ///< [m/s]
 
-/// What a number measures. `none` is dimensionless and takes no unit, `share` is a part of a whole
+/// Dimension of a number. `none` is dimensionless and takes no unit, `share` is a part of a whole
 /// and may be given in per cent.
 enum class Dimension {
     none,

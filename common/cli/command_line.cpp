@@ -61,6 +61,7 @@ Error usage_error(const CLI::App& app, const CLI::ParseError& error) {
     const std::string help = full_name(app) + " --help lists what it takes";
     const std::vector<std::string> left = app.remaining(true);
     const std::vector<std::string> commands = command_names(app);
+    // A missing or misspelt command first: CLI11 would complain about the arguments behind it.
     if (!commands.empty() && app.get_subcommands().empty()) {
         if (left.empty() || left.front().starts_with('-'))
             return bad_input("", "no command given", "give one of " + join_words(commands));
@@ -69,6 +70,7 @@ Error usage_error(const CLI::App& app, const CLI::ParseError& error) {
                          near.empty() ? "give one of " + join_words(commands)
                                       : fmt::format("did you mean '{}'?", near));
     }
+    // Words that CLI11 did not take: an unknown option with its value, or an argument too many.
     if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr && !left.empty()) {
         const auto option = std::find_if(left.begin(), left.end(), [](const std::string& word) {
             return word.starts_with('-');
@@ -80,6 +82,7 @@ Error usage_error(const CLI::App& app, const CLI::ParseError& error) {
         return bad_input("", fmt::format("there is no option '{}'", *option),
                          near.empty() ? help : fmt::format("did you mean '{}'?", near));
     }
+    // CLI11 has no error codes for these, only its own English.
     std::string what = error.what();
     if (const auto end = what.rfind(" is required"); end != std::string::npos)
         what = fmt::format("no {} given", what.substr(0, end));

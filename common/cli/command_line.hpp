@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// What the main functions of all programs do: parse, prepare messages, run, return an exit code.
+/// The main function of all programs: parse, prepare messages, run, return an exit code.
 #pragma once
 
 #include <functional>
@@ -11,7 +11,7 @@ class App;
 
 namespace ice {
 
-/// What a command line says about the program's messages.
+/// Options of the program's messages.
 struct MessageOptions {
     bool quiet = false;           ///< nothing but errors
     std::string colour = "auto";  ///< "always", "never", or "auto": see Colour
@@ -26,11 +26,11 @@ void keep_pages();
 
 /// Parses the command line and runs the program's body; what a main function returns.
 ///
-/// A bad command line ends with exit code 2 and what is meant by it, --help and --version with 0,
-/// exceptions as run_program() says.
+/// A bad command line ends with exit code 2 and the probable correction, --help and --version with
+/// 0, exceptions as run_program() says.
 /// @param app       all options declared; its name is the program's
 /// @param messages  where the app puts --quiet and --color; read after parsing
-/// @param to_save_memory  what the user can do when memory runs out, a clause: "use ..."
+/// @param to_save_memory  remedy when memory runs out, a clause: "use ..."
 /// @param body      is given the words of the command line, joined as a shell takes them
 int run_command_line(CLI::App& app, int argc, const char* const* argv,
                      const MessageOptions& messages, const std::string& to_save_memory,

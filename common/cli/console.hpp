@@ -19,7 +19,7 @@ int terminal_width();
 
 /// Prepares messages: stderr with optional colour, nothing but errors when quiet.
 void start_messages(Colour colour, bool quiet);
-/// Also writes every message to a file from now on, behind what it holds when `append` is true.
+/// Also writes every message to a file from now on, behind its content when `append` is true.
 /// @throws Error (exit code 1) if it cannot.
 void log_to_file(const std::filesystem::path& path, bool append = false);
 void say(const std::string& text);          ///< information
@@ -31,7 +31,7 @@ void say_warning(const std::string& text);  ///< something the user should know
 void write_data(const std::string& text);
 
 /// Runs a program's body and turns exceptions into one message and the contract's exit code.
-/// @param to_save_memory  what the user can do when there is not enough: "use ..."
+/// @param to_save_memory  remedy when there is not enough: "use ..."
 int run_program(const std::string& name, const std::function<int()>& body,
                 const std::string& to_save_memory = "use a smaller case");
 

@@ -17,7 +17,7 @@ namespace ice {
 /// Names of outputs under way (PartFile) are removed. @param program  for the messages; is copied
 void install_fault_handlers(const std::string& program);
 
-/// What a program says when memory runs out.
+/// A program's message when memory runs out.
 extern const char* const kOutOfMemory;
 
 }  // namespace ice

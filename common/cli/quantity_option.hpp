@@ -11,8 +11,8 @@ namespace ice {
 
 /// Validators that leave a quantity in SI, a number that CLI11 reads; to be given to transform().
 ///
-/// A bare number is SI. Refused is what parse_quantity() does not read, and what is not finite (or
-/// not above 0): CLI11's own checks let NaN pass and answer with 308 digits.
+/// A bare number is SI. Refused are texts that parse_quantity() does not read, and numbers that are
+/// not finite (or not above 0): CLI11's own checks let NaN pass and answer with 308 digits.
 /// @param example  for the message: "2.5"
 CLI::Validator positive_quantity(Dimension dimension, const std::string& example);
 CLI::Validator finite_quantity(Dimension dimension, const std::string& example);

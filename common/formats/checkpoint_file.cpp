@@ -55,7 +55,7 @@ struct Flat<Eigen::Quaterniond> {
     static Eigen::Quaterniond take(const Base* in) { return {in[0], in[1], in[2], in[3]}; }
 };
 
-// Before HDF5 looks at it, which trusts what it reads.
+// Checked before HDF5 reads the file, because HDF5 trusts its input.
 void check_seal(const std::filesystem::path& path) {
     std::error_code error;
     if (!std::filesystem::is_regular_file(path, error))

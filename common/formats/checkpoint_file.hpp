@@ -20,7 +20,7 @@
 namespace ice {
 
 /// A checkpoint while it is written or read. Both directions take the same calls, so that one list
-/// of fields serves both: carry() writes what it is given, or sets it.
+/// of fields serves both: carry() writes its argument, or sets it.
 ///
 /// Field types T: double, std::int64_t, std::int32_t, std::uint64_t, std::uint8_t, Vec3,
 /// Eigen::Quaterniond.

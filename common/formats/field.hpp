@@ -20,7 +20,7 @@ struct FieldFloe {
     bool fixed = false;  ///< unbroken ice, which never moves
 };
 
-/// An ice field: what icefield makes and icesolve reads. All spheres have one radius, all shapes
+/// An ice field, made by icefield and read by icesolve. All spheres have one radius, all shapes
 /// one region.
 struct Field {
     double radius = 0.0, spacing = 0.0;  ///< of the spheres [m]

@@ -136,6 +136,8 @@ private:
         set.mode = field.mode;
         set.source_mesh = path_.filename().string();
         set.mesh.region_names = {kRegion};
+        // Shapes lie one after the other in the arrays of the file: at_ counts the rows taken so
+        // far.
         const auto n = static_cast<std::size_t>(all_.spheres[k]);
         set.surface_count = static_cast<std::size_t>(all_.surface[k]);
         check(set.surface_count <= n, "/shape/surface_spheres", "are more than the spheres");
@@ -156,6 +158,8 @@ private:
         set.regions.assign(set.surface_count, 0);
         take_creases(static_cast<std::size_t>(all_.creases[k]), set);
         take_solid(k, set);
+        // The seal guards against changed bytes only; a set written by another program may
+        // contradict itself.
         const std::string fault = fault_of(set);
         check(fault.empty(), "/shape", fmt::format("has, of shape {}, {}", k, fault));
         return set;

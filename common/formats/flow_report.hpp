@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// What iceflow says of a flow, as JSON.
+/// The report of iceflow on a flow, as JSON.
 #pragma once
 
 #include <array>

@@ -34,7 +34,7 @@ Hdf5File::Hdf5File(const std::filesystem::path& path, Mode mode) : path_(path) {
     H5PLset_loading_state(0);                     // a file may not ask for code to be loaded
     const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
     H5Pset_libver_bounds(access, H5F_LIBVER_EARLIEST, H5F_LIBVER_V110);
-    // without locks a run can be looked at while it goes on, and file systems without locks work
+    // without locks a running run can be read, and file systems without locks work
     H5Pset_file_locking(access, false, true);
     // Space in large pieces: the file's end, which is written last, seldom moves then. A kill
     // between a chunk of data and the end would leave the chunk outside of the file.

@@ -74,7 +74,7 @@ public:
     void make_scale(const std::string& name);
     void attach_scale(const std::string& dataset, unsigned dimension, const std::string& scale);
 
-    /// After flush(), what was written so far survives a crash of the program.
+    /// After flush(), the data so far survive a crash of the program.
     void flush();
     /// Closes now and reports failure (the destructor cannot).
     void close();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// What the two parts of Hdf5File share; for hdf5_*.cpp alone, because it shows HDF5's types.
+/// Common parts of Hdf5File's two sources; for hdf5_*.cpp alone, because it shows HDF5's types.
 #pragma once
 
 #include <hdf5.h>

@@ -20,7 +20,7 @@ using Json = nlohmann::ordered_json;
 /// The file's JSON. @throws Error (exit code 2) naming a file that is missing or no JSON
 Json parse_json_file(const std::filesystem::path& path);
 
-/// Indented text. What is no UTF-8, e.g. of file names, is replaced: JSON must be.
+/// Indented text. Bytes that are no UTF-8, e.g. of file names, are replaced: JSON must be.
 std::string json_text(const Json& json);
 
 /// Adds version, commit and compiler of this program.
@@ -29,7 +29,7 @@ void add_origin(Json& json);
 /// Reads values by dotted key and names file and key in every complaint.
 class JsonReader {
 public:
-    /// @param remedy  what to do about a file that is wrong
+    /// @param remedy  for a faulty file
     JsonReader(const std::filesystem::path& path, std::string remedy)
         : path_(path), remedy_(std::move(remedy)), json_(parse_json_file(path)) {}
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Ship, ice and travel of a run in a few numbers: what a reader wants to know before the forces.
+/// Ship, ice and travel of a run in a few numbers.
 #pragma once
 
 #include <cstdint>
@@ -29,7 +29,7 @@ struct ShipParticulars {
     std::optional<bool> stuck;  ///< below 0.1 m/s for 10 s on end; likewise
 };
 
-/// The floes that may move, and what the case says of all ice.
+/// Sizes of the floes that may move, and the case's values for all ice.
 struct IceParticulars {
     double thickness = kUnknown;  ///< of the first floe as it lies [m]
     std::int64_t floes = 0;       ///< without unbroken ice, which never moves
@@ -64,7 +64,7 @@ bool is_short(double averaged_lengths);
 /// "1.20 ship lengths", with ", less than one" where that is short.
 std::string averaged_text(double averaged_lengths);
 
-/// What an empirical formula says of the same ship and ice.
+/// Value of an empirical formula for the same ship and ice.
 struct FormulaValue {
     std::string name;       ///< author and year
     std::string part;       ///< of the resistance: "submersion", ..., "total"

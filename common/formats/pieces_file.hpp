@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// `pieces.h5`: what level ice broke into during a run, beside run.h5.
+/// `pieces.h5`: the pieces into which level ice broke during a run, beside run.h5.
 ///
 /// The bodies of run.h5 are slots then: one after the other stands for several pieces. Layout (K
-/// rows of a group; /pieces: floes by number, /rest: what is left of the sheet at the end):
+/// rows of a group; /pieces: floes by number, /rest: the remaining sheet at the end):
 ///
 ///     / format, format_version, first_body, piece_group, rest_group
 ///     /pieces/number, body [K]  born, gone [K] s (gone: inf while it is there)

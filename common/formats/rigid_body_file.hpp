@@ -12,7 +12,7 @@ namespace ice {
 /// digits: mass, principal moments, centroid and orientation in the mesh's frame.
 ///
 /// @param spheres_file  name of the file that holds the spheres
-/// @param frame         what that file's coordinates are measured in, for the reader
+/// @param frame         of the file's coordinates, in words, for the reader
 /// @param count         its number of spheres
 std::string rigid_body_text(const RigidBody& body, const std::string& spheres_file,
                             const std::string& frame, std::size_t count);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// What a run records, as plain data: the contract between icesolve and icepost.
+/// The records of a run as plain data: the contract between icesolve and icepost.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -19,7 +19,7 @@ struct RunShape {
     std::vector<double> radii;  ///< [m]
 };
 
-/// What stays the same for the whole run. Shape 0 is the hull.
+/// Data that do not change during the run. Shape 0 is the hull.
 struct RunHeader {
     int dimension = 3;
     std::string title, created_by, git_commit, command_line;

@@ -103,6 +103,8 @@ void RunWriter::Buffers::create_history(const RunHeader& header) {
         column.name = name;
         create_column<double>(file, name, row, kHistoryChunk, unit, scales);
     };
+    // Every column hangs on the scale /time, so that a reader after a kill can cut all of them to
+    // the shortest.
     create(time, "/time", {}, "s", {});
     file.make_scale("/time");
     file.create_group("/ship");
@@ -134,6 +136,7 @@ void RunWriter::Buffers::create_history(const RunHeader& header) {
     file.make_scale("/tracked/floe");
     std::string joined;
     for (const std::string& name : track_columns()) joined += (joined.empty() ? "" : ",") + name;
+    // HDF5 has no unit for each column of a row: names and units are joined in attributes.
     tracks.resize(header.tracked.size());
     for (std::size_t k = 0; k < tracks.size(); ++k) {
         create(tracks[k], "/tracked/" + std::to_string(header.tracked[k]), {track_columns().size()},

@@ -41,7 +41,7 @@ struct RunPosition {
     std::vector<Eigen::Quaterniond> last_orientation;    ///< of the last frame, signs as stored
 };
 
-/// Writes run.h5 while the run goes on, as `run.h5.part`, renamed by finish().
+/// Writes run.h5 during the run, as `run.h5.part`, renamed by finish().
 ///
 /// Rows are buffered and flushed to disk with every 20th frame, so that a killed run can be read up
 /// to there (without frames, with every 16384th sample), its histories and contacts up to the last
@@ -78,7 +78,7 @@ public:
     std::uint64_t waiting_bytes() const;
     /// Will the next sample or frame make it write to the disk?
     bool is_about_to_write() const;
-    /// Writes what is buffered, closes and renames. Nothing may be added afterwards.
+    /// Writes buffered rows, closes and renames. Nothing may be added afterwards.
     void finish(const HullPanels& panels = {});
 
 private:
@@ -103,7 +103,7 @@ struct RunData {
     HullPanels panels;  ///< empty in files of before and of killed runs
 };
 
-/// Reads run.h5, or run.h5.part of a run that was killed or goes on. A run that goes on is read as
+/// Reads run.h5, or run.h5.part of a killed or running run. A running one is read as
 /// its last flush left it; where a kill tore a flush, arrays that belong together give as many rows
 /// as the shortest has.
 /// @throws Error (exit code 2) naming the file and the dataset.

@@ -114,6 +114,7 @@ void write_panels(Hdf5File& file, const HullPanels& hull, int dimension) {
         center.push_back(panel.center);
         normal.push_back(panel.normal);
     }
+    // Scales first: xarray takes the dimensions of each following dataset from them.
     file.create_group("/panels");
     file.write(name_of("panel"), ids);
     file.make_scale(name_of("panel"));
@@ -128,6 +129,7 @@ void write_panels(Hdf5File& file, const HullPanels& hull, int dimension) {
     describe("center", "m", "middle of the panel, ship frame");
     describe("normal", "1", "mean outward normal");
     const std::string force = dimension == 2 ? "N/m" : "N";
+    // One column for each quantity, not one row for each panel: readers select by name.
     const auto column = [&](const char* name, double PanelLoad::*member, const std::string& units,
                             const char* text) {
         std::vector<double> values;

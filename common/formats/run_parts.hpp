@@ -17,7 +17,7 @@ void write_shapes(Hdf5File& file, const RunHeader& header);
 /// /flow/point and /flow/velocity; nothing for a run without a flow around its hull.
 void write_flow_arrows(Hdf5File& file, const RunHeader& header);
 
-/// /frames/body and what belongs to a body for the whole run; needs /frames and /xyz.
+/// /frames/body and the bodies' constant data; needs /frames and /xyz.
 void write_bodies(Hdf5File& file, const RunHeader& header);
 
 /// A list of texts that labels a dimension.

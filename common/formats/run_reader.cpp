@@ -131,6 +131,8 @@ private:
     }
 
     void read_history(RunData& run) const {
+        // A killed run may have flushed some columns further than others: all are read up to the
+        // shortest.
         std::vector<std::string> names{"/time"};
         for (const char* name : {"contact_force", "friction_force", "moment", "pose", "contacts",
                                  "moving_floes", "max_overlap", "kinetic_energy"})
@@ -164,6 +166,7 @@ private:
                               overlap[k],
                               energy[k]};
         for (std::size_t k = 0; k < n; ++k) {
+            // Stored as w, x, y, z; normalised, because a resampled file may have rounded it.
             const double* q = pose.data() + 7 * k + 3;
             run.history[k].ship_orientation =
                 Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How a run goes on with its run.h5 after a kill. HDF5 changes a file in place, so that one killed
+// How a run resumes with its run.h5 after a kill. HDF5 changes a file in place, so that one killed
 // while it writes may be past reading, with rows of an hour ago. Hence the rows since the last
 // checkpoint are also saved in a file of their own, complete before it has its name:
 // checkpoint-rows-<samples>-<frames>.h5, after the rows that came before it. Each begins where one
@@ -117,7 +117,7 @@ RunWriter::RunWriter(const std::filesystem::path& path, const RunHeader& header,
     } else {
         buffers_->save_rows();
     }
-    next.keep();  // the open file goes on under its new name
+    next.keep();  // the open file continues under its new name
     buffers_->part_path = path.string() + ".part";
 }
 

@@ -17,7 +17,7 @@ struct CreaseNormal {
 
 /// A solid as contact spheres: made by spherize, read by icesolve (docs/contract.md, section 3).
 ///
-/// N spheres, the first S of them ("surface spheres") stand for the surface, the others for the
+/// N spheres, the first S of them ("surface spheres") represent the surface, the others for the
 /// interior: arrays that only concern the surface have S rows. In 2D a sphere is a disc in the
 /// plane y = 0 and areas, volumes and the solid's integrals are per metre of breadth; the mesh is
 /// the prism over y in [-0.5, 0.5] m.

@@ -28,7 +28,7 @@ void write_spheres(const std::filesystem::path& path, const SphereSet& set,
 /// @throws Error (exit code 2) naming the file and the dataset.
 SphereSet read_spheres(const std::filesystem::path& path);
 
-/// What the certificate says of the ice belt, ice_belt_text(); empty where spherize was given no
+/// The certificate's line on the ice belt, ice_belt_text(); empty where spherize was given no
 /// draught. @throws Error (exit code 2) when the file cannot be read
 std::string read_ice_belt(const std::filesystem::path& path);
 

@@ -82,7 +82,7 @@ struct SpheresReport {
     std::string source_mesh, command_line;
 };
 
-/// What the interior's spheres take in the file; --mode surface leaves them out.
+/// Size of the interior's spheres in the file; --mode surface leaves them out.
 std::int64_t interior_bytes(const SpheresReport& report);
 
 /// "z -0.5 to 1.5 m (draught 7.5 m, ice 0.5 m): ...": what the certificate says of the ice belt;

@@ -170,6 +170,8 @@ void collect_numbers(const Json& json, const std::string& key, std::map<std::str
 
 std::string summary_text(const Summary& s) {
     Json json;
+    // The order here is the order in the file: origin, run, scene, forces, checks.
+    // docs/contract.md, section 5, has the meaning of each key.
     json["schema"] = kSummarySchema;
     json["status"] = s.status;
     json["title"] = s.title;
@@ -211,6 +213,7 @@ std::string summary_text(const Summary& s) {
             {"model", s.flow->model}, {"panels", s.flow->panels}, {"residual", s.flow->residual}};
     if (s.ensemble) json["ensemble"] = ensemble_json(*s.ensemble);
     json["warnings"] = warnings_json(s.warnings);
+    // Twins are added last: they are made of all keys that end in a unit of force or energy.
     if (s.dimension == 2) add_names_per_metre(json);
     add_origin(json);
     return json_text(json);
@@ -223,6 +226,8 @@ Summary read_summary(const std::filesystem::path& path) {
         throw in.fault("schema", std::string("is not ") + kSummarySchema);
     s.status = in.get<std::string>("status");
     s.title = in.get<std::string>("title");
+    // Keys that `has` guards came later than the format: a run of an older program lacks them and
+    // is still readable.
     if (in.has("case_file")) s.case_file = in.get<std::string>("case_file");
     if (in.has("command_line")) s.command_line = in.get<std::string>("command_line");
     if (in.has("dimension")) s.dimension = in.get<int>("dimension");

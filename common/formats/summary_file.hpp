@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// `summary.json`: what a run found out, for other programs.
+/// `summary.json`: the results of a run, for other programs.
 #pragma once
 
 #include <array>
@@ -36,7 +36,7 @@ struct ForceStatistics {
         std::nullopt;  ///< at 95 %, with effective_samples; none: too short
 };
 
-/// What one region of the hull felt.
+/// Loads on one region of the hull.
 struct RegionStatistics {
     std::int64_t hits = 0;                  ///< times a floe began to touch the region
     double max_impulse = 0.0;               ///< largest impulse of one floe in one step [N s]
@@ -87,13 +87,13 @@ struct Summary {
     std::map<std::string, RegionStatistics> regions;
     PanelSummary panels;
     double contacts_mean = 0.0, contacts_max = 0.0, max_overlap = 0.0;
-    /// Deepest overlap of two solids less what their contacts knew [m]; NaN: not looked for.
+    /// Deepest overlap of two solids less that of their contacts [m]; NaN: not measured.
     double unseen_overlap = std::numeric_limits<double>::quiet_NaN();
     std::int64_t unconverged_steps = 0;
     /// Impulses that unconverged steps owe, as a share of all in the averaged time; NaN: unknown.
     double residual_share = std::numeric_limits<double>::quiet_NaN();
-    std::map<std::string, double> energy;         ///< [J], keys end in _J; residual_share [-]
-    std::map<std::string, double> imbalance;      ///< worst step's, per kind; empty: not asked for
+    std::map<std::string, double> energy;     ///< [J], keys end in _J; residual_share [-]
+    std::map<std::string, double> imbalance;  ///< worst step's, per kind; empty without --verify
     std::map<std::string, double> stage_seconds;  ///< wall time per stage of the step
     std::optional<double> lindqvist_submersion;   ///< [N]; none where the hull has no waterline
     std::vector<FormulaValue> formulas;           ///< of the same ship and ice

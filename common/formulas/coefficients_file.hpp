@@ -32,7 +32,7 @@ struct CoefficientIntervals {
 /// @throws Error (exit code 2) with all mistakes: file, line, key
 SpencerCoefficients read_coefficients(const std::filesystem::path& file);
 
-/// The file's text: what read_coefficients() reads, with the intervals that are known.
+/// The file's text, for read_coefficients(), with the known intervals.
 /// @param origin  of the numbers, for a comment
 std::string coefficients_text(const SpencerCoefficients& coefficients,
                               const CoefficientIntervals& intervals, const std::string& origin);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// What all formulas say of one ship and ice, and the band that they span.
+/// The values of all formulas for one ship and ice, and the band that they span.
 #pragma once
 
 #include <optional>

@@ -40,7 +40,7 @@ struct SpencerParts {
 SpencerParts spencer_resistance(const HullForm& hull, const IceConditions& ice,
                                 const SpencerCoefficients& coefficients = {});
 
-/// rho_i B h V^2 [N], Fr_h and S of the formula: what its coefficients are fitted against.
+/// rho_i B h V^2 [N], Fr_h and S of the formula: the variables of a fit of its coefficients.
 struct SpencerScales {
     double weight = 0.0;  ///< (rho_w - rho_i) g h B T [N]
     double inertia = 0.0, froude = 0.0, strength = 0.0;

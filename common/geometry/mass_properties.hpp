@@ -28,9 +28,9 @@ struct MassProperties {
 /// meaning: check it first. Cost O(T).
 MassProperties measure_mass(const TriangleMesh& mesh);
 
-/// What no solid can have, in words, or nothing: a volume, area or moment of inertia that is not
-/// positive or no number, an inertia that is not symmetric, or one principal moment above the sum
-/// of the other two (I_1 + I_2 - I_3 = 2 int x_3^2 dV >= 0).
+/// A property that no solid can have, in words, or nothing: a volume, area or moment of inertia
+/// that is not positive or no number, an inertia that is not symmetric, or one principal moment
+/// above the sum of the other two (I_1 + I_2 - I_3 = 2 int x_3^2 dV >= 0).
 std::string fault_of(const MassProperties& solid);
 
 }  // namespace ice

@@ -114,6 +114,8 @@ void SurfaceTree::build_normals() {
     normals_.resize(mesh_.triangles.size());
     corner_normals_.assign(mesh_.vertices.size(), Vec3::Zero());
     edge_normals_.resize(mesh_.triangles.size());
+    // Angle-weighted normals at vertices, sums of both faces' normals at edges: with these the sign
+    // of the distance is right wherever the nearest point lies (Baerentzen and Aanaes 2005).
     double area = 0.0;
     for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
         const Vec3 vector = mesh_.area_vector(t);
@@ -126,6 +128,7 @@ void SurfaceTree::build_normals() {
             corner_normals_[static_cast<std::size_t>(v)] += angle * normals_[t];
         }
     }
+    // A length of the order of a triangle's edge: the root of the mean area.
     mean_edge_ = std::sqrt(area / static_cast<double>(std::max<std::size_t>(normals_.size(), 1)));
     for (const MeshEdge& edge : edge_table(mesh_)) {
         Vec3 sum = Vec3::Zero();
@@ -214,7 +217,7 @@ Foot SurfaceTree::closest(const Vec3& p, std::int32_t hint) const {
     };
     if (hint >= 0)
         look(hint, corners_[static_cast<std::size_t>(rank_[static_cast<std::size_t>(hint)])]);
-    // boxes as near as the best are looked at: of equal feet the first triangle's counts
+    // boxes as near as the best are searched, too: of equal feet the first triangle's counts
     visit_leaves(
         p, [&](double sq) { return sq > best_sq; }, look);
     best.distance = std::sqrt(best_sq);

@@ -13,7 +13,7 @@ namespace ice {
 struct Foot {
     Vec3 point = Vec3::Zero();  ///< on the surface [m]
     double distance = 0.0;      ///< [m], >= 0
-    bool inside = false;        ///< the asked point lies in the solid
+    bool inside = false;        ///< the point lies in the solid
     std::int32_t triangle = -1;
 };
 

@@ -12,7 +12,7 @@ namespace ice {
 using Vec3 = Eigen::Vector3d;
 using Mat3 = Eigen::Matrix3d;
 
-/// Triangles with a region name each: what a hull or floe is before it becomes spheres.
+/// Triangles with a region name each: the surface of a hull or floe.
 ///
 /// Counter-clockwise seen from outside. `region` has one row of `region_names` per triangle.
 struct TriangleMesh {

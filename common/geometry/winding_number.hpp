@@ -22,7 +22,7 @@ class WindingNumber {
 public:
     static constexpr double kBeta = 2.0;  ///< errors of up to 0.04
 
-    /// Keeps what it needs of the mesh.
+    /// Copies the needed data of the mesh.
     explicit WindingNumber(const TriangleMesh& mesh);
 
     /// @param beta  accuracy: errors of up to 0.16 / beta^2; infinity adds up all solid angles

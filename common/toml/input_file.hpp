@@ -16,7 +16,7 @@ inline constexpr std::uintmax_t kLargestInput = 64u << 20;
 
 /// Text of a whole input file.
 /// @param what    "case file", for messages
-/// @param ending  what such files are usually called, ".cfg": to find one in a folder
+/// @param ending  usual ending of such files, ".cfg": to find one in a folder
 /// @param largest size that is read [bytes]
 /// @throws Error (exit code 2) when it is missing, unreadable or larger, or a folder, a mesh, an
 ///         HDF5 file or UTF-16.

@@ -73,15 +73,18 @@ Json value_schema(const Key& key) {
             return list(quantity(key, key.dimension), key.length, key.length);
         case Kind::counts:
             return list(whole_number(key), key.length, key.length);
+        // x and y, with z or without it (floating equilibrium).
         case Kind::place:
             return list(quantity(key, key.dimension), key.length - 1, key.length);
         case Kind::integer_list:
             return {{"type", "array"}, {"items", whole_number(key)}};
+        // Rows [time, value], at least one.
         case Kind::pair_list: {
             Json row = list(
                 Json::array({quantity(key, Dimension::time), quantity(key, key.dimension)}), 2, 2);
             return {{"type", "array"}, {"items", row}, {"minItems", 1}};
         }
+        // Rows [speed, value], at least one.
         case Kind::curve: {
             Json row = list(
                 Json::array({quantity(key, Dimension::speed), quantity(key, key.dimension)}), 2, 2);

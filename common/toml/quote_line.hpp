@@ -14,11 +14,11 @@ namespace ice {
 std::vector<std::string> printable_characters(std::string_view text);
 
 /// Two lines: "   12 | the line" and carets under `width` of its characters, from the character
-/// `at` (from 0) on. Of a long line what is around them.
+/// `at` (from 0) on. Of a long line only the text around them.
 std::string quote_line(std::string_view line, std::size_t number, std::size_t at,
                        std::size_t width);
 
-/// What the writer of the line `key = value` probably meant where TOML does not read the value: a
+/// Probable meaning of a line `key = value` whose value is no TOML: a
 /// decimal comma, a unit or a text without quotes. A clause with the remedy, or "".
 std::string explain_value(std::string_view line);
 

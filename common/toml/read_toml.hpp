@@ -36,7 +36,7 @@ struct Mistakes {
 using Values = std::map<std::string, Value>;
 
 /// Parses TOML and checks it. Mistakes are collected, never thrown.
-/// @param name   what messages call the text: the file, or "--set"
+/// @param name   of the text in messages: the file, or "--set"
 /// @param groups  the number of repeated tables, counted on
 Values read_toml(const std::string& text, const std::string& name, const Schema& schema,
                  Mistakes& mistakes, std::size_t& groups);

@@ -65,6 +65,7 @@ private:
 
     // a number in SI, or a text with a unit; range checked
     bool read_scalar(const Key& key, Dimension dimension, const toml::node& node, double& out) {
+        // A text has its unit with it; a bare number is SI.
         if (const auto text = node.value<std::string_view>(); text && node.is_string()) {
             const auto quantity = parse_quantity(*text, dimension);
             if (!quantity) {
@@ -90,6 +91,7 @@ private:
             return false;
         }
         if (out >= key.low && out <= key.high) return true;
+        // The usual slip with shares: 80 is meant as 80 %.
         const bool percent = dimension == Dimension::share && out > 1.0 && 0.01 * out >= key.low &&
                              0.01 * out <= key.high;
         complain(
@@ -174,6 +176,7 @@ private:
 
     bool read_list(const Key& key, const toml::node& node, Value& out) {
         const auto* list = node.as_array();
+        // A place may leave out its last number; all other lists have a fixed length or any.
         const bool any_length = key.kind == Kind::integer_list;
         const std::size_t least = key.kind == Kind::place ? key.length - 1 : key.length;
         if (!list || (!any_length && (list->size() < least || list->size() > key.length))) {

@@ -17,7 +17,7 @@ namespace ice {
 /// Writes mistakes with the place and the line of the text they are in.
 class Complaints {
 public:
-    /// @param name  what messages call the text: the file, or "--set"
+    /// @param name  of the text in messages: the file, or "--set"
     Complaints(const std::string& text, std::string name, Mistakes& mistakes);
 
     /// Adds "name:line:column: error: what" with the line and carets under `width` characters.

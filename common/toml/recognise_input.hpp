@@ -12,7 +12,7 @@ namespace ice {
 
 struct Recognised {
     std::string what;    ///< "a mesh"
-    std::string remedy;  ///< what to do with such a file
+    std::string remedy;  ///< for such a file
 };
 
 /// A mesh (by its name), an HDF5 file of the project (by the format it states), or text in UTF-16.
@@ -27,7 +27,7 @@ std::optional<Recognised> recognise_tables(const std::filesystem::path& file,
                                            const std::vector<std::string>& names,
                                            std::string_view wanted);
 
-/// What to do instead of giving a folder: names the files of that ending (".cfg") in it.
+/// Remedy for a folder given as a file: names the files of that ending (".cfg") in it.
 std::string look_into_folder(const std::filesystem::path& folder, std::string_view ending);
 
 }  // namespace ice

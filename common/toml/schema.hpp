@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// What keys a TOML input may have: one table per kind of file drives reading, range checks,
+/// Keys of a TOML input: one table per kind of file drives reading, range checks,
 /// "did you mean", --explain, --print-defaults and --print-schema.
 #pragma once
 
@@ -67,7 +67,7 @@ struct Schema {
 /// Text of `--explain KEY`; of a table, all its keys.
 /// @throws Error (exit code 2) for an unknown key.
 std::string explain_key(const Schema& schema, const std::string& path);
-/// What a file's "#:schema" line calls its JSON schema: "case.schema.json".
+/// Name of the JSON schema in a file's "#:schema" line: "case.schema.json".
 std::string schema_file_name(const Schema& schema);
 /// A complete file with all defaults, as TOML; its first line names the schema.
 std::string default_text(const Schema& schema);

@@ -35,7 +35,7 @@ ResistanceFit fit_resistance(const std::vector<SpeedPoint>& points);
 
 /// How an attained speed is to be taken.
 enum class Reach {
-    within,   ///< the speed lies among those that were simulated
+    within,   ///< the speed lies within the simulated range
     outside,  ///< the curve was continued beyond them
     stuck,    ///< the thrust is not enough at rest
     beyond    ///< the ice never holds the ship: no speed

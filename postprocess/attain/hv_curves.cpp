@@ -42,6 +42,7 @@ std::optional<FreeSpeed> free_speed(const Sweep& sweep, const Row& row) {
     double half = std::nan("");
     for (const std::size_t run : row.point->runs) {
         const auto numbers = read_json_numbers(sweep.runs[run].folder / "summary.json");
+        // Only a ship that is free in surge has an interval of its speed.
         const auto own = numbers.find("ship.speed_ci95");
         if (own == numbers.end()) return std::nullopt;
         speeds.push_back(sweep.runs[run].summary->ship.speed_mean);
@@ -83,6 +84,8 @@ private:
         study_.level_ice = rows_.front().point->level_ice;
         std::vector<std::string> other;
         for (const std::string& axis : sweep_.axes)
+            // A key that changes with the thickness alone, such as the ice's file, names the same
+            // axis again.
             if (axis != sweep::kSpeedKey && axis != kFreedom && !follows_thickness(axis))
                 other.push_back(axis);
         for (const Row& row : rows_) {
@@ -167,7 +170,7 @@ private:
                           [](const HvPoint& p) { return p.attained.reach == Reach::outside; });
         if (outside > 0)
             study_.warnings.push_back(fmt::format(
-                "{}: {} of {} speeds lie outside those that were run, on the curve continued",
+                "{}: {} of {} speeds lie outside the speeds of the runs, on the extrapolated curve",
                 thrust.name, outside, curve.points.size()));
         if (!curve.points.empty()) study_.curves.push_back(curve);
     }

@@ -11,7 +11,7 @@
 
 namespace ice::attain {
 
-/// What a curve of attained speeds rests on.
+/// Basis of a curve of attained speeds.
 enum class Source {
     fixed_course,  ///< resistance at given speeds, met by a thrust
     free_ship,     ///< ships that were free in surge
@@ -54,7 +54,7 @@ std::string hv_csv(const HvStudy& study);
 /// Chart: speed [m/s] against thickness [m] with intervals; formulas dashed.
 std::string draw_hv(const HvStudy& study, double width);
 
-/// The page: chart, table, what the curves rest on.
+/// The page: chart, table, basis of the curves.
 std::string make_hv_page(const sweep::Sweep& sweep, const HvStudy& study);
 
 }  // namespace ice::attain

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// What pushes the ship: thrust against speed, net of the resistance of open water.
+/// Thrust against speed, net of the resistance of open water.
 #pragma once
 
 #include <filesystem>

@@ -10,7 +10,7 @@
 
 namespace ice::check {
 
-/// One expectation and what the run gave.
+/// One expectation and the run's value.
 struct Verdict {
     Expectation expected;
     double actual = 0.0;  ///< NaN where the summary has null: never passes

@@ -107,6 +107,8 @@ void fit_breaking(const std::vector<FitPoint>& points, SpencerFit& fit) {
     for (const FitPoint& point : points) {
         if (!point.level_ice) continue;
         ++fit.level;
+        // The breaking part is what the fitted parts leave of the level-ice resistance; a power law
+        // is a line in its logarithm. A point without any left has no logarithm and is passed over.
         const double left =
             point.resistance - fit.coefficients.buoyancy * point.scales.weight -
             fit.coefficients.clearing * clearing(point.scales, fit.coefficients.clearing_exponent);
@@ -119,6 +121,7 @@ void fit_breaking(const std::vector<FitPoint>& points, SpencerFit& fit) {
     const auto n = static_cast<Eigen::Index>(x.size());
     if (n < 2) return;
     const auto [low, high] = std::minmax_element(x.begin(), x.end());
+    // All points at one strength number fix no exponent.
     if (*high - *low < kSame) return;
     Eigen::MatrixXd j(n, 2);
     Eigen::VectorXd right(n);
@@ -162,6 +165,7 @@ SpencerFit fit_spencer(const std::vector<FitPoint>& points) {
     SpencerFit fit;
     fit.coefficients.own = true;
     fit.broken = problem.scales.size();
+    // Two speeds determine C_B and C_C alone; the exponent needs a third and is Jeong's otherwise.
     fit.exponent_fitted = speeds > 2;
     if (fit.exponent_fitted) fit.coefficients.clearing_exponent = find_exponent(problem);
     const double a = fit.coefficients.clearing_exponent;
@@ -173,6 +177,7 @@ SpencerFit fit_spencer(const std::vector<FitPoint>& points) {
     fit.intervals.buoyancy = half[0];
     fit.intervals.clearing = half[1];
     if (fit.exponent_fitted) fit.intervals.clearing_exponent = half[2];
+    // After the parts of broken ice, which it subtracts.
     fit_breaking(points, fit);
     double squares = 0.0, count = 0.0;
     for (const FitPoint& point : points) {

@@ -9,7 +9,7 @@
 
 namespace ice::fit {
 
-/// A resistance and what the formula's coefficients are factors of.
+/// A resistance and the variables of the formula.
 struct FitPoint {
     SpencerScales scales;
     double resistance = 0.0;  ///< [N]
@@ -39,7 +39,7 @@ struct SpencerFit {
 /// @throws Error (exit code 2) without points, or with fewer than two speeds of broken ice
 SpencerFit fit_spencer(const std::vector<FitPoint>& points);
 
-/// What the fit says of a point [N].
+/// The fit's resistance at a point [N].
 double fitted_resistance(const SpencerFit& fit, const FitPoint& point);
 
 }  // namespace ice::fit

@@ -15,7 +15,7 @@ namespace ice::fit {
 std::vector<FitPoint> fit_points(const sweep::Sweep& sweep, const std::vector<sweep::Point>& points,
                                  double flexural_strength);
 
-/// What a user should know: axes that the formula does not have, few points, no level ice.
+/// Warnings of a fit: axes that the formula does not have, few points, no level ice.
 std::vector<std::string> fit_warnings(const sweep::Sweep& sweep, const SpencerFit& fit);
 
 /// Coefficients with intervals, then a row per point with both resistances, for a terminal.

@@ -73,7 +73,7 @@ private:
         return arrays_.add(std::string("/still/") + name, values, columns);
     }
 
-    // What all frames share.
+    // Data of all frames in common.
     void prepare() {
         const RunHeader& header = run_.header;
         bodies_ = {still("body", ids(false)), still("shape", of_bodies(header.body_shape, false)),

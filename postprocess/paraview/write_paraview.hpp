@@ -7,7 +7,7 @@
 
 namespace ice::paraview {
 
-/// What to write.
+/// Options of the files.
 struct ParaviewOptions {
     std::size_t every = 1;     ///< keep each `every`th frame, >= 1
     bool points_only = false;  ///< no surfaces per frame: for long runs of many floes

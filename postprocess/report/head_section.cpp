@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a reader wants to know before anything else: the answer, then ship, ice and travel.
+// The head of the report: the answer, then ship, ice and travel.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -117,6 +117,7 @@ std::string key_numbers(const Summary& s, const ForceUnit& unit, double speed) {
                 "mean ice resistance with the 95 % interval of this run");
     for (const auto& [name, part] : parts_of(s))
         out += card(unit.text(part) + " " + unit.name, "of it " + name);
+    // the interval of one run alone looks too sure: the model's uncertainty is beside it
     out += card("± " + unit.text(kModelUncertainty * std::abs(s.resistance.mean)) + " " + unit.name,
                 fmt::format("uncertainty of the model, {:.0f} %, beside that interval",
                             100.0 * kModelUncertainty));
@@ -136,6 +137,7 @@ std::string key_numbers(const Summary& s, const ForceUnit& unit, double speed) {
         out += card(release_rule(s.ice), "release rule: until when floes are held");
     if (std::isfinite(speed)) {
         out += card(fmt::format("{:.2f} m/s", speed), fmt::format("{:.2f} knots", speed / kKnot));
+        // kW from 10 kW on: models have watts, ships megawatts.
         const double power = s.resistance.mean * speed;
         const bool large = std::abs(power) >= 1e4;
         out += card(fmt::format("{:.{}f} {}{}", large ? 1e-3 * power : power, large ? 1 : 0,

@@ -61,6 +61,7 @@ double largest_of(const std::vector<std::vector<double>>& lists) {
 
 History make_history(const std::string& id, const std::string& title, const std::string& axis,
                      const std::vector<double>& time, const Series& series, const Style& style) {
+    // Averages are taken of all samples, before thinning, at the thinned times.
     const auto thin = statistics::thin_series(time, series.force, style.bins);
     std::vector<std::vector<double>> average;
     std::vector<double> shown;
@@ -69,6 +70,7 @@ History make_history(const std::string& id, const std::string& title, const std:
         for (std::size_t k = 0; k < thin.time.size(); ++k)
             if (thin.time[k] >= style.shown_from) shown.push_back(average.back()[k]);
     }
+    // The axis always includes the mean that the page states.
     if (std::isfinite(style.mean)) shown.push_back(style.mean);
     const auto [low, high] = middle_range(std::move(shown), style.shown);
 

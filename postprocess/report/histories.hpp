@@ -24,7 +24,7 @@ struct History {
     ForceUnit unit;
     std::vector<double> time;  ///< [s]
     std::vector<Curve> curves;
-    double low = 0.0, high = 0.0;  ///< what an axis should show, in `unit`
+    double low = 0.0, high = 0.0;  ///< range of the axis, in `unit`
     double peak = 0.0;             ///< largest magnitude of the samples, in `unit`
     std::optional<double> mean;    ///< a line across, in `unit`
 };
@@ -34,7 +34,7 @@ struct History {
 ///
 /// A one-step peak is an impulse divided by the time step and leaves nothing else to see where it
 /// is shown whole. So the axes show what 96 % of the averages from `average_from` on lie in, and
-/// `peak` tells what is beyond. Samples are thinned with every peak kept.
+/// `peak` has the values beyond. Samples are thinned with every peak kept.
 /// @param mean of the resistance [N], NaN if unknown; @param unit of all charts
 /// A run with fewer than 2 samples gives none.
 std::vector<History> force_histories(const RunData& run, double average_from, double mean,

@@ -35,6 +35,7 @@ std::string moment_section(const RunData& run, const RunFigures& figures) {
     const ForceUnit moment = moment_unit(figures.unit);
     std::vector<std::pair<std::string, std::string>> rows{
         {"Mean force", components(figures.unit, load.force, dimension)}};
+    // In a section only trim has a meaning.
     if (dimension == 2) {
         rows.emplace_back("Mean moment, trim, bow down",
                           moment.text(load.moment.y()) + " " + moment.name);
@@ -49,6 +50,8 @@ std::string moment_section(const RunData& run, const RunFigures& figures) {
     if (load.center) rows.emplace_back("Centre of normal load", place(*load.center, dimension));
     if (load.point)
         rows.emplace_back("Point of attack of the mean force", place(*load.point, dimension));
+    // A force and a moment in space are a force on a line and a couple about it; in a plane the
+    // couple vanishes.
     if (dimension == 3 && load.point)
         rows.emplace_back("Couple left about that line",
                           moment.text(load.couple) + " " + moment.name);

@@ -17,7 +17,7 @@ public:
     void add(const std::string& name, const std::vector<std::uint16_t>& values);
     void add(const std::string& name, const std::vector<std::uint8_t>& values);
 
-    /// Series of 16-bit numbers, coded so that deflate finds motion that goes on alike.
+    /// Series of 16-bit numbers, coded so that deflate finds steady motion.
     ///
     /// Each channel is differenced `order` times (modulo 65536; 2 leaves nothing of an even
     /// motion), then all low bytes and all high bytes are stored apart.

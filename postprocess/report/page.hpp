@@ -7,7 +7,7 @@
 
 namespace ice::report {
 
-/// What is filled into the page that web/ builds; texts are HTML unless said otherwise.
+/// The parts filled into the page that web/ builds; texts are HTML unless said otherwise.
 struct PageParts {
     std::string title;         ///< plain text
     std::string header;        ///< above everything

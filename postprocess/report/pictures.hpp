@@ -17,7 +17,7 @@ double mean_speed(const RunData& run, double from);
 /// speed, effective power. @param speed [m/s], NaN if unknown
 std::string key_numbers(const Summary& summary, const ForceUnit& unit, double speed);
 
-/// Ship, ice and travel in three short tables; what older summaries do not have is left out.
+/// Ship, ice and travel in three short tables; values missing in older summaries are left out.
 std::string particulars_section(const Summary& summary, double speed);
 
 /// Views of hull and ice at several instants spread over the run: in 3D from below, above,

@@ -201,6 +201,8 @@ private:
                 low = std::min(low, v[d]);
                 high = std::max(high, v[d]);
             }
+            // 16 bits over each axis' own range: the page holds the hull to a 65 000th of its
+            // length, in half the bytes of floats.
             axes.push_back(make_quantiser(low, high, 0.0));
             scale.push_back(axes.back().step);
             offset.push_back(axes.back().offset);
@@ -211,6 +213,8 @@ private:
                 vertices.push_back(axes[d].code(v[static_cast<Eigen::Index>(d)]));
         pack_.add_series("hull_vertices", std::move(vertices), 1, 0);
         add_triangles(mesh);
+        // Loads as shares of the colour scale's end, as the drawings have it: both pictures have
+        // the same colours.
         const double end = statistics::scale_end(figures_.load);
         std::vector<std::uint16_t> load;
         for (const double p : figures_.load.load)

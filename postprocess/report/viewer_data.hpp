@@ -10,13 +10,13 @@
 
 namespace ice::report {
 
-/// What the page's script needs beside the page: see web/src/data.js.
+/// The data of the page's script: see web/src/data.js.
 struct ViewerData {
     std::string meta;    ///< JSON, safe inside HTML and XML
     std::string arrays;  ///< zlib, base64
 };
 
-/// What was computed of a run for both drawings and viewer.
+/// Figures of a run for both drawings and viewer.
 struct RunFigures {
     statistics::LoadMap load;
     statistics::BottomCoverage coverage;

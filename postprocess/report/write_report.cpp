@@ -177,6 +177,8 @@ std::string make_report(const read::RunFolder& run, std::size_t frames) {
     std::string rest = track_section(data, figures.unit);
     if (run.summary) rest += balance_sections(*run.summary);
     rest += origin(run);
+    // The 3D scene takes the room that the rest of the page leaves: the page stays small enough to
+    // mail.
     const std::size_t used = make_page(page).size() + head.size() + rest.size();
     page.body += scene_section(
         data, std::clamp(kPageSize - std::min(kPageSize, used), kLeastBudget, kMostBudget));

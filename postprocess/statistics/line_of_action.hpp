@@ -19,7 +19,7 @@ struct LineOfAction {
     /// Point of the mean force's line of action that is nearest to `center` (else to the origin)
     /// [m]: with c that place, c + f x (m - c x f) / |f|^2. None without a force.
     std::optional<Vec3> point;
-    /// What no choice of the point takes away: the couple about the line itself [N m], positive by
+    /// The couple about the line itself, which no choice of the point removes [N m], positive by
     /// the right hand along the force.
     double couple = 0.0;
 };

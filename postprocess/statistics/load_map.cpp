@@ -52,7 +52,7 @@ private:
     std::map<std::array<long, 3>, std::vector<std::size_t>> cells_;
 };
 
-// What spreading needs of the mesh.
+// The mesh's data for spreading a force.
 struct Surface {
     std::vector<Vec3> center, normal;  // normal: unit
     std::vector<double> area;
@@ -79,12 +79,16 @@ void spread(const Surface& surface, const Neighbours& near, double radius, const
     std::vector<std::pair<std::size_t, double>> weights;
     double sum = 0.0;
     near.for_near(p, [&](std::size_t t) {
+        // A smooth kernel with the weights normalised by area: the map's integral is the force,
+        // whatever the mesh.
         const double weight =
             squared_kernel((surface.center[t] - p).squaredNorm() / (radius * radius));
         if (weight <= 0.0 || !surface.faces(t, push)) return;
         weights.emplace_back(t, weight);
         sum += surface.area[t] * weight;
     });
+    // Without a triangle that faces the push within the radius the nearest one takes the whole
+    // force: none is lost.
     if (sum > 0.0) {
         for (const auto& [t, weight] : weights) load[t] += force * weight / sum;
         return;
@@ -163,6 +167,7 @@ TriangleMesh refine_mesh(const TriangleMesh& mesh, double longest, std::size_t m
                 add(ab, c, a);
             }
         }
+        // The last mesh within the bound: a half-refined mesh would show panels of two sizes.
         if (!changed || next.triangles.size() > most) return fine;
         fine = std::move(next);
     }
@@ -175,6 +180,8 @@ LoadMap make_load_map(const RunData& run, double from) {
     const double area = surface_area(hull.mesh);
     Eigen::AlignedBox3d box;
     for (const Vec3& v : hull.mesh.vertices) box.extend(v);
+    // A force acts on a sphere: spread over less than the spheres' distance the map would show the
+    // spheres.
     map.radius = std::max(1.5 * sphere_spacing(hull, area), 0.01 * box.sizes().x());
     map.mesh = refine_mesh(views::simplify_mesh(hull.mesh, kMostTriangles), map.radius,
                            2 * kMostTriangles);

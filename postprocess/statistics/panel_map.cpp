@@ -9,7 +9,7 @@ namespace ice::statistics {
 namespace {
 
 // Finds the nearest of many points: they are in order of x, and those beyond the best in x alone
-// are not looked at.
+// are ignored.
 class NearestPoint {
 public:
     NearestPoint(const std::vector<Vec3>& points, std::size_t count) : points_(points) {

@@ -25,7 +25,7 @@ std::vector<FormulaCurve> comparable_curves(const std::vector<Curve>& curves);
 /// Components below these: buoyancy, and in level ice what broken ice would take.
 std::vector<FormulaCurve> component_curves(const Curve& curve);
 
-/// What the comparable formulas span at a point; none without any.
+/// The band of the comparable formulas at a point; none without any.
 std::optional<FormulaBand> formula_band(const Point& point);
 
 /// "Lindqvist" for "Lindqvist 1989"; a name without a year as it is.

@@ -6,7 +6,7 @@
 namespace ice::sweep {
 
 /// Name of a case's key on an axis or above a column, with its unit: "speed [m/s]"; a key that has
-/// no such name stands for itself.
+/// no such name is its own title.
 std::string axis_title(const std::string& key);
 
 /// Text of a setting for people: of a path only the file's name, "-" for none.

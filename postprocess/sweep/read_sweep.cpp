@@ -52,7 +52,7 @@ std::vector<fs::path> find_runs(const fs::path& folder) {
     return found;
 }
 
-// What differs between the members of an ensemble is the seed's doing: no setting of theirs.
+// Members of an ensemble differ by their seed: their differences are no settings.
 void unite_members(std::vector<SweepRun>& runs) {
     std::map<fs::path, std::vector<SweepRun*>> ensembles;
     for (SweepRun& run : runs)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// A folder of runs: what each run was, how it ended, and which of its settings vary.
+/// A folder of runs: settings and status of each run, and the settings that vary.
 ///
 /// In:  run folders (summary.json, case.resolved.cfg), and the plan runs.toml where the workflow
 ///      wrote one:

@@ -13,7 +13,7 @@ struct WorkShare {
     double force;  ///< energy per metre of the ship's travel [N; 2D: N/m], or NaN
 };
 
-/// What became of the ship's work, mean over a point's runs: first the work itself, then the
+/// Uses of the ship's work, mean over a point's runs: first the work itself, then the
 /// accounts that it went to, which add up to it but for the residual (docs/energy.md). What opened
 /// overlaps and moving water put in counts negative. Work per metre is the mean force over the
 /// whole run, start-up included, while the resistance is that from output.average_from on.

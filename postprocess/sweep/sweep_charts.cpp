@@ -134,8 +134,9 @@ bool has_force(const Curve& curve, Part part) {
     });
 }
 
-// What all charts show, so that they can be compared. Two seeds that disagree have an interval many
-// times the mean, which would flatten every curve: it is cut at one span of the means beyond them.
+// One range for all charts, so that they can be compared. Two seeds that disagree have an interval
+// many times the mean, which would flatten every curve: it is cut at one span of the means beyond
+// them.
 std::pair<double, double> common_range(const std::vector<Curve>& curves,
                                        const std::vector<Part>& parts,
                                        const report::ForceUnit& unit) {
@@ -243,6 +244,7 @@ std::string draw_peaks(const Sweep& sweep, const std::vector<Curve>& curves, dou
         for (const Point& point : curve.points)
             if (std::isfinite(point.largest)) largest = std::max(largest, std::abs(point.largest));
     if (!(largest > 0.0)) return "";
+    // One unit for all curves of the chart, by its largest value.
     const auto unit = report::choose_unit(largest, curves.front().points.front().dimension);
     views::Chart chart;
     chart.title = "Largest resistance in a step";

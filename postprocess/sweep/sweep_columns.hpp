@@ -30,7 +30,7 @@ std::vector<Column> axis_columns(const Sweep& sweep, const std::vector<Point>& p
 std::vector<Column> force_columns(const std::vector<Point>& points, const report::ForceUnit& unit,
                                   std::vector<std::pair<Part, std::string>> parts, bool intervals);
 
-/// What became of the ship's work, per metre of travel (share_work.hpp), without empty columns.
+/// Uses of the ship's work, per metre of travel (share_work.hpp), without empty columns.
 std::vector<Column> work_columns(const Sweep& sweep, const std::vector<Point>& points,
                                  const report::ForceUnit& unit);
 

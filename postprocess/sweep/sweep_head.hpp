@@ -8,7 +8,7 @@
 namespace ice::sweep {
 
 /// HTML: ship, ice and speeds of the runs in a line each, from their summaries' `ship`, `ice` and
-/// settings; what differs between runs is given as a range, what is unknown is left out. Runs from
+/// settings; what differs between runs is given as a range, unknown values are left out. Runs from
 /// before summaries had these give the speeds alone. "" where nothing is known.
 std::string head_facts(const Sweep& sweep);
 

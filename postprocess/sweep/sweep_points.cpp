@@ -155,6 +155,7 @@ Estimate estimate_mean(const std::vector<double>& values) {
     const auto n = static_cast<double>(values.size());
     if (values.empty()) return {kNaN, kNaN};
     const double mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
+    // One run has no scatter between fields; its own interval is added by the caller.
     if (values.size() == 1 || !std::isfinite(mean)) return {mean, kNaN};
     double square = 0.0;
     for (const double value : values) square += (value - mean) * (value - mean);
@@ -172,6 +173,7 @@ std::string release_rules(const Sweep& sweep, const std::vector<std::size_t>& ro
 }  // namespace
 
 std::vector<Point> make_points(const Sweep& sweep) {
+    // Runs with equal settings, seeds aside, are one point.
     std::map<std::map<std::string, Setting>, std::vector<std::size_t>, Before> groups(
         Before{sweep.axes});
     for (std::size_t row = 0; row < sweep.runs.size(); ++row) {

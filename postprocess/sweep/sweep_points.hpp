@@ -62,7 +62,7 @@ struct Point {
     int dimension;
     std::vector<std::size_t> runs;  ///< rows of Sweep::runs
     std::string hold = {};          ///< release rules of the runs, "; " between different ones
-    std::vector<FormulaValue> formulas = {};  ///< means of what the runs have, in their order
+    std::vector<FormulaValue> formulas = {};  ///< means over the runs, in their order
     bool level_ice = false;                   ///< its runs break level ice
 
     const Estimate& part(Part p) const { return parts[static_cast<std::size_t>(p)]; }

@@ -14,7 +14,7 @@ namespace ice::sweep {
 std::string point_table(const Sweep& sweep, const std::vector<Point>& points,
                         const report::ForceUnit& unit, const std::filesystem::path& page);
 
-/// HTML: a row per point with what became of the ship's work, per metre of travel (share_work.hpp).
+/// HTML: a row per point with the uses of the ship's work, per metre of travel (share_work.hpp).
 /// "" where nothing is known. @pre there are points
 std::string work_table(const Sweep& sweep, const std::vector<Point>& points,
                        const report::ForceUnit& unit);

@@ -110,7 +110,7 @@ std::string curve_sections(const Sweep& sweep, const std::vector<Point>& points,
             "Points are means over the runs of a combination. Bars: 95 % interval, "
             "Student's over seeds, dashed where there are two runs only, which makes t = 12.7 and "
             "says little; of a single run, its own. Long bars are cut off. "
-            "The band is what the formulas span that compare with these runs: ") +
+            "The band spans the formulas that compare with these runs: ") +
         compared(points) + ".";
     if (sweep.x.empty())
         return section("curve" + ending, "Resistance",
@@ -160,6 +160,8 @@ std::string part_of_page(const Sweep& sweep, const std::filesystem::path& page, 
     const auto points = make_points(sweep);
     const report::ForceUnit unit = choose_sweep_unit(points);
     const bool flat = dimension_of(sweep) == 2;
+    // A folder may have runs in 2D and 3D; forces per metre and whole forces never share a chart.
+    // The ending keeps anchors of the two parts apart.
     const std::string ending = !one_of_two ? "" : flat ? "-2d" : "-3d";
     std::string out;
     if (one_of_two)

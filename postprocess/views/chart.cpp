@@ -140,7 +140,7 @@ Chart over_exponents(Chart chart) {
     return chart;
 }
 
-// What the axes show: all points, zero, and what the chart asks for.
+// The range of the axes: all points, zero, and the chart's own limits.
 std::pair<Range, Range> find_ranges(const Chart& chart) {
     Range xs, ys;
     for (const Curve& curve : chart.curves)

@@ -27,7 +27,7 @@ struct Curve {
 struct Chart {
     std::string title, x_title = "time [s]", y_title;
     std::vector<Curve> curves;
-    std::optional<std::pair<double, double>> y_range;   ///< shown; else all; what is beyond is cut
+    std::optional<std::pair<double, double>> y_range;   ///< shown; else all; curves are cut there
     std::optional<double> level;                        ///< dashed line across, e.g. the mean
     std::string level_name;                             ///< its name in the legend
     std::optional<std::pair<double, double>> averaged;  ///< x range shaded as averaging window

@@ -43,7 +43,7 @@ std::string outline(const std::vector<Vec3>& corners, const Projection& projecti
     return path_data(points, true);
 }
 
-// edges between a face that looks at the viewer and one that does not
+// edges between a face towards the viewer and one away from it
 std::vector<std::pair<Vec3, Vec3>> turning_edges(const TriangleMesh& mesh,
                                                  const Projection& projection) {
     std::map<std::pair<std::int32_t, std::int32_t>, int> edges;  // faces that look at the viewer

@@ -30,7 +30,7 @@ struct HullColours {
 std::string draw_hull(const TriangleMesh& mesh, const Projection& projection,
                       const PageScale& scale, double waterline, const HullColours& colours = {});
 
-/// The two halves of it: what lies between them hides faces, but no outline.
+/// The two halves of it: the ice between them hides faces, but no outline.
 std::string draw_hull_faces(const TriangleMesh& mesh, const Projection& projection,
                             const PageScale& scale, double waterline,
                             const HullColours& colours = {});

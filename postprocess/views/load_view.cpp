@@ -130,7 +130,7 @@ std::string draw_load_legend(const std::string& half, const std::string& end,
     for (int k = 0; k <= kSteps; ++k)
         out += fmt::format("<rect x=\"{}\" y=\"22\" width=\"{}\" height=\"14\" fill=\"{}\"/>\n",
                            pixels(left + k * box), pixels(box), step_colour(k));
-    // the last box stands for all loads above the end
+    // the last box is for all loads above the end
     out += text_element(left, 52.0, "0", "middle");
     out += text_element(left + 0.5 * kSteps * box, 52.0, half, "middle");
     out += text_element(left + kSteps * box, 52.0, "\u2265 " + end, "middle");

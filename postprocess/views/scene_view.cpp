@@ -81,7 +81,7 @@ SceneView::SceneView(const RunHeader& header, ViewFrom from, const ViewOptions& 
 
     s.window = choose_window(s.hull_box, from, floe_size, options.half_breadth, options.waterline);
     const double across = s.window.right - s.window.left, tall = s.window.top - s.window.bottom;
-    // as wide as asked for, but not taller than three quarters of that
+    // of the given width, but not taller than three quarters of that
     const double room = options.width - kLeft - kRight;
     const double per_metre = std::min(room / across, 0.75 * room / tall);
     s.width = across * per_metre;

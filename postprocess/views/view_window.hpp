@@ -7,7 +7,7 @@
 
 namespace ice::views {
 
-/// What a view shows, in metres on the page, relative to the ship.
+/// The window of a view, in metres on the page, relative to the ship.
 struct Window {
     double left, right, bottom, top;
 };

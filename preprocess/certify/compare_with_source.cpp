@@ -34,7 +34,7 @@ struct Probed {
     double equal_area = 0.0, equal_area_in_belt = 0.0;
 };
 
-// Samples of the triangles that are not shared; those that are only add their area.
+// Samples of the triangles that are not shared; shared ones only add their area.
 Probed take_samples(const TriangleMesh& mesh, const std::vector<std::uint8_t>& shared, double size,
                     const IceBelt& belt) {
     const SurfaceSampler sampler(mesh, size, 3);

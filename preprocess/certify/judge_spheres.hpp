@@ -15,7 +15,7 @@ namespace ice {
 void set_ice_belt(const TriangleMesh& solid, std::optional<double> draught,
                   std::optional<double> ice_thickness, SpheresReport& report);
 
-/// What the certificate means, as warnings with their numbers: spheres that reach out by more than
+/// Warnings of the certificate, with their numbers: spheres that reach out by more than
 /// a hundredth of a radius or were dropped as outside; places without one within 0.75 spacings; a
 /// stem or stern cut back by more than a radius in the ice belt; thin parts; wide spacings.
 void judge_spheres(const SphereSet& set, SpheresReport& report);

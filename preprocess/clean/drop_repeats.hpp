@@ -5,7 +5,7 @@
 
 namespace ice {
 
-/// What drop_repeats() dropped.
+/// Counts of drop_repeats().
 struct RepeatCounts {
     std::int64_t copies = 0;  ///< triangles lying on another with the same three corners
     std::int64_t walls = 0;   ///< triangles of walls without thickness inside a closed surface

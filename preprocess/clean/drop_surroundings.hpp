@@ -8,11 +8,11 @@
 
 namespace ice {
 
-/// Leaves out what a flow solver's domain is made of: parts that are a box along the axes around
+/// Leaves out the domain of a flow solver: parts that are a box along the axes around
 /// all else, at least half as large again in two directions, and flat parts along the axes that
 /// reach beyond all else by a fifth in both of their directions (a sea plane, a wall). A box around
 /// nothing but boxes must be three times as large as those in each direction: a barge has tanks.
-/// @return one text for each part left out: what it was and how large
+/// @return one text for each part left out: its kind and size
 /// @pre the mesh is welded. Cost O(T)
 std::vector<std::string> drop_surroundings(TriangleMesh& mesh);
 

@@ -10,7 +10,7 @@ namespace ice {
 
 /// A point that lies beside a segment.
 struct NearEdge {
-    std::size_t point = 0, edge = 0;  ///< rows of what was asked
+    std::size_t point = 0, edge = 0;  ///< rows of the arguments
     double along = 0.0;               ///< of its foot, from the segment's start (0) to its end (1)
     double distance = 0.0;            ///< [m]
 };

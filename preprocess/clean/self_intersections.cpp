@@ -77,6 +77,7 @@ std::vector<std::pair<std::size_t, std::size_t>> find_self_intersections(const T
     Soup soup;
     soup.points.reserve(mesh.vertices.size());
     for (const Vec3& v : mesh.vertices) soup.points.emplace_back(v.x(), v.y(), v.z());
+    // Neighbours touch by design: vertices in one place count as shared, whether welded or not.
     const auto equal = find_equal_vertices(mesh.vertices);
     std::vector<TriangleBox> boxes;
     soup.triangles.reserve(mesh.triangles.size());
@@ -94,6 +95,7 @@ std::vector<std::pair<std::size_t, std::size_t>> find_self_intersections(const T
         boxes.begin(), boxes.end(), [&](const TriangleBox& a, const TriangleBox& b) {
             candidates.emplace_back(std::min(a.info(), b.info()), std::max(a.info(), b.info()));
         });
+    // Boxes rule out nearly all pairs; the exact test runs on the rest, each pair by itself.
     std::vector<std::uint8_t> found(candidates.size(), 0);
     parallel_for(candidates.size(), 1000, [&](std::size_t k) {
         found[k] =
@@ -102,6 +104,7 @@ std::vector<std::pair<std::size_t, std::size_t>> find_self_intersections(const T
     std::vector<std::pair<std::size_t, std::size_t>> pairs;
     for (std::size_t k = 0; k < found.size(); ++k)
         if (found[k]) pairs.push_back(candidates[k]);
+    // CGAL's order of boxes is not that of the mesh.
     std::sort(pairs.begin(), pairs.end());
     return pairs;
 }

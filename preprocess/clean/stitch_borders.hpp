@@ -5,7 +5,7 @@
 
 namespace ice {
 
-/// What stitch_borders() did, for the report.
+/// Counts of stitch_borders(), for the report.
 struct StitchCounts {
     std::int64_t merged = 0;  ///< vertices merged with a vertex across the crack
     std::int64_t split = 0;   ///< open edges split at the vertices across the crack

@@ -5,7 +5,7 @@
 
 namespace ice {
 
-/// What weld() did, for the report.
+/// Counts of weld(), for the report.
 struct WeldCounts {
     std::int64_t equal_vertices = 0;        ///< merged: the same point written several times
     std::int64_t near_vertices = 0;         ///< merged: within the tolerance
@@ -21,7 +21,7 @@ struct WeldCounts {
 /// keeps its position, so the result depends on nothing but the order in the file. Cost O(V + T).
 WeldCounts weld(TriangleMesh& mesh);
 
-/// Merges vertices that are within each other's reach, and drops what collapses or repeats.
+/// Merges vertices near each other, and drops triangles that collapse or repeat.
 /// @param reach  per vertex [m]; 0: it stays   @return vertices merged
 std::int64_t merge_near(TriangleMesh& mesh, const std::vector<double>& reach, WeldCounts& counts);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// What a field should be, as its specification (TOML) states it.
+/// The specification of a field (TOML).
 #pragma once
 
 #include <array>

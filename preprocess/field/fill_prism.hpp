@@ -8,7 +8,7 @@
 
 namespace ice {
 
-/// What a floe's outline becomes: a slab of ice with contact spheres.
+/// A floe made from its outline: a slab of ice with contact spheres.
 struct PrismForm {
     double thickness, chamfer;  ///< [m]
     double radius, spacing;     ///< of the spheres [m]

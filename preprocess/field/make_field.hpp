@@ -6,7 +6,7 @@
 
 namespace ice {
 
-/// What was made, for people and other programs. Sizes are those of the loose floes.
+/// Measures of the field, for people and other programs. Sizes are those of the loose floes.
 struct FieldReport {
     std::size_t floes = 0, fixed = 0, shapes = 0;  ///< loose floes, pieces of unbroken ice
     std::size_t spheres = 0, surface_spheres = 0;  ///< of all floes together

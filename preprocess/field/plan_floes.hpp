@@ -36,7 +36,7 @@ FieldPlan plan_cells(const FieldSpec& spec);
 /// Floes from a file: GeoJSON polygons, or CSV rows floe, x, y (a header and # comments are passed
 /// over). Units times `scale`, moved by `origin`.
 ///
-/// @param warnings  what was left out: holes
+/// @param warnings  parts left out: holes
 /// @throws Error (exit code 2) naming the floe: fewer than three corners, crossing itself, or lying
 ///         over another one by more than a thousandth of its size; and what is no such file
 FieldPlan plan_polygons(const FieldSpec& spec, std::vector<std::string>& warnings);

@@ -21,6 +21,8 @@ FieldPlan plan_grid(const FieldSpec& s) {
                 plan.loose.push_back(rectangle(x_of(column), y_of(row), length, breadth));
         return plan;
     }
+    // Brick: every other column begins and ends with half a floe. Two halves and one gap take the
+    // room of a whole floe, so all columns have the same breadth.
     const double half = 0.5 * (breadth - s.gap[1]);
     if (!(half > 0.0))
         throw bad_input("floes.gap", "leaves nothing of the half floes of a brick pattern",

@@ -17,7 +17,7 @@ struct PowerCell {
 
 /// Cells of all sites, in their order (CGAL's regular triangulation). They cover the rectangle.
 ///
-/// Its sides come from images of the sites: what is nearer to a site than to its image lies inside.
+/// Its sides come from images of the sites: points nearer to a site than to its image lie inside.
 /// Edges may have no length: sites beside a side and their images lie on one circle.
 /// @pre sites lie inside the rectangle, no two in one place; one weight [m2] per site
 std::vector<PowerCell> power_cells(const std::vector<Vec2>& sites,

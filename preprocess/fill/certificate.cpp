@@ -19,7 +19,7 @@ namespace {
 constexpr double kThinGap =
     2.5;  // radii; sharp convex edges of 60 degrees lose 1, of 40 degrees 1.9
 constexpr double kAside = 0.65;       // spacings: the layer's covering radius
-constexpr std::size_t kClimbs = 512;  // places whose cover is looked at closely
+constexpr std::size_t kClimbs = 512;  // places whose cover is measured exactly
 
 // Values up to `most` by weight, in bins of most / 65536: a percentile needs no sorting.
 class Histogram {

@@ -10,7 +10,7 @@
 
 namespace ice {
 
-/// Measures how well a sphere set stands for its solid, independently of how it was made.
+/// Measures how well a sphere set represents its solid, independently of how it was made.
 ///
 /// - protrusion: how far the worst surface sphere reaches beyond the surface;
 /// - covering radius: over places where a sphere of the set's radius can touch, the largest

@@ -113,6 +113,7 @@ CornerCount count_corners(const SurfaceTree& tree, const SphereSet& set, bool ha
     ICE_ASSERT(set.dimension == 3 && set.surface_count <= set.centers.size());
     std::vector<std::vector<Seat>> found(set.surface_count);
     parallel_for(set.surface_count, 64, [&](std::size_t k) {
+        // A corner is looked for from the edges that end in it: spheres on faces cannot lead there.
         const bool on_face = set.normal_spread[k] == 0.0;
         if (on_face || (half && set.centers[k].y() < 0.0)) return;
         Seat seat{set.centers[k], set.normals[k], -1};
@@ -130,12 +131,14 @@ CornerCount count_corners(const SurfaceTree& tree, const SphereSet& set, bool ha
     for (const auto& corners : found)
         for (const Seat& corner : corners) {
             if (half && corner.center.y() < -kSameCorner * set.spacing) continue;
+            // The three edges of a corner each lead to it: counted once.
             if (counted.any_within(corner.center, kSameCorner * set.spacing, [&](std::int32_t k) {
                     return touch_the_same(all[static_cast<std::size_t>(k)], corner);
                 }))
                 continue;
             counted.add(corner.center);
             all.push_back(corner);
+            // Of half a solid each corner off the plane of symmetry stands for two.
             const bool has_image = half && corner.center.y() > kSameCorner * set.spacing;
             out.all += has_image ? 2 : 1;
             if (creased.know(corner)) continue;

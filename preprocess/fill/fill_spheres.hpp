@@ -24,7 +24,7 @@ struct FillOptions {
     /// many facets.
     double sharp = 0.94;
     bool edges_by_ends = false;  ///< settle two points at each end of a straight edge, none between
-    /// Where given, told now and then what is being done and the share of it that is done.
+    /// Where given, called now and then with the present stage and the finished share of it.
     std::function<void(const std::string& step, double share)> progress = {};
 };
 

@@ -5,7 +5,7 @@
 
 namespace ice {
 
-/// The largest sphere found inside a solid, and what none exceeds.
+/// The largest sphere found inside a solid, and an upper bound for all.
 struct Inscribed {
     double radius = 0.0;  ///< of a sphere that was found [m]; 0: none was
     double bound = 0.0;   ///< no sphere inside is larger [m]

@@ -9,7 +9,7 @@
 
 namespace ice {
 
-/// What a solid is filled with.
+/// Kinds of filling of a solid.
 struct LatticeOptions {
     LatticeKind kind = LatticeKind::cubic;
     double radius = 0.1;     ///< of the spheres [m]

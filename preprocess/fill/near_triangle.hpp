@@ -84,7 +84,7 @@ public:
             std::fill_n(distance_sq, points.count, distance_ * distance_);  // in doubt
     }
 
-    /// Closer than the distance, given what measure() said.
+    /// Closer than the distance, from the result of measure().
     bool is_near(const PointBatch& points, std::size_t k, double distance_sq) const {
         const double square = distance_ * distance_;
         if (distance_sq > square * (1.0 + kDoubt)) return false;

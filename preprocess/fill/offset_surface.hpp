@@ -26,7 +26,7 @@ struct Seat {
     int touches = 0;         ///< in a crease: how many of `touch` are known; 0: they are not
     std::array<Vec3, 3> touch{};  ///< touch_directions(), not to be looked for at every question
 
-    /// The seat stands for a surface with this normal, as far as that goes.
+    /// Does the seat represent a surface with this normal?
     bool agrees(const Vec3& surface_normal) const { return normal.dot(surface_normal) >= agree; }
     bool agrees(std::span<const Vec3> surface_normals) const {
         return std::all_of(surface_normals.begin(), surface_normals.end(),
@@ -38,7 +38,7 @@ struct Seat {
 bool is_fine_for(const SurfaceTree& tree, double radius);
 
 /// The distance from `radius` [m] at which a centre counts as settled: 1e-10 of the radius, or far
-/// from the origin what the rounding of coordinates leaves.
+/// from the origin the rounding error of coordinates.
 double exact_distance(const Vec3& center, double radius);
 
 /// Moves a point to the nearest place where a sphere of `radius` touches the surface from inside:
@@ -59,7 +59,7 @@ std::optional<Seat> settle(const SurfaceTree& tree, const Vec3& start, double ra
 /// touches all faces met there: it ends up touching them all.
 std::optional<Seat> settle_in_crease(const SurfaceTree& tree, const Vec3& start, double radius);
 
-/// The surface normals that a seat stands for: its own, or all that meet in its crease. They are
+/// The surface normals that a seat represents: its own, or all that meet in its crease. They are
 /// in the seat or in `found`, whatever that held.
 std::span<const Vec3> normals_at(const SurfaceTree& tree, double radius, const Seat& seat,
                                  std::vector<Vec3>& found);

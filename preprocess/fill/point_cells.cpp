@@ -90,7 +90,7 @@ PointCells::Cell PointCells::cell_of(const Vec3& p) const {
 
 namespace {
 
-// The nearest of the points looked at, of equally near ones the lowest index.
+// The nearest of the searched points, of equally near ones the lowest index.
 struct Closest {
     PointCells::Nearest known;
     double best_sq;

@@ -62,7 +62,7 @@ public:
                     }
     }
 
-    /// True where a seat is within `range` that stands for surface of this normal (these normals).
+    /// True if a seat within `range` represents surface of this normal (these normals).
     template <class Normal>
     bool any_within(const Vec3& p, double range, const Normal& normal) const {
         bool found = false;

@@ -153,11 +153,15 @@ void set_normals(const SurfaceTree& tree, const std::vector<std::int32_t>& twins
     std::vector<std::vector<Vec3>> creases(count);
     parallel_for(count, 4096, [&](std::size_t k) {
         const double y = set.centers[k].y();
+        // Of a symmetric solid only the half y >= 0 is measured; the other half copies it, so that
+        // both sides have the same bits mirrored.
         if (!twins.empty() && y < 0.0 && twins[k] != static_cast<std::int32_t>(k)) return;
         auto directions = directions_of(tree, set, k, !twins.empty() && y == 0.0);
         const Cone cone = narrowest_cone(directions);
         set.normals[k] = cone.axis;
         if (!twins.empty() && y == 0.0) {
+            // A sphere in the plane of symmetry is its own twin: its normal lies in that plane,
+            // unless the cone is nearly athwart.
             const Vec3 flat(cone.axis.x(), 0.0, cone.axis.z());
             if (flat.norm() > 1e-3) set.normals[k] = flat.normalized();
         }

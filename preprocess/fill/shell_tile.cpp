@@ -139,7 +139,7 @@ bool ShellTile::is_outside(const Vec3& start) const {
            });
 }
 
-// The seats that stand for the same face, so that those of the other side of a thin part neither
+// The seats that represent the same face, so that those of the other side of a thin part neither
 // count nor are in the way.
 void ShellTile::neighbours_in(const Plane& plane, double range) {
     neighbours_.clear();

@@ -26,7 +26,7 @@ struct ShellSolid {
 
     const SurfaceTree& tree;
     Eigen::AlignedBox3d box;  ///< of its vertices [m]
-    bool convex;              ///< all vertices lie behind all faces; not looked at in large meshes
+    bool convex;              ///< all vertices lie behind all faces; not tested in large meshes
 };
 
 /// Seats are placed in `box` (by the front) or up to 1.2 spacings around it (to close gaps).
@@ -51,7 +51,7 @@ public:
     /// Voronoi cells reached.
     void cover(const std::vector<Seed>& seeds);
 
-    /// What was placed since the tile was made.
+    /// Spheres placed since the tile was made.
     const std::vector<Seat>& placed() const { return placed_; }
 
 private:

@@ -47,7 +47,7 @@ void SurfaceSampler::add_strips(std::size_t t, std::vector<SurfaceSample>& out) 
     }
 }
 
-// A prism's side is two triangles; the one with two corners at the lower y stands for both.
+// A prism's side is two triangles; the one with two corners at the lower y represents both.
 void SurfaceSampler::add_section(std::size_t t, std::vector<SurfaceSample>& out) const {
     Vec3 low[3];
     int count = 0;

@@ -14,9 +14,9 @@ namespace ice {
 namespace {
 
 constexpr double kMostSamples = 1.5e6;
-constexpr double kShareSize = 1.0 / 3.0;  // spacings, where only shares are asked for
+constexpr double kShareSize = 1.0 / 3.0;  // spacings, where only shares are needed
 constexpr double kReachable = 1e-6;       // radii by which the other side may be nearer
-constexpr double kFar = 8.0;              // spacings: on a part without spheres, none stands for it
+constexpr double kFar = 8.0;              // spacings: a part without spheres, represented by none
 constexpr double kFaceSpread = 0.087;     // 5 degrees: beyond, a sphere is in an edge
 
 // `last` is the sphere that the sample before was near to: likely a neighbour.

@@ -10,9 +10,9 @@
 
 namespace ice {
 
-/// What one surface sample sees of the surface spheres.
+/// The surface spheres at one surface sample.
 struct Sight {
-    double area = 0.0;           ///< that the sample stands for [m2]
+    double area = 0.0;           ///< that the sample represents [m2]
     float gap = 0.0f;            ///< distance to the sphere it belongs to [m], >= 0
     float cover = -1.0f;         ///< from where a sphere would touch at the sample to the nearest
                                  ///< centre that covers it [m]; -1 where none can touch
@@ -23,7 +23,7 @@ struct Sight {
     Eigen::Vector3f point = Eigen::Vector3f::Zero();  ///< [m]
 };
 
-/// Finds the surface spheres of a set that stand for a piece of surface: those whose normal agrees
+/// Finds the surface spheres of a set that represent a piece of surface: their normal agrees
 /// with the surface's (kFaceTurn, plus the spread in edges). Thread-safe.
 class SphereFinder {
 public:
@@ -38,7 +38,7 @@ public:
     PointCells::Nearest agreeing(const Vec3& p, const Vec3& normal,
                                  const PointCells::Nearest& any) const;
 
-    /// Nearest sphere that covers surface of this normal: it stands for surface that does not
+    /// Nearest sphere that covers surface of this normal: it represents surface that does not
     /// face the other way (its normal is at most a right angle off, plus the spread), so that the
     /// spheres round an edge cover each other's faces and those behind a thin plate do not. Where
     /// none does within two spacings of `any`, `any`.

@@ -8,7 +8,7 @@
 
 namespace ice {
 
-/// Points beside each other in memory, so that several are asked about at a time [m].
+/// Points beside each other in memory, so that several are measured at a time [m].
 struct PointBatch {
     static constexpr std::size_t kMost = 32;
     /// Entries from `count` to the next multiple of this are read, and must be finite.

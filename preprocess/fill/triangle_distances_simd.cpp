@@ -27,6 +27,8 @@ void MeasureDistances(const TriangleSides& t, const PointBatch& points, double* 
         const auto px = hn::LoadU(d, points.x.data() + k);
         const auto py = hn::LoadU(d, points.y.data() + k);
         const auto pz = hn::LoadU(d, points.z.data() + k);
+        // A point whose foot lies inside all three edges is nearest to the face, else to the rim:
+        // both distances are computed and selected by lane, in the reference's order of operations.
         auto least = zero, rim = zero, height = zero;
         for (std::size_t e = 0; e < 3; ++e) {
             const Vec3 &from = t.corner[e], &edge = t.edge[e], &in = t.inward[e];

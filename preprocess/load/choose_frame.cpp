@@ -40,6 +40,7 @@ public:
         : mesh_(mesh), file_(file), options_(options), notes_(notes) {}
 
     Frame choose() {
+        // Units first: the guess of axes compares lengths with those of ships.
         choose_units();
         if (!options_.mirror_y && !(options_.up && options_.forward)) hull_ = find_hull_axes(mesh_);
         choose_up();
@@ -117,6 +118,7 @@ private:
             frame_.forward = Direction::from(*options_.forward);
             return;
         }
+        // The found hull axes are of use only if they agree with the chosen up axis.
         const bool lies_flat = hull_ && hull_->vertical == frame_.up.axis;
         frame_.forward = {frame_.up.axis == 0 ? 1 : 0, true};
         if (lies_flat && hull_->length == frame_.forward.axis) {

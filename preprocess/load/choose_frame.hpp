@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Units and axes of a mesh file: what it says, what the user says, what is left to guess.
+/// Units and axes of a mesh file: from the file, from the user, or guessed.
 #pragma once
 
 #include <map>
@@ -24,7 +24,7 @@ struct Direction {
     static Direction from(const std::string& text);
 };
 
-/// What the file itself says about its numbers.
+/// The file's own statements on its numbers.
 struct FileFrame {
     std::string format;            ///< "glTF", "Collada", "FBX"; empty for formats that say nothing
     std::optional<double> metres;  ///< per file unit
@@ -42,7 +42,7 @@ struct ReadOptions {
     bool mirror_y = false;               ///< add the mirror image across y = 0 (half hulls)
 };
 
-/// What reading took from the file, guessed or did without being asked.
+/// Values that reading took from the file or guessed, and its changes to the mesh.
 struct ReadNotes {
     /// "units", "up", "forward": value and reason, such as "mm, because the solid would be 9000 m
     /// long in metres". No entry for what an option gave.
@@ -61,7 +61,7 @@ struct Frame {
     Mat3 matrix() const;
 };
 
-/// Settles units and axes: an option wins, then what the file says, then a guess that changes
+/// Settles units and axes: an option wins, then the file's statement, then a guess that changes
 /// nothing unless the mesh leaves no doubt. Boxes and floes keep their axes.
 ///
 /// **Units.** Ships and floes are 0.05 m to 600 m long (the longest ships: 458 m). A length in that

@@ -9,7 +9,7 @@
 namespace ice {
 
 /// The most that gunzip() unpacks [bytes]: 1 GiB, some 20 million triangles of binary STL. A gzip
-/// file can be a thousandth of what it holds, so a small one could otherwise fill the memory.
+/// file can be a thousandth of its content, so a small one could otherwise fill the memory.
 inline constexpr std::uint64_t kUnpackedLimit = std::uint64_t{1} << 30;
 
 /// Whether the file's name ends in ".gz", in small or capital letters.

@@ -155,7 +155,7 @@ FileFrame fbx_frame(const aiMetadata& data) {
     FileFrame frame;
     float single = 0.0f;
     double centimetres = 0.0;
-    // a float in assimp 5.2; the type is asked for by exact match
+    // a float in assimp 5.2, which requires the exact type
     if (data.Get("UnitScaleFactor", single))
         centimetres = undo_float(single);
     else
@@ -210,7 +210,7 @@ void check_ply_header(const std::filesystem::path& file, std::string_view head) 
                         "copy or export it again");
 }
 
-// assimp reads fifty formats; those that nobody asked for are only ways to go wrong.
+// assimp reads fifty formats; only the documented ones are accepted.
 void keep_formats(Assimp::Importer& importer) {
     for (std::size_t k = importer.GetImporterCount(); k-- > 0;) {
         std::istringstream extensions(importer.GetImporterInfo(k)->mFileExtensions);
@@ -252,7 +252,7 @@ std::string first_bytes(const std::filesystem::path& file) {
     return head;
 }
 
-// What a damaged file leaves behind; assimp's own steps would abort the program over it.
+// Remains of a damaged file, over which assimp's own steps would abort the program.
 void check_faces(const std::filesystem::path& file, const aiScene& scene) {
     for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
         const aiMesh& mesh = *scene.mMeshes[m];

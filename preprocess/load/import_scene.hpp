@@ -8,7 +8,7 @@
 
 namespace ice {
 
-/// A file's triangles in its own axes and units, and what it says about them.
+/// A file's triangles in its own axes and units, and its statements on these.
 struct ImportedMesh {
     TriangleMesh mesh;
     FileFrame frame;

@@ -24,6 +24,8 @@ std::vector<std::int32_t> part_of_vertices(const TriangleMesh& mesh) {
     std::vector<std::int32_t> order(mesh.vertices.size()), parent(mesh.vertices.size());
     std::iota(order.begin(), order.end(), 0);
     std::iota(parent.begin(), parent.end(), 0);
+    // Union-find with path halving. The smallest vertex of a part is its root, so the numbers do
+    // not depend on the order of joining.
     const auto root = [&](std::int32_t v) {
         while (parent[static_cast<std::size_t>(v)] != v) {
             auto& up = parent[static_cast<std::size_t>(v)];
@@ -43,6 +45,7 @@ std::vector<std::int32_t> part_of_vertices(const TriangleMesh& mesh) {
         return std::lexicographical_compare(at(l).data(), at(l).data() + 3, at(r).data(),
                                             at(r).data() + 3);
     };
+    // Vertices in the same place are one: formats such as STL repeat each corner for each triangle.
     std::sort(order.begin(), order.end(), before);
     for (std::size_t k = 1; k < order.size(); ++k)
         if (at(order[k]) == at(order[k - 1])) join(order[k], order[k - 1]);

@@ -5,7 +5,7 @@
 
 namespace ice {
 
-/// What of a mesh its units and axes are guessed from: its largest part and what lies about it.
+/// The part of a mesh from which units and axes are guessed: the largest part and its surroundings.
 ///
 /// Parts are triangles that share corners (equal coordinates). Left out are parts farther from the
 /// largest than its own length (a stray triangle, an island), boxes around another part (a flow

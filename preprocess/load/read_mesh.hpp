@@ -26,7 +26,7 @@ namespace ice {
 /// With `mirror_y`, triangles in the plane y = 0 go first (a half hull closed by its centre plane),
 /// then the mirror image is added; a mesh that lies on both sides of it gets a warning.
 ///
-/// @param notes  where given, takes what was taken from the file, guessed or dropped
+/// @param notes  where given, receives values from the file, guesses and dropped parts
 /// @throws Error (exit code 2) naming the file: not found, not readable by assimp, damaged gzip,
 ///         no triangles, NaN or infinite vertices (with their number), impossible up/forward pair
 TriangleMesh read_mesh(const std::filesystem::path& file, const ReadOptions& options,

@@ -18,7 +18,7 @@ namespace ice {
 
 namespace {
 
-// What a PLY header says of one element: rows of single values and lists.
+// An element of a PLY header: rows of single values and lists.
 struct Property {
     std::size_t count_size = 0;  // bytes of a list's length; 0: a single value
     std::size_t size = 0;        // bytes of a value

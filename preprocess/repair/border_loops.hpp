@@ -7,7 +7,7 @@
 
 namespace ice {
 
-/// A hole's edge: a simple closed walk along what the surface leaves open.
+/// A hole's edge: a simple closed walk along open edges of the surface.
 struct BorderLoop {
     std::vector<std::int32_t> vertices;  ///< n, so that a cap in this order faces as the surface
     std::vector<std::int32_t>

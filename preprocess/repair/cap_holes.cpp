@@ -82,6 +82,8 @@ std::vector<Triple> patch_of(TriangleMesh& mesh, const BorderLoop& loop,
         if (!plan.empty() && (local.empty() || area_of(points, plan) < area_of(points, local)))
             local = std::move(plan);
     }
+    // A patch that repeats an edge of the mesh would give it three triangles: a new vertex in the
+    // middle cannot.
     if (!is_new(local, loop, known)) return fan(mesh, loop);
     std::vector<Triple> out;
     for (const Triple& t : local)
@@ -112,6 +114,7 @@ Cap append(TriangleMesh& mesh, const BorderLoop& loop, const std::vector<Triple>
         cap.rim.push_back({at->second, loop.neighbours[k], along, length});
         region_length[mesh.region[static_cast<std::size_t>(loop.neighbours[k])]] += length;
     }
+    // A cap belongs to the region that it borders most.
     const auto longest =
         std::max_element(region_length.begin(), region_length.end(),
                          [](const auto& l, const auto& r) { return l.second < r.second; });
@@ -130,6 +133,7 @@ std::vector<Cap> cap_holes(TriangleMesh& mesh) {
     std::vector<std::uint8_t> on_loop(mesh.vertices.size(), 0);
     for (const BorderLoop& loop : loops)
         for (const std::int32_t v : loop.vertices) on_loop[static_cast<std::size_t>(v)] = 1;
+    // Only edges between loop vertices can be repeated by a patch: the set stays small.
     for (const MeshEdge& edge : edge_table(mesh))
         if (on_loop[static_cast<std::size_t>(edge.a)] && on_loop[static_cast<std::size_t>(edge.b)])
             known.insert({edge.a, edge.b});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Holes and what closes them.
+/// Holes and the caps that close them.
 #pragma once
 
 #include <string>

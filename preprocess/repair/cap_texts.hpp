@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// What the report says of openings.
+/// The report's texts on openings.
 #pragma once
 
 #include <string>

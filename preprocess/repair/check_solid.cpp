@@ -84,6 +84,8 @@ std::vector<Opening> find_openings(const TriangleMesh& mesh) {
 
 std::string describe_mesh(TriangleMesh mesh) {
     const std::size_t triangles = mesh.triangles.size();
+    // Faults are told of the welded mesh: a file of single triangles would have nothing but open
+    // edges.
     const WeldCounts welded = weld(mesh);
     const SolidDiagnosis d = diagnose_solid(mesh);
     Eigen::AlignedBox3d box;
@@ -105,10 +107,13 @@ std::string describe_mesh(TriangleMesh mesh) {
     const std::string faults = d.text();
     line("surface", faults.empty() ? "closed, faces outwards, crosses nowhere" : faults);
     if (const HalfHull half = looks_like_half_hull(mesh)) line("half hull", half.text());
+    // Openings are found after faces are turned to agree: before, each seam between turned patches
+    // looks like one.
     orient_faces(mesh);
     const auto openings = find_openings(mesh);
     for (std::size_t k = 0; k < openings.size(); ++k) {
         const Opening& o = openings[k];
+        // The longest ten: a torn mesh has thousands.
         if (k == 10) {
             line("opening", fmt::format("and {} more, shorter", openings.size() - k));
             break;

@@ -15,7 +15,7 @@ struct Opening {
     std::int64_t edges = 0;
 };
 
-/// What keeps a triangle mesh from being the surface of a solid.
+/// Faults that keep a triangle mesh from being the surface of a solid.
 struct SolidDiagnosis {
     std::int64_t open_edges = 0;          ///< edges with one triangle
     std::int64_t crowded_edges = 0;       ///< edges with three or more triangles
@@ -36,7 +36,7 @@ struct SolidDiagnosis {
 /// @pre the mesh is welded
 SolidDiagnosis diagnose_solid(const TriangleMesh& mesh);
 
-/// The part of diagnose_solid() that looks at edges only: cheap.
+/// The part of diagnose_solid() that tests edges only: cheap.
 SolidDiagnosis diagnose_edges(const TriangleMesh& mesh);
 
 /// The holes, the longest first. @pre the mesh is welded and its faces are oriented

@@ -6,13 +6,13 @@
 
 namespace ice {
 
-/// What a mesh of several closed surfaces means.
+/// Meaning of a mesh of several closed surfaces.
 enum class SolidKind {
-    envelope,  ///< what the outermost surfaces enclose: voids and double skins are filled
-    material,  ///< what the surfaces' orientation says: winding number not zero
+    envelope,  ///< the inside of the outermost surfaces: voids and double skins are filled
+    material,  ///< by the surfaces' orientation: winding number not zero
 };
 
-/// What choose_shells() did, for the report.
+/// Counts of choose_shells(), for the report.
 struct ShellCounts {
     std::int64_t shells = 0;   ///< closed connected surfaces found
     std::int64_t flipped = 0;  ///< of those kept, turned over to face outwards of the solid

@@ -9,7 +9,7 @@
 
 namespace ice {
 
-/// A surface without boundary, and what it took.
+/// A surface without boundary, and the caps that it took.
 struct ClosedSurface {
     TriangleMesh mesh;             ///< each edge has two triangles that agree; parts face outwards
     TriangleMesh open;             ///< the same without its caps
@@ -23,7 +23,7 @@ struct ClosedSurface {
 
 /// Welded triangles -> a surface without boundary: copies and walls without thickness dropped, an
 /// open half hull mirrored, faces turned to agree, holes capped, sheets separated, parts turned
-/// outwards, scraps without volume dropped. What it did is appended to `repairs`; the caps are
+/// outwards, scraps without volume dropped. Its repairs are appended to `repairs`; the caps are
 /// judged but not refused here.
 ClosedSurface close_surface(TriangleMesh mesh, const SolidOptions& options, Repairs& repairs);
 

@@ -102,6 +102,8 @@ private:
 }  // namespace
 
 void fill_voids(const Grid& grid, std::vector<std::uint8_t>& inside) {
+    // Flood from the border through all nodes outside: a void is a node that is outside and not
+    // reached.
     std::vector<std::uint8_t> reached(inside.size(), 0);
     std::vector<std::size_t> open;
     const auto reach = [&](std::size_t k) {
@@ -126,6 +128,8 @@ void fill_voids(const Grid& grid, std::vector<std::uint8_t>& inside) {
         const std::size_t k = open.back();
         open.pop_back();
         const auto at = place(k);
+        // The 14 neighbours along the edges and diagonals that the contour's tetrahedra use, so
+        // that flood and contour agree on what is connected.
         for (int direction = 1; direction < 8; ++direction)
             for (const std::int32_t sign : {-1, 1}) {
                 bool within = true;

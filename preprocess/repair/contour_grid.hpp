@@ -26,8 +26,8 @@ struct Grid {
     }
 };
 
-/// Marks as inside what cannot be reached from the grid's border through nodes outside, along the
-/// edges that contour_grid cuts.
+/// Marks as inside all nodes that cannot be reached from the grid's border through nodes outside,
+/// along the edges that contour_grid cuts.
 void fill_voids(const Grid& grid, std::vector<std::uint8_t>& inside);
 
 /// Surface between the nodes inside and those outside: marching tetrahedra, each cube cut into the

@@ -81,7 +81,7 @@ private:
     bool positive_ = true;
 };
 
-// What one triangle becomes.
+// The parts of one cut triangle.
 struct Pieces {
     std::vector<Place> fresh;       // corners that the triangle did not have
     std::vector<Triple> triangles;  // vertices of the mesh; -1, -2, ... are fresh ones
@@ -157,6 +157,8 @@ private:
     Pieces cut_one(std::size_t t, const std::vector<std::size_t>& cuts) const {
         const Kernel::Triangle_3 whole = triangle(t);
         const Projection look(whole[0], whole[1], whole[2]);
+        // In the plane of the triangle, without the coordinate along its largest normal component:
+        // exact, no point is rounded.
         if (look.flat()) return {{}, {mesh_.triangles[t]}};
         Plan plan;
         for (int k = 0; k < 3; ++k)
@@ -173,6 +175,8 @@ private:
         }
         Pieces out;
         for (const auto v : plan.finite_vertex_handles()) {
+            // Vertices on a cut are shared by both triangles of the pair: places are compared
+            // exactly later and merged.
             if (v->info().known) continue;
             out.fresh.push_back(look.up(v->point()));
             v->info() = {true, -static_cast<std::int32_t>(out.fresh.size())};
@@ -181,6 +185,7 @@ private:
             Triple piece;
             for (int k = 0; k < 3; ++k)
                 piece[static_cast<std::size_t>(k)] = f->vertex(k)->info().of_vertex;
+            // The projection may mirror; pieces keep the triangle's side.
             if (!look.positive()) std::swap(piece[1], piece[2]);
             out.triangles.push_back(piece);
         }

@@ -39,7 +39,7 @@ std::vector<std::array<std::int32_t, 3>> fill_loop(const std::vector<Vec3>& poin
     std::vector<std::array<std::int32_t, 3>> out;
     std::vector<CGAL::Triple<int, int, int>> patch;
     try {
-        // the flat short cut looks at the loop only, not at its neighbours
+        // the flat short cut uses the loop only, not its neighbours
         CGAL::Polygon_mesh_processing::triangulate_hole_polyline(
             loop, third, std::back_inserter(patch),
             CGAL::parameters::use_2d_constrained_delaunay_triangulation(points.size() > 200)

@@ -71,7 +71,9 @@ public:
     CapVerdict measure(const Cap& cap) const {
         CapVerdict out;
         const std::vector<Plane> planes = continued_planes(cap);
-        double guessed = 0.0;  // area that goes on from no neighbour
+        // A triangle of the cap in the plane of a neighbouring face continues it: only the others
+        // are guesses.
+        double guessed = 0.0;  // area that continues no neighbour
         for (std::int32_t t = cap.first; t < cap.first + cap.count; ++t) {
             const auto tt = static_cast<std::size_t>(t);
             const double area = mesh_.area_vector(tt).norm();
@@ -88,6 +90,8 @@ public:
             length += edge.length;
         }
         const double mean = length > 0.0 ? turn / length : 1.0 / kSteepest;
+        // The volume that a surface turning by this mean slope at the rim might have had beyond the
+        // cap (judge_caps.hpp).
         if (cap.perimeter > 0.0) out.doubt = guessed * out.area / cap.perimeter * mean;
         if (guessed <= 1e-6 * out.area) out.kind = CapKind::continued;
         return out;
@@ -119,6 +123,8 @@ public:
             walls += edge.length * normal(edge.neighbour).z();
             length += edge.length;
         }
+        // A deck faces upwards, its rim lies on walls, runs without steps, and nothing of its part
+        // is above it.
         return sum.z() >= 0.9 * area && walls <= 0.3 * length && walls >= -0.6 * length &&
                !has_steps(cap) && spans_and_tops(cap);
     }
@@ -202,7 +208,7 @@ private:
     }
 
     const TriangleMesh& mesh_;
-    std::optional<WindingNumber> winding_;  // of all parts, when asked for
+    std::optional<WindingNumber> winding_;  // of all parts, made when needed
     Parts parts_;
     Eigen::AlignedBox3d box_;
     double surface_ = 0.0, volume_ = 0.0, size_ = 0.0;
@@ -218,6 +224,8 @@ std::vector<CapVerdict> judge_caps(const TriangleMesh& mesh, const std::vector<C
     for (const Cap& cap : caps) {
         out.push_back(judge.measure(cap));
         CapVerdict& cap_is = out.back();
+        // Tests by winding numbers cost time: a cap too small to change the result is accepted
+        // without them.
         const bool matters =
             cap_is.doubt > kTrifle * judge.volume() || cap_is.area > kLoose * judge.surface();
         if (suspect && cap_is.area > kSuspect * judge.surface())
@@ -232,6 +240,7 @@ std::vector<CapVerdict> judge_caps(const TriangleMesh& mesh, const std::vector<C
         doubt += cap_is.doubt;
         (cap_is.kind == CapKind::continued ? continued : loose) += cap_is.area;
     }
+    // Each cap by itself and all together: many small caps may hide a large loss.
     const bool each = std::all_of(out.begin(), out.end(), [&](const CapVerdict& cap) {
         return cap.kind == CapKind::deck || cap.kind == CapKind::hidden ||
                cap.doubt <= kDoubt * judge.volume();
@@ -240,7 +249,7 @@ std::vector<CapVerdict> judge_caps(const TriangleMesh& mesh, const std::vector<C
                        loose <= kLoose * judge.surface() &&
                        continued <= kContinued * judge.surface();
     if (stand) return out;
-    // name those that weigh most: each that by itself takes a fair share of what is allowed
+    // name the cap that uses the largest share of its allowance
     const auto weight = [&](const CapVerdict& cap) {
         const double of_area = cap.kind == CapKind::continued ? kContinued : kLoose;
         return std::max(cap.doubt / (kDoubt * judge.volume()),

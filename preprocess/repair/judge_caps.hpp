@@ -8,10 +8,10 @@ namespace ice {
 /// Volume that may depend on how openings are closed, of the whole: all caps together.
 inline constexpr double kMostDoubt = 0.02;
 
-/// What a cap is taken for.
+/// Kinds of caps.
 enum class CapKind {
     small,      ///< whatever its form, the volume does not depend on it
-    continued,  ///< flat, and goes on from a face next to it in the same plane
+    continued,  ///< flat, in the plane of a face next to it
     hidden,     ///< inside another part
     deck,       ///< faces up and closes the top of its part from side to side
     guess,      ///< none of these: refused

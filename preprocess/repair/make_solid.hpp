@@ -23,7 +23,7 @@ struct SolidOptions {
     std::string suspect;  ///< why the file seems cut off; empty: it does not
 };
 
-/// What make_solid() did to the mesh: step and count, steps that did nothing left out.
+/// Repairs of make_solid(): step and count, steps without repairs left out.
 using Repairs = std::vector<std::pair<std::string, std::int64_t>>;
 
 /// Triangles as read -> the closed, outward surface of one solid.
@@ -38,7 +38,7 @@ using Repairs = std::vector<std::pair<std::string, std::int64_t>>;
 /// @param name     of the file, for messages
 /// @param repairs  steps are appended; nothing is changed that is not counted there, but for equal
 ///                 vertices becoming one
-/// @param warnings where given, takes what the user should look at, with place and size
+/// @param warnings where given, receives doubtful places, with place and size
 /// @throws Error (exit code 2) naming every fault with its count and the place of the first, or the
 ///         opening that is too large to guess; and what to do
 TriangleMesh make_solid(TriangleMesh mesh, const std::string& name, const SolidOptions& options,

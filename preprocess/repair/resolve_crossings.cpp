@@ -93,8 +93,8 @@ double width(const TriangleMesh& mesh, std::size_t t) {
 
 enum class Role : std::uint8_t { inner, boundary, turned };
 
-// What a triangle is, from the winding numbers on its two sides: that of all others at its middle,
-// half of its own more behind it and less before it.
+// The role of a triangle, from the winding numbers on its two sides: that of all others at its
+// middle, half of its own more behind it and less before it.
 Role role_of(const TriangleMesh& mesh, const WindingNumber& all, std::size_t t, int times) {
     const Vec3 a = mesh.corner(t, 0), b = mesh.corner(t, 1), c = mesh.corner(t, 2);
     const Vec3 middle = (a + b + c) / 3.0;
@@ -108,11 +108,15 @@ void keep_boundary(TriangleMesh& mesh, const std::vector<int>& times) {
     TriangleMesh counted = mesh;
     for (std::size_t t = 0; t < times.size(); ++t)
         for (int more = 1; more < times[t]; ++more) counted.triangles.push_back(mesh.triangles[t]);
+    // Sheets that lie on each other count as often as they occur: the winding number jumps by that
+    // at them.
     const WindingNumber all(counted);
     const auto patch = find_patches(edge_table(mesh), times);
     std::vector<std::int32_t> widest(patch.size(), -1);  // of the patch with that number
     for (std::size_t t = 0; t < patch.size(); ++t) {
         auto& at = widest[static_cast<std::size_t>(patch[t])];
+        // The winding number is evaluated at the widest triangle of each patch: far from other
+        // patches, where it is certain.
         if (at < 0 || width(mesh, t) > width(mesh, static_cast<std::size_t>(at)))
             at = static_cast<std::int32_t>(t);
     }
@@ -142,6 +146,8 @@ std::optional<TriangleMesh> resolve_crossings(
     keep_boundary(cut->mesh, times);
     const auto edges = edge_table(cut->mesh);
     if (std::any_of(edges.begin(), edges.end(),
+                    // A boundary has as many triangles one way as the other at each edge; else the
+                    // cut failed, and a later repair is tried.
                     [](const MeshEdge& edge) { return 2 * edge.forwards != edge.count; }))
         return std::nullopt;
     separate_sheets(cut->mesh);

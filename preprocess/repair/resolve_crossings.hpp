@@ -9,7 +9,7 @@
 
 namespace ice {
 
-/// A surface that crosses itself -> the boundary of what it encloses.
+/// A surface that crosses itself -> the boundary of its inside.
 ///
 /// Triangles that cross are cut where they meet (cut_faces), and a piece stays where the winding
 /// number is positive on one side of it and not on the other: a mesh arrangement (Zhou et al.,

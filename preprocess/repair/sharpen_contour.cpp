@@ -54,12 +54,16 @@ public:
 
     std::int64_t run() {
         find_triangles_around();
+        // Corners first: an edge move would take away the crossing of three planes that a corner
+        // needs.
         move_all(corner_moves());
         for (int pass = 0; pass < kPasses; ++pass) {
             find_triangles_around();
             move_all(crease_moves());
             turn_edges();
         }
+        // A move taken back may expose another fault; if the faults do not end, the contour stays
+        // as it was.
         for (int round = 0; round < kMostTakenBack; ++round)
             if (!take_back()) return std::count(moved_.begin(), moved_.end(), 1);
         mesh_.vertices = before_;
@@ -208,6 +212,7 @@ private:
         };
         const Vec3 was = twice_area(at(a), at(b), at(c));
         const Vec3 is = twice_area(mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2));
+        // A triangle folds over if it faces against the source's surface at its corners.
         const Vec3 outward = plane(a).normal + plane(b).normal + plane(c).normal;
         return is.dot(outward) <= 0.0 ||
                is.norm() < std::min(kSliver * cell_ * cell_, 0.5 * was.norm());

@@ -45,6 +45,10 @@ SolidProof verify_solid(const TriangleMesh& mesh, double overlap_allowed) {
         proof.fault = "the volume is zero";
         return proof;
     }
+    // Three independent counts of the volume along rows in x, y, z: by sign, by winding number, by
+    // parity. They agree only for a surface that is closed, outward and does not overlap itself.
+    // Few rows first: a good mesh is accepted early, a finer count is made only where the first is
+    // in doubt.
     for (const int rows : kRows) {
         proof.row_error = proof.overlap = 0.0;
         for (const RowVolume& axis : measure_rows(mesh, rows)) {

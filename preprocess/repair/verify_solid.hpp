@@ -10,7 +10,7 @@ namespace ice {
 /// Tests that are independent of how a solid was made.
 struct SolidProof {
     bool good = false;
-    std::string fault;       ///< what failed; empty where good
+    std::string fault;       ///< the failed test; empty where good
     double volume = 0.0;     ///< exact integral over the surface [m3]
     double row_error = 0.0;  ///< worst of three axes: row volume against the exact one, relative
     double overlap = 0.0;    ///< worst of three axes: winding and parity against signs, relative
@@ -22,7 +22,7 @@ struct SolidProof {
 /// within `overlap_allowed` (1e-4 where surfaces cross without effect, else rounding).
 SolidProof verify_solid(const TriangleMesh& mesh, double overlap_allowed = 1e-4);
 
-/// What the winding numbers of two surfaces say of the same 20 000 places of the box.
+/// The winding numbers of two surfaces at the same 20 000 places of the box, compared.
 struct WindingComparison {
     double differs = 0.0;  ///< volume where one says inside and the other outside, of the second's
     double unclear = 0.0;  ///< volume where the first lies between 0.2 and 0.8, of the second's

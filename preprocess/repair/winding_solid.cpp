@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kCells = 200.0;        // along the longest side
 constexpr double kNodes = 2.0e6;        // at most, or cells grow
-constexpr double kFinestNodes = 8.0e6;  // at most, where finer cells are asked for
+constexpr double kFinestNodes = 8.0e6;  // at most, for the finer cells of a caller
 constexpr double kCoarse = 100.0;       // cells along the longest side, to look for voids
 constexpr double kSealed = 0.6;         // of a cell: what is this near to a surface is no way out
 constexpr int kSteps = 16;              // towards the surface, at most
@@ -57,6 +57,7 @@ std::vector<std::uint8_t> mark_inside(const TriangleMesh& mesh, const Grid& grid
         const auto z = static_cast<std::size_t>(row % grid.nodes[2]);
         const std::size_t first = static_cast<std::size_t>(grid.nodes[0]) *
                                   (y + static_cast<std::size_t>(grid.nodes[1]) * z);
+        // A row crosses the surface with signs: their running sum is the winding number along it.
         int winding = 0;
         for (; k < crossings.size() && crossings[k].row == row; ++k) {
             const auto node = [&](double x) {
@@ -80,6 +81,8 @@ std::vector<std::size_t> find_voids(const Grid& grid, const std::vector<std::uin
                                     const SurfaceTree& tree) {
     std::vector<std::uint8_t> shut(inside.size());
     parallel_for(inside.size(), 1000, [&](std::size_t k) {
+        // Passages narrower than about a cell count as closed: hatches and gaps between plates do
+        // not drain a void.
         shut[k] = inside[k] || !tree.is_clear(grid.at(k), kSealed * grid.step);
     });
     std::vector<std::uint8_t> filled = shut;

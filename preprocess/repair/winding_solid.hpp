@@ -28,7 +28,7 @@ WindingSolid winding_solid(const TriangleMesh& mesh, SolidKind kind, double fine
 /// How far vertices of a mesh lie outside a solid made of it [m], and where the farthest does.
 std::pair<double, Vec3> farthest_outside(const TriangleMesh& mesh, const TriangleMesh& solid);
 
-/// What parts enclose together without being one surface.
+/// Space that parts enclose together without being one surface.
 struct EnclosedVoids {
     double volume = 0.0;   ///< [m3], within a layer of a hundredth of the length
     double passage = 0.0;  ///< nothing wider leads there from outside [m]

@@ -6,7 +6,7 @@
 namespace ice {
 
 /// Shrink-wraps a surface whatever its faults (CGAL Alpha_wrap_3): a closed outward manifold around
-/// all triangles. It enters every opening wider than about 2 alpha and rounds off what is smaller.
+/// all triangles. It enters every opening wider than about 2 alpha and rounds off smaller details.
 /// @param alpha  [m] > 0   @param offset  [m] > 0: distance of the wrap outside the surface
 /// @return the wrap; empty when CGAL fails. Regions are not set.
 TriangleMesh alpha_wrap(const TriangleMesh& mesh, double alpha, double offset);

@@ -24,6 +24,7 @@ std::string report_text(const SpheresReport& r, const std::string& output) {
     out += fmt::format("{}: {} {} of radius {:g} m\n", output, r.spheres,
                        flat ? "discs" : "spheres", r.radius);
     line("on the surface", fmt::format("{}, spaced {:g} m", r.surface_spheres, r.spacing));
+    // Interior spheres cost memory in every later step: the report says so next to their number.
     if (r.spheres > r.surface_spheres)
         line("inside", fmt::format("{}, which no contact uses; --mode surface leaves them out and "
                                    "saves {:.2g} MB",
@@ -52,6 +53,7 @@ std::string report_text(const SpheresReport& r, const std::string& output) {
     for (const auto& [what, value] : r.guessed) line("assumed", what + ": " + value);
     for (std::size_t k = 0; k < r.thin_features.size(); ++k) {
         const ThinFeature& f = r.thin_features[k];
+        // Ten places are enough to see where the radius is too large; the JSON has all.
         if (k == 10) {
             line("too thin",
                  fmt::format("and {} more (--json lists all)", r.thin_features.size() - k));

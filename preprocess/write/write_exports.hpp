@@ -29,8 +29,9 @@ std::vector<std::filesystem::path> export_files(const std::vector<std::string>& 
 /// Whether a format carries a mass, and so needs a density.
 bool has_mass(const std::string& format);
 
-/// Refuses what a format cannot hold: a 2D set (per metre of breadth) as a rigid body in 3D, fewer
-/// than two spheres for LIGGGHTS, a file name that cannot stand between the quotes of a script.
+/// Refuses sets that a format cannot hold: a 2D set (per metre of breadth) as a rigid body in 3D,
+/// fewer than two spheres for LIGGGHTS, a file name that cannot stand between the quotes of a
+/// script.
 /// @throws Error (exit code 2) naming the option
 void check_exports(const SphereSet& set, const std::vector<std::string>& formats,
                    const std::filesystem::path& base);

@@ -36,8 +36,11 @@ PieceOutline measure_outline(const TriangleMesh& mesh, const Mat3& rotation) {
     double area = 0.0;
     for (const auto& triangle : mesh.triangles) {
         const auto corner = [&](int k) { return points[static_cast<std::size_t>(triangle[k])]; };
+        // Triangles that face upwards cover the outline once: their sum is the area seen from
+        // above.
         area += std::max(0.5 * cross(corner(1) - corner(0), corner(2) - corner(0)), 0.0);
     }
+    // The longest distance of two points is one of two corners of the convex hull.
     const std::vector<Vec2> corners = convex_corners(std::move(points));
     Vec2 chord = Vec2::Zero();
     for (std::size_t i = 0; i < corners.size(); ++i)

@@ -76,7 +76,7 @@ struct Case {
     double gravity = 9.81, water_density = 1000.0;
 
     std::filesystem::path hull_spheres;
-    Vec3 hull_position = Vec3::Zero();  ///< of the mesh's origin; z is not looked at with a draught
+    Vec3 hull_position = Vec3::Zero();  ///< of the mesh's origin; z is ignored with a draught
     /// From the mesh's lowest point up to the water [m]; NaN: hull_position's z places the hull.
     double hull_draught = std::numeric_limits<double>::quiet_NaN();
     std::vector<std::pair<double, double>>

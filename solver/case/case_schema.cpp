@@ -141,7 +141,7 @@ std::vector<CaseKey> contact_keys() {
          "Coulomb's coefficient between floes.",
          [](Case& c, G&, const Value& v) { c.contact.friction_ice_ice = number(v); }},
         {"contact.normal", Kind::choice, D::none, "\"surface\"", 0, 0, 0, kNormals,
-         "Contact normal: of the surfaces the spheres stand for, or from centre to centre (the "
+         "Contact normal: of the surfaces that spheres represent, or from centre to centre (the "
          "paper).",
          [](Case& c, G&, const Value& v) { c.normal = choice<NormalRule>(v, kNormals); }},
         {"contact.crushing_pressure", Kind::number, D::pressure, "1e6", 0, kInf, 0, "",
@@ -230,8 +230,8 @@ std::vector<CaseKey> bending_keys() {
              c.bending.factor_table = std::get<std::vector<std::pair<double, double>>>(v);
          }},
         {"bending.opening_angle", Kind::number, D::angle, "-", 1e-3, 3.1415926535897932, 0, "",
-         "Angle of the wedge that every piece stands for; default from its outline, that of the "
-         "sector of its area and depth.",
+         "Opening angle of every piece as a wedge; default from its outline, that of the sector "
+         "with its area and depth.",
          [](Case& c, G&, const Value& v) { c.bending.opening_angle = number(v); }},
         {"bending.load_length", Kind::number, D::length, "0.0", 0, 1e3, 0, "",
          "Model wedge: distance from the edge over which the load is spread.",

@@ -7,7 +7,7 @@
 namespace ice {
 
 /// Complains of keys of [ship], [propulsion], [tow], [mooring] and of a drift that do not go
-/// together: what is given twice, what nothing would look at, what leaves the plane of a 2D case.
+/// together: given twice, without effect, or out of the plane of a 2D case.
 /// @param values  of the keys given
 void check_ship(const Case& checked, const Values& values, const Complaints& complaints);
 

@@ -14,7 +14,7 @@ namespace ice {
 /// default: a slice has no contact area that a pressure could be measured on.
 constexpr double kCrushingPressure = 1e6;
 
-/// [contact]: what a contact may carry, and how exactly contacts are solved together.
+/// [contact]: bounds of a contact's impulse, and the accuracy of the contact solution.
 struct ContactLaw {
     double restitution = 0.3;
     double friction_ship_ice = 0.1, friction_ice_ice = 0.3;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// What a case file says of a ship that answers the ice: [ship], [propulsion], [tow], [mooring].
+/// Keys of a ship that answers the ice: [ship], [propulsion], [tow], [mooring].
 #pragma once
 
 #include <algorithm>

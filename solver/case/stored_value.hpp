@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Values of a case file as what a Case stores. For the tables of keys in this folder.
+/// Converts values of a case file to the members of a Case. For the tables of keys in this folder.
 #pragma once
 
 #include <algorithm>

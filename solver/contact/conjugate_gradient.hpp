@@ -23,7 +23,7 @@ public:
     /// Before the first sweep of a stage.
     /// @param bounded  impulses have a bound that they may grow to
     void begin(const ContactRows& contacts, bool bounded);
-    /// Between two sweeps: notes what the last one did and moves on.
+    /// Between two sweeps: takes the change by the last one and advances the impulses.
     void advance(ContactRows& contacts);
 
 private:

@@ -15,6 +15,8 @@ namespace {
 // Largest s in [0, 1] where a convex parabola through its values at 0, 1/2 and 1 is at most 0.
 double largest_share(double at_zero, double at_half, double at_one) {
     if (at_one <= 0.0) return 1.0;
+    // The energy of a mixture is quadratic in its share s, (8): three values determine the
+    // parabola.
     const double curve = 2.0 * (at_zero - 2.0 * at_half + at_one);
     const double slope = at_one - at_zero - curve;
     if (at_zero > 0.0) return 0.0;
@@ -58,6 +60,7 @@ void ImpactEnergyLimiter::find_islands(const Bodies& bodies, const ContactRows& 
     };
     for (const std::int32_t k : which_) {
         const Constraint& c = constraints[k];
+        // Ship and held ice do not connect islands: each island may gain or lose energy by itself.
         if (bodies.inverse_mass[c.a] == 0.0 || bodies.inverse_mass[c.b] == 0.0) continue;
         const std::int32_t a = root(contacts.local_of(c.a)), b = root(contacts.local_of(c.b));
         islands_[std::max(a, b)] = std::min(a, b);
@@ -83,6 +86,8 @@ void ImpactEnergyLimiter::measure_gains(const Bodies& bodies, const ContactRows&
             return s.velocity[b] + s.angular_velocity[b].cross(c.arm_b) - s.velocity[a] -
                    s.angular_velocity[a].cross(c.arm_a);
         };
+        // Work of the impulse on the mean of the relative velocities before and after: the exact
+        // change of kinetic energy, because velocities are linear in impulses.
         const Vec3 j = end.normal[n] * c.normal + end.tangent[n];
         out[island_of(bodies, contacts, c)] += 0.5 * j.dot(relative(start_) + relative(end));
     }
@@ -106,6 +111,8 @@ double ImpactEnergyLimiter::energy_gain(const Bodies& bodies, const ContactRows&
 
 void ImpactEnergyLimiter::set_aside(Bodies& bodies, const ContactRows& contacts,
                                     std::vector<Constraint>& constraints) {
+    // The plastic solution starts from the same state as the rebound did: the two differ in the
+    // targets alone.
     save(bodies, contacts, constraints, rebound_);
     for (std::size_t k = 0; k < contacts.bodies().size(); ++k) {
         const std::int32_t body = contacts.bodies()[k];

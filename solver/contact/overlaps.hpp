@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// What becomes of overlap that a step's velocities leave: bodies move apart, or ice is crushed
+/// Overlap that a step's velocities leave: bodies move apart, or ice is crushed
 /// (docs/method.md, section 5).
 #pragma once
 
@@ -35,8 +35,8 @@ public:
     void correct_positions(const Scene& scene, const std::vector<Constraint>& constraints,
                            double dt, PositionCorrections& out);
 
-    /// Ice at its strength gives way: what overlap the step leaves at a crushed contact is taken
-    /// off the ice for good; rigid ice is never at its strength.
+    /// Ice at its strength gives way: the overlap that the step leaves at a crushed contact is
+    /// taken off the ice for good; rigid ice is never at its strength.
     /// @pre called before the poses advance, after resolve_rest, with the constraints' law and dt
     void crush(Scene& scene, const std::vector<Contact>& contacts,
                const std::vector<Constraint>& constraints, const ContactLaw& law, double dt);

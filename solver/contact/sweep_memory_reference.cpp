@@ -14,12 +14,15 @@ double measure_change(const std::vector<ContactRow>& rows, const SweepMemory& me
             sum[lane] += (normal * normal + ordered_dot(tangent, tangent)) *
                          rows[r].inverse_effective_mass.v[lane];
         }
+    // The order in which a register of eight lanes is summed on every instruction set.
     return ((sum[0] + sum[1]) + (sum[2] + sum[3])) + ((sum[4] + sum[5]) + (sum[6] + sum[7]));
 }
 
 namespace {
 
 void move_on(double& value, double& before, double& direction, double beta) {
+    // Equation (11) for one number; impulses and velocities advance by the same rule, so momentum
+    // stays balanced.
     const double change = value - before;
     value = value + beta * direction;
     direction = beta * direction + change;

@@ -51,12 +51,16 @@ void solve(ContactRow& row, std::size_t lane, Side& a, Side& b, Changes& most) {
     const Vec3 arm_a = get(row.arm_a, lane), arm_b = get(row.arm_b, lane);
     const Vec3 v = b.at(arm_b) - a.at(arm_a);
     double& normal = row.impulse.normal.v[lane];
+    // Equation (9): the normal impulse that brings v . n to the target, clamped to [0,
+    // max_impulse].
     const double reached =
         normal + (row.target_velocity.v[lane] - ordered_dot(n, v)) * row.effective_mass.v[lane];
     const double next = std::min(std::max(reached, 0.0), row.max_impulse.v[lane]);
     const double change = next - normal;
     normal = next;
 
+    // Equation (10): the sliding velocity already includes the normal impulse just applied;
+    // friction is a projection on the disc of radius mu J_n.
     const Vec3 after = v + change * get(row.response, lane);
     const Vec3 sliding = after - ordered_dot(n, after) * n;
     const Vec3 before = get(row.impulse.tangent, lane);
@@ -71,6 +75,8 @@ void solve(ContactRow& row, std::size_t lane, Side& a, Side& b, Changes& most) {
     const Vec3 j = change * n + turned;
     a.push(arm_a, -1.0 * j);
     b.push(arm_b, j);
+    // Changes are compared as velocities, so that contact.tolerance means the same for light and
+    // heavy floes.
     const double k = row.tangent_inverse_effective_mass.v[lane];
     most.normal = std::max(most.normal, std::abs(change) * row.inverse_effective_mass.v[lane]);
     most.tangent_sq = std::max(most.tangent_sq, ordered_dot(turned, turned) * (k * k));
@@ -90,6 +96,8 @@ double sweep(const std::vector<PairBlock>& blocks, std::vector<ContactRow>& rows
             Side b(mb, block.inverse_mass_b, block.inverse_inertia_b, lane);
             for (std::int32_t r = 0; r < block.rows; ++r)
                 solve(rows[static_cast<std::size_t>(block.first_row + r)], lane, a, b, most);
+            // The ship and held floes are in many lanes at once: they are never stored, so no lane
+            // waits for another.
             if (a.inverse_mass > 0.0) a.store(ma);
             if (b.inverse_mass > 0.0) b.store(mb);
         }

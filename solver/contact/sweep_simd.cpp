@@ -228,7 +228,7 @@ struct Waiting {
     }
 };
 
-// Takes streams to their ends. Where one ends another begins; once none waits, the others go on.
+// Takes streams to their ends. Where one ends another begins; the last ones end alone.
 template <std::size_t N>
 HWY_INLINE void Finish(Streams<N>& streams, Waiting& waiting, std::vector<BodyMotion>& motion,
                        Changes& most) {

@@ -7,7 +7,7 @@
 
 namespace ice {
 
-/// What a drafted case says that its files do not. SI.
+/// The numbers of a drafted case that its files do not contain. SI.
 struct Draft {
     double draught = 0.0;
     bool draught_from_mesh = false;  ///< the mesh crosses z = 0, which is taken for its water line
@@ -24,7 +24,7 @@ struct Draft {
 /// - Draught: down to the keel from z = 0 where the mesh crosses it, else 0.6 of its depth.
 /// - Place: on the field's centre line, the bow two sphere spacings before the first ice.
 /// - Speed: 4 kn at 100 m, by Froude's rule, to two digits.
-/// - Travel: 1.5 lengths of the waterline, or what the field has room for; averages over the last
+/// - Travel: 1.5 lengths of the waterline, or the length of the field; averages over the last
 ///   length of it, or its last two thirds.
 /// - Time step: in it the ship goes a fifth of the smallest sphere's radius, rounded down to 1, 2
 ///   or 5 of a decade.

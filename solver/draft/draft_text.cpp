@@ -36,8 +36,8 @@ std::string draft_text(const Draft& d, const std::string& hull, const std::strin
                     schema_file_name(case_schema()));
     out +=
         "# Drafted by icesolve --new: it runs as it is. Lines marked CHECK are guesses.\n"
-        "# icesolve --check CASE tells what it makes of the numbers, --explain KEY what a key "
-        "takes.\n";
+        "# icesolve --check CASE prints ship, ice and course in numbers, --explain KEY explains a "
+        "key.\n";
     out += fmt::format("title = {}\n", quoted(hull + " in " + field));
     out += "\n[simulation]\ndimension = 3\n";
     out += line(

@@ -12,11 +12,11 @@ struct NewCase {
     std::filesystem::path hull;   ///< a mesh, or a sphere set (.h5)
     std::filesystem::path field;  ///< a field (.h5), a specification (.toml), or empty
     std::filesystem::path out;    ///< the case; empty: named after the hull, in the working folder
-    /// What spherize is told of the mesh: {"--units", "mm", "--up", "y"}.
+    /// Options for spherize about the mesh: {"--units", "mm", "--up", "y"}.
     std::vector<std::string> mesh_options = {};
 };
 
-/// Writes a case for a hull and an ice field, and beside it what they lack: a mesh becomes a sphere
+/// Writes a case for a hull and an ice field, and missing files beside it: a mesh becomes a sphere
 /// set (by spherize, of some 12000 spheres), a specification a field (by icefield), no field one
 /// for a ship of this size.
 /// @return the case file

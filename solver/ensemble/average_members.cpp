@@ -61,6 +61,7 @@ ForceStatistics average(const Members& members, ForceStatistics Summary::*force)
     for (const Member& m : members)
         if (const double peak = (m.summary.*force).max; std::abs(peak) > std::abs(out.max))
             out.max = peak;
+    // The members are the samples: the interval is theirs, not that of one history.
     out.effective_samples = static_cast<double>(members.size());
     return out;
 }
@@ -75,6 +76,7 @@ std::map<std::string, RegionStatistics> average_regions(const Members& members) 
     for (const Member& m : members)
         for (const auto& [name, region] : m.summary.regions) {
             RegionStatistics& sum = out[name];
+            // Hits add up over the members, forces are means of means.
             sum.hits += region.hits;
             sum.max_impulse = std::max(sum.max_impulse, region.max_impulse);
             add_share(sum.mean, region.mean, share);

@@ -18,7 +18,7 @@ struct Member {
 /// component (its ci95; NaN for one member), counts of floes and contacts as means, extremes as
 /// extremes, times as sums; of the ice's particulars means, of floe sizes also the extremes.
 /// Correlation time, trend, panels and peaks are those of single runs: unknown here, left out.
-/// What all members share, such as the title, is the first one's. A warning that all members have
+/// Common entries, such as the title, are the first member's. A warning that all members have
 /// stands once, with the largest share; any other begins with its seed. A trend of the resistance
 /// stands only where more members show one than chance explains at 1 %.
 /// @pre at least one member

@@ -35,7 +35,7 @@ double default_jitter(const Case& parameters) {
     return kJitter * smallest;
 }
 
-// What makes a member: its overrides behind those of the case.
+// The overrides of a member, after those of the case.
 std::vector<std::string> member_overrides(const EnsembleOptions& o, const Case& parameters,
                                           std::int64_t seed, MemberFields& made) {
     std::vector<std::string> out = o.overrides;
@@ -116,6 +116,8 @@ void make_room(const EnsembleOptions& o) {
 
 EnsembleResult run_ensemble(const EnsembleOptions& o) {
     const Case parameters = read_case(o.case_file, o.overrides);
+    // The lock is taken before anything is removed or written: a second ensemble in this folder
+    // stops here.
     const RunFolder claimed(o.folder, Existing::go_on);
     make_room(o);
     log_to_file(o.folder / "run.log", !o.overwrite);
@@ -132,6 +134,7 @@ EnsembleResult run_ensemble(const EnsembleOptions& o) {
             result.code = static_cast<int>(ExitCode::interrupted);
             break;
         }
+        // The same command again keeps members whose case has not changed and runs the others.
         std::optional<Summary> summary = finished_member(o, folder, overrides);
         say(fmt::format("seed {}, member {} of {}{}", seed, seed - first + 1, o.members,
                         summary ? ": finished before, kept" : ""));

@@ -10,13 +10,13 @@
 
 namespace ice {
 
-/// What `icesolve CASE --seeds N` was asked for.
+/// Options of `icesolve CASE --seeds N`.
 struct EnsembleOptions {
     std::string case_file;
     std::vector<std::string> overrides;  ///< of the case, "key=value"
     int members = 0;
     std::filesystem::path folder;           ///< members in seed-1, seed-2, ...
-    bool overwrite = false;                 ///< remove what the folder holds of runs first
+    bool overwrite = false;                 ///< first remove the runs in the folder
     std::vector<std::string> member_words;  ///< of the command line, for every member
     std::string command_line;
     std::string command_beside, command_replace;  ///< printed where the folder holds a single run
@@ -28,7 +28,7 @@ struct EnsembleResult {
 };
 
 /// Runs the members one after the other, each a program icesolve of its own, and writes the
-/// folder's summary.json after each: an interrupt, or a member that fails, keeps what is finished.
+/// folder's summary.json after each: an interrupt, or a failed member, keeps finished members.
 ///
 /// The folder is locked as a run's is (RunFolder), its run.log holds the messages.
 ///
@@ -38,8 +38,8 @@ struct EnsembleResult {
 /// sphere's radius, which no start refuses: floes that touch then overlap by no more than is
 /// tolerated (check_start.hpp).
 ///
-/// In a folder that holds an ensemble of the same case the command goes on: finished members are
-/// kept, one with a checkpoint goes on from it, so `members` may also have grown.
+/// In a folder with an ensemble of the same case the command resumes: finished members are
+/// kept, one with a checkpoint resumes from it, and `members` may have grown.
 /// @throws Error (exit code 2) for a folder with a single run, or with members of another case,
 ///         unless `overwrite`; for one that another program writes; for a bad case. (exit code 1)
 ///         when icesolve or a file cannot be started or written.

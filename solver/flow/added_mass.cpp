@@ -62,6 +62,7 @@ Mat6 added_mass(const PanelBody& body, const Vec3& about, double density) {
                              normals_of(p, points[k], about).transpose();
         }
     }
+    // Exactly symmetric by Green's theorem; the panels' error is not, and half of it cancels here.
     return 0.5 * (out + out.transpose());
 }
 
@@ -83,10 +84,14 @@ ShipAddedMass ship_added_mass(const TriangleMesh& hull, double water, const Vec3
     ShipAddedMass out;
     out.displacement = density * wetted.volume;
     out.panels = body.panels.size();
+    // The flat surface is the limit of slow motions, the surface of zero potential that of fast
+    // ones.
     body.image = kLid;
     const Mat6 slow = added_mass(body, centre, density);
     body.image = kFreeSurface;
     const Mat6 fast = added_mass(body, centre, density);
+    // Surge, sway and yaw are slow, heave, roll and pitch are at wave frequency: couplings between
+    // the two limits have no meaning.
     for (const int i : {0, 1, 5})
         for (const int j : {0, 1, 5}) out.matrix(i, j) = slow(i, j);
     for (const int i : {2, 3, 4})

@@ -40,6 +40,7 @@ struct Sources {
 
 void lay_grid(const Sources& s, bool plane, const FlowOptions& options, FlowTable& out) {
     double spacing = options.spacing;
+    // The coarsest grid within the bound on nodes that still resolves half a floe's thickness.
     const Vec3 low = s.low - Vec3::Constant(s.margin), high = s.high + Vec3::Constant(s.margin);
     const double length = high.x() - low.x(), depth = -low.z();
     const double breadth = out.symmetric ? high.y() : high.y() - low.y();
@@ -82,12 +83,15 @@ void fill_row(const Sources& s, const WindingNumber& hull, double water, std::si
         at[i] = t.origin + t.spacing * Vec3(double(i), double(row % ny), double(row / ny));
         const bool in_box =
             ((at[i] - s.low).array() >= 0.0).all() && ((s.high - at[i]).array() >= 0.0).all();
+        // Inside the hull the sources' sum has no meaning; the nearest flow outside keeps the
+        // interpolation at the hull right.
         const bool inside = in_box && hull.contains(at[i] + Vec3(0, 0, water));
         asked[i] = inside ? s.off_surface(at[i], kOffSurface * t.spacing) : at[i];
     }
     const auto flow = s.flow_at(asked);
     for (std::size_t i = 0; i < nx; ++i) {
         const double speed = flow[i].velocity.norm();
+        // Faded to zero at the rim, so that a floe that enters the table feels no jump.
         const double share = fade_at(t, at[i], kFade * s.margin);
         const Vec3 w =
             share * std::min(1.0, kMostSpeed / std::max(speed, 1e-300)) * flow[i].velocity;
@@ -115,6 +119,7 @@ Vec3 off_panels(const PanelBody& body, const Vec3& p, double off) {
     double least = 1e300;
     Vec3 nearest = p;
     for (const SourcePanel& panel : body.panels) {
+        // A sphere around the panel rules most of them out before the exact distance.
         const double radius = std::sqrt(panel.far_squared) / 6.0;
         const double from_centre = (panel.centre - p).norm();
         if (from_centre - radius >= least) continue;
@@ -192,6 +197,7 @@ void make_2d(const TriangleMesh& prism, const FlowOptions& options, HullFlow& ou
             s.high = s.high.cwiseMax(p);
         }
     }
+    // a section has no breadth: the table extends twice its draught around it
     s.margin = 2.0 * (s.high.z() - s.low.z());
     out.length = s.high.x() - s.low.x();
     if (!options.table) return;

@@ -37,6 +37,8 @@ Flow near_flow(const SourcePanel& p, double x, double y, double z) {
     Flow out;
     for (std::size_t k = 0; k < 3; ++k) {
         const double sum = r[k] + r[(k + 1) % 3], l = p.length[k];
+        // On the edge itself the logarithm is infinite: bounded, because nodes and control points
+        // may lie there.
         const double gap = std::max(sum - l, kLeastGap * l);
         const double log = own::log((sum + l) / gap);
         out.x = out.x + log * p.outward[k].x();
@@ -63,6 +65,7 @@ Flow near_flow(const SourcePanel& p, double x, double y, double z) {
 Flow unit_flow(const SourcePanel& p, double x, double y, double z) {
     const double dx = x - p.centre.x(), dy = y - p.centre.y(), dz = z - p.centre.z();
     const double square = (dx * dx + dy * dy) + dz * dz;
+    // Far away a panel is a point source, within the accuracy set by far_squared.
     if (!(square > p.far_squared)) return near_flow(p, x, y, z);
     const double phi = p.area / std::sqrt(square), rate = phi / square;
     return {rate * dx, rate * dy, rate * dz, -phi};

@@ -47,6 +47,8 @@ Eigen::MatrixXd influence(const PanelBody& body) {
         mean_fluxes(body, targets_of(panels, kBlock * block), flux);
         const auto first = static_cast<Eigen::Index>(kBlock * block);
         const Eigen::Index rows = std::min<Eigen::Index>(kBlock, n - first);
+        // Eight rows at a time, the lanes of the kernel: a thread writes rows of its own block
+        // only.
         out.middleRows(first, rows) =
             Eigen::Map<const Eigen::MatrixXd>(flux.data(), kBlock, n).topRows(rows);
     });
@@ -66,6 +68,8 @@ void check_flow(const Vec3& direction, PanelFlow& flow) {
 Eigen::MatrixXd solve_strengths(const PanelBody& body, const Eigen::MatrixXd& wanted,
                                 int* iterations) {
     const Eigen::MatrixXd matrix = influence(body);
+    // The integral equation is of the second kind, so the matrix is well conditioned: the iteration
+    // needs no preconditioner and far fewer products than an elimination.
     Eigen::BiCGSTAB<Eigen::MatrixXd, Eigen::IdentityPreconditioner> solver(matrix);
     solver.setTolerance(1e-10);
     solver.setMaxIterations(kMostIterations);
@@ -100,6 +104,8 @@ PanelFlow solve_panels(PanelBody body, const Vec3& direction) {
 double added_mass_coefficient(const PanelFlow& flow, double volume) {
     double moment = 0.0;
     for (std::size_t j = 0; j < flow.body.panels.size(); ++j)
+        // Green's theorem: the added mass in surge is the dipole moment of the sources less the
+        // displaced water.
         moment += flow.strength[j] * flow.body.panels[j].area * flow.body.panels[j].centre.x();
     return (flow.body.symmetric ? 2.0 : 1.0) * moment / volume - 1.0;
 }

@@ -154,6 +154,8 @@ WettedHull make_wetted_hull(const TriangleMesh& mesh, double water, const PanelS
         high = std::max(high, v.x());
     }
     const double same = kSame * (high - low);
+    // A symmetric hull needs panels on one side only: an image in y = 0 takes the place of the
+    // other.
     out.body.symmetric = is_symmetric(mesh, same);
     std::vector<Triangle> wet;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -161,12 +163,15 @@ WettedHull make_wetted_hull(const TriangleMesh& mesh, double water, const PanelS
         for (Vec3& p : corners) p.z() -= water;
         wet.push_back(corners);
     }
+    // The waterline is cut exactly: panels that reach above it would let water through the surface.
     wet = cut(wet, 2, 1.0, same);
     if (out.body.symmetric) wet = cut(wet, 1, -1.0, same);
     if (wet.empty())
         throw bad_input("the hull", "has nothing under water",
                         "give a draught above 0, or a mesh that reaches below z = 0");
     measure(wet, out.body.symmetric, out);
+    // The matrix is dense, its cost the square of the panels: a fine mesh is simplified first, with
+    // room left for the split below.
     if (wet.size() > size.most) wet = simplified(wet, size.most * 3 / 4);
 
     out.longest_edge = size.longest_edge;
@@ -180,6 +185,7 @@ WettedHull make_wetted_hull(const TriangleMesh& mesh, double water, const PanelS
                             "allow longer edges");
     } else {
         out.longest_edge = (out.high.x() - out.low.x()) / kPanelsAlong;
+        // The finest panels that the bound on their number allows.
         while ((panels = split(wet, out.longest_edge, size.most)).empty()) out.longest_edge *= 1.2;
     }
     out.body.panels = panels_of(panels, out.longest_edge);

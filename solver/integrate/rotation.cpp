@@ -17,6 +17,8 @@ Vec3 angular_velocity_at(const Eigen::Quaterniond& orientation, const Mat3& inve
 Eigen::Quaterniond exponential_map(const Vec3& angle) {
     Vec3 half = 0.5 * angle;
     int squarings = 0;
+    // Large angles are halved until the series converges fast, and the result is squared as often:
+    // exp(a) = exp(a / 2^k)^(2^k).
     while (ordered_dot(half, half) > 0.25) {
         half *= 0.5;
         ++squarings;
@@ -44,6 +46,8 @@ Eigen::Quaterniond advance_orientation(const Eigen::Quaterniond& orientation,
     const auto turn = [&](const Vec3& angle) {
         return turn_at(ordered_product(exponential_map(angle), orientation));
     };
+    // Equation (18). The commutators k x k correct for rotations that do not commute; without them
+    // the method is of second order.
     const Vec3 k1 = turn_at(orientation);
     if (k1.isZero(0.0)) return orientation;
     const Vec3 k2 = turn(0.5 * k1);

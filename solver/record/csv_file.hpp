@@ -29,7 +29,7 @@ public:
             const std::filesystem::path& earlier, std::int64_t bytes);
     /// True when the earlier rows were not found.
     bool begins_late() const { return begins_late_; }
-    /// Writes what is buffered to disk and tells how long the file is [bytes].
+    /// Writes buffered rows to disk and returns the file's length [bytes].
     std::int64_t flush();
     /// @param row  a value for each of `columns`
     void add(const std::vector<double>& row);

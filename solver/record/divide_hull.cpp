@@ -38,6 +38,8 @@ struct Grid {
 
     Key key_of(const Vec3& at, const Vec3& normal, std::int32_t region) const {
         const Vec3 n = dimension == 2 ? Vec3(normal.x(), 0.0, normal.z()) : normal;
+        // Panels are cells of a grid seen along the axis that the normal is nearest to: flat parts
+        // have cells of the full size, whatever their slope.
         int axis = 0;
         for (int d = 1; d < 3; ++d)
             if (std::abs(n[d]) > std::abs(n[axis])) axis = d;

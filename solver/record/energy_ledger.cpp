@@ -19,6 +19,8 @@ void book_contact(const Bodies& now, const Constraint& c, const StepStart& start
                   EnergyLedger& ledger) {
     const Vec3 before = start.velocity[c.b] + start.angular_velocity[c.b].cross(c.arm_b) -
                         start.velocity[c.a] - start.angular_velocity[c.a].cross(c.arm_a);
+    // Work of an impulse on the mean of the velocities before and after it, (20): exact, since
+    // velocities are linear in impulses.
     const Vec3 mean = 0.5 * (before + relative_velocity(now, c));
     const Vec3 push = c.total_normal() * c.normal, rub = c.total_tangent();
     if (c.on_unbent) {
@@ -30,6 +32,8 @@ void book_contact(const Bodies& now, const Constraint& c, const StepStart& start
     const auto works_on = [&](std::int32_t i) {  // held ice that drifts, on what it touches
         return i != static_cast<std::int32_t>(kShip) && now.held[i] != 0;
     };
+    // Held ice that drifts is moved by no force of the model: whatever it gives to others comes
+    // from outside.
     if (works_on(c.a)) ledger.drift_work += (push + rub).dot(now.velocity[c.a]);
     if (works_on(c.b)) ledger.drift_work -= (push + rub).dot(now.velocity[c.b]);
     if (c.a != static_cast<std::int32_t>(kShip)) return;

@@ -14,7 +14,7 @@ namespace ice {
 /// The waterline is the mesh's section at `waterline` (ship frame). phi: slope of the foremost
 /// points of the sections there and 0.1 T deeper. alpha: from the stem to where the waterline
 /// reaches a quarter of the breadth. L_par: the part of the waterline that is at least 0.99 B
-/// broad; L_bow: what is before it.
+/// broad; L_bow: the length ahead of it.
 /// @return nothing when the hull does not cross the water
 std::optional<HullForm> measure_hull_form(const TriangleMesh& hull, double waterline);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// What one step did, as forces: impulses over dt, those of the ice on the ship.
+/// A step's impulses as forces of the ice on the ship: impulses over dt.
 #pragma once
 
 #include <span>
@@ -50,9 +50,9 @@ struct FloeForces {
 StepRecord measure_step(const Scene& scene, const std::vector<Contact>& contacts,
                         const std::vector<Constraint>& constraints, double dt);
 
-/// Forces on the floes that are asked for, by one pass over the constraints.
-/// @param asked  per body, its entry in `out`; -1 where none is wanted, and for the ship
-/// @param out    what it held before does not count
+/// Forces on tracked floes, by one pass over the constraints.
+/// @param asked  per body, its entry in `out`; -1 for other floes and the ship
+/// @param out    its old content is dropped
 void measure_floe_forces(const std::vector<Constraint>& constraints, double dt,
                          std::span<const std::int32_t> asked, std::span<FloeForces> out);
 

@@ -41,6 +41,7 @@ void PanelLoads::add(const std::vector<Contact>& contacts,
         const auto sphere = static_cast<std::size_t>(contacts[k].sphere_a);
         on_panel_[static_cast<std::size_t>(hull_.of_sphere[sphere])] += normal;
     }
+    // Peaks are means over a window: the force of a single step depends on the step.
     if (++steps_ == steps_per_window_) close_window();
 }
 
@@ -69,6 +70,7 @@ HullPanels PanelLoads::panels() const {
         panel.mean = std::accumulate(forces[k].begin(), forces[k].end(), 0.0) /
                      static_cast<double>(windows_);
         panel.max = *std::max_element(forces[k].begin(), forces[k].end());
+        // Windows without a load were not stored; a quantile over time counts them as zero.
         forces[k].resize(static_cast<std::size_t>(windows_), 0.0);
         panel.p99 = quantile(std::move(forces[k]), 0.99);
     }
@@ -116,6 +118,8 @@ void PanelLoads::fill(Summary& summary) const {
     std::vector<char> seen(region_names_.size(), 0);
     for (std::size_t k = 0; k < touched.size(); ++k) {
         const auto region = static_cast<std::size_t>(touched[k].region);
+        // The hardest of all, and of each region at least one, so that a quiet region is not
+        // missing.
         if (k >= kMostPanels && seen[region]) continue;
         seen[region] = 1;
         summary.panels.hardest.emplace_back(region_names_[region], touched[k]);

@@ -52,6 +52,7 @@ void measure_sizes(const Scene& scene, const Case& parameters, IceParticulars& i
     double sum = 0.0;
     for (std::size_t i = 1; i < scene.bodies.size(); ++i) {
         const FloeGroup& group = group_of(scene, parameters, i);
+        // Unbroken ice has the size of its pieces in the file, which means nothing to the ship.
         if (group.hold == Hold::always) continue;
         const double size = size_of(shape_of(scene, i), group.orientation.toRotationMatrix());
         ice.floe_size_min = std::fmin(ice.floe_size_min, size);  // fmin: NaN stands for none

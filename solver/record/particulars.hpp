@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Ship, ice and travel of a case in a few numbers, measured from what is simulated.
+/// Ship, ice and travel of a case in a few numbers, measured in the simulated scene.
 #pragma once
 
 #include <optional>
@@ -23,7 +23,7 @@ ShipParticulars measure_ship(const Scene& scene, const Case& parameters, double 
 
 /// The floes that may move: those of groups that are not held always. Their plan area is the area
 /// seen from above in their group's orientation, whatever became of them since; overhangs count
-/// twice. Without floes: what the case says alone.
+/// twice. Without floes: the case's own values.
 IceParticulars measure_ice(const Scene& scene, const Case& parameters);
 
 /// Mean speed [m/s] from average_from to `until`, or over the whole run where it ends before.

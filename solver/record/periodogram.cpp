@@ -55,6 +55,8 @@ std::vector<double> low_periodogram(std::span<const double> x, std::size_t count
     std::vector<double> out(count);
     for (std::size_t j = 1; j <= count; ++j) {
         double re = 0.0, im = 0.0;
+        // Frequency j visits the table of one turn in steps of j: no sine or cosine in the inner
+        // loop.
         for (std::size_t t = 0, turn = 0; t < n; ++t, turn = (turn + j) % n) {
             re += x[t] * cosine[turn];
             im += x[t] * sine[turn];
@@ -71,6 +73,8 @@ Band without_lines(std::span<const double> ordinates, std::size_t first) {
     Band band{0.0, sorted.size(), 0.0};
     for (const auto& [value, j] : sorted) band.mean += value;  // the sum, for now
     while (band.stay > kLeastOrdinates) {
+        // Fisher's test, largest first: an ordinate that chance alone would rarely exceed is a
+        // periodic line, not noise.
         const auto [largest, j] = sorted[band.stay - 1];
         const double others = (band.mean - largest) / static_cast<double>(band.stay - 1);
         if (j < kFewestPeriods || largest <= largest_by_chance(band.stay) * others) break;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// The low end of a series' spectrum and how far it is flat; statistics.hpp says what for.
+/// The low end of a series' spectrum and the band in which it is flat; used by statistics.hpp.
 #pragma once
 
 #include <cstddef>

@@ -170,6 +170,7 @@ RecordPosition Recorder::position_of(RunPosition run) {
 }
 
 void Recorder::add(const StepView& view) {
+    // a step that converged leaves no more than the tolerance: only the others are measured
     const StepRecord record = measure_step(view.scene, view.contacts, view.constraints, dt_);
     const std::optional<double> residual =
         view.converged ? std::nullopt
@@ -179,6 +180,7 @@ void Recorder::add(const StepView& view) {
         statistics_.add_look(measure_overlaps(view.scene, view.contacts), view.time);
     panel_loads_.add(view.contacts, view.constraints, view.time);
     measure_floe_forces(view.constraints, dt_, track_of_, tracked_);
+    // A frame stores the ship's force on the floe, the record the floe's impulse on the ship.
     for (const RegionImpulse& r : record.regions) frame_impulse_[r.floe] -= r.impulse;
     hull_contacts_.add(view.scene.bodies, view.contacts, view.constraints);
     if (view.ship != nullptr) add_ship(view);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Writes the run folder while the run goes on (docs/contract.md, section 5).
+/// Writes the run folder during the run (docs/contract.md, section 5).
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// What an unconverged step still owes its contacts, as impulses.
+/// Impulses that an unconverged step lacks at its contacts.
 #pragma once
 
 #include <vector>

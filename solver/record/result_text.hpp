@@ -14,7 +14,7 @@ std::string force_text(double value, double half_width, int dimension);
 /// "1.42 kN": three digits, of a whole ship.
 std::string force_text(double value);
 
-/// Mean resistance with interval, at the mean speed of the averaged time, and what it consists of.
+/// Mean resistance with interval, at the mean speed of the averaged time, and its parts.
 std::string resistance_line(const Summary& summary);
 
 /// The ship's work and where at least 1 % of it went, largest share first; "" when it did none.

@@ -104,6 +104,7 @@ void RunStatistics::add_regions(const StepRecord& record, bool averaged) {
     std::set<std::pair<std::int32_t, std::int32_t>> now;
     for (const RegionImpulse& r : record.regions) {
         Region& region = regions_[static_cast<std::size_t>(r.region)];
+        // A hit is counted when a floe begins to touch a region, not in each step of the touch.
         now.emplace(r.floe, r.region);
         if (!touching_.contains({r.floe, r.region})) ++region.hits;
         region.max_impulse = std::max(region.max_impulse, r.impulse.norm());
@@ -149,6 +150,7 @@ void RunStatistics::fill(Summary& summary) const {
     summary.contacts_mean = contacts_ / steps;
     summary.contacts_max = contacts_max_;
     summary.max_overlap = max_overlap_;
+    // Without a look the key is null, not zero: nothing was measured.
     if (looks_ > 0) summary.unseen_overlap = unseen_overlap_;
     summary.unconverged_steps = unconverged_;
     if (impulse_ > 0.0) summary.residual_share = residual_ / impulse_;

@@ -13,7 +13,7 @@ namespace ice {
 
 class CheckpointFile;
 
-/// What summary.json states of a ship that answers (docs/contract.md, section 5).
+/// The entries of summary.json on a ship that answers (docs/contract.md, section 5).
 class ShipStatistics {
 public:
     /// A step that ended at `time`; means use those from average_from on.

@@ -13,7 +13,7 @@ namespace ice {
 namespace {
 
 constexpr std::size_t kFewest = 40;    // samples
-constexpr std::size_t kMost = 8192;    // samples that are looked at one by one
+constexpr std::size_t kMost = 8192;    // samples that are used one by one
 constexpr std::size_t kNarrowest = 2;  // ordinates of a band
 
 // White noise has a window of 3 samples, so an ordinate for 18: with more blocks than that, the
@@ -116,14 +116,18 @@ MeanInterval mean_interval(std::span<const double> series) {
     const double unknown = std::nan("");
     MeanInterval out{mean_of(series), unknown, unknown, unknown, unknown, std::nullopt};
     if (series.size() < kFewest) return out;
+    // Long series are averaged to blocks: low frequencies lose nothing, and the cost is bounded.
     const std::size_t length = (series.size() + kMost - 1) / kMost;
     std::vector<double> x = blocks_of(series, length);
     subtract_mean(x);
     const auto n = static_cast<double>(x.size());
+    // A constant force, as without ice, has no scatter and no period.
     if (sum_of_squares(x) == 0.0) {
         out.half_width = out.trend = 0.0;
         return out;
     }
+    // Equation (21): the low ordinates of the periodogram estimate S, the variance of the mean is S
+    // / n.
     const std::optional<Band> band = low_band(x);
     if (band) {
         out.half_width = student_quantile(2.0 * static_cast<double>(band->stay), 0.05) *

@@ -32,7 +32,7 @@ struct Sums {
     Sum linear, angular;
 };
 
-// What the contacts gave each body: impulse and moment about its own position before the step.
+// Contact impulses on each body, and their moment about its position before the step.
 void add_contacts(const std::vector<Constraint>& constraints, std::vector<Sums>& sums) {
     for (const Constraint& c : constraints) {
         const Vec3 j = c.total_normal() * c.normal + c.total_tangent();

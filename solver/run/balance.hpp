@@ -44,13 +44,13 @@ Momenta momenta_of(const World& world);
 ///
 ///     sum (P' - P - dt F) + dt f_ship + sum J_h = 0,   likewise for the moments.
 ///
-/// A ship that answers has in its free motions, with the matrix of (26) at the step's start and F_s
+/// A ship that answers has in its free motions, with the matrix of (S1) at the step's start and F_s
 /// of thrust, lines and water,
 ///
 ///     (M + A) (v' - v) = dt F_s + dt f_ship,
 ///
 /// likewise for the moments about its centre of gravity. With the sum above that is: loads, thrust,
-/// lines, held ice and what holds the locked motions change the momentum of ship and floes, and
+/// lines, held ice and the constraints of locked motions change the momentum of ship and floes, and
 /// nothing else does.
 ///
 /// Each residual is divided by the sum of the magnitudes of its terms; 2D looks at x, z and the

@@ -130,8 +130,9 @@ bool any_floe_moves(const Bodies& b) {
                        [](const Vec3& v) { return !v.isZero(0.0); });
 }
 
-// What is wrong with when the ship meets the ice; at most one thing is said.
+// Faults of the time at which the ship meets the ice; at most one warning.
 void warn_of_meeting(const Case& p, const Course& c, std::vector<Warning>& warnings) {
+    // From the gravest to the mildest: a run without ice needs no word about its averages.
     const double averaged = p.duration - p.average_from;
     if (c.clearance == kNever) {
         warnings.push_back({fmt::format("no ice lies in the ship's way: it goes {:.4g} m and meets "

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Whether the ship meets the ice of a case, and for how long: asked before the first step.
+/// Checks before the first step whether the ship meets the ice of a case, and for how long.
 #pragma once
 
 #include <optional>

@@ -107,7 +107,7 @@ void warn_of_unfelt_hull(const World& w, std::vector<Warning>& warnings) {
     if (hull.share <= kWorryingUnfelt) return;
     const double radius = w.scene.shapes[0].largest_radius;
     warnings.push_back({fmt::format(
-        "no contact sphere stands for {:.2g} % of the hull between the water line and {:.3g} m "
+        "no contact sphere represents {:.2g} % of the hull between the water line and {:.3g} m "
         "below it, as far as {:.3g} m from one at x = {:.2f}, y = {:.2f}, z = {:.2f} m of the "
         "ship: ice goes into it unfelt; make the hull's set with spheres smaller than {:.3g} m",
         100.0 * hull.share, -low, hull.distance, hull.at.x(), hull.at.y(), hull.at.z(), radius)});
@@ -155,7 +155,8 @@ std::vector<StartOverlap> find_start_overlaps(Scene& scene, const Case& paramete
     std::size_t k = 0;
     for (const Contact& c : contacts) {
         while (found[k].a != c.a || found[k].b != c.b) ++k;  // both in the order of the pairs
-        // planes of faces go on beyond the corner where faces end: there a gap below zero is none
+        // face planes extend beyond the vertex where the faces end: a gap below zero there is no
+        // overlap
         if (-c.gap <= found[k].depth || !is_inside(scene, c.a, c.point) ||
             !is_inside(scene, c.b, c.point))
             continue;
@@ -177,7 +178,7 @@ std::vector<Warning> check_start(World& world, bool allow_overlap) {
     if (!overlaps.empty() && !allow_overlap)
         throw bad_input(world.parameters.file.string(), describe(overlaps, "\n  "),
                         "move the hull (hull.position), widen floes.gap or lower "
-                        "simulation.jitter; --allow-overlap goes on all the same");
+                        "simulation.jitter; --allow-overlap runs the case as it is");
     if (!overlaps.empty()) warnings.push_back({describe(overlaps, "; ")});
     warn_of_speed(world, warnings);
     warn_of_spacing(world, warnings);

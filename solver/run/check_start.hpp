@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// What is wrong with a case before its first step: bodies in each other, steps too long.
+/// Faults of a case before its first step: overlapping bodies, time steps that are too long.
 #pragma once
 
 #include <vector>

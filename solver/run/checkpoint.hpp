@@ -25,7 +25,8 @@ enum class SavedRows {
 };
 
 /// Writes all that a run carries on to `path`. The recorder's files are flushed first, so that they
-/// hold what the checkpoint counts. A kill at any moment leaves the older checkpoint whole.
+/// hold the rows that the checkpoint counts. A kill at any moment leaves the older checkpoint
+/// whole.
 /// @throws Error (exit code 1) naming the file when the disk is full
 void write_checkpoint(const std::filesystem::path& path, World& world, Recorder& recorder,
                       RunProgress& progress, SavedRows rows = SavedRows::beside);
@@ -33,7 +34,7 @@ void write_checkpoint(const std::filesystem::path& path, World& world, Recorder&
 /// Reads a checkpoint into a world just built from the case. Touches no other file.
 ///
 /// The case must be that of the checkpoint but for simulation.duration; sphere sets are compared by
-/// what they hold, so the files may have moved.
+/// their content, so the files may have moved.
 ///
 /// @throws Error (exit code 2): missing, damaged, newer format; another case, naming the key; a
 ///         duration that ends before the checkpoint.

@@ -31,7 +31,7 @@ std::string ship_line(const World& w, const ShipParticulars& ship) {
     return out;
 }
 
-// What a ship that answers is, and how it floats.
+// A ship that answers: its free motions and its equilibrium.
 std::string motion_line(const World& w) {
     if (!w.ship.answers()) return {};
     constexpr const char* kNames[] = {"surge", "sway", "heave", "roll", "pitch", "yaw"};
@@ -103,7 +103,7 @@ std::string spheres_line(const World& w) {
     return out;
 }
 
-// What spherize's certificate says of the hull where the ice meets it.
+// The line of spherize's certificate on the hull's ice belt.
 std::string belt_line(const World& w) {
     std::error_code none;
     if (!std::filesystem::is_regular_file(w.parameters.hull_spheres, none)) return {};  // made here

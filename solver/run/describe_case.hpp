@@ -8,7 +8,7 @@
 
 namespace ice {
 
-/// What a case is before it runs, a line for each of ship, ice, course, contacts and spheres: the
+/// Describes a case before it runs, a line for each of ship, ice, course, contacts and spheres: the
 /// numbers by which a user sees a wrong draught, unit or duration.
 std::string describe_case(const World& world);
 

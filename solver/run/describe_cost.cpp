@@ -21,7 +21,7 @@ namespace {
 constexpr double kShipRow = 25 * 8, kTrackRow = 22 * 8, kRegionRow = 6 * 4, kFrameFloe = 65;
 constexpr double kShipText = 11 * 12, kTrackText = 23 * 12, kStepMemory = 64;
 
-// What HDF5, the log, the libraries and the terminal keep open.
+// Files that HDF5, the log, the libraries and the terminal keep open.
 constexpr rlim_t kOtherFiles = 32;
 
 constexpr int kMostSteps = 50;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// What a run will take: time, disk, memory, open files.
+/// Estimates the cost of a run: time, disk, memory, open files.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace ice {
 
-/// What a run writes and keeps at most, before run.h5 is compressed. Touches of hull and floes,
+/// Upper bound of a run's files and memory, before run.h5 is compressed. Touches of hull and floes,
 /// whose number nobody knows beforehand, are not in it.
 struct RunCost {
     std::int64_t steps = 0, rows = 0, frames = 0;

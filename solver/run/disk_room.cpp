@@ -53,7 +53,7 @@ std::uint64_t largest_file(const std::filesystem::path& folder) {
     return largest;
 }
 
-// What the limit of a single file (ulimit -f) leaves the largest one.
+// Bytes that the limit of a single file (ulimit -f) leaves for the largest one.
 std::uint64_t below_file_limit(const std::filesystem::path& folder) {
     rlimit limit{};
     if (getrlimit(RLIMIT_FSIZE, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)

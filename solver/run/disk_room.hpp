@@ -15,7 +15,7 @@ namespace ice {
 ///
 /// Other programs may fill the disk at once, so that room is held where the file system can
 /// (fallocate): for rows within run.h5 and the CSV files, for the rest by a file without a name,
-/// which goes with the program, however that ends. Elsewhere the free space is asked for, which
+/// which goes with the program, however that ends. Elsewhere the free space is read, which
 /// knows no quotas. The limit of a single file (ulimit -f) counts, too.
 class DiskRoom {
 public:
@@ -25,15 +25,15 @@ public:
     DiskRoom& operator=(const DiskRoom&) = delete;
 
     /// Is there less room than the waiting rows, a checkpoint and the end of the files may take? To
-    /// be asked before every step; looks at the disk before rows are written and once per some
+    /// be called before every step; reads the disk before rows are written and once per some
     /// 64 kB of them.
     /// @param saves  a checkpoint with a copy of its rows comes next: looks, and counts the copy
     bool is_short(const Recorder& recorder, const World& world, bool saves = false);
     /// A checkpoint was written: the next one copies the rows from here on.
     void saved();
-    /// True where less is free than is held: what could not be written beside it fits into it.
+    /// True where less is free than is held: a checkpoint that does not fit beside it fits into it.
     bool is_used_up() const;
-    /// Gives back what is held for a checkpoint and the end of the files: for a run that ends.
+    /// Releases the space held for a checkpoint and the end of the files: for a run that ends.
     void release();
 
 private:

@@ -58,6 +58,8 @@ double keel_of(const TriangleMesh& mesh) {
 }
 
 std::uint64_t hash_of_flow(const TriangleMesh& mesh, int dimension, const FlowOptions& options) {
+    // All that decides the table is in the file's name; a changed hull, draught or thickness has
+    // another file.
     StateHash hash;
     hash.add(kTables);
     hash.add(static_cast<std::uint64_t>(dimension));
@@ -105,6 +107,8 @@ FlowTable make_table(const Case& p, const Scene& scene) {
     options.finest = round_down(0.5 * thinnest_floe(scene));
     const auto file = kept_as(p.hull_spheres, hash_of_flow(mesh, p.dimension, options));
     if (std::filesystem::exists(file)) return read_flow(file);
+    // Asked twice: before the lock, so that finished flows cost no lock, and after it, because
+    // another run may have made the file meanwhile.
     const OneMaker turn(file);
     if (std::filesystem::exists(file)) return read_flow(file);
     say("computing the flow around the hull");
@@ -119,6 +123,7 @@ FlowTable make_table(const Case& p, const Scene& scene) {
     try {
         write_flow(file, made.table);
         say(fmt::format("kept in {}", file.string()));
+        // A folder that cannot be written is no fault of the run: it has its table in memory.
     } catch (const Error& error) {
         say(fmt::format("not kept for the next run: {}", error.what()));
     }

@@ -12,9 +12,9 @@ namespace ice {
 
 /// Reads the case's flow, or makes it. A flow made for a case ("double-body") is kept beside the
 /// hull's sphere set as "<stem>.<hash of mesh, draught and spacing>.flow.h5", and read from there
-/// the next time; where that folder cannot be written, a message says so and the run goes on. Runs
-/// that need it at once wait for the one that makes it. Nodes are half the thinnest floe's height
-/// apart or more. A ship that never moves through the water has no flow made.
+/// the next time; where that folder cannot be written, a message says so and the run continues.
+/// Runs that need it at once wait for the one that makes it. Nodes are half the thinnest floe's
+/// height apart or more. A ship that never moves through the water has no flow made.
 /// @param scene  hull and floes as they begin
 /// @throws Error (exit code 2) for a file that does not fit the hull
 WaterFlow make_water(const Case& parameters, const Scene& scene);

@@ -12,7 +12,7 @@ namespace ice {
 /// A world with the ship alone; add_floe_shape() and add_floe() bring the ice, step() moves it.
 ///
 /// @param parameters  as of a case file, in SI: time_step, the ship's place and speed_table (empty:
-///                    at rest), contact law, water. `floes` and `hull_spheres` are not looked at.
+///                    at rest), contact law, water. `floes` and `hull_spheres` are ignored.
 ///                    A duration is needed for run() only.
 /// @param hull        in the ship frame
 /// @throws Error (exit code 2) when time_step, densities or speed_table cannot be, or the hull is

@@ -134,8 +134,8 @@ void go_on(Job& job, const SavedRun& saved) {
     const std::string here = fmt::format("icesolve {} ({})", version(), git_commit());
     if (saved.created_by != here)
         job.progress.warnings.push_back(
-            {fmt::format("the run was begun with {} and goes on with {}: its bits may not be those "
-                         "of either",
+            {fmt::format("the run was begun with {} and is resumed with {}: its bits may differ "
+                         "from those of both",
                          saved.created_by, here)});
 }
 
@@ -148,7 +148,7 @@ void save(Job& job, SavedRows rows = SavedRows::beside) {
     job.saved_at = job.timer.seconds();
 }
 
-// Ends the run while its files can still be completed; it goes on from here when there is room.
+// Ends the run while its files can still be completed; it resumes from here when there is room.
 void stop_for_room(Job& job) {
     job.summary.status = "failed";
     job.summary.warnings.push_back(
@@ -265,7 +265,8 @@ Summary run(World& world, const RunOptions& options) {
     remove_parts(options.folder);  // of a program that was killed here before
     const bool is_whole = world.steps == steps && summary.status == "completed";
     if (is_whole && options.checkpoint_every <= 0.0 && job.saved_step >= 0)
-        std::filesystem::remove(options.folder / kCheckpointName);  // nobody asked to keep it
+        std::filesystem::remove(options.folder /
+                                kCheckpointName);  // an autosave, of no use after the end
     return summary;
 }
 

@@ -12,14 +12,14 @@
 
 namespace ice {
 
-/// What the caller of a run may watch and decide.
+/// The caller's hooks and options of a run.
 struct RunOptions {
     std::filesystem::path folder;  ///< run folder; created. Claim it before (RunFolder): files of
                                    ///< an older run are replaced, not removed
     std::string command_line;
     /// Simulated seconds; 0: when interrupted, and every checkpoint_wall_seconds until the run ends
     double checkpoint_every = 0.0;
-    SavedRun* saved = nullptr;                 ///< go on with this run; its recorder is taken over
+    SavedRun* saved = nullptr;                 ///< resume this run; its recorder is taken over
     std::vector<Warning> start_warnings = {};  ///< of check_start(), for the summary
     bool verify = false;  ///< every step must balance (balance.hpp); the worst is in the summary
     /// Called after every step with (fraction done, world); false ends the run as "interrupted",
@@ -37,7 +37,7 @@ World build_world(const Case& parameters);
 
 /// Runs a world to its case's duration and writes the run folder.
 ///
-/// A saved run goes on to the bits of one that was never stopped: the files of its folder are cut
+/// A resumed run is bit-identical to an uninterrupted one: the files of its folder are cut
 /// to the checkpoint's rows and continued, or copied up to there into another folder. Files that
 /// are missing begin at the checkpoint, with a warning; the summary is of the whole run all the
 /// same. Only wall times (sums over the programs) and the warnings of that kind differ.
@@ -47,7 +47,7 @@ World build_world(const Case& parameters);
 /// (exit code 1) names the file; the .part files and the last checkpoint stay.
 ///
 /// A body whose position is no longer finite ends the run with an Error (exit code 1) naming step
-/// and floe; the folder then holds what was computed, with the status "failed".
+/// and floe; the folder then holds the results so far, with the status "failed".
 Summary run(World& world, const RunOptions& options);
 
 }  // namespace ice

@@ -56,7 +56,7 @@ void remove_where(const fs::path& folder, const std::function<bool(const std::st
     for (const fs::path& path : meant) fs::remove(path, ignored);
 }
 
-// What a folder holds, sorted; an empty run.log is what claiming it leaves.
+// The content of a folder, sorted, without the empty run.log that claiming it leaves.
 std::vector<std::string> names_in(const fs::path& folder) {
     std::error_code error, ignored;
     std::vector<std::string> names;

@@ -10,17 +10,17 @@ namespace ice {
 /// Name of the checkpoint in a run folder.
 constexpr const char* kCheckpointName = "checkpoint.h5";
 
-/// What a program does with a folder that holds something.
+/// How a program treats a folder that is not empty.
 enum class Existing {
     refuse,   ///< ends with an Error
-    replace,  ///< removes an older run's files; what the solver does not write stays
-    go_on     ///< leaves all as it is: the run goes on from a checkpoint in this folder
+    replace,  ///< removes an older run's files; other files stay
+    go_on     ///< changes nothing: the run resumes from a checkpoint in this folder
 };
 
 /// Command lines that an Error about an existing folder prints.
 struct FolderCommands {
     std::string replace;  ///< computes the run all the same, e.g. "icesolve a.cfg --overwrite"
-    std::string go_on;    ///< goes on from the folder's checkpoint
+    std::string go_on;    ///< resumes from the folder's checkpoint
 };
 
 /// A run folder that belongs to this program as long as the object lives.
@@ -59,7 +59,7 @@ bool is_member_folder(const std::filesystem::path& path);
 /// Removes all that icesolve writes into a run folder, but for run.log, which holds the lock.
 void remove_run(const std::filesystem::path& folder);
 
-/// Removes what a finished run consists of, for one that goes on: its summary would be out of date.
+/// Removes summary and report of a finished run that is resumed: they would be out of date.
 void remove_results(const std::filesystem::path& folder);
 
 /// Removes the .part files of a run.

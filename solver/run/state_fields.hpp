@@ -7,7 +7,7 @@
 
 namespace ice {
 
-/// What run() itself carries on beside the world and the recorder.
+/// State of run() itself, beside the world and the recorder.
 struct RunProgress {
     double wall_seconds = 0.0;      ///< of all programs that worked on the run
     std::vector<Warning> warnings;  ///< about the start and restarts
@@ -19,10 +19,10 @@ struct RunProgress {
 ///
 /// To add a field: give it a line there. Nothing else is needed, but that its name is new and its
 /// type one of CheckpointFile's; an array per body goes through carry_each(), a table through one
-/// column() per member. What the next step computes anew (contacts, loads, grids, velocities from
-/// momenta) is no state. A checkpoint without the field is then refused with the version that wrote
-/// it. The test "a run continued from a checkpoint ends with the same bits" fails when a field was
-/// forgotten.
+/// column() per member. Quantities that the next step computes anew (contacts, loads, grids,
+/// velocities from momenta) is no state. A checkpoint without the field is then refused with the
+/// version that wrote it. The test "a run continued from a checkpoint ends with the same bits"
+/// fails when a field was forgotten.
 void carry(CheckpointFile& file, World& world);
 void carry(CheckpointFile& file, RecordPosition& position);
 void carry(CheckpointFile& file, RunProgress& progress);

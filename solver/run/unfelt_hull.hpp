@@ -5,7 +5,7 @@
 
 namespace ice {
 
-/// Part of the hull's surface that no contact sphere stands for: ice goes into it unfelt.
+/// Part of the hull's surface that no contact sphere represents: ice enters it unfelt.
 struct UnfeltHull {
     double area = 0.0;   ///< of the hull in the belt [m2]
     double share = 0.0;  ///< of it that is farther than a spacing from every sphere's seat and tip
@@ -15,7 +15,7 @@ struct UnfeltHull {
 
 /// Looks at the hull's mesh between two heights, at points half a spacing apart.
 ///
-/// A sphere stands for the surface around its seat, half to two thirds of a spacing far, and for
+/// A sphere represents the surface around its seat, half to two thirds of a spacing far, and for
 /// the sharp tip of the edge or corner that it touches all faces of. What is thinner than a sphere
 /// (a stem, a fin) has none. @param low, high  world heights [m]
 UnfeltHull measure_unfelt_hull(const Scene& scene, double low, double high);

@@ -27,7 +27,7 @@ struct Inertia {
 /// How the ship answers impulses, in world axes, for the step; all zero for a prescribed course.
 ///
 /// An impulse j at r from `centre` changes its velocity by inverse_mass j and its angular velocity
-/// by inverse_inertia (r x j): what the locked motions would gain, the course takes.
+/// by inverse_inertia (r x j): the gain of locked motions is taken by the course.
 struct ShipResponse {
     bool free = false;                    ///< in any motion; then Bodies::velocity is of `centre`
     Mat3 inverse_mass = Mat3::Zero();     ///< of ship and water that moves along [1/kg]

@@ -12,7 +12,7 @@ Eigen::AlignedBox3d box_of(const Scene& scene, std::size_t body);
 /// True for unbroken ice: a floe whose group is held always.
 bool is_unbroken(const Scene& scene, const Case& parameters, std::size_t floe);
 
-/// Where loose floes lie, and what unbroken ice lies beside and ahead of them.
+/// Places of loose floes, and of unbroken ice beside and ahead of them.
 IceAtStart find_ice_at_start(const Scene& scene, const Case& parameters);
 
 }  // namespace ice

@@ -86,6 +86,7 @@ Facing integrate_whole(const Triangle& t) {
     out.flow = (t.f[0] + t.f[1]) + t.f[2];
     const Vector sum = (t.p[0] + t.p[1]) + t.p[2];
     const Vector g = (t.f[0] * t.p[0] + t.f[1] * t.p[1]) + t.f[2] * t.p[2];
+    // Sums of the form (sum f)(sum p) + sum f p: twelve times the integral of f p, f and p linear.
     out.first = out.flow * sum + g;
     Vector e[3];
     for (std::size_t k = 0; k < 3; ++k) e[k] = (out.flow + 2.0 * t.f[k]) * t.p[k];
@@ -122,6 +123,8 @@ WettedIntegrals integrate_wetted(const FacetBlocks& facets, const WaterPlane& wa
             const double area = dot(get(water.up), get(block.area, lane));
             const Vector corner[3] = {get(block.corner[0], lane), get(block.corner[1], lane),
                                       get(block.corner[2], lane)};
+            // Equations (14) and (15): the whole triangle if most of it is wet, then its tip is
+            // added or taken off. So a triangle that the water crosses changes continuously.
             if (h.counts_whole()) {
                 const double sum = (z[0] + z[1]) + z[2];
                 const Vector products = (z[0] * corner[0] + z[1] * corner[1]) + z[2] * corner[2];
@@ -154,6 +157,8 @@ FacingIntegrals integrate_facing(const FacetBlocks& facets, const WaterPlane& wa
             const Triangle t = make_triangle(block, lane, v, w);
             if (h.counts_whole()) sums[lane].add(1.0, integrate_part(t));
             if (!h.any) continue;
+            // The tip is similar to the whole in the plane of the cut: its area is the product of
+            // the cut shares.
             const double size = h.part(1) * h.part(2);
             sums[lane].add(h.tip_is_inside() ? size : -size, integrate_part(tip_of(t, h)));
         }
@@ -165,6 +170,8 @@ FacingIntegrals integrate_facing(const FacetBlocks& facets, const WaterPlane& wa
         square.add(sums[lane].square, lane);
         mixed.add(sums[lane].mixed, lane);
     }
+    // The factors of exact integrals of polynomials over a triangle; kept out of the loop to save a
+    // product for each triangle.
     return {total(flow) / 3.0, first.totals() / 12.0, square.totals() / 60.0,
             mixed.totals() / 60.0};
 }

@@ -46,12 +46,7 @@ TEST_CASE("icefield makes a field, a report and a picture", "[cli]") {
 TEST_CASE("icefield refuses with exit code 2 and leaves nothing behind", "[cli][errors]") {
     const Workshop w;
     w.write("channel.toml", kSpec);
-    const auto refuses = [&](const std::string& arguments, const std::string& words) {
-        const Result r = w.run("icefield " + arguments);
-        CAPTURE(arguments, r.err);
-        CHECK(r.code == 2);
-        CHECK_THAT(r.err, Catch::Contains(words));
-    };
+    const auto refuses = w.refusing("icefield ");
     refuses("", "no specification given");
     refuses("lost.toml", "field specification not found");
     refuses("channel.toml --set floes.conut=3", "did you mean 'floes.count'?");

@@ -82,12 +82,7 @@ TEST_CASE("iceflow refuses with exit code 2 and leaves nothing behind", "[cli][f
     REQUIRE(w.run("spherize " ICE_MESHES "/paper-floe-3d.obj -r 0.1 -s 0.2 -q -o box.h5").code ==
             0);
     const auto before = w.files();
-    const auto refuses = [&](const std::string& arguments, const std::string& words) {
-        const Result r = w.run("iceflow " + arguments);
-        CAPTURE(arguments, r.err);
-        CHECK(r.code == 2);
-        CHECK_THAT(r.err, Catch::Contains(words));
-    };
+    const auto refuses = w.refusing("iceflow ");
     refuses("", "no hull given");
     refuses("lost.h5", "lost.h5");
     refuses("box.h5 --draught 0", "--draught");

@@ -198,12 +198,7 @@ TEST_CASE("option --check builds everything and writes nothing", "[cli]") {
 TEST_CASE("bad cases end with exit code 2, name the place and leave nothing", "[cli][errors]") {
     const Workshop w;
     w.make_case();
-    const auto refuses = [&](const std::string& arguments, const std::string& words) {
-        const Result r = w.run("icesolve " + arguments);
-        CAPTURE(arguments, r.err);
-        CHECK(r.code == 2);
-        CHECK_THAT(r.err, Catch::Contains(words));
-    };
+    const auto refuses = w.refusing("icesolve ");
     refuses("missing.cfg", "missing.cfg: case file not found");
     refuses("case.cfg --set hull.sped=1", "did you mean 'hull.speed'?");
     refuses("case.cfg --set simulation.dimension=3", "2D set in a case of dimension 3");

@@ -32,12 +32,7 @@ TEST_CASE("spherize overwrites neither the mesh nor one result by another", "[cl
     const Workshop w;
     const std::string mesh = slurp(ICE_MESHES "/paper-floe-3d.obj");
     w.write("floe.obj", mesh);
-    const auto refuses = [&](const std::string& arguments, const std::string& words) {
-        const Result r = w.run("spherize " + arguments);
-        CAPTURE(arguments, r.err);
-        CHECK(r.code == 2);
-        CHECK_THAT(r.err, Catch::Contains(words));
-    };
+    const auto refuses = w.refusing("spherize ");
     refuses("floe.obj -o floe.obj", "--output: would overwrite the mesh");
     refuses("floe.obj --json ./floe.obj", "--json: would overwrite the mesh");
     refuses("floe.obj -o set.h5 --json set.h5", "--json: would overwrite --output");

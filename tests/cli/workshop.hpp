@@ -54,6 +54,17 @@ public:
         return r;
     }
 
+    // Calls like refuses("--option x", "words"): the command with these arguments ends with exit
+    // code 2 and a message that contains the words.
+    auto refusing(const std::string& command) const {
+        return [this, command](const std::string& arguments, const std::string& words) {
+            const Result r = run(command + arguments);
+            CAPTURE(arguments, r.err);
+            CHECK(r.code == 2);
+            CHECK_THAT(r.err, Catch::Contains(words));
+        };
+    }
+
     void write(const std::string& name, const std::string& text) const {
         std::ofstream(folder_ / name) << text;
     }
