@@ -25,11 +25,9 @@ struct WaterFlow {
         speed = velocity.x() - current.x();
     }
     bool flows() const { return !grid.empty() && speed != 0.0; }
-    bool still() const { return current.isZero(0.0) && !flows(); }
 
-    /// Whether the water within a sphere may move.
+    /// Whether the ship may move the water within a sphere.
     bool reaches(const Vec3& centre, double radius) const {
-        if (!current.isZero(0.0)) return true;
         if (!flows()) return false;
         const double low_y =
             grid.symmetric ? -(grid.origin.y() + grid.last_y / grid.per_spacing) : grid.origin.y();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Floes of one form in lanes, and their drag in water at rest, to the bits of
+// Floes of one form in lanes, and their drag in an even current, to the bits of
 // load_floes_reference.cpp. Included once per instruction set, hence the guard that lets it in
 // again for each. Mul then Add, not MulAdd: a fused product would differ from it.
 #if defined(ICE_AFLOAT_LANES_INL) == defined(HWY_TARGET_TOGGLE)
@@ -45,22 +45,22 @@ struct Load {
     Vectors force, moment;
 };
 
-// projected_drag()
-HWY_INLINE Load ProjectedDrag(const Afloat& floes, const Case& p) {
-    const Mask drags = hn::AndNot(floes.Clear(), NotZero(floes.velocity));
+// projected_drag() at velocities u through the water
+HWY_INLINE Load ProjectedDrag(const Afloat& floes, const Case& p, Vectors u) {
+    const Mask drags = hn::AndNot(floes.Clear(), NotZero(u));
     if (hn::AllFalse(Tag(), drags)) return {Zero(), Zero()};
-    const Vectors v = TransposedProduct(floes.rotation, floes.velocity);
+    const Vectors v = TransposedProduct(floes.rotation, u);
     const Lanes flow = IntegrateFloatingFacing(floes.heights, v);
     const Lanes factor = hn::Mul(All(-0.5 * p.water_density * p.drag_coefficient), flow);
-    return {Only(drags, Scale(factor, floes.velocity)), Zero()};
+    return {Only(drags, Scale(factor, u)), Zero()};
 }
 
-// panel_drag()
-HWY_INLINE Load PanelDrag(const Afloat& floes, const Case& p) {
-    const Mask moves = hn::Or(NotZero(floes.velocity), NotZero(floes.angular_velocity));
+// panel_drag() likewise
+HWY_INLINE Load PanelDrag(const Afloat& floes, const Case& p, Vectors u) {
+    const Mask moves = hn::Or(NotZero(u), NotZero(floes.angular_velocity));
     const Mask drags = hn::AndNot(floes.Clear(), moves);
     if (hn::AllFalse(Tag(), drags)) return {Zero(), Zero()};
-    const Vectors v = TransposedProduct(floes.rotation, floes.velocity);
+    const Vectors v = TransposedProduct(floes.rotation, u);
     const Vectors w = TransposedProduct(floes.rotation, floes.angular_velocity);
     const Facing met = IntegrateFloatingFacing(floes.heights, v, w);
     const Vectors force = Add(Scale(met.flow, v), Cross(w, met.first));
@@ -84,13 +84,15 @@ HWY_INLINE Vectors Limited(Vectors load, Lanes stop, Lanes dt) {
     return Choose(over, Scale(hn::Div(stop, push), load), load);
 }
 
-// drag_at_rest()
-HWY_INLINE Load DragAtRest(const Afloat& floes, const Case& p, const Matrices& inertia) {
+// drag_in_current()
+HWY_INLINE Load DragInCurrent(const Afloat& floes, const Case& p, const Vec3& current,
+                              const Matrices& inertia) {
     const Lanes dt = All(p.time_step);
+    const Vectors u = Sub(floes.velocity, Set(current));
     Load drag{Zero(), Zero()};
-    if (p.drag == DragModel::projected) drag = ProjectedDrag(floes, p);
-    if (p.drag == DragModel::panel) drag = PanelDrag(floes, p);
-    drag.force = Limited(drag.force, hn::Mul(floes.mass, Length(floes.velocity)), dt);
+    if (p.drag == DragModel::projected) drag = ProjectedDrag(floes, p, u);
+    if (p.drag == DragModel::panel) drag = PanelDrag(floes, p, u);
+    drag.force = Limited(drag.force, hn::Mul(floes.mass, Length(u)), dt);
     if (p.drag == DragModel::panel) {
         const Vectors spin = Turned(floes.rotation, inertia, floes.angular_velocity);
         drag.moment = Limited(drag.moment, Length(spin), dt);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Drag on floes of one form in moving water, in lanes as in afloat_lanes-inl.hpp.
+// Drag on floes of one form in the ship's flow, in lanes as in afloat_lanes-inl.hpp.
 #if defined(ICE_FLOW_DRAG_LANES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef ICE_FLOW_DRAG_LANES_INL
 #undef ICE_FLOW_DRAG_LANES_INL
@@ -52,10 +52,8 @@ struct RelativeLoad : Load {
 // projected_drag() in moving water: all of it as in the middle of the floe
 HWY_INLINE RelativeLoad ProjectedDragInFlow(const Afloat& floes, const Case& p,
                                             const WaterFlow& water) {
-    Afloat relative = floes;
-    relative.velocity = Sub(floes.velocity, WaterAt(water, floes.position));
-    const Vectors u = relative.velocity;
-    const Load drag = ProjectedDrag(relative, p);
+    const Vectors u = Sub(floes.velocity, WaterAt(water, floes.position));
+    const Load drag = ProjectedDrag(floes, p, u);
     return {drag, hn::Neg(Dot(drag.force, u)), Length(u)};
 }
 

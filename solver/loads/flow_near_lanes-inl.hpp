@@ -30,13 +30,12 @@ HWY_INLINE Vectors TableFlowAt(const WaterFlow& water, Vectors x) {
     return {hn::Load(d, flow[0]), hn::Load(d, flow[1]), hn::Load(d, flow[2])};
 }
 
-// reference::water_at(), from what the table has there
+// reference::water_at(), from what the table has there. @pre water.flows()
 HWY_INLINE Vectors WaterOf(const WaterFlow& water, Vectors flow) {
-    if (!water.flows()) return Set(water.current);
     return Add(Set(water.current), Scale(All(water.speed), flow));
 }
 HWY_INLINE Vectors WaterAt(const WaterFlow& water, Vectors x) {
-    return WaterOf(water, water.flows() ? TableFlowAt(water, x) : Zero());
+    return WaterOf(water, TableFlowAt(water, x));
 }
 
 // What the table has at a form's vertices and, numbered behind them, at the middles of the sides of
@@ -65,7 +64,6 @@ private:
     static constexpr std::size_t kFew = 128;  // of some 40 triangles
 
     HWY_INLINE Vectors LookedUp(std::size_t k) const {
-        if (!water_.flows()) return Zero();
         return TableFlowAt(water_, Add(floes_.position, Product(floes_.rotation, Set(Point(k)))));
     }
 
@@ -76,10 +74,10 @@ private:
     mutable Vectors flow_[kFew];
 };
 
-// The floes around which the water may move.
+// The floes around which the ship may move the water.
 HWY_INLINE Mask InFlow(const WaterFlow& water, const Afloat& floes) {
     const Tag d;
-    if (water.still()) return hn::FirstN(d, 0);
+    if (!water.flows()) return hn::FirstN(d, 0);
     HWY_ALIGN double at[3][kMostLanes], in[kMostLanes];
     hn::Store(floes.position.x, d, at[0]);
     hn::Store(floes.position.y, d, at[1]);

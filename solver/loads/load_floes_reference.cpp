@@ -13,8 +13,7 @@ WaterLoad flow_pressure(const Scene& scene, const Case& p, std::size_t i) {
     const Bodies& b = scene.bodies;
     const Shape& shape = scene.shapes[static_cast<std::size_t>(b.shape[i])];
     const WaterFlow& water = scene.water;
-    const bool reached =
-        water.presses && water.flows() && water.reaches(b.position[i], shape.bounding_radius);
+    const bool reached = water.presses && water.reaches(b.position[i], shape.bounding_radius);
     if (!reached) return {};
     const auto pressure = [&](const Vec3& at) {
         return p.water_density *
@@ -33,17 +32,17 @@ namespace {
 
 double length(const Vec3& v) { return std::sqrt(ordered_dot(v, v)); }
 
-// Drag slows down, it never turns a motion round: in a step longer than it takes to stop, the
-// force is the one that just stops. At the paper's steps this is never reached.
-void limit_drag(const Bodies& b, std::size_t i, double dt, WaterLoad& drag) {
-    const double stop = b.mass[i] * length(b.velocity[i]), push = dt * length(drag.force);
+// Drag slows down, it never turns a motion through the water round: in a step longer than it takes
+// to stop, the force is the one that just stops. At the paper's steps this is never reached.
+void limit_drag(const Bodies& b, std::size_t i, const Vec3& u, double dt, WaterLoad& drag) {
+    const double stop = b.mass[i] * length(u), push = dt * length(drag.force);
     if (push > stop) drag.force *= stop / push;
     const double halt = length(ordered_turned(b.rotation[i], b.inertia(i), b.angular_velocity[i]));
     const double twist = dt * length(drag.moment);
     if (twist > halt) drag.moment *= halt / twist;
 }
 
-// In moving water the same, but for motions through it: the fastest that a corner has decides.
+// In the ship's flow the fastest motion that a corner has decides.
 void limit_drag(const Bodies& b, std::size_t i, double radius, double dt, RelativeDrag& drag) {
     const double stop = b.mass[i] * drag.fastest, push = dt * length(drag.force);
     if (push > stop) {
@@ -65,16 +64,19 @@ void add_pressure(const WaterLoad& pressure, FloeLoad& load) {
     load.moment += pressure.moment;
 }
 
-WaterLoad drag_at_rest(const Scene& scene, const Case& p, std::size_t i) {
+// In water at rest or in an even current: by the motion through it, so that a current and all that
+// drifts with it are a world at rest.
+WaterLoad drag_in_current(const Scene& scene, const Case& p, std::size_t i) {
     const Bodies& b = scene.bodies;
     const Shape& shape = scene.shapes[static_cast<std::size_t>(b.shape[i])];
-    const Motion motion{b.rotation[i], b.position[i].z(), b.velocity[i], b.angular_velocity[i]};
+    const Vec3 u = b.velocity[i] - scene.water.current;
+    const Motion motion{b.rotation[i], b.position[i].z(), u, b.angular_velocity[i]};
     WaterLoad drag;
     if (p.drag == DragModel::projected)
         drag = projected_drag(shape, motion, p.drag_coefficient, p.water_density);
     if (p.drag == DragModel::panel)
         drag = panel_drag(shape, motion, p.drag_coefficient, p.water_density);
-    limit_drag(b, i, p.time_step, drag);
+    limit_drag(b, i, u, p.time_step, drag);
     return drag;
 }
 
@@ -114,7 +116,8 @@ FloeLoad load_of(const Scene& scene, const Case& p, std::size_t i) {
                             ordered_dot(drag.moment, b.angular_velocity[i])) +
                            drag.loss;
     } else {
-        load.drag = drag_at_rest(scene, p, i);
+        load.drag = drag_in_current(scene, p, i);
+        load.water_power = ordered_dot(load.drag.force, scene.water.current);
     }
     load.force = load.drag.force;
     load.moment = load.drag.moment;

@@ -48,7 +48,7 @@ HWY_INLINE Vectors AboutPlane(Vectors moment) {
     return {hn::Zero(Tag()), moment.y, hn::Zero(Tag())};
 }
 
-// What water that moves does to floes.
+// What the ship's flow does to floes. @pre scene.water.flows()
 struct FlowLoads {
     RelativeLoad drag;
     Load pressure;
@@ -57,7 +57,7 @@ HWY_INLINE FlowLoads LoadsInFlow(const Scene& scene, const Case& p, const Afloat
                                  const Matrices& inertia) {
     const FlowNear near(floes, scene.water);
     FlowLoads out{DragInFlow(floes, p, scene.water, near, inertia), {Zero(), Zero()}};
-    if (!scene.water.presses || !scene.water.flows()) return out;
+    if (!scene.water.presses) return out;
     out.pressure = PressureInFlow(floes, p, scene.water, near);
     if (scene.dimension == 2)
         out.pressure = {InPlane(out.pressure.force), AboutPlane(out.pressure.moment)};
@@ -77,7 +77,10 @@ void LoadPart(const Scene& scene, const Case& p, std::span<const std::int32_t> i
     const Mask flows = InFlow(scene.water, floes);
     Load drag{Zero(), Zero()}, pressure{Zero(), Zero()};
     Lanes water_power = hn::Zero(d);
-    if (!hn::AllTrue(d, flows)) drag = DragAtRest(floes, p, inertia);
+    if (!hn::AllTrue(d, flows)) {
+        drag = DragInCurrent(floes, p, scene.water.current, inertia);
+        water_power = Dot(drag.force, Set(scene.water.current));
+    }
     if (!hn::AllFalse(d, flows)) {
         const FlowLoads in_flow = LoadsInFlow(scene, p, floes, inertia);
         const RelativeLoad& moved = in_flow.drag;
@@ -85,7 +88,7 @@ void LoadPart(const Scene& scene, const Case& p, std::span<const std::int32_t> i
         drag = {Choose(flows, moved.force, drag.force), Choose(flows, moved.moment, drag.moment)};
         const Lanes work =
             hn::Add(Dot(moved.force, floes.velocity), Dot(moved.moment, floes.angular_velocity));
-        water_power = hn::IfThenElseZero(flows, hn::Add(work, moved.loss));
+        water_power = hn::IfThenElse(flows, hn::Add(work, moved.loss), water_power);
     }
     Load all = drag;
     all.force.z = hn::Sub(all.force.z, hn::Mul(floes.mass, All(p.gravity)));

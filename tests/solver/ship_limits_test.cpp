@@ -98,12 +98,10 @@ TEST_CASE("a heavy ship crushes held ice and jams as a captive one", "[ship][hel
 }
 
 TEST_CASE("held ice that drifts past a ship at rest is a ship in held ice", "[ship][drift][held]") {
-    // without drag, whose bound on a slow floe is another one where the water moves
     for (const auto& [row, hold] :
          {std::pair(0, Hold::always), {1, Hold::always}, {1, Hold::until_hull_contact}}) {
         World goes = rough_ride(4000.0, {}, 6, row);
         goes.parameters.floes[0].hold = hold;
-        goes.parameters.drag = DragModel::none;
         World rests = drifting(goes);
         double most = 0.0;
         bool held = false;
@@ -124,12 +122,45 @@ TEST_CASE("held ice that drifts past a ship at rest is a ship in held ice", "[sh
         CHECK(held);
         CHECK(most > 10.0);
         const Bodies &a = goes.scene.bodies, &b = rests.scene.bodies;
-        for (std::size_t i = 1; i < a.size(); ++i)
+        for (std::size_t i = 1; i < a.size(); ++i) {
             CHECK((a.position[i] - b.position[i] - a.position[kShip]).norm() < 1e-9);
+            CHECK((a.velocity[i] - b.velocity[i] - a.velocity[kShip]).norm() < 1e-9);
+        }
         // the ship is still: the held ice does the work
         CHECK(rests.ledger.ship_work == 0.0);
         const double potential = potential_energy(rests.scene, rests.parameters);
         CHECK(std::abs(rests.ledger.residual(potential)) <
               0.005 * std::abs(rests.ledger.drift_work));
     }
+}
+
+TEST_CASE("a ship towed through still ice is a moored one that ice and water drift past",
+          "[ship][drift]") {
+    World towed = smooth_ride(4000.0, {surge}, 2);
+    World moored = drifting(towed);
+    for (World* w : {&towed, &moored}) {
+        w->parameters.ship.damping[surge] = 0.1;  // by the water, of critical
+        w->parameters.ship.added_mass[surge] = 0.1;
+    }
+    towed.parameters.tow = {Vec3::Zero(), 2e4, 0.0};
+    moored.parameters.mooring.stiffness[surge] = 2e4;
+    double most = 0.0, swing = 0.0;
+    for (int k = 0; k < 60; ++k) {
+        step(towed);
+        step(moored);
+        const auto [normal, tangent] = ship_on_ice(towed);
+        const auto [normal_2, tangent_2] = ship_on_ice(moored);
+        most = std::max(most, normal.norm());
+        CAPTURE(k);
+        REQUIRE((normal - normal_2).norm() <= 1e-9 * (1.0 + most));
+        REQUIRE((tangent - tangent_2).norm() <= 1e-9 * (1.0 + most));
+        const double pull = towed.ship.loads().tow.force.x();
+        REQUIRE(pull == Approx(moored.ship.loads().mooring.force.x()).margin(1e-9 * 2e4));
+        swing = std::max(swing, std::abs(pull));
+    }
+    CHECK(most > 10.0);
+    CHECK(swing > 10.0);
+    const Bodies &a = towed.scene.bodies, &b = moored.scene.bodies;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        CHECK((a.velocity[i] - b.velocity[i] - Vec3::UnitX()).norm() < 1e-9);
 }
