@@ -60,6 +60,7 @@ public:
         out.first_body = number("first_body");
         out.piece_group = number("piece_group");
         out.rest_group = number("rest_group");
+        out.drift = points("/drift", {1})[0];
         out.pieces = read_piece_rows("/pieces");
         out.rest = read_piece_rows("/rest");
         read_column("number", out.pieces, &PieceRow::number);
@@ -148,10 +149,13 @@ struct Floes {
         frame.contact_force.push_back(from.contact_force[k]);
         frame.state.push_back(from.state[k]);
     }
-    void add_still(const Vec3& at, const Eigen::Quaterniond& orientation, FloeState state) {
+    // as it drifts, untouched
+    void add_drifting(const Vec3& at, const Eigen::Quaterniond& orientation, FloeState state,
+                      const Vec3& drift) {
         frame.position.push_back(at);
         frame.orientation.push_back(orientation);
-        for (auto* list : {&frame.velocity, &frame.angular_velocity, &frame.contact_force})
+        frame.velocity.push_back(drift);
+        for (auto* list : {&frame.angular_velocity, &frame.contact_force})
             list->push_back(Vec3::Zero());
         frame.state.push_back(state);
     }
@@ -172,20 +176,24 @@ void show_in_frame(const PiecesFile& file, std::size_t others, const RunFrame* b
     RunFrame slots = frame;
     Floes floes{frame};
     floes.keep(others);
+    const auto add_in_sheet = [&](const PieceRow& row, FloeState state) {
+        floes.add_drifting(row.at + frame.time * file.drift, Eigen::Quaterniond::Identity(), state,
+                           file.drift);
+    };
     for (std::size_t k = 0; k < file.pieces.size(); ++k) {
         const PieceRow& row = file.pieces[k];
         if (frame.time <= row.born)
-            floes.add_still(row.at, Eigen::Quaterniond::Identity(), FloeState::held);
+            add_in_sheet(row, FloeState::held);
         else if (frame.time <= row.gone)
             floes.add(slots, static_cast<std::size_t>(row.body) - 1);
         else if (before != nullptr)
-            floes.add_still(before->position[others + k], before->orientation[others + k],
-                            FloeState::behind);
+            floes.add_drifting(
+                before->position[others + k] + (frame.time - before->time) * file.drift,
+                before->orientation[others + k], FloeState::behind, file.drift);
         else
-            floes.add_still(row.at, Eigen::Quaterniond::Identity(), FloeState::behind);
+            add_in_sheet(row, FloeState::behind);
     }
-    for (const PieceRow& row : file.rest)
-        floes.add_still(row.at, Eigen::Quaterniond::Identity(), FloeState::held);
+    for (const PieceRow& row : file.rest) add_in_sheet(row, FloeState::held);
     for (HullContact& contact : frame.hull_contacts) {
         if (contact.floe < file.first_body) continue;
         const std::ptrdiff_t piece = piece_of(file, contact.floe, frame.time);
@@ -215,6 +223,7 @@ void write_pieces(const std::filesystem::path& path, const PiecesFile& pieces) {
         file.write_attribute("/", "first_body", std::int64_t{pieces.first_body});
         file.write_attribute("/", "piece_group", std::int64_t{pieces.piece_group});
         file.write_attribute("/", "rest_group", std::int64_t{pieces.rest_group});
+        file.write("/drift", pieces.drift.data(), {1, 3});
         write_piece_rows(file, "/pieces", pieces.pieces);
         write_piece_column(file, "number", pieces.pieces, &PieceRow::number);
         write_piece_column(file, "body", pieces.pieces, &PieceRow::body);

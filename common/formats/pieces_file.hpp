@@ -5,6 +5,7 @@
 /// rows of a group; /pieces: floes by number, /rest: the remaining sheet at the end):
 ///
 ///     / format, format_version, first_body, piece_group, rest_group
+///     /drift [3] m/s            of all the ice: what lies in it is at `at` + drift times time
 ///     /pieces/number, body [K]  born, gone [K] s (gone: inf while it is there)
 ///     /pieces/load [K] N, radius [K] m   that broke it off, of its crack
 ///     and in both groups: at [K,3] m  centre of mass as it lay   mass [K] kg
@@ -23,7 +24,7 @@ constexpr const char* kPiecesName = "pieces.h5";
 /// A piece of level ice. Of the rest only the first three members count.
 struct PieceRow {
     TriangleMesh mesh;  ///< about the centre of mass, axes of the world as it lay [m]
-    Vec3 at;            ///< centre of mass as it lay [m]
+    Vec3 at;            ///< centre of mass as it lay, less what the ice had drifted [m]
     double mass;        ///< [kg]
     std::int32_t number = 0, body = 0;
     double born = 0.0, gone = 0.0;  ///< [s]
@@ -34,6 +35,7 @@ struct PieceRow {
 struct PiecesFile {
     std::int32_t first_body = 0;                   ///< id of the first slot
     std::int32_t piece_group = 0, rest_group = 0;  ///< rows of the case's groups
+    Vec3 drift = Vec3::Zero();                     ///< [m/s]
     std::vector<PieceRow> pieces, rest;
 };
 
@@ -44,8 +46,8 @@ void write_pieces(const std::filesystem::path& path, const PiecesFile& file);
 PiecesFile read_pieces(const std::filesystem::path& path);
 
 /// Puts pieces and rest in the place of the slots, as floes of the run: before it breaks off, a
-/// piece lies held in the sheet; after it was taken out of the scene, it stays where it was last
-/// seen, behind. What hull contacts say of the sheet's edge goes to the first row of the rest.
+/// piece lies held in the sheet; after it was taken out of the scene, it drifts on from where it
+/// was last seen, behind. What hull contacts say of the sheet's edge goes to the first row of the rest.
 void show_pieces(const PiecesFile& file, RunData& run);
 
 }  // namespace ice

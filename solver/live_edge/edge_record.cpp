@@ -22,6 +22,7 @@ PieceRow row_of(const LiveEdge& edge, const Loop& outline) {
 
 PiecesFile record_edge(const LiveEdge& edge) {
     PiecesFile out;
+    out.drift = Vec3(edge.drift().x(), edge.drift().y(), 0.0);
     out.first_body = static_cast<std::int32_t>(edge.first_body());
     out.piece_group = edge.piece_group();
     out.rest_group = edge.tile_group();

@@ -78,7 +78,7 @@ void LiveEdge::carry(CheckpointFile& file) {
     carry_points(file, "edge.piece_at", pieces_, &IcePiece::at);
     carry_outlines(file, "edge.piece_outline", pieces_);
     file.carry("edge.cusp", cusp_);
-    file.carry("edgpieces_area", gone_.pieces);
+    file.carry("edge.pieces_area", gone_.pieces);
     file.carry("edge.crushed_area", gone_.crushed);
     file.carry("edge.brash_area", gone_.brash);
     file.carry("edge.astern_area", gone_.astern);

@@ -79,6 +79,7 @@ void LiveEdge::set_up(const Scene& scene, const Case& p) {
     law_ = {ice.length_factor, ice.speed_factor, ice.scatter,
             static_cast<std::uint64_t>(ice.seed) * 1000003u + static_cast<std::uint64_t>(p.seed)};
     radius_ = cusp_radius({ice.length_factor}, length_, 0.0, 0);
+    drift_ = Vec2(p.drift_velocity[0], p.drift_velocity[1]);
     ahead_ = kAhead * radius_;
     astern_ = kAstern * scene.shapes[0].box.sizes().x();
 }
@@ -105,6 +106,7 @@ void LiveEdge::add_slots(Scene& scene, const Case& p) {
         FloeStart start;
         start.position = Vec3(parked_at(extent_, thickness_, k).x(), 0.0, height);
         start.hold = Hold::always;
+        start.velocity.head<2>() = drift_;
         add_floe(scene, static_cast<std::int32_t>(scene.shapes.size()) - 1, density_, start,
                  tile_group_);
     }
@@ -113,8 +115,7 @@ void LiveEdge::add_slots(Scene& scene, const Case& p) {
 
 void LiveEdge::begin(Scene& scene, Case& p) {
     set_up(scene, p);
-    const double top = (1.0 - share_) * thickness_;
-    const std::vector<Loop> hull = hull_outlines(scene, top, top - thickness_);
+    const std::vector<Loop> hull = hull_in_ice(scene);
     if (hull.empty())
         throw bad_input(p.file.string() + ": level_ice",
                         "the hull does not reach the height of the ice",
@@ -125,7 +126,7 @@ void LiveEdge::begin(Scene& scene, Case& p) {
     tile_group_ = add_group(p, Hold::always);
     add_slots(scene, p);
     scene.start = {extent_, true, true};
-    looked_at_ = laid_at_ = scene.bodies.position[kShip].head<2>();
+    looked_at_ = laid_at_ = ship_in_ice(scene);
     Plan plan;
     lay_tiles(scene, plan);
     fill(p, plan);
@@ -170,7 +171,8 @@ void LiveEdge::put(Scene& scene, double time, Plan& plan) {
         b.group[i] = body.is_tile ? tile_group_ : piece_group_;
         // a tile breaks where a window of the edge does, never as a whole
         b.breaking_load[i] = body.is_tile ? std::numeric_limits<double>::max() : kNever;
-        put_ice(scene, i, std::move(*body.shape), centre, density_, share_, body.is_tile);
+        put_ice(scene, i, std::move(*body.shape),
+                {centre + drifted_, drift_, density_, share_, body.is_tile});
         Slot& slot = slots_[k];
         slot = {body.is_tile ? Use::tile : Use::piece, std::move(body.outline), 0};
         plan.changed.push_back(static_cast<std::int32_t>(i));
@@ -186,8 +188,9 @@ void LiveEdge::put(Scene& scene, double time, Plan& plan) {
         if (slots_[body - first_].use != Use::free) continue;
         b.group[body] = tile_group_;
         b.breaking_load[body] = kNever;
-        put_ice(scene, body, empty_, parked_at(extent_, thickness_, body - first_), density_,
-                share_, true);
+        put_ice(scene, body, empty_,
+                {parked_at(extent_, thickness_, body - first_) + drifted_, drift_, density_, share_,
+                 true});
     }
 }
 

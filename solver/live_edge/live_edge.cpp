@@ -21,8 +21,6 @@ using Box = Eigen::AlignedBox2d;
 // body by as much still stand for its edge. Where the hull is twice as deep, the ice goes.
 constexpr double kCrushed = 0.125;
 
-Vec2 place_of(const Scene& scene) { return scene.bodies.position[kShip].head<2>(); }
-
 double angle_of(double area, double radius) {
     return std::min(2.0 * area / (radius * radius), std::numbers::pi);
 }
@@ -32,6 +30,18 @@ double angle_of(double area, double radius) {
 bool LiveEdge::is_tile(std::int32_t body) const {
     const auto i = static_cast<std::size_t>(body);
     return i >= first_ && slots_[i - first_].use == Use::tile;
+}
+
+Vec2 LiveEdge::ship_in_ice(const Scene& scene) const {
+    return scene.bodies.position[kShip].head<2>() - drifted_;
+}
+
+std::vector<Loop> LiveEdge::hull_in_ice(const Scene& scene) const {
+    const double top = (1.0 - share_) * thickness_;
+    std::vector<Loop> out = hull_outlines(scene, top, top - thickness_);
+    for (Loop& loop : out)
+        for (Vec2& p : loop) p -= drifted_;
+    return out;
 }
 
 IceAreas LiveEdge::areas() const {
@@ -49,7 +59,7 @@ Box LiveEdge::reach(const Scene& scene) const {
     const Bodies& b = scene.bodies;
     const Eigen::AlignedBox3d& hull = scene.shapes[0].box;
     const Vec3 half = b.rotation[kShip].cwiseAbs() * (0.5 * hull.sizes());
-    const Vec3 middle = b.position[kShip] + b.rotation[kShip] * hull.center();
+    const Vec2 middle = ship_in_ice(scene) + (b.rotation[kShip] * hull.center()).head<2>();
     const double aside = 3.0 * radius_;
     return {Vec2(middle.x() - half.x() - astern_, middle.y() - half.y() - aside),
             Vec2(middle.x() + half.x() + ahead_, middle.y() + half.y() + aside)};
@@ -66,7 +76,7 @@ void LiveEdge::find(const Case& parameters, const std::vector<Contact>& contacts
         for (const auto& [body, sign] : {std::pair(c.b, 1.0), std::pair(c.a, -1.0)}) {
             if (!is_tile(body)) continue;
             const double up = c.total_normal() * c.normal.z() + c.total_tangent().z();
-            loads_.push_back({contacts[k].point.head<2>(), -sign * up, c.total_normal(),
+            loads_.push_back({contacts[k].point.head<2>() - drifted_, -sign * up, c.total_normal(),
                               c.total_normal() * std::max(-c.approach, 0.0),
                               sign * c.total_normal() * c.normal.head<2>()});
         }
@@ -85,13 +95,12 @@ void LiveEdge::find(const Case& parameters, const std::vector<Contact>& contacts
 bool LiveEdge::is_due(const Scene& scene) const {
     if (!lives()) return false;
     if (!cracks_.empty()) return true;
-    return (place_of(scene) - looked_at_).norm() >= kCrushed * thickness_;
+    return (ship_in_ice(scene) - looked_at_).norm() >= kCrushed * thickness_;
 }
 
 bool LiveEdge::renew(Scene& scene, const Case& parameters, double time) {
-    const double top = (1.0 - share_) * thickness_;
-    const std::vector<Loop> hull = hull_outlines(scene, top, top - thickness_);
-    looked_at_ = place_of(scene);
+    const std::vector<Loop> hull = hull_in_ice(scene);
+    looked_at_ = ship_in_ice(scene);
     bool is_new = crush_through(hull);
     Plan plan;
     for (const Crack& crack : std::exchange(cracks_, {})) {
@@ -105,7 +114,8 @@ bool LiveEdge::renew(Scene& scene, const Case& parameters, double time) {
         gone_.astern += sheet_.take(
             loop_of({extent_.min() - Vec2(1.0, 1.0), Vec2(behind, extent_.max().y() + 1.0)}));
     for (std::size_t k = 0; k < slots_.size(); ++k)
-        if (slots_[k].use == Use::piece && scene.bodies.position[first_ + k].x() < behind)
+        if (slots_[k].use == Use::piece &&
+            scene.bodies.position[first_ + k].x() - drifted_.x() < behind)
             retire(k, time, plan);
     lay_tiles(scene, plan);
     fill(parameters, plan);

@@ -33,8 +33,8 @@ struct IcePiece {
     double born, gone;    ///< [s]; gone: inf while it is there
     double load;          ///< downwards, that broke it off [N]
     double radius;        ///< of its crack [m]
-    Vec2 at;              ///< centre of mass as it broke off [m]
-    Loop outline;         ///< of the floe, then [m]
+    Vec2 at;              ///< centre of mass as it broke off, in the ice's axes [m]
+    Loop outline;         ///< of the floe, then, in the ice's axes [m]
 };
 
 /// A sheet of level ice whose edge is contact geometry where the ship can meet it.
@@ -43,6 +43,10 @@ struct IcePiece {
 /// are held: the hull crushes them. Where the downward load on a window of the edge (edge_windows)
 /// reaches the load that breaks the piece off which a crack around the load's centre would cut out,
 /// that piece becomes a floe, the polygon loses it, and the tiles around are laid anew.
+///
+/// Polygon, tiles and cracks are in the ice's own axes, which drift with it: places in the world are
+/// theirs plus drift() times the time. Ice that drifts past a ship is so the same to it as a ship
+/// that goes through ice.
 ///
 /// Bodies come from a fixed number of slots; floes further astern than half a ship's length, or the
 /// last one where no slot is left, are taken out of the scene.
@@ -55,6 +59,11 @@ public:
     /// its bodies to the case. Ice where the ship is, is taken away.
     /// @throws Error (exit code 2) naming level_ice where the hull does not reach the ice's height
     void begin(Scene& scene, Case& parameters);
+
+    /// The ice has drifted for so long [s]; before is_due(), renew() and find() of a step.
+    void drift_until(double time) { drifted_ = time * drift_; }
+    /// Velocity of all the ice [m/s].
+    const Vec2& drift() const { return drift_; }
 
     /// Does renew() have something to do?
     bool is_due(const Scene& scene) const;
@@ -81,7 +90,7 @@ public:
     double length() const { return length_; }  ///< characteristic length of the plate [m]
     /// Side of the cells of its tiles: how far from a load it cracks at rest [m].
     double radius() const { return radius_; }
-    /// The sheet that is left, in strips across it, in loops without holes.
+    /// The sheet that is left, in the ice's axes: in strips across it, in loops without holes.
     std::vector<Loop> rest() const;
     /// Body of the first slot, and the groups of floes and tiles in the case.
     std::size_t first_body() const { return first_; }
@@ -117,6 +126,8 @@ private:
     void set_up(const Scene& scene, const Case& parameters);
     void add_slots(Scene& scene, const Case& parameters);
     bool is_tile(std::int32_t body) const;
+    Vec2 ship_in_ice(const Scene& scene) const;
+    std::vector<Loop> hull_in_ice(const Scene& scene) const;
     Eigen::AlignedBox2d reach(const Scene& scene) const;
     bool crush_through(const std::vector<Loop>& hull);
     void break_off(const Crack& crack, const std::vector<Loop>& hull, Plan& plan);
@@ -134,6 +145,7 @@ private:
     std::size_t first_ = 0;  // body of slots_[0]; 0: there is no sheet
     double thickness_ = 0.0, gap_ = 0.0, length_ = 0.0, radius_ = 0.0;
     double density_ = 0.0, share_ = 0.0;
+    Vec2 drift_ = Vec2::Zero();
     Eigen::AlignedBox2d extent_;
     CuspLaw law_;
     Shape empty_;  // of slots without ice
@@ -149,6 +161,7 @@ private:
     IceAreas gone_;                                           // all but `sheet`
     Vec2 laid_at_ = Vec2::Zero(), looked_at_ = Vec2::Zero();  // the ship then
 
+    Vec2 drifted_ = Vec2::Zero();  // from the world's axes to the ice's, now; no state
     std::vector<EdgeLoad> loads_;  // memory of find()
 };
 

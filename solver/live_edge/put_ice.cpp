@@ -33,23 +33,23 @@ void put_form(Scene& scene, std::size_t body, Shape shape, double density) {
     scene.shapes[static_cast<std::size_t>(b.shape[body])] = std::move(shape);
 }
 
-void put_ice(Scene& scene, std::size_t body, Shape shape, const Eigen::Vector2d& at, double density,
-             double share, bool held) {
+void put_ice(Scene& scene, std::size_t body, Shape shape, const PutIce& as) {
     Bodies& b = scene.bodies;
     const Shape& old = scene.shapes[static_cast<std::size_t>(b.shape[body])];
     make_whole(scene.crushed, static_cast<std::int32_t>(body), old.center.size());
-    const double height = floating_height(shape, Mat3::Identity(), share);
-    put_form(scene, body, std::move(shape), density);
-    b.position[body] = {at.x(), at.y(), height};
+    const double height = floating_height(shape, Mat3::Identity(), as.share);
+    put_form(scene, body, std::move(shape), as.density);
+    b.position[body] = {as.at.x(), as.at.y(), height};
     b.orientation[body] = Quaternion::Identity();
-    b.momentum[body] = b.angular_momentum[body] = Vec3::Zero();
-    b.held[body] = held ? 1 : 0;
+    b.momentum[body] = b.mass[body] * Vec3(as.velocity.x(), as.velocity.y(), 0.0);
+    b.angular_momentum[body].setZero();
+    b.held[body] = as.held ? 1 : 0;
     update_derived(b, body);
     const auto number = static_cast<std::int32_t>(body);
     const auto place = std::lower_bound(b.moving.begin(), b.moving.end(), number);
     const bool listed = place != b.moving.end() && *place == number;
-    if (held && listed) b.moving.erase(place);
-    if (!held && !listed) b.moving.insert(place, number);
+    if (as.held && listed) b.moving.erase(place);
+    if (!as.held && !listed) b.moving.insert(place, number);
 }
 
 }  // namespace ice

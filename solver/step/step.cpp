@@ -34,6 +34,7 @@ double contact_margin(const Case& p) {
 // The edge of level ice breaks and goes with the ship: what was known of the bodies' contacts is
 // forgotten, as some have another form now. Mass that comes into the scene or leaves it is no work.
 void renew_edge(World& w) {
+    w.edge.drift_until(w.time);
     if (!w.edge.is_due(w.scene)) return;
     const double before = potential_energy(w.scene, w.parameters);
     if (!w.edge.renew(w.scene, w.parameters, w.time)) return;

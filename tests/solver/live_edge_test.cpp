@@ -144,6 +144,40 @@ TEST_CASE("a ship breaks its way, ice is neither lost nor made, and no piece is 
     CHECK(deepest < 0.02);
 }
 
+TEST_CASE("level ice that drifts past a ship is a ship that goes through level ice",
+          "[level_ice][edge][drift]") {
+    const bool free = GENERATE(false, true);
+    Case p = sheet_case(0.8, 1e3);
+    p.ship.free[surge] = free;
+    p.ship.mass = 30000.0;
+    p.tow = {Vec3::Zero(), free ? 1e5 : 0.0, 0.0};
+    World goes = make_world(p);
+    p.speed_table = {{0.0, 0.0}};
+    p.drift_velocity = {-0.8, 0.0};
+    World rests = make_world(p);
+    rests.scene.water.current = Vec3(-0.8, 0.0, 0.0);
+    double most = 0.0;
+    while (goes.time < 3.0) {
+        step(goes);
+        step(rests);
+        const auto [normal, tangent] = ship_on_ice(goes);
+        const auto [normal_2, tangent_2] = ship_on_ice(rests);
+        most = std::max(most, (normal + tangent).norm());
+        CAPTURE(goes.time, free);
+        // rounding of places, over the crushed depths of millimetres that give the forces
+        REQUIRE((normal + tangent - normal_2 - tangent_2).norm() <= 1e-6 * (1.0 + most));
+        REQUIRE(goes.edge.pieces().size() == rests.edge.pieces().size());
+    }
+    CHECK(goes.edge.pieces().size() > 1);
+    CHECK(goes.edge.areas().sheet == Approx(rests.edge.areas().sheet).epsilon(1e-9));
+    const Vec3 ship = goes.scene.bodies.position[kShip] - rests.scene.bodies.position[kShip];
+    for (const IcePiece& piece : goes.edge.pieces()) {
+        const auto i = static_cast<std::size_t>(piece.body);
+        CHECK((goes.scene.bodies.position[i] - rests.scene.bodies.position[i] - ship).norm() <
+              1e-6);
+    }
+}
+
 TEST_CASE("level ice goes on from a checkpoint, and by any number of threads, with the same bits",
           "[level_ice][edge][checkpoint]") {
     const TempFolder folder;
