@@ -1,17 +1,17 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""ship_matrix.py FILE --about X Y Z --mass M --centre-of-gravity X Y Z --gyration RX RY RZ: added mass
-and damping that another program computed, as lines of a case's [ship].
+"""ship_matrix.py FILE --about X Y Z [--centre-of-gravity X Y Z] > ship.toml: added mass and damping that
+another program computed, as the file that a case's ship.matrix names.
 
 FILE is the radiation problem of one ship, with the axes of its mesh (x forward, z up): Capytaine's data
 set (.nc, variables added_mass and radiation_damping) or WAMIT's numerical output of added mass (.1).
 
---about is the point that the program took moments about, in the axes of the hull's mesh [m]. The matrices
-are moved to the centre of gravity; of them the diagonal counts, as shares of mass and moments of inertia.
-Surge, sway and yaw are taken at the frequency --slow (default: the lowest in the file), heave, roll and
-pitch at --fast (default: the highest), both in rad/s, the nearest one in the file. Damping by waves is 0 at
-both limits: --damping W takes it at W. Of heave, roll and pitch it is a share of the critical one, for
-which --stiffness C33 C44 C55 is needed [N/m, N m] (C44 = m g GM; icesolve --check prints GM).
+--about is the point that the program took moments about, in the axes of the hull's mesh [m]. icesolve
+moves the matrices to the ship's centre of gravity; name it here, too, if it is another point and low and
+high frequencies differ much, as both are moved before they are joined. Surge, sway and yaw are taken at the
+frequency --slow (default: the lowest in the file), heave, roll and pitch at --fast (default: the
+highest), both in rad/s, the nearest one in the file; what couples the one with the other is left out.
+Damping by waves is 0 at both limits: --damping W takes it at W.
 
 Numbers of a .1 are shares of water_density L^k, k = 3 to 5, and of the frequency: --length L [m]
 (ULEN of WAMIT) and --density [kg/m3] are needed. A period below 0 in it means the frequency 0, a
@@ -24,7 +24,7 @@ import sys
 import numpy
 
 MOTIONS = ("surge", "sway", "heave", "roll", "pitch", "yaw")
-SLOW = (0, 1, 5)
+SLOW, FAST = (0, 1, 5), (2, 3, 4)
 
 
 def fail(text):
@@ -115,34 +115,26 @@ def moved(matrix, arm):
     return to_old.T @ matrix @ to_old
 
 
-def diagonal(slow, fast, arm):
-    """Surge, sway, yaw of the one, heave, roll, pitch of the other, about the centre of gravity."""
-    both = numpy.diag(moved(symmetric(slow), arm)), numpy.diag(moved(symmetric(fast), arm))
-    return numpy.array([both[0 if k in SLOW else 1][k] for k in range(6)])
+def joined(slow, fast, arm):
+    """Surge, sway, yaw of the one, heave, roll, pitch of the other, about a point at `arm`."""
+    both = [moved(symmetric(m), arm) for m in (slow, fast)]
+    out = numpy.zeros((6, 6))
+    for matrix, group in zip(both, (SLOW, FAST)):
+        out[numpy.ix_(group, group)] = matrix[numpy.ix_(group, group)]
+    return out
 
 
-def line(name, numbers):
-    return f"{name} = [{', '.join(repr(float(v)) for v in numbers)}]\n"
-
-
-def damping_line(options, waves, masses):
-    """Shares of critical damping where water restores, else N s/m and N m s."""
-    if options.stiffness is None:
-        fail("--stiffness C33 C44 C55 is needed with --damping: of heave, roll and pitch it is a share")
-    out = waves.copy()
-    for k, stiffness in zip((2, 3, 4), options.stiffness):
-        out[k] /= 2.0 * numpy.sqrt(stiffness * masses[k])
-    return line("damping", out)
+def table(name, matrix):
+    rows = (f"{m} = [{', '.join(repr(float(v)) for v in row)}]\n" for m, row in zip(MOTIONS, matrix))
+    return f"[{name}]\n{''.join(rows)}"
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("file", type=pathlib.Path)
-    for name in ("--about", "--centre-of-gravity", "--gyration"):
-        parser.add_argument(name, nargs=3, type=float, required=True, metavar=("X", "Y", "Z"))
-    parser.add_argument("--mass", type=float, required=True)
-    parser.add_argument("--stiffness", nargs=3, type=float, metavar=("C33", "C44", "C55"))
+    for name in ("--about", "--centre-of-gravity"):
+        parser.add_argument(name, nargs=3, type=float, required=name == "--about", metavar=("X", "Y", "Z"))
     for name in ("--slow", "--fast", "--damping", "--length", "--density"):
         parser.add_argument(name, type=float)
     options = parser.parse_args()
@@ -154,22 +146,21 @@ def main():
         omegas, added, damping = read_capytaine(options.file)
     slow = nearest(omegas, omegas.min() if options.slow is None else options.slow)
     fast = nearest(omegas, omegas.max() if options.fast is None else options.fast)
-    arm = numpy.subtract(options.centre_of_gravity, options.about)
-    water = diagonal(added[slow], added[fast], arm)
-    if not (numpy.isfinite(water).all() and (water >= 0.0).all()):
+    point = options.centre_of_gravity or options.about
+    arm = numpy.subtract(point, options.about)
+    water = joined(added[slow], added[fast], arm)
+    if not (numpy.isfinite(water).all() and (numpy.diag(water) >= 0.0).all()):
         fail(f"{options.file}: has no added mass of 0 or more at {omegas[slow]:g} and {omegas[fast]:g} "
              f"rad/s; name other frequencies")
-    own = options.mass * numpy.concatenate([numpy.ones(3), numpy.square(options.gyration)])
-    text = (f"# Added mass of {options.file.name}: surge, sway, yaw at {omegas[slow]:g} rad/s, heave, "
-            f"roll, pitch at {omegas[fast]:g} rad/s\n[ship]\nmass = {options.mass!r}\n" +
-            line("centre_of_gravity", options.centre_of_gravity) + line("gyration", options.gyration) +
-            line("added_mass", water / own))
+    text = (f"# Of {options.file.name}: surge, sway, yaw at {omegas[slow]:g} rad/s, heave, roll, pitch at "
+            f"{omegas[fast]:g} rad/s; kg, kg m, kg m2\nabout = {[float(x) for x in point]}\n" +
+            table("added_mass", water))
     if options.damping is not None:
         at = nearest(omegas, options.damping)
-        waves = diagonal(damping[at], damping[at], arm)
+        waves = joined(damping[at], damping[at], arm)
         if not numpy.isfinite(waves).all():
             fail(f"{options.file}: has no damping at {omegas[at]:g} rad/s")
-        text += f"# by waves of {omegas[at]:g} rad/s\n" + damping_line(options, waves, own + water)
+        text += f"# by waves of {omegas[at]:g} rad/s; N s/m, N s, N m s\n" + table("damping", waves)
     print(text, end="")
 
 

@@ -249,8 +249,8 @@ std::vector<History> motion_histories(const RunData& run, double average_from,
         {{"along x"}, {views::kBlue}, {series_of([](const HistoryRow& r) {
              return r.ship_velocity.x();
          })}});
-    add("ship-drive", "thrust and tow force", unit,
-        {{"thrust", "tow"},
+    add("ship-drive", "thrust, force of tow and mooring", unit,
+        {{"thrust", "lines"},
          {views::kBlue, views::kOrange},
          {series_of([](const HistoryRow& r) { return r.thrust; }),
           series_of([](const HistoryRow& r) { return r.tow_force.x(); })}});

@@ -17,7 +17,15 @@ public:
         check_propulsion();
         check_net_thrust();
         check_lines();
+        if (!case_.ship.matrix.empty() && has_added_mass())
+            complaints_.add_at("ship.matrix",
+                               "ship.matrix and ship.added_mass both give the water that moves "
+                               "along; keep one");
         if (case_.dimension != 2) return;
+        if (!case_.ship.matrix.empty())
+            complaints_.add_at("ship.matrix",
+                               "ship.matrix is of a hull in 3D; give a 2D case six numbers as "
+                               "ship.added_mass");
         if (case_.ship.computes_added_mass)
             complaints_.add_at("ship.added_mass",
                                "ship.added_mass is computed for hulls in 3D only; give a 2D case "
@@ -36,6 +44,11 @@ private:
     bool has(const char* key) const {
         // a default is given to the values, too
         return values_.contains(key);
+    }
+    bool has_added_mass() const {
+        const auto& shares = case_.ship.added_mass;
+        return case_.ship.computes_added_mass ||
+               std::any_of(shares.begin(), shares.end(), [](double s) { return s != 0.0; });
     }
     void needs_freedom(const char* key, Freedom freedom, const char* name) const {
         if (case_.ship.free[freedom]) return;
@@ -69,14 +82,20 @@ private:
         if (power && !has("propulsion.propeller_diameter"))
             complaints_.add_at("propulsion.power",
                                "propulsion.power needs propulsion.propeller_diameter");
-        if (!pull && !power && has("propulsion.open_water_speed"))
+        const bool asks = has("propulsion.hold_speed") && has("propulsion.propeller_diameter") &&
+                          has("propulsion.open_water_speed");  // for the power that it takes
+        if (!pull && !power && !asks && has("propulsion.open_water_speed"))
             complaints_.add_at("propulsion.open_water_speed",
-                               "propulsion.open_water_speed is given, but only "
-                               "propulsion.bollard_pull and propulsion.power take it");
-        if (!power && has("propulsion.propeller_diameter"))
+                               "propulsion.open_water_speed is given, but only bollard_pull, power "
+                               "and, with propeller_diameter, hold_speed take it");
+        if (!pull && !power && !asks && has("propulsion.propeller_diameter"))
             complaints_.add_at("propulsion.propeller_diameter",
-                               "propulsion.propeller_diameter is given, but only "
-                               "propulsion.power takes it");
+                               "propulsion.propeller_diameter is given, but only power, "
+                               "bollard_pull and, with open_water_speed, hold_speed take it");
+        if (asks && has("propulsion.resistance_table"))
+            complaints_.add_at("propulsion.resistance_table",
+                               "propulsion.resistance_table is given, but the power of a held "
+                               "speed is that of a net thrust; leave it or open_water_speed out");
         if ((pull || power) && has("propulsion.resistance_table"))
             complaints_.add_at("propulsion.resistance_table",
                                "propulsion.resistance_table is given, but net thrust is less the "
@@ -123,10 +142,6 @@ void take_drift(Case& checked, std::size_t groups, const Values& values,
         given == values.end() ||
         std::get<std::vector<double>>(given->second) == std::vector<double>{0.0, 0.0})
         checked.current = checked.drift_velocity;
-    if (checked.has_level_ice())
-        complaints.add_at("ice.drift_velocity",
-                          "ice.drift_velocity is given, but level ice is broken along the ship's "
-                          "course over ground; leave it out and give the ship the opposite speed");
     for (std::size_t g = 0; g < groups; ++g) {
         FloeGroup& group = checked.floes[g];
         if (group.velocity.isZero(0.0)) group.velocity = Vec3(x, y, 0.0);

@@ -106,15 +106,16 @@ private:
             complaints_.add_at(
                 label, fmt::format("{}: file {} not found; make it with {}",
                                    counted_from_one(label), path.string(), maker_of(path, label)));
-        else if (const std::string other = other_kind(path); !other.empty())
+        else if (const std::string other = other_kind(path, label); !other.empty())
             complaints_.add_at(
                 label, fmt::format("{}: {} is {}", counted_from_one(label), path.string(), other));
         return path.string();
     }
 
     // what was given in place of a sphere set or a field, and what to do; "" where it may be one
-    static std::string other_kind(const std::filesystem::path& path) {
+    static std::string other_kind(const std::filesystem::path& path, const std::string& label) {
         if (std::filesystem::is_directory(path)) return "a folder; name a file in it";
+        if (label == "ship.matrix") return "";  // a text, which says what it is as it is read
         if (path.extension() == ".toml" || path.extension() == ".cfg")
             return "a text; a specification becomes a field with icefield";
         const auto mesh = recognise_file(path, "");
@@ -129,6 +130,7 @@ private:
         if (std::filesystem::exists(folder / "spheres.txt"))
             return fmt::format("cases/prepare.sh {}", folder.string());
         if (label == "flow.file") return "iceflow";
+        if (label == "ship.matrix") return "examples/ship_matrix.py";
         return label.ends_with(".file") ? "icefield" : "spherize";
     }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -26,6 +27,7 @@ struct ShipKeys {
     Vec3 gyration = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());           ///< [m]
     std::array<double, kFreedoms> added_mass{};  ///< share of mass and of moments of inertia
     bool computes_added_mass = false;            ///< from the hull, in place of those shares
+    std::filesystem::path matrix;  ///< added mass and damping of another program; empty: none
     /// Share of critical damping where something restores, else N s/m or N m s.
     std::array<double, kFreedoms> damping{};
 

@@ -47,6 +47,11 @@ std::vector<CaseKey> body_keys() {
                  std::holds_alternative<std::string>(v) && place_in(text(v), kAddedMasses) == 1;
              if (std::holds_alternative<std::vector<double>>(v)) c.ship.added_mass = vector6(v);
          }},
+        {"ship.matrix", Kind::path, D::none, "-", 0, 0, 0, "",
+         "File of added mass and damping, 6 x 6, that another program computed, as "
+         "examples/ship_matrix.py writes it; relative to the case file. In 3D, without "
+         "ship.added_mass; its damping adds to ship.damping.",
+         [](Case& c, G&, const Value& v) { c.ship.matrix = text(v); }},
         {"ship.damping", Kind::vector, D::none, "[0.0, 0.0, 0.0, 0.0, 0.0, 0.0]", 0, kHuge, 6, "",
          "Linear damping of surge to yaw: share of the critical one where water, mooring or tow "
          "restores, else N s/m (N m s).",
@@ -74,13 +79,15 @@ std::vector<CaseKey> propulsion_keys() {
          "of bollard_pull.",
          [](Case& c, G&, const Value& v) { c.propulsion.power = number(v); }},
         {"propulsion.propeller_diameter", Kind::number, D::length, "-", 1e-6, 100, 0, "",
-         "With propulsion.power.",
+         "With propulsion.power; with bollard_pull or hold_speed for the power that the thrust "
+         "takes.",
          [](Case& c, G&, const Value& v) { c.propulsion.propeller_diameter = number(v); }},
         {"propulsion.screws", Kind::integer, D::none, "1", 1, 3, 0, "",
-         "Number of propellers, with propulsion.power.",
+         "Number of propellers, with propulsion.propeller_diameter.",
          [](Case& c, G&, const Value& v) { c.propulsion.screws = integer(v); }},
         {"propulsion.open_water_speed", Kind::number, D::speed, "-", 1e-6, 50, 0, "",
-         "Speed at which the net thrust is zero, with bollard_pull or power.",
+         "Speed at which the net thrust is zero, with bollard_pull or power; with hold_speed for "
+         "the power that the thrust takes.",
          [](Case& c, G&, const Value& v) { c.propulsion.open_water_speed = number(v); }},
         {"propulsion.hold_speed", Kind::number, D::speed, "-", -50, 50, 0, "",
          "Speed that the thrust is steered to hold: the thrust is a result.",

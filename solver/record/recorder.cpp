@@ -202,7 +202,7 @@ void Recorder::add_ship(const StepView& view) {
     row_.ship_orientation = view.scene.bodies.orientation[kShip];
     row_.ship_velocity = view.scene.bodies.velocity[kShip];
     row_.thrust += ship.loads().thrust;
-    row_.tow_force += ship.loads().tow.force;
+    row_.tow_force += ship.loads().tow.force + ship.loads().mooring.force;
 }
 
 void Recorder::add_history(const StepView& view, const StepRecord& record) {

@@ -39,6 +39,7 @@ void ShipStatistics::carry(CheckpointFile& file) {
     file.carry("ship_tally.speed", speed_);
     file.carry("ship_tally.thrust", thrust_);
     file.carry("ship_tally.tow", tow_);
+    file.carry("ship_tally.mooring", mooring_);
     for (std::size_t k = 0; k < kFreedoms; ++k) {
         file.carry(fmt::format("ship_tally.sum.{}", k), sum_[k]);
         file.carry(fmt::format("ship_tally.square.{}", k), square_[k]);

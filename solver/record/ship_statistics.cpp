@@ -10,6 +10,7 @@
 #include "common/base/assert.hpp"
 #include "solver/record/periodogram.hpp"
 #include "solver/record/statistics.hpp"
+#include "solver/ship/delivered_power.hpp"
 
 namespace ice {
 
@@ -47,6 +48,7 @@ void ShipStatistics::add(const FreeShip& ship, const Scene& scene, const Case& p
     speed_.push_back(speed);
     thrust_.push_back(ship.loads().thrust);
     tow_.push_back(ship.loads().tow.force.x());
+    mooring_.push_back(ship.loads().mooring.force.x());
     const ShipRig& rig = ship.rig();
     const Vec3 centre = b.position[kShip] + b.rotation[kShip] * rig.body.centre_of_gravity;
     const Vec3 off = centre - rig.anchor, turned = ship.angles();
@@ -109,6 +111,15 @@ void ShipStatistics::fill_means(const ShipRig& rig, const Case& p,
         out["tow_fx_mean_N"] = mean_of_history(tow_);
         out["tow_fx_std_N"] = standard_deviation(tow_);
     }
+    if (rig.body.free[surge] && p.mooring.stiffness[surge] > 0.0) {
+        out["mooring_fx_mean_N"] = mean_of_history(mooring_);
+        out["mooring_fx_std_N"] = standard_deviation(mooring_);
+    }
+    double power = 0.0;  // the water's own speed is along the course
+    for (std::size_t k = 0; k < speed_.size(); ++k)
+        power += delivered_power(p.propulsion, thrust_[k], speed_[k] - p.current[0]);
+    if (std::isfinite(power))
+        out["delivered_power_mean_W"] = power / static_cast<double>(speed_.size());
     const auto steps = static_cast<double>(speed_.size());
     constexpr const char* kNames[] = {"surge", "sway", "heave", "roll", "pitch", "yaw"};
     const bool moored = p.mooring.stiffness[surge] > 0.0;

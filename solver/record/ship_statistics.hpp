@@ -33,7 +33,7 @@ private:
     void fill_means(const ShipRig& rig, const Case& parameters,
                     std::map<std::string, double>& out) const;
 
-    std::vector<double> speed_, thrust_, tow_;  ///< per averaged step [m/s], [N]
+    std::vector<double> speed_, thrust_, tow_, mooring_;  ///< per averaged step [m/s], [N]
     /// Sums over the averaged steps of the offsets from equilibrium and course in the six motions
     /// [m], [rad], and of their squares. Surge has none.
     SixNumbers sum_{}, square_{};

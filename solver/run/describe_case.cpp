@@ -41,6 +41,10 @@ std::string motion_line(const World& w) {
         if (rig.body.free[k]) free.emplace_back(kNames[k]);
     std::string out =
         fmt::format("\n  free       {}: {:.4g} t", fmt::join(free, ", "), 1e-3 * rig.body.mass);
+    if (rig.body.coupling > 0.0)
+        out += fmt::format(
+            "; ship.matrix couples motions by up to {:.2g} of their masses, which is left out",
+            rig.body.coupling);
     if (!rig.body.floats()) return out;
     const Equilibrium& e = rig.equilibrium;
     constexpr double kDegree = std::numbers::pi / 180.0;

@@ -5,11 +5,30 @@
 #include <cmath>
 
 #include "common/math/ordered_products.hpp"
-#include "solver/flow/added_mass.hpp"
 #include "solver/integrate/rotation.hpp"
+#include "solver/ship/ship_matrix.hpp"
 #include "solver/water/hydrostatics.hpp"
 
 namespace ice {
+
+namespace {
+
+void take_diagonal(const Mat6& matrix, SixNumbers& out) {
+    for (int k = 0; k < kFreedoms; ++k) out[static_cast<std::size_t>(k)] = matrix(k, k);
+}
+
+// About the centre of gravity.
+void take_matrix(const ShipMatrix& given, ShipBody& out) {
+    const Vec3 arm = out.centre_of_gravity - given.about;
+    Mat6 mass = moved(given.added, arm);
+    take_diagonal(mass, out.added);
+    take_diagonal(moved(given.damping, arm), out.water_damping);
+    mass.diagonal().head<3>().array() += out.mass;
+    mass.diagonal().tail<3>() += out.inertia;
+    out.coupling = largest_coupling(mass);
+}
+
+}  // namespace
 
 bool ShipBody::any_free() const {
     return std::any_of(free.begin(), free.end(), [](bool f) { return f; });
@@ -34,11 +53,12 @@ ShipBody make_ship_body(const Case& p, const Scene& scene) {
         out.added[turn] = p.ship.added_mass[turn] * out.inertia[k];
     }
     if (p.ship.computes_added_mass) {
-        const Mat6 found = ship_added_mass(hull.mesh, -scene.bodies.position[kShip].z(),
-                                           out.centre_of_gravity, p.water_density)
-                               .matrix;
-        for (int k = 0; k < kFreedoms; ++k) out.added[static_cast<std::size_t>(k)] = found(k, k);
+        take_diagonal(ship_added_mass(hull.mesh, -scene.bodies.position[kShip].z(),
+                                      out.centre_of_gravity, p.water_density)
+                          .matrix,
+                      out.added);
     }
+    if (!p.ship.matrix.empty()) take_matrix(read_ship_matrix(p.ship.matrix), out);
     return out;
 }
 

@@ -14,9 +14,11 @@ using SixNumbers = std::array<double, kFreedoms>;
 /// What stays the same for a run.
 struct ShipBody {
     std::array<bool, kFreedoms> free{};
-    double mass = 0.0;                      ///< [kg], 2D per metre of breadth
-    Vec3 inertia = Vec3::Zero();            ///< about the centre of gravity, ship axes [kg m2]
-    SixNumbers added{};                     ///< added mass [kg] and inertia [kg m2], ship axes
+    double mass = 0.0;            ///< [kg], 2D per metre of breadth
+    Vec3 inertia = Vec3::Zero();  ///< about the centre of gravity, ship axes [kg m2]
+    SixNumbers added{};           ///< added mass [kg] and inertia [kg m2], ship axes
+    SixNumbers water_damping{};   ///< of ship.matrix, likewise [N s/m], [N m s]
+    double coupling = 0.0;        ///< largest_coupling() of mass and ship.matrix, which is left out
     Vec3 centre_of_gravity = Vec3::Zero();  ///< ship frame [m]
     Vec3 gyration = Vec3::Zero();           ///< [m]
 
@@ -31,8 +33,9 @@ struct ShipBody {
 /// Default mass: water_density times the submerged volume. Default centre of gravity: the centre of
 /// buoyancy, so that the ship is upright as placed. Default radii of gyration: 0.35 of the box's
 /// breadth, 0.25 of its length (usual shares; recall, not looked up). Computed added mass is the
-/// diagonal of ship_added_mass() about the centre of gravity, upright at the height of the scene.
-/// @throws Error as ship_added_mass
+/// diagonal of ship_added_mass() about the centre of gravity, upright at the height of the scene;
+/// that of ship.matrix is the diagonal there as well.
+/// @throws Error as ship_added_mass, read_ship_matrix
 ShipBody make_ship_body(const Case& parameters, const Scene& scene);
 
 /// Roll, pitch and yaw [rad]: R = R_z(yaw) R_y(pitch) R_x(roll). Positive pitch is bow down,

@@ -45,7 +45,9 @@ void set_damping(const Case& p, ShipRig& rig) {
         if (!rig.body.free[i]) continue;
         const double mass = k < 3 ? masses.shift(k, k) : masses.turn(k - 3, k - 3);
         const bool springs = stiffness[i] > 0.0;
-        rig.damping[i] = p.ship.damping[i] * (springs ? 2.0 * std::sqrt(stiffness[i] * mass) : 1.0);
+        rig.damping[i] =
+            p.ship.damping[i] * (springs ? 2.0 * std::sqrt(stiffness[i] * mass) : 1.0) +
+            rig.body.water_damping[i];
         if (springs)
             require_short_steps(p, kNames[k], p.time_step * std::sqrt(stiffness[i] / mass));
         if (k == surge)

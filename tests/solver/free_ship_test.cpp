@@ -2,12 +2,17 @@
 // A ship that answers, without ice: periods, stability, damping, thrust, lines.
 #include "solver/ship/free_ship.hpp"
 
+#include <fmt/format.h>
+
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
 
 #include "common/base/error.hpp"
 #include "solver/flow/added_mass.hpp"
+#include "solver/ship/delivered_power.hpp"
+#include "solver/ship/ship_matrix.hpp"
+#include "tests/common/fixtures.hpp"
 #include "tests/support/make_ships.hpp"
 
 using namespace ice;
@@ -174,6 +179,47 @@ TEST_CASE("the water that a hull's panels move along slows its heave and surge",
           Approx(5000.0 * 30.0 / (Barge::kMass + added(0, 0))).epsilon(1e-12));
 }
 
+TEST_CASE("a matrix about another point gives each motion the same energy", "[ship][analytic]") {
+    const Mat6 random = Mat6::NullaryExpr([](int i, int j) { return std::sin(3 * i + 7 * j); });
+    const Mat6 matrix = random * random.transpose();
+    const Vec3 arm(0.7, -0.4, 1.1);  // from the old point to the new one
+    const Mat6 there = moved(matrix, arm);
+    for (int k = 0; k < 6; ++k) {
+        const Eigen::Matrix<double, 6, 1> motion = random.col(k);
+        Eigen::Matrix<double, 6, 1> old = motion;
+        old.head<3>() -= Vec3(motion.tail<3>()).cross(arm);
+        CHECK(motion.dot(there * motion) == Approx(old.dot(matrix * old)).epsilon(1e-12));
+    }
+    Mat6 coupled = Mat6::Identity();
+    coupled(1, 5) = coupled(5, 1) = 0.5;
+    coupled(5, 5) = 4.0;
+    CHECK(largest_coupling(coupled) == Approx(0.25));
+    CHECK(largest_coupling(Mat6::Zero()) == 0.0);
+}
+
+TEST_CASE("a ship heaves with the water of its matrix file", "[ship]") {
+    const TempFolder folder;
+    const double added = 1.5 * Barge::kMass, stiffness = 1000.0 * Barge::kGravity * 20.0;
+    const double zeta = 0.05, damping = 2.0 * zeta * std::sqrt(stiffness * (Barge::kMass + added));
+    std::string text = "about = [0.3, 0.0, 0.2]\n";
+    for (const auto& [table, heaves] : {std::pair("added_mass", added), {"damping", damping}}) {
+        text += fmt::format("[{}]\n", table);
+        for (const char* row : {"surge", "sway", "heave", "roll", "pitch", "yaw"})
+            text += fmt::format("{} = [0, 0, {}, 0, 0, 0]\n", row,
+                                std::string_view(row) == "heave" ? heaves : 0.0);
+    }
+    write_bytes(folder / "ship.toml", text);
+    Case p = barge_case({heave});
+    p.ship.matrix = folder / "ship.toml";
+    World w = barge_world(p);
+    CHECK(w.ship.rig().body.added[pitch] == Approx(0.3 * 0.3 * added).margin(1e-6));
+    CHECK(w.ship.rig().body.coupling > 0.0);
+    const std::vector<double> z = decay(w, heave, 0.1, 3000);
+    const double period =
+        2.0 * kPi * std::sqrt((Barge::kMass + added) / stiffness / (1.0 - zeta * zeta));
+    CHECK(period_of(z, 0.01) == Approx(period).epsilon(1e-4));
+}
+
 TEST_CASE("thrust accelerates mass and added mass", "[ship]") {
     Case p = barge_case({surge});
     p.ship.added_mass[surge] = 0.05;
@@ -239,6 +285,16 @@ TEST_CASE("bollard pull of a power is K (P D)^(2/3)", "[ship]") {
         p.screws = screws;
         CHECK(bollard_pull(p) == Approx(1e3 * k * std::pow(40000.0, 2.0 / 3.0)));
     }
+    CHECK(delivered_power(p, 1.0, 3.0) == 10e6);
+    Propulsion held;  // the power that its thrust takes
+    CHECK(std::isnan(delivered_power(held, 1e5, 3.0)));
+    held.propeller_diameter = 4.0;
+    held.open_water_speed = 8.0;
+    held.screws = 3;
+    for (const double u : {-1.0, 0.0, 3.0})
+        CHECK(delivered_power(held, thrust_at(p, u), u) == Approx(10e6).epsilon(1e-12));
+    CHECK(delivered_power(held, -1.0, 3.0) == 0.0);
+    CHECK(std::isinf(delivered_power(held, 1.0, 8.0)));
     CHECK(thrust_at(p, 8.0) == Approx(0.0).margin(1e-6));
     CHECK(thrust_at(p, -1.0) == bollard_pull(p));
     CHECK(thrust_at(p, 4.0) == Approx(bollard_pull(p) * (1.0 - 1.0 / 6.0 - 1.0 / 6.0)));

@@ -157,6 +157,21 @@ TEST_CASE("a ship that rams held ice stops or comes back", "[ship][held]") {
     }
 }
 
+TEST_CASE("a ship of which every motion is locked has the bits of one that has no mass",
+          "[ship][determinism]") {
+    World plain = rough_ride(4000.0, {}), locked = rough_ride(4000.0, {});
+    plain.parameters.ship = {};
+    locked.parameters.ship.gyration = Vec3(1.0, 2.0, 3.0);
+    locked.parameters.ship.added_mass.fill(0.3);
+    locked.parameters.ship.damping.fill(0.1);
+    for (int k = 0; k < 60; ++k) {
+        step(plain);
+        step(locked);
+    }
+    CHECK(state_hash(plain.scene, plain.constraints) ==
+          state_hash(locked.scene, locked.constraints));
+}
+
 TEST_CASE("a free ship has the same bits for all threads and instruction sets",
           "[ship][determinism]") {
     const int before = thread_count();

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/ship/delivered_power.hpp"
+
+#include <cmath>
+
+#include "solver/ship/thrust.hpp"
+
+namespace ice {
+
+double delivered_power(const Propulsion& p, double thrust, double speed) {
+    if (!std::isnan(p.power)) return p.power;
+    if (std::isnan(p.propeller_diameter) || std::isnan(p.open_water_speed))
+        return std::numeric_limits<double>::quiet_NaN();
+    if (thrust <= 0.0) return 0.0;
+    Propulsion watt;  // thrust goes with the power to 2/3
+    watt.power = 1.0;
+    watt.propeller_diameter = p.propeller_diameter;
+    watt.screws = p.screws;
+    watt.open_water_speed = p.open_water_speed;
+    const double of_watt = thrust_at(watt, speed);
+    if (of_watt <= 0.0) return std::numeric_limits<double>::infinity();
+    return std::pow(thrust / of_watt, 1.5);
+}
+
+}  // namespace ice
