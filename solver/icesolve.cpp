@@ -120,9 +120,17 @@ void say_warnings(const std::vector<ice::Warning>& warnings) {
     for (const ice::Warning& warning : warnings) ice::say_warning(ice::with_verdict(warning));
 }
 
+// Before the run, which measures what no look at the case tells.
+void say_forecasts(const std::vector<ice::Warning>& warnings) {
+    for (const ice::Warning& warning : warnings)
+        ice::say_warning(warning.affects_mean
+                             ? ice::with_verdict(warning)
+                             : warning.text + " (the run measures the effect on the mean)");
+}
+
 // All that --check does.
 int describe(const ice::Options& o, ice::World& world, const std::vector<ice::Warning>& warnings) {
-    say_warnings(warnings);
+    say_forecasts(warnings);
     const std::string ice =
         world.edge.lives() ? "level ice" : fmt::format("{} floes", world.scene.bodies.size() - 1);
     ice::say(fmt::format("{}: {}, {}\n{}", o.case_file,
@@ -161,7 +169,7 @@ int run_case(const ice::Options& o, const std::string& command_line) {
     const std::filesystem::path& folder = claimed.path();
     ice::log_to_file(folder / "run.log", going_on != nullptr);
     ice::say(fmt::format("icesolve {} ({}): {}", ice::version(), ice::git_commit(), command_line));
-    say_warnings(warnings);
+    say_forecasts(warnings);
     ice::catch_interrupts();
     ice::Progress progress("icesolve", o.messages.quiet);
     const ice::Timer timer;

@@ -14,8 +14,10 @@ Warning judged(std::string text, std::optional<double> share) {
 
 std::string with_verdict(const Warning& w) {
     if (!w.affects_mean) return w.text + " (effect on the mean resistance: not measured)";
-    const std::string about =
-        w.share ? fmt::format(": about {:.2g} % of it", 100.0 * *w.share) : std::string();
+    const double percent = 100.0 * w.share.value_or(0.0);
+    const std::string about = !w.share         ? std::string()
+                              : percent < 9.95 ? fmt::format(": about {:.2g} % of it", percent)
+                                               : fmt::format(": about {:.0f} % of it", percent);
     const char* verb = *w.affects_mean ? "affects" : w.share ? "hardly affects" : "does not affect";
     return fmt::format("{} ({} the mean resistance{})", w.text, verb, about);
 }

@@ -96,9 +96,9 @@ private:
                              0.01 * out <= key.high;
         complain(
             node.source(),
-            fmt::format("{} = {:g} is outside [{:g}, {:g}] {}", key.path, out, key.low, key.high,
+            fmt::format("{} = {:g} is outside [{:g}, {:g}]{}", key.path, out, key.low, key.high,
                         percent ? fmt::format("; {0:g} % is {1:g}, or \"{0:g} %\"", out, 0.01 * out)
-                        : has_unit(dimension) ? si_unit(dimension)
+                        : has_unit(dimension) ? fmt::format(" {}", si_unit(dimension))
                                               : ""),
             1);
         return false;

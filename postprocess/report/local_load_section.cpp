@@ -72,13 +72,20 @@ Units units_of(const RunData& run, const ForceUnit& force) {
 std::string peak_table(const Regions& regions, const Summary& s, const Units& units,
                        double lengths) {
     const double hours = (s.simulated_s - s.average_from) / 3600.0;
+    double most = 0.0;
+    for (const auto& [name, region] : regions)
+        most = std::max(most, static_cast<double>(region.force_peaks->count));
+    const auto per = [most](double count, double whole) {  // one number of digits for all regions
+        return std::isfinite(whole) && whole > 0.0
+                   ? fmt::format("{:.{}f}", count / whole, three_digits(most / whole))
+                   : std::string("n/a");
+    };
     std::vector<std::vector<std::string>> rows;
     for (const auto& [name, region] : regions) {
         const PeakStatistics& peaks = *region.force_peaks;
         const auto count = static_cast<double>(peaks.count);
         rows.push_back(
-            {name, std::to_string(peaks.count), readable(count / hours),
-             std::isfinite(lengths) && lengths > 0.0 ? readable(count / lengths) : "n/a",
+            {name, std::to_string(peaks.count), per(count, hours), per(count, lengths),
              units.force.text(peaks.mean), units.force.text(peaks.p99), units.force.text(peaks.max),
              region.line_load_peaks ? units.line_load(region.line_load_peaks->p99) : "",
              region.line_load_peaks ? units.line_load(region.line_load_peaks->max) : ""});

@@ -19,6 +19,18 @@ namespace {
 
 double size_of(double value) { return std::isfinite(value) ? std::abs(value) : 0.0; }
 
+// Numbers of one column: four digits of the largest, as many decimals in all.
+std::vector<std::string> column(const std::vector<double>& values) {
+    double largest = 0.0;
+    for (const double value : values) largest = std::max(largest, size_of(value));
+    ForceUnit plain{"", 1.0, 0};
+    if (largest > 0.0)
+        plain.decimals = std::clamp(3 - static_cast<int>(std::floor(std::log10(largest))), 0, 6);
+    std::vector<std::string> out;
+    for (const double value : values) out.push_back(plain.text(value));
+    return out;
+}
+
 std::string spelled(std::string key) {
     if (key.size() > 2 && key.ends_with("_J")) key.resize(key.size() - 2);
     std::replace(key.begin(), key.end(), '_', ' ');
@@ -138,9 +150,12 @@ std::string region_table(const Summary& s, const ForceUnit& unit) {
                                     "Mean x" + in, "Of it friction"};
     if (!flat) header.push_back("Mean y" + in);
     header.push_back("Mean z" + in);
+    std::vector<double> impulse;
+    for (const auto& [name, r] : s.regions) impulse.push_back(r.max_impulse);
+    const std::vector<std::string> impulses = column(impulse);
     std::vector<std::vector<std::string>> rows;
     for (const auto& [name, r] : s.regions) {
-        rows.push_back({name, std::to_string(r.hits), readable(r.max_impulse), unit.text(r.mean[0]),
+        rows.push_back({name, std::to_string(r.hits), impulses[rows.size()], unit.text(r.mean[0]),
                         unit.text(r.friction_mean[0])});
         if (!flat) rows.back().push_back(unit.text(r.mean[1]));
         rows.back().push_back(unit.text(r.mean[2]));
@@ -166,17 +181,27 @@ std::string energy_table(const Summary& s) {
         {"residual_J", "Not explained"}};
     const auto work = s.energy.find("ship_work_J");
     if (work == s.energy.end() || !s.energy.contains("residual_J")) return "";
-    std::vector<std::vector<std::string>> rows;
+    std::vector<std::string> names;
+    std::vector<double> values;
     for (const auto& [key, name] : kRows) {
         const auto found = s.energy.find(key);
         if (found == s.energy.end()) continue;
-        const double percent = 100.0 * found->second / work->second;
+        names.emplace_back(name);
+        values.push_back(found->second);
+    }
+    ForceUnit unit =
+        choose_unit(*std::max_element(values.begin(), values.end(),
+                                      [](double l, double r) { return size_of(l) < size_of(r); }),
+                    s.dimension);
+    unit.name[unit.name.find('N')] = 'J';
+    std::vector<std::vector<std::string>> rows;
+    for (std::size_t k = 0; k < names.size(); ++k) {
+        const double percent = 100.0 * values[k] / work->second;
         const double share = std::round(100.0 * percent) / 100.0 + 0.0;  // no -0
-        rows.push_back({name, readable(found->second),
+        rows.push_back({names[k], unit.text(values[k]),
                         std::isfinite(share) ? fmt::format("{:.2f}", share) : "n/a"});
     }
-    return table({s.dimension == 2 ? "Energy [J/m]" : "Energy [J]", "Whole run", "Share [%]"},
-                 rows);
+    return table({"Energy [" + unit.name + "]", "Whole run", "Share [%]"}, rows);
 }
 
 std::string numerics_table(const Summary& s) {
@@ -187,7 +212,7 @@ std::string numerics_table(const Summary& s) {
         {"Steps that did not converge", fmt::format("{} of {}", s.unconverged_steps, s.steps)},
         {"Spheres", fmt::format("{} hull, {} ice", s.hull_spheres, s.ice_spheres)}};
     for (const auto& [key, value] : s.stage_seconds)
-        rows.emplace_back("Computing time: " + spelled(key), readable(value) + " s");
+        rows.emplace_back("Computing time: " + spelled(key), fmt::format("{:.2f} s", value));
     return facts(rows);
 }
 

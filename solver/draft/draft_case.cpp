@@ -84,7 +84,7 @@ void place_ship(World& w, Draft& draft) {
     const double gap = 2.0 * w.scene.shapes[0].spacing;
     draft.x = std::floor(100.0 * (place.x() + course.clearance - gap)) / 100.0;
     const double step = rounded(0.01 * ship.sizes().y(), 1);  // no digits nobody means
-    draft.y = step * std::round(place.y() / step);
+    draft.y = step * std::round(place.y() / step) + 0.0;      // no -0
     place.x() = draft.x;
     place.y() = draft.y;
 }

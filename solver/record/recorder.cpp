@@ -177,7 +177,7 @@ void Recorder::add(const StepView& view) {
                        : std::optional(residual_impulse(view.scene.bodies, view.constraints, dt_));
     statistics_.add(record, view.time, dt_, residual);
     if (is_look_due(view.time))
-        statistics_.add_look(measure_overlaps(view.scene, view.contacts), view.time);
+        statistics_.add_look(measure_overlaps(view.scene, view.contacts), record, view.time);
     panel_loads_.add(view.contacts, view.constraints, view.time);
     measure_floe_forces(view.constraints, dt_, track_of_, tracked_);
     // A frame stores the ship's force on the floe, the record the floe's impulse on the ship.

@@ -113,6 +113,10 @@ void RunStatistics::carry(CheckpointFile& file) {
     file.carry("tally.unseen_time", unseen_time_);
     file.carry("tally.unseen_a", unseen_a_);
     file.carry("tally.unseen_b", unseen_b_);
+    file.carry("tally.unseen_all", unseen_loads_.all);
+    file.carry("tally.unseen_doubtful", unseen_loads_.doubtful);
+    file.carry("tally.unseen_pressing", unseen_loads_.pressing);
+    file.carry("tally.unseen_missing", unseen_loads_.missing);
     file.carry("tally.kinetic", kinetic_);
     file.carry("tally.kinetic_max", kinetic_max_);
     file.carry("tally.first_jam_time", first_jam_time_);

@@ -63,25 +63,48 @@ void RunStatistics::add(const StepRecord& record, double time, double dt,
     kinetic_max_ = std::max(kinetic_max_, kinetic_);
     add_jam(record, time);
 
-    const bool averaged = time >= options_.average_from - 1e-9;
+    const bool averaged = is_averaged(time);
     add_regions(record, averaged);
     if (!averaged) return;
     residual_ += residual.value_or(0.0);
     add_averaged(record, dt);
 }
 
-void RunStatistics::add_look(const OverlapFound& found, double time) {
+void RunStatistics::add_look(const OverlapFound& found, const StepRecord& record, double time) {
     ++looks_;
-    doubtful_looks_ += found.unseen > options_.worrying_overlap ? 1 : 0;
     if (found.deepest > max_overlap_) {
         max_overlap_ = found.deepest;
         deepest_time_ = time;
     }
-    if (found.unseen <= unseen_overlap_) return;
-    unseen_overlap_ = found.unseen;
-    unseen_time_ = time;
-    unseen_a_ = found.a;
-    unseen_b_ = found.b;
+    std::vector<UnseenOverlap> worrying;
+    for (const UnseenOverlap& pair : found.unseen) {
+        if (pair.depth > options_.worrying_overlap) worrying.push_back(pair);
+        if (pair.depth <= unseen_overlap_) continue;
+        unseen_overlap_ = pair.depth;
+        unseen_time_ = time;
+        unseen_a_ = pair.a;
+        unseen_b_ = pair.b;
+    }
+    doubtful_looks_ += worrying.empty() ? 0 : 1;
+    if (is_averaged(time)) add_unseen_loads(worrying, record);
+}
+
+void RunStatistics::add_unseen_loads(const std::vector<UnseenOverlap>& worrying,
+                                     const StepRecord& record) {
+    std::set<std::int32_t> pressing, doubtful, in_hull;
+    for (const UnseenOverlap& pair : worrying) {
+        doubtful.insert({pair.a, pair.b});
+        if (pair.a == 0) in_hull.insert(pair.b);
+    }
+    for (const RegionImpulse& r : record.regions) {
+        pressing.insert(r.floe);
+        unseen_loads_.all += r.impulse.x();
+        if (doubtful.contains(r.floe)) unseen_loads_.doubtful += r.impulse.x();
+    }
+    unseen_loads_.pressing += std::ssize(pressing);
+    unseen_loads_.missing += std::count_if(in_hull.begin(), in_hull.end(), [&](std::int32_t floe) {
+        return !pressing.contains(floe);
+    });
 }
 
 void RunStatistics::add_averaged(const StepRecord& record, double dt) {

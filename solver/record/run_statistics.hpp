@@ -36,7 +36,7 @@ public:
     void add(const StepRecord& record, double time, double dt, std::optional<double> residual);
 
     /// What a look at the solids found at the end of a step.
-    void add_look(const OverlapFound& found, double time);
+    void add_look(const OverlapFound& found, const StepRecord& record, double time);
 
     /// Fills in forces, regions, contacts, energy and warnings of a summary.
     /// @pre the summary holds the ledger's energies
@@ -53,21 +53,33 @@ private:
         Vec3 friction = Vec3::Zero();  ///< the part of friction in it
     };
 
+    bool is_averaged(double time) const { return time >= options_.average_from - 1e-9; }
+
     /// Averaged steps of a doubtful kind.
     struct Doubtful {
         double force = 0.0;  ///< sum of their forces along x [N]
         std::int64_t steps = 0;
     };
 
+    /// Loads on the hull at the looks of the averaged time.
+    struct UnseenLoads {
+        double all = 0.0, doubtful = 0.0;  ///< sums along x; of floes in worrying overlaps [N s]
+        std::int64_t pressing = 0;         ///< floes that press on the hull
+        std::int64_t missing = 0;          ///< floes that lie in it unseen and do not press
+    };
+
     void add_averaged(const StepRecord& record, double dt);
     void add_regions(const StepRecord& record, bool averaged);
     void add_jam(const StepRecord& record, double time);
+    void add_unseen_loads(const std::vector<UnseenOverlap>& worrying, const StepRecord& record);
 
-    // tally_warnings.cpp
+    // run_statistics_warnings.cpp
     void warn(Summary& summary) const;
     Warning warn_of_jam(const Summary& summary) const;
     Warning warn_of_overlap(const Summary& summary) const;
     Warning warn_of_unseen() const;
+    void judge_start(Summary& summary) const;
+    std::optional<double> unseen_share() const;
     Warning warn_of_tunnelling(const Summary& summary) const;
     std::optional<double> change_without(const Doubtful& steps, double mean) const;
 
@@ -84,6 +96,7 @@ private:
                  doubtful_looks_ = 0;  ///< at the solids; with a worrying unseen overlap
     double unseen_overlap_ = 0.0, unseen_time_ = 0.0;
     std::int32_t unseen_a_ = 0, unseen_b_ = 0;
+    UnseenLoads unseen_loads_;
     double kinetic_ = 0.0, kinetic_max_ = 0.0;
     double impulse_ = 0.0, residual_ = 0.0;  ///< sums over the averaged time [N s]
     Doubtful jam_, fast_;

@@ -99,15 +99,40 @@ void RunStatistics::warn(Summary& summary) const {
             peaks));
     if (max_overlap_ > options_.worrying_overlap && matters(share_of_separation(summary)))
         warnings.push_back(warn_of_overlap(summary));
-    if (unseen_overlap_ > options_.worrying_overlap) warnings.push_back(warn_of_unseen());
+    if (unseen_overlap_ > options_.worrying_overlap && matters(unseen_share()))
+        warnings.push_back(warn_of_unseen());
     if (closing_speed_ > options_.tunnelling_speed) warnings.push_back(warn_of_tunnelling(summary));
     warn_of_averages(summary);
     if (contacts_max_ == 0.0) {
         Warning nothing;
         nothing.text = "nothing touched anything: is the hull on its way to the ice?";
         nothing.affects_mean = true;
+        nothing.share = 1.0;
         warnings.push_back(nothing);
     }
+    judge_start(summary);
+}
+
+// What was warned of at the start without a verdict lets bodies into or through each other: wide
+// spacings, long steps, a hull without spheres, overlaps that were allowed. The run has measured
+// that; the largest share is the verdict.
+void RunStatistics::judge_start(Summary& summary) const {
+    std::optional<double> share;
+    for (const auto& measured : {share_of_separation(summary), unseen_share(),
+                                 change_without(fast_, summary.resistance.mean)})
+        if (measured) share = std::max(share.value_or(0.0), *measured);
+    for (Warning& w : summary.warnings)
+        if (!w.affects_mean) w = judged(w.text, share);
+}
+
+// The part of the load on the hull that floes in worrying overlaps bring, and where a floe lies in
+// the hull without pressing on it, the load of a mean floe, which it may lack.
+std::optional<double> RunStatistics::unseen_share() const {
+    const UnseenLoads& u = unseen_loads_;
+    if (looks_ == 0) return std::nullopt;
+    if (u.all == 0.0 || u.pressing == 0) return u.missing > 0 ? 1.0 : 0.0;
+    return std::abs(u.doubtful / u.all) +
+           static_cast<double>(u.missing) / static_cast<double>(u.pressing);
 }
 
 Warning RunStatistics::warn_of_jam(const Summary& summary) const {
@@ -132,7 +157,6 @@ Warning RunStatistics::warn_of_overlap(const Summary& summary) const {
         share_of_separation(summary));
 }
 
-// What force they miss is not known: nothing measured it.
 Warning RunStatistics::warn_of_unseen() const {
     return judged(
         fmt::format("{} and floe {} lay {:.3g} m deeper in each other at t = {:.2f} s than their "
@@ -140,7 +164,7 @@ Warning RunStatistics::warn_of_unseen() const {
                     "pictures and loads on these floes are wrong; use finer ice spheres",
                     name_of(unseen_a_), unseen_b_, unseen_overlap_, unseen_time_, doubtful_looks_,
                     looks_),
-        std::nullopt);
+        unseen_share());
 }
 
 Warning RunStatistics::warn_of_tunnelling(const Summary& summary) const {

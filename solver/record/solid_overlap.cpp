@@ -167,10 +167,7 @@ OverlapFound measure_overlaps(const Scene& scene, const std::vector<Contact>& co
         const Deepest found = deepest_point(scene, a, b, {known, Vec3::Zero()});
         const double depth = deepest_point(scene, b, a, found).depth;
         out.deepest = std::max(out.deepest, depth);
-        if (depth - known <= out.unseen) continue;
-        out.unseen = depth - known;
-        out.a = a;
-        out.b = b;
+        if (depth > known) out.unseen.push_back({a, b, depth - known});
     }
     return out;
 }

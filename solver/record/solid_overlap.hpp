@@ -9,11 +9,16 @@
 
 namespace ice {
 
+/// A pair that lies deeper in each other than its contacts know.
+struct UnseenOverlap {
+    std::int32_t a, b;
+    double depth;  ///< deepest point less what the contacts know [m]
+};
+
 /// What a look at all bodies found; crushed ice is gone and no overlap.
 struct OverlapFound {
-    double deepest = 0.0;  ///< of two solids [m]
-    double unseen = 0.0;   ///< deepest less what the pair's contacts know, of the worst pair [m]
-    std::int32_t a = 0, b = 0;  ///< that pair
+    double deepest = 0.0;               ///< of two solids [m]
+    std::vector<UnseenOverlap> unseen;  ///< in the order of the pairs
 };
 
 /// Two bodies that share room.

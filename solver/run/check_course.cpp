@@ -18,7 +18,8 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr double kLeastShare = 0.02;  // of the averaged time without ice ahead
 constexpr double kMostCells = 4e6;    // of the hull's cross section
 
-// The hull's cross section in cells of y and z, with the foremost point in each [m].
+// The hull's cross section in cells of y and z, with the foremost point in each [m]: of its
+// spheres and of its mesh, whose edges reach beyond them where they are sharp.
 class Front {
 public:
     // @param way  +1 or -1: the ship goes along x or against it
@@ -31,12 +32,11 @@ public:
         columns_ = count(size.y());
         rows_ = count(size.z());
         foremost_.assign(columns_ * rows_, -kNever);
-        for (std::size_t k = 0; k < hull.center.size(); ++k) {
-            const Vec3 p = place + hull.center[k];
-            double& x =
-                foremost_[index(at(p.y() - low_.y(), columns_), at(p.z() - low_.z(), rows_))];
-            x = std::max(x, way_ * p.x() + hull.radius[k]);
-        }
+        for (std::size_t k = 0; k < hull.center.size(); ++k)
+            add(place + hull.center[k], hull.radius[k]);
+        for (const auto& t : hull.mesh.triangles)
+            add_triangle(place + hull.mesh.vertices[t[0]], place + hull.mesh.vertices[t[1]],
+                         place + hull.mesh.vertices[t[2]]);
     }
 
     // How far the ship goes until it meets the cube around a sphere, in whose corners the edges and
@@ -50,6 +50,27 @@ public:
     }
 
 private:
+    void add(const Vec3& p, double ahead) {
+        double& x = foremost_[index(at(p.y() - low_.y(), columns_), at(p.z() - low_.z(), rows_))];
+        x = std::max(x, way_ * p.x() + ahead);
+    }
+    // Points of a triangle no more than a cell apart: rows from its longest edge to the corner.
+    void add_triangle(Vec3 a, Vec3 b, Vec3 c) {
+        for (int k = 0; k < 2 && (b - a).norm() < std::max((c - b).norm(), (a - c).norm()); ++k) {
+            std::swap(a, b);
+            std::swap(b, c);
+        }
+        const double length = (b - a).norm();
+        const double height = length > 0.0 ? (b - a).cross(c - a).norm() / length : 0.0;
+        const double rows = std::ceil(height / cell_), most = std::ceil(length / cell_);
+        for (double j = 0.0; j <= rows; ++j) {
+            const double up = rows > 0.0 ? j / rows : 0.0;
+            const double columns = std::ceil(most * (1.0 - up));
+            for (double i = 0.0; i <= columns; ++i)
+                add(a + up * (c - a) + (1.0 - up) * (columns > 0.0 ? i / columns : 0.0) * (b - a),
+                    0.0);
+        }
+    }
     double distance_to_point(const Vec3& p) const {
         const double column = std::floor((p.y() - low_.y()) / cell_);
         const double row = std::floor((p.z() - low_.z()) / cell_);
@@ -199,7 +220,8 @@ std::vector<Warning> check_course(const World& w) {
                  "the ship runs into unbroken ice, which never gives way, after {:.4g} m at "
                  "{:.4g} s: shorten simulation.duration, or move the ship or the ice",
                  course.clearance_fixed, course.hits_fixed_at),
-             true});
+             true,
+             std::min((p.duration - course.hits_fixed_at) / (p.duration - p.average_from), 1.0)});
     return warnings;
 }
 

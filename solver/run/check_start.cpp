@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "common/base/error.hpp"
@@ -74,6 +75,22 @@ std::string describe(const std::vector<StartOverlap>& overlaps, const char* sepa
     if (overlaps.size() > kMostNamed)
         text += fmt::format("{}and {} pairs more", separator, overlaps.size() - kMostNamed);
     return text;
+}
+
+// How to part them; for a hull in loose ice, whose bow may lie before all of it, with the place.
+std::string remedy(const World& w, const std::vector<StartOverlap>& overlaps) {
+    std::string move = "move the hull (hull.position)";
+    const Eigen::AlignedBox2d& ice = w.scene.start.loose;
+    const bool in_hull = std::any_of(overlaps.begin(), overlaps.end(), [&](const auto& o) {
+        return o.a == kShip && !is_unbroken(w.scene, w.parameters, static_cast<std::size_t>(o.b));
+    });
+    if (in_hull && !ice.isEmpty() && w.parameters.ship_speed(0.0) > 0.0) {
+        const double ahead = box_of(w.scene, kShip).max().x() - ice.min().x();
+        const double x = std::floor(10.0 * (w.scene.bodies.position[kShip].x() - ahead)) / 10.0;
+        move += fmt::format(": with x = {:g} m its bow lies before the ice", x);
+    }
+    return move +
+           ", widen floes.gap or lower simulation.jitter; --allow-overlap goes on all the same";
 }
 
 // The set with the widest spacing, if spheres of other bodies pass between its own.
@@ -177,8 +194,7 @@ std::vector<Warning> check_start(World& world, bool allow_overlap) {
     const auto overlaps = find_start_overlaps(world.scene, world.parameters);
     if (!overlaps.empty() && !allow_overlap)
         throw bad_input(world.parameters.file.string(), describe(overlaps, "\n  "),
-                        "move the hull (hull.position), widen floes.gap or lower "
-                        "simulation.jitter; --allow-overlap runs the case as it is");
+                        remedy(world, overlaps));
     if (!overlaps.empty()) warnings.push_back({describe(overlaps, "; ")});
     warn_of_speed(world, warnings);
     warn_of_spacing(world, warnings);

@@ -116,6 +116,12 @@ void start(Job& job) {
     job.progress.warnings = job.options.start_warnings;
 }
 
+// The part of the averaged time that is over.
+double averaged_share(const World& w) {
+    const Case& p = w.parameters;
+    return std::clamp((w.time - p.average_from) / (p.duration - p.average_from), 0.0, 1.0);
+}
+
 void go_on(Job& job, const SavedRun& saved) {
     const RunOptions& o = job.options;
     job.progress = saved.progress;
@@ -134,9 +140,10 @@ void go_on(Job& job, const SavedRun& saved) {
     const std::string here = fmt::format("icesolve {} ({})", version(), git_commit());
     if (saved.created_by != here)
         job.progress.warnings.push_back(
-            {fmt::format("the run was begun with {} and is resumed with {}: its bits may differ "
-                         "from those of both",
-                         saved.created_by, here)});
+            judged(fmt::format("the run was begun with {} and is resumed with {}: its bits may "
+                               "differ from those of both",
+                               saved.created_by, here),
+                   averaged_share(job.world)));
 }
 
 void save(Job& job, SavedRows rows = SavedRows::beside) {

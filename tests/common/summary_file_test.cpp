@@ -99,6 +99,8 @@ TEST_CASE("warnings that are plain texts, as version 0.1 wrote them, are read", 
 TEST_CASE("a warning says behind its text what it does to the mean", "[formats]") {
     CHECK(with_verdict({"jam", true, 0.125}) ==
           "jam (affects the mean resistance: about 12 % of it)");
+    CHECK(with_verdict({"jam", true, 1.0}) ==
+          "jam (affects the mean resistance: about 100 % of it)");
     CHECK(with_verdict({"jam", true}) == "jam (affects the mean resistance)");
     CHECK(with_verdict({"jam", false, 0.003}) ==
           "jam (hardly affects the mean resistance: about 0.3 % of it)");

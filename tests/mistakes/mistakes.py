@@ -151,6 +151,9 @@ def faults_of(row, code, raw, came):
         raw.decode("utf-8")
     except UnicodeDecodeError:
         wrong.append("writes bytes that are no text")
+    if code in (1, 2) and "terminal" not in row:
+        wrong += [f"ends a line with a blank: {line!r}" for line in text.splitlines()
+                  if line.endswith(" ")][:1]
     parts = sorted(name for name in came if name.endswith(".part"))
     if parts and not row.get("parts"):
         wrong.append(f"leaves {parts}")

@@ -146,6 +146,15 @@ TEST_CASE("a ship that runs into unbroken ice is warned of", "[step]") {
     CHECK(check_course(w).empty());
 }
 
+TEST_CASE("the way to the ice begins at the stem, which no sphere reaches where it is sharp",
+          "[step][analytic]") {
+    World w = field_of(25);
+    REQUIRE(measure_course(w).clearance == Approx(0.5).margin(1e-9));
+    for (Vec3& v : w.scene.shapes[0].mesh.vertices)
+        if (v.x() > 0.0) v = Vec3(5.4, 0, v.z());  // a wedge's edge, 0.4 m before the spheres
+    CHECK(measure_course(w).clearance == Approx(0.1).margin(1e-9));
+}
+
 TEST_CASE("averages over less than a length are warned of, with the duration for one", "[step]") {
     World w = field_of(25);
     CHECK_FALSE(warn_of_short_averages(w));  // 12 m of a ship of 10 m

@@ -206,6 +206,58 @@ TEST_CASE("bodies that meet too fast are warned of with what their steps do to t
     CHECK(s.warnings[0].share.value() < 0.001);
 }
 
+TEST_CASE("overlaps that no contact knows are warned of with the loads on the hull of their floes",
+          "[record][analytic]") {
+    // at each look in the averaged time floe 1 brings 97, floe 2 brings 3 and floe 3 none
+    const auto overlaps = [](const std::vector<UnseenOverlap>& pairs) {
+        RunStatistics tally(options());
+        for (int k = 0; k < 10; ++k) {
+            StepRecord r;
+            r.regions = {{1, 0, Vec3(-97, 0, 0)}, {2, 0, Vec3(-3, 5, 0)}};
+            tally.add_look({0.04, pairs}, r, 2.0 + k);
+            tally.add_look({0.04, {{0, 1, 0.03}}}, r, 0.5);  // before: of no effect on the mean
+        }
+        return summary_of(tally, [](int, StepRecord&) { return kNothing; });
+    };
+    const auto share = [&](const std::vector<UnseenOverlap>& pairs) {
+        const Summary s = overlaps(pairs);
+        REQUIRE(s.warnings.size() == 1);
+        CHECK_THAT(s.warnings[0].text, Catch::Contains("than their contacts knew"));
+        CHECK(s.warnings[0].affects_mean == true);
+        return s.warnings[0].share.value();
+    };
+    CHECK(share({{0, 2, 0.06}}) == Approx(0.03));
+    CHECK(share({{1, 2, 0.06}}) == Approx(1.0));
+    CHECK(share({{0, 3, 0.06}}) == Approx(0.5));  // lacks a mean load, 1 to 2 that are there
+    CHECK(share({{0, 2, 0.06}, {0, 3, 0.07}}) == Approx(0.53));
+    const Summary behind = overlaps({{3, 4, 0.06}});  // does not touch the hull
+    CHECK(behind.warnings.empty());
+    CHECK(behind.unseen_overlap == 0.06);  // the report's figure
+    CHECK(overlaps({{0, 2, 0.04}}).warnings.empty());
+}
+
+TEST_CASE("what was warned of at the start gets the verdict of what the run measured",
+          "[record][analytic]") {
+    const auto judged_by = [](double separation, const std::vector<UnseenOverlap>& pairs) {
+        RunStatistics tally(options());
+        StepRecord r = step_of(100.0);
+        r.regions = {{1, 0, Vec3(-97, 0, 0)}, {2, 0, Vec3(-3, 0, 0)}};
+        tally.add_look({0.06, pairs}, r, 2.0);
+        for (int k = 0; k < 1000; ++k) tally.add(r, 2.0 + 0.01 * k, 0.01, {});
+        Summary s;
+        s.warnings = {{"spheres are far apart"}, {"the ship meets the ice late", true, 0.3}};
+        s.energy["ship_work_J"] = 1000.0;
+        s.energy["separation_J"] = -separation;
+        tally.fill(s);
+        CHECK(s.warnings.at(1) == Warning{"the ship meets the ice late", true, 0.3});
+        return s.warnings.at(0);
+    };
+    CHECK(judged_by(0.0, {}) == Warning{"spheres are far apart", false, 0.0});
+    CHECK(judged_by(5.0, {}) == Warning{"spheres are far apart", false, 0.005});
+    CHECK(judged_by(50.0, {{0, 2, 0.06}}) == Warning{"spheres are far apart", true, 0.05});
+    CHECK(judged_by(5.0, {{0, 2, 0.06}}) == Warning{"spheres are far apart", true, 0.03});
+}
+
 TEST_CASE("what a contact owes is the floe's mass times the speed at which it still closes",
           "[record][analytic]") {
     World w = test::plate_world(test::empty_space(0.01), Vec3(4, 4, 0.4), 0.1, 0.1, 0.0);
