@@ -106,6 +106,7 @@ struct Case {
     std::filesystem::path flow_file;          ///< with FlowModel::file
     std::array<double, 2> current{0.0, 0.0};  ///< of all the water, along x and y [m/s]
     bool flow_pressure = false;               ///< the flow's dynamic pressure acts on floes
+    bool floes_move_water = false;            ///< floes have added mass
 
     double frames_every = 0.1, history_every = 0.0;
     std::vector<int> track;

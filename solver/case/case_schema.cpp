@@ -21,6 +21,7 @@ constexpr std::string_view kNormals = "surface|centres";
 constexpr std::string_view kBuoyancies = "none|centre|distributed";
 constexpr std::string_view kDrags = "none|projected|panel";
 constexpr std::string_view kFlows = "none|double-body|file";
+constexpr std::string_view kAddedMasses = "none|computed";
 constexpr std::string_view kBendings = "wedge|kashtelyan";
 
 using D = Dimension;
@@ -180,6 +181,10 @@ std::vector<CaseKey> water_keys() {
         {"flow.pressure", Kind::boolean, D::none, "false", 0, 0, 0, "",
          "The dynamic pressure of the flow around the hull acts on the floes, beside its drag.",
          [](Case& c, G&, const Value& v) { c.flow_pressure = integer(v) != 0; }},
+        {"flow.added_mass", Kind::choice, D::none, "\"none\"", 0, 0, 0, kAddedMasses,
+         "Water that moves along with a floe, as inertia: none, or computed for each form in deep "
+         "water, in 3D.",
+         [](Case& c, G&, const Value& v) { c.floes_move_water = text(v) == "computed"; }},
     };
 }
 

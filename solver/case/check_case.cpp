@@ -111,6 +111,9 @@ void check_case(Case& checked, std::size_t groups, const Values& values,
     if (checked.flow_pressure && checked.flow == FlowModel::none)
         complaints.add_at("flow.pressure",
                           "flow.pressure needs a flow: flow.model = \"double-body\" or \"file\"");
+    if (checked.dimension == 2 && checked.floes_move_water)
+        complaints.add_at("flow.added_mass",
+                          "flow.added_mass is computed in 3D only; leave it out of a 2D case");
     if (checked.dimension == 2 && checked.current[1] != 0.0)
         complaints.add_at("flow.current", "flow.current leaves the plane y = 0 of a 2D case");
     std::vector<int> track = checked.track;

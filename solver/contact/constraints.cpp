@@ -42,8 +42,8 @@ double max_impulse(const Contact& contact, double approach, const ContactLaw& la
 }  // namespace
 
 void apply_impulse(Bodies& bodies, const Constraint& c, const Vec3& j) {
-    bodies.velocity[c.a] -= bodies.inverse_mass[c.a] * j;
-    bodies.velocity[c.b] += bodies.inverse_mass[c.b] * j;
+    bodies.velocity[c.a] -= bodies.response(static_cast<std::size_t>(c.a), j);
+    bodies.velocity[c.b] += bodies.response(static_cast<std::size_t>(c.b), j);
     bodies.angular_velocity[c.a] -= bodies.inverse_inertia_world[c.a] * c.arm_a.cross(j);
     bodies.angular_velocity[c.b] += bodies.inverse_inertia_world[c.b] * c.arm_b.cross(j);
     if (c.a == static_cast<std::int32_t>(kShip) && bodies.ship.free) push_ship(bodies, c, j);

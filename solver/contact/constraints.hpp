@@ -47,7 +47,8 @@ void build_constraints(const Bodies& bodies, const std::vector<Contact>& contact
 ///
 ///     K j = (1/m_a + 1/m_b) j + (I_a^-1 (r_a x j)) x r_a + (I_b^-1 (r_b x j)) x r_b
 ///
-/// and k(d) = d . K d for a unit vector d. @param inverse_mass  1/m_a + 1/m_b [1/kg]
+/// and k(d) = d . K d for a unit vector d; of bodies with added mass K has their
+/// inverse_mass_excess besides. @param inverse_mass  1/m_a + 1/m_b [1/kg]
 /// @param inverse_inertia_a, inverse_inertia_b  I^-1, world axes [1/(kg m2)]
 Mat3 response_matrix(double inverse_mass, const Mat3& inverse_inertia_a, const Vec3& arm_a,
                      const Mat3& inverse_inertia_b, const Vec3& arm_b);

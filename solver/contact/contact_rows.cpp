@@ -156,12 +156,12 @@ void ContactRows::fill_block(const Bodies& bodies, const std::vector<Constraint>
     block.a.fill(-1);
     block.b.fill(-1);
     rows.resize(rows.size() + static_cast<std::size_t>(block.rows), ContactRow{});
+    const auto body = [&](std::int32_t l) {
+        return static_cast<std::size_t>(bodies_[static_cast<std::size_t>(l)]);
+    };
     for (std::size_t p = first_pair; p < last_pair; ++p) {
         const Pair& pair = pairs_[p];
         const std::size_t lane = p - first_pair;
-        const auto body = [&](std::int32_t l) {
-            return static_cast<std::size_t>(bodies_[static_cast<std::size_t>(l)]);
-        };
         const std::size_t a = body(pair.a), b = body(pair.b);
         block.a[lane] = pair.a;
         block.b[lane] = pair.b;
@@ -187,8 +187,16 @@ void ContactRows::fill_block(const Bodies& bodies, const std::vector<Constraint>
                 static_cast<std::int32_t>(kLanes) * (block.first_row + k) + static_cast<int>(lane);
         }
     }
+    if (bodies.have_added_mass()) {
+        PairExcess& water = excess.emplace_back();
+        for (std::size_t lane = 0; lane < last_pair - first_pair; ++lane) {
+            put(water.a, lane, bodies.inverse_mass_excess[body(block.a[lane])]);
+            put(water.b, lane, bodies.inverse_mass_excess[body(block.b[lane])]);
+        }
+    }
     measure_responses(block, inverse_inertias,
-                      std::span(rows).subspan(static_cast<std::size_t>(block.first_row)));
+                      std::span(rows).subspan(static_cast<std::size_t>(block.first_row)),
+                      excess.empty() ? nullptr : &excess.back());
     blocks.push_back(block);
 }
 
@@ -197,6 +205,7 @@ void ContactRows::build(const Bodies& bodies, const std::vector<Constraint>& con
     ICE_ASSERT(std::is_sorted(which.begin(), which.end()) && are_ordered(constraints));
     blocks.clear();
     rows.clear();
+    excess.clear();
     which_.clear();
     for (const std::int32_t k : which)
         if (constraints[static_cast<std::size_t>(k)].can_move) which_.push_back(k);

@@ -55,6 +55,11 @@ struct PairBlock {
     std::array<LaneValues, 6> inverse_inertia_a{}, inverse_inertia_b{};  ///< xx yy zz xy xz yz
 };
 
+/// inverse_mass_excess of a block's bodies, where they have added mass [1/kg].
+struct PairExcess {
+    std::array<LaneValues, 6> a{}, b{};  ///< xx yy zz xy xz yz
+};
+
 /// Velocity and angular velocity of a body: v x y z, w x y z; two are not used.
 struct alignas(64) BodyMotion {
     double v[8];
@@ -118,6 +123,7 @@ public:
 
     std::vector<PairBlock> blocks;   ///< by colour
     std::vector<ContactRow> rows;    ///< by block
+    std::vector<PairExcess> excess;  ///< by block; empty where no body has added mass
     std::vector<BodyMotion> motion;  ///< of the bodies that take part
 
 private:

@@ -20,14 +20,15 @@ struct BlockInverseInertias {
 ///
 ///     k(n) = n . K n,   largest k(t) = greater eigenvalue of K in the tangent plane
 ///
-/// @param rows  of the block; where a lane has no contact (normal zero) all becomes zero
+/// @param rows    of the block; where a lane has no contact (normal zero) all becomes zero
+/// @param excess  of the block's bodies, added to K; null where they have no added mass
 void measure_responses(const PairBlock& block, const BlockInverseInertias& inverse_inertias,
-                       std::span<ContactRow> rows);
+                       std::span<ContactRow> rows, const PairExcess* excess = nullptr);
 
 namespace reference {
 // The definition, one contact at a time: read this first. Same bits on every instruction set.
 void measure_responses(const PairBlock& block, const BlockInverseInertias& inverse_inertias,
-                       std::span<ContactRow> rows);
+                       std::span<ContactRow> rows, const PairExcess* excess = nullptr);
 }  // namespace reference
 
 }  // namespace ice

@@ -23,6 +23,15 @@ HWY_INLINE Matrices Get(const std::array<LaneValues, 9>& from, std::size_t lane)
     return out;
 }
 
+// The sum of both bodies' excess.
+HWY_INLINE Matrices Get(const PairExcess& from, std::size_t lane) {
+    const auto entry = [&](std::size_t k)
+                           HWY_ATTR { return hn::Add(Get(from.a[k], lane), Get(from.b[k], lane)); };
+    const Lanes xx = entry(0), yy = entry(1), zz = entry(2);
+    const Lanes xy = entry(3), xz = entry(4), yz = entry(5);
+    return {{{xx, xy, xz}, {xy, yy, yz}, {xz, yz, zz}}};
+}
+
 // [r] m [r] with the matrix [r] of the product r x, without the products with its zeros.
 HWY_INLINE Matrices CrossedTwice(Vectors r, const Matrices& m) {
     return {{Cross(Sub(Scale(r.y, m.row[2]), Scale(r.z, m.row[1])), r),
@@ -64,7 +73,7 @@ HWY_INLINE Lanes LargestTangentResponse(const Matrices& k, Vectors n) {
 }
 
 void MeasureResponses(const PairBlock& block, const BlockInverseInertias& inverse_inertias,
-                      std::span<ContactRow> rows) {
+                      std::span<ContactRow> rows, const PairExcess* excess) {
     const Tag d;
     const Lanes one = All(1.0);
     for (std::size_t lane = 0; lane < kLanes; lane += hn::Lanes(d)) {
@@ -72,6 +81,7 @@ void MeasureResponses(const PairBlock& block, const BlockInverseInertias& invers
                        inverse_inertia_b = Get(inverse_inertias.b, lane);
         const Lanes inverse_mass =
             hn::Add(Get(block.inverse_mass_a, lane), Get(block.inverse_mass_b, lane));
+        const Matrices of_water = excess != nullptr ? Get(*excess, lane) : All(Mat3(Mat3::Zero()));
         for (ContactRow& row : rows) {
             const Vectors n = Get(row.normal, lane);
             const Vectors arm_a = Get(row.arm_a, lane), arm_b = Get(row.arm_b, lane);
@@ -80,13 +90,16 @@ void MeasureResponses(const PairBlock& block, const BlockInverseInertias& invers
                                  HWY_ATTR { Put(hn::IfThenElseZero(there, value), to, lane); };
             const Vectors turn_a = Product(inverse_inertia_a, Cross(arm_a, n));
             const Vectors turn_b = Product(inverse_inertia_b, Cross(arm_b, n));
-            const Vectors response =
+            Vectors response =
                 Add(Add(Scale(inverse_mass, n), Cross(turn_a, arm_a)), Cross(turn_b, arm_b));
+            if (excess != nullptr) response = Add(response, Product(of_water, n));
             put(response.x, row.response[0]);
             put(response.y, row.response[1]);
             put(response.z, row.response[2]);
-            const Matrices k =
+            Matrices k =
                 ResponseMatrix(inverse_mass, inverse_inertia_a, arm_a, inverse_inertia_b, arm_b);
+            if (excess != nullptr)
+                for (int i = 0; i < 3; ++i) k.row[i] = Add(k.row[i], of_water.row[i]);
             const Lanes effective_mass = hn::Div(one, Dot(n, Product(k, n)));
             const Lanes tangent_effective_mass = hn::Div(one, LargestTangentResponse(k, n));
             put(effective_mass, row.effective_mass);
@@ -105,8 +118,8 @@ namespace ice {
 HWY_EXPORT(MeasureResponses);
 
 void measure_responses(const PairBlock& block, const BlockInverseInertias& inverse_inertias,
-                       std::span<ContactRow> rows) {
-    HWY_DYNAMIC_DISPATCH(MeasureResponses)(block, inverse_inertias, rows);
+                       std::span<ContactRow> rows, const PairExcess* excess) {
+    HWY_DYNAMIC_DISPATCH(MeasureResponses)(block, inverse_inertias, rows, excess);
 }
 }  // namespace ice
 #endif

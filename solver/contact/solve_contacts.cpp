@@ -71,7 +71,8 @@ SolveReport ContactSolver::iterate(const ContactLaw& law) {
     while (true) {
         ++report.iterations;
         contacts_.part_ship();
-        report.residual = sweep(contacts_.blocks, contacts_.rows, contacts_.motion);
+        report.residual =
+            sweep(contacts_.blocks, contacts_.rows, contacts_.motion, contacts_.excess);
         contacts_.join_ship();
         report.converged = report.residual <= law.tolerance;
         if (report.converged || report.iterations >= law.iterations) return report;

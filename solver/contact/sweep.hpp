@@ -18,14 +18,15 @@ namespace ice {
 ///     J_t'  = J_t - m_t (v_r' - (v_r' . n) n), shortened to mu J_n' where longer
 ///
 /// and the bodies' velocities change by the change of impulse.
+/// @param excess  of the blocks' bodies (ContactRows::excess); empty where none has added mass
 /// @return largest change of a contact's velocity [m/s]: |dJ_n| k(n) or |dJ_t| k(t)
 double sweep(const std::vector<PairBlock>& blocks, std::vector<ContactRow>& rows,
-             std::vector<BodyMotion>& motion);
+             std::vector<BodyMotion>& motion, const std::vector<PairExcess>& excess = {});
 
 namespace reference {
 // The definition, one contact at a time: read this first. Same bits on every instruction set.
 double sweep(const std::vector<PairBlock>& blocks, std::vector<ContactRow>& rows,
-             std::vector<BodyMotion>& motion);
+             std::vector<BodyMotion>& motion, const std::vector<PairExcess>& excess = {});
 }  // namespace reference
 
 }  // namespace ice

@@ -14,22 +14,31 @@ namespace {
 struct Side {
     Vec3 velocity, angular_velocity;
     double inverse_mass, inverse_inertia[6];  // xx yy zz xy xz yz
+    bool has_added_mass;
+    double excess[6] = {};  // likewise
 
+    // @param water  null for bodies without added mass
     Side(const BodyMotion& m, const LaneValues& mass, const std::array<LaneValues, 6>& i,
-         std::size_t lane)
+         const std::array<LaneValues, 6>* water, std::size_t lane)
         : velocity(m.v[0], m.v[1], m.v[2]),
           angular_velocity(m.v[3], m.v[4], m.v[5]),
-          inverse_mass(mass.v[lane]) {
-        for (std::size_t k = 0; k < 6; ++k) inverse_inertia[k] = i[k].v[lane];
+          inverse_mass(mass.v[lane]),
+          has_added_mass(water != nullptr) {
+        for (std::size_t k = 0; k < 6; ++k) {
+            inverse_inertia[k] = i[k].v[lane];
+            if (has_added_mass) excess[k] = (*water)[k].v[lane];
+        }
     }
     Vec3 at(const Vec3& arm) const { return velocity + angular_velocity.cross(arm); }
     void push(const Vec3& arm, const Vec3& j) {
         velocity = velocity + inverse_mass * j;
-        const Vec3 m = arm.cross(j);
-        const double* i = inverse_inertia;
-        angular_velocity = angular_velocity + Vec3{(i[0] * m.x() + i[3] * m.y()) + i[4] * m.z(),
-                                                   (i[3] * m.x() + i[1] * m.y()) + i[5] * m.z(),
-                                                   (i[4] * m.x() + i[5] * m.y()) + i[2] * m.z()};
+        if (has_added_mass) velocity = velocity + product(excess, j);
+        angular_velocity = angular_velocity + product(inverse_inertia, arm.cross(j));
+    }
+    static Vec3 product(const double* i, const Vec3& m) {
+        return {(i[0] * m.x() + i[3] * m.y()) + i[4] * m.z(),
+                (i[3] * m.x() + i[1] * m.y()) + i[5] * m.z(),
+                (i[4] * m.x() + i[5] * m.y()) + i[2] * m.z()};
     }
     void store(BodyMotion& m) const {
         m.v[0] = velocity.x();
@@ -85,15 +94,19 @@ void solve(ContactRow& row, std::size_t lane, Side& a, Side& b, Changes& most) {
 }  // namespace
 
 double sweep(const std::vector<PairBlock>& blocks, std::vector<ContactRow>& rows,
-             std::vector<BodyMotion>& motion) {
+             std::vector<BodyMotion>& motion, const std::vector<PairExcess>& excess) {
     Changes most;
-    for (const PairBlock& block : blocks)
+    for (std::size_t n = 0; n < blocks.size(); ++n) {
+        const PairBlock& block = blocks[n];
+        const PairExcess* water = excess.empty() ? nullptr : &excess[n];
         for (std::size_t lane = 0; lane < kLanes; ++lane) {
             if (block.a[lane] < 0) continue;
             BodyMotion &ma = motion[static_cast<std::size_t>(block.a[lane])],
                        &mb = motion[static_cast<std::size_t>(block.b[lane])];
-            Side a(ma, block.inverse_mass_a, block.inverse_inertia_a, lane);
-            Side b(mb, block.inverse_mass_b, block.inverse_inertia_b, lane);
+            Side a(ma, block.inverse_mass_a, block.inverse_inertia_a,
+                   water != nullptr ? &water->a : nullptr, lane);
+            Side b(mb, block.inverse_mass_b, block.inverse_inertia_b,
+                   water != nullptr ? &water->b : nullptr, lane);
             for (std::int32_t r = 0; r < block.rows; ++r)
                 solve(rows[static_cast<std::size_t>(block.first_row + r)], lane, a, b, most);
             // The ship and held floes are in many lanes at once: they are never stored, so no lane
@@ -101,6 +114,7 @@ double sweep(const std::vector<PairBlock>& blocks, std::vector<ContactRow>& rows
             if (a.inverse_mass > 0.0) a.store(ma);
             if (b.inverse_mass > 0.0) b.store(mb);
         }
+    }
     return std::max(most.normal, std::sqrt(most.tangent_sq));
 }
 

@@ -12,73 +12,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solver/contact/motion_lanes-inl.hpp"
-#include "solver/contact/row_lanes-inl.hpp"
+#include "solver/contact/side_lanes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace ice::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
-
-// The bodies a or b of streams' pairs while their contacts are swept.
-template <std::size_t N>
-struct Side {
-    WideVectors<N> velocity, angular_velocity;
-    Wide<N> inverse_mass, xx, yy, zz, xy, xz, yz;  // the latter of the inverse inertia
-
-    HWY_INLINE WideVectors<N> At(const WideVectors<N>& arm) const {
-        return velocity + Cross(angular_velocity, arm);
-    }
-    HWY_INLINE void Push(const WideVectors<N>& arm, const WideVectors<N>& j) {
-        velocity = velocity + inverse_mass * j;
-        const WideVectors<N> m = Cross(arm, j);
-        angular_velocity =
-            angular_velocity +
-            WideVectors<N>{Dot({xx, xy, xz}, m), Dot({xy, yy, yz}, m), Dot({xz, yz, zz}, m)};
-    }
-    template <std::size_t M>
-    HWY_INLINE void Take(const Side<M>& from, std::size_t s, std::size_t as) {
-        const auto take = [&](Wide<N>& to, const Wide<M>& value)
-                              HWY_ATTR { to.of[as] = value.of[s]; };
-        const auto take_vector = [&](WideVectors<N>& to, const WideVectors<M>& value) HWY_ATTR {
-            take(to.x, value.x), take(to.y, value.y), take(to.z, value.z);
-        };
-        take_vector(velocity, from.velocity);
-        take_vector(angular_velocity, from.angular_velocity);
-        take(inverse_mass, from.inverse_mass);
-        take(xx, from.xx), take(yy, from.yy), take(zz, from.zz);
-        take(xy, from.xy), take(xz, from.xz), take(yz, from.yz);
-    }
-};
-
-HWY_INLINE Side<1> LoadSide(const std::array<std::int32_t, kLanes>& body,
-                            const std::vector<BodyMotion>& motion, const LaneValues& mass,
-                            const std::array<LaneValues, 6>& inverse_inertia, std::size_t first) {
-    // lanes without a pair have no mass and no contacts: any body will do
-    const Motions m = LoadMotions(body.data() + first, motion);
-    const auto value = [&](std::size_t d) HWY_ATTR { return Wide<1>{{m.entry[d]}}; };
-    const auto entry = [&](std::size_t k)
-                           HWY_ATTR { return Wide<1>{{Get(inverse_inertia[k], first)}}; };
-    return {{value(0), value(1), value(2)},
-            {value(3), value(4), value(5)},
-            {{Get(mass, first)}},
-            entry(0),
-            entry(1),
-            entry(2),
-            entry(3),
-            entry(4),
-            entry(5)};
-}
-
-template <std::size_t N>
-HWY_INLINE void StoreSide(const Side<N>& side, std::size_t s,
-                          const std::array<std::int32_t, kLanes>& body, const LaneValues& mass,
-                          std::size_t first, std::vector<BodyMotion>& motion) {
-    const Lanes unused = hn::Zero(Tag());
-    StoreMotions({{side.velocity.x.of[s], side.velocity.y.of[s], side.velocity.z.of[s],
-                   side.angular_velocity.x.of[s], side.angular_velocity.y.of[s],
-                   side.angular_velocity.z.of[s], unused, unused}},
-                 body.data() + first, mass.v + first, motion);
-}
 
 // Largest changes of velocity so far; the tangential one squared.
 struct Changes {
@@ -88,16 +26,17 @@ struct Changes {
 // As many pairs of a block as the machine has lanes, at one of their rows.
 struct Stream {
     const PairBlock* block;
+    const PairExcess* excess;  // of the block; null where no body has added mass
     std::size_t lane;
     ContactRow* row;
     std::int32_t left;  // rows
 };
 
 // N streams that share no free body.
-template <std::size_t N>
+template <std::size_t N, bool kWater>
 struct Streams {
     Stream of[N];
-    Side<N> a, b;
+    Side<N, kWater> a, b;
 
     template <class Part>
     HWY_INLINE Wide<N> Read(const Part& part) const {
@@ -120,8 +59,8 @@ struct Streams {
     HWY_INLINE void Solve(Changes& most);
 };
 
-template <std::size_t N>
-HWY_INLINE void Streams<N>::Solve(Changes& most) {
+template <std::size_t N, bool kWater>
+HWY_INLINE void Streams<N, kWater>::Solve(Changes& most) {
     const Tag d;
     const auto vectors = [&](LaneVectors ContactRow::*part) HWY_ATTR {
         return ReadVectors([=](const ContactRow& row) -> const LaneVectors& { return row.*part; });
@@ -177,29 +116,33 @@ HWY_INLINE void Streams<N>::Solve(Changes& most) {
     }
 }
 
-template <std::size_t N>
+template <std::size_t N, bool kWater>
 HWY_INLINE void Begin(const Stream& stream, const std::vector<BodyMotion>& motion,
-                      Streams<N>& streams, std::size_t s) {
+                      Streams<N, kWater>& streams, std::size_t s) {
     const PairBlock& pairs = *stream.block;
     const std::size_t lane = stream.lane;
     streams.of[s] = stream;
-    streams.a.Take(LoadSide(pairs.a, motion, pairs.inverse_mass_a, pairs.inverse_inertia_a, lane),
+    const PairExcess* water = stream.excess;
+    streams.a.Take(LoadSide<kWater>(pairs.a, motion, pairs.inverse_mass_a, pairs.inverse_inertia_a,
+                                    kWater ? &water->a : nullptr, lane),
                    0, s);
-    streams.b.Take(LoadSide(pairs.b, motion, pairs.inverse_mass_b, pairs.inverse_inertia_b, lane),
+    streams.b.Take(LoadSide<kWater>(pairs.b, motion, pairs.inverse_mass_b, pairs.inverse_inertia_b,
+                                    kWater ? &water->b : nullptr, lane),
                    0, s);
 }
 
-template <std::size_t N>
-HWY_INLINE void End(const Streams<N>& streams, std::size_t s, std::vector<BodyMotion>& motion) {
+template <std::size_t N, bool kWater>
+HWY_INLINE void End(const Streams<N, kWater>& streams, std::size_t s,
+                    std::vector<BodyMotion>& motion) {
     const Stream& stream = streams.of[s];
     const PairBlock& pairs = *stream.block;
     StoreSide(streams.a, s, pairs.a, pairs.inverse_mass_a, stream.lane, motion);
     StoreSide(streams.b, s, pairs.b, pairs.inverse_mass_b, stream.lane, motion);
 }
 
-template <std::size_t N>
-HWY_INLINE Streams<N - 1> Without(std::size_t left_out, const Streams<N>& streams) {
-    Streams<N - 1> out;
+template <std::size_t N, bool kWater>
+HWY_INLINE Streams<N - 1, kWater> Without(std::size_t left_out, const Streams<N, kWater>& streams) {
+    Streams<N - 1, kWater> out;
     for (std::size_t s = 0; s + 1 < N; ++s) {
         const std::size_t from = s < left_out ? s : s + 1;
         out.of[s] = streams.of[from];
@@ -213,25 +156,27 @@ HWY_INLINE Streams<N - 1> Without(std::size_t left_out, const Streams<N>& stream
 struct Waiting {
     const PairBlock* block;
     const PairBlock* end;
+    const PairExcess* excess;  // of the block, or null
     std::size_t lane;
     std::vector<ContactRow>* rows;
 
     HWY_INLINE bool IsEmpty() const { return block == end; }
     HWY_INLINE Stream Next() {
-        const Stream out{block, lane, rows->data() + block->first_row, block->rows};
+        const Stream out{block, excess, lane, rows->data() + block->first_row, block->rows};
         lane += hn::Lanes(Tag());
         if (lane == kLanes) {
             lane = 0;
             ++block;
+            if (excess != nullptr) ++excess;
         }
         return out;
     }
 };
 
 // Takes streams to their ends. Where one ends another begins; the last ones end alone.
-template <std::size_t N>
-HWY_INLINE void Finish(Streams<N>& streams, Waiting& waiting, std::vector<BodyMotion>& motion,
-                       Changes& most) {
+template <std::size_t N, bool kWater>
+HWY_INLINE void Finish(Streams<N, kWater>& streams, Waiting& waiting,
+                       std::vector<BodyMotion>& motion, Changes& most) {
     while (true) {
         std::int32_t together = streams.of[0].left;
         for (std::size_t s = 1; s < N; ++s) together = std::min(together, streams.of[s].left);
@@ -245,7 +190,7 @@ HWY_INLINE void Finish(Streams<N>& streams, Waiting& waiting, std::vector<BodyMo
                 continue;
             }
             if constexpr (N > 1) {
-                Streams<N - 1> others = Without(s, streams);
+                Streams<N - 1, kWater> others = Without(s, streams);
                 Finish(others, waiting, motion, most);
             }
             return;
@@ -254,14 +199,14 @@ HWY_INLINE void Finish(Streams<N>& streams, Waiting& waiting, std::vector<BodyMo
 }
 
 // Begins up to N streams, and takes all to their ends.
-template <std::size_t N>
+template <std::size_t N, bool kWater>
 HWY_INLINE void Run(Waiting waiting, std::vector<BodyMotion>& motion, Changes& most) {
     if constexpr (N > 1) {
         const auto streams =
             static_cast<std::size_t>(waiting.end - waiting.block) * (kLanes / hn::Lanes(Tag()));
-        if (streams < N) return Run<N - 1>(waiting, motion, most);
+        if (streams < N) return Run<N - 1, kWater>(waiting, motion, most);
     }
-    Streams<N> streams;
+    Streams<N, kWater> streams;
     for (std::size_t s = 0; s < N; ++s) Begin(waiting.Next(), motion, streams, s);
     Finish(streams, waiting, motion, most);
 }
@@ -270,14 +215,18 @@ HWY_INLINE void Run(Waiting waiting, std::vector<BodyMotion>& motion, Changes& m
 constexpr std::size_t kStreams = 2;
 
 double Sweep(const std::vector<PairBlock>& blocks, std::vector<ContactRow>& rows,
-             std::vector<BodyMotion>& motion) {
+             std::vector<BodyMotion>& motion, const std::vector<PairExcess>& excess) {
     const Tag d;
     Changes most{hn::Zero(d), hn::Zero(d)};
     const PairBlock* const end = blocks.data() + blocks.size();
     for (const PairBlock* first = blocks.data(); first != end;) {
         const PairBlock* last = first;
         while (last != end && last->colour == first->colour) ++last;
-        Run<kStreams>({first, last, 0, &rows}, motion, most);
+        if (excess.empty())
+            Run<kStreams, false>({first, last, nullptr, 0, &rows}, motion, most);
+        else
+            Run<kStreams, true>({first, last, &excess[first - blocks.data()], 0, &rows}, motion,
+                                most);
         first = last;
     }
     return std::max(hn::GetLane(hn::MaxOfLanes(d, most.normal)),
@@ -292,8 +241,8 @@ namespace ice {
 HWY_EXPORT(Sweep);
 
 double sweep(const std::vector<PairBlock>& blocks, std::vector<ContactRow>& rows,
-             std::vector<BodyMotion>& motion) {
-    return HWY_DYNAMIC_DISPATCH(Sweep)(blocks, rows, motion);
+             std::vector<BodyMotion>& motion, const std::vector<PairExcess>& excess) {
+    return HWY_DYNAMIC_DISPATCH(Sweep)(blocks, rows, motion, excess);
 }
 }  // namespace ice
 #endif

@@ -22,6 +22,8 @@ struct Advance {
 ///
 ///     P = m v,   L += I (w - w_start),   x += dt v + shift,   q by advance_orientation, then turn,
 ///
+/// with added mass P = (m + R A R^T) v, R of the start,
+///
 /// and what update_derived makes of that. Where w has not changed L stays bit for bit, so that
 /// torque-free motion conserves it.
 /// @param floes  not held, ascending

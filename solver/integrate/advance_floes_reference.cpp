@@ -10,6 +10,8 @@ namespace {
 void advance(Bodies& b, std::size_t i, const Advance& step) {
     const Vec3 change = b.angular_velocity[i] - step.angular_velocity_start[i];
     b.momentum[i] = b.mass[i] * b.velocity[i];
+    if (b.have_added_mass())
+        b.momentum[i] += ordered_turned(b.rotation[i], b.inertias_of(i).added, b.velocity[i]);
     if (!change.isZero(0.0))
         b.angular_momentum[i] += ordered_turned(b.rotation[i], b.inertia(i), change);
 

@@ -87,6 +87,8 @@ void AdvancePart(Bodies& b, std::span<const std::int32_t> floes, const Advance& 
     const Vectors v = at.Load(b.velocity);
     Quaternions q = at.Load(b.orientation);
     Matrices r = RotationOf(q);
+    Vectors momentum = Scale(mass, v);
+    if (b.have_added_mass()) momentum = Add(momentum, Turned(r, at.Load(b, &Inertia::added), v));
 
     const Vectors change = Sub(at.Load(b.angular_velocity), at.Load(step.angular_velocity_start));
     const Mask changed = NotZero(change);
@@ -117,10 +119,15 @@ void AdvancePart(Bodies& b, std::span<const std::int32_t> floes, const Advance& 
     if (any_turns) at.Store(inverse_world, b.inverse_inertia_world);
     at.Store(angular_momentum, b.angular_momentum);
     at.Store(Product(inverse_world, angular_momentum), b.angular_velocity);
-    const Vectors momentum = Scale(mass, v);
     at.Store(momentum, b.momentum);
-    at.Store({hn::Div(momentum.x, mass), hn::Div(momentum.y, mass), hn::Div(momentum.z, mass)},
-             b.velocity);
+    Vectors velocity{hn::Div(momentum.x, mass), hn::Div(momentum.y, mass),
+                     hn::Div(momentum.z, mass)};
+    if (b.have_added_mass()) {
+        const Matrices excess = Turned(r, at.Load(b, &Inertia::inverse_excess));
+        at.Store(excess, b.inverse_mass_excess);
+        velocity = Add(velocity, Product(excess, momentum));
+    }
+    at.Store(velocity, b.velocity);
     const Vectors move = Add(Scale(dt, v), at.Load(step.corrections.shift));
     at.Store(Add(at.Load(b.position), move), b.position);
 }

@@ -9,6 +9,8 @@
 
 #include <hwy/highway.h>
 
+#include <algorithm>
+
 #include "solver/flow/look_up_lanes-inl.hpp"
 #include "solver/loads/afloat_lanes-inl.hpp"
 
@@ -38,30 +40,25 @@ HWY_INLINE Vectors WaterAt(const WaterFlow& water, Vectors x) {
     return WaterOf(water, TableFlowAt(water, x));
 }
 
-// What the table has at a form's vertices and, numbered behind them, at the middles of the sides of
-// its triangles: drag and pressure both ask. Those beyond the first are looked up each time.
+// What the table has at a form's vertices and, numbered behind them, at the middles of its edges:
+// drag and pressure ask for each several times. Those beyond the first are looked up each time.
 class FlowNear {
 public:
     HWY_INLINE FlowNear(const Afloat& floes, const WaterFlow& water)
-        : floes_(floes), water_(water), vertices_(floes.shape.mesh.vertices.size()) {}
-    HWY_INLINE Vectors At(std::size_t k) const {
-        if (k >= kFew) return LookedUp(k);
-        if (!known_[k]) {
-            flow_[k] = LookedUp(k);
-            known_[k] = true;
-        }
-        return flow_[k];
+        : floes_(floes),
+          water_(water),
+          vertices_(floes.shape.mesh.vertices.size()),
+          known_(std::min(kFew, vertices_ + floes.shape.edges.middle.size())) {
+        for (std::size_t k = 0; k < known_; ++k) flow_[k] = LookedUp(k);
     }
+    HWY_INLINE Vectors At(std::size_t k) const { return k < known_ ? flow_[k] : LookedUp(k); }
     HWY_INLINE Vec3 Point(std::size_t k) const {
-        const TriangleMesh& mesh = floes_.shape.mesh;
-        if (k < vertices_) return mesh.vertices[k];
-        const std::size_t triangle = (k - vertices_) / 3;
-        const int side = static_cast<int>((k - vertices_) % 3);
-        return 0.5 * (mesh.corner(triangle, side) + mesh.corner(triangle, (side + 1) % 3));
+        const Shape& form = floes_.shape;
+        return k < vertices_ ? form.mesh.vertices[k] : form.edges.middle[k - vertices_];
     }
 
 private:
-    static constexpr std::size_t kFew = 128;  // of some 40 triangles
+    static constexpr std::size_t kFew = 128;  // of some 60 triangles
 
     HWY_INLINE Vectors LookedUp(std::size_t k) const {
         return TableFlowAt(water_, Add(floes_.position, Product(floes_.rotation, Set(Point(k)))));
@@ -69,9 +66,8 @@ private:
 
     const Afloat& floes_;
     const WaterFlow& water_;
-    std::size_t vertices_;
-    mutable bool known_[kFew] = {};
-    mutable Vectors flow_[kFew];
+    std::size_t vertices_, known_;
+    Vectors flow_[kFew];
 };
 
 // The floes around which the ship may move the water.

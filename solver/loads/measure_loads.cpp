@@ -2,6 +2,7 @@
 #include "solver/loads/measure_loads.hpp"
 
 #include "common/base/assert.hpp"
+#include "solver/loads/water_inertia.hpp"
 #include "solver/scene/moving_floes.hpp"
 
 namespace ice {
@@ -9,7 +10,9 @@ namespace ice {
 void measure_loads(const Scene& scene, const Case& parameters, std::vector<FloeLoad>& out) {
     out.resize(scene.bodies.moving.size());
     for_each_group(scene.bodies, [&](std::span<const std::int32_t> floes, std::size_t first) {
-        load_floes(scene, parameters, floes, std::span(out).subspan(first, floes.size()));
+        const auto loads = std::span(out).subspan(first, floes.size());
+        load_floes(scene, parameters, floes, loads);
+        if (scene.bodies.have_added_mass()) add_water_inertia(scene, parameters, floes, loads);
     });
 }
 
@@ -38,6 +41,8 @@ void apply_loads(Bodies& bodies, const std::vector<FloeLoad>& loads, double dt) 
     ICE_ASSERT(loads.size() == bodies.moving.size());
     for_each_moving(bodies, [&](std::size_t i, std::size_t k) {
         bodies.velocity[i] += dt * bodies.inverse_mass[i] * loads[k].force;
+        if (bodies.have_added_mass())
+            bodies.velocity[i] += dt * (bodies.inverse_mass_excess[i] * loads[k].force);
         bodies.angular_velocity[i] += dt * (bodies.inverse_inertia_world[i] * loads[k].moment);
     });
 }

@@ -24,7 +24,8 @@ void add_applied(const Bodies& bodies, const std::vector<WaterLoad>& applied,
 /// @pre no floe was released since measure_loads; so for all that take its answer
 std::vector<FloeLoad> loads_by_body(const Bodies& bodies, const std::vector<FloeLoad>& loads);
 
-/// Velocities after the loads act for dt: v += F dt / m, w += I^-1 T dt.
+/// Velocities after the loads act for dt: v += F dt / m (with added mass (m + A)^-1 F dt),
+/// w += I^-1 T dt.
 void apply_loads(Bodies& bodies, const std::vector<FloeLoad>& loads, double dt);
 
 }  // namespace ice

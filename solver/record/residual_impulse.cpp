@@ -12,7 +12,11 @@ double response(const Bodies& b, const Constraint& c) {
     const Vec3 ta = c.arm_a.cross(c.normal), tb = c.arm_b.cross(c.normal);
     const bool ship = c.a == static_cast<std::int32_t>(kShip) && b.ship.free;
     const double of_ship = ship ? ship_response(b.ship, c.arm_a, c.normal) : 0.0;
-    return of_ship + b.inverse_mass[c.a] + b.inverse_mass[c.b] +
+    const double of_water =
+        b.have_added_mass()
+            ? c.normal.dot((b.inverse_mass_excess[c.a] + b.inverse_mass_excess[c.b]) * c.normal)
+            : 0.0;
+    return of_water + of_ship + b.inverse_mass[c.a] + b.inverse_mass[c.b] +
            ta.dot(b.inverse_inertia_world[c.a] * ta) + tb.dot(b.inverse_inertia_world[c.b] * tb);
 }
 

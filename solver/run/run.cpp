@@ -19,6 +19,7 @@
 #include "solver/run/disk_room.hpp"
 #include "solver/run/make_water.hpp"
 #include "solver/run/run_folder.hpp"
+#include "solver/scene/added_mass_of_floes.hpp"
 #include "solver/scene/build_scene.hpp"
 
 namespace ice {
@@ -222,6 +223,7 @@ World build_world(const Case& parameters) {
     world.scene = build_scene(world.parameters);
     if (parameters.has_level_ice()) world.edge.begin(world.scene, world.parameters);
     world.scene.water = make_water(parameters, world.scene);
+    if (parameters.floes_move_water) set_added_mass(world.scene, parameters);
     world.ship.begin(parameters, world.scene);
     return world;
 }

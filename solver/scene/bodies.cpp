@@ -15,12 +15,17 @@ void update_derived(Bodies& bodies, std::size_t i) {
         bodies.angular_velocity[i] = Vec3::Zero();
         bodies.inverse_mass[i] = 0.0;
         bodies.inverse_inertia_world[i] = Mat3::Zero();
+        if (bodies.have_added_mass()) bodies.inverse_mass_excess[i] = Mat3::Zero();
         return;
     }
     const Mat3& r = bodies.rotation[i];
     bodies.inverse_mass[i] = 1.0 / bodies.mass[i];
     bodies.inverse_inertia_world[i] = ordered_turned(r, bodies.inverse_inertia(i));
     bodies.velocity[i] = bodies.momentum[i] / bodies.mass[i];
+    if (bodies.have_added_mass()) {
+        bodies.inverse_mass_excess[i] = ordered_turned(r, bodies.inertias_of(i).inverse_excess);
+        bodies.velocity[i] += ordered_product(bodies.inverse_mass_excess[i], bodies.momentum[i]);
+    }
     bodies.angular_velocity[i] =
         ordered_product(bodies.inverse_inertia_world[i], bodies.angular_momentum[i]);
 }

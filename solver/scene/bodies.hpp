@@ -22,6 +22,9 @@ struct Inertia {
     double density;  ///< for which they hold [kg/m3]
     Mat3 body;       ///< [kg m2]
     Mat3 inverse;    ///< of `body`; 2D: about y only
+    // of floes that move water along (set_added_mass), else unused; `body` has its part of it then
+    Mat3 added = Mat3::Zero();           ///< A: mass of that water, of shifts [kg]
+    Mat3 inverse_excess = Mat3::Zero();  ///< (m + A)^-1 - 1/m, at most 0 [1/kg]
 };
 
 /// How the ship answers impulses, in world axes, for the step; all zero for a prescribed course.
@@ -67,6 +70,9 @@ struct Bodies {
     std::vector<Vec3> angular_velocity;       ///< world axes [rad/s]
     std::vector<double> inverse_mass;         ///< [1/kg]; 0 while held
     std::vector<Mat3> inverse_inertia_world;  ///< R I^-1 R^T; 0 while held
+    /// R ((m + A)^-1 - 1/m) R^T, what added mass takes off inverse_mass [1/kg]; 0 while held. Empty
+    /// where water has no inertia.
+    std::vector<Mat3> inverse_mass_excess;
 
     ShipResponse ship;  ///< set by solver/ship at the start of a step
 
@@ -80,6 +86,15 @@ struct Bodies {
     Vec3 arm(std::int32_t i, const Vec3& point) const {
         const Vec3 from_position = point - position[static_cast<std::size_t>(i)];
         return i == 0 && ship.free ? Vec3(from_position - ship.centre) : from_position;
+    }
+    bool have_added_mass() const { return !inverse_mass_excess.empty(); }
+    /// Change of the velocity of floe i by an impulse j [N s] on its centre of mass.
+    Vec3 response(std::size_t i, const Vec3& j) const {
+        const Vec3 own = inverse_mass[i] * j;
+        return have_added_mass() ? Vec3(own + inverse_mass_excess[i] * j) : own;
+    }
+    const Inertia& inertias_of(std::size_t i) const {
+        return inertias[static_cast<std::size_t>(inertia_row[i])];
     }
     const Mat3& inertia(std::size_t i) const {
         return inertias[static_cast<std::size_t>(inertia_row[i])].body;
@@ -111,8 +126,9 @@ struct Scene {
 
 constexpr std::size_t kShip = 0;
 
-/// Rotation, velocities and inverse inertia of body `i` from its momenta: v = P / m,
-/// w = R I^-1 R^T L. Held bodies get zeros; the ship keeps its prescribed velocity.
+/// Rotation, velocities and inverse inertia of body `i` from its momenta: v = P / m, with added
+/// mass R (m + A)^-1 R^T P, and w = R I^-1 R^T L. Held bodies get zeros; the ship keeps its
+/// prescribed velocity.
 void update_derived(Bodies& bodies, std::size_t i);
 
 /// Lets a held floe move from now on.

@@ -193,6 +193,7 @@ Shape build_shape(const SphereSet& set, bool about_centre_of_mass) {
     shape.balls = SphereBlocks(balls);
     shape.facets = facets_of(shape.mesh);
     shape.surface = std::make_shared<const SolidSurface>(shape.mesh);
+    if (about_centre_of_mass) shape.edges = find_edges(shape.mesh);
     return shape;
 }
 

@@ -12,6 +12,7 @@
 #include "common/formats/sphere_set.hpp"
 #include "solver/shape/convex_bounds.hpp"
 #include "solver/shape/face_regions.hpp"
+#include "solver/shape/mesh_edges.hpp"
 #include "solver/shape/normal_cone.hpp"
 #include "solver/shape/side_planes.hpp"
 #include "solver/shape/solid.hpp"
@@ -54,6 +55,7 @@ struct Shape {
 
     TriangleMesh mesh;                            ///< closed, body axes
     FacetBlocks facets;                           ///< its triangles, for the water's loads
+    MeshEdges edges;                              ///< of floes, where water that moves is looked up
     std::shared_ptr<const SolidSurface> surface;  ///< its nearest points; never null
     MassProperties solid;          ///< unit density; centroid in body axes (floes: zero)
     Eigen::AlignedBox3d box;       ///< of mesh and spheres

@@ -73,7 +73,7 @@ struct Pressed {
     Vectors force, moment;
 };
 
-// In body axes. @param pressure  at the vertices and, behind them, at the sides' middles
+// In body axes. @param pressure  at the vertices and, numbered behind them, at the edges' middles
 template <class Pressure>
 HWY_INLINE Pressed IntegratePressure(const Shape& form, const Water& water,
                                      const Pressure& pressure) {
@@ -91,7 +91,8 @@ HWY_INLINE Pressed IntegratePressure(const Shape& form, const Water& water,
             p[3 + k] = 0.5 * (p[k] + p[(k + 1) % 3]);
             z[3 + k] = water.HeightOf(Set(p[3 + k]));
             value[k] = pressure.At(static_cast<std::size_t>(form.mesh.triangles[n][k]));
-            value[3 + k] = pressure.At(form.mesh.vertices.size() + 3 * n + k);
+            value[3 + k] = pressure.At(form.mesh.vertices.size() +
+                                       static_cast<std::size_t>(form.edges.of_triangle[n][k]));
         }
         PressedSums sums;
         for (const auto& [i, j, k] : kQuarters) {

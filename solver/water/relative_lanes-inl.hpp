@@ -105,7 +105,7 @@ HWY_INLINE void AddWetted(const Cut& h, const RelativeTriangles& t, RelativeSums
 }
 
 // Over the wetted surface. @param u  relative to the water, body axes: at the vertices and,
-// numbered behind them, at the middles of the triangles' sides
+// numbered behind them, at the middles of the edges
 template <class Relative>
 HWY_INLINE RelativeSums IntegrateRelative(const Shape& form, const Water& water,
                                           const Relative& u) {
@@ -118,7 +118,8 @@ HWY_INLINE RelativeSums IntegrateRelative(const Shape& form, const Water& water,
         std::size_t place[6];
         for (std::size_t k = 0; k < 3; ++k) {
             place[k] = static_cast<std::size_t>(form.mesh.triangles[n][k]);
-            place[3 + k] = form.mesh.vertices.size() + 3 * n + k;
+            place[3 + k] =
+                form.mesh.vertices.size() + static_cast<std::size_t>(form.edges.of_triangle[n][k]);
             p[k] = form.mesh.vertices[place[k]];
             z[k] = water.HeightOf(Set(p[k]));
         }

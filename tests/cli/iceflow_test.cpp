@@ -146,6 +146,7 @@ TEST_CASE("a case takes the flow around its hull, made once, and warns of waves"
     CHECK(hash("--threads 1 --simd scalar") == flow);
     CHECK(hash("--set flow.model=file --set flow.file=" + *kept) == flow);
     CHECK(hash(none + "--set flow.current=[0.1,0]") != still);
+    hash("--set flow.added_mass=computed --verify");
     hash("");
     CHECK(read_json_numbers(w / "run" / "summary.json").contains("energy.water_work_J"));
 
@@ -161,4 +162,5 @@ TEST_CASE("a case takes the flow around its hull, made once, and warns of waves"
     says("--set flow.model=file --set flow.file=" + *kept + " --set hull.draught=1.2", 2,
          "is for a draught of 1.44 m");
     says("--set flow.model=file --set flow.file=floe.h5", 2, "is not a flow");
+    says("--set flow.added_mass=computed --set simulation.dimension=2", 2, "in 3D only");
 }

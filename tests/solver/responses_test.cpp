@@ -29,13 +29,14 @@ Vec3 change_of(const Bodies& bodies, std::size_t a, std::size_t b, const Vec3& a
                const Vec3& arm_b, const Vec3& impulse) {
     const auto at = [&](std::size_t body, const Vec3& arm) -> Vec3 {
         const Vec3 spin = bodies.inverse_inertia_world[body] * arm.cross(impulse);
-        return bodies.inverse_mass[body] * impulse + spin.cross(arm);
+        return bodies.response(body, impulse) + spin.cross(arm);
     };
     return at(a, arm_a) + at(b, arm_b);
 }
 
 struct Block {
     PairBlock pairs;
+    PairExcess excess;
     BlockInverseInertias inverse_inertias;
     std::vector<ContactRow> rows;
 };
@@ -49,6 +50,10 @@ Block random_block(std::size_t pairs, std::size_t rows, unsigned seed) {
     for (std::size_t lane = 0; lane < pairs; ++lane) {
         out.pairs.inverse_mass_a.v[lane] = lane % 3 == 0 ? 0.0 : 2.0 + dice.number();
         out.pairs.inverse_mass_b.v[lane] = 2.0 + dice.number();
+        for (std::size_t k = 0; k < 6; ++k) {
+            out.excess.a[k].v[lane] = lane % 3 == 0 ? 0.0 : 0.1 * dice.number() - (k < 3 ? 0.5 : 0);
+            out.excess.b[k].v[lane] = 0.1 * dice.number() - (k < 3 ? 0.5 : 0);
+        }
         for (std::size_t k = 0; k < 9; ++k) {
             const double main = k % 4 == 0 ? 2.0 : 0.0;
             out.inverse_inertias.a[k].v[lane] = lane % 3 == 0 ? 0.0 : main + 0.3 * dice.number();
@@ -82,7 +87,7 @@ TEST_CASE(
     "a unit impulse changes the velocity at a contact by its response, as the bodies' "
     "equations say",
     "[contact][analytic]") {
-    const test::ContactProblem problem(40, 5, 11);
+    const test::ContactProblem problem(40, 5, 11, GENERATE(false, true));
     const ContactRows& contacts = problem.contacts;
     const auto body = [&](std::int32_t local) {
         return static_cast<std::size_t>(contacts.bodies()[static_cast<std::size_t>(local)]);
@@ -149,11 +154,12 @@ TEST_CASE("every instruction set measures the responses of the reference, bit fo
     const std::size_t pairs = GENERATE(0u, 1u, 2u, 3u, 4u, 5u, 7u, 8u);
     const std::size_t rows = GENERATE(0u, 1u, 2u, 9u);
     const Block given = random_block(pairs, rows, static_cast<unsigned>(10 * pairs + rows));
+    const PairExcess* excess = GENERATE(false, true) ? &given.excess : nullptr;
     std::vector<ContactRow> expected = given.rows;
-    reference::measure_responses(given.pairs, given.inverse_inertias, expected);
+    reference::measure_responses(given.pairs, given.inverse_inertias, expected, excess);
     test::on_every_instruction_set([&] {
         std::vector<ContactRow> found = given.rows;
-        measure_responses(given.pairs, given.inverse_inertias, found);
+        measure_responses(given.pairs, given.inverse_inertias, found, excess);
         CHECK((rows == 0 ||
                std::memcmp(found.data(), expected.data(), rows * sizeof(ContactRow)) == 0));
     });

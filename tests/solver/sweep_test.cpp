@@ -127,7 +127,7 @@ TEST_CASE("one contact is brought to its conditions by one sweep", "[sweep][anal
 
 TEST_CASE("every instruction set sweeps to the bits of the reference", "[sweep][simd]") {
     const std::size_t pairs = GENERATE(1u, 2u, 3u, 5u, 7u, 8u, 9u, 17u, 400u);
-    ContactProblem problem(pairs, 6, static_cast<unsigned>(pairs));
+    ContactProblem problem(pairs, 6, static_cast<unsigned>(pairs), GENERATE(false, true));
     ContactRows& contacts = problem.contacts;
     const auto run = [&](const auto& sweep_once, const auto& change, const auto& go_on) {
         problem.begin();
@@ -138,7 +138,8 @@ TEST_CASE("every instruction set sweeps to the bits of the reference", "[sweep][
         memory.motion_direction.assign(contacts.motion.size(), BodyMotion{});
         std::vector<double> out;
         for (int k = 0; k < 4; ++k) {
-            out.push_back(sweep_once(contacts.blocks, contacts.rows, contacts.motion));
+            out.push_back(
+                sweep_once(contacts.blocks, contacts.rows, contacts.motion, contacts.excess));
             out.push_back(change(contacts.rows, memory));
             go_on(contacts.rows, contacts.motion, 0.3, memory);
         }

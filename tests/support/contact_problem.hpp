@@ -35,6 +35,16 @@ inline Bodies make_bodies(std::size_t count, std::mt19937& random) {
     return out;
 }
 
+/// What added mass takes off their inverse masses: up to four fifths, in directions of each body.
+inline void add_water(Bodies& bodies, std::mt19937& random) {
+    std::uniform_real_distribution<double> unit(-1.0, 1.0);
+    for (const double inverse_mass : bodies.inverse_mass) {
+        const Vec3 axis(unit(random), unit(random), unit(random));
+        const Mat3 share = Mat3::Identity() / 2.0 + 0.3 * axis * axis.transpose() / axis.dot(axis);
+        bodies.inverse_mass_excess.push_back(-inverse_mass * share);
+    }
+}
+
 /// Contacts of random pairs, up to `most` each, ordered by pair.
 inline std::vector<Constraint> make_constraints(const Bodies& bodies, std::size_t pairs, int most,
                                                 std::mt19937& random) {
@@ -73,9 +83,11 @@ struct ContactProblem {
     std::vector<std::int32_t> which;  ///< constraints that take part
     ContactRows contacts;
 
-    ContactProblem(std::size_t pairs, int most, unsigned seed) {
+    /// @param water  the bodies have added mass
+    ContactProblem(std::size_t pairs, int most, unsigned seed, bool water = false) {
         std::mt19937 random(seed);
         bodies = make_bodies(pairs / 2 + 5, random);
+        if (water) add_water(bodies, random);
         constraints = make_constraints(bodies, pairs, most, random);
         for (std::size_t k = 0; k < constraints.size(); ++k)
             if (constraints[k].normal.x() < 0.7) which.push_back(static_cast<std::int32_t>(k));

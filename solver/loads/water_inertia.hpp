@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Loads of the water that moves along with floes: docs/method.md, section 6.
+#pragma once
+
+#include <span>
+
+#include "solver/case/case.hpp"
+#include "solver/loads/load_floes.hpp"
+
+namespace ice {
+
+/// Adds to floes' loads what their added mass A (world axes) has besides its inertia. With the
+/// velocity through the water u = v - w, w being the water's at the centre of mass,
+///
+///     T = -u x A u                                  (the Munk moment)
+///     F = (dA/dt) w + A Dw/Dt,   dA/dt w = w_floe x (A w) - A (w_floe x w)
+///
+/// A Dw/Dt only where the flow's pressure acts (flow.pressure), whose force is rho V Dw/Dt. What
+/// comes of the water's own motion is part of FloeLoad::pressure, and so the water's work.
+/// @param loads  of load_floes(), as many
+/// @pre bodies.have_added_mass()
+void add_water_inertia(const Scene& scene, const Case& parameters,
+                       std::span<const std::int32_t> floes, std::span<FloeLoad> loads);
+
+}  // namespace ice

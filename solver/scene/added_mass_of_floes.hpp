@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Floes that move water along.
+#pragma once
+
+#include "solver/case/case.hpp"
+#include "solver/flow/added_mass.hpp"
+#include "solver/scene/bodies.hpp"
+
+namespace ice {
+
+/// Gives the floes of a scene, but those held for good, the added mass of their forms in deep
+/// water: shifts in Inertia::added, turns in Inertia::body. What couples shifts and turns about the
+/// centre of mass is left out: docs/method.md, section 6. Velocities stay, momenta become those of
+/// floe and water. Each form is computed once.
+/// @pre 3D; all floes are there
+/// @throws Error (exit code 1) where the flow around a form has no solution
+void set_added_mass(Scene& scene, const Case& parameters);
+
+/// Of one form in deep water about its origin, from some 400 panels or as many as its mesh has
+/// triangles. @param mesh  closed, about the centre of mass
+Mat6 added_mass_of_form(const TriangleMesh& mesh, double water_density);
+
+}  // namespace ice
