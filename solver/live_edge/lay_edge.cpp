@@ -15,6 +15,7 @@
 #include "solver/live_edge/edge_tiles.hpp"
 #include "solver/live_edge/hull_outlines.hpp"
 #include "solver/live_edge/put_ice.hpp"
+#include "solver/scene/added_mass_of_floes.hpp"
 #include "solver/scene/build_scene.hpp"
 
 namespace ice {
@@ -173,6 +174,10 @@ void LiveEdge::put(Scene& scene, double time, Plan& plan) {
         b.breaking_load[i] = body.is_tile ? std::numeric_limits<double>::max() : kNever;
         put_ice(scene, i, std::move(*body.shape),
                 {centre + drifted_, drift_, density_, share_, body.is_tile});
+        if (b.have_added_mass() && !body.is_tile) {
+            add_water(scene, i, density_ / share_);
+            update_derived(b, i);
+        }
         Slot& slot = slots_[k];
         slot = {body.is_tile ? Use::tile : Use::piece, std::move(body.outline), 0};
         plan.changed.push_back(static_cast<std::int32_t>(i));
@@ -240,6 +245,7 @@ void LiveEdge::restore(Scene& scene, const Case& p) const {
     for (std::size_t k = 0; k < slots_.size(); ++k) {
         const bool is_piece = slots_[k].use == Use::piece, is_tile = slots_[k].use == Use::tile;
         put_form(scene, first_ + k, shapes[k] ? std::move(*shapes[k]) : empty_, density_);
+        if (b.have_added_mass() && is_piece) add_water(scene, first_ + k, density_ / share_);
         b.group[first_ + k] = is_piece ? piece_group_ : tile_group_;
         b.breaking_load[first_ + k] = is_tile ? std::numeric_limits<double>::max() : kNever;
     }

@@ -18,20 +18,25 @@ bool stays(const Case& p, const Bodies& b, std::size_t i) {
     return p.floes[static_cast<std::size_t>(b.group[i])].hold == Hold::always;
 }
 
-void set(Inertia& inertia, double mass, const Mat6& of_water) {
-    inertia.added = of_water.topLeftCorner<3, 3>();
-    inertia.inverse_excess =
-        (mass * Mat3::Identity() + inertia.added).inverse() - Mat3::Identity() / mass;
-    inertia.body += of_water.bottomRightCorner<3, 3>();
-    inertia.inverse = inertia.body.inverse();
-}
-
 }  // namespace
 
 Mat6 added_mass_of_form(const TriangleMesh& mesh, double water_density) {
     // triangles of edge a have some a^2 / 3, splitting longest edges leaves two thirds of a
     const double edge = std::sqrt(5.0 * measure_mass(mesh).area / kPanels);
     return added_mass(whole_body(mesh, edge, kDeep), Vec3::Zero(), water_density);
+}
+
+void add_water(Scene& scene, std::size_t body, double water_density) {
+    Bodies& b = scene.bodies;
+    const double mass = b.mass[body];
+    const Mat6 of_water = added_mass_of_form(
+        scene.shapes[static_cast<std::size_t>(b.shape[body])].mesh, water_density);
+    Inertia& inertia = b.inertias[static_cast<std::size_t>(b.inertia_row[body])];
+    inertia.added = of_water.topLeftCorner<3, 3>();
+    inertia.inverse_excess =
+        (mass * Mat3::Identity() + inertia.added).inverse() - Mat3::Identity() / mass;
+    inertia.body += of_water.bottomRightCorner<3, 3>();
+    inertia.inverse = inertia.body.inverse();
 }
 
 void set_added_mass(Scene& scene, const Case& parameters) {
@@ -42,9 +47,7 @@ void set_added_mass(Scene& scene, const Case& parameters) {
         const auto row = static_cast<std::size_t>(b.inertia_row[i]);
         if (done[row] || stays(parameters, b, i)) continue;
         done[row] = true;
-        set(b.inertias[row], b.mass[i],
-            added_mass_of_form(scene.shapes[static_cast<std::size_t>(b.shape[i])].mesh,
-                               parameters.water_density));
+        add_water(scene, i, parameters.water_density);
     }
     b.inverse_mass_excess.assign(b.size(), Mat3::Zero());
     for (std::size_t i = kShip + 1; i < b.size(); ++i) {

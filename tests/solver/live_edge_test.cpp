@@ -11,6 +11,7 @@
 #include "solver/live_edge/edge_window.hpp"
 #include "solver/record/solid_overlap.hpp"
 #include "solver/run/run.hpp"
+#include "solver/scene/added_mass_of_floes.hpp"
 #include "tests/common/fixtures.hpp"
 #include "tests/support/compare_runs.hpp"
 #include "tests/support/make_filled_sets.hpp"
@@ -61,6 +62,7 @@ World make_world(const Case& p) {
     w.parameters = p;
     w.scene = make_scene(ship, p.hull_position, Vec3(p.ship_speed(0.0), 0, 0));
     w.edge.begin(w.scene, w.parameters);
+    if (p.floes_move_water) set_added_mass(w.scene, p);
     return w;
 }
 
@@ -181,10 +183,17 @@ TEST_CASE("level ice that drifts past a ship is a ship that goes through level i
 TEST_CASE("level ice goes on from a checkpoint, and by any number of threads, with the same bits",
           "[level_ice][edge][checkpoint]") {
     const TempFolder folder;
-    const Case p = sheet_case(0.8, 4.0);
+    Case p = sheet_case(0.8, 4.0);
+    p.floes_move_water = GENERATE(false, true);
     World whole = make_world(p);
     run(whole, {folder / "whole", "first"});
     REQUIRE(whole.edge.pieces().size() > 3);
+    for (const IcePiece& piece : whole.edge.pieces()) {
+        const auto i = static_cast<std::size_t>(piece.body);
+        const double heave = whole.scene.bodies.inertias_of(i).added(2, 2);
+        // of a plate: more than half of its mass in any case
+        CHECK((heave > 0.5 * whole.scene.bodies.mass[i]) == p.floes_move_water);
+    }
     for (const std::int64_t stop : {1, 90, 151}) {
         CAPTURE(stop);
         World first = make_world(p);
