@@ -18,13 +18,14 @@
 #include "common/formats/spheres_file.hpp"
 #include "solver/flow/added_mass.hpp"
 #include "solver/flow/flow_table.hpp"
+#include "solver/flow/wetted_panels.hpp"
 #include "solver/flow/write_vti.hpp"
 
 namespace {
 
 struct Options {
     std::string hull, out, json, simd = "auto";
-    std::vector<std::string> exports;
+    std::vector<std::string> exports, left_out;
     std::optional<double> draught;
     double panel = 0.0, spacing = 0.0;
     int threads = 0;
@@ -54,6 +55,10 @@ void declare(CLI::App& app, Options& o) {
                    "of 300 000 nodes)")
         ->type_name("S")
         ->transform(length("0.15"));
+    app.add_option("--without", o.left_out,
+                   "Region of the hull to leave out, a thin plate such as a rudder (repeatable)")
+        ->type_name("REGION")
+        ->allow_extra_args(false);
     app.add_flag("--check", o.check,
                  "Solve the flow and report the panels' residual; write no flow file");
     app.add_flag("--added-mass", o.added_mass,
@@ -193,7 +198,8 @@ int run_iceflow(const Options& o, const std::string& command_line) {
     if (!o.check) files.add("--output", out);
     if (!o.exports.empty()) files.add("--export", export_of(out));
     files.add("--json", o.json);
-    const ice::SphereSet hull = ice::read_spheres(o.hull);
+    ice::SphereSet hull = ice::read_spheres(o.hull);
+    if (!o.left_out.empty()) hull.mesh = ice::without_regions(hull.mesh, o.left_out);
     ice::FlowOptions options{water_of(o, hull), o.panel, o.spacing, 0.0};
     options.table = !o.check || !o.exports.empty();
     ice::HullFlow flow = ice::make_hull_flow(hull.mesh, hull.dimension, options);

@@ -225,7 +225,7 @@ std::vector<std::string> warnings_of(const HullFlow& flow) {
     if (flow.table.residual > kWorryingResidual)
         out.push_back(fmt::format(
             "flow: {:.1f} % of the ship's speed goes through the hull (rms), most at ({:.2f}, "
-            "{:.2f}, {:.2f}) m: use smaller panels, or look for thin plates there",
+            "{:.2f}, {:.2f}) m: use smaller panels, or leave thin plates out (iceflow --without)",
             100.0 * flow.table.residual, at.x(), at.y(), at.z()));
     if (std::abs(flow.net_flux) > kWorryingFlux)
         out.push_back(

@@ -192,6 +192,26 @@ WettedHull make_wetted_hull(const TriangleMesh& mesh, double water, const PanelS
     return out;
 }
 
+TriangleMesh without_regions(const TriangleMesh& mesh, std::span<const std::string> names) {
+    const auto& known = mesh.region_names;
+    for (const std::string& name : names)
+        if (std::find(known.begin(), known.end(), name) == known.end())
+            throw bad_input(fmt::format("region \"{}\"", name), "the hull has none of that name",
+                            fmt::format("its regions are {}", fmt::join(known, ", ")));
+    TriangleMesh out = mesh;
+    out.triangles.clear();
+    out.region.clear();
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const std::string& name = known[static_cast<std::size_t>(mesh.region[t])];
+        if (std::find(names.begin(), names.end(), name) != names.end()) continue;
+        out.triangles.push_back(mesh.triangles[t]);
+        out.region.push_back(mesh.region[t]);
+    }
+    if (out.triangles.empty())
+        throw bad_input("the hull", "has nothing left without these regions", "leave out fewer");
+    return out;
+}
+
 std::vector<SourcePanel> split_triangles(const TriangleMesh& mesh, double longest_edge,
                                          std::size_t most) {
     std::vector<Triangle> triangles;

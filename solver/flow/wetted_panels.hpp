@@ -2,6 +2,9 @@
 /// The wetted hull as source panels.
 #pragma once
 
+#include <span>
+#include <string>
+
 #include "solver/flow/source_panel.hpp"
 
 namespace ice {
@@ -30,6 +33,12 @@ struct WettedHull {
 /// @throws Error (exit code 2) where nothing is wet, or the edges asked for give more than `most`
 ///         panels
 WettedHull make_wetted_hull(const TriangleMesh& mesh, double water, const PanelSize& size);
+
+/// A mesh without the triangles of some regions, its vertices kept: thin plates such as rudders and
+/// bilge keels, whose two sides are nearer to each other than a panel is long. The flow goes through
+/// where they were.
+/// @throws Error (exit code 2) where the mesh has no such region, or nothing is left
+TriangleMesh without_regions(const TriangleMesh& mesh, std::span<const std::string> names);
 
 /// All triangles of a mesh as panels, split until no edge is longer; none where that gives more
 /// than `most`.

@@ -183,7 +183,8 @@ std::vector<Warning> check_water(const Case& p, const Scene& scene) {
     if (water.grid.residual > kMostResidual)
         out.push_back(
             judged(fmt::format("flow: {:.1f} % of the ship's speed goes through the hull (rms): "
-                               "iceflow --check says where, iceflow --panel makes smaller panels",
+                               "iceflow --check says where, --panel makes smaller panels, "
+                               "--without leaves out thin plates, flow.file takes the result",
                                100.0 * water.grid.residual),
                    kOfMean * water.grid.residual));
     return out;

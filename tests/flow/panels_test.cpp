@@ -11,6 +11,7 @@
 #include "solver/flow/wetted_panels.hpp"
 #include "tests/support/every_instruction_set.hpp"
 #include "tests/support/make_meshes.hpp"
+#include "tests/support/make_sphere_sets.hpp"
 
 using namespace ice;
 
@@ -242,4 +243,32 @@ TEST_CASE("the wetted hull is the mesh's part under water, whole or half, simpli
     CHECK(longest <= fewer.longest_edge * (1.0 + 1e-12));
     CHECK_THROWS_AS(make_wetted_hull(globe, -2.0, {}), Error);
     CHECK_THROWS_AS(make_wetted_hull(globe, 0.0, {1e-3, 4000}), Error);
+}
+
+TEST_CASE("a thin plate spoils the flow, and without its region the hull has its own", "[flow]") {
+    const TriangleMesh hull = test::make_wigley(6.0, 1.2, 0.6, 12, 4);
+    // a rudder 1 cm thick, 0.4 m long and 0.5 m deep, 20 cm behind the stern
+    TriangleMesh rudder = test::make_box_mesh(Vec3(0.4, 0.01, 0.6));
+    for (Vec3& v : rudder.vertices) v += Vec3(-3.4, 0.0, -0.2);
+    TriangleMesh both = hull;
+    const auto first = static_cast<std::int32_t>(hull.vertices.size());
+    both.vertices.insert(both.vertices.end(), rudder.vertices.begin(), rudder.vertices.end());
+    for (const auto& t : rudder.triangles)
+        both.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+    both.region.assign(hull.triangles.size(), 0);
+    both.region.resize(both.triangles.size(), 1);
+    both.region_names = {"hull", "rudder"};
+    const PanelSize size{0.4, 4000};
+    const auto flow_of = [&](const TriangleMesh& mesh) {
+        return solve_panels(make_wetted_hull(mesh, 0.0, size).body);
+    };
+    const std::vector<std::string> plate{"rudder"};
+    const PanelFlow own = flow_of(hull), left = flow_of(without_regions(both, plate)),
+                    spoilt = flow_of(both);
+    CHECK(left.strength == own.strength);
+    CAPTURE(own.residual, spoilt.residual);
+    CHECK(spoilt.worst > 2.0 * own.worst);
+    const std::vector<std::string> unknown{"keel"}, all{"hull", "rudder"};
+    CHECK_THROWS_WITH(without_regions(both, unknown), Catch::Contains("hull, rudder"));
+    CHECK_THROWS_AS(without_regions(both, all), Error);
 }
