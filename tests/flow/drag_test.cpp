@@ -158,6 +158,13 @@ TEST_CASE("every instruction set loads floes in moving water to the bits of the 
             load_floes(w.scene, p, floes, loads);
             CHECK(same_bits(loads, expected));
         });
+        for (std::size_t k = 0; k < floes.size() && w.scene.dimension == 3; ++k) {
+            const auto i = static_cast<std::size_t>(floes[k]);
+            const double own = expected[k].drag.force.dot(w.scene.bodies.velocity[i]) +
+                               expected[k].drag.moment.dot(w.scene.bodies.angular_velocity[i]);
+            // drag takes from the motion through the water, it never gives
+            CHECK(expected[k].water_power - own >= -1e-12 * std::abs(own));
+        }
     }
 }
 
