@@ -35,7 +35,7 @@ struct WettedHull {
 WettedHull make_wetted_hull(const TriangleMesh& mesh, double water, const PanelSize& size);
 
 /// A mesh without the triangles of some regions, its vertices kept: thin plates such as rudders and
-/// bilge keels, whose two sides are nearer to each other than a panel is long. The flow goes through
+/// bilge keels, whose two sides are nearer to each other than a panel is long. The water passes
 /// where they were.
 /// @throws Error (exit code 2) where the mesh has no such region, or nothing is left
 TriangleMesh without_regions(const TriangleMesh& mesh, std::span<const std::string> names);

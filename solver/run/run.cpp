@@ -223,7 +223,7 @@ World build_world(const Case& parameters) {
     world.scene = build_scene(world.parameters);
     if (parameters.has_level_ice()) world.edge.begin(world.scene, world.parameters);
     world.scene.water = make_water(parameters, world.scene);
-    if (parameters.floes_move_water) set_added_mass(world.scene, parameters);
+    if (parameters.floes_move_water) set_added_mass(world.scene, world.parameters);
     world.ship.begin(parameters, world.scene);
     return world;
 }

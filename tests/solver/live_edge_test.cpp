@@ -62,7 +62,7 @@ World make_world(const Case& p) {
     w.parameters = p;
     w.scene = make_scene(ship, p.hull_position, Vec3(p.ship_speed(0.0), 0, 0));
     w.edge.begin(w.scene, w.parameters);
-    if (p.floes_move_water) set_added_mass(w.scene, p);
+    if (p.floes_move_water) set_added_mass(w.scene, w.parameters);
     return w;
 }
 
