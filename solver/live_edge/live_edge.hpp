@@ -44,9 +44,9 @@ struct IcePiece {
 /// reaches the load that breaks the piece off which a crack around the load's centre would cut out,
 /// that piece becomes a floe, the polygon loses it, and the tiles around are laid anew.
 ///
-/// Polygon, tiles and cracks are in the ice's own axes, which drift with it: places in the world are
-/// theirs plus drift() times the time. Ice that drifts past a ship is so the same to it as a ship
-/// that goes through ice.
+/// Polygon, tiles and cracks are in the ice's own axes, which drift with it: places in the world
+/// are theirs plus drift() times the time. So ice that drifts past a ship is the same to it as a
+/// ship that goes through ice.
 ///
 /// Bodies come from a fixed number of slots; floes further astern than half a ship's length, or the
 /// last one where no slot is left, are taken out of the scene.

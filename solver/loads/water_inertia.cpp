@@ -13,7 +13,7 @@ void add(const Scene& scene, const Case& p, std::size_t i, FloeLoad& load) {
     const Vec3 &v = b.velocity[i], &spin = b.angular_velocity[i];
     const auto munk = [&](const Vec3& u) { return Vec3(-u.cross(ordered_product(water_mass, u))); };
     load.moment += munk(v);
-    if (scene.water.still()) return;
+    if (!scene.water.flows() && scene.water.current.isZero(0.0)) return;
     const Vec3 w = reference::water_at(scene.water, b.position[i]);
     WaterLoad moved;
     moved.moment = munk(v - w) - munk(v);
