@@ -31,7 +31,8 @@ struct Imbalance {
     double worst() const;
 };
 
-/// To be taken before a step. Held floes count with the momentum they will be released with.
+/// To be taken before a step, and after begin_step() where there is level ice. Held floes count
+/// with the momentum they will be released with.
 Momenta momenta_of(const World& world);
 
 /// Compares a step with the momenta before it. For every free floe, with F, T the water's loads and

@@ -2,6 +2,7 @@
 #include "solver/ship/delivered_power.hpp"
 
 #include <cmath>
+#include <limits>
 
 #include "solver/ship/thrust.hpp"
 
@@ -12,14 +13,14 @@ double delivered_power(const Propulsion& p, double thrust, double speed) {
     if (std::isnan(p.propeller_diameter) || std::isnan(p.open_water_speed))
         return std::numeric_limits<double>::quiet_NaN();
     if (thrust <= 0.0) return 0.0;
+    // thrust_at() rounds to a little more than 0 there
+    if (speed >= p.open_water_speed) return std::numeric_limits<double>::infinity();
     Propulsion watt;  // thrust goes with the power to 2/3
     watt.power = 1.0;
     watt.propeller_diameter = p.propeller_diameter;
     watt.screws = p.screws;
     watt.open_water_speed = p.open_water_speed;
-    const double of_watt = thrust_at(watt, speed);
-    if (of_watt <= 0.0) return std::numeric_limits<double>::infinity();
-    return std::pow(thrust / of_watt, 1.5);
+    return std::pow(thrust / thrust_at(watt, speed), 1.5);
 }
 
 }  // namespace ice

@@ -47,13 +47,17 @@ void renew_edge(World& w) {
 
 }  // namespace
 
+void begin_step(World& w) {
+    release_bent(w.scene.bodies);
+    w.ledger.begin(w.scene, w.parameters);
+    timed(w, Stage::broad, [&] { renew_edge(w); });
+}
+
 void step(World& w) {
     const double dt = w.parameters.time_step;
     const ContactLaw& law = w.parameters.contact;
     Bodies& bodies = w.scene.bodies;
-    release_bent(bodies);
-    w.ledger.begin(w.scene, w.parameters);
-    timed(w, Stage::broad, [&] { renew_edge(w); });
+    begin_step(w);
 
     // the ship goes as prescribed, its speed at mid-step carrying it to the end of the step, or
     // with the velocity it has come to

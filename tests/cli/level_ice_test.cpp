@@ -51,7 +51,7 @@ TEST_CASE("level ice breaks where it is loaded, and another seed is other ice",
         CHECK(run.frames.front().state[k] == FloeState::held);
         CHECK(run.frames.back().state[k] != FloeState::held);
     }
-    const Result again = w.run("icesolve case.cfg --out again --threads 1");
+    const Result again = w.run("icesolve case.cfg --out again --threads 1 --verify");
     CAPTURE(again.err);
     REQUIRE(again.code == 0);
     CHECK(read_summary(w / "again" / "summary.json").state_hash == s.state_hash);
