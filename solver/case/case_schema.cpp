@@ -225,8 +225,8 @@ std::vector<CaseKey> bending_keys() {
          "h^2 (Kashtelyan); in 2D of a beam on water, as wedge.",
          [](Case& c, G&, const Value& v) { c.bending.model = choice<BendingModel>(v, kBendings); }},
         {"bending.factor", Kind::number, D::none, "1.0", 0, 100, 0, "",
-         "On the breaking load: 1 is a dry static plate; with kashtelyan models of ships use about "
-         "3.1, and 1.5 stands for one set of model tests (docs/validation-measured.md).",
+         "On the breaking load. Wedge: 1 is a dry static plate. Kashtelyan: models of ships use "
+         "about 3.1, and 1 is chosen on one set of model tests (docs/validation-measured.md).",
          [](Case& c, G&, const Value& v) { c.bending.factor = number(v); }},
         {"bending.factor_table", Kind::curve, D::none, "-", 0, 100, 0, "",
          "Rows [v, f]: a second factor f at the normal speed v [m/s] of hull and ice, linear "

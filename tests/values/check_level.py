@@ -99,6 +99,7 @@ def check_pieces(work, values):
             at = rows["at"][()]
             values.within(form, f"/{group}/at", at[:, :2], [0, -4], [5, 4])
         values.within(form, "/rest/mass", whole / (5 * 8 * 0.2), 0.8, 1.0 + 1e-9)
+        values.equal(form, "/drift", file["drift"][()].tolist(), [[0.0, 0.0, 0.0]])
         pieces = file["pieces"]
         values.equal(form, "/pieces/number", len(set(pieces["number"][()])), len(pieces["mass"]))
         for name, low, high in (("body", head["first_body"], np.inf), ("born", 0.0, 4.0),

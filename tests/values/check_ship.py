@@ -145,6 +145,13 @@ def check_turn(work, values):
         values.close("summary.json", f"ship.{name}_mean_m", ship[name + "_mean_m"], off.mean(),
                      1e-6)
         values.close("summary.json", f"ship.{name}_std_m", ship[name + "_std_m"], off.std(), 1e-5)
+    # the mooring pulls by the place before each step
+    off = centre[:, 0] - anchor[:, 0]
+    pull = -20000.0 * np.concatenate([[0.0], off[:-1]])[kept]
+    values.close("summary.json", "ship.mooring_fx_mean_N", ship["mooring_fx_mean_N"], pull.mean(),
+                 1e-5)
+    values.close("summary.json", "ship.mooring_fx_std_N", ship["mooring_fx_std_N"],
+                 pull.std(ddof=1), 1e-5)
     # a box afloat: its weight is that of 8 x 5 x 1.05 m of water at the start
     heave = (centre[:, 2] - HEIGHT - CENTRE[2])[kept]
     values.close("summary.json", "ship.heave_mean_m", ship["heave_mean_m"], heave.mean(),
