@@ -79,12 +79,10 @@ preset() {
 build_programs() {
     local tests=$1 module=$2
     shift 2
-    # small sources together, which compiles in less time; by themselves, beside tests, they
-    # show missing includes
-    local united=OFF
-    if [[ $tests$module == OFFOFF ]]; then united=ON; fi
+    # small sources compile together in less time: with the tests as well, so that they see what
+    # `demo` and `build` compile; a build by hand compiles each by itself and shows missing includes
     cmake --preset "$(preset)" -DICE_TESTS="$tests" -DICE_PYTHON_MODULE="$module" \
-        -DICE_UNITED_SOURCES="$united"
+        -DICE_UNITED_SOURCES=ON -DICE_PRECOMPILED_HEADERS=ON
     cmake --build --preset "$(preset)" --parallel "$(job_count)" --target "${@:-all}"
 }
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kOnSurface = 1200.0, kAlong = 25.0;  // places on the water, cells along the hull
 constexpr double kLeast = 0.01;                       // shorter ones are not seen
-constexpr std::size_t kMostPanels = 20000;
+constexpr std::size_t kMostPieces = 20000;  // of the wetted surface, from which cells are drawn
 
 class Sampler {
 public:
@@ -62,7 +62,7 @@ private:
     void sample_hull() {
         const Eigen::AlignedBox3d& box = scene_.shapes[0].box;
         const double cell = (box.max().x() - box.min().x()) / kAlong;
-        const auto panels = split_triangles(scene_.shapes[0].mesh, cell, kMostPanels);
+        const auto panels = split_triangles(scene_.shapes[0].mesh, cell, kMostPieces);
         std::set<std::array<long, 3>> taken;
         for (const SourcePanel& panel : panels) {
             const Vec3 at = panel.centre + Vec3(0, 0, height_) + 0.1 * cell * panel.normal;
