@@ -76,7 +76,7 @@ TEST_CASE("a binary STL is refused with what its header promises", "[load][cut][
     const std::filesystem::path file = std::filesystem::temp_directory_path() / "ice-cut-off.stl";
     const auto write = [&](std::size_t bytes) {
         std::string text(80, ' ');
-        text += std::string("\x03\0\0\0", 4) + std::string(150, '\0');
+        text.append("\x03\0\0\0", 4).append(150, '\0');
         std::ofstream(file, std::ios::binary) << text.substr(0, bytes);
     };
     write(84 + 149);
