@@ -84,9 +84,10 @@ private:
         study_.level_ice = rows_.front().point->level_ice;
         std::vector<std::string> other;
         for (const std::string& axis : sweep_.axes)
-            // A key that changes with the thickness alone, such as the ice's file, names the same
-            // axis again.
-            if (axis != sweep::kSpeedKey && axis != kFreedom && !follows_thickness(axis))
+            // A key that changes with the thickness alone, such as the ice's file, or that only
+            // free ships have, such as their power, names the same axis again.
+            if (axis != sweep::kSpeedKey && axis != kFreedom && !follows_thickness(axis) &&
+                !follows_freedom(axis))
                 other.push_back(axis);
         for (const Row& row : rows_) {
             std::string label;
@@ -109,6 +110,17 @@ private:
                 return false;
         }
         return true;
+    }
+
+    // one value in all runs of free ships and one in all those on rails
+    bool follows_freedom(const std::string& axis) const {
+        if (std::ranges::find(sweep_.axes, kFreedom) == sweep_.axes.end()) return false;
+        std::map<std::string, std::string> of_freedom;
+        return std::all_of(rows_.begin(), rows_.end(), [&](const Row& row) {
+            const std::string value = row.point->at.at(axis).text;
+            return of_freedom.emplace(row.point->at.at(kFreedom).text, value).first->second ==
+                   value;
+        });
     }
 
     void add_group(const std::string& label, const std::vector<Row>& rows) {

@@ -142,6 +142,27 @@ TEST_CASE("a table has the same bits for any number of threads and instruction s
     set_thread_count(threads);
 }
 
+TEST_CASE("a flow through the hull or out of its sources is warned of by number and place",
+          "[flow][warnings]") {
+    HullFlow flow;
+    flow.table.residual = 0.049;
+    flow.net_flux = -0.0049;
+    CHECK(warnings_of(flow).empty());
+
+    flow.table.residual = 0.0627;
+    flow.worst_place = Vec3(12.5, -1.25, -0.75);
+    auto warnings = warnings_of(flow);
+    REQUIRE(warnings.size() == 1);
+    CHECK_THAT(warnings[0], Catch::Contains("6.3 % of the ship's speed") &&
+                                Catch::Contains("(12.50, -1.25, -0.75) m"));
+
+    flow.table.residual = 0.0;
+    flow.net_flux = -0.0123;  // sinks stronger than sources
+    warnings = warnings_of(flow);
+    REQUIRE(warnings.size() == 1);
+    CHECK_THAT(warnings[0], Catch::Contains("1.23 % of the sources"));
+}
+
 TEST_CASE("a section's table lies in its plane and closes around it", "[flow]") {
     TriangleMesh prism = test::make_box_set(Vec3(4.0, 1.0, 1.0), 0.2, 0.3).mesh;
     const HullFlow made = make_hull_flow(prism, 2, {-0.1, 0.0, 0.1});

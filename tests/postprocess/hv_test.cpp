@@ -46,7 +46,9 @@ void give_particulars(const std::filesystem::path& run) {
 // a ship that was free in surge in ice of h [m]
 void write_free_run(const std::filesystem::path& run, double h, double speed) {
     write_run(run, 2.5, 0.1, 1, 1.0,
-              fmt::format("[field.ice]\nthickness = {}\n[ship]\nfree = [\"surge\"]\n", h));
+              fmt::format("[field.ice]\nthickness = {}\n[ship]\nfree = [\"surge\"]\n"
+                          "[propulsion]\npower = 5e6\n",
+                          h));
     Summary s = read_summary(run / "summary.json");
     s.ice.thickness = h;
     s.ship.speed_mean = speed;
@@ -198,6 +200,7 @@ TEST_CASE("free ships have their mean speeds, on one chart with fixed courses", 
     for (const HvCurve& curve : study.curves) {
         if (curve.source != Source::free_ship) continue;
         ++free;
+        CHECK(curve.name == "free ship");  // her power names what freedom says already
         REQUIRE(curve.points.size() == 2);
         CHECK(curve.points[0].attained.high == Approx(3.1));
         CHECK(curve.points[1].attained.reach == Reach::stuck);
