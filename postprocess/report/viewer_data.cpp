@@ -50,6 +50,7 @@ public:
         add_positions(floes);
         add_orientations(floes);
         add_loads(floes);
+        add_pieces();
         add_hull();
         add_flow();
         meta_["arrays"] = pack_.table();
@@ -189,6 +190,32 @@ private:
                     4 * static_cast<int>(std::lround(kLoads * std::sqrt(share))) + state));
             }
         pack_.add_series("load", std::move(codes), rows(), 0);
+    }
+
+    // of level ice: when each floe broke off [s], < 0: never, and by what share of the scale's end
+    void add_pieces() {
+        std::vector<float> born, load;
+        if (!chosen_.empty() && !run_.header.body_born.empty()) {
+            const double start = run_.frames[chosen_.front()].time;
+            const double age = round_up(run_.frames[chosen_.back()].time - start);
+            const auto& loads = run_.header.body_breaking_load;
+            const double end = round_up(*std::max_element(loads.begin(), loads.end()));
+            const ForceUnit unit = choose_unit(end, run_.header.dimension);
+            meta_["pieces"] = {{"age",
+                                {{"scale_end", age},
+                                 {"scale_text", views::readable(age)},
+                                 {"half_text", views::readable(0.5 * age)},
+                                 {"unit", "s"}}},
+                               {"load",
+                                {{"scale_text", views::readable(end / unit.newtons)},
+                                 {"half_text", views::readable(0.5 * end / unit.newtons)},
+                                 {"unit", unit.name}}}};
+            for (const double time : run_.header.body_born)
+                born.push_back(std::isfinite(time) ? static_cast<float>(time) : -1.0F);
+            for (const double x : loads) load.push_back(static_cast<float>(x / end));
+        }
+        pack_.add("piece_born", born);
+        pack_.add("piece_load", load);
     }
 
     void add_hull() {
