@@ -251,7 +251,7 @@ std::size_t press_at_random(int loads) {
 
 TEST_CASE("loads anywhere on the edge leave a valid sheet and keep its area",
           "[level_ice][edge][fuzz]") {
-    CHECK(press_at_random(200) > 100);
+    CHECK(press_at_random(500) > 250);
 }
 
 TEST_CASE("ten thousand loads anywhere on the edge leave a valid sheet",
