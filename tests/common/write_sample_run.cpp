@@ -44,7 +44,7 @@ ice::PiecesFile make_pieces(ice::RunData& run) {
         row.body = static_cast<std::int32_t>(5 + k);
         row.born = 1.0 + static_cast<double>(k);
         row.gone = 100.0;
-        row.load = 2e4 + 3e4 * static_cast<double>(k);
+        row.load = 1e4 + 1e4 * static_cast<double>(k);
         file.pieces.push_back(row);
     }
     file.rest = {{run.header.shapes[1].mesh, ice::Vec3(13.0, 0.0, -0.08), 144.0}};

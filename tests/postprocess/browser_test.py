@@ -169,10 +169,10 @@ def floe_colours(page):
 
 
 def check_pieces(page):
-    """Two pieces break off, at 1 and 2 s by 20 and 50 kN; the other floes stay unbroken ice."""
+    """Two pieces break off, at 1 and 2 s by 10 and 20 kN; the other floes stay unbroken ice."""
     assert page.js("return icepost.run.meta.floes") == 7, "four floes, two pieces and the rest"
     assert page.js("return [...icepost.run.arrays.piece_born]") == [-1, -1, -1, -1, 1, 2, -1]
-    assert page.js("return icepost.run.meta.pieces.load.scale_text") == "50"
+    assert page.js("return icepost.run.meta.pieces.load.scale_text") == "10"
     select = Select(page.find('[name="ice"]'))
     assert len(select.options) == 4, [o.text for o in select.options]
     for box in ("water", "through"):
