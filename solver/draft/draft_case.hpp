@@ -35,7 +35,7 @@ struct Draft {
 ///         scene throws
 Draft draft_case(const std::filesystem::path& hull, const std::filesystem::path& field);
 
-/// The case file: commented TOML, guesses marked CHECK; level ice in the field's place as a comment.
+/// The case file: commented TOML, guesses marked CHECK; as a comment level ice instead.
 /// @param hull, field  as the case names them, relative to its folder
 std::string draft_text(const Draft& draft, const std::string& hull, const std::string& field);
 
