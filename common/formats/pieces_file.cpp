@@ -2,6 +2,7 @@
 #include "common/formats/pieces_file.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -114,7 +115,7 @@ private:
     }
 };
 
-void add_floe(RunHeader& header, const PieceRow& row, std::int32_t group) {
+void add_floe(RunHeader& header, const PieceRow& row, std::int32_t group, double born) {
     RunShape shape{row.mesh, {}, {}};
     const auto& names = header.shapes[0].mesh.region_names;
     const auto ice = std::find(names.begin(), names.end(), "ice");
@@ -127,6 +128,8 @@ void add_floe(RunHeader& header, const PieceRow& row, std::int32_t group) {
     header.body_group.push_back(group);
     header.body_mass.push_back(row.mass);
     header.body_inertia.push_back(row.mass / solid.volume * solid.inertia.diagonal());
+    header.body_born.push_back(born);
+    header.body_breaking_load.push_back(row.load);
     header.shapes.push_back(std::move(shape));
 }
 
@@ -253,8 +256,11 @@ void show_pieces(const PiecesFile& file, RunData& run) {
     header.body_group.resize(others);
     header.body_mass.resize(others);
     header.body_inertia.resize(others);
-    for (const PieceRow& row : file.pieces) add_floe(header, row, file.piece_group);
-    for (const PieceRow& row : file.rest) add_floe(header, row, file.rest_group);
+    constexpr double kNever = std::numeric_limits<double>::infinity();
+    header.body_born.assign(others, kNever);
+    header.body_breaking_load.assign(others, 0.0);
+    for (const PieceRow& row : file.pieces) add_floe(header, row, file.piece_group, row.born);
+    for (const PieceRow& row : file.rest) add_floe(header, row, file.rest_group, kNever);
     for (std::size_t f = 0; f < run.frames.size(); ++f)
         show_in_frame(file, others, f > 0 ? &run.frames[f - 1] : nullptr, run.frames[f]);
 }

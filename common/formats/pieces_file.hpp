@@ -47,7 +47,8 @@ PiecesFile read_pieces(const std::filesystem::path& path);
 
 /// Puts pieces and rest in the place of the slots, as floes of the run: before it breaks off, a
 /// piece lies held in the sheet; after it was taken out of the scene, it drifts on from where it
-/// was last seen, behind. Hull contacts with the sheet's edge go to the first row of the rest.
+/// was last seen, behind. The header gets what broke it off, and when. Hull contacts with the
+/// sheet's edge go to the first row of the rest.
 void show_pieces(const PiecesFile& file, RunData& run);
 
 }  // namespace ice

@@ -31,6 +31,12 @@ double round_up(double value) {
     return 10.0 * power;
 }
 
+// Single loads are far above all others: colours end where 95 % of them do.
+double colours_end(std::vector<double> loads) {
+    std::sort(loads.begin(), loads.end());
+    return round_up(loads.empty() ? 0.0 : loads[(loads.size() - 1) * 95 / 100]);
+}
+
 class Packer {
 public:
     Packer(const RunData& run, const RunFigures& figures, std::size_t frames)
@@ -50,6 +56,7 @@ public:
         add_positions(floes);
         add_orientations(floes);
         add_loads(floes);
+        add_pieces();
         add_hull();
         add_flow();
         meta_["arrays"] = pack_.table();
@@ -169,11 +176,9 @@ private:
                 loads.push_back(mean_load(b, k));
                 if (loads.back() > 0.0) pressed.push_back(loads.back());
             }
-        std::sort(pressed.begin(), pressed.end());
-        const double most = pressed.empty() ? 0.0 : pressed.back();
-        // single hits are far above all others: the colours end where 95 % of the loads do
-        const double end =
-            round_up(pressed.empty() ? 0.0 : pressed[(pressed.size() - 1) * 95 / 100]);
+        const double most =
+            pressed.empty() ? 0.0 : *std::max_element(pressed.begin(), pressed.end());
+        const double end = colours_end(std::move(pressed));
         const ForceUnit unit = choose_unit(end, run_.header.dimension);
         meta_["load"] = {{"max", std::max(most, 1e-9)},
                          {"scale_end", end},
@@ -189,6 +194,35 @@ private:
                     4 * static_cast<int>(std::lround(kLoads * std::sqrt(share))) + state));
             }
         pack_.add_series("load", std::move(codes), rows(), 0);
+    }
+
+    // of level ice: when each floe broke off [s], < 0: never, and by what share of the scale's end
+    void add_pieces() {
+        std::vector<float> born, load;
+        if (!chosen_.empty() && !run_.header.body_born.empty()) {
+            const double start = run_.frames[chosen_.front()].time;
+            const double age = std::max(run_.frames[chosen_.back()].time - start, 1e-9);
+            const auto& loads = run_.header.body_breaking_load;
+            std::vector<double> pressed;
+            for (const double x : loads)
+                if (x > 0.0) pressed.push_back(x);
+            const double end = colours_end(std::move(pressed));
+            const ForceUnit unit = choose_unit(end, run_.header.dimension);
+            meta_["pieces"] = {{"age",
+                                {{"scale_end", age},
+                                 {"scale_text", views::readable(age)},
+                                 {"half_text", views::readable(0.5 * age)},
+                                 {"unit", "s"}}},
+                               {"load",
+                                {{"scale_text", views::readable(end / unit.newtons)},
+                                 {"half_text", views::readable(0.5 * end / unit.newtons)},
+                                 {"unit", unit.name}}}};
+            for (const double time : run_.header.body_born)
+                born.push_back(std::isfinite(time) ? static_cast<float>(time) : -1.0F);
+            for (const double x : loads) load.push_back(static_cast<float>(x / end));
+        }
+        pack_.add("piece_born", born);
+        pack_.add("piece_load", load);
     }
 
     void add_hull() {

@@ -114,6 +114,17 @@ void plan_course(const World& w, Draft& draft) {
     draft.averaged_lengths = draft.speed * (draft.duration - draft.average_from) / ship.length;
 }
 
+// Level ice that begins where the field does, long and broad enough for the same travel.
+void plan_sheet(const World& w, Draft& draft) {
+    const Eigen::AlignedBox3d ship = box_of(w.scene, kShip);
+    const double half = 1.5 * ship.sizes().y();
+    draft.thickness = rounded(w.scene.shapes[1].box.sizes().z(), 3);
+    draft.ice_from = std::floor(10.0 * w.scene.start.loose.min().x()) / 10.0 + 0.0;
+    draft.ice_to = std::ceil(ship.max().x() + draft.speed * draft.duration + draft.length / 4.0);
+    draft.ice_starboard = std::floor(draft.y - half);
+    draft.ice_port = std::ceil(draft.y + half);
+}
+
 }  // namespace
 
 Draft draft_case(const std::filesystem::path& hull, const std::filesystem::path& field) {
@@ -125,6 +136,7 @@ Draft draft_case(const std::filesystem::path& hull, const std::filesystem::path&
     world.scene = build_scene(world.parameters);
     place_ship(world, draft);
     plan_course(world, draft);
+    plan_sheet(world, draft);
     return draft;
 }
 

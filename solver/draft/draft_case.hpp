@@ -13,10 +13,13 @@ struct Draft {
     bool draught_from_mesh = false;  ///< the mesh crosses z = 0, which is taken for its water line
     double x = 0.0, y = 0.0;         ///< of the mesh's origin
     double speed = 0.0, duration = 0.0, time_step = 0.0, average_from = 0.0;
-    double length = 0.0;            ///< of the waterline
-    double lengths = 0.0;           ///< travelled
-    double averaged_lengths = 0.0;  ///< of them averaged
-    double clearance = 0.0;         ///< between the bow and the first ice
+    double length = 0.0;                         ///< of the waterline
+    double lengths = 0.0;                        ///< travelled
+    double averaged_lengths = 0.0;               ///< of them averaged
+    double clearance = 0.0;                      ///< between the bow and the first ice
+    double thickness = 0.0;                      ///< of the first floe
+    double ice_from = 0.0, ice_to = 0.0;         ///< along x, of a sheet in the field's place
+    double ice_starboard = 0.0, ice_port = 0.0;  ///< along y
 };
 
 /// Computes a case from its sphere sets.
@@ -32,7 +35,7 @@ struct Draft {
 ///         scene throws
 Draft draft_case(const std::filesystem::path& hull, const std::filesystem::path& field);
 
-/// The case file: commented TOML, guesses marked CHECK.
+/// The case file: commented TOML, guesses marked CHECK; as a comment level ice instead.
 /// @param hull, field  as the case names them, relative to its folder
 std::string draft_text(const Draft& draft, const std::string& hull, const std::string& field);
 

@@ -58,6 +58,11 @@ std::string draft_text(const Draft& d, const std::string& hull, const std::strin
     out += fmt::format("\n[[floes]]\npattern = \"file\"\nfile = {}\n", quoted(field));
     out +=
         line("hold = \"never\"", "broken ice; \"until-hull-contact\" where the bow breaks it off");
+    out += "# Unbroken ice, which the bow breaks: these tables in the place of [[floes]].\n";
+    out += fmt::format(
+        "# [level_ice]\n# thickness = {:g}\n# extent = [{:g}, {:g}, {:g}, {:g}]\n"
+        "# [bending]\n# flexural_strength = \"500 kPa\"\n",
+        d.thickness, d.ice_from, d.ice_to, d.ice_starboard, d.ice_port);
     out += "\n[contact]\n" + line("friction_ship_ice = 0.1", "CHECK: 0.05 new paint, 0.2 old");
     out += line("friction_ice_ice = 0.3", "CHECK");
     out += line("crushing_pressure = \"1 MPa\"", "CHECK: 0.5 to 3 MPa");

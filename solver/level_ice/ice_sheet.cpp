@@ -84,6 +84,22 @@ std::vector<Loop> all_loops(std::vector<Part> parts) {
     return out;
 }
 
+// Parts without holes: one that has some is cut across, through the middle of its first hole.
+std::vector<Part> opened(Part part) {
+    if (part.holes.empty()) return {std::move(part)};
+    Eigen::AlignedBox2d box, hole;
+    for (const Vec2& p : part.outer) box.extend(p);
+    for (const Vec2& p : part.holes[0]) hole.extend(p);
+    Eigen::AlignedBox2d low = box, high = box;
+    low.max().x() = high.min().x() = hole.center().x();
+    const std::vector<Loop> loops = all_loops({std::move(part)});
+    std::vector<Part> out;
+    for (const auto& half : {low, high})
+        for (Part& cut : combine(loops, loop_of(half), cl::ctIntersection))
+            for (Part& whole : opened(std::move(cut))) out.push_back(std::move(whole));
+    return out;
+}
+
 bool is_too_small(const Loop& loop, double smallest) {
     const double area = area_of(loop);
     return area < smallest * smallest || 2.0 * area < 0.25 * smallest * length_of(loop);
@@ -105,8 +121,10 @@ IceSheet::Broken IceSheet::break_off(const Loop& crack) {
                                      [&](const Part& p) { return p.area < sheet; });
     std::move(parted, rest.end(), std::back_inserter(loose));
     rest.erase(parted, rest.end());
-    const auto is_ring = [](const Part& p) { return !p.holes.empty(); };
-    if (std::any_of(loose.begin(), loose.end(), is_ring)) return {};
+    std::vector<Part> whole;
+    for (Part& part : loose)
+        for (Part& open : opened(std::move(part))) whole.push_back(std::move(open));
+    loose = std::move(whole);
     std::stable_sort(loose.begin(), loose.end(),
                      [](const Part& l, const Part& r) { return l.area > r.area; });
 
@@ -143,22 +161,8 @@ IceSheet IceSheet::in_box(const Eigen::AlignedBox2d& box) const {
 
 std::vector<Loop> IceSheet::parts_in(const Eigen::AlignedBox2d& box) const {
     std::vector<Loop> out;
-    for (Part& part : combine(loops_, loop_of(box), cl::ctIntersection)) {
-        if (part.holes.empty()) {
-            out.push_back(std::move(part.outer));
-            continue;
-        }
-        // through the middle of the first hole, across
-        Eigen::AlignedBox2d hole;
-        for (const Vec2& p : part.holes[0]) hole.extend(p);
-        IceSheet ring = *this;
-        ring.loops_ = all_loops({part});
-        const double middle = hole.center().x();
-        Eigen::AlignedBox2d low = box, high = box;
-        low.max().x() = high.min().x() = middle;
-        for (const auto& half : {low, high})
-            for (Loop& loop : ring.parts_in(half)) out.push_back(std::move(loop));
-    }
+    for (Part& part : combine(loops_, loop_of(box), cl::ctIntersection))
+        for (Part& open : opened(std::move(part))) out.push_back(std::move(open.outer));
     return out;
 }
 

@@ -31,7 +31,7 @@ public:
     /// Cuts the region `crack` out. What of the sheet lies in it breaks off, and what the cut parts
     /// from the rest of the sheet: the largest part stays, and any of ten times the region's area,
     /// as the other side of a channel that goes through. Sheet, pieces and brash together keep
-    /// their area. Nothing breaks where a piece would be a ring.
+    /// their area. A ring, as around the hole of a load inside the ice, breaks across the hole.
     /// @pre crack is simple
     Broken break_off(const Loop& crack);
 

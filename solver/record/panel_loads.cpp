@@ -25,7 +25,8 @@ PanelLoads::PanelLoads(HullPanels hull, std::vector<std::string> region_names, d
       dt_(dt),
       steps_per_window_(std::max<std::int64_t>(kLeastSteps, std::llround(kPanelWindow / dt))),
       on_panel_(hull_.panels.size(), 0.0),
-      on_region_(region_names_.size(), 0.0) {
+      on_region_(region_names_.size(), 0.0),
+      forces_(hull_.panels.size()) {
     hull_.window = static_cast<double>(steps_per_window_) * dt;
 }
 
@@ -50,9 +51,14 @@ void PanelLoads::close_window() {
         regions_.push_back(impulse / hull_.window);
         impulse = 0.0;
     }
+    lines_.resize(regions_.size(), 0.0);
+    double* line = lines_.data() + lines_.size() - on_region_.size();
     for (std::size_t k = 0; k < on_panel_.size(); ++k) {
-        if (on_panel_[k] > 0.0)
-            loads_.push_back({windows_, static_cast<std::int32_t>(k), on_panel_[k] / hull_.window});
+        if (on_panel_[k] <= 0.0) continue;
+        const double force = on_panel_[k] / hull_.window;
+        forces_[k].push_back(force);
+        double& most = line[hull_.panels[k].region];
+        most = std::max(most, force / hull_.panels[k].length);
         on_panel_[k] = 0.0;
     }
     steps_ = 0;
@@ -61,38 +67,25 @@ void PanelLoads::close_window() {
 
 HullPanels PanelLoads::panels() const {
     HullPanels out = hull_;
-    std::vector<std::vector<double>> forces(out.panels.size());
-    for (const Load& load : loads_)
-        forces[static_cast<std::size_t>(load.panel)].push_back(load.force);
-    for (std::size_t k = 0; k < forces.size(); ++k) {
-        if (forces[k].empty()) continue;
+    for (std::size_t k = 0; k < forces_.size(); ++k) {
+        std::vector<double> forces = forces_[k];
+        if (forces.empty()) continue;
         PanelLoad& panel = out.panels[k];
-        panel.mean = std::accumulate(forces[k].begin(), forces[k].end(), 0.0) /
-                     static_cast<double>(windows_);
-        panel.max = *std::max_element(forces[k].begin(), forces[k].end());
+        panel.mean =
+            std::accumulate(forces.begin(), forces.end(), 0.0) / static_cast<double>(windows_);
+        panel.max = *std::max_element(forces.begin(), forces.end());
         // Windows without a load were not stored; a quantile over time counts them as zero.
-        forces[k].resize(static_cast<std::size_t>(windows_), 0.0);
-        panel.p99 = quantile(std::move(forces[k]), 0.99);
+        forces.resize(static_cast<std::size_t>(windows_), 0.0);
+        panel.p99 = quantile(std::move(forces), 0.99);
     }
     return out;
 }
 
-std::vector<double> PanelLoads::force_on_region(std::size_t region) const {
+std::vector<double> PanelLoads::on_region(const std::vector<double>& table,
+                                          std::size_t region) const {
     std::vector<double> series;
-    for (std::size_t at = region; at < regions_.size(); at += region_names_.size())
-        series.push_back(regions_[at]);
-    return series;
-}
-
-// of its hardest panel in each window
-std::vector<double> PanelLoads::line_load_on_region(std::size_t region) const {
-    std::vector<double> series(static_cast<std::size_t>(windows_), 0.0);
-    for (const Load& load : loads_) {
-        const PanelLoad& panel = hull_.panels[static_cast<std::size_t>(load.panel)];
-        if (static_cast<std::size_t>(panel.region) != region) continue;
-        double& most = series[static_cast<std::size_t>(load.window)];
-        most = std::max(most, load.force / panel.length);
-    }
+    for (std::size_t at = region; at < table.size(); at += region_names_.size())
+        series.push_back(table[at]);
     return series;
 }
 
@@ -100,9 +93,9 @@ void PanelLoads::fill(Summary& summary) const {
     if (windows_ == 0) return;
     for (std::size_t r = 0; r < region_names_.size(); ++r) {
         RegionStatistics& out = summary.regions[region_names_[r]];
-        out.force_peaks = find_peaks(force_on_region(r), hull_.window);
+        out.force_peaks = find_peaks(on_region(regions_, r), hull_.window);
         if (!hull_.panels.empty())
-            out.line_load_peaks = find_peaks(line_load_on_region(r), hull_.window);
+            out.line_load_peaks = find_peaks(on_region(lines_, r), hull_.window);
     }
     const HullPanels all = panels();
     summary.panels.size = all.size;

@@ -34,14 +34,9 @@ public:
     void carry(CheckpointFile& file);
 
 private:
-    struct Load {
-        std::int64_t window;
-        std::int32_t panel;
-        double force;  ///< [N]
-    };
     void close_window();
-    std::vector<double> force_on_region(std::size_t region) const;
-    std::vector<double> line_load_on_region(std::size_t region) const;
+    /// A region's column of a table [window x region].
+    std::vector<double> on_region(const std::vector<double>& table, std::size_t region) const;
 
     HullPanels hull_;
     std::vector<std::string> region_names_;
@@ -50,8 +45,10 @@ private:
 
     std::int64_t steps_ = 0, windows_ = 0;      ///< steps: of the window that is not whole yet
     std::vector<double> on_panel_, on_region_;  ///< impulses in it [N s]
-    std::vector<Load> loads_;      ///< of whole windows, by window and panel, those above zero
-    std::vector<double> regions_;  ///< [window x region], force [N]
+    // What grows with time: a quantile of all windows needs them all.
+    std::vector<std::vector<double>> forces_;  ///< by panel, of whole windows, above zero [N]
+    std::vector<double> regions_;              ///< [window x region], force [N]
+    std::vector<double> lines_;  ///< [window x region], line load of the hardest panel [N/m]
 };
 
 }  // namespace ice

@@ -3,6 +3,8 @@
 // direction.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "common/formats/checkpoint_file.hpp"
 #include "solver/record/recorder.hpp"
 
@@ -55,10 +57,23 @@ void PanelLoads::carry(CheckpointFile& file) {
     file.carry("panels.windows", windows_);
     file.carry_each("panels.on_panel", on_panel_);
     file.carry_each("panels.on_region", on_region_);
-    file.column("panels.load_window", loads_, &Load::window);
-    file.column("panels.load_panel", loads_, &Load::panel);
-    file.column("panels.load_force", loads_, &Load::force);
+    // panel after panel
+    std::vector<std::int64_t> counts;
+    std::vector<double> all;
+    for (const auto& forces : forces_) {
+        counts.push_back(static_cast<std::int64_t>(forces.size()));
+        all.insert(all.end(), forces.begin(), forces.end());
+    }
+    file.carry_each("panels.force_count", counts);
+    file.carry("panels.forces", all);
+    auto next = all.begin();
+    for (std::size_t k = 0; k < forces_.size(); ++k) {
+        const auto end = next + std::min<std::ptrdiff_t>(counts[k], all.end() - next);
+        forces_[k].assign(next, end);
+        next = end;
+    }
     file.carry("panels.regions", regions_);
+    file.carry("panels.lines", lines_);
 }
 
 void HullContacts::carry(CheckpointFile& file) {

@@ -203,6 +203,25 @@ std::size_t add_floe(Scene& scene, std::int32_t shape_row, double density, const
     return i;
 }
 
+namespace {
+
+// Pieces of level ice have no number before they break off: a slot is many of them in turn.
+void require_tracked_floes(const Scene& scene, const Case& parameters) {
+    const auto floes = static_cast<int>(scene.bodies.size()) - 1;
+    for (const int id : parameters.track) {
+        if (id <= floes) continue;
+        throw bad_input(
+            "output.track",
+            fmt::format("floe {} does not exist: there are {} as the run begins", id, floes),
+            parameters.has_level_ice()
+                ? "leave it out: pieces that break off [level_ice] cannot be tracked, "
+                  "pieces.h5 and run.h5 hold where they go"
+                : "floes are numbered from 1 in the order of [[floes]], x fastest");
+    }
+}
+
+}  // namespace
+
 Scene build_scene(const Case& parameters) {
     Shape hull = read_shape(parameters.hull_spheres, parameters.dimension, false);
     const Vec3 place = place_hull(parameters, hull.mesh);
@@ -219,12 +238,7 @@ Scene build_scene(const Case& parameters) {
     apply_jitter(scene, parameters);
     set_breaking_loads(scene, parameters);
     scene.start = find_ice_at_start(scene, parameters);
-    for (const int id : parameters.track)
-        if (id >= static_cast<int>(scene.bodies.size()))
-            throw bad_input(
-                "output.track",
-                fmt::format("floe {} does not exist: there are {}", id, scene.bodies.size() - 1),
-                "floes are numbered from 1 in the order of [[floes]], x fastest");
+    require_tracked_floes(scene, parameters);
     return scene;
 }
 

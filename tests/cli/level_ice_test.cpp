@@ -73,6 +73,7 @@ TEST_CASE("level ice that cannot be is refused with its key", "[cli][level_ice][
     refuses("level_ice.extent=[12,0,-8,8]", "level_ice.extent is empty");
     refuses("contact.crushing_pressure=inf", "needs a finite contact.crushing_pressure");
     refuses("level_ice.thickness=-1", "level_ice.thickness");
+    refuses("output.track=[1]", "pieces that break off [level_ice] cannot be tracked");
     const Result far = w.run("icesolve case.cfg --check --set level_ice.extent=[100,120,-8,8]");
     CHECK(far.code == 0);
     CHECK_THAT(far.err + far.out, Catch::Contains("never meets the ice"));

@@ -177,6 +177,27 @@ TEST_CASE("the option --new without ice drafts some of the ship's size", "[cli]"
     CHECK(check.code == 0);
     CHECK_THAT(check.err, Catch::Contains(": good, "));
 
+    // the level ice that its comments offer, in the place of the floes, is a case, too
+    std::istringstream lines(slurp(w / "ship.cfg"));
+    std::string level;
+    bool floes = false, sheet = false;
+    for (std::string text; std::getline(lines, text);) {
+        if (text == "[[floes]]" || text.starts_with("# Unbroken ice")) {
+            sheet = !(floes = text == "[[floes]]");
+            continue;
+        }
+        if (text.starts_with("[")) floes = sheet = false;
+        if (!floes)
+            level += (sheet ? text.substr(std::min<std::size_t>(2, text.size())) : text) + '\n';
+    }
+    CAPTURE(level);
+    CHECK_THAT(level, Catch::Contains("\n[level_ice]\n") && !Catch::Contains("floes]]"));
+    w.write("level.cfg", level);
+    const Result unbroken = w.run("icesolve level.cfg --check");
+    CAPTURE(unbroken.err);
+    CHECK(unbroken.code == 0);
+    CHECK_THAT(unbroken.err, Catch::Contains(": good, ") && !Catch::Contains("never meets"));
+
     // what the file does not say and spherize would guess otherwise: a ship of twice the size
     const Result told = w.run("icesolve --new ship.stl ice.toml -o twice/ship.cfg --scale 0.002");
     CHECK(told.code == 1);

@@ -4,7 +4,7 @@
 # be built, from its seeds. Findings and new inputs go to build/fuzz/TARGET.
 set -euo pipefail
 
-[[ $# -ge 2 ]] || { echo "usage: run_fuzz.sh case|field_spec|mesh|spheres|flow|thrust SECONDS [OPTION]..." >&2; exit 2; }
+[[ $# -ge 2 ]] || { echo "usage: run_fuzz.sh case|field_spec|mesh|spheres|flow|thrust|live_edge SECONDS [OPTION]..." >&2; exit 2; }
 target=$1 seconds=$2
 shift 2
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)

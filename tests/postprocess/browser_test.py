@@ -162,6 +162,34 @@ def check_pictures(page):
     must_differ("not following")
 
 
+def floe_colours(page):
+    """The colours of the view from above at an instant, nothing of the water's plane on them."""
+    shot = Image.open(io.BytesIO(page.find("canvas").screenshot_as_png)).convert("RGB")
+    return {colour for count, colour in shot.getcolors(maxcolors=1 << 24) if count > 20}
+
+
+def check_pieces(page):
+    """Two pieces break off, at 1 and 2 s by 10 and 20 kN; the other floes stay unbroken ice."""
+    assert page.js("return icepost.run.meta.floes") == 7, "four floes, two pieces and the rest"
+    assert page.js("return [...icepost.run.arrays.piece_born]") == [-1, -1, -1, -1, 1, 2, -1]
+    assert page.js("return icepost.run.meta.pieces.load.scale_text") == "10"
+    select = Select(page.find('[name="ice"]'))
+    assert len(select.options) == 4, [o.text for o in select.options]
+    for box in ("water", "through"):
+        page.find(f'[name="{box}"]').click()
+    page.find('[data-camera="top"]').click()
+    for mode, title in (("age", "Time since it broke off"), ("breaking", "Load that broke it")):
+        select.select_by_value(mode)
+        legend = page.find(".legend3d").text
+        assert title in legend and "unbroken" in legend, legend
+        seen = []
+        for moment in (0.5, 1.5, 4.0):  # none, one and both are broken off
+            page.js("icepost.playback.seek(arguments[0])", moment)
+            page.picture()
+            seen.append(floe_colours(page))
+        assert seen[1] - seen[0] and seen[2] - seen[1], f"{mode}: colours do not follow the pieces"
+
+
 def check_screenshot(page):
     """The window shows hull, ice and water: many colours, none of them nearly everywhere."""
     page.js("document.querySelector('canvas').scrollIntoView()")
@@ -234,9 +262,19 @@ def main():
             assert page.state() == "ready" and page.clock() == 2.0
             check_screenshot(page)
             page.check_quiet()
+        with Page(address + "#ice=age", WEBGL) as page:  # an address of another run
+            assert page.js("return document.querySelectorAll('[name=ice] option').length") == 2
+            page.check_quiet()
         with Page(address, ["--disable-3d-apis"]) as page:
             assert page.state() == "no-webgl", page.state()
             check_drawings(page)
+            page.check_quiet()
+    with tempfile.TemporaryDirectory() as folder:
+        subprocess.run([write_sample, os.path.join(folder, "run.h5"), "--pieces"], check=True)
+        subprocess.run([icepost, "-q", "report", folder], check=True)
+        with Page("file://" + os.path.join(folder, "report.html"), WEBGL) as page:
+            assert page.state() == "ready", page.state()
+            check_pieces(page)
             page.check_quiet()
     print("ok")
 

@@ -8,9 +8,12 @@
 #include <random>
 
 #include "solver/level_ice/section_outline.hpp"
+#include "tests/support/edge_checks.hpp"
 #include "tests/support/make_sphere_sets.hpp"
 
 using namespace ice;
+using test::cross;
+using test::is_simple;
 
 namespace {
 
@@ -36,29 +39,6 @@ double left_in(const IceSheet& sheet, const Loop& piece) {
     const double before = copy.area();
     copy.break_off(piece);
     return before - copy.area();
-}
-
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
-
-// Do two edges cross, other than at their ends?
-bool cross_inside(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
-    const double tiny = 1e-6;  // [m2]: rounding puts corners beside edges by 1 nm
-    const double c_side = cross(b - a, c - a), d_side = cross(b - a, d - a);
-    const double a_side = cross(d - c, a - c), b_side = cross(d - c, b - c);
-    return std::min(c_side, d_side) < -tiny && std::max(c_side, d_side) > tiny &&
-           std::min(a_side, b_side) < -tiny && std::max(a_side, b_side) > tiny;
-}
-
-bool is_simple(const std::vector<Loop>& loops) {
-    std::vector<std::pair<Vec2, Vec2>> edges;
-    for (const Loop& loop : loops)
-        for (std::size_t k = 0; k < loop.size(); ++k)
-            edges.emplace_back(loop[k], loop[(k + 1) % loop.size()]);
-    for (std::size_t i = 0; i < edges.size(); ++i)
-        for (std::size_t j = i + 1; j < edges.size(); ++j)
-            if (cross_inside(edges[i].first, edges[i].second, edges[j].first, edges[j].second))
-                return false;
-    return true;
 }
 
 }  // namespace
@@ -153,17 +133,33 @@ TEST_CASE("what is too small or too thin for a piece is brash", "[level_ice]") {
     CHECK(sheet.break_off({{-3, 0}, {-1, 0}, {-1, 2}}).pieces.empty());  // beside the ice
 }
 
-TEST_CASE("no piece is a ring, and a load inside the ice makes a hole", "[level_ice]") {
+TEST_CASE("a load inside the ice makes a hole, and a ring around it breaks in two", "[level_ice]") {
     IceSheet sheet = field();
     const Loop square{{40, -2}, {44, -2}, {44, 2}, {40, 2}},
         around{{38, -4}, {46, -4}, {46, 4}, {38, 4}};
     CHECK(sheet.break_off(square).pieces.size() == 1);
     REQUIRE(sheet.loops().size() == 2);
     CHECK(area_of(sheet.loops()[1]) == Approx(-16.0));
-    CHECK(sheet.break_off(around).pieces.empty());
-    CHECK(sheet.area() == Approx(4000.0 - 16.0));
-    CHECK_FALSE(sheet.contains({42, 0}));
-    CHECK(sheet.contains({39, 0}));
+    // 8 m by 8 m without 4 m by 4 m, cut at the hole's middle
+    const auto ring = sheet.break_off(around);
+    REQUIRE(ring.pieces.size() == 2);
+    CHECK(is_simple(ring.pieces));
+    for (const Loop& half : ring.pieces) CHECK(area_of(half) == Approx(24.0));
+    CHECK(ring.brash == 0.0);
+    REQUIRE(sheet.loops().size() == 2);
+    CHECK(sheet.area() == Approx(4000.0 - 64.0));
+    CHECK_FALSE(sheet.contains({39, 0}));
+    CHECK(sheet.contains({37, 0}));
+}
+
+TEST_CASE("a ring with two holes breaks in parts without any", "[level_ice]") {
+    IceSheet sheet = field();
+    for (const double x : {40.0, 50.0}) sheet.break_off({{x, -2}, {x + 4, -2}, {x + 4, 2}, {x, 2}});
+    REQUIRE(sheet.loops().size() == 3);
+    const auto broken = sheet.break_off({{38, -4}, {56, -4}, {56, 4}, {38, 4}});
+    CHECK(broken.pieces.size() == 3);
+    CHECK(sum_of(broken.pieces) == Approx(18.0 * 8.0 - 32.0));
+    CHECK(sheet.area() + sum_of(broken.pieces) == Approx(4000.0 - 32.0).epsilon(1e-12));
 }
 
 TEST_CASE("random breaks keep the area, the polygon and a least size of pieces",

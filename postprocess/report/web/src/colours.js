@@ -16,6 +16,11 @@ const LOAD = [[214, 219, 224], [250, 212, 120], [238, 120, 60], [176, 42, 90], [
 // Speed of the water: from pale to dark blue.
 const FLOW = [[176, 214, 240], [66, 146, 198], [8, 69, 148], [8, 24, 88]];
 
+// Pieces of level ice: time since they broke off, the load that broke them off.
+export const AGE = [[255, 226, 110], [134, 203, 102], [46, 148, 130], [48, 92, 138], [62, 18, 92]];
+export const BREAKING = [[254, 236, 190], [253, 176, 98], [227, 88, 70], [150, 30, 96],
+  [60, 12, 84]];
+
 function ramp(stops, x) {
   const at = Math.min(Math.max(x, 0), 1) * (stops.length - 1);
   const k = Math.min(Math.floor(at), stops.length - 2);
@@ -23,6 +28,8 @@ function ramp(stops, x) {
 }
 export const forceColour = (x) => ramp(FORCE, x);
 export const loadColour = (x) => ramp(LOAD, x);
+export const ageColour = (x) => ramp(AGE, x);
+export const breakingColour = (x) => ramp(BREAKING, x);
 export const flowColour = (x) => ramp(FLOW, x);
 
 const REGIONS = [[148, 160, 172], [204, 102, 119], [221, 204, 119], [68, 170, 153],

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Buttons, slider and legends of the 3D view.
 
-import { STATES, css, cssGradient, flowColour, forceColour, loadColour, regionColour }
-  from './colours.js';
+import { STATES, ageColour, breakingColour, css, cssGradient, flowColour, forceColour, loadColour,
+  regionColour } from './colours.js';
 import { FLOW_END } from './flow.js';
 
 const KEY_STEP = 1 / 60; // of the run, per arrow key
@@ -91,6 +91,9 @@ export class Controls {
       find('flow').closest('label').hidden = false;
       on('flow', (shown) => { view.flow.visible = shown; });
     }
+    if (this.run.meta.pieces)
+      find('ice').append(new Option('time since it broke off', 'age'),
+        new Option('load that broke it off', 'breaking'));
     on('through', (through) => view.hull.setSeeThrough(through));
     on('ice', (mode) => view.setIceColours(mode));
     on('hull', (mode) => view.hull.setColours(mode));
@@ -124,7 +127,13 @@ export class Controls {
     const place = this.root.querySelector('.legend3d');
     const parts = [];
     const states = STATES.map((s) => [s.name, s.rgb]);
-    if (this.find('ice').value === 'state') parts.push(swatches(states));
+    const ice = this.find('ice').value;
+    const unbroken = swatches([['unbroken', STATES[0].rgb]]);
+    if (ice === 'state') parts.push(swatches(states));
+    else if (ice === 'age')
+      parts.push(scaleBar('Time since it broke off', ageColour, meta.pieces.age), unbroken);
+    else if (ice === 'breaking')
+      parts.push(scaleBar('Load that broke it off', breakingColour, meta.pieces.load), unbroken);
     else parts.push(scaleBar('Force of the ship on a floe', forceColour, meta.load));
     const hull = this.find('hull').value;
     if (hull === 'load')

@@ -6,7 +6,7 @@
 
 import { BufferAttribute, BufferGeometry, DataTexture, DoubleSide, GLSL3, Mesh, NearestFilter,
   RGBAIntegerFormat, ShaderMaterial, ShortType, Vector3 } from 'three';
-import { STATES, glslRamp } from './colours.js';
+import { AGE, BREAKING, STATES, glslRamp } from './colours.js';
 import { triangleSoup } from './geometry.js';
 import { SHADE } from './shade.js';
 
@@ -15,12 +15,14 @@ precision highp float;
 precision highp int;
 uniform highp isampler2D poses;
 uniform int floes, width, frames;
-uniform float frame;
+uniform float frame, time, ageEnd;
 uniform vec3 scale, offset;
 in float floe;
+in vec2 piece; // when it broke off [s], < 0: never; by what share of the scale's load
 in vec3 edge;
 out vec3 vView, vEdge;
 out float vLoad;
+flat out vec2 vPiece; // age and load as shares of their scales; age < 0: unbroken
 flat out int vState;
 
 ivec4 texel(int k) { return texelFetch(poses, ivec2(k % width, k / width), 0); }
@@ -39,6 +41,7 @@ void main() {
   // the load of frame n is the mean of the time before it
   vLoad = float((part > 0.0 ? p1.w : p0.w) >> 2) / 8191.0;
   vState = (part < 0.5 ? p0.w : p1.w) & 3;
+  vPiece = vec2(piece.x < 0.0 ? -1.0 : (time - piece.x) / ageEnd, piece.y);
   vView = view.xyz;
   vEdge = edge;
   gl_Position = projectionMatrix * view;
@@ -50,18 +53,26 @@ precision highp int;
 in vec3 vView, vEdge;
 in float vLoad;
 flat in int vState;
+flat in vec2 vPiece;
 uniform float loadMax, scaleEnd;
-uniform bool byState;
+uniform int mode; // row of MODES
 uniform vec3 states[3];
 out vec4 colour;
 ${glslRamp('forceColour')}
+${glslRamp('ageColour', AGE)}
+${glslRamp('breakingColour', BREAKING)}
 ${SHADE}
 void main() {
   // forces are stored as square roots and coloured linearly
-  vec3 base = byState ? states[clamp(vState, 0, 2)]
-                      : forceColour(vLoad * vLoad * loadMax / scaleEnd);
+  vec3 base = forceColour(vLoad * vLoad * loadMax / scaleEnd);
+  if (mode == 1) base = states[clamp(vState, 0, 2)];
+  if (mode >= 2) base = vPiece.x < 0.0 ? states[0]
+                      : mode == 2 ? ageColour(vPiece.x) : breakingColour(vPiece.y);
   colour = vec4(base * shade(vView) * outline(vEdge), 1.0);
 }`;
+
+/** What the ice is coloured by; the last two are for pieces of level ice. */
+export const MODES = ['force', 'state', 'age', 'breaking'];
 
 const EDGE = 10; // degrees between faces of a floe
 
@@ -99,22 +110,27 @@ function allFloes(meta, arrays) {
   const position = new Float32Array(3 * count);
   const edge = new Uint8Array(3 * count);
   const floe = new Float32Array(count);
+  const piece = new Float32Array(2 * count).fill(-1);
   let at = 0;
   bodyShape.forEach((s, b) => {
     position.set(soups[s].position, 3 * at);
     edge.set(soups[s].edge, 3 * at);
     const corners = soups[s].position.length / 3;
     floe.fill(b, at, at + corners);
+    if (meta.pieces)
+      for (let k = at; k < at + corners; ++k)
+        piece.set([arrays.piece_born[b], arrays.piece_load[b]], 2 * k);
     at += corners;
   });
   const geometry = new BufferGeometry();
   geometry.setAttribute('position', new BufferAttribute(position, 3));
   geometry.setAttribute('edge', new BufferAttribute(edge, 3));
   geometry.setAttribute('floe', new BufferAttribute(floe, 1));
+  geometry.setAttribute('piece', new BufferAttribute(piece, 2));
   return geometry;
 }
 
-/** The mesh; material.uniforms.frame moves it, byState chooses the colours. */
+/** The mesh; material.uniforms.frame and time move it, mode chooses the colours. */
 export function makeFloes({ meta, arrays }) {
   const { texture, width } = poseTexture(meta, arrays);
   const uniforms = {
@@ -127,7 +143,9 @@ export function makeFloes({ meta, arrays }) {
     offset: { value: new Vector3(...meta.position.offset) },
     loadMax: { value: meta.load.max },
     scaleEnd: { value: meta.load.scale_end },
-    byState: { value: false },
+    time: { value: 0 },
+    ageEnd: { value: meta.pieces?.age.scale_end ?? 1 },
+    mode: { value: 0 },
     states: { value: STATES.map((s) => new Vector3(...s.rgb.map((c) => c / 255))) },
   };
   const mesh = new Mesh(allFloes(meta, arrays), new ShaderMaterial({ glslVersion: GLSL3,

@@ -5,7 +5,7 @@ import { BufferAttribute, BufferGeometry, Color, DoubleSide, LineBasicMaterial, 
   MeshBasicMaterial, PlaneGeometry, Quaternion, Scene, Vector3, WebGLRenderer } from 'three';
 import { Camera } from './camera.js';
 import { findPlace } from './data.js';
-import { makeFloes } from './floes.js';
+import { MODES, makeFloes } from './floes.js';
 import { makeFlow } from './flow.js';
 import { Hull } from './hull.js';
 
@@ -82,7 +82,11 @@ export class View {
 
   seek(time) {
     const place = findPlace(this.run.arrays.frame_time, time);
-    if (this.floes) this.floes.material.uniforms.frame.value = place.row + place.part;
+    if (this.floes) {
+      const { uniforms } = this.floes.material;
+      uniforms.frame.value = place.row + place.part;
+      uniforms.time.value = time;
+    }
     const ship = this.shipAt(place);
     this.hull.mesh.position.copy(ship);
     this.turnShip(place);
@@ -94,7 +98,7 @@ export class View {
   }
 
   setIceColours(mode) {
-    if (this.floes) this.floes.material.uniforms.byState.value = mode === 'state';
+    if (this.floes) this.floes.material.uniforms.mode.value = Math.max(0, MODES.indexOf(mode));
   }
 
   setWater(on) {
