@@ -68,7 +68,7 @@ void PanelLoads::carry(CheckpointFile& file) {
     file.carry("panels.forces", all);
     auto next = all.begin();
     for (std::size_t k = 0; k < forces_.size(); ++k) {
-        const auto end = next + std::min<std::ptrdiff_t>(counts[k], all.end() - next);
+        const auto end = next + std::clamp<std::ptrdiff_t>(counts[k], 0, all.end() - next);
         forces_[k].assign(next, end);
         next = end;
     }

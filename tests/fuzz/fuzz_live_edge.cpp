@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Loads on the edge of level ice, five bytes each: which corner of which tile, from where, and how
-// far the ship goes before. After each the area is kept, polygons are simple, and no piece lies in
+// Loads on the edge of level ice. Five bytes are one load: the tile, its corner, the direction, and
+// the ship's way before the load. After each the area is kept, polygons are simple, and no piece lies in
 // the sheet; a crack that opens changes bodies.
 #include <algorithm>
 #include <numbers>
@@ -34,12 +34,7 @@ Ice make_ice() {
     Case& p = ice.parameters;
     p.time_step = 0.02;
     p.contact.crushing_pressure = 1e6;
-    p.level_ice.thickness = 0.3;
-    p.level_ice.extent = {0.0, 16.0, -5.0, 5.0};
-    p.level_ice.spacing = 0.3;
-    p.level_ice.gap = 0.02;
-    p.bending.elastic_modulus = 3.7e8;
-    p.bending.flexural_strength = 3e5;
+    test::lay_weak_ice(p, {0.0, 16.0, -5.0, 5.0}, 0.3);
     p.hull_position = Vec3(4.0, 0.0, 0.0);
     ice.scene = make_scene(build_shape(test::fill_surface(mesh, 0.3, 0.5), false), p.hull_position,
                            Vec3::UnitX());

@@ -200,7 +200,7 @@ TEST_CASE("free ships have their mean speeds, on one chart with fixed courses", 
     for (const HvCurve& curve : study.curves) {
         if (curve.source != Source::free_ship) continue;
         ++free;
-        CHECK(curve.name == "free ship");  // her power names what freedom says already
+        CHECK(curve.name == "free ship");  // its power is no axis of its own
         REQUIRE(curve.points.size() == 2);
         CHECK(curve.points[0].attained.high == Approx(3.1));
         CHECK(curve.points[1].attained.reach == Reach::stuck);

@@ -46,12 +46,7 @@ Case sheet_case(double speed, double duration) {
     p.contact.crushing_pressure = 1e6;
     p.frames_every = 0.5;
     p.history_every = 0.1;
-    p.level_ice.thickness = 0.3;
-    p.level_ice.extent = {0.0, 40.0, -8.0, 8.0};
-    p.level_ice.spacing = 0.2;
-    p.level_ice.gap = 0.02;
-    p.bending.elastic_modulus = 3.7e8;
-    p.bending.flexural_strength = 3e5;
+    test::lay_weak_ice(p, {0.0, 40.0, -8.0, 8.0}, 0.2);
     p.hull_position = Vec3(-5.8, 0, 0);
     p.resolved = "\n[simulation]\nduration = 1.2\n";
     return p;

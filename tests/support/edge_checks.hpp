@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -23,7 +24,7 @@ inline bool cross_inside(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2
            std::min(a_side, b_side) < -tiny && std::max(a_side, b_side) > tiny;
 }
 
-/// Loops of which no edge crosses another one.
+/// Tells whether the edges of the loops are free of crossings.
 inline bool is_simple(const std::vector<Loop>& loops) {
     std::vector<std::pair<Vec2, Vec2>> edges;
     for (const Loop& loop : loops)
@@ -34,6 +35,16 @@ inline bool is_simple(const std::vector<Loop>& loops) {
             if (cross_inside(edges[i].first, edges[i].second, edges[j].first, edges[j].second))
                 return false;
     return true;
+}
+
+/// Level ice 0.3 m thick and weak, so that small loads break it.
+inline void lay_weak_ice(Case& p, const std::array<double, 4>& extent, double spacing) {
+    p.level_ice.thickness = 0.3;
+    p.level_ice.extent = extent;
+    p.level_ice.spacing = spacing;
+    p.level_ice.gap = 0.02;
+    p.bending.elastic_modulus = 3.7e8;
+    p.bending.flexural_strength = 3e5;
 }
 
 /// The tiles of an edge.
@@ -70,8 +81,8 @@ inline double sum_of(const IceAreas& a) {
     return a.sheet + a.pieces + a.crushed + a.brash + a.astern;
 }
 
-/// What is wrong with an edge of a sheet of the area `whole` [m2]; "" where nothing is. Pieces of
-/// numbers up to `seen` were looked at before.
+/// The first fault of an edge whose sheet had the area `whole` [m2]; "" for a valid edge. Pieces
+/// below number `seen` are taken as checked.
 /// @param crossings  look for crossings in the sheet, which takes the square of its corners
 inline std::string edge_fault(const LiveEdge& edge, double whole, std::size_t seen,
                               bool crossings) {
