@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Loads on the edge of level ice. Five bytes are one load: the tile, its corner, the direction, and
-// the ship's way before the load. After each the area is kept, polygons are simple, and no piece lies in
-// the sheet; a crack that opens changes bodies.
+// the ship's way before the load. After each the area is kept, polygons are simple, and no piece
+// lies in the sheet; a crack that opens changes bodies.
 #include <algorithm>
 #include <numbers>
 
