@@ -5,11 +5,21 @@
 #include <cmath>
 #include <tuple>
 
-#include "solver/narrow/deep_seats.hpp"
 #include "solver/narrow/make_contacts.hpp"
 #include "solver/narrow/nearest_sphere.hpp"
 
 namespace ice {
+
+namespace {
+
+// Solids meet in their polygon, too, where they overlap by so much more than any contact of their
+// spheres tells. The separating axis is exact: this is the depth that a hull's edge may reach in a
+// floe's face between two spheres, 1 mm with spheres of 0.05 m.
+constexpr double kLostShare = 0.02;  // of the ice's radius
+
+double lost_slack(const PairView& view) { return kLostShare * view.shape_b.largest_radius; }
+
+}  // namespace
 
 bool meets_in_polygon(const Scene& scene, BodyPair pair, const ContactRule& rule) {
     if (rule.normal != NormalRule::surface || rule.crushes) return false;
@@ -66,7 +76,7 @@ void emit_polygon(const PairView& view, const ContactRule& rule, const Vec3& nor
 }
 
 bool is_deep(const PairView& view, double apart) {
-    return is_convex_pair(view) && apart < -deep_slack(view);
+    return is_convex_pair(view) && apart < -lost_slack(view);
 }
 
 const ContactPolygon* find_lost_polygon(const PairView& view, std::span<const Candidate> found,
@@ -75,11 +85,11 @@ const ContactPolygon* find_lost_polygon(const PairView& view, std::span<const Ca
                                           {view.rotation_ab, view.translation_ab}, 0.0);
     double least = 0.0;
     // A polygon is needed only if no sphere's contact is as deep as the solids, less what was
-    // crushed and half a radius.
+    // crushed and the slack.
     for (const Candidate& c : found) least = std::min(least, c.gap.gap);
     const double crushed =
         view.scene.crushed.deepest_of(view.pair.a) + view.scene.crushed.deepest_of(view.pair.b);
-    if (axes.widest() + crushed + deep_slack(view) >= least) return nullptr;
+    if (axes.widest() + crushed + lost_slack(view) >= least) return nullptr;
     const ContactPolygon& polygon = find_polygon(view, axes, most);
     return polygon.corners.empty() ? nullptr : &polygon;
 }

@@ -36,14 +36,15 @@ inline bool has_deep_seats(const PairView& view, double apart) {
     return view.shape_a.dimension == 3 && !is_convex_pair(view) && apart <= 0.0;
 }
 
-/// Do two convex solids overlap so far that their spheres may have passed each other?
+/// Do two convex solids overlap, by more than a fiftieth of the ice's radius?
 ///
-/// Spheres find each other within about two radii; deeper pairs are found as solids.
+/// Their spheres may miss it: they pass each other from about two radii on, and a hull's edge can
+/// cut into a floe's face between two of them.
 /// @param apart  [m] their separation (separation.hpp)
 bool is_deep(const PairView& view, double apart);
 
-/// The polygon in which a deep pair meets, within `most` [m], where its spheres' contacts do not
-/// tell of it: the least of their gaps is more than the separation by half a radius, crushed ice
+/// The polygon in which a deep pair meets, within `most` [m], where no contact of its spheres is as
+/// deep: the least of their gaps is more than the separation by a fiftieth of a radius, crushed ice
 /// left out; null otherwise. Valid until the thread's next question.
 /// @pre is_deep() @param found  the contacts of the spheres
 const ContactPolygon* find_lost_polygon(const PairView& view, std::span<const Candidate> found,

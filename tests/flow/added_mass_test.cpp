@@ -90,21 +90,21 @@ TEST_CASE("an ellipsoid's added mass and inertia are Lamb's", "[flow][analytic]"
 }
 
 TEST_CASE("boxes have the added masses of a table made apart", "[flow]") {
-    // FLOW: shares of displaced mass and of the box' inertia, printed with two digits; made with
-    // another number of panels
+    // Shares of the displaced mass and of the box' inertia by another panel code, with two digits;
+    // 3 % is the panels' error on both sides, which falls with their edges.
     struct Row {
         double l, b, h, edge;
         double share[6];
     };
-    for (const Row& row : {Row{1.0, 0.8, 0.3, 0.12, {0.30, 0.40, 1.73, 0.71, 0.85, 0.19}},
-                           Row{8.0, 5.0, 1.0, 0.8, {0.16, 0.27, 3.35, 1.50, 2.00, 0.16}}}) {
+    for (const Row& row : {Row{1.0, 0.8, 0.3, 0.08, {0.30, 0.40, 1.73, 0.71, 0.85, 0.19}},
+                           Row{8.0, 5.0, 1.0, 0.6, {0.16, 0.27, 3.35, 1.50, 2.00, 0.16}}}) {
         const PanelBody body = whole_body(box(row.l, row.b, row.h, -10.0 * row.l), row.edge, kDeep);
         const Vec3 centre(0, 0, -10.0 * row.l - 0.5 * row.h);
         const auto got =
             shares(added_mass(body, centre, 1.0), row.l, row.b, row.h, row.l * row.b * row.h);
         for (int k = 0; k < 6; ++k) {
             CAPTURE(row.l, k);
-            CHECK(got[k] == Approx(row.share[k]).epsilon(0.06).margin(0.01));
+            CHECK(got[k] == Approx(row.share[k]).epsilon(0.03));
         }
     }
 }

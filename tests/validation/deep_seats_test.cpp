@@ -3,8 +3,11 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <random>
 
 #include "solver/narrow/find_contacts.hpp"
+#include "solver/narrow/separating_axis.hpp"
+#include "solver/narrow/solid_contacts.hpp"
 #include "solver/record/solid_overlap.hpp"
 #include "tests/support/make_filled_sets.hpp"
 #include "tests/support/make_prisms.hpp"
@@ -45,7 +48,54 @@ std::vector<Contact> contacts_of(const World& w) {
     return out;
 }
 
+// A hull of flat faces, 4 x 2 x 1 m, with a pointed bow and sloping sides, as a ship and a box of
+// 1.2 x 1 x 0.4 m as a floe, in ice that does not crush.
+World wedge_and_box(const Vec3& place, const Quaternion& turn) {
+    std::vector<Vec3> low, high;
+    for (const auto& [x, y] :
+         {std::pair(-2.0, -1.0), {1.0, -1.0}, {2.0, 0.0}, {1.0, 1.0}, {-2.0, 1.0}}) {
+        low.emplace_back(0.6 * x, 0.6 * y, -0.5);
+        high.emplace_back(x, y, 0.5);
+    }
+    World w;
+    w.parameters = test::empty_space(0.01);
+    const TriangleMesh mesh = test::make_ring_mesh(low, high);
+    w.scene = make_scene(build_shape(test::fill_surface(mesh, kRadius, 0.1), false), Vec3::Zero(),
+                         Vec3::Zero());
+    const auto box = test::add_shape(w, test::fill_box(Vec3(1.2, 1, 0.4), kRadius, 0.1));
+    add_floe(w.scene, box, 900.0, place, turn, 0, false);
+    return w;
+}
+
 }  // namespace
+
+TEST_CASE("convex solids have a contact as deep as their separating axis says, in any pose",
+          "[narrow][deep]") {
+    std::mt19937_64 random(7);
+    std::uniform_real_distribution<double> even(-1.0, 1.0);
+    int shallow = 0, deep = 0;
+    World w = wedge_and_box(Vec3::Zero(), Quaternion::Identity());
+    REQUIRE(is_convex_pair(PairView(w.scene, {0, 1})));
+    for (int k = 0; k < 4000; ++k) {
+        w.scene.bodies.rotation[1] =
+            Quaternion(even(random), even(random), even(random), even(random)).normalized();
+        w.scene.bodies.position[1] = Vec3(2.6 * even(random), 1.6 * even(random), even(random));
+        const PairView view(w.scene, {0, 1});
+        const double depth = -find_axes(view.shape_a.convex, view.shape_b.convex,
+                                        {view.rotation_ab, view.translation_ab}, 0.0)
+                                  .widest();
+        if (depth <= 0.0) continue;
+        double least = 0.0;
+        for (const Contact& c : contacts_of(w)) least = std::min(least, c.gap);
+        CAPTURE(k, depth, least);
+        // the slack of solid_contacts.hpp; 1e-9 m is rounding
+        CHECK(-least >= depth - 0.02 * kRadius - 1e-9);
+        ++(depth < kRadius ? shallow : deep);
+    }
+    // otherwise the poses show nothing
+    CHECK(shallow > 100);
+    CHECK(deep > 100);
+}
 
 TEST_CASE("a floe in a hull that is not convex is felt at every depth, along the hull's normal",
           "[narrow][deep][analytic]") {
