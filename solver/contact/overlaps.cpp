@@ -111,7 +111,6 @@ void Overlaps::crush(Scene& scene, const std::vector<Contact>& contacts,
     ICE_ASSERT(constraints.size() == contacts.size());
     const Bodies& bodies = scene.bodies;
     crush_events_.clear();
-    scene.crushed.recent.clear();
     if (law.is_rigid()) return;
     for (std::size_t k = 0; k < constraints.size(); ++k) {
         const Constraint& c = constraints[k];

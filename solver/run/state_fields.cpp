@@ -41,6 +41,7 @@ void carry(CheckpointFile& file, World& w) {
     file.carry("crushed.deepest", w.scene.crushed.deepest);
 
     w.warm_start.carry(file);
+    w.recess.carry(file);
 
     // the last step's impulses: they are part of the state hash, which may be read at once
     file.column("impulses.impact_normal", w.constraints, &Constraint::impact_normal);

@@ -16,7 +16,7 @@ struct CrushedIce {
     std::vector<Vec3> displacement;   ///< per surface sphere of crushed bodies, body axes [m]
     std::vector<double> deepest;      ///< per body, as far as `first`: its longest displacement [m]
 
-    /// A sphere's crushing in the last step: its body and depth [m].
+    /// Spheres that have moved since MotionBounds was updated: their bodies and ways [m].
     struct CrushEvent {
         std::int32_t body;
         double depth;

@@ -40,6 +40,7 @@ void renew_edge(World& w) {
     if (!w.edge.renew(w.scene, w.parameters, w.time)) return;
     *w.ledger.potential_start += potential_energy(w.scene, w.parameters) - before;
     w.warm_start = {};
+    w.recess = {};
     w.motion = {};
     w.pairs = {};
     w.finder = {};
@@ -77,10 +78,10 @@ void step(World& w) {
         });
     } while (release_touched(w.scene, w.parameters, w.contacts));
     w.start.take(bodies);
-
     // impacts act on the velocities before the loads, so that ice at rest does not bounce
     timed(w, Stage::contact, [&] {
         build_constraints(bodies, w.contacts, law, dt, w.constraints);
+        w.recess.move_spheres(w.scene, law, dt, w.contacts, w.constraints);
         w.impacts = w.solver.resolve_impacts(bodies, w.constraints, law, dt);
     });
 

@@ -8,6 +8,7 @@
 #include "solver/broad/find_pairs.hpp"
 #include "solver/case/case.hpp"
 #include "solver/contact/overlaps.hpp"
+#include "solver/contact/recess.hpp"
 #include "solver/contact/solve_contacts.hpp"
 #include "solver/integrate/integrate.hpp"
 #include "solver/live_edge/live_edge.hpp"
@@ -46,6 +47,7 @@ struct World {
     ContactFinder finder;
     ContactSolver solver;
     Overlaps overlaps;
+    Recess recess;
     BentFloes bent;
     StepStart start;  ///< of the step in hand
     EnergyLedger ledger;

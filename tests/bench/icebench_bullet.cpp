@@ -16,11 +16,12 @@ const Case* pair_law = nullptr;  // of the scene that is stepping: Bullet's hook
 
 btScalar pair_friction(const btCollisionObject* a, const btCollisionObject* b) {
     const bool ship = a->isStaticOrKinematicObject() || b->isStaticOrKinematicObject();
-    return static_cast<btScalar>(ship ? pair_law->friction_ship_ice : pair_law->friction_ice_ice);
+    return static_cast<btScalar>(ship ? pair_law->contact.friction_ship_ice
+                                      : pair_law->contact.friction_ice_ice);
 }
 
 btScalar pair_restitution(const btCollisionObject*, const btCollisionObject*) {
-    return static_cast<btScalar>(pair_law->restitution);
+    return static_cast<btScalar>(pair_law->contact.restitution);
 }
 
 btVector3 to_bullet(const Vec3& v) {

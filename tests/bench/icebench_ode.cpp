@@ -115,8 +115,9 @@ private:
         if (body_a == body_b || dCollide(a, b, 1, &contact.geom, sizeof(dContact)) == 0) return;
         const bool ship = body_a == bodies_[kShip] || body_b == bodies_[kShip];
         contact.surface.mode = dContactBounce | dContactApprox1;
-        contact.surface.mu = ship ? parameters_.friction_ship_ice : parameters_.friction_ice_ice;
-        contact.surface.bounce = parameters_.restitution;
+        contact.surface.mu =
+            ship ? parameters_.contact.friction_ship_ice : parameters_.contact.friction_ice_ice;
+        contact.surface.bounce = parameters_.contact.restitution;
         contact.surface.bounce_vel = 0.0;
         dJointAttach(dJointCreateContact(world_, joints_, &contact), body_a, body_b);
         ++contacts_.count;

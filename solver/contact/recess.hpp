@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Crushed ice beside crushed contact spheres (docs/method.md, section 5).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "solver/contact/constraints.hpp"
+#include "solver/scene/bodies.hpp"
+
+namespace ice {
+
+class CheckpointFile;
+
+/// Crushing moves single contact spheres, but a body that has crushed ice lies in a recess of its
+/// own shape. As the bodies slide or turn, their contact passes from a crushed sphere to a whole
+/// neighbour in the same recess, which then seems to overlap by the depth of the recess at once.
+///
+/// A contact may be deeper than the deepest one of its pair in the last step only by the way that
+/// the two bodies came closer there within the step. What it is deeper than that is ice that was
+/// crushed before: its sphere moves by as much, without force or work, but not by more than the
+/// deepest crushed sphere of its body.
+class Recess {
+public:
+    /// Moves such spheres, and takes their way out of the contacts' overlaps. Its first call only
+    /// remembers the pairs' depths. Rigid ice has no recess.
+    /// @pre contacts ordered by (a, b), as ContactFinder gives them; MotionBounds has seen
+    /// scene.crushed.recent, which is begun anew here
+    void move_spheres(Scene& scene, const ContactLaw& law, double dt,
+                      std::vector<Contact>& contacts, std::vector<Constraint>& constraints);
+
+    /// Writes or sets its state, by the file's direction.
+    void carry(CheckpointFile& file);
+
+private:
+    struct Entry {
+        std::int32_t a, b;
+        double depth;  ///< of the pair's deepest contact in the last step, at least 0 [m]
+    };
+    double last_depth(const Contact& c, std::size_t& at) const;
+    void remember(const std::vector<Contact>& contacts);
+
+    std::vector<Entry> entries_;  ///< sorted by (a, b)
+    std::uint8_t started_ = 0;    ///< 1 once the depths of a step are known
+};
+
+}  // namespace ice

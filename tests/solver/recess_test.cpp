@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Whole contact spheres in a recess that their crushed neighbours' contacts have left.
+#include "solver/contact/recess.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "solver/contact/overlaps.hpp"
+#include "solver/scene/build_scene.hpp"
+#include "tests/support/make_sphere_sets.hpp"
+#include "tests/support/make_worlds.hpp"
+
+using namespace ice;
+
+namespace {
+
+constexpr double kDt = 0.01;      // [s]
+constexpr double kRadius = 0.05;  // [m]
+constexpr double kSlack = kToleratedOverlap * kRadius;
+constexpr std::int32_t kSphere = 7, kCrushed = 8;
+
+// A floe of 1 x 1 x 0.4 m, turned about z, below a plate; its sphere kCrushed lies 30 mm deep.
+struct Floe {
+    World w = test::plate_world(test::empty_space(kDt), Vec3(4, 4, 0.4), 0.1, 0.2, 0.0);
+    ContactLaw law;
+    std::vector<Contact> contacts;
+    std::vector<Constraint> constraints;
+    Recess recess;
+
+    Floe() {
+        const auto box = test::add_shape(w, test::make_box_set(Vec3(1, 1, 0.4), kRadius, 0.1));
+        add_floe(w.scene, box, 900.0, Vec3(0, 0, -0.19),
+                 Quaternion(Eigen::AngleAxisd(0.5, Vec3::UnitZ())), 0, false);
+        law.crushing_pressure = 1e6;
+        crush(0.03);
+    }
+    void crush(double depth) {
+        w.scene.crushed.crush(1, kCrushed, w.scene.shapes[1].center.size(), Vec3(0, 0, -depth));
+    }
+    // The contacts of a step: their depths [m], along -z from the plate into the floe.
+    void meet(std::initializer_list<double> depths, double approach = 0.0) {
+        contacts.assign(depths.size(), {});
+        constraints.assign(depths.size(), {});
+        std::size_t k = 0;
+        for (const double depth : depths) {
+            Contact& c = contacts[k];
+            c.a = 0;
+            c.b = 1;
+            c.sphere_b = kSphere + static_cast<std::int32_t>(k);
+            c.normal = -Vec3::UnitZ();
+            c.gap = -depth;
+            constraints[k].a = c.a;
+            constraints[k].b = c.b;
+            constraints[k].gap = c.gap;
+            constraints[k].approach = -approach;
+            ++k;
+        }
+        recess.move_spheres(w.scene, law, kDt, contacts, constraints);
+    }
+    double moved() const { return -w.scene.crushed.displacement_of(1, kSphere).z(); }
+};
+
+}  // namespace
+
+TEST_CASE("a contact that is deep at once is as deep as its neighbour's recess",
+          "[contact][crushing][recess]") {
+    Floe f;
+    f.meet({0.0});
+    const double depth = GENERATE(0.0005, 0.02, 0.05);
+    f.meet({depth});
+    // what the tolerance does not explain, but no more than the recess
+    const double expected = std::clamp(depth - kSlack, 0.0, 0.03);
+    CHECK(f.moved() == Approx(expected).margin(1e-15));
+    CHECK(f.contacts[0].gap == Approx(expected - depth).margin(1e-15));
+    CHECK(f.constraints[0].gap == f.contacts[0].gap);
+    // the sphere moves inwards, and nowhere else
+    CHECK(f.w.scene.crushed.displacement_of(1, kSphere).head<2>().norm() < 1e-15);
+    // the search for contacts is told
+    CHECK(f.w.scene.crushed.recent.size() == (expected > 0.0 ? 1U : 0U));
+}
+
+TEST_CASE("an overlap that the pair had, or came into within the step, stays",
+          "[contact][crushing][recess]") {
+    Floe f;
+    f.meet({0.004, 0.015});
+    f.meet({0.018, 0.0});
+    CHECK(f.moved() == Approx(0.018 - 0.015 - kSlack).margin(1e-15));
+    Floe g;
+    g.meet({0.0});
+    g.meet({0.02}, 1.5);
+    CHECK(g.moved() == Approx(0.02 - 1.5 * kDt - kSlack).margin(1e-15));
+    // bodies that part explain nothing
+    Floe h;
+    h.meet({0.0});
+    h.meet({0.02}, -1.5);
+    CHECK(h.moved() == Approx(0.02 - kSlack).margin(1e-15));
+}
+
+TEST_CASE("no recess: rigid ice, whole ice, and a first step whose past is not known",
+          "[contact][crushing][recess]") {
+    Floe first;
+    first.meet({0.02});
+    CHECK(first.moved() == 0.0);
+    Floe rigid;
+    rigid.law.crushing_pressure = std::numeric_limits<double>::infinity();
+    rigid.meet({0.0});
+    rigid.meet({0.02});
+    CHECK(rigid.moved() == 0.0);
+    Floe whole;
+    whole.w.scene.crushed = {};
+    whole.meet({0.0});
+    whole.meet({0.02});
+    CHECK(whole.moved() == 0.0);
+    CHECK(whole.contacts[0].gap == -0.02);
+}
+
+TEST_CASE("between floes the incident one has the recess", "[contact][crushing][recess]") {
+    Floe f;
+    add_floe(f.w.scene, 1, 900.0, Vec3(0, 0, -0.59), Quaternion::Identity(), 0, false);
+    f.meet({0.0});
+    f.contacts[0].a = f.constraints[0].a = 1;
+    f.contacts[0].b = f.constraints[0].b = 2;
+    f.contacts[0].crushes_a = true;
+    f.contacts[0].sphere_a = kSphere;
+    f.contacts[0].gap = f.constraints[0].gap = -0.02;
+    f.recess.move_spheres(f.w.scene, f.law, kDt, f.contacts, f.constraints);
+    // against the normal, which leads from a to b
+    CHECK(f.w.scene.crushed.displacement_of(1, kSphere).z() == Approx(0.02 - kSlack).margin(1e-15));
+    CHECK(f.w.scene.crushed.is_whole(2));
+}
