@@ -12,6 +12,9 @@ namespace ice {
 
 namespace {
 
+// Spheres whose centres are this near [patch radii] are neighbours: one and a half spacings.
+constexpr double kNeighbours = 2.0;
+
 // By how much a contact may have become deeper within the last step [m]: bodies came to their poses
 // with the velocities that they have.
 double most_closed(const Scene& scene, const Constraint& c, double dt) {
@@ -19,6 +22,20 @@ double most_closed(const Scene& scene, const Constraint& c, double dt) {
         return scene.shapes[static_cast<std::size_t>(scene.bodies.shape[body])].largest_radius;
     };
     return dt * std::max(0.0, -c.approach) + kToleratedOverlap * std::min(radius(c.a), radius(c.b));
+}
+
+// How much deeper than a sphere its neighbours have been crushed, at most [m].
+double depth_beside(const Scene& scene, std::int32_t body, std::int32_t sphere,
+                    const Vec3& inwards) {
+    const Shape& shape = scene.shapes[static_cast<std::size_t>(scene.bodies.shape[body])];
+    const double reach = kNeighbours * shape.patch_radius;
+    double deepest = 0.0;
+    for (std::size_t k = 0; k < shape.center.size(); ++k) {
+        if ((shape.center[k] - shape.center[sphere]).squaredNorm() > reach * reach) continue;
+        const auto of = static_cast<std::int32_t>(k);
+        deepest = std::max(deepest, scene.crushed.displacement_of(body, of).dot(inwards));
+    }
+    return deepest - scene.crushed.displacement_of(body, sphere).dot(inwards);
 }
 
 }  // namespace
@@ -50,13 +67,15 @@ void Recess::move_spheres(Scene& scene, const ContactLaw& law, double dt,
         const std::int32_t body = c.crushes_a ? c.a : c.b;
         const double deeper = -c.gap - last_depth(c, at);
         if (deeper <= 0.0 || scene.crushed.is_whole(body)) continue;
-        const double way = std::min(deeper - most_closed(scene, constraints[k], dt),
-                                    scene.crushed.deepest_of(body));
+        const double jump = deeper - most_closed(scene, constraints[k], dt);
+        if (jump <= 0.0) continue;
+        const std::int32_t sphere = c.crushes_a ? c.sphere_a : c.sphere_b;
+        const Vec3 inwards =
+            scene.bodies.rotation[body].transpose() * (c.crushes_a ? Vec3(-c.normal) : c.normal);
+        const double way = std::min(jump, depth_beside(scene, body, sphere, inwards));
         if (way <= 0.0) continue;
         const Shape& shape = scene.shapes[static_cast<std::size_t>(scene.bodies.shape[body])];
-        const Vec3 inwards = c.crushes_a ? Vec3(-c.normal) : c.normal;
-        scene.crushed.crush(body, c.crushes_a ? c.sphere_a : c.sphere_b, shape.center.size(),
-                            scene.bodies.rotation[body].transpose() * (way * inwards));
+        scene.crushed.crush(body, sphere, shape.center.size(), way * inwards);
         c.gap += way;
         constraints[k].gap += way;
     }

@@ -18,8 +18,8 @@ class CheckpointFile;
 ///
 /// A contact may be deeper than the deepest one of its pair in the last step only by the way that
 /// the two bodies came closer there within the step. What it is deeper than that is ice that was
-/// crushed before: its sphere moves by as much, without force or work, but not by more than the
-/// deepest crushed sphere of its body.
+/// crushed before: its sphere moves by as much, without force or work, but not deeper than its
+/// deepest neighbour.
 class Recess {
 public:
     /// Moves such spheres, and takes their way out of the contacts' overlaps. Its first call only

@@ -16,9 +16,9 @@ namespace {
 constexpr double kDt = 0.01;      // [s]
 constexpr double kRadius = 0.05;  // [m]
 constexpr double kSlack = kToleratedOverlap * kRadius;
-constexpr std::int32_t kSphere = 7, kCrushed = 8;
+constexpr std::int32_t kSphere = 7;
 
-// A floe of 1 x 1 x 0.4 m, turned about z, below a plate; its sphere kCrushed lies 30 mm deep.
+// A floe of 1 x 1 x 0.4 m, turned about z, below a plate; the sphere beside kSphere lies 30 mm deep.
 struct Floe {
     World w = test::plate_world(test::empty_space(kDt), Vec3(4, 4, 0.4), 0.1, 0.2, 0.0);
     ContactLaw law;
@@ -31,10 +31,16 @@ struct Floe {
         add_floe(w.scene, box, 900.0, Vec3(0, 0, -0.19),
                  Quaternion(Eigen::AngleAxisd(0.5, Vec3::UnitZ())), 0, false);
         law.crushing_pressure = 1e6;
-        crush(0.03);
+        crush_beside(kSphere, 0.0, 0.03);
     }
-    void crush(double depth) {
-        w.scene.crushed.crush(1, kCrushed, w.scene.shapes[1].center.size(), Vec3(0, 0, -depth));
+    // Crushes the sphere that is nearest to another one, but farther from it than `from` [m].
+    void crush_beside(std::int32_t sphere, double from, double depth) {
+        const auto& centre = w.scene.shapes[1].center;
+        std::int32_t nearest = -1;
+        const auto distance = [&](std::int32_t k) { return (centre[k] - centre[sphere]).norm(); };
+        for (std::int32_t k = 0; k < std::ssize(centre); ++k)
+            if (distance(k) > from && (nearest < 0 || distance(k) < distance(nearest))) nearest = k;
+        w.scene.crushed.crush(1, nearest, centre.size(), Vec3(0, 0, -depth));
     }
     // The contacts of a step: their depths [m], along -z from the plate into the floe.
     void meet(std::initializer_list<double> depths, double approach = 0.0) {
@@ -95,6 +101,20 @@ TEST_CASE("an overlap that the pair had, or came into within the step, stays",
     CHECK(h.moved() == Approx(0.02 - kSlack).margin(1e-15));
 }
 
+TEST_CASE("only neighbours have a common recess, and it is as deep as the deepest of them",
+          "[contact][crushing][recess]") {
+    Floe f;
+    // far off, and deeper
+    f.crush_beside(kSphere, 0.5, 0.2);
+    f.meet({0.0});
+    f.meet({0.05});
+    CHECK(f.moved() == Approx(0.03).margin(1e-15));
+    // it lies as deep as its neighbour now
+    f.meet({0.0});
+    f.meet({0.05});
+    CHECK(f.moved() == Approx(0.03).margin(1e-15));
+}
+
 TEST_CASE("no recess: rigid ice, whole ice, and a first step whose past is not known",
           "[contact][crushing][recess]") {
     Floe first;
@@ -116,6 +136,7 @@ TEST_CASE("no recess: rigid ice, whole ice, and a first step whose past is not k
 TEST_CASE("between floes the incident one has the recess", "[contact][crushing][recess]") {
     Floe f;
     add_floe(f.w.scene, 1, 900.0, Vec3(0, 0, -0.59), Quaternion::Identity(), 0, false);
+    f.crush_beside(kSphere, 0.0, -0.06);  // 30 mm deep in the floe's lower face
     f.meet({0.0});
     f.contacts[0].a = f.constraints[0].a = 1;
     f.contacts[0].b = f.constraints[0].b = 2;
