@@ -18,7 +18,7 @@ constexpr double kRadius = 0.05;  // [m]
 constexpr double kSlack = kToleratedOverlap * kRadius;
 constexpr std::int32_t kSphere = 7;
 
-// A floe of 1 x 1 x 0.4 m, turned about z, below a plate; the sphere beside kSphere lies 30 mm deep.
+// A floe of 1 x 1 x 0.4 m, turned about z, below a plate; kSphere has a neighbour 30 mm deep.
 struct Floe {
     World w = test::plate_world(test::empty_space(kDt), Vec3(4, 4, 0.4), 0.1, 0.2, 0.0);
     ContactLaw law;
