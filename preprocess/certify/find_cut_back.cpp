@@ -119,6 +119,7 @@ void find_cut_back(const SphereSet& set, SpheresReport& report) {
     const Extents spheres = sections_of(set, 2, 0, heights);
     for (std::size_t k = 0; k < hull.low.size(); ++k) {
         const double length = std::max(hull.high[k] - hull.low[k], 0.0);
+        // no more than the section is long: a level without spheres has none to measure from
         fore.push_back(std::min(hull.high[k] - spheres.high[k], length));
         aft.push_back(std::min(spheres.low[k] - hull.low[k], length));
     }

@@ -44,6 +44,8 @@ void set_ice_belt(const TriangleMesh& solid, std::optional<double> draught,
 }
 
 void judge_spheres(const SphereSet& set, SpheresReport& report) {
+    // Each bound has its effect on a run: spheres outside the solid push ice before the hull is
+    // there, wide gaps let ice through, parts that are cut back meet it too late.
     std::vector<std::string>& out = report.warnings;
     const double r = set.radius;
     if (report.outside_dropped > 0)

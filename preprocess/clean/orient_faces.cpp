@@ -40,6 +40,7 @@ void flip(TriangleMesh& mesh) {
 
 std::int64_t orient_faces(TriangleMesh& mesh) {
     const auto edges = edge_table(mesh);
+    // nearly all files are consistent: the table of neighbours is made for the others only
     if (std::none_of(edges.begin(), edges.end(),
                      [](const MeshEdge& edge) { return edge.count == 2 && !edge.regular(); }))
         return 0;
@@ -64,6 +65,8 @@ std::int64_t orient_faces(TriangleMesh& mesh) {
                 part.push_back(n.triangle);
             }
         }
+        // Which side is out is decided later, by the volume. Here the smaller area turns, so that a
+        // few wrong triangles do not turn a whole ship.
         const std::uint8_t minority = balance >= 0.0 ? turned : as_is;
         for (const std::int32_t t : part) {
             if (side[static_cast<std::size_t>(t)] != minority) continue;

@@ -100,6 +100,7 @@ bool split_edges(TriangleMesh& mesh, double tolerance, StitchCounts& counts) {
     }
     if (inserted.empty()) return false;
     counts.split += static_cast<std::int64_t>(inserted.size());
+    // along each edge from its begin to its end
     for (auto& [edge, walk] : inserted) std::sort(walk.begin(), walk.end());
     TriangleMesh out;
     out.vertices = mesh.vertices;

@@ -143,6 +143,7 @@ FieldPlan plan_field(const FieldSpec& spec, std::vector<std::string>& warnings) 
 Field make_field(const FieldSpec& spec, const FieldPlan& plan, FieldReport& report) {
     const Timer timer;
     FormTable table;
+    // floes of one form share their spheres; loose ones come first, and so have the lower numbers
     for (const Outline& floe : plan.loose) table.add(floe);
     for (const Outline& floe : plan.fixed) table.add(floe);
     const Forms forms = table.take();

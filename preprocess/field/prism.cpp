@@ -64,11 +64,13 @@ TriangleMesh make_prism(const Outline& outline, double thickness, double chamfer
     for (std::int32_t ring = 0; ring + 1 < count; ++ring)
         for (std::int32_t k = 0; k < n; ++k) {
             const std::int32_t a = ring * n + k, b = ring * n + (k + 1) % n;
+            // the outline runs anticlockwise: with a, b, b + n the sides face outward
             mesh.triangles.push_back({a, b, b + n});
             mesh.triangles.push_back({a, b + n, a + n});
         }
     const std::int32_t top = (count - 1) * n;
     for (const auto& [a, b, c] : fill_outline(flat)) {
+        // the bottom faces downward, its triangles turn the other way
         mesh.triangles.push_back({a, c, b});
         mesh.triangles.push_back({top + a, top + b, top + c});
     }

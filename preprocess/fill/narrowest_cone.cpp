@@ -49,6 +49,9 @@ Cone narrowest_cone(std::span<const Vec3> directions) {
         best = axis;
         cosine = now;
     };
+    // The narrowest cone touches two directions or three (smallest enclosing circle on the sphere):
+    // all pairs and triples are tried where they are few, an iteration towards the farthest
+    // otherwise.
     const std::size_t n = directions.size();
     if (n > kMostPairs) try_axis(turned_axis(directions));
     for (std::size_t i = 0; i < n && n <= kMostPairs; ++i)

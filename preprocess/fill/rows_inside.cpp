@@ -157,6 +157,8 @@ LatticeBits rows_inside(const TriangleMesh& mesh, const LatticeFrame& frame) {
     const std::size_t count = mesh.triangles.size();
     std::vector<std::vector<Crossing>> chunks((count + kChunk - 1) / kChunk);
     parallel_for(chunks.size(), kSerialTriangles / kChunk, [&](std::size_t chunk) {
+        // Chunks of triangles, not threads, own the lists: their order is the same for any number
+        // of threads.
         const std::size_t end = std::min(count, (chunk + 1) * kChunk);
         for (std::size_t t = chunk * kChunk; t < end; ++t)
             scanner.add_triangle(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2),
@@ -180,6 +182,8 @@ LatticeBits rows_inside(const TriangleMesh& mesh, const LatticeFrame& frame) {
             };
             int winding = 0;
             for (const Crossing* c = begin; c != end; ++c) {
+                // a ray along x is inside where the sum of its crossings' signs is not zero, also
+                // where parts overlap
                 winding += c->sign;
                 if (winding != 0 && c + 1 != end)
                     set_bits(bits.data() + row * frame.words(), index(c->x), index((c + 1)->x));

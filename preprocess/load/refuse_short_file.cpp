@@ -57,11 +57,13 @@ PlyHeader read_header(std::ifstream& in) {
         } else if (word == "element") {
             Element element;
             words >> element.name >> element.count;
+            // a damaged count must not overflow the sum of rows
             element.count = std::clamp(element.count, 0L, kMostRows);
             header.elements.push_back(element);
         } else if (word == "property" && !header.elements.empty()) {
             Property property;
             words >> type;
+            // a list: the type of its length, then that of its entries
             if (type == "list") {
                 words >> type;
                 property.count_size = size_of(type);

@@ -101,6 +101,8 @@ Cap append(TriangleMesh& mesh, const BorderLoop& loop, const std::vector<Triple>
     for (std::size_t p = 0; p < patch.size(); ++p)
         for (std::size_t k = 0; k < 3; ++k)
             owner[{patch[p][k], patch[p][(k + 1) % 3]}] = cap.first + static_cast<std::int32_t>(p);
+    // triangles of the patch by their directed edges: the neighbour across the rim has the edge
+    // reversed
     std::map<std::int32_t, double> region_length;
     const std::size_t n = loop.vertices.size();
     for (std::size_t k = 0; k < n; ++k) {

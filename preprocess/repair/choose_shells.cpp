@@ -72,6 +72,8 @@ ShellCounts choose_shells(TriangleMesh& mesh, SolidKind kind) {
             ++counts.flat;
             continue;
         }
+        // Winding number just outside the shell, of all other shells. Inside it is one more or,
+        // where the shell faces inward, one less.
         int outside = 0;
         bool enclosed = false;
         for (const Shell& other : shells) {
@@ -81,6 +83,8 @@ ShellCounts choose_shells(TriangleMesh& mesh, SolidKind kind) {
             enclosed = enclosed || around != 0;
         }
         const int inside = outside + (shell.volume > 0.0 ? 1 : -1);
+        // an envelope is bounded by the outermost shells, a solid by shells across which the
+        // winding number changes between zero and not zero
         const bool bounds =
             kind == SolidKind::envelope ? !enclosed : (outside != 0) != (inside != 0);
         if (!bounds) {

@@ -108,6 +108,7 @@ ClosedSurface close_surface(TriangleMesh mesh, const SolidOptions& options, Repa
     // copies that face the other way hid the cracks beside them from the first welding
     if (repeats.copies > 0)
         note("near vertices beside repeated triangles merged", weld(mesh).near_vertices);
+    // A half hull is mirrored before holes are closed: its opening in the plane y = 0 is no hole.
     if (is_open_half(mesh)) mirror(mesh, repairs);
     note("triangles turned to agree with their neighbours", orient_faces(mesh));
 
@@ -120,6 +121,7 @@ ClosedSurface close_surface(TriangleMesh mesh, const SolidOptions& options, Repa
     for (std::size_t k = 0; k < caps.size(); ++k) {
         if (out.caps[k].kind == CapKind::deck) name_deck(mesh, caps[k]);
         if (out.caps[k].kind == CapKind::guess && caps[k].perimeter > 0.0)
+            // 4 area / perimeter is the hydraulic diameter: the width of a hole of any form
             out.widest = std::max(out.widest, 4.0 * out.caps[k].area / caps[k].perimeter);
     }
     const auto count = [&](CapKind kind) {

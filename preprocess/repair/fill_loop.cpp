@@ -66,6 +66,7 @@ std::vector<std::array<std::int32_t, 3>> fill_loop_in_plan(const std::vector<Vec
             handles.push_back(plan.insert(LoopKernel::Point_2(p.x(), p.y())));
             handles.back()->info() = static_cast<std::int32_t>(handles.size()) - 1;
         }
+        // two points of the loop have the same place in the plan: it has no single height there
         if (plan.number_of_vertices() != points.size()) return {};
         for (std::size_t k = 0; k < handles.size(); ++k)
             plan.insert_constraint(handles[k], handles[(k + 1) % handles.size()]);
@@ -86,6 +87,8 @@ std::vector<std::array<std::int32_t, 3>> fill_loop_in_plan(const std::vector<Vec
         if (!outside.contains(face))
             out.push_back(
                 {face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()});
+    // a simple polygon with n corners has n - 2 triangles, any other count means that the loop
+    // crosses itself in the plan
     if (out.size() + 2 != points.size()) return {};
     align_with_loop(out);
     return out;

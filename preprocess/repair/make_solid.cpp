@@ -293,11 +293,15 @@ private:
         const ClosedSurface closed = close_surface(mesh, options_, tried);
         if (closed.open.triangles.empty())
             throw refusal("the volume is zero", "export the surface of a body, not a flat sheet");
+        // The ball of the shrink wrap must not fall through the widest opening that is no deck: its
+        // diameter is 1.5 times as wide.
         const double alpha = std::max(diagonal(mesh) / 100.0, 0.75 * closed.widest);
         TriangleMesh wrapped = wrap_solid(closed.unsure, alpha, diagonal(mesh) / kWrapOffset);
         const SolidProof proof = verify_solid(wrapped);
         if (!proof.good) throw refusal("shrink-wrapping fails: " + proof.fault);
         const WindingComparison c = compare_windings(closed.open, wrapped);
+        // through an opening that is too wide the wrap would cover both sides of a shell and
+        // enclose its plates only
         if (proof.volume < kCollapsed * c.first_volume)
             throw refusal(fmt::format("shrink-wrapping collapses to {:.4g} m3, where the winding "
                                       "number gives {:.4g} m3",

@@ -104,6 +104,8 @@ std::int64_t separate_sheets(TriangleMesh& mesh) {
     if (crowded.empty()) return 0;
     const Parts parts = find_parts(mesh);
     Corners corners(mesh);
+    // Corners of triangles are joined across regular edges, and across crowded ones where two
+    // triangles form one sheet. Sets of joined corners then are the vertices.
     const auto join = [&](const Key& edge, std::int32_t s, std::int32_t t) {
         corners.join(s, t, edge.first);
         corners.join(s, t, edge.second);

@@ -71,6 +71,8 @@ SolidProof verify_solid(const TriangleMesh& mesh, double overlap_allowed) {
 }
 
 WindingComparison compare_windings(const TriangleMesh& open, const TriangleMesh& closed) {
+    // Places of a Halton sequence: their error falls faster than that of random ones, and they are
+    // the same in every run.
     constexpr std::size_t kPlaces = 20000;
     const WindingNumber first(open), second(closed);
     Eigen::AlignedBox3d box;
@@ -81,6 +83,8 @@ WindingComparison compare_windings(const TriangleMesh& open, const TriangleMesh&
         const Vec3 unit(radical_inverse(k + 1, 2), radical_inverse(k + 1, 3),
                         radical_inverse(k + 1, 5));
         const Vec3 p = box.min() + box.sizes().cwiseProduct(unit);
+        // near 0 and 1 the winding number of an open surface is clear; between, the place is near a
+        // hole
         const double w = std::abs(first.at(p));
         found[k] = static_cast<std::uint8_t>((first.contains(p) ? in_first : 0) |
                                              (second.contains(p) ? in_second : 0) |

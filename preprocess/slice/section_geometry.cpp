@@ -63,6 +63,7 @@ std::vector<std::vector<Vec3>> orient_loops(std::vector<std::vector<Vec3>> loops
         for (std::size_t other = 0; other < loops.size(); ++other)
             around +=
                 other != k && polygons[other].bounded_side(polygons[k][0]) == CGAL::ON_BOUNDED_SIDE;
+        // outer loops, inside an even number of others, run anticlockwise, holes clockwise
         const bool anticlockwise = polygons[k].orientation() == CGAL::COUNTERCLOCKWISE;
         if (anticlockwise != (around % 2 == 0)) std::reverse(loops[k].begin(), loops[k].end());
     }
@@ -90,6 +91,7 @@ std::vector<std::array<std::int32_t, 3>> triangulate(const std::vector<std::vect
     std::vector<std::array<std::int32_t, 3>> out;
     for (const auto& face : delaunay.finite_face_handles()) {
         const auto p = [&](int k) { return face->vertex(k)->point(); };
+        // the triangulation fills the convex hull: triangles in holes and bays are left out
         if (inside(polygons, CGAL::centroid(p(0), p(1), p(2))))
             out.push_back(
                 {face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()});

@@ -107,6 +107,8 @@ TriangleMesh extrude(const Section& section, const std::vector<std::string>& reg
         }
         for (std::int32_t k = 0; k < n; ++k) {
             const std::int32_t s = first + 2 * k, t = first + 2 * ((k + 1) % n);
+            // outer loops run anticlockwise in x-z, holes clockwise: these two triangles of a side
+            // face outward
             for (const auto& triangle : {std::array{s, t + 1, t}, std::array{s, s + 1, t + 1}}) {
                 mesh.triangles.push_back(triangle);
                 mesh.region.push_back(loop[static_cast<std::size_t>(k)].region);

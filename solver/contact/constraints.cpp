@@ -71,6 +71,7 @@ void build_constraints(const Bodies& bodies, const std::vector<Contact>& contact
         c.normal = contact.normal;
         c.arm_a = bodies.arm(c.a, contact.point);
         c.arm_b = contact.point - bodies.position[c.b];
+        // between two immovable bodies no impulse changes anything
         c.can_move = bodies.inverse_mass[c.a] + bodies.inverse_mass[c.b] > 0.0 ||
                      (c.a == static_cast<std::int32_t>(kShip) && bodies.ship.free &&
                       gives_way(bodies.ship, c.arm_a, c.normal));
@@ -79,6 +80,7 @@ void build_constraints(const Bodies& bodies, const std::vector<Contact>& contact
         c.friction =
             c.a == static_cast<std::int32_t>(kShip) ? law.friction_ship_ice : law.friction_ice_ice;
         c.gap = contact.gap;
+        // before any impulse of this step: restitution and crushing are measured by it
         c.approach = relative_velocity(bodies, c).dot(c.normal);
         c.max_impulse = max_impulse(contact, c.approach, law, dt);
         c.rebounds = true;

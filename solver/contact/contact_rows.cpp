@@ -55,6 +55,9 @@ void ContactRows::find_pairs(const Bodies& bodies, const std::vector<Constraint>
     bodies_.clear();
     pairs_.clear();
     copies_.clear();
+    // Constraints come sorted by pair: a run with the same bodies is one pair. A free ship has a
+    // copy per pair (mass splitting), because one ship in hundreds of pairs would need hundreds of
+    // colours, one after the other.
     for (std::size_t k = 0; k < which_.size();) {
         const Constraint& c = constraints[which_[k]];
         std::size_t end = k + 1;
@@ -93,6 +96,8 @@ void ContactRows::join_ship() {
             turn[d] += v[d + 3] - parted_.v[d + 3];
         }
     }
+    // The impulses of all copies act on one ship: undo the copies' mass, apply the ship's. Turns of
+    // n copies, each with 1 / n of the inertia, have their mean.
     push = inverse_mass_ * (push / copy_inverse_mass_);
     turn /= static_cast<double>(copies_.size());
     for (int d = 0; d < 3; ++d) {
@@ -113,9 +118,13 @@ void ContactRows::colour_pairs(const Bodies& bodies) {
         std::uint64_t &a = used_colours_[static_cast<std::size_t>(p.a)],
                       &b = used_colours_[static_cast<std::size_t>(p.b)];
         const bool free_a = is_free(p.a), free_b = is_free(p.b);
+        // The smallest colour that neither body has, in the order of the pairs: the same for any
+        // number of threads. Immovable bodies are only read, so that pairs may share them within a
+        // colour.
         const std::uint64_t used = (free_a ? a : 0) | (free_b ? b : 0);
         p.colour = std::countr_one(used);
         if (p.colour == kColours) {
+            // no colour is left: a colour of its own, solved alone
             p.colour = own++;
             continue;
         }

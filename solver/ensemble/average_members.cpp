@@ -47,6 +47,7 @@ ForceStatistics average(const Members& members, ForceStatistics Summary::*force)
         return mean_over(members, [&](const Summary& s) { return s.*force.*part; });
     };
     ForceStatistics out;
+    // members differ in their seed only and are independent: Student's interval of their means
     const MeanInterval interval =
         student_interval(column(members, [&](const Summary& s) { return (s.*force).mean; }));
     out.mean = interval.mean;
@@ -100,6 +101,8 @@ void average_counts(const Members& all, Summary& out) {
     const auto mean = [&](auto member) {
         return rounded_mean(all, [&](const Summary& s) { return s.*member; });
     };
+    // Work adds up over the members, what describes one run is averaged, bounds are the worst of
+    // all.
     out.steps = std::llround(sum * mean_over(all, [](const Summary& s) { return s.steps; }));
     out.simulated_s = sum * mean_over(all, [](const Summary& s) { return s.simulated_s; });
     out.wall_s = sum * mean_over(all, [](const Summary& s) { return s.wall_s; });

@@ -90,6 +90,9 @@ void AdvancePart(Bodies& b, std::span<const std::int32_t> floes, const Advance& 
     Vectors momentum = Scale(mass, v);
     if (b.have_added_mass()) momentum = Add(momentum, Turned(r, at.Load(b, &Inertia::added), v));
 
+    // Contacts and loads have changed the angular velocity since the start of the step, and the
+    // angular momentum gains I times that change. A floe without a change keeps the bits of its
+    // momentum: I w would differ from L by rounding.
     const Vectors change = Sub(at.Load(b.angular_velocity), at.Load(step.angular_velocity_start));
     const Mask changed = NotZero(change);
     Vectors angular_momentum = at.Load(b.angular_momentum);
@@ -98,6 +101,7 @@ void AdvancePart(Bodies& b, std::span<const std::int32_t> floes, const Advance& 
         angular_momentum = Choose(changed, Add(angular_momentum, gain), angular_momentum);
     }
 
+    // rotation without torque: L is constant, and w = I^-1 L changes with the orientation
     const Matrices inverse_inertia = at.Load(b, &Inertia::inverse);
     const Vectors k1 = Scale(dt, Turned(r, inverse_inertia, angular_momentum));
     const Vectors turn = at.Load(step.corrections.turn);
@@ -106,6 +110,7 @@ void AdvancePart(Bodies& b, std::span<const std::int32_t> floes, const Advance& 
     if (!hn::AllFalse(d, spins))
         q = Choose(spins, Turn(q, inverse_inertia, angular_momentum, k1, dt, map), q);
     if (!hn::AllFalse(d, nudged)) q = Choose(nudged, Normalized(Product(map(turn), q)), q);
+    // a lane turns by more than the series of the exponential map covers
     if (!hn::AllFalse(d, map.beyond)) return reference::advance_floes(b, floes, step);
 
     // where nothing turns, all that follows from the orientation is there
@@ -120,6 +125,8 @@ void AdvancePart(Bodies& b, std::span<const std::int32_t> floes, const Advance& 
     at.Store(angular_momentum, b.angular_momentum);
     at.Store(Product(inverse_world, angular_momentum), b.angular_velocity);
     at.Store(momentum, b.momentum);
+    // Momentum is constant within the turn. Added mass turns with the floe, so that the same
+    // momentum has another velocity after it.
     Vectors velocity{hn::Div(momentum.x, mass), hn::Div(momentum.y, mass),
                      hn::Div(momentum.z, mass)};
     if (b.have_added_mass()) {

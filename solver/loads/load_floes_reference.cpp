@@ -85,6 +85,7 @@ RelativeDrag drag_in_flow(const Scene& scene, const Case& p, std::size_t i) {
     const Shape& shape = scene.shapes[static_cast<std::size_t>(b.shape[i])];
     RelativeDrag drag;
     if (p.drag == DragModel::projected) {
+        // drag of a body as a whole: the flow at its centre is the flow
         const Vec3 u = b.velocity[i] - water_at(scene.water, b.position[i]);
         const Motion motion{b.rotation[i], b.position[i].z(), u, b.angular_velocity[i]};
         static_cast<WaterLoad&>(drag) =
@@ -93,6 +94,7 @@ RelativeDrag drag_in_flow(const Scene& scene, const Case& p, std::size_t i) {
         drag.loss = -ordered_dot(drag.force, u);
     }
     if (p.drag == DragModel::panel) {
+        // drag of each facet: the flow differs along the floe, given in the floe's own axes
         const auto water = [&](const Vec3& at) {
             return ordered_transposed(
                 b.rotation[i],
@@ -112,11 +114,14 @@ FloeLoad load_of(const Scene& scene, const Case& p, std::size_t i) {
     if (scene.water.reaches(b.position[i], shape.bounding_radius)) {
         const RelativeDrag drag = drag_in_flow(scene, p, i);
         load.drag = drag;
+        // Drag times the water's velocity: the power on the floe plus the power lost in the motion
+        // relative to the water.
         load.water_power = (ordered_dot(drag.force, b.velocity[i]) +
                             ordered_dot(drag.moment, b.angular_velocity[i])) +
                            drag.loss;
     } else {
         load.drag = drag_in_current(scene, p, i);
+        // a uniform current does the work force * current, whatever the floe's motion
         load.water_power = ordered_dot(load.drag.force, scene.water.current);
     }
     load.force = load.drag.force;
@@ -127,6 +132,8 @@ FloeLoad load_of(const Scene& scene, const Case& p, std::size_t i) {
         const Vec3 lift(0.0, 0.0, p.water_density * p.gravity * wet.volume);
         load.force += lift;
         load.righting = wet.centre.cross(lift);
+        // The righting moment about the centre of mass; the model "centre" leaves it out, the
+        // ledger counts the work that it would have done.
         if (p.buoyancy == BuoyancyModel::distributed) load.moment += load.righting;
     }
     if (scene.dimension == 2) {

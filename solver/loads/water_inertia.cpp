@@ -9,16 +9,22 @@ namespace {
 
 void add(const Scene& scene, const Case& p, std::size_t i, FloeLoad& load) {
     const Bodies& b = scene.bodies;
+    // Kirchhoff's equations for a body with added mass A, in world axes. In water at rest the
+    // moment is that of Munk, -v x A v.
     const Mat3 water_mass = ordered_turned(b.rotation[i], b.inertias_of(i).added);
     const Vec3 &v = b.velocity[i], &spin = b.angular_velocity[i];
     const auto munk = [&](const Vec3& u) { return Vec3(-u.cross(ordered_product(water_mass, u))); };
     load.moment += munk(v);
     if (!scene.water.flows() && scene.water.current.isZero(0.0)) return;
     const Vec3 w = reference::water_at(scene.water, b.position[i]);
+    // In moving water v - w takes the place of v (docs/method.md, section 6): the difference to the
+    // moment above, and the force of the momentum A w, which turns with the floe.
     WaterLoad moved;
     moved.moment = munk(v - w) - munk(v);
     moved.force = spin.cross(ordered_product(water_mass, w)) -
                   ordered_product(water_mass, Vec3(spin.cross(w)));
+    // Accelerated water pushes the added mass as it pushes the displaced water (Taylor): the
+    // pressure's acceleration is its force / (rho V).
     if (scene.water.presses) {
         const Shape& shape = scene.shapes[static_cast<std::size_t>(b.shape[i])];
         moved.force += ordered_product(water_mass, load.pressure.force) /

@@ -236,6 +236,9 @@ void make_contact_polygon(const ConvexPiece& a, const ConvexPiece& b, const Rela
 void reduce_polygon(std::size_t count, ContactPolygon& polygon) {
     std::vector<PolygonCorner>& corners = polygon.corners;
     while (corners.size() > count) {
+        // The deepest corner stays, as it bounds the overlap; of the others the one goes whose
+        // removal costs the least area. Ties are decided by place, mirrored alike, so that a
+        // mirrored pair keeps mirrored corners.
         std::size_t deepest = 0, least = corners.size();
         for (std::size_t k = 1; k < corners.size(); ++k)
             if (std::tuple(corners[k].gap, mirror_key(corners[k])) <

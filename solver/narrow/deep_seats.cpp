@@ -81,6 +81,8 @@ template <class Visit>
 void for_each_seat(const PairView& view, const Side& side, const Visit& visit) {
     const SphereBlocks& blocks = side.of.blocks;
     const Eigen::AlignedBox3d box = box_of_solid(side);
+    // The groups' boxes hold centres of spheres, as floats and before any crushing. The reach adds
+    // the sphere's extent, the crushed depth and the rounding.
     const double reach = static_cast<double>(blocks.largest_normal_extent) +
                          view.scene.crushed.deepest_of(side.body) +
                          static_cast<double>(SphereBlocks::kFloatShare * blocks.size);

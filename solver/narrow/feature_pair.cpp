@@ -69,6 +69,8 @@ void FeaturePair::add_edge_axis(int edge_a, int edge_b) {
     if (sine <= kParallel) return;
     EdgeAxis c;
     c.normal = 1.0 / sine * across;
+    // The cross product has no sign of its own: both senses are tried. An axis separates two edges
+    // if it lies in the normal cone of one and its opposite in that of the other (Gauss map).
     const NormalCone::Signs of_a = fa.contains_either_sign(c.normal, kSlantOnEdge);
     if (!of_a.forth && !of_a.back) return;
     const NormalCone::Signs of_b = fb.contains_either_sign(c.normal, kSlantOnEdge);

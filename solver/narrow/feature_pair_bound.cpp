@@ -111,8 +111,10 @@ double FeaturePairBound::least_of_edges(const Vec3& center_a, const Vec3& center
     for (std::uint8_t k = 0; k < faces_; ++k) {
         const Vec3& n = face_[k].normal;
         const double along = n.dot(d), gap = n.dot(between);
+        // bodies move by at most the skin: the axis stays invalid until then
         if (along <= -skin_.distance) continue;
         possible = std::min(possible, gap);
+        // valid wherever the bodies go within the skin
         if (along > skin_.distance && certain_[k]) certain = std::max(certain, gap);
         const auto is_near = [&](const Footprint& foot, double radius, const Vec3& v) {
             return distance_from(foot, radius, part_across(v, n), skin_.distance) <= far_ * far_;

@@ -156,6 +156,8 @@ void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
     if (rule.normal == NormalRule::centres)
         return centres_.find(scene, pairs, motion, dt, margin, out);
     cache_.carry_over(pairs);
+    // The state of a pair costs a comparison of path lengths; only pairs that the cache cannot
+    // prove apart are measured.
     states_.resize(pairs.size());
     parallel_for(pairs.size(), kSerialLooks, [&](std::size_t k) {
         states_[k] = cache_.state(k, scene, pairs[k], motion, dt, margin,
@@ -182,6 +184,8 @@ void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
         std::span<const SpherePair> near = cache_.listed(k);
         if (state == PairCache::State::stale) {
             const PairView view(scene, pairs[k]);
+            // The list has used up its skin: search anew, with a skin that lasts for some steps.
+            // The pair may turn out to be separated after all.
             const Skin skin = skin_of(scene, pairs[k], dt);
             const double least = find_near(view, margin, skin, work.search, batch.spheres);
             near = std::span(batch.spheres).subspan(found.sphere);

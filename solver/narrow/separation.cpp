@@ -21,6 +21,7 @@ double gap_along(const ConvexBounds& from, std::size_t k, const ConvexBounds& ot
     double nearest = kInfinity;
     for (const Vec3& v : other.corners) {
         nearest = std::min(nearest, along.dot(v));
+        // an axis that is already no better than the best one needs no exact value
         if (nearest + rest - from.offset[k] <= least) break;
     }
     return nearest + rest - from.offset[k];
@@ -34,6 +35,7 @@ double separation(const PairView& view, double enough, std::size_t& axis) {
     const Mat3 back = view.rotation_ab.transpose();
     const Vec3 shift_back = -(back * view.translation_ab);
     const std::size_t axes_a = a.normals.size(), axes = axes_a + b.normals.size();
+    // The polyhedra bound the meshes; spheres protrude from them by at most the excess.
     const double excess = a.excess + b.excess;
     double widest = -kInfinity;
     const auto attempt = [&](std::size_t k) {
@@ -44,6 +46,7 @@ double separation(const PairView& view, double enough, std::size_t& axis) {
         widest = gap;
         axis = k;
     };
+    // the axis of the last step first: mostly it still separates, and then no other is needed
     const std::size_t first = axis;
     if (first < axes) attempt(first);
     for (std::size_t k = 0; k < axes && widest - excess <= enough; ++k)

@@ -105,6 +105,8 @@ HullPanels divide_hull(const Shape& hull, double size, double waterline) {
         const Key key = grid.key_of(hull.center[k], n, region);
         const auto [place, is_new] = rows.emplace(key, sums.size());
         if (is_new) sums.emplace_back();
+        // A line load is force per length: horizontal length for a panel of the bottom (axis 2),
+        // height for one of a side or an end. `across` is the factor of that projection.
         const double across = std::get<1>(key) == 2 ? std::abs(n.z()) : std::hypot(n.x(), n.y());
         const double area = std::max(hull.area[k], kLeastShare * whole);
         sums[place->second].region = region;
@@ -121,6 +123,8 @@ HullPanels divide_hull(const Shape& hull, double size, double waterline) {
         panel_of[k] = static_cast<std::int32_t>(out.panels.size());
         PanelLoad panel;
         panel.region = sums[k].region;
+        // sums are weighted by area: the quotient is the centroid, the direction of the sum the
+        // mean normal
         panel.center = sums[k].center / sums[k].area;
         panel.normal = sums[k].normal.normalized();
         panel.area = std::max(sums[k].area, kSmall * whole);

@@ -69,6 +69,8 @@ void book_step(const Scene& scene, const Case& parameters,
     for (std::size_t k = 0; k < b.moving.size(); ++k) {
         const auto i = static_cast<std::size_t>(b.moving[k]);
         const FloeLoad& load = loads[k];
+        // A force F over the step changes the kinetic energy by F dt * (v0 + v1) / 2, exactly: the
+        // work is taken with the mean velocity, whatever the integrator does with the position.
         const Vec3 v = 0.5 * (start.velocity[i] + b.velocity[i]);
         const Vec3 w = 0.5 * (start.angular_velocity[i] + b.angular_velocity[i]);
         ledger.drag -= dt * (load.drag.force.dot(v) + load.drag.moment.dot(w));
@@ -79,6 +81,8 @@ void book_step(const Scene& scene, const Case& parameters,
         ledger.water_work += dt * (push.force.dot(v) + push.moment.dot(w));
         const WaterLoad& own = load.applied;
         ledger.applied_work += dt * (own.force.dot(v) + own.moment.dot(w));
+        // The position correction lifts floes against weight and buoyancy without a velocity. That
+        // work is in no other entry.
         const Vec3 weight = load.force - load.drag.force - push.force - own.force;
         ledger.separation -=
             weight.dot(corrections.shift[i]) + load.righting.dot(corrections.turn[i]);
@@ -94,6 +98,7 @@ void fill_energy(const EnergyLedger& ledger, double potential_now, Summary& summ
                                                ledger.breaking + ledger.drag);
     auto& out = summary.energy;
     out["ship_work_J"] = ledger.ship_work;
+    // Entries of parts that a case does not have are left out of the summary.
     if (ledger.drift_work != 0.0) out["drift_work_J"] = ledger.drift_work;
     out["kinetic_change_J"] = ledger.kinetic;
     out["potential_J"] = potential_now - ledger.potential_start.value_or(potential_now);

@@ -68,10 +68,13 @@ std::optional<HullForm> measure_hull_form(const TriangleMesh& hull, double water
     form.length = bow - x_low;
     form.breadth = y_high - y_low;
     form.draught = waterline - z_low;
+    // The stem's angle is that of the chord down to a tenth of the draught, the entrance angle that
+    // of the chord over the foremost quarter of the breadth on one side: both ignore a rounded tip.
     const double depth = 0.1 * form.draught;
     const std::vector<Segment> deeper = cut(hull, waterline - depth);
     const double rake = bow - foremost(deeper);
     const double run = bow - ends_at(water, 0.25 * form.breadth).second;
+    // a flat bow, or a section without depth, has neither angle
     const bool pointed = !deeper.empty() && form.draught > 0.0 && run > 1e-6 * form.length;
     form.stem_angle = pointed ? std::atan2(depth, std::max(rake, 0.0)) : std::nan("");
     form.entrance_angle = pointed ? std::atan2(0.25 * form.breadth, run) : std::nan("");

@@ -19,6 +19,8 @@ constexpr double kWithShip = 0.1;  // of the ship's way
 std::optional<Warning> warn_of_open_end(const Scene& scene, const Case& parameters, double travel) {
     const IceAtStart& start = scene.start;
     if (!start.walls || start.closed) return std::nullopt;
+    // Only a channel between unbroken ice has an end that can be open. Floes ahead of the bow that
+    // are now beyond the first ice's far end have been pushed out of it.
     const double end = start.loose.max().x(), bow = box_of(scene, kShip).max().x();
     int count = 0;
     double farthest = 0.0;

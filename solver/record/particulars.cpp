@@ -104,6 +104,7 @@ IceParticulars measure_ice(const Scene& scene, const Case& parameters) {
     ice.water_density = parameters.water_density;
     ice.gravity = parameters.gravity;
     if (scene.bodies.size() < 2) return ice;
+    // the thickness is the extent along z of the first floe as it is placed
     const Mat3 as_it_lies = group_of(scene, parameters, 1).orientation.toRotationMatrix();
     ice.thickness = extent_of(shape_of(scene, 1).mesh, as_it_lies).z();
     measure_sizes(scene, parameters, ice);

@@ -225,6 +225,8 @@ void Recorder::add_history(const StepView& view, const StepRecord& record) {
         tracked_sum_[k].friction += tracked_[k].friction;
         tracked_sum_[k].ice += tracked_[k].ice;
     }
+    // Rows are due at multiples of history_every, counted and not summed up: no drift by rounding.
+    // Half a step tolerates the rounding of the time itself.
     const double due = static_cast<double>(rows_ + 1) * parameters_.history_every;
     if (view.time + 0.5 * dt_ >= due) flush_history(view);
 }
@@ -278,6 +280,8 @@ void Recorder::add_frame(const StepView& view) {
     frame.time = view.time;
     frame.ship_position = b.position[kShip];
     frame.ship_orientation = b.orientation[kShip];
+    // A frame's force is the mean since the last frame, so that short peaks between frames are not
+    // lost.
     const double span = view.time - last_frame_;
     for (std::size_t i = 1; i < b.size(); ++i) {
         frame.position.push_back(b.position[i]);

@@ -102,6 +102,8 @@ double imbalance_of_ship(const Momenta& before, const World& w, const StepRecord
     const Vec3 ice = reported.contact_force + reported.friction_force;
     const Vec3 ice_moment = reported.moment - b.ship.centre.cross(ice);
     const Mat3 to_axes = axes.shift.transpose(), to_rates = axes.turn.inverse();
+    // Equations of motion in the ship's axes: along the axes that answer, the change of M v is the
+    // impulse of loads and ice. Fixed axes are left out, their reaction is unknown.
     const double linear = off_balance(body, surge, masses.shift, to_axes * w.ship.velocity_start(),
                                       to_axes * b.velocity[kShip],
                                       dt * (to_axes * (loads.force + ice)), contacts.linear.size);
@@ -125,6 +127,8 @@ Momenta momenta_of(const World& w) {
 Imbalance measure_imbalance(const Momenta& before, const World& w) {
     const Bodies& b = w.scene.bodies;
     const double dt = w.parameters.time_step;
+    // A 2D run has motion in x, z and about y only; the other components are held, so they balance
+    // nothing.
     const bool flat = w.scene.dimension == 2;
     const Vec3 axes = flat ? Vec3(1, 0, 1) : Vec3::Ones();
     const Vec3 turns = flat ? Vec3(0, 1, 0) : Vec3::Ones();
@@ -141,6 +145,8 @@ Imbalance measure_imbalance(const Momenta& before, const World& w) {
     for (std::size_t i = 1; i < b.size(); ++i) {
         if (b.held[i]) continue;
         Sums& s = sums[i];
+        // Each sum is zero where the step balances: new momentum - old momentum - dt * loads -
+        // impulses.
         s.linear.add(b.momentum[i]);
         s.linear.add(-before.linear[i]);
         s.linear.add(-dt * loads[i].force);

@@ -141,6 +141,7 @@ void warn_of_speed(const World& w, std::vector<Warning>& warnings) {
     std::int32_t who = 0;
     const Bodies& b = w.scene.bodies;
     for (std::size_t i = 1; i < b.size(); ++i) {
+        // floes that drift meet the ship with the relative speed
         const double speed = (b.velocity[i] - b.velocity[kShip]).norm();
         if (speed <= fastest) continue;
         fastest = speed;

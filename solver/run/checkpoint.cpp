@@ -29,6 +29,8 @@ std::uint64_t hash_of(const Shape& shape) {
         for (const Vec3& p : points)
             for (int d = 0; d < 3; ++d) hash.add(p[d]);
     };
+    // All that the solver reads of a form is hashed: a sphere set made anew with other options must
+    // not continue a run, though its file has the same name.
     add(shape.center);
     add(shape.normal);
     add(shape.mesh.vertices);

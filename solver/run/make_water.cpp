@@ -172,6 +172,8 @@ std::vector<Warning> check_water(const Case& p, const Scene& scene) {
     double speed = 0.0;
     for (const auto& [time, u] : p.speed_table)
         speed = std::max(speed, std::abs(u - water.current.x()));
+    // The double-body flow has a rigid water surface. The neglected waves grow with Fr^2, which is
+    // the warning's share.
     const double froude = speed / std::sqrt(p.gravity * measure_ship(scene, p).length);
     if (froude > kMostFroude)
         out.push_back(judged(

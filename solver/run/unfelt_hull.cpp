@@ -67,12 +67,14 @@ UnfeltHull measure_unfelt_hull(const Scene& scene, double low, double high) {
         const Vec3 &a = hull.mesh.vertices[static_cast<std::size_t>(t[0])],
                    &b = hull.mesh.vertices[static_cast<std::size_t>(t[1])],
                    &c = hull.mesh.vertices[static_cast<std::size_t>(t[2])];
+        // triangles wholly above or below the band of heights where ice is
         if (std::min({a.z(), b.z(), c.z()}) + rise > high) continue;
         if (std::max({a.z(), b.z(), c.z()}) + rise < low) continue;
         for_each_part(a, b, c, 0.5 * hull.spacing, [&](const Vec3& p, double area) {
             if (p.z() + rise < low || p.z() + rise > high) return;
             out.area += area;
             const double distance = distance_to_nearest(places, p);
+            // ice that touches here is felt by a sphere at most one spacing away
             if (distance <= hull.spacing) return;
             unfelt += area;
             if (distance <= out.distance) return;

@@ -10,6 +10,8 @@ namespace ice {
 void update_derived(Bodies& bodies, std::size_t i) {
     bodies.rotation[i] = bodies.orientation[i].toRotationMatrix();
     if (i == kShip) return;
+    // Held ice answers no impulse: its inverse mass is zero. Its momentum is kept, since ice may
+    // drift at a constant velocity.
     if (bodies.held[i]) {
         bodies.velocity[i] = bodies.momentum[i] / bodies.mass[i];  // of ice that drifts
         bodies.angular_velocity[i] = Vec3::Zero();

@@ -39,12 +39,14 @@ Shape read_shape(const std::filesystem::path& file, int dimension, bool about_ce
 std::vector<Vec3> place_group(const FloeGroup& group, const Vec3& low, const Vec3& size,
                               bool planar) {
     if (group.pattern == Pattern::single) return {group.position};
+    // centre distance of neighbours: the box of a floe and the gap
     const double pitch_x = size.x() + group.gap[0];
     const double pitch_y = planar ? 0.0 : size.y() + group.gap[1];
     std::vector<Vec3> places;
     for (int row = 0; row < group.count[1]; ++row)
         for (int column = 0; column < group.count[0]; ++column) {
             double across = (row - 0.5 * (group.count[1] - 1)) * pitch_y;
+            // every other column is shifted by half a floe, as bricks in a wall
             if (group.pattern == Pattern::brick && column % 2 == 1) across += 0.5 * pitch_y;
             const double centre_y = low.y() + 0.5 * size.y();  // box centre off the centre of mass
             places.emplace_back(group.origin[0] - low.x() + column * pitch_x,
@@ -59,6 +61,7 @@ void add_group(Scene& scene, const Case& parameters, std::size_t g, std::int32_t
     const Mat3 rotation = group.orientation.toRotationMatrix();
     Eigen::AlignedBox3d box;
     for (const Vec3& v : shape.mesh.vertices) box.extend(rotation * v);
+    // as doubles: the product of two counts may exceed an integer
     const double count = static_cast<double>(group.count[0]) * group.count[1];
     if (count + static_cast<double>(scene.bodies.size()) > kMostFloes)
         throw bad_input(fmt::format("floes.{}.count", g + 1), "asks for more than 10 million floes",
@@ -72,6 +75,7 @@ void add_group(Scene& scene, const Case& parameters, std::size_t g, std::int32_t
                 throw bad_input(fmt::format("floes.{}", g + 1),
                                 "ice as dense as water has no floating equilibrium",
                                 "state z in position, or lower ice.density");
+            // one search for all floes of the group: form, density and orientation are the same
             if (std::isnan(height)) height = floating_height(shape, rotation, fraction);
             place.z() = height;
         }
@@ -115,6 +119,7 @@ void add_field_group(Scene& scene, const Case& parameters, std::size_t g, ShapeR
     for (const FieldFloe& floe : field.floes) {
         if (floe.fixed != group.unbroken_part) continue;
         const std::int32_t row = first_row + floe.shape;
+        // each floe of a field may have a form of its own
         const double height = floating_height(scene.shapes[static_cast<std::size_t>(row)],
                                               floe.orientation.toRotationMatrix(), fraction);
         const Vec3 place(group.origin[0] + floe.position[0], group.origin[1] + floe.position[1],

@@ -40,6 +40,8 @@ IceAtStart find_ice_at_start(const Scene& scene, const Case& parameters) {
             ice.loose.extend(box);
     }
     if (ice.loose.isEmpty()) return ice;
+    // Unbroken ice beside the loose floes on both sides makes a channel; unbroken ice ahead of
+    // them, across the channel's middle, closes it.
     bool starboard = false, port = false;
     const Eigen::Vector2d low = ice.loose.min(), high = ice.loose.max(),
                           middle = ice.loose.center();

@@ -76,6 +76,7 @@ double share_within(const ConvexBounds& bounds, const BoundedSphere& s) {
 }  // namespace
 
 ConvexBounds::ConvexBounds(const TriangleMesh& mesh, std::span<const BoundedSphere> spheres) {
+    // too many corners or planes to be worth testing: the form counts as unknown
     if (!list_corners(mesh, corners) || !list_normals(mesh, normals)) {
         corners.clear();
         normals.clear();

@@ -13,6 +13,9 @@ NormalCone NormalCone::meeting(std::span<const Vec3> normals) {
     for (std::size_t k = 0; k < normals.size(); ++k) out.normal[k] = normals[k];
     const Vec3 &f = out.normal[0], &g = out.normal[1], &h = out.normal[2];
     if (out.count == 2) {
+        // `part` and `size` turn "is n in the cone" into dot products: n = sum of (n . part_k /
+        // size) times normal_k, with no negative factor. Two faces have the dual basis in their
+        // plane and the edge's direction, three the reciprocal vectors.
         const double c = f.dot(g);
         out.part = {f - c * g, g - c * f, f.cross(g).normalized()};
         out.size = 1.0 - c * c;

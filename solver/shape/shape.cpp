@@ -32,6 +32,7 @@ FacetBlocks facets_of(const TriangleMesh& mesh) {
 // out of their plane. Edges of smooth strips list many that lie between these.
 NormalCone outermost_faces(const std::vector<Vec3>& normals) {
     if (normals.size() < 2) return {};
+    // any third normal must leave the plane of the first two by kSamePlane to make a vertex
     double least = 2.0, most = kSamePlane;
     std::array<Vec3, 3> out{normals[0], normals[1], Vec3::Zero()};
     std::size_t count = 2;

@@ -136,6 +136,8 @@ VectorBlocks::VectorBlocks(const std::vector<Vec3>& list) : count_(list.size()) 
     constexpr std::size_t kLanes = VectorBlock::kLanes;
     blocks_.resize((count_ + kLanes - 1) / kLanes);
     for (std::size_t k = 0; k < kLanes * blocks_.size(); ++k) {
+        // Copies of the last vector fill up the last block. They change no minimum and no maximum,
+        // so the kernels need no mask.
         const Vec3& v = list[std::min(k, count_ - 1)];
         VectorBlock& block = blocks_[k / kLanes];
         block.x[k % kLanes] = v.x();
@@ -157,6 +159,7 @@ ConvexPiece make_convex_piece(const TriangleMesh& mesh) {
             add_edge(planes, points, l, r, flat, out.edges);
     std::vector<Vec3> normals, middle, along, left, right;
     for (const Plane& p : planes) {
+        // a face without a closed loop of edges: the planes bound no convex solid
         out.loops.push_back(loop_round(out.edges, static_cast<std::int32_t>(normals.size())));
         if (out.loops.back().empty()) return {};
         normals.push_back(p.normal);
@@ -173,6 +176,7 @@ ConvexPiece make_convex_piece(const TriangleMesh& mesh) {
         right.push_back(normals[static_cast<std::size_t>(e.right)]);
     }
     out.normals = VectorBlocks(normals);
+    // kernels read offsets in whole blocks, too
     while (out.offsets.size() % VectorBlock::kLanes != 0) out.offsets.push_back(out.offsets.back());
     out.corners = VectorBlocks(points);
     out.edge_middle = VectorBlocks(middle);

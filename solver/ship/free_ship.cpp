@@ -42,6 +42,7 @@ void FreeShip::begin(const Case& p, Scene& scene) {
 void FreeShip::place(Scene& scene, double height, const ShipAngles& angles) {
     ICE_ASSERT(answers());
     Bodies& b = scene.bodies;
+    // the ship turns about its centre of gravity, which keeps its place in the plane
     const Vec3 before = b.rotation[kShip] * rig_->body.centre_of_gravity;
     angles_ = angles;
     b.orientation[kShip] = orientation_of(angles_);
@@ -53,6 +54,7 @@ void FreeShip::place(Scene& scene, double height, const ShipAngles& angles) {
 void FreeShip::start_step(const Case& p, Scene& scene, double time) {
     begin(p, scene);
     Bodies& b = scene.bodies;
+    // Speed in the middle of the step: the displacement of a linear speed table is then exact.
     const Vec3 course(p.ship_speed(time + 0.5 * p.time_step), 0.0, 0.0);
     if (answers()) {
         const ShipAxes axes = axes_of(angles_);

@@ -40,10 +40,13 @@ ShipBody make_ship_body(const Case& p, const Scene& scene) {
         measure_submerged(hull, Mat3::Identity(), scene.bodies.position[kShip].z());
     ShipBody out;
     out.free = p.ship.free;
+    // not-a-number means "not given": the mass of the displaced water, at its centre
     out.mass = std::isnan(p.ship.mass) ? p.water_density * wet.volume : p.ship.mass;
     out.centre_of_gravity =
         p.ship.centre_of_gravity.hasNaN() ? wet.centre : p.ship.centre_of_gravity;
     const Vec3 size = hull.box.sizes();
+    // usual radii of gyration of ships: 0.35 breadths in roll, a quarter of the length in pitch and
+    // yaw
     const Vec3 usual(0.35 * size.y(), 0.25 * size.x(), 0.25 * size.x());
     out.gyration = p.ship.gyration.hasNaN() ? usual : p.ship.gyration;
     out.inertia = out.mass * out.gyration.cwiseAbs2();
@@ -52,6 +55,8 @@ ShipBody make_ship_body(const Case& p, const Scene& scene) {
         out.added[shift] = p.ship.added_mass[shift] * out.mass;
         out.added[turn] = p.ship.added_mass[turn] * out.inertia[k];
     }
+    // later sources replace earlier ones: shares of the mass, computed from the hull, a given
+    // matrix
     if (p.ship.computes_added_mass) {
         take_diagonal(ship_added_mass(hull.mesh, -scene.bodies.position[kShip].z(),
                                       out.centre_of_gravity, p.water_density)
