@@ -105,6 +105,62 @@ std::string draw_view(const RunData& run, ViewFrom from, double time) {
         .draw(run.frames[nearest_frame(run, time)], make_trails(run));
 }
 
+namespace {
+
+// Ship and ice at an angle, at the middle instant; nothing where it takes too much of the page.
+std::string draw_opening(const RunData& run, const std::vector<std::size_t>& instants,
+                         const std::vector<views::Trail>& trails, std::size_t most) {
+    views::ViewOptions options = view_options(run);
+    options.width = 1000.0;
+    std::string picture = SceneView(run.header, ViewFrom::quarter, options)
+                              .draw(run.frames[instants[instants.size() / 2]], trails);
+    return picture.size() > most ? "" : picture;
+}
+
+// Pictures by instant, as many as the bytes of the page allow.
+struct Pictures {
+    std::vector<std::vector<std::string>> at;
+    std::size_t dropped = 0;
+};
+
+Pictures draw_instants(const RunData& run, const std::vector<SceneView>& views,
+                       const std::vector<std::size_t>& instants,
+                       const std::vector<views::Trail>& trails, std::size_t used,
+                       std::size_t budget) {
+    Pictures out;
+    out.at.resize(instants.size());
+    // every side at one instant first: the other instants are the first to be left out
+    for (const std::size_t k : middle_first(instants.size()))
+        for (const SceneView& view : views) {
+            std::string picture = view.draw(run.frames[instants[k]], trails);
+            if (used + picture.size() > budget) {
+                ++out.dropped;
+                continue;
+            }
+            used += picture.size();
+            out.at[k].push_back(std::move(picture));
+        }
+    return out;
+}
+
+// A 2D run has one view per instant, which go side by side; a 3D run has a row per instant.
+std::string arrange(const RunData& run, const std::vector<std::size_t>& instants,
+                    const Pictures& pictures) {
+    if (run.header.dimension == 2) {
+        std::vector<std::string> all;
+        for (const auto& group : pictures.at) all.insert(all.end(), group.begin(), group.end());
+        return figures(all);
+    }
+    std::string rows;
+    for (std::size_t k = 0; k < instants.size(); ++k)
+        if (!pictures.at[k].empty())
+            rows += fmt::format("<h3>t = {:.2f} s</h3>\n", run.frames[instants[k]].time) +
+                    figures(pictures.at[k]);
+    return rows;
+}
+
+}  // namespace
+
 std::string scene_section(const RunData& run, std::size_t budget) {
     if (run.frames.empty()) return "";
     const bool flat = run.header.dimension == 2;
@@ -115,55 +171,25 @@ std::string scene_section(const RunData& run, std::size_t budget) {
         flat ? std::vector<ViewFrom>{ViewFrom::side}
              : std::vector<ViewFrom>{ViewFrom::below, ViewFrom::top, ViewFrom::side,
                                      ViewFrom::front};
-    std::vector<std::vector<std::string>> pictures(instants.size());
-    std::string hulls, opening;
-    std::size_t used = 0, dropped = 0;
-    if (!flat) {
-        views::ViewOptions options = view_options(run);
-        options.width = 1000.0;
-        opening = SceneView(run.header, ViewFrom::quarter, options)
-                      .draw(run.frames[instants[instants.size() / 2]], trails);
-        used = opening.size();
-        if (used > budget / 3) {
-            used = 0;
-            opening.clear();
-        }
-    }
+    const std::string opening = flat ? "" : draw_opening(run, instants, trails, budget / 3);
+    // each view defines the hull once and its pictures refer to it, which keeps the page small
     std::vector<SceneView> views;
+    std::string hulls;
     for (std::size_t v = 0; v < sides.size(); ++v) {
         views::ViewOptions options = view_options(run);
         options.hull_id = fmt::format("hull-{}", v);
         views.emplace_back(run.header, sides[v], options);
         hulls += views.back().define_hull();
     }
-    used += hulls.size();
-    // every side at one instant first: the other instants are the first to be left out
-    for (const std::size_t k : middle_first(instants.size()))
-        for (const SceneView& view : views) {
-            std::string picture = view.draw(run.frames[instants[k]], trails);
-            if (used + picture.size() > budget) {
-                ++dropped;
-                continue;
-            }
-            used += picture.size();
-            pictures[k].push_back(std::move(picture));
-        }
+    const Pictures pictures =
+        draw_instants(run, views, instants, trails, opening.size() + hulls.size(), budget);
     std::string body = hulls + "<div class=\"legend\">" + views::draw_legend(640.0) + "</div>\n";
     if (!opening.empty()) body += "<div class=\"opening\">" + opening + "</div>\n";
-    if (flat) {
-        std::vector<std::string> all;
-        for (auto& group : pictures) all.insert(all.end(), group.begin(), group.end());
-        body += figures(all);
-    } else {
-        for (std::size_t k = 0; k < instants.size(); ++k)
-            if (!pictures[k].empty())
-                body += fmt::format("<h3>t = {:.2f} s</h3>\n", run.frames[instants[k]].time) +
-                        figures(pictures[k]);
-    }
-    if (dropped > 0)
+    body += arrange(run, instants, pictures);
+    if (pictures.dropped > 0)
         body += fmt::format(
             "<p>{} more views would make this page too large; draw them with icepost view.</p>\n",
-            dropped);
+            pictures.dropped);
     return section(
         "drawings", "Hull and ice, drawn",
         "The picture moves with the ship; axes are world coordinates. Paths are those of "

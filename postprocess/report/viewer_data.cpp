@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <set>
 
 #include "postprocess/report/pack.hpp"
+#include "postprocess/report/pack_hull.hpp"
 #include "postprocess/report/viewer_charts.hpp"
 #include "postprocess/statistics/choose_frames.hpp"
 #include "postprocess/views/faces.hpp"
@@ -21,7 +21,6 @@ namespace {
 constexpr double kTurns = 8191.0;            // integers per quaternion component
 constexpr double kLoads = 8191.0;            // 13 bits; two more hold the floe's state
 constexpr std::size_t kFloeTriangles = 400;  // of one shape
-constexpr std::size_t kLargest16 = 0xffff;
 
 double round_up(double value) {
     if (!(value > 0.0)) return 1.0;
@@ -57,7 +56,7 @@ public:
         add_orientations(floes);
         add_loads(floes);
         add_pieces();
-        add_hull();
+        meta_["hull"] = pack_hull(figures_.load, pack_);
         add_flow();
         meta_["arrays"] = pack_.table();
         return {safe_text(meta_.dump()), pack_.text()};
@@ -135,6 +134,7 @@ private:
                     low = std::min(low, p[d]);
                     high = std::max(high, p[d]);
                 }
+            // no finer than a thousandth of a floe, which nobody sees and which would not compress
             const Quantiser axis = make_quantiser(low, high, 1e-3 * floe_size_);
             scale.push_back(axis.step);
             offset.push_back(axis.offset);
@@ -163,6 +163,7 @@ private:
         if (k == 0) return 0.0;
         Vec3 impulse = Vec3::Zero();
         for (std::size_t f = chosen_[k - 1] + 1; f <= chosen_[k]; ++f)
+            // frames between two chosen ones count, too: each has the mean since the one before
             impulse += run_.frames[f].contact_force[body] *
                        (run_.frames[f].time - run_.frames[f - 1].time);
         const double time = run_.frames[chosen_[k]].time - run_.frames[chosen_[k - 1]].time;
@@ -190,6 +191,8 @@ private:
             for (std::size_t k = 0; k < chosen_.size(); ++k) {
                 const double share = most > 0.0 ? loads[b * chosen_.size() + k] / most : 0.0;
                 const auto state = static_cast<int>(run_.frames[chosen_[k]].state[b]);
+                // The root spends more of the 13 bits on small loads, which are the most frequent.
+                // The state has the two lowest bits.
                 codes.push_back(static_cast<std::int16_t>(
                     4 * static_cast<int>(std::lround(kLoads * std::sqrt(share))) + state));
             }
@@ -225,55 +228,6 @@ private:
         pack_.add("piece_load", load);
     }
 
-    void add_hull() {
-        const TriangleMesh& mesh = figures_.load.mesh;
-        json scale = json::array(), offset = json::array();
-        std::vector<Quantiser> axes;
-        for (int d = 0; d < 3; ++d) {
-            double low = std::numeric_limits<double>::infinity(), high = -low;
-            for (const Vec3& v : mesh.vertices) {
-                low = std::min(low, v[d]);
-                high = std::max(high, v[d]);
-            }
-            // 16 bits over each axis' own range: the page holds the hull to a 65 000th of its
-            // length, in half the bytes of floats.
-            axes.push_back(make_quantiser(low, high, 0.0));
-            scale.push_back(axes.back().step);
-            offset.push_back(axes.back().offset);
-        }
-        std::vector<std::int16_t> vertices;
-        for (const Vec3& v : mesh.vertices)
-            for (std::size_t d = 0; d < 3; ++d)
-                vertices.push_back(axes[d].code(v[static_cast<Eigen::Index>(d)]));
-        pack_.add_series("hull_vertices", std::move(vertices), 1, 0);
-        add_triangles(mesh);
-        // Loads as shares of the colour scale's end, as the drawings have it: both pictures have
-        // the same colours.
-        const double end = statistics::scale_end(figures_.load);
-        std::vector<std::uint16_t> load;
-        for (const double p : figures_.load.load)
-            load.push_back(static_cast<std::uint16_t>(
-                end > 0.0 ? std::lround(65535.0 * std::min(1.0, p / end)) : 0));
-        pack_.add("hull_load", load);
-        std::vector<std::uint8_t> region;
-        std::set<int> used;
-        for (const std::int32_t r : mesh.region) {
-            region.push_back(static_cast<std::uint8_t>(std::min(r, 255)));
-            used.insert(region.back());
-        }
-        pack_.add("hull_region", region);
-        json regions = json::array();
-        for (const int r : used)
-            regions.push_back({r, mesh.region_names[static_cast<std::size_t>(r)]});
-        const PressureUnit unit = choose_pressure_unit(end);
-        meta_["hull"] = {{"scale", scale},
-                         {"offset", offset},
-                         {"regions", regions},
-                         {"scale_text", views::readable(end / unit.pascals)},
-                         {"half_text", views::readable(0.5 * end / unit.pascals)},
-                         {"unit", unit.name}};
-    }
-
     void add_flow() {
         std::vector<float> points, velocities;
         for (std::size_t k = 0; k < run_.header.flow_point.size(); ++k)
@@ -283,20 +237,6 @@ private:
             }
         pack_.add("flow_point", points);
         pack_.add("flow_velocity", velocities);
-    }
-
-    void add_triangles(const TriangleMesh& mesh) {
-        std::vector<std::uint16_t> narrow;
-        std::vector<std::uint32_t> wide;
-        for (const auto& t : mesh.triangles)
-            for (const std::int32_t v : t) {
-                narrow.push_back(static_cast<std::uint16_t>(v));
-                wide.push_back(static_cast<std::uint32_t>(v));
-            }
-        if (mesh.vertices.size() <= kLargest16)
-            pack_.add("hull_triangles", narrow);
-        else
-            pack_.add("hull_triangles", wide);
     }
 
     std::size_t rows() const { return std::max<std::size_t>(1, chosen_.size()); }
