@@ -124,7 +124,7 @@ void keep_within(const ReadBounds& bounds) {
 }
 
 std::string what_happened(int status, const ReadBounds& bounds) {
-    const std::string memory =
+    std::string memory =
         fmt::format("takes more than {:.0f} MB of memory to read", 1e-6 * double(bounds.bytes));
     if (WIFEXITED(status) && WEXITSTATUS(status) == kOutOfMemory) return memory;
     if (!WIFSIGNALED(status)) return "makes the library that reads it give up";

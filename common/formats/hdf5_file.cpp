@@ -133,7 +133,7 @@ std::string Hdf5File::read_text_attribute(const std::string& object,
     if (H5Tis_variable_str(type) > 0) {
         char* text = nullptr;
         if (H5Aread(attribute, type, &text) < 0 || text == nullptr) throw fail();
-        const std::string result(text);
+        std::string result(text);
         H5free_memory(text);
         return result;
     }

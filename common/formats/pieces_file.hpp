@@ -40,7 +40,7 @@ struct PiecesFile {
 };
 
 /// @throws Error (exit code 1) naming the file when it cannot be written
-void write_pieces(const std::filesystem::path& path, const PiecesFile& file);
+void write_pieces(const std::filesystem::path& path, const PiecesFile& pieces);
 
 /// @throws Error (exit code 2) naming file and dataset
 PiecesFile read_pieces(const std::filesystem::path& path);

@@ -43,7 +43,7 @@ std::uint64_t RunArrays::length(const std::string& name) const {
 
 std::vector<std::int64_t> RunArrays::offsets(const std::string& name, std::size_t shapes,
                                              std::uint64_t rows) const {
-    const auto offset = file_.read<std::int64_t>(name);
+    auto offset = file_.read<std::int64_t>(name);
     check(offset.size() == shapes + 1 && offset.front() == 0 &&
               offset.back() == static_cast<std::int64_t>(rows),
           name, "does not cover the rows of all shapes");

@@ -30,7 +30,7 @@ void attach_scales(Hdf5File& file, const std::string& name, const std::vector<st
 std::vector<std::string> hull_regions(const RunHeader& header);
 
 /// /panels/* and /shapes/hull_panel; needs /hull_regions and /xyz.
-void write_panels(Hdf5File& file, const HullPanels& panels, int dimension);
+void write_panels(Hdf5File& file, const HullPanels& hull, int dimension);
 
 /// Units of the columns of /tracked/<id>. @param force "N" or "N/m"
 std::string track_units(const std::string& force);

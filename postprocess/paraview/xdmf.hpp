@@ -61,9 +61,9 @@ struct Grid {
 class XdmfFile {
 public:
     /// A grid without cells is left out: readers refuse it. The part is not there at that time.
-    void add(const std::string& part, double time, const Grid& grid);
+    void add(const std::string& name, double time, const Grid& grid);
     /// The same without times.
-    void add(const std::string& part, const Grid& grid);
+    void add(const std::string& name, const Grid& grid);
     std::string text() const;
 
 private:

@@ -55,12 +55,12 @@ RunFolder read_run_folder(const fs::path& path) {
 
 fs::path find_summary(const fs::path& path) {
     if (!fs::exists(path)) throw bad_input(path.string(), "run folder not found", kRemedy);
-    const fs::path file = fs::is_directory(path) ? path / "summary.json" : path;
+    fs::path file = fs::is_directory(path) ? path / "summary.json" : path;
     if (fs::exists(file)) return file;
     const fs::path folder = file.parent_path();
     if (!fs::exists(folder / "run.h5.part") && !fs::exists(folder / "run.h5"))
         throw bad_input(path.string(), "holds no summary.json and no run.h5", kRemedy);
-    // the folder is the right one: what can be done with what is there
+    // the folder is the right one: the remedy depends on its files
     std::string remedy = fmt::format("icepost report {} shows what is there", folder.string());
     if (fs::exists(folder / "checkpoint.h5"))
         remedy += fmt::format("; icesolve CASE.cfg --restart {} goes on with the run",

@@ -43,6 +43,7 @@ std::string draw_plot(const read::RunFolder& run) {
                         "it ended before its first samples were written");
     std::vector<std::string> charts;
     for (const History& h : histories) charts.push_back(draw_history(h));
+    // a share over a single frame is no curve
     const auto coverage = statistics::measure_bottom_coverage(run.data, kReportFrames);
     if (coverage.share.size() > 1) charts.push_back(draw_coverage(coverage));
     const auto trails = make_trails(run.data);
@@ -61,12 +62,13 @@ std::string draw_plot(const read::RunFolder& run) {
                                       run.data.header.title);
     out += views::text_element(8.0, 20.0, run.data.header.title, "start",
                                "font-weight=\"700\" font-size=\"16\"");
-    for (std::size_t k = 0; k < charts.size(); ++k)
-        out += fmt::format(
-            "<g transform=\"translate({} {})\">\n{}</g>\n",
-            views::pixels(static_cast<double>(k % kColumns) * (size.width + gap)),
-            views::pixels(title + static_cast<double>(k / kColumns) * (size.height + gap)),
-            charts[k]);
+    for (std::size_t k = 0; k < charts.size(); ++k) {
+        const std::size_t column = k % kColumns, row = k / kColumns;
+        out += fmt::format("<g transform=\"translate({} {})\">\n{}</g>\n",
+                           views::pixels(static_cast<double>(column) * (size.width + gap)),
+                           views::pixels(title + static_cast<double>(row) * (size.height + gap)),
+                           charts[k]);
+    }
     return out + "</svg>\n";
 }
 

@@ -60,9 +60,10 @@ void unite_members(std::vector<SweepRun>& runs) {
             ensembles[run.folder.parent_path()].push_back(&run);
     for (const auto& [folder, members] : ensembles) {
         const std::map<std::string, Setting> first = members.front()->settings;
-        for (const auto& [key, setting] : first) {
+        for (const auto& entry : first) {  // no structured binding: clang 14 captures none
+            const std::string& key = entry.first;
             const bool same = std::all_of(members.begin(), members.end(), [&](const SweepRun* run) {
-                return run->text(key) == setting.text;
+                return run->text(key) == entry.second.text;
             });
             if (!same && !is_seed(key))
                 for (SweepRun* run : members) run->settings.erase(key);
@@ -88,6 +89,7 @@ void read_outcome(const fs::path& log, SweepRun& run) {
     const fs::path file = run.folder / "summary.json";
     if (!fs::exists(file)) {
         run.fault = first_error(log);
+        // without a summary the log tells why the run ended
         const bool begun = fs::exists(log) || fs::exists(run.folder / "case.resolved.cfg");
         run.status = begun ? "failed" : "not run";
         if (run.fault.empty())

@@ -49,7 +49,7 @@ void run_program_beside(const std::string& name, const std::vector<std::string>&
 // The mesh as spheres that some 12000 of cover it: the area decides.
 fs::path make_spheres(const fs::path& mesh, const std::vector<std::string>& options,
                       const fs::path& folder) {
-    const fs::path out = folder / (mesh.stem().string() + ".spheres.h5");
+    fs::path out = folder / (mesh.stem().string() + ".spheres.h5");
     refuse_existing(out, "give it in place of the mesh, or remove it");
     const fs::path report = folder / (mesh.stem().string() + ".json.part");
     const auto spherize = [&](std::vector<std::string> words) {
@@ -68,7 +68,7 @@ fs::path make_spheres(const fs::path& mesh, const std::vector<std::string>& opti
 }
 
 fs::path make_field_file(const fs::path& specification, const fs::path& folder) {
-    const fs::path out = folder / (specification.stem().string() + ".h5");
+    fs::path out = folder / (specification.stem().string() + ".h5");
     refuse_existing(out, "give it in place of the specification, or remove it");
     run_program_beside("icefield", {specification.string(), "-q", "-o", out.string()});
     say(fmt::format("wrote {}", out.string()));
@@ -76,7 +76,7 @@ fs::path make_field_file(const fs::path& specification, const fs::path& folder) 
 }
 
 fs::path make_specification(const fs::path& hull, const fs::path& folder) {
-    const fs::path out = folder / "ice.toml";
+    fs::path out = folder / "ice.toml";
     refuse_existing(out, "give it behind the hull, or remove it");
     Eigen::AlignedBox3d box;
     for (const Vec3& v : read_spheres(hull).mesh.vertices) box.extend(v);
@@ -102,7 +102,7 @@ fs::path write_new_case(const NewCase& wish) {
                         "leave it out, or give the mesh");
     std::string stem = wish.hull.stem().string();
     if (stem.ends_with(".spheres")) stem.resize(stem.size() - sizeof(".spheres") + 1);
-    const fs::path out = wish.out.empty() ? fs::path(stem + ".cfg") : wish.out;
+    fs::path out = wish.out.empty() ? fs::path(stem + ".cfg") : wish.out;
     refuse_existing(out, "give another name with -o, or remove it");
     OutputFiles().add("-o", out);
     const fs::path folder = fs::absolute(out).lexically_normal().parent_path();

@@ -55,7 +55,7 @@ std::string reason(int code) {
 
 }  // namespace
 
-MemberFields::MemberFields(const Case& parameters, std::int64_t first, fs::path folder) {
+MemberFields::MemberFields(const Case& parameters, std::int64_t first, const fs::path& folder) {
     for (std::size_t k = 0; k < parameters.floes.size(); ++k) {
         const FloeGroup& of_case = parameters.floes[k];
         if (of_case.pattern != Pattern::file || of_case.unbroken_part) continue;

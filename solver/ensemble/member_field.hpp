@@ -22,7 +22,7 @@ class MemberFields {
 public:
     /// @param first   seed of the first member; it and the next one are tried
     /// @param folder  for the specifications and the new files; created when needed
-    MemberFields(const Case& parameters, std::int64_t first, std::filesystem::path folder);
+    MemberFields(const Case& parameters, std::int64_t first, const std::filesystem::path& folder);
 
     /// Makes the fields of one member.
     /// @return overrides of the case, "floes.1.file=/path"; none where no field changes with the

@@ -9,17 +9,18 @@
 
 namespace ice {
 
-WaterLoad flow_pressure(const Scene& scene, const Case& p, std::size_t i) {
+WaterLoad flow_pressure(const Scene& scene, const Case& parameters, std::size_t floe) {
     const Bodies& b = scene.bodies;
-    const Shape& shape = scene.shapes[static_cast<std::size_t>(b.shape[i])];
+    const Shape& shape = scene.shapes[static_cast<std::size_t>(b.shape[floe])];
     const WaterFlow& water = scene.water;
-    const bool reached = water.presses && water.reaches(b.position[i], shape.bounding_radius);
+    const bool reached = water.presses && water.reaches(b.position[floe], shape.bounding_radius);
     if (!reached) return {};
     const auto pressure = [&](const Vec3& at) {
-        return p.water_density *
-               reference::pressure_at(water, b.position[i] + ordered_product(b.rotation[i], at));
+        return parameters.water_density *
+               reference::pressure_at(water,
+                                      b.position[floe] + ordered_product(b.rotation[floe], at));
     };
-    WaterLoad out = pressure_load(shape, b.rotation[i], b.position[i].z(), pressure);
+    WaterLoad out = pressure_load(shape, b.rotation[floe], b.position[floe].z(), pressure);
     if (scene.dimension == 2) out.force.y() = out.moment.x() = out.moment.z() = 0.0;
     return out;
 }

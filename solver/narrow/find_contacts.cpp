@@ -60,7 +60,7 @@ void search_contacts(const PairView& view, double margin, Workspace& work) {
     reduce_manifold(view, margin, work.candidates);
 }
 
-// The same of what is known to be near.
+// The same for spheres that are known to be near.
 void measure_known(const PairView& view, double margin, std::span<const SpherePair> near,
                    Workspace& work) {
     measure_spheres(view, SphereRange(view, margin), near, work.candidates);
@@ -184,8 +184,7 @@ void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
         std::span<const SpherePair> near = cache_.listed(k);
         if (state == PairCache::State::stale) {
             const PairView view(scene, pairs[k]);
-            // The list has used up its skin: search anew, with a skin that lasts for some steps.
-            // The pair may turn out to be separated after all.
+            // the skin is used up: a new list, with a skin that lasts for some steps
             const Skin skin = skin_of(scene, pairs[k], dt);
             const double least = find_near(view, margin, skin, work.search, batch.spheres);
             near = std::span(batch.spheres).subspan(found.sphere);

@@ -86,7 +86,7 @@ private:
 
 namespace reference {
 /// The contacts of one pair by testing every sphere with every other: the definition for tests.
-void find_contacts(const Scene& scene, BodyPair pair, ContactRule rule, double margin,
+void find_contacts(const Scene& scene, BodyPair pair, ContactRule how, double margin,
                    std::vector<Contact>& out);
 }  // namespace reference
 

@@ -17,7 +17,7 @@ Vec3 nearest_normal(const Feature& s, const Vec3& d) {
     if (s.spread_cos == 1.0) return s.normal;
     const double distance = d.norm();
     if (distance == 0.0) return s.normal;  // no direction: the pair will be invalid
-    const Vec3 u = d / distance;
+    Vec3 u = d / distance;
     const double along = u.dot(s.normal);
     if (along >= s.spread_cos) return u;
     const Vec3 across = u - along * s.normal;

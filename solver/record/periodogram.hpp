@@ -11,17 +11,17 @@ namespace ice {
 
 /// Sokal's window of a series with mean 0: the first lag W >= 5 (1/2 + sum_{k <= W} c_k / c_0).
 /// @return its length when no lag is; @pre not all values are 0
-std::size_t correlation_window(std::span<const double> centred);
+std::size_t correlation_window(std::span<const double> x);
 
 /// I_j = |sum_t x_t exp(-2 pi i j t / n)|^2 / n for j = 1 ... count.
 /// @pre 2 count < n
-std::vector<double> low_periodogram(std::span<const double> centred, std::size_t count);
+std::vector<double> low_periodogram(std::span<const double> x, std::size_t count);
 
 /// A band of the periodogram without its lines.
 struct Band {
     double mean = 0.0;        ///< of the ordinates that stay
     std::size_t stay = 0;     ///< how many
-    double line_trend = 0.0;  ///< sum of 6 / (pi j)^2 I_j of those that go
+    double line_trend = 0.0;  ///< sum of 6 / (pi j)^2 I_j of the lines taken out
 };
 
 /// Drops lines from ordinates first, first + 1, ... of a periodogram by Fisher's test at 1 %; never

@@ -81,7 +81,7 @@ private:
     void judge_start(Summary& summary) const;
     std::optional<double> unseen_share() const;
     Warning warn_of_tunnelling(const Summary& summary) const;
-    std::optional<double> change_without(const Doubtful& steps, double mean) const;
+    std::optional<double> change_without(const Doubtful& kind, double mean) const;
 
     StatisticsOptions options_;
     double averaged_time_ = 0.0;

@@ -51,7 +51,8 @@ void ShipStatistics::add(const FreeShip& ship, const Scene& scene, const Case& p
     mooring_.push_back(ship.loads().mooring.force.x());
     const ShipRig& rig = ship.rig();
     const Vec3 centre = b.position[kShip] + b.rotation[kShip] * rig.body.centre_of_gravity;
-    const Vec3 off = centre - rig.anchor, turned = ship.angles();
+    const Vec3 off = centre - rig.anchor;
+    const ShipAngles& turned = ship.angles();
     for (int k = 0; k < 6; ++k) {
         const double value = k < 3 ? off[k] : turned[k - 3];
         sum_[static_cast<std::size_t>(k)] += value;

@@ -124,23 +124,23 @@ Momenta momenta_of(const World& w) {
     return {b.position, b.momentum, b.angular_momentum, w.ship.angles()};
 }
 
-Imbalance measure_imbalance(const Momenta& before, const World& w) {
-    const Bodies& b = w.scene.bodies;
-    const double dt = w.parameters.time_step;
+Imbalance measure_imbalance(const Momenta& before, const World& after) {
+    const Bodies& b = after.scene.bodies;
+    const double dt = after.parameters.time_step;
     // A 2D run has motion in x, z and about y only; the other components are held, so they balance
     // nothing.
-    const bool flat = w.scene.dimension == 2;
+    const bool flat = after.scene.dimension == 2;
     const Vec3 axes = flat ? Vec3(1, 0, 1) : Vec3::Ones();
     const Vec3 turns = flat ? Vec3(0, 1, 0) : Vec3::Ones();
 
     std::vector<Sums> sums(b.size());
-    add_contacts(w.constraints, sums);
+    add_contacts(after.constraints, sums);
     Imbalance out;
-    const std::vector<FloeLoad> loads = loads_by_body(b, w.loads);
-    const StepRecord reported = measure_step(w.scene, w.contacts, w.constraints, dt);
-    const Sums all = all_together(before, w, reported, loads, sums);
+    const std::vector<FloeLoad> loads = loads_by_body(b, after.loads);
+    const StepRecord reported = measure_step(after.scene, after.contacts, after.constraints, dt);
+    const Sums all = all_together(before, after, reported, loads, sums);
     out.together = std::max(all.linear.share(axes), all.angular.share(turns));
-    if (w.ship.answers()) out.ship = imbalance_of_ship(before, w, reported, sums[kShip]);
+    if (after.ship.answers()) out.ship = imbalance_of_ship(before, after, reported, sums[kShip]);
 
     for (std::size_t i = 1; i < b.size(); ++i) {
         if (b.held[i]) continue;

@@ -43,9 +43,11 @@ public:
     // corners of its floe lie; infinite where that is not in its way.
     double distance_to(const Vec3& centre, double radius) const {
         double least = kNever;
-        for (int k = 0; k < 9; ++k)
-            least = std::min(
-                least, distance_to_point(centre + radius * Vec3(-way_, k % 3 - 1, k / 3 - 1)));
+        for (int k = 0; k < 9; ++k) {
+            const int beside = k % 3 - 1, above = k / 3 - 1;
+            least =
+                std::min(least, distance_to_point(centre + radius * Vec3(-way_, beside, above)));
+        }
         return least;
     }
 
@@ -76,8 +78,10 @@ private:
         const double row = std::floor((p.z() - low_.z()) / cell_);
         double x = foremost(column, row);
         // a cell without a sphere among others: its neighbours tell
-        for (int k = 0; x == -kNever && k < 9; ++k)
-            x = std::max(x, foremost(column + k % 3 - 1, row + k / 3 - 1));
+        for (int k = 0; x == -kNever && k < 9; ++k) {
+            const int beside = k % 3 - 1, above = k / 3 - 1;
+            x = std::max(x, foremost(column + beside, row + above));
+        }
         const double distance = way_ * p.x() - x;
         // beside or behind the ship, whose bodies do not overlap the ice: passed already
         return distance < -2.0 * cell_ ? kNever : std::max(distance, 0.0);

@@ -36,7 +36,7 @@ Vec3 place_hull(const Case& parameters, const TriangleMesh& hull) {
     const auto [keel, top] = heights_of(hull);
     const double depth = top - keel;
     const bool by_draught = !std::isnan(parameters.hull_draught);
-    const Vec3 place = hull_place(parameters, hull);
+    Vec3 place = hull_place(parameters, hull);
     // z = 0 is the water surface: a position gives a draught, too
     const double draught = by_draught ? parameters.hull_draught : 0.0 - (place.z() + keel);
     if (draught > kLeast * depth && draught < depth) return place;

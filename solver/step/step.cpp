@@ -31,7 +31,7 @@ double contact_margin(const Case& p) {
     return kMargin + lift * p.gravity * p.time_step * p.time_step;
 }
 
-// The edge of level ice breaks and goes with the ship: what was known of the bodies' contacts is
+// The edge of level ice breaks and goes with the ship: all knowledge of the bodies' contacts is
 // forgotten, as some have another form now. Mass that comes into the scene or leaves it is no work.
 void renew_edge(World& w) {
     w.edge.drift_until(w.time);
@@ -63,7 +63,6 @@ void step(World& w) {
     // the ship goes as prescribed, its speed at mid-step carrying it to the end of the step, or
     // with the velocity it has come to
     w.ship.start_step(w.parameters, w.scene, w.time);
-
     w.scene.water.follow(bodies.position[kShip], w.scene.ship_velocity);
 
     // who touches whom; a floe let go may touch neighbours that did not matter while it was held
