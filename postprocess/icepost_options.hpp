@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// The command line of icepost: what it may hold, and what was given.
+/// The command line of icepost: its declaration and its values.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -13,7 +13,7 @@
 
 namespace ice {
 
-/// What was given; RUN and DIR share `run`.
+/// The values given; RUN and DIR share `run`.
 struct PostOptions {
     std::filesystem::path run, out, expected, junit, svg, coefficients, thrust, csv_file;
     std::size_t every = 1, frames = report::kReportFrames;
@@ -30,7 +30,7 @@ struct PostCommands {
     CLI::App *report, *view, *plot, *table, *sweep, *fit, *hv, *sensitivity, *paraview, *check;
 };
 
-/// Declares subcommands and options; what is parsed goes into `options`.
+/// Declares subcommands and options; their values go into `options`.
 PostCommands declare_post(CLI::App& app, PostOptions& options);
 
 }  // namespace ice

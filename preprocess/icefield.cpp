@@ -98,7 +98,7 @@ int run_icefield(const Options& o, const std::string& command_line) {
     ice::FieldReport report;
     const ice::FieldPlan plan = ice::plan_field(spec, report.warnings);
     report.plan_seconds = timer.seconds();
-    // before the spheres: what it shows may be why they do not fit
+    // before the spheres: the drawing may show why they do not fit
     if (!o.preview.empty()) ice::write_picture(o.preview, ice::field_svg(plan));
     ice::Field field = ice::make_field(spec, plan, report);
     field.created_by = fmt::format("icefield {} ({})", ice::version(), ice::git_commit());

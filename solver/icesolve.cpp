@@ -70,8 +70,8 @@ int report(const ice::Summary& s, const ice::Options& o, const std::string& fold
     return static_cast<int>(ice::ExitCode::interrupted);
 }
 
-// The report belongs to the post-processor, of which the solver knows nothing but its command. The
-// run is complete without it: what goes wrong here is a warning.
+// The report belongs to the post-processor; the solver knows nothing of it but its command. The
+// run is complete without it: a failure here is a warning.
 void write_report(const std::filesystem::path& folder) {
     const auto code = ice::run_sibling("icepost", {"-q", "report", folder.string()});
     if (code == 0)
@@ -120,7 +120,7 @@ void say_warnings(const std::vector<ice::Warning>& warnings) {
     for (const ice::Warning& warning : warnings) ice::say_warning(ice::with_verdict(warning));
 }
 
-// Before the run, which measures what no look at the case tells.
+// Before the run, because a look at the case cannot tell it.
 void say_forecasts(const std::vector<ice::Warning>& warnings) {
     for (const ice::Warning& warning : warnings)
         ice::say_warning(warning.affects_mean

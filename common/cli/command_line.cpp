@@ -56,7 +56,7 @@ std::string join_words(const std::vector<std::string>& words) {
     return fmt::format("{}", fmt::join(words, ", "));
 }
 
-// CLI11's complaint in the words of the project's other errors: what is wrong, what to do
+// CLI11's complaint in the form of the project's other errors: the fault, then the remedy
 Error usage_error(const CLI::App& app, const CLI::ParseError& error) {
     const std::string help = full_name(app) + " --help lists what it takes";
     const std::vector<std::string> left = app.remaining(true);

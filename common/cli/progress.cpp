@@ -12,8 +12,8 @@ namespace ice {
 
 namespace {
 
-// What is left is told once a second and a hundredth of the work are done: the start of a run says
-// little about the rest.
+// The remaining time is told once a second and a hundredth of the work are done: the start of a run
+// says little about the rest.
 std::string time_left(double fraction, double elapsed) {
     if (elapsed < 1.0 || fraction < 0.01) return "";
     const double left = elapsed * (1.0 - fraction) / fraction;

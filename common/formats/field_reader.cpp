@@ -17,7 +17,7 @@ namespace {
 
 constexpr const char* kRegion = "ice";
 
-// All that is read over what is stored: 3 where most spheres are inside, without rows of their own
+// Bytes in memory per byte in the file: 3 where most spheres are inside, without rows of their own
 constexpr std::uint64_t kMostTimesField = 16;
 
 // Reads one file, with every complaint naming the file and the dataset.

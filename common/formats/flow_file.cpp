@@ -34,6 +34,7 @@ public:
               "has a format_version this program does not know");
         refuse_changed(path_, file_, "iceflow");
         FlowTable out;
+        // sizes are bounded before anything is read: a damaged file must not ask for all memory
         const auto shape = file_.shape("/velocity");
         check(shape.size() == 4 && shape[3] == 3, "/velocity", "is not [nz, ny, nx, 3]");
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -50,6 +51,7 @@ public:
         check(out.origin.allFinite(), "origin", "is no place");
         out.spacing = number("spacing");
         check(out.spacing > 0.0, "spacing", "is not positive");
+        // the flow ends at the water's surface, which the solver takes as z = 0
         const double top = out.origin.z() + out.spacing * static_cast<double>(out.nodes[2] - 1);
         check(std::abs(top) <= kSurface * out.spacing, "origin",
               "does not bring the topmost nodes to z = 0");

@@ -47,7 +47,7 @@ public:
     void write(const std::string& name, const std::vector<T>& data) {
         write(name, data.data(), {data.size()});
     }
-    /// A dataset of `shape` of which the first `count` rows are written; the others read as `rest`
+    /// A dataset of `shape` with its first `count` rows written; the others read as `rest`
     /// and take no space.
     template <class T>
     void write_rows(const std::string& name, const T* rows, const std::vector<std::uint64_t>& shape,

@@ -271,6 +271,7 @@ void RunWriter::add(const HistoryRow& row, const std::vector<RegionForce>& regio
         b.thrust.add_value(row.thrust);
         b.tow.add(row.tow_force);
     }
+    // a row without forces on regions has not-a-numbers, since a zero would count in means
     const Vec3 unknown = Vec3::Constant(std::nan(""));
     for (std::size_t r = 0; r < b.regions; ++r) {
         b.region_contact.add(regions.empty() ? unknown : regions[r].contact);
@@ -307,6 +308,8 @@ void RunWriter::add(const RunFrame& frame) {
     const auto row =
         static_cast<std::int32_t>(b.written.frames) + static_cast<std::int32_t>(b.frames);
     for (const HullContact& contact : frame.hull_contacts) {
+        // contacts are one long table with the row of their frame, since their number differs by
+        // frame
         b.contact_time.add_value(frame.time);
         b.contact_frame.rows.push_back(row);
         b.contact_floe.rows.push_back(contact.floe);

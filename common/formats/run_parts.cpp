@@ -27,6 +27,7 @@ void write_shapes(Hdf5File& file, const RunHeader& header) {
     std::vector<float> vertices, spheres;
     std::vector<std::int32_t> triangles, region;
     for (const RunShape& shape : header.shapes) {
+        // a shape's own region numbers -> rows of the common list
         std::vector<std::int32_t> global;
         for (const std::string& name : shape.mesh.region_names) {
             const auto found = std::find(names.begin(), names.end(), name);

@@ -237,6 +237,8 @@ private:
                                        "/frames/velocity",      "/frames/angular_velocity",
                                        "/frames/contact_force", "/frames/state"};
         if (file().has("/frames/ship_orientation")) names.emplace_back("/frames/ship_orientation");
+        // a run that is still written may have one column longer than another: the rows that all
+        // have
         const std::uint64_t frames = common_rows(names);
         const std::uint64_t n = run.header.body_shape.size();
         const auto time = read_as<double>("/frames/frame_time", {frames});
@@ -291,6 +293,7 @@ private:
         const auto rub = points("/contacts/friction_force", {n});
         const auto floes = static_cast<std::int32_t>(run.header.body_shape.size());
         for (std::size_t k = 0; k < n; ++k) {
+            // contacts of a frame that is not yet written whole
             if (growing() && static_cast<std::size_t>(frame[k]) >= run.frames.size()) break;
             check(frame[k] >= 0 && static_cast<std::size_t>(frame[k]) < run.frames.size(),
                   "/contacts/frame", "points outside the frames");

@@ -46,7 +46,7 @@ void write_mesh(Hdf5File& file, const TriangleMesh& mesh) {
     file.write("/mesh/region", mesh.region);
 }
 
-// All that is read over what is stored: 3 where most spheres are inside, without rows of their own
+// Bytes in memory per byte in the file: 3 where most spheres are inside, without rows of their own
 constexpr std::uint64_t kMostTimesSpheres = 16;
 
 // Reads one file, with every complaint naming the file and the dataset.

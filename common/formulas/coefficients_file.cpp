@@ -48,6 +48,8 @@ SpencerCoefficients read_once(const std::filesystem::path& file) {
     SpencerCoefficients out;
     out.own = true;
     out.name = file.stem().string();
+    // A required key is missing only where the file was otherwise understood: one mistake, one
+    // message.
     const auto take = [&](const char* key, double& to) {
         if (const auto found = values.find(key); found != values.end())
             to = std::get<double>(found->second);

@@ -85,6 +85,7 @@ std::int32_t SurfaceTree::build(std::int32_t first, std::int32_t count) {
             if (size > 0) part[static_cast<std::size_t>(parts++)] = {from, size};
             return;
         }
+        // two halvings make four parts, one per lane of a node
         const std::int32_t half = split(from, size);
         self(from, half, more - 1, self);
         self(from + half, size - half, more - 1, self);
@@ -185,6 +186,7 @@ void SurfaceTree::visit_leaves(const Vec3& p, const Skip& skip, const Visit& vis
             // less by what the sum of squares may have been rounded up
             const double distance_sq = static_cast<double>(sq[k]) * (1.0 - 1e-6);
             if (node.count[k] < 0 || skip(distance_sq)) continue;
+            // insertion by distance: the nearest child ends on top of the stack
             int at = depth++;
             for (; at > bottom && stack[at - 1].distance_sq < distance_sq; --at)
                 stack[at] = stack[at - 1];

@@ -103,6 +103,8 @@ double WindingNumber::at(const Vec3& p, double beta) const {
     while (depth > 0) {
         const std::int32_t index = stack[--depth];
         const Node& node = nodes_[static_cast<std::size_t>(index)];
+        // far from a node its triangles act as one dipole, area vector . r / (4 pi r^3) (Barill et
+        // al. 2018)
         const Vec3 to = node.center - p;
         const double distance_sq = to.squaredNorm();
         if (distance_sq > beta * beta * node.reach * node.reach) {

@@ -24,7 +24,7 @@ std::string read_input_text(const std::filesystem::path& file, const std::string
                             std::string_view ending, std::uintmax_t largest = kLargestInput);
 
 /// rehearse() for reading a TOML file: keys nested 100 000 deep exhaust toml++'s stack. Nothing
-/// happens for a file that is missing or too large, of which reading complains by itself.
+/// happens for a file that is missing or too large, about which reading complains by itself.
 void rehearse_input(const std::filesystem::path& file, const std::function<void()>& read);
 
 /// Throws all mistakes as one Error (exit code 2); nothing happens without any.

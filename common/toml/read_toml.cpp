@@ -57,7 +57,7 @@ private:
         complain(error.source(), what + hint, 1);
     }
 
-    // a case given to icefield would be a dozen mistakes, of which none says what is wrong
+    // a case given to icefield has a dozen mistakes, and none of them names the cause
     bool is_another_kind(const toml::table& root) {
         std::vector<std::string> names;
         for (auto&& [key, node] : root) names.emplace_back(key.str());
@@ -139,7 +139,7 @@ private:
             walk(*node.as_table(), near, near + "." + std::to_string(groups++), values, groups);
     }
 
-    // what was meant is not looked for in thousands of keys, nor in very long ones
+    // no suggestion is searched for among thousands of keys, nor for very long ones
     bool worth_a_guess(const std::string& path) const {
         return !mistakes_.full() && path.size() < kMostOfKey;
     }

@@ -14,7 +14,7 @@ namespace ice {
 
 namespace {
 
-constexpr std::size_t kMostWords = 360;  // characters of what is wrong
+constexpr std::size_t kMostWords = 360;  // characters of the faulty value
 
 class ValueReader {
 public:

@@ -23,7 +23,7 @@ enum class Kind {
     choice,
     vector,  ///< of `length` numbers
     counts,  ///< of `length` whole numbers
-    place,   ///< of `length` numbers, of which the last may be left out
+    place,   ///< `length` numbers; the last one may be left out
     integer_list,
     pair_list,        ///< rows of a time and a number
     curve,            ///< rows of a speed and a number
@@ -53,7 +53,7 @@ struct Schema {
     std::string repeated_table;  ///< "floes" where [[floes]] may be given many times; "" for none
     std::string program;         ///< whose --print-defaults lists the keys
     std::string title;           ///< "icesolve case"
-    std::vector<std::vector<std::string>> one_of;  ///< keys of a table, of which one is given
+    std::vector<std::vector<std::string>> one_of;  ///< keys of a table that exclude each other
     std::string in_its_place = {};  ///< a table that may stand in place of repeated_table; "" none
 
     /// The key of that path, or null.

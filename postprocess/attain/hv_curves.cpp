@@ -133,6 +133,8 @@ private:
                 by_thickness[rounded(row.thickness)].push_back(row);
                 continue;
             }
+            // a run of a free ship attains its speed, runs on a fixed course give a resistance to
+            // be fitted
             const bool stuck = speed->mean < kStuckSpeed;
             free.points.push_back(
                 {row.thickness,

@@ -146,6 +146,7 @@ std::string draw_hv(const HvStudy& study, double width) {
             if (curve.source != Source::formula && std::isfinite(p.attained.speed))
                 fastest = std::max(fastest, p.attained.speed);
         }
+    // width of the interval's end strokes, in metres of ice thickness
     const double cap = high > low ? 0.008 * (high - low) : 0.008 * high;
     chart.x_from_zero = low <= 0.5 * high || low == high;
     std::size_t formulas = 0;
@@ -164,6 +165,7 @@ std::string draw_hv(const HvStudy& study, double width) {
             if (std::isfinite(p.attained.low) && std::isfinite(p.attained.high))
                 chart.curves.push_back(interval(p, cap, color));
     }
+    // Formulas do not set the scale: some go to infinity in thin ice.
     if (fastest > 0.0) chart.y_range = {0.0, 1.4 * fastest};
     return draw_chart(chart);
 }

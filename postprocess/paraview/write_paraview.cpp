@@ -37,7 +37,7 @@ std::vector<std::int32_t> counted(std::size_t count) {
     return out;
 }
 
-// A surface's triangles by named region, with values per triangle: what stays the same over time.
+// A surface's triangles by named region, with values per triangle, all constant in time.
 struct HullParts {
     struct Part {
         std::string name;
@@ -122,6 +122,7 @@ private:
     void make_water() {
         Eigen::AlignedBox3d box;
         const TriangleMesh& hull = run_.header.shapes[0].mesh;
+        // the water's plane covers ship and floes at the first and the last frame
         for (const RunFrame* frame : {&run_.frames.front(), &run_.frames.back()}) {
             for (const Vec3& p : frame->position) box.extend(p);
             for (const Vec3& v : hull.vertices)

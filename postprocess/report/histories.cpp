@@ -232,7 +232,7 @@ std::vector<History> motion_histories(const RunData& run, double average_from,
     const auto add = [&](const char* id, const char* title, const ForceUnit& in, Series series) {
         Style style{average_window(run.history), in, average_from};
         style.samples = true;
-        // what stays as it was is left out
+        // a motion that stays constant is left out
         const bool changes = std::any_of(
             series.force.begin(), series.force.end(), [](const std::vector<double>& values) {
                 return std::any_of(values.begin(), values.end(),
@@ -275,6 +275,7 @@ std::vector<History> motion_histories(const RunData& run, double average_from,
 std::vector<History> track_histories(const RunData& run, std::size_t track, const ForceUnit& unit) {
     std::vector<History> out;
     const auto& rows = run.tracks[track];
+    // a floe that the ship never touched has no curve but zero
     const bool touched = std::any_of(rows.begin(), rows.end(), [](const TrackRow& r) {
         return r.contact_force.squaredNorm() > 0.0;
     });

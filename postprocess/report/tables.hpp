@@ -17,7 +17,7 @@ struct ForceUnit {
 
 /// The unit of all forces of a page: that in which the mean resistance reads best, with the
 /// decimals that its interval is worth (two digits of it). Of a run without summary that of the
-/// mean over the second half of what was recorded, with 4 digits.
+/// mean over the second half of the record, with 4 digits.
 ForceUnit page_unit(const read::RunFolder& run);
 
 /// The same times metre. In 2D moments are per metre of breadth, too.

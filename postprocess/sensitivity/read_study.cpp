@@ -58,7 +58,7 @@ Study read_study(const std::filesystem::path& folder) {
     if (std::filesystem::is_directory(folder) && !std::filesystem::exists(plan))
         throw bad_input(folder.string(), "has no runs.toml", kRemedy);
     Study study;
-    study.runs = sweep::read_sweep(folder);  // complains of what is no TOML
+    study.runs = sweep::read_sweep(folder);  // complains about anything but TOML
     study.title = study.runs.title;
     const toml::table table = toml::parse_file(plan.string());
     for_each(table, "input", [&](const toml::table& entry) {

@@ -89,6 +89,7 @@ private:
         each([&](const Change& c) { longest = std::max(longest, c.label.size()); });
         const double share =
             std::min(0.25, (static_cast<double>(longest) * kLetter + 10.0) / (kRight - kLeft));
+        // room r on both sides with r = share * (width + 2 r)
         const double room = share / (1.0 - 2.0 * share) * (right - left);
         x_ = {(left - room) / unit_.newtons, (right + room) / unit_.newtons, kLeft, kRight};
     }

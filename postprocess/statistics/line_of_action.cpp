@@ -38,6 +38,8 @@ LineOfAction find_line_of_action(const RunData& run, double from) {
     if (count == 0.0) return out;
     out.force /= count;
     out.moment /= count;
+    // A force system is a force along its central axis and a couple about it. From the moment M_c
+    // about c the axis passes through c + F x M_c / |F|^2, and the couple is M_c . F / |F|.
     const double size = out.force.squaredNorm();
     if (!(size > 0.0)) return out;
     const Vec3 c = out.center.value_or(Vec3::Zero());

@@ -150,6 +150,8 @@ TriangleMesh refine_mesh(const TriangleMesh& mesh, double longest, std::size_t m
                 next.region.push_back(fine.region[t]);
             };
             const std::int32_t a = corner(0), b = corner(1), c = corner(2), ab = middle(a, b);
+            // Edges are cut by their length alone, which both neighbours see alike: no vertex lies
+            // within a neighbour's edge.
             const bool long_bc = length[(first + 1) % 3] > longest;
             const bool long_ca = length[(first + 2) % 3] > longest;
             if (long_bc) {

@@ -26,6 +26,7 @@ public:
         std::size_t best = order_.front();
         double least = (points_[best] - at).squaredNorm();
         const auto try_one = [&](std::size_t k) {
+            // points are in order of x: beyond this one all are farther away in x alone
             const double dx = points_[k].x() - at.x();
             if (dx * dx > least) return false;
             const double distance = (points_[k] - at).squaredNorm();

@@ -170,7 +170,7 @@ std::string other_axis(const Sweep& sweep) {
     return sweep.axes[0] == sweep.x ? sweep.axes[1] : sweep.axes[0];
 }
 
-// Names in the overview's legend: labels, or what is shorter where these are too long for one row:
+// Names in the overview's legend: labels, or shorter names where these are too long for one row:
 // the values of the only other axis, whose name goes into the title, or letters.
 std::vector<std::string> name_curves(const Sweep& sweep, const std::vector<Curve>& curves,
                                      bool& valued) {

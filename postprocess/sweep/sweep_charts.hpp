@@ -12,7 +12,7 @@ report::ForceUnit choose_sweep_unit(const std::vector<Point>& points);
 /// Resistance against x with intervals, a curve for each combination of the other axes' values,
 /// Lindqvist's formula dashed in the same colour. "" without x or points, or with so many curves
 /// that they could not be told apart. Over the speed the axis begins at 0 and has knots above.
-/// Intervals of two runs, of which Student's is wide for want of runs, are dashed.
+/// Intervals of two runs only, for which Student's factor is 12.7, are dashed.
 /// @param width of the picture [px]
 std::string draw_overview(const Sweep& sweep, const std::vector<Curve>& curves,
                           const report::ForceUnit& unit, double width);

@@ -103,6 +103,8 @@ std::vector<Face> make_faces(const TriangleMesh& mesh) {
 
     std::vector<Face> faces;
     for (const auto& [first, triangles] : members) {
+        // one polygon per flat face has no lines inside; where its border is no single loop, its
+        // triangles
         const auto loop = border_loop(mesh, triangles);
         if (!loop.empty()) {
             faces.push_back({corners_of(mesh, loop), normals[triangles.front()]});
@@ -136,6 +138,8 @@ CutMesh cut_mesh(const TriangleMesh& mesh, double level) {
         return place->second;
     };
     for (const auto& t : mesh.triangles) {
+        // Corners in the plane belong to both parts. A triangle then gives each part a polygon of
+        // at most four corners, and the section the piece of its line.
         std::vector<std::int32_t> low, high, on;
         for (std::size_t k = 0; k < 3; ++k) {
             const std::int32_t a = t[k], b = t[(k + 1) % 3];

@@ -40,7 +40,7 @@ int step_of(double load, double end) {
 }
 std::string step_colour(int step) { return load_colour(static_cast<double>(step) / kSteps); }
 
-// Cells of the picture by the load of what is seen there; cells of one colour in a row are one
+// Cells of the picture by the load of the face seen there; cells of one colour in a row are one
 // piece, and all pieces of a colour one path.
 std::string draw_loads(const HullLoad& hull, const Projection& projection, const PageScale& scale,
                        const Eigen::AlignedBox3d& page) {
@@ -97,6 +97,7 @@ std::string draw_load_view(const HullLoad& hull, ViewFrom from, double width) {
     const Projection projection = projection_of(from);
     Eigen::AlignedBox3d page;
     for (const Vec3& v : hull.mesh.vertices) page.extend(projection.apply(v));
+    // the same scale along both axes: the picture keeps the hull's proportions
     const double room = 0.03 * std::max(page.sizes().x(), page.sizes().y());
     const double left = page.min().x() - room, right = page.max().x() + room;
     const double low = page.min().y() - room, high = page.max().y() + room;
@@ -110,6 +111,7 @@ std::string draw_load_view(const HullLoad& hull, ViewFrom from, double width) {
     out += text_element(kMapLeft, 17.0, title, "start", "font-weight=\"600\"");
     const bool below = from == ViewFrom::below;
     Axis x{left, right, kMapLeft, kMapLeft + wide};
+    // seen from port or below an axis runs the other way
     if (from == ViewFrom::port) x = {-left, -right, kMapLeft, kMapLeft + wide};
     Axis y{low, high, kMapTop + tall, kMapTop};
     if (below) y = {-low, -high, kMapTop + tall, kMapTop};

@@ -123,7 +123,7 @@ std::vector<Item> SceneView::Parts::sort_floes(const RunFrame& frame) const {
         if (p.x() + r < window.left || p.x() - r > window.right || p.y() + r < window.bottom ||
             p.y() - r > window.top)
             continue;
-        // from ahead: what is beside the forebody, not the whole field in one plane
+        // from ahead: floes beside the forebody, not the whole field in one plane
         if (from == ViewFrom::front &&
             (offset.x() - r > hull_box.max().x() || offset.x() + r < hull_box.center().x()))
             continue;
@@ -235,6 +235,7 @@ std::string SceneView::draw(const RunFrame& frame, const std::vector<Trail>& tra
     // the inner svg cuts off what reaches out of the plot area
     out += fmt::format("<svg x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\">\n", pixels(kLeft),
                        pixels(kTop), pixels(s.width), pixels(s.height));
+    // back to front: SVG paints later elements over earlier ones
     out += s.draw_water();
     out += s.draw_floes(frame, trails);
     if (from_a_side(s.from) || s.from == ViewFrom::front) {

@@ -137,7 +137,7 @@ public:
         std::size_t kept = 0;
         for (std::size_t k = 0; k < probes.size(); ++k) {
             const auto p = static_cast<std::size_t>(std::max(part[k], 0));
-            // what was not probed is shared with the solid
+            // triangles without probes are shared with the solid
             if (part[k] >= 0 && candidate_[p] != 0 && away[p] > kMostlyAway * area_[p]) {
                 if (check.left_out_area == 0.0)
                     check.left_out_at = {probes[k].at.x(), probes[k].at.y(), probes[k].at.z()};

@@ -14,9 +14,9 @@ namespace ice {
 namespace {
 
 constexpr double kFlat = 1e-6;           // of a part's diagonal
-constexpr double kBoxBeyond = 1.5;       // times what is within, in two directions at least
+constexpr double kBoxBeyond = 1.5;       // times the parts within, in two directions at least
 constexpr double kBoxBeyondBoxes = 3.0;  // times boxes within, in all directions
-constexpr double kFlatBeyond = 1.2;      // times what is beside it, in both directions
+constexpr double kFlatBeyond = 1.2;      // times the parts beside it, in both directions
 
 using Box = Eigen::AlignedBox3d;
 
@@ -57,7 +57,7 @@ std::vector<Piece> measure_parts(const TriangleMesh& mesh, const Parts& parts) {
     return pieces;
 }
 
-// Whether a piece lies around, or reaches beyond, what fills a box.
+// Whether a piece lies around the contents of a box, or reaches beyond them.
 bool surrounds(const Piece& piece, const Box& rest) {
     const bool flat = piece.form() == Form::flat;
     const double times = flat ? kFlatBeyond : kBoxBeyond;
@@ -93,6 +93,8 @@ std::vector<std::string> drop_surroundings(TriangleMesh& mesh) {
     for (const Piece& piece : pieces)
         if (piece.form() == Form::other) rest.extend(piece.box);
     std::vector<std::string> dropped;
+    // Files of flow computations have the tank and the sea plane in them. A sheet or box is one of
+    // these if it reaches around all that is neither.
     if (rest.isEmpty()) rest = boxes_within(pieces);
     if (rest.isEmpty()) return dropped;
     for (Piece& piece : pieces) {

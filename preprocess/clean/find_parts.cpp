@@ -9,6 +9,7 @@
 namespace ice {
 
 Parts find_parts(const TriangleMesh& mesh) {
+    // union-find with halved paths; the smallest triangle number represents a part
     std::vector<std::int32_t> parent(mesh.triangles.size());
     std::iota(parent.begin(), parent.end(), 0);
     const auto root = [&](std::int32_t t) {
@@ -20,6 +21,7 @@ Parts find_parts(const TriangleMesh& mesh) {
         return t;
     };
     for (const MeshEdge& edge : edge_table(mesh)) {
+        // parts that only share an edge with others stay apart
         if (edge.count != 2) continue;
         const std::int32_t a = root(edge.triangles[0]), b = root(edge.triangles[1]);
         parent[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);

@@ -139,6 +139,8 @@ StitchCounts stitch_borders(TriangleMesh& mesh) {
 }
 
 WideCracks find_wide_cracks(const TriangleMesh& mesh) {
+    // No tolerance bounds the search here: the cracks are not closed but named, with their width,
+    // so that the user can choose one.
     const double longest = std::numeric_limits<double>::infinity();
     const Borders borders = find_borders(mesh, longest, kBeside);
     std::vector<Vec3> points;

@@ -32,7 +32,7 @@ Vec3 turned_back(const Vec3& p) { return {p.x(), p.z(), -p.y() + 0.0}; }
 
 // How a floe lies while it is filled.
 //
-// The fill makes half of what is symmetric about y = 0 and mirrors it, which takes half the time. A
+// The fill makes half of a solid that is symmetric about y = 0 and mirrors it, in half the time. A
 // prism is symmetric about its middle plane: it is turned so that this one is y = 0, and back. One
 // that is symmetric about y = 0 as it lies stays so, and its port and starboard spheres are alike.
 //

@@ -22,7 +22,7 @@ using Regular = CGAL::Regular_triangulation_2<
     Kernel, CGAL::Triangulation_data_structure_2<VertexBase,
                                                  CGAL::Regular_triangulation_face_base_2<Kernel>>>;
 
-constexpr double kMargin = 6.0;    // mean site distances: images of what is nearer to a side
+constexpr double kMargin = 6.0;    // mean site distances: sites nearer to a side have images
 constexpr double kOutside = 1e-6;  // of the rectangle's size
 
 // The sites, and images of those within `margin` of a side.

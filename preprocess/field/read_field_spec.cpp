@@ -81,6 +81,7 @@ private:
 
     // Defaults that follow from other keys, and what keys must be to each other.
     void complete(FieldSpec& s) {
+        // a radius of a quarter of the thickness gives two layers of spheres
         if (!given("spheres.radius")) s.radius = 0.25 * s.thickness;
         if (!given("spheres.spacing")) s.spacing = 2.0 * s.radius;
         if (!given("floes.breaking_depth")) s.breaking_depth = 0.5 * s.breaking_length;

@@ -11,7 +11,7 @@ namespace ice {
 /// Each triangle visits the rows around it, the part of each row within the inner half of its
 /// plane's slab, and there the points that are still set: the nearest triangle of a point inside
 /// has the point on its inner side, or shares the nearest corner or edge with one that has.
-/// measure_distances() measures several points at a time; what is within 1e-5 of the squared
+/// measure_distances() measures several points at a time; points within 1e-5 of the squared
 /// distance is decided again by closest_on_triangle(), as SurfaceTree decides it, and so are all
 /// points near slivers, whose normals are rounding. Triangles longer than 32 pitches visit in
 /// pieces, so that a long one does not visit the whole box around it.

@@ -125,7 +125,7 @@ void fill_report(const SphereSet& set, SpheresReport& report) {
     report.surface_spheres = static_cast<std::int64_t>(set.surface_count);
     report.volume = set.solid.volume;
     report.area = set.solid.area;
-    // what is zero but for the rounding of its sum is said to be zero
+    // a sum that is zero but for rounding is reported as zero
     const double rounding = 1e-14 * std::cbrt(set.solid.volume);
     for (int d = 0; d < 3; ++d)
         report.centroid[static_cast<std::size_t>(d)] =

@@ -104,6 +104,7 @@ std::vector<std::uint8_t> outer_spheres(const LatticeFill& fill, int dimension) 
     out.reserve(fill.count);
     for (const LatticeRun& run : fill.runs)
         for (std::int64_t i = run.first; i < run.first + run.count; ++i) {
+            // a sphere with all its neighbours along the axes lies inside, any other one is outer
             bool whole = is_set(i - 1, run.j, run.k) && is_set(i + 1, run.j, run.k) &&
                          is_set(i, run.j, run.k - 1) && is_set(i, run.j, run.k + 1);
             if (dimension == 3)

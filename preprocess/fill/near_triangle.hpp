@@ -18,7 +18,7 @@ inline constexpr double kRounding =
 
 using Corners = std::array<Vec3, 3>;
 
-/// A triangle that knows the part of a row it is near to, and what is near it there.
+/// A triangle with the part of a row near it, and the features near that part.
 class NearTriangle {
 public:
     void prepare(const Vec3& a, const Vec3& b, const Vec3& c, double distance) {

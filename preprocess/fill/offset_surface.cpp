@@ -114,7 +114,7 @@ Vec3 smallest_move(const std::vector<Condition>& conditions) {
     return move;
 }
 
-// Directions of the feet nearer than a range, those that are one counted once.
+// Directions of the feet nearer than a range, each direction counted once.
 // @param nearest  becomes the nearest foot's triangle where there is one
 std::vector<Vec3> near_directions(const SurfaceTree& tree, const Vec3& center, double range,
                                   std::int32_t& nearest) {

@@ -80,7 +80,7 @@ private:
                static_cast<std::size_t>(x);
     }
     int axis_cell(double x, int d) const {
-        // cutting off rounds down what is not clamped
+        // truncation rounds down, as values below zero are clamped
         return std::clamp(static_cast<int>((x - low_[d]) * per_metre_), 0, count_[d] - 1);
     }
 

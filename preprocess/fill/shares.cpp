@@ -190,7 +190,7 @@ void share_surface(const SurfaceTree& tree, const std::vector<Sight>& sights,
     double total = 0.0;
     for (const Sight& sight : sights) {
         auto sphere = static_cast<std::size_t>(sight.owner);
-        // what is seen in y >= 0 counts for port, whichever twin is nearer
+        // samples in y >= 0 count for port, whichever twin is nearer
         if (!twins.empty() && set.centers[sphere].y() < 0.0)
             sphere = static_cast<std::size_t>(twins[sphere]);
         set.areas[sphere] += sight.area;

@@ -72,7 +72,7 @@ private:
     void make_seeds() {
         const double size = (o_.dimension == 2 ? kLineSize : kSeedSize) * o_.spacing;
         const SurfaceSampler sampler(tree_.mesh(), size, o_.dimension, o_.mirror);
-        // small triangles have many seeds, of which one that comes to nothing takes long: where a
+        // small triangles have many seeds, and one that yields nothing takes long: where a
         // sphere touches, the sample beside it has its seat beside the sphere's centre, deep inside
         const bool fine = is_fine_for(tree_, o_.radius);
         std::vector<SurfaceSample> samples;

@@ -191,7 +191,7 @@ public:
             for (const Seat& corner : corners) place(corner);
         }
     }
-    /// All but those that were placed beside a corner before it was: it stands for their faces.
+    /// All but the spheres placed beside a corner before it was: it stands for their faces.
     std::vector<Seat> take() {
         std::vector<Seat> out;
         for (const Seat& seat : seats_) {

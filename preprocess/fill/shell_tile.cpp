@@ -223,7 +223,7 @@ void ShellTile::close_gaps_in(const Plane& plane, std::int32_t hint) {
         // the line half way to a neighbour is at least half its distance away: it and those after
         // it cut nothing off (the hair is for rounding)
         if (0.25 * n.distance * n.distance > far_sq * (1.0 + 1e-9)) break;
-        // keep what is nearer to the centre than to n, wherever that lies: x . n <= |n|^2 / 2
+        // keep the points nearer to the centre than to its neighbour n: x . n <= |n|^2 / 2
         const double length = std::hypot(n.u, n.v);
         if (length < 1e-3 * n.distance) continue;  // straight above or below
         const double a = n.u / length, b = n.v / length,

@@ -59,6 +59,7 @@ std::vector<Edge> open_edges_in_plane(const TriangleMesh& mesh, int axis, double
             const std::int32_t b = first[static_cast<std::size_t>(t[(k + 1) % 3])];
             if (a != b && flat_vertex(a) && flat_vertex(b)) edges.push_back(std::minmax(a, b));
         }
+    // vertices are not welded yet: edges are compared by the places of their ends
     std::sort(edges.begin(), edges.end());
     std::vector<Edge> open;
     for (std::size_t k = 0; k < edges.size();) {
@@ -85,6 +86,7 @@ HalfHull looks_like_half_hull(const TriangleMesh& mesh, int axis) {
     const Eigen::AlignedBox3d box = bounding_box(mesh);
     const double flat = flatness(mesh);
     if (box.isEmpty() || box.sizes()[axis] <= 2.0 * flat) return half;
+    // all on one side of the plane, which the mesh touches
     half.port = box.min()[axis] >= -flat;
     if (!half.port && box.max()[axis] > flat) return half;
 
@@ -99,6 +101,8 @@ HalfHull looks_like_half_hull(const TriangleMesh& mesh, int axis) {
         open.extend(mesh.vertices[static_cast<std::size_t>(a)]);
         open.extend(mesh.vertices[static_cast<std::size_t>(b)]);
     }
+    // An open half has a rim of open edges along the centre plane, a closed one a flat wall there.
+    // A whole, symmetric body that merely begins at y = 0 has neither over most of its length.
     const bool far_open = reaches_far(open, box, axis), far_closed = reaches_far(closed, box, axis);
     const bool slender = box.sizes().maxCoeff() >= 2.5 * box.sizes()[axis];
     if (far_open && !far_closed)

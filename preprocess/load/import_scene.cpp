@@ -184,7 +184,7 @@ FileFrame frame_of(const aiScene& scene) {
     return frame;
 }
 
-// "stl" of "hull.STL" and "hull.stl.gz"; one of those that spherize reads.
+// "stl" of "hull.STL" and "hull.stl.gz"; one of the formats that spherize reads.
 std::string format_name(const std::filesystem::path& file) {
     const std::filesystem::path inner = is_gzip_name(file) ? file.stem() : file;
     std::string name = inner.extension().string();
@@ -296,7 +296,7 @@ ImportedMesh import_once(const std::filesystem::path& file, const std::vector<ch
         check_faces(file, *scene);
         scene = importer.ApplyPostProcessing(aiProcess_Triangulate | aiProcess_SortByPType);
     }
-    // assimp catches what is none of its business
+    // assimp catches exceptions that are not its own
     if (scene == nullptr && std::string_view(importer.GetErrorString()).ends_with("bad_alloc"))
         throw std::bad_alloc();
     if (scene == nullptr || scene->mRootNode == nullptr)

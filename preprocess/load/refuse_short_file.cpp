@@ -87,6 +87,7 @@ long whole_rows(const Element& element, bool swapped, const std::string& bytes, 
                 if (end + property.count_size > bytes.size()) return row;
                 values = 0;
                 for (std::size_t k = 0; k < property.count_size; ++k) {
+                    // from the most significant byte on, whatever the machine's order
                     const std::size_t byte = swapped ? k : property.count_size - 1 - k;
                     values = values << 8 | static_cast<unsigned char>(bytes[end + byte]);
                 }

@@ -52,6 +52,8 @@ double asymmetry(const TriangleMesh& mesh, int axis) {
              cubature(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2))) {
             const Vec3 p = (at - centre).cwiseQuotient(unit);
             const double n = p[axis], a = p[(axis + 1) % 3], b = p[(axis + 2) % 3];
+            // Moments of the surface that are odd along the axis, up to degree 3, in half sizes of
+            // the box: all vanish for a mirror-symmetric surface, however it is triangulated.
             const std::array<double, 7> odd{n,         n * a,     n * b,    n * a * a,
                                             n * a * b, n * b * b, n * n * n};
             for (std::size_t k = 0; k < odd.size(); ++k) sum[k] += weight * part * odd[k];

@@ -89,6 +89,8 @@ private:
                 path.push_back(step->to);
                 continue;
             }
+            // A border that touches itself in a vertex, as a figure of eight, has a loop on either
+            // side of it: each is cut off at its second visit.
             const auto cut = static_cast<std::ptrdiff_t>(seen->second);
             BorderLoop loop;
             loop.vertices.assign(path.begin() + cut, path.end());

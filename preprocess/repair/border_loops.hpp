@@ -15,7 +15,7 @@ struct BorderLoop {
 };
 
 /// Where the boundary of the surface, taken as a chain, is not zero: along each edge the triangles
-/// that run one way less those that run the other. A cap on every loop makes the chain closed, so
+/// that run one way less edges that run the other. A cap on every loop makes the chain closed, so
 /// that its winding number is a whole number everywhere, whatever is crowded or pinched.
 /// Where several loops pass one vertex, each turns into the hole it came along.
 /// @pre the mesh is welded and its faces are oriented

@@ -28,7 +28,7 @@ void mirror(TriangleMesh& mesh, Repairs& repairs) {
     repairs.emplace_back("half hull mirrored across y = 0", 1);
 }
 
-// Parts made of little but a cap and what it covers: loose triangles, flags, single plates.
+// Parts made of little but a cap and the triangles below it: loose triangles, flags, single plates.
 std::vector<std::uint8_t> find_scraps(const TriangleMesh& mesh, const Parts& parts,
                                       const std::vector<Cap>& caps) {
     std::vector<std::uint8_t> scrap(static_cast<std::size_t>(parts.count), 0);
@@ -57,6 +57,7 @@ std::int64_t drop_scraps(TriangleMesh& mesh, std::vector<Cap>& caps) {
         place[t + 1] = place[t] + keep[t];
     }
     std::erase_if(caps, [&](const Cap& cap) { return !keep[static_cast<std::size_t>(cap.first)]; });
+    // triangles behind dropped ones move up: caps name triangles by number
     for (Cap& cap : caps) {
         cap.first = place[static_cast<std::size_t>(cap.first)];
         for (RimEdge& edge : cap.rim) {

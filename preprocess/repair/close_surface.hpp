@@ -16,7 +16,7 @@ struct ClosedSurface {
     TriangleMesh unsure;           ///< the same without the caps that are a guess
     std::vector<CapVerdict> caps;  ///< one per hole
     double surface = 0.0;          ///< area without caps [m2]
-    double widest = 0.0;           ///< of those that are a guess: 4 area / perimeter [m]
+    double widest = 0.0;           ///< of caps that are a guess: 4 area / perimeter [m]
     double volume = 0.0;           ///< of all parts [m3]
     double doubt = 0.0;            ///< volume that depends on the caps, of the whole
 };

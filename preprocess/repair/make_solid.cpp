@@ -38,7 +38,7 @@ constexpr double kNoisy = 0.05;            // of the triangles: they cross their
 constexpr std::size_t kNoisyCount = 100;   // at least: of a few large triangles all may cross
 constexpr double kContourError = 0.01;     // of the volume
 constexpr double kVoid = 0.005;            // of the volume: what parts enclose together
-constexpr double kWrapOffset = 1000.0;     // of which the diagonal is a multiple
+constexpr double kWrapOffset = 1000.0;     // diagonals per offset
 constexpr std::size_t kMostPairs = 50000;  // each costs about 0.2 ms
 constexpr int kRounds = 3;                 // rounding may let cut pieces cross again
 constexpr double kCollapsed = 0.5;         // of the volume the winding number gives
@@ -130,6 +130,8 @@ private:
             caps += cap.area;
         }
         for (std::string& warning : cap_warnings(closed)) warnings_.push_back(std::move(warning));
+        // Large caps are a guess at the missing surface. The winding number of the open surface is
+        // another, independent one: both must enclose the same.
         if (caps > kCapsMatter * closed.surface) {
             const WindingComparison c = compare_windings(closed.open, closed.mesh);
             const bool deck =
@@ -190,7 +192,7 @@ private:
         }
     }
 
-    // Crossing triangles cut where they meet, and what lies inside left out; all else stays.
+    // Cuts crossing triangles where they meet and drops the pieces inside; all else stays.
     std::optional<TriangleMesh> resolve(const TriangleMesh& mesh, const CrossingPairs& pairs,
                                         bool touching = false) {
         if (pairs.size() > kMostPairs) return std::nullopt;

@@ -18,7 +18,7 @@ constexpr double kCells = 200.0;        // along the longest side
 constexpr double kNodes = 2.0e6;        // at most, or cells grow
 constexpr double kFinestNodes = 8.0e6;  // at most, for the finer cells of a caller
 constexpr double kCoarse = 100.0;       // cells along the longest side, to look for voids
-constexpr double kSealed = 0.6;         // of a cell: what is this near to a surface is no way out
+constexpr double kSealed = 0.6;         // of a cell: a gap this near to a surface is no way out
 constexpr int kSteps = 16;              // towards the surface, at most
 constexpr double kReached = 1.0 / 256;  // of a cell
 

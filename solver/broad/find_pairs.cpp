@@ -137,7 +137,7 @@ constexpr double kVicinityRoom = 5.0;
 
 bool PairList::is_good(const Scene& scene, const MotionBounds& motion) const {
     if (bodies_ != scene.bodies.size() || moving_ != scene.bodies.moving) return false;
-    // what is no number is never good
+    // not-a-number never passes
     const auto stays = [&](std::int32_t i, double way) {
         return motion.path_after_step(i) <= way + kSkin;
     };

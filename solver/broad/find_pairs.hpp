@@ -19,7 +19,7 @@ struct BodyPair {
 
 /// Pairs whose bounding spheres (for the ship: its box) come within `margin` [m] of each other.
 ///
-/// A uniform grid over the positions of floes near those that move, so the cost is O(floes). Pairs
+/// A uniform grid over the positions of floes near moving ones, so the cost is O(floes). Pairs
 /// of two held floes are left out: neither can move. Sorted by a, then b; the answer does not
 /// depend on thread count. @pre Bodies::moving lists the floes that are not held
 void find_pairs(const Scene& scene, double margin, std::vector<BodyPair>& out);

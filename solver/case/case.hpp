@@ -58,7 +58,7 @@ struct BendingLaw {
     std::vector<std::pair<double, double>> factor_table;
 };
 
-/// [level_ice]: a sheet of which the ship breaks pieces (solver/level_ice).
+/// [level_ice]: a sheet that the ship breaks into pieces (solver/level_ice).
 struct LevelIce {
     double thickness = 0.0;            ///< [m]; 0: none
     std::array<double, 4> extent{};    ///< smallest and largest x, smallest and largest y [m]

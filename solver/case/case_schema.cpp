@@ -247,7 +247,7 @@ std::vector<CaseKey> bending_keys() {
 std::vector<CaseKey> level_ice_keys() {
     return {
         {"level_ice.thickness", Kind::number, D::length, "0.0", 0, 100, 0, "",
-         "Thickness of a sheet of which the ship breaks pieces, in place of floes; 0 is none.",
+         "Thickness of a sheet that the ship breaks into pieces, in place of floes; 0 is none.",
          [](Case& c, G&, const Value& v) { c.level_ice.thickness = number(v); }},
         {"level_ice.extent", Kind::vector, D::length, "[0.0, 0.0, 0.0, 0.0]", -1e5, 1e5, 4, "",
          "Smallest and largest x, smallest and largest y of the sheet.",

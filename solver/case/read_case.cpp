@@ -112,10 +112,10 @@ private:
         return path.string();
     }
 
-    // what was given in place of a sphere set or a field, and what to do; "" where it may be one
+    // the kind of file given in place of a sphere set or a field, and the remedy; "": may be one
     static std::string other_kind(const std::filesystem::path& path, const std::string& label) {
         if (std::filesystem::is_directory(path)) return "a folder; name a file in it";
-        if (label == "ship.matrix") return "";  // a text, which says what it is as it is read
+        if (label == "ship.matrix") return "";  // a text, checked as it is read
         if (path.extension() == ".toml" || path.extension() == ".cfg")
             return "a text; a specification becomes a field with icefield";
         const auto mesh = recognise_file(path, "");
@@ -124,7 +124,7 @@ private:
                     : "";
     }
 
-    // a shipped case brings the list of what makes its files
+    // a shipped case brings the list of commands that make its files
     static std::string maker_of(const std::filesystem::path& missing, const std::string& label) {
         const auto folder = missing.parent_path();
         if (std::filesystem::exists(folder / "spheres.txt"))

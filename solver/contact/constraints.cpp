@@ -23,7 +23,7 @@ Mat3 crossed_twice(const Vec3& r, const Mat3& m) {
 }
 
 // A ship moves in a few directions only: one that an impulse turns or shifts by less than this
-// share of what it would do to a ship free in all is one in which it cannot give way.
+// share of a wholly free ship's response is one in which it cannot give way.
 constexpr double kGivesWay = 1e-9;
 
 bool gives_way(const ShipResponse& ship, const Vec3& arm, const Vec3& normal) {

@@ -258,7 +258,7 @@ void ContactRows::end_stage(Bodies& bodies, std::vector<Constraint>& constraints
         const std::size_t slot = static_cast<std::size_t>(slot_[n]);
         const RowImpulses& impulse = rows[slot / kLanes].impulse;
         const double normal_now = impulse.normal.v[slot % kLanes];
-        // what carried and carries nothing changes nothing; without a normal impulse no friction
+        // a row without an impulse before and after changes nothing; it has no friction either
         if (normal_now == 0.0 && c.*normal == 0.0) continue;
         const Vec3 tangent_now = get(impulse.tangent, slot % kLanes);
         // the rounding of hundreds of small changes stays in `motion`; momentum is balanced

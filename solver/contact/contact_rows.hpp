@@ -46,7 +46,7 @@ struct ContactRow {
     RowImpulses impulse;
 };
 
-/// Eight body pairs of which no two share a free body, so that they may be taken at once.
+/// Eight body pairs without a common free body, so that they may be solved at once.
 struct PairBlock {
     std::int32_t first_row = 0, rows = 0;
     std::int32_t colour = 0;  ///< neither do blocks of one colour; later ones have no more rows
@@ -75,12 +75,12 @@ struct alignas(64) BodyMotion {
 /// n times as light (mass splitting: Tonge, Benevolenski, Voroshilov, ACM TOG 31(4), 2012), and
 /// after a sweep join_ship() makes one of them again. The copies answer along all axes as along
 /// that in which the ship answers most: where nothing changes any more they stand still, so that
-/// what they come to is the same, and is that of the ship itself.
+/// their common result is the same, and is that of the ship itself.
 class ContactRows {
 public:
     /// Measures their responses, with the bodies' present poses.
     /// @pre constraints ordered by (a, b), as ContactFinder gives them
-    /// @param which  constraints that take part, ascending; those that can move nothing are passed
+    /// @param which  constraints that take part, ascending; ones that can move nothing are passed
     ///               over
     void build(const Bodies& bodies, const std::vector<Constraint>& constraints,
                const std::vector<std::int32_t>& which);
@@ -116,7 +116,7 @@ public:
 
     /// Bodies that take part, by local number; a ship that answers once for each of its pairs.
     const std::vector<std::int32_t>& bodies() const { return bodies_; }
-    /// Local number of a body; -1 for those that do not take part.
+    /// Local number of a body; -1 for bodies that do not take part.
     std::int32_t local_of(std::int32_t body) const {
         return local_[static_cast<std::size_t>(body)];
     }
@@ -145,7 +145,7 @@ private:
     std::vector<std::size_t> places_;          // of sort_pairs
     std::vector<std::int32_t> which_;          // constraints that take part
     std::vector<std::int32_t> bodies_;         // by local number
-    std::vector<std::int32_t> local_;          // by body; -1 for those that take no part
+    std::vector<std::int32_t> local_;          // by body; -1 for bodies that take no part
     std::vector<std::uint64_t> used_colours_;  // by local number
     std::vector<std::int32_t> slot_;           // by row of which_: kLanes row + lane, or -1
 

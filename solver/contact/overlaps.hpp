@@ -25,7 +25,7 @@ struct PositionCorrections {
 class Overlaps {
 public:
     /// Moves overlapping bodies apart by a part of the overlap that this step's velocities leave:
-    /// the overlap, of which half a radius counts at most, in 0.1 s. So a deep pair opens at five
+    /// the overlap, at most half a radius of it, in 0.1 s. So a deep pair opens at five
     /// radii a second, at any scale and time step.
     ///
     /// The same inequality solver on displacements instead of velocities: n . (d_b - d_a) >= push.

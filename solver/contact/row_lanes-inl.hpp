@@ -32,7 +32,7 @@ HWY_INLINE void Put(Lanes value, LaneValues& to, std::size_t lane) {
     hn::StoreU(value, Tag(), to.v + lane);
 }
 
-// Lanes of N streams of contacts. What a contact takes is a chain of operations of which each waits
+// Lanes of N streams of contacts. A contact takes a chain of operations in which each one waits
 // for the last, longer than the machine looks ahead: streams' operations have to stand beside each
 // other, so that one computes while the others wait.
 template <std::size_t N>

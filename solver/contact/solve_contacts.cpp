@@ -28,7 +28,7 @@ constexpr int kPlainShare = 3;
 
 // Contacts take part in the resting stage when the loads bring them this near to closing [m]: most
 // are near ones that carry nothing. Those that its solution closes all the same then take part too;
-// what is left after so many solutions is an overlap in the next step.
+// the residual after so many solutions is an overlap in the next step.
 constexpr double kNear = 1e-4;
 constexpr int kRestSolutions = 5;
 

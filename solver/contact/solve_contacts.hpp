@@ -32,7 +32,7 @@ public:
     ///     |J_t| <= mu J_n, opposite to the sliding.
     ///
     /// A contact that reaches its strength does not rebound (e = 0 for it): with a finite crushing
-    /// pressure the stage first solves with e = 0 for all, then with e for those that held.
+    /// pressure the stage first solves with e = 0 for all, then with e for contacts that held.
     /// Contacts at rest have v_r0 . n = 0 and do not bounce, without any threshold (Guendelman,
     /// Bridson, Fedkiw, ACM TOG 22(3), 2003, section 5).
     ///

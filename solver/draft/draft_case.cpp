@@ -97,6 +97,8 @@ void plan_course(const World& w, Draft& draft) {
     draft.length = ship.length;
     draft.clearance = course.clearance;
     const double room = kFieldShare * std::min(course.through, course.clearance_fixed);
+    // The ice must last for the whole travel: the run ends before the hull leaves the field or
+    // reaches ice that cannot move.
     const double travel = std::min(kLengths * ship.length + course.clearance, room);
     if (travel < kFewest * ship.length)
         throw bad_input("--new",
@@ -104,10 +106,13 @@ void plan_course(const World& w, Draft& draft) {
                                     "ship's {:.4g} m",
                                     room, room / ship.length, ship.length),
                         "use a field of 1.5 ship lengths or more (area.size)");
+    // one Froude number for ships and models of any scale, too low for waves to matter
     draft.speed = rounded(kFroude * std::sqrt(w.parameters.gravity * ship.length), 2);
+    // a share of the smallest radius per step keeps bodies from passing through each other
     draft.time_step = round_step(kStepShare * smallest_radius(w.scene) / draft.speed);
     draft.duration = draft.time_step * std::ceil(travel / (draft.speed * draft.time_step));
     draft.duration = rounded(draft.duration, 6);
+    // the last ship length, or two thirds of a shorter travel: by then the bow is in the ice
     const double averaged = std::min(ship.length, travel * 2.0 / 3.0);
     draft.average_from = rounded(draft.duration - averaged / draft.speed, 3);
     draft.lengths = draft.speed * draft.duration / ship.length;

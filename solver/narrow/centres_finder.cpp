@@ -184,7 +184,7 @@ void CentresFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
     awake_.resize(pairs.size());
     std::size_t count = 0;
     for (std::size_t k = 0; k < pairs.size(); ++k) {
-        awake_[count] = k;  // without a branch that nothing foretells; what is no number is awake
+        awake_[count] = k;  // without an unpredictable branch; a not-a-number is awake
         count +=
             motion.path_after_step(pairs[k].a) + motion.path_after_step(pairs[k].b) < lists_.wake(k)
                 ? 0

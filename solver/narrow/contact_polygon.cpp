@@ -49,7 +49,7 @@ Vec3 between(const Vec3& p, double height_p, const Vec3& q, double height_q) {
     return (height_p * q - height_q * p) / (height_p - height_q);
 }
 
-// Keeps of a polygon what is at most `offset` along `outward`.
+// Keeps the part of a polygon that is at most `offset` along `outward`.
 void clip(const Vec3& outward, double offset, std::uint32_t border, std::vector<Clipped>& polygon,
           std::vector<Clipped>& rest) {
     rest.clear();

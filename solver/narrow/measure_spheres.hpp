@@ -56,7 +56,7 @@ void group_by_types(const PairView& view, std::span<SpherePair> spheres);
 double bound_spheres(const PairView& view, double reach, const Skin& skin, std::size_t first,
                      std::vector<SpherePair>& spheres);
 
-/// The candidates among these spheres, in their order: those that measure_gap_surface gives, as
+/// The candidates among these spheres, in their order: the ones of measure_gap_surface, as
 /// FeaturePair gives them. A FeaturePair serves adjacent pairs of spheres with the same types.
 /// @param out  its old content is dropped
 void measure_spheres(const PairView& view, const SphereRange& range,

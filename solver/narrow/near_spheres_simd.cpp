@@ -84,6 +84,8 @@ public:
     template <class Spheres>
     HWY_INLINE void Add(const Spheres& from, std::size_t k, Mask valid, Lanes x, Lanes y, Lanes z) {
         const Tag d;
+        // Each sphere has a reach of its own: a fixed one would be that of the largest and let most
+        // pass.
         const auto own = hn::LoadU(d, from.own.data() + k);
         const auto reach = hn::Add(hn::Set(d, grow_), own);
         const auto inside = [&](Lanes at, int axis) {
@@ -103,6 +105,7 @@ public:
         Append(own, picked, out_.own.data() + count_);
         Append(from.id.data() + k, picked, out_.id.data() + count_);
         count_ += hn::CountTrue(d, picked);
+        // bounds are kept per lane and joined once, in Finish()
         low_x_ = hn::Min(low_x_, hn::IfThenElse(picked, x, low_x_));
         low_y_ = hn::Min(low_y_, hn::IfThenElse(picked, y, low_y_));
         low_z_ = hn::Min(low_z_, hn::IfThenElse(picked, z, low_z_));
@@ -164,7 +167,7 @@ void PickNear(const NearSpheres& from, const FloatBox& box, float grow, NearSphe
 // Bytes of a stored mask: StoreMaskBits writes no more.
 constexpr std::size_t kMaskBytes = (hn::MaxLanes(Tag()) + 7) / 8;
 
-// Rows that are tested together: what is loaded of the many serves all of them.
+// Rows that are tested together: each sphere of the many is loaded once for all of them.
 constexpr std::size_t kRowsAtOnce = 4;
 
 // Tests rows f .. f + N - 1 against all of the many, a mask for every vector of these: the masks of

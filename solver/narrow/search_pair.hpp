@@ -53,7 +53,7 @@ private:
     // Sets few_, many_ (in the axes of the body with fewer spheres) and range_.
     void pick(const PairView& view, double along, double across, SphereBlocks Shape::*blocks);
 
-    // Of many_ those that rows [first, last) may be near to.
+    // The spheres of many_ that rows [first, last) may be near to.
     const NearSpheres& partners_of(std::size_t first, std::size_t last);
 
     SearchRange range_{};

@@ -29,7 +29,7 @@ void book_contact(const Bodies& now, const Constraint& c, const StepStart& start
         (c.crushed() ? ledger.crushing : ledger.restitution) -= push.dot(mean);
         ledger.friction -= rub.dot(mean);
     }
-    const auto works_on = [&](std::int32_t i) {  // held ice that drifts, on what it touches
+    const auto works_on = [&](std::int32_t i) {  // drifting held ice, on its neighbours
         return i != static_cast<std::int32_t>(kShip) && now.held[i] != 0;
     };
     // Held ice that drifts is moved by no force of the model: whatever it gives to others comes

@@ -316,7 +316,7 @@ void Recorder::finish(const StepView& view, Summary& summary) {
     if (view.ship != nullptr) ship_statistics_.fill(*view.ship, view.scene, parameters_, summary);
     statistics_.fill(summary);  // after the energies: its warnings look at them
     panel_loads_.fill(summary);
-    // row 0 is for parts without a name, of which a mesh with names mostly has none
+    // row 0 is for parts without a name; a mesh with names mostly has no such parts
     const auto& names = view.scene.shapes[0].region_names;
     if (names.size() > 1 && summary.regions.at(names[0]).hits == 0) summary.regions.erase(names[0]);
     summary.state_hash = state_hash(view.scene, view.constraints);

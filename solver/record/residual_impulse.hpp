@@ -19,7 +19,7 @@ namespace ice {
 /// 0 when all conditions of the resting stage hold. Contacts that nothing can move are left out.
 ///
 /// Each contact is mended alone, so contacts of one floe count its mass several times: the sum is
-/// an upper estimate of the force that the step lacks, most of which the next step brings.
+/// an upper estimate of the force that the step lacks; the next step brings most of it.
 double residual_impulse(const Bodies& bodies, const std::vector<Constraint>& constraints,
                         double dt);
 

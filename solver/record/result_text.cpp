@@ -31,7 +31,7 @@ struct Format {
     }
 };
 
-// @param error  to two digits of which the value is shown
+// @param error  the value is shown to two digits of it
 Format format_for(double value, double error, int dimension, const char* unit) {
     Format out;
     const bool kilo = std::abs(value) >= kKilo;

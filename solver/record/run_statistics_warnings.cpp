@@ -15,7 +15,7 @@ namespace ice {
 
 namespace {
 
-// A mean of which more than this comes from a hundredth of the steps is one of hits, and Student's
+// A mean that comes from a hundredth of the steps by more than this is one of hits, and Student's
 // interval of few hits is too narrow: with 0.64 to 0.78 (the paper's 3D case, rigid) seeds differ
 // by more than it, with 0.24 (its 2D case at 1 m/s) they do not.
 constexpr double kWorryingPeaks = 0.5;
@@ -47,7 +47,7 @@ std::optional<double> share_of_separation(const Summary& summary) {
     return work > 0.0 ? std::optional(std::abs(energy("separation_J")) / work) : std::nullopt;
 }
 
-// Averages over less than a length, of which the mean's interval says how well it is known. The
+// Averages over less than a length; the mean's interval says how well it is known. The
 // text is the same for all members of an ensemble.
 Warning warn_of_short_averages(const Summary& summary) {
     const ForceStatistics& r = summary.resistance;
@@ -113,7 +113,7 @@ void RunStatistics::warn(Summary& summary) const {
     judge_start(summary);
 }
 
-// What was warned of at the start without a verdict lets bodies into or through each other: wide
+// Warnings of the start without a verdict are about bodies that go into or through each other: wide
 // spacings, long steps, a hull without spheres, overlaps that were allowed. The run has measured
 // that; the largest share is the verdict.
 void RunStatistics::judge_start(Summary& summary) const {

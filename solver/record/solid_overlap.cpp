@@ -35,7 +35,7 @@ Eigen::AlignedBox3d box_in(const Scene& scene, std::int32_t body, std::int32_t o
     return {middle - half, middle + half};
 }
 
-// Pairs of bodies whose boxes meet, of which one can move: neighbours along x are compared.
+// Pairs of bodies whose boxes meet, one of them movable: neighbours along x are compared.
 std::vector<std::pair<std::int32_t, std::int32_t>> close_pairs(const Scene& scene) {
     const auto count = static_cast<std::int32_t>(scene.bodies.size());
     std::vector<std::pair<double, std::int32_t>> order;
@@ -86,7 +86,7 @@ Deepest deepest_point(const Scene& scene, std::int32_t a, std::int32_t b, const 
     const Vec3 shift = bodies.rotation[b].transpose() * (bodies.position[a] - bodies.position[b]);
     const Shape &points = shape_of(scene, a), &solid = shape_of(scene, b);
     const Eigen::AlignedBox3d seen = box_in(scene, b, a);
-    Vec3 shallow = Vec3::Zero();  // a point of b's axes within `room` of which none is deeper
+    Vec3 shallow = Vec3::Zero();  // a point in b's axes; none within `room` of it is deeper
     double room = 0.0;
     const auto look = [&](const Vec3& at) {
         if (!seen.contains(at)) return;

@@ -26,7 +26,7 @@ double mean_of(std::span<const double> series) {
                                 static_cast<double>(series.size());
 }
 
-// Means of blocks; what is over at the end is left out.
+// Means of blocks; the rest at the end is left out.
 std::vector<double> blocks_of(std::span<const double> series, std::size_t length) {
     std::vector<double> blocks(series.size() / length);
     for (std::size_t b = 0; b < blocks.size(); ++b)
@@ -81,7 +81,7 @@ std::optional<Band> low_band(const std::vector<double>& x) {
     return without_lines(std::span(ordinates).first(count));
 }
 
-// Is a rise more than a line through what is left without it has by chance?
+// Is a rise larger than a line through the residuals has by chance?
 std::optional<bool> is_significant(double rise, const std::vector<double>& detrended) {
     if (sum_of_squares(detrended) == 0.0) return rise != 0.0;
     const std::optional<Band> band = low_band(detrended);

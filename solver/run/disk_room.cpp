@@ -69,7 +69,7 @@ std::uint64_t free_space(const std::filesystem::path& folder) {
 
 bool is_want_of_room(int reason) { return reason == ENOSPC || reason == EDQUOT || reason == EFBIG; }
 
-// Gives a file its next blocks, so that what is written into it cannot find the disk full; its
+// Gives a file its next blocks, so that no later write into it finds the disk full; its
 // length stays. 0, or why not.
 int allocate_ahead(const std::filesystem::path& path, std::uint64_t bytes) {
     const int file = ::open(path.c_str(), O_RDWR | O_CLOEXEC);

@@ -78,6 +78,7 @@ std::int32_t add_floe_shape(World& world, const SphereSet& floe) {
 }
 
 std::size_t add_floe(World& world, std::int32_t shape, const FloeStart& start) {
+    // later neighbour lists and statistics would not know the floe
     ICE_ASSERT(world.steps == 0);
     Case& p = world.parameters;
     const auto& shapes = world.scene.shapes;

@@ -177,7 +177,7 @@ bool could_save(Job& job) {
         job.room.saved();
         return true;
     } catch (const Error&) {
-        // somebody else may have taken the room meanwhile, but not what is held
+        // somebody else may have taken the room meanwhile, but not the reserve
         if (job.room.is_used_up() || job.room.is_short(job.recorder, job.world, true)) return false;
         throw;
     }
@@ -262,13 +262,13 @@ Summary run(World& world, const RunOptions& options) {
         advance(job);
         write_summary(world, options, job.wall_seconds(), job.recorder, summary);
     } catch (const Error& error) {
-        // what was computed up to here is kept where it can be written, and says that it failed
+        // the results up to here are kept where they can be written, and say that the run failed
         job.room.release();
         summary.status = "failed";
         summary.warnings.push_back({error.what(), true});
         try {
             write_summary(world, options, job.wall_seconds(), job.recorder, summary);
-        } catch (const Error&) {  // the .part files stay: icepost reads what is whole of them
+        } catch (const Error&) {  // the .part files stay: icepost reads their whole rows
         }
         throw;
     }

@@ -68,7 +68,7 @@ FaceRegions::FaceRegions(const SphereSet& set) : of_sphere_(set.regions) {
     for_each_near(set, grid, largest, [&](std::size_t k, std::size_t t, double distance_sq) {
         if (!at_border[k]) return;
         const Vec3 normal = set.mesh.area_vector(t).stableNormalized();
-        if (normal.isZero()) return;  // no area: what lies beside it counts
+        if (normal.isZero()) return;  // no area: its neighbours count
         note({distance_sq, normal, set.mesh.region[t]}, near[k]);
     });
 

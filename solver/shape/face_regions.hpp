@@ -17,7 +17,7 @@ namespace ice {
 class FaceRegions {
 public:
     FaceRegions() = default;
-    /// Copies what it needs. Costs as much as triangles plus spheres, not their product.
+    /// Copies its input. Costs as much as triangles plus spheres, not their product.
     explicit FaceRegions(const SphereSet& set);
 
     /// Row of the set's region_names: that of the sphere's face whose normal is nearest to n (unit,

@@ -165,7 +165,7 @@ ConvexPiece make_convex_piece(const TriangleMesh& mesh) {
         normals.push_back(p.normal);
         out.offsets.push_back(p.offset);
     }
-    // Euler: what has other numbers is closed round no solid
+    // Euler's formula: with other numbers the faces do not close round a solid
     if (points.size() + planes.size() != out.edges.size() + 2) return {};
     for (const SolidEdge& e : out.edges) {
         const Vec3 &from = points[static_cast<std::size_t>(e.begin)],

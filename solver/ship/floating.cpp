@@ -49,7 +49,7 @@ public:
         }
         return out;
     }
-    // what each motion's force is measured against
+    // the scale of each motion's force
     Vec3 scale() const {
         const double weight = body_.mass * case_.gravity;
         return {weight, weight * size_.y() + (size_.y() == 0.0 ? 1.0 : 0.0), weight * size_.x()};
@@ -137,7 +137,7 @@ Equilibrium find_equilibrium(const Case& p, const Scene& scene, const ShipBody& 
     Equilibrium out;
     out.angles = ShipAngles(at[1], at[2], 0.0);
     const Mat3 r = orientation_of(out.angles).toRotationMatrix();
-    // what was not turned or moved stays to the bit
+    // a ship that was not turned or moved keeps its bits
     out.height = at[0] == place + body.centre_of_gravity.z() && out.angles.isZero(0.0)
                      ? place
                      : at[0] - (r * body.centre_of_gravity).z();

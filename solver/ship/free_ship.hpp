@@ -61,7 +61,7 @@ public:
     const ShipLoads& loads() const { return loads_; }  ///< of the last step
     const ShipAngles& angles() const { return angles_; }
     const ShipEnergies& energies() const { return energies_; }
-    /// Of the centre of gravity and about it, at the start of the last step: what it answers from.
+    /// Of the centre of gravity and about it, at the start of the last step.
     const Vec3& velocity_start() const { return velocity_start_; }
     const Vec3& spin_start() const { return spin_start_; }
     /// In the free motions [J].

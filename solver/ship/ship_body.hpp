@@ -11,7 +11,7 @@ namespace ice {
 
 using SixNumbers = std::array<double, kFreedoms>;
 
-/// What stays the same for a run.
+/// Constants of a run.
 struct ShipBody {
     std::array<bool, kFreedoms> free{};
     double mass = 0.0;            ///< [kg], 2D per metre of breadth
@@ -28,7 +28,7 @@ struct ShipBody {
     bool floats() const { return free[heave] || free[roll] || free[pitch]; }
 };
 
-/// Masses of the case's ship, of what it leaves open from the hull as the scene holds it.
+/// Masses of the case's ship; values that it leaves open come from the hull of the scene.
 ///
 /// Default mass: water_density times the submerged volume. Default centre of gravity: the centre of
 /// buoyancy, so that the ship is upright as placed. Default radii of gyration: 0.35 of the box's

@@ -19,6 +19,8 @@ WettedIntegrals IntegrateWetted(const FacetBlocks& facets, const WaterPlane& wat
     WettedIntegrals out;
     Sum volume;
     VectorSum first;
+    // A block has the facets of all lanes of the widest instruction set. Narrower sets go through
+    // the blocks once per group of lanes, so that each lane sums the same facets in the same order.
     for (std::size_t lane = 0; lane < kLanes; lane += hn::Lanes(d)) {
         Wetted sum;
         for (const FacetBlock& block : facets.blocks) {
