@@ -78,9 +78,10 @@ double fade_at(const FlowTable& t, const Vec3& p, double width) {
 void fill_row(const Sources& s, const WindingNumber& hull, double water, std::size_t row,
               FlowTable& t) {
     const auto nx = static_cast<std::size_t>(t.nodes[0]), ny = static_cast<std::size_t>(t.nodes[1]);
+    const std::size_t j = row % ny, k = row / ny;
     std::vector<Vec3> at(nx), asked(nx);
     for (std::size_t i = 0; i < nx; ++i) {
-        at[i] = t.origin + t.spacing * Vec3(double(i), double(row % ny), double(row / ny));
+        at[i] = t.origin + t.spacing * Vec3(double(i), double(j), double(k));
         const bool in_box =
             ((at[i] - s.low).array() >= 0.0).all() && ((s.high - at[i]).array() >= 0.0).all();
         // Inside the hull the sources' sum has no meaning; the nearest flow outside keeps the

@@ -108,7 +108,7 @@ bool is_too_small(const Loop& loop, double smallest) {
 }  // namespace
 
 IceSheet::IceSheet(const Eigen::AlignedBox2d& extent, double smallest) : smallest_(smallest) {
-    const Vec2 a = extent.min(), b = extent.max();
+    const Vec2 &a = extent.min(), &b = extent.max();
     loops_ = {from_lattice(to_lattice(loop_of({a, b})))};
 }
 
@@ -185,7 +185,7 @@ bool IceSheet::contains(const Vec2& point) const {
 }
 
 Loop loop_of(const Eigen::AlignedBox2d& box) {
-    const Vec2 a = box.min(), b = box.max();
+    const Vec2 &a = box.min(), &b = box.max();
     return {{a.x(), a.y()}, {b.x(), a.y()}, {b.x(), b.y()}, {a.x(), b.y()}};
 }
 

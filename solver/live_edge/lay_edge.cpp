@@ -244,7 +244,7 @@ void LiveEdge::restore(Scene& scene, const Case& p) const {
     Bodies& b = scene.bodies;
     for (std::size_t k = 0; k < slots_.size(); ++k) {
         const bool is_piece = slots_[k].use == Use::piece, is_tile = slots_[k].use == Use::tile;
-        put_form(scene, first_ + k, shapes[k] ? std::move(*shapes[k]) : empty_, density_);
+        put_form(scene, first_ + k, shapes[k] ? std::move(*shapes[k]) : Shape(empty_), density_);
         if (b.have_added_mass() && is_piece) add_water(scene, first_ + k, density_ / share_);
         b.group[first_ + k] = is_piece ? piece_group_ : tile_group_;
         b.breaking_load[first_ + k] = is_tile ? std::numeric_limits<double>::max() : kNever;
