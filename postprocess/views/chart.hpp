@@ -40,7 +40,7 @@ struct Chart {
 
 /// Draws axes with units, legend and curves as one SVG element; empty charts say "no data". The
 /// legend takes as many rows as its names need, and the left margin is as wide as the labels.
-std::string draw_chart(const Chart& chart);
+std::string draw_chart(const Chart& given);
 
 /// Colours that people with colour-blindness can tell apart (Okabe and Ito 2008).
 inline constexpr const char* kBlue = "#0072b2";
