@@ -113,7 +113,7 @@ run_sanitized() {
     install_packages "${packages[@]}" "${test_packages[@]}"
     cmake --preset asan-ubsan -DICE_TESTS=ON -DICE_PRECOMPILED_HEADERS=ON -DICE_UNITED_SOURCES=ON
     cmake --build --preset asan-ubsan --parallel "$(job_count)" --target "$@" write_sample_run
-    run_tests asan-ubsan build/asan-ubsan -R "^($names): "
+    run_tests asan-ubsan build/asan-ubsan -R "^($names):"
 }
 
 cd "$(dirname "${BASH_SOURCE[0]}")"
