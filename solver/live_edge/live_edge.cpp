@@ -102,6 +102,7 @@ bool LiveEdge::renew(Scene& scene, const Case& parameters, double time) {
     const std::vector<Loop> hull = hull_in_ice(scene);
     looked_at_ = ship_in_ice(scene);
     bool is_new = crush_through(hull);
+    changed_.clear();
     Plan plan;
     for (const Crack& crack : std::exchange(cracks_, {})) {
         break_off(crack, hull, plan);
@@ -120,7 +121,10 @@ bool LiveEdge::renew(Scene& scene, const Case& parameters, double time) {
     lay_tiles(scene, plan);
     fill(parameters, plan);
     put(scene, time, plan);
-    return !plan.changed.empty();
+    changed_ = std::move(plan.changed);
+    std::sort(changed_.begin(), changed_.end());
+    changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
+    return !changed_.empty();
 }
 
 // What the hull has gone through at both faces is gone. A strip stays, whose spheres know.

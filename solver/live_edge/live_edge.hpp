@@ -70,8 +70,10 @@ public:
     /// Breaks off what the last step's loads have broken, takes away what the hull has crushed
     /// through, lays the edge anew around a ship that has gone on.
     /// @param time  [s]
-    /// @return whether bodies have another form now
+    /// @return whether bodies have another form now: those of changed()
     bool renew(Scene& scene, const Case& parameters, double time);
+    /// The bodies to which the last renew() gave another form, sorted.
+    const std::vector<std::int32_t>& changed() const { return changed_; }
 
     /// Sums the loads of the step just done and finds what they break.
     /// @pre the constraints hold the step's impulses
@@ -163,6 +165,7 @@ private:
 
     Vec2 drifted_ = Vec2::Zero();  // from the world's axes to the ice's, now; no state
     std::vector<EdgeLoad> loads_;  // memory of find()
+    std::vector<std::int32_t> changed_;
 };
 
 }  // namespace ice

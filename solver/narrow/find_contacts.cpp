@@ -216,6 +216,11 @@ void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
     emit(scene, pairs, rule, out);
 }
 
+void ContactFinder::forget(const std::vector<std::int32_t>& bodies) {
+    cache_.forget(bodies);
+    centres_ = {};
+}
+
 void ContactFinder::emit(const Scene& scene, const std::vector<BodyPair>& pairs, ContactRule rule,
                          std::vector<Contact>& out) {
     // Counted first, then made in place by all threads: the order is that of the pairs, whatever

@@ -55,6 +55,10 @@ public:
     void find(const Scene& scene, const std::vector<BodyPair>& pairs, const MotionBounds& motion,
               ContactRule rule, double dt, double margin, std::vector<Contact>& out);
 
+    /// These bodies have another form now, or another place than MotionBounds knows: all pairs with
+    /// them are searched afresh. @pre sorted
+    void forget(const std::vector<std::int32_t>& bodies);
+
 private:
     // Results of a pair: a part of one thread's results.
     struct Found {

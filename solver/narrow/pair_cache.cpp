@@ -47,6 +47,17 @@ void PairCache::carry_over(const std::vector<BodyPair>& pairs) {
     pairs_ = pairs;
 }
 
+void PairCache::forget(const std::vector<std::int32_t>& bodies) {
+    const auto is_one = [&](std::int32_t body) {
+        return std::binary_search(bodies.begin(), bodies.end(), body);
+    };
+    for (std::size_t k = 0; k < pairs_.size(); ++k) {
+        if (!is_one(pairs_[k].a) && !is_one(pairs_[k].b)) continue;
+        kept_ -= rows_[k].count;
+        rows_[k] = Row{};
+    }
+}
+
 void PairCache::keep(std::size_t k, std::span<const SpherePair> near) {
     Row& row = rows_[k];
     kept_ += near.size() - row.count;

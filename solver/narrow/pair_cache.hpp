@@ -26,6 +26,9 @@ public:
     /// Keeps the rows of pairs that are in the new list, too; both lists are sorted.
     void carry_over(const std::vector<BodyPair>& pairs);
 
+    /// Makes the rows of all pairs with these bodies stale. @pre sorted
+    void forget(const std::vector<std::int32_t>& bodies);
+
     /// State of a pair for the coming step.
     enum class State {
         separated,  ///< the bodies cannot touch

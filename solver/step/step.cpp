@@ -31,8 +31,8 @@ double contact_margin(const Case& p) {
     return kMargin + lift * p.gravity * p.time_step * p.time_step;
 }
 
-// The edge of level ice breaks and goes with the ship: all knowledge of the bodies' contacts is
-// forgotten, as some have another form now. Mass that comes into the scene or leaves it is no work.
+// The edge of level ice breaks and goes with the ship: the contacts of bodies that have another form
+// now are forgotten. Mass that comes into the scene or leaves it is no work.
 void renew_edge(World& w) {
     w.edge.drift_until(w.time);
     if (!w.edge.is_due(w.scene)) return;
@@ -41,9 +41,8 @@ void renew_edge(World& w) {
     *w.ledger.potential_start += potential_energy(w.scene, w.parameters) - before;
     w.warm_start = {};
     w.recess = {};
-    w.motion = {};
     w.pairs = {};
-    w.finder = {};
+    w.finder.forget(w.edge.changed());
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "common/base/parallel.hpp"
 #include "solver/live_edge/edge_tiles.hpp"
 #include "solver/live_edge/edge_window.hpp"
+#include "solver/record/recorder.hpp"
 #include "solver/record/solid_overlap.hpp"
 #include "solver/run/run.hpp"
 #include "solver/scene/added_mass_of_floes.hpp"
@@ -138,6 +139,32 @@ TEST_CASE("a ship breaks its way, ice is neither lost nor made, and no piece is 
     CHECK(w.edge.areas().brash < 0.1 * w.edge.areas().pieces);
     // a step's way of the ship, and how far the hull's convex outlines stand for it
     CHECK(deepest < 0.02);
+}
+
+TEST_CASE("neighbour lists that outlive a renewal of the edge give the contacts of new ones",
+          "[level_ice][edge][step]") {
+    Case p = sheet_case(0.8, 1e3);
+    p.drift_velocity = {GENERATE(0.0, -0.2), 0.0};
+    World keeps = make_world(p), forgets = make_world(p);
+    std::size_t renewals = 0, kept = 0;
+    while (keeps.time < 6.0) {
+        const auto tiles = tiles_of(keeps.edge, keeps.scene.bodies);
+        step(keeps);
+        forgets.motion = {};
+        forgets.pairs = {};
+        forgets.finder = {};
+        step(forgets);
+        CAPTURE(keeps.time);
+        REQUIRE(state_hash(keeps.scene, keeps.constraints) ==
+                state_hash(forgets.scene, forgets.constraints));
+        REQUIRE(keeps.contacts.size() == forgets.contacts.size());
+        if (keeps.edge.changed().empty()) continue;
+        ++renewals;
+        kept += tiles.size() > keeps.edge.changed().size() ? 1 : 0;
+    }
+    CHECK(keeps.edge.pieces().size() > 5);
+    CHECK(renewals > 5);
+    CHECK(kept > 0);  // some bodies stayed as they were
 }
 
 TEST_CASE("level ice that drifts past a ship is a ship that goes through level ice",
