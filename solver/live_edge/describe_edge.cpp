@@ -10,7 +10,7 @@ namespace ice {
 
 std::string describe_edge(const LiveEdge& edge) {
     const IceAreas areas = edge.areas();
-    const auto& pieces = edge.pieces();
+    const auto pieces = edge.pieces();
     std::string out = fmt::format(
         "level ice: {} pieces broke off, {:.4g} m2; crushed {:.3g} m2, brash {:.3g} m2; {} pieces "
         "far astern taken out",

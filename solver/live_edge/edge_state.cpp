@@ -54,6 +54,23 @@ void carry_outlines(CheckpointFile& file, const std::string& name, std::vector<R
 
 }  // namespace
 
+void LiveEdge::carry_pieces(CheckpointFile& file) {
+    std::vector<IcePiece> all = pieces();
+    if (file.reading()) all.clear();
+    file.column("edge.piece_number", all, &IcePiece::number);
+    file.column("edge.piece_body", all, &IcePiece::body);
+    file.column("edge.piece_born", all, &IcePiece::born);
+    file.column("edge.piece_gone", all, &IcePiece::gone);
+    file.column("edge.piece_load", all, &IcePiece::load);
+    file.column("edge.piece_radius", all, &IcePiece::radius);
+    carry_points(file, "edge.piece_at", all, &IcePiece::at);
+    carry_outlines(file, "edge.piece_outline", all);
+    if (!file.reading()) return;
+    gone_pieces_ = {};
+    broken_ = static_cast<std::int64_t>(all.size());
+    pieces_ = std::move(all);
+}
+
 void LiveEdge::carry(CheckpointFile& file) {
     if (!lives()) return;
     std::vector<Loop> sheet = sheet_.loops();
@@ -69,14 +86,7 @@ void LiveEdge::carry(CheckpointFile& file) {
     file.column("edge.crack_load", cracks_, &Crack::load);
     carry_points(file, "edge.crack_at", cracks_, &Crack::at);
     carry_points(file, "edge.crack_inwards", cracks_, &Crack::inwards);
-    file.column("edge.piece_number", pieces_, &IcePiece::number);
-    file.column("edge.piece_body", pieces_, &IcePiece::body);
-    file.column("edge.piece_born", pieces_, &IcePiece::born);
-    file.column("edge.piece_gone", pieces_, &IcePiece::gone);
-    file.column("edge.piece_load", pieces_, &IcePiece::load);
-    file.column("edge.piece_radius", pieces_, &IcePiece::radius);
-    carry_points(file, "edge.piece_at", pieces_, &IcePiece::at);
-    carry_outlines(file, "edge.piece_outline", pieces_);
+    carry_pieces(file);
     file.carry("edge.cusp", cusp_);
     file.carry("edge.pieces_area", gone_.pieces);
     file.carry("edge.crushed_area", gone_.crushed);

@@ -41,21 +41,29 @@ EdgeWindow window_around(const std::vector<EdgeLoad>& loads, const Vec2& middle,
 
 std::vector<EdgeWindow> edge_windows(std::vector<EdgeLoad> loads, double radius) {
     std::vector<EdgeWindow> out;
+    std::vector<double> down;  // of all loads near each
+    for (const EdgeLoad& load : loads) down.push_back(down_near(loads, load.at, radius));
     while (!loads.empty()) {
-        double most = 0.0;
-        Vec2 middle = Vec2::Zero();
-        for (const EdgeLoad& load : loads) {
-            const double down = down_near(loads, load.at, radius);
-            if (down <= most) continue;
-            most = down;
-            middle = load.at;
-        }
-        if (most <= 0.0) break;
+        const auto most = std::max_element(down.begin(), down.end());  // the first of equal ones
+        if (*most <= 0.0) break;
+        const Vec2 middle = loads[static_cast<std::size_t>(most - down.begin())].at;
         const EdgeWindow window = window_around(loads, middle, radius);
         if (!window.inwards.isZero(0.0)) out.push_back(window);
-        std::erase_if(loads, [&](const EdgeLoad& load) {
-            return (load.at - middle).squaredNorm() <= radius * radius;
-        });
+        const auto is_within = [&](const EdgeLoad& load, double distance) {
+            return (load.at - middle).squaredNorm() <= distance * distance;
+        };
+        std::size_t left = 0;
+        for (std::size_t k = 0; k < loads.size(); ++k) {
+            if (is_within(loads[k], radius)) continue;
+            down[left] = down[k];
+            loads[left++] = loads[k];
+        }
+        loads.resize(left);
+        down.resize(left);
+        // farther away no load near by was taken
+        for (std::size_t k = 0; k < left; ++k)
+            if (is_within(loads[k], 2.001 * radius))
+                down[k] = down_near(loads, loads[k].at, radius);
     }
     return out;
 }

@@ -182,7 +182,7 @@ void LiveEdge::put(Scene& scene, double time, Plan& plan) {
         slot = {body.is_tile ? Use::tile : Use::piece, std::move(body.outline), 0};
         plan.changed.push_back(static_cast<std::int32_t>(i));
         if (body.is_tile) continue;
-        slot.piece = static_cast<std::int64_t>(pieces_.size()) + 1;
+        slot.piece = ++broken_;
         gone_.pieces += body.area;
         gone_.brash -= body.area;
         pieces_.push_back({slot.piece, static_cast<std::int32_t>(i), time, kNever, body.load,
@@ -200,7 +200,14 @@ void LiveEdge::put(Scene& scene, double time, Plan& plan) {
 }
 
 void LiveEdge::retire(std::size_t slot, double time, Plan& plan) {
-    pieces_[static_cast<std::size_t>(slots_[slot].piece) - 1].gone = time;
+    const auto piece =
+        std::lower_bound(pieces_.begin(), pieces_.end(), slots_[slot].piece,
+                         [](const IcePiece& p, std::int64_t number) { return p.number < number; });
+    piece->gone = time;
+    if (gone_pieces_.is_open()) {
+        gone_pieces_.add(*piece);
+        pieces_.erase(piece);
+    }
     slots_[slot] = {};
     plan.changed.push_back(static_cast<std::int32_t>(first_ + slot));
 }

@@ -55,6 +55,26 @@ std::int64_t LiveEdge::alive() const {
                          [](const Slot& s) { return s.use == Use::piece; });
 }
 
+std::vector<IcePiece> LiveEdge::pieces() const {
+    std::vector<IcePiece> out = pieces_;
+    gone_pieces_.read(out);
+    std::sort(out.begin(), out.end(),
+              [](const IcePiece& l, const IcePiece& r) { return l.number < r.number; });
+    return out;
+}
+
+void LiveEdge::keep_gone_in(const std::filesystem::path& folder) {
+    std::vector<IcePiece> all = pieces();
+    gone_pieces_.open(folder);
+    pieces_.clear();
+    for (IcePiece& piece : all) {
+        if (std::isinf(piece.gone))
+            pieces_.push_back(std::move(piece));
+        else
+            gone_pieces_.add(piece);
+    }
+}
+
 Box LiveEdge::reach(const Scene& scene) const {
     const Bodies& b = scene.bodies;
     const Eigen::AlignedBox3d& hull = scene.shapes[0].box;

@@ -10,6 +10,7 @@
 #include "solver/contact/constraints.hpp"
 #include "solver/level_ice/ice_sheet.hpp"
 #include "solver/live_edge/edge_window.hpp"
+#include "solver/live_edge/gone_pieces.hpp"
 #include "solver/narrow/contact.hpp"
 #include "solver/scene/bodies.hpp"
 
@@ -24,17 +25,6 @@ struct IceAreas {
     double crushed = 0.0;  ///< where the hull was when ice broke or was crushed through
     double brash = 0.0;    ///< broken off, too small for a floe
     double astern = 0.0;   ///< unbroken, left behind
-};
-
-/// A piece that broke off.
-struct IcePiece {
-    std::int64_t number;  ///< from 1, in the order of breaking
-    std::int32_t body;    ///< that it is, or was
-    double born, gone;    ///< [s]; gone: inf while it is there
-    double load;          ///< downwards, that broke it off [N]
-    double radius;        ///< of its crack [m]
-    Vec2 at;              ///< centre of mass as it broke off, in the ice's axes [m]
-    Loop outline;         ///< of the floe, then, in the ice's axes [m]
 };
 
 /// A sheet of level ice whose edge is contact geometry where the ship can meet it.
@@ -99,12 +89,17 @@ public:
     std::int32_t piece_group() const { return piece_group_; }
     std::int32_t tile_group() const { return tile_group_; }
     IceAreas areas() const;
-    /// All that have broken off, by number.
-    const std::vector<IcePiece>& pieces() const { return pieces_; }
+    /// All that have broken off, by number; those that are gone are read from the disk.
+    std::vector<IcePiece> pieces() const;
+    /// How many have broken off.
+    std::int64_t broken() const { return broken_; }
     /// Floes in the scene now.
     std::int64_t alive() const;
     /// Taken out of the scene.
-    std::int64_t retired() const { return static_cast<std::int64_t>(pieces_.size()) - alive(); }
+    std::int64_t retired() const { return broken_ - alive(); }
+    /// From now on pieces that are taken out of the scene are kept in a file of this folder, not in
+    /// memory. @throws Error (exit code 1) where it cannot be created
+    void keep_gone_in(const std::filesystem::path& folder);
     /// Is the body one of this edge's slots?
     bool has_slot(std::size_t body) const { return first_ > 0 && body >= first_; }
 
@@ -125,6 +120,7 @@ private:
     };
     struct Plan;  // what one renewal lays
 
+    void carry_pieces(CheckpointFile& file);
     void set_up(const Scene& scene, const Case& parameters);
     void add_slots(Scene& scene, const Case& parameters);
     bool is_tile(std::int32_t body) const;
@@ -158,7 +154,8 @@ private:
     IceSheet sheet_{Eigen::AlignedBox2d(Vec2::Zero(), Vec2::Ones()), 1.0};
     std::vector<Slot> slots_;
     std::vector<Crack> cracks_;
-    std::vector<IcePiece> pieces_;
+    std::vector<IcePiece> pieces_;  // by number: those in the scene, and gone ones without a file
+    std::int64_t broken_ = 0;
     std::uint64_t cusp_ = 0;                                  // number of the next crack
     IceAreas gone_;                                           // all but `sheet`
     Vec2 laid_at_ = Vec2::Zero(), looked_at_ = Vec2::Zero();  // the ship then
@@ -166,6 +163,7 @@ private:
     Vec2 drifted_ = Vec2::Zero();  // from the world's axes to the ice's, now; no state
     std::vector<EdgeLoad> loads_;  // memory of find()
     std::vector<std::int32_t> changed_;
+    GonePieces gone_pieces_;
 };
 
 }  // namespace ice

@@ -3,6 +3,8 @@
 
 #include <Eigen/Geometry>
 
+#include "solver/narrow/cone_sides.hpp"
+
 namespace ice {
 
 AxisChoice choose_axis_rule(const Feature& a, const Feature& b, bool prefer_reference_a,
@@ -57,8 +59,16 @@ void FeaturePair::list_faces() {
 }
 
 void FeaturePair::list_edge_axes() {
-    for (int ka = 0; ka < a_->cone.edges(); ++ka)
-        for (int kb = 0; kb < b_->cone.edges(); ++kb) add_edge_axis(ka, kb);
+    const ConeSides sides_a(a_->cone), sides_b(b_->cone);
+    for (int ka = 0; ka < a_->cone.edges(); ++ka) {
+        const Vec3 ea = a_->cone.edge(ka);
+        for (int kb = 0; kb < b_->cone.edges(); ++kb) {
+            // most edges have no axis: that shows soonest here
+            const Vec3 across = ea.cross(b_->cone.edge(kb));
+            if (!sides_a.exclude(across, 0.0) && !sides_b.exclude(across, 0.0))
+                add_edge_axis(ka, kb);
+        }
+    }
 }
 
 void FeaturePair::add_edge_axis(int edge_a, int edge_b) {

@@ -4,6 +4,8 @@
 #include <Eigen/Geometry>
 #include <limits>
 
+#include "solver/narrow/cone_sides.hpp"
+
 namespace ice {
 
 namespace {
@@ -45,9 +47,14 @@ void FeaturePairBound::list_faces() {
 void FeaturePairBound::list_edge_axes() {
     const NormalCone &a = a_->cone, &b = b_->cone;
     edge_axes_ = 0;
+    // `turn` times the sine is at most this, or more than any normal's part of the product
+    const double slack = 2.0 * skin_.angle;
+    const ConeSides sides_a(a), sides_b(b);
     for (int ka = 0; ka < a.edges(); ++ka)
         for (int kb = 0; kb < b.edges(); ++kb) {
             const Vec3 ea = a.edge(ka), eb = b.edge(kb), across = ea.cross(eb);
+            // most pairs of edges have no axis: what shows it without a root comes first
+            if (sides_a.exclude(across, slack) || sides_b.exclude(across, slack)) continue;
             const double sine = across.norm();
             if (sine <= kParallel - skin_.angle) continue;
             // nearly parallel edges: their cross product may take any direction within the skin

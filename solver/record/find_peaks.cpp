@@ -6,6 +6,8 @@
 #include <functional>
 #include <numeric>
 
+#include "solver/record/long_series.hpp"
+
 namespace ice {
 
 namespace {
@@ -29,22 +31,16 @@ std::vector<double> peaks_above(std::span<const double> series, double level) {
     return peaks;
 }
 
-}  // namespace
-
-double quantile(std::vector<double> series, double share) {
-    if (series.empty()) return 0.0;
-    const auto rank = static_cast<std::size_t>(
-        std::max(0.0, std::ceil(share * static_cast<double>(series.size())) - 1.0));
-    const auto place = series.begin() + static_cast<std::ptrdiff_t>(rank);
-    std::nth_element(series.begin(), place, series.end());
-    return *place;
+double mean_of_windows(std::span<const double> series) {
+    return std::accumulate(series.begin(), series.end(), 0.0) / static_cast<double>(series.size());
 }
 
-PeakStatistics find_peaks(std::span<const double> series, double window) {
+// @param window  time per value of the series [s], whose mean is `mean`
+PeakStatistics peaks_of(std::span<const double> series, double mean, double window) {
     PeakStatistics out;
     if (series.empty()) return out;
     const auto count = static_cast<double>(series.size());
-    out.mean = std::accumulate(series.begin(), series.end(), 0.0) / count;
+    out.mean = mean;
     out.max = *std::max_element(series.begin(), series.end());
     out.p99 = quantile({series.begin(), series.end()}, 0.99);
     std::vector<double> peaks = peaks_above(series, out.mean);
@@ -58,6 +54,26 @@ PeakStatistics find_peaks(std::span<const double> series, double window) {
         rank = std::min(peaks.size(), rank < kDenseRanks ? rank + 1 : next);
     }
     return out;
+}
+
+}  // namespace
+
+double quantile(std::vector<double> series, double share) {
+    if (series.empty()) return 0.0;
+    const auto rank = static_cast<std::size_t>(
+        std::max(0.0, std::ceil(share * static_cast<double>(series.size())) - 1.0));
+    const auto place = series.begin() + static_cast<std::ptrdiff_t>(rank);
+    std::nth_element(series.begin(), place, series.end());
+    return *place;
+}
+
+PeakStatistics find_peaks(std::span<const double> series, double window) {
+    return peaks_of(series, mean_of_windows(series), window);
+}
+
+PeakStatistics find_peaks(const LongSeries& series, double window) {
+    return peaks_of(series.blocks(), series.mean(),
+                    window * static_cast<double>(series.block_length()));
 }
 
 }  // namespace ice

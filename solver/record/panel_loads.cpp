@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "solver/record/find_peaks.hpp"
 
@@ -26,7 +25,9 @@ PanelLoads::PanelLoads(HullPanels hull, std::vector<std::string> region_names, d
       steps_per_window_(std::max<std::int64_t>(kLeastSteps, std::llround(kPanelWindow / dt))),
       on_panel_(hull_.panels.size(), 0.0),
       on_region_(region_names_.size(), 0.0),
-      forces_(hull_.panels.size()) {
+      forces_(hull_.panels.size()),
+      regions_(region_names_.size(), LongSeries(LongSeries::Join::largest)),
+      lines_(region_names_.size(), LongSeries(LongSeries::Join::largest)) {
     hull_.window = static_cast<double>(steps_per_window_) * dt;
 }
 
@@ -47,20 +48,20 @@ void PanelLoads::add(const std::vector<Contact>& contacts,
 }
 
 void PanelLoads::close_window() {
-    for (double& impulse : on_region_) {
-        regions_.push_back(impulse / hull_.window);
-        impulse = 0.0;
+    for (std::size_t r = 0; r < on_region_.size(); ++r) {
+        regions_[r].add(on_region_[r] / hull_.window);
+        on_region_[r] = 0.0;
     }
-    lines_.resize(regions_.size(), 0.0);
-    double* line = lines_.data() + lines_.size() - on_region_.size();
+    std::vector<double> lines(on_region_.size(), 0.0);
     for (std::size_t k = 0; k < on_panel_.size(); ++k) {
         if (on_panel_[k] <= 0.0) continue;
         const double force = on_panel_[k] / hull_.window;
-        forces_[k].push_back(force);
-        double& most = line[hull_.panels[k].region];
+        forces_[k].add(force);
+        double& most = lines[static_cast<std::size_t>(hull_.panels[k].region)];
         most = std::max(most, force / hull_.panels[k].length);
         on_panel_[k] = 0.0;
     }
+    for (std::size_t r = 0; r < lines.size(); ++r) lines_[r].add(lines[r]);
     steps_ = 0;
     ++windows_;
 }
@@ -68,34 +69,22 @@ void PanelLoads::close_window() {
 HullPanels PanelLoads::panels() const {
     HullPanels out = hull_;
     for (std::size_t k = 0; k < forces_.size(); ++k) {
-        std::vector<double> forces = forces_[k];
+        const WindowForces& forces = forces_[k];
         if (forces.empty()) continue;
         PanelLoad& panel = out.panels[k];
-        panel.mean =
-            std::accumulate(forces.begin(), forces.end(), 0.0) / static_cast<double>(windows_);
-        panel.max = *std::max_element(forces.begin(), forces.end());
-        // Windows without a load were not stored; a quantile over time counts them as zero.
-        forces.resize(static_cast<std::size_t>(windows_), 0.0);
-        panel.p99 = quantile(std::move(forces), 0.99);
+        panel.mean = forces.sum() / static_cast<double>(windows_);
+        panel.max = forces.largest();
+        panel.p99 = forces.quantile(0.99, windows_);
     }
     return out;
-}
-
-std::vector<double> PanelLoads::on_region(const std::vector<double>& table,
-                                          std::size_t region) const {
-    std::vector<double> series;
-    for (std::size_t at = region; at < table.size(); at += region_names_.size())
-        series.push_back(table[at]);
-    return series;
 }
 
 void PanelLoads::fill(Summary& summary) const {
     if (windows_ == 0) return;
     for (std::size_t r = 0; r < region_names_.size(); ++r) {
         RegionStatistics& out = summary.regions[region_names_[r]];
-        out.force_peaks = find_peaks(on_region(regions_, r), hull_.window);
-        if (!hull_.panels.empty())
-            out.line_load_peaks = find_peaks(on_region(lines_, r), hull_.window);
+        out.force_peaks = find_peaks(regions_[r], hull_.window);
+        if (!hull_.panels.empty()) out.line_load_peaks = find_peaks(lines_[r], hull_.window);
     }
     const HullPanels all = panels();
     summary.panels.size = all.size;

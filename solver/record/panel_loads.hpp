@@ -6,6 +6,8 @@
 
 #include "common/formats/summary_file.hpp"
 #include "solver/contact/constraints.hpp"
+#include "solver/record/long_series.hpp"
+#include "solver/record/window_forces.hpp"
 
 namespace ice {
 
@@ -35,9 +37,6 @@ public:
 
 private:
     void close_window();
-    /// A region's column of a table [window x region].
-    std::vector<double> on_region(const std::vector<double>& table, std::size_t region) const;
-
     HullPanels hull_;
     std::vector<std::string> region_names_;
     double average_from_, dt_;
@@ -45,10 +44,9 @@ private:
 
     std::int64_t steps_ = 0, windows_ = 0;      ///< steps: of the window that is not whole yet
     std::vector<double> on_panel_, on_region_;  ///< impulses in it [N s]
-    // What grows with time: a quantile of all windows needs them all.
-    std::vector<std::vector<double>> forces_;  ///< by panel, of whole windows, above zero [N]
-    std::vector<double> regions_;              ///< [window x region], force [N]
-    std::vector<double> lines_;  ///< [window x region], line load of the hardest panel [N/m]
+    std::vector<WindowForces> forces_;          ///< by panel, of whole windows, above zero [N]
+    std::vector<LongSeries> regions_;           ///< by region, force of each window [N]
+    std::vector<LongSeries> lines_;             ///< by region, line load of its hardest panel [N/m]
 };
 
 }  // namespace ice

@@ -323,8 +323,8 @@ void Recorder::finish(const StepView& view, Summary& summary) {
     const Bodies& b = view.scene.bodies;
     summary.floes_total = static_cast<std::int64_t>(b.size()) - 1;
     if (view.edge != nullptr) {  // slots are no floes: pieces are
-        const auto pieces = static_cast<std::int64_t>(view.edge->pieces().size());
-        summary.floes_total = static_cast<std::int64_t>(view.edge->first_body()) - 1 + pieces;
+        summary.floes_total =
+            static_cast<std::int64_t>(view.edge->first_body()) - 1 + view.edge->broken();
         summary.floes_moved = summary.floes_behind = view.edge->retired();
     }
     for (std::size_t i = 1; i < b.size(); ++i) {

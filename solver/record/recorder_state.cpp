@@ -38,10 +38,11 @@ void Recorder::carry(CheckpointFile& file) {
 }
 
 void ShipStatistics::carry(CheckpointFile& file) {
-    file.carry("ship_tally.speed", speed_);
-    file.carry("ship_tally.thrust", thrust_);
-    file.carry("ship_tally.tow", tow_);
-    file.carry("ship_tally.mooring", mooring_);
+    speed_.carry(file, "ship_tally.speed");
+    thrust_.carry(file, "ship_tally.thrust");
+    tow_.carry(file, "ship_tally.tow");
+    mooring_.carry(file, "ship_tally.mooring");
+    file.carry("ship_tally.power", power_);
     for (std::size_t k = 0; k < kFreedoms; ++k) {
         file.carry(fmt::format("ship_tally.sum.{}", k), sum_[k]);
         file.carry(fmt::format("ship_tally.square.{}", k), square_[k]);
@@ -57,23 +58,11 @@ void PanelLoads::carry(CheckpointFile& file) {
     file.carry("panels.windows", windows_);
     file.carry_each("panels.on_panel", on_panel_);
     file.carry_each("panels.on_region", on_region_);
-    // panel after panel
-    std::vector<std::int64_t> counts;
-    std::vector<double> all;
-    for (const auto& forces : forces_) {
-        counts.push_back(static_cast<std::int64_t>(forces.size()));
-        all.insert(all.end(), forces.begin(), forces.end());
+    WindowForces::carry(file, "panels.force", forces_);
+    for (std::size_t r = 0; r < regions_.size(); ++r) {
+        regions_[r].carry(file, fmt::format("panels.region.{}", r));
+        lines_[r].carry(file, fmt::format("panels.line.{}", r));
     }
-    file.carry_each("panels.force_count", counts);
-    file.carry("panels.forces", all);
-    auto next = all.begin();
-    for (std::size_t k = 0; k < forces_.size(); ++k) {
-        const auto end = next + std::clamp<std::ptrdiff_t>(counts[k], 0, all.end() - next);
-        forces_[k].assign(next, end);
-        next = end;
-    }
-    file.carry("panels.regions", regions_);
-    file.carry("panels.lines", lines_);
 }
 
 void HullContacts::carry(CheckpointFile& file) {
@@ -94,7 +83,7 @@ void HullContacts::carry(CheckpointFile& file) {
 }
 
 void RunStatistics::carry(CheckpointFile& file) {
-    for (std::size_t d = 0; d < 3; ++d) file.carry(fmt::format("tally.total.{}", d), total_[d]);
+    for (std::size_t d = 0; d < 3; ++d) total_[d].carry(file, fmt::format("tally.total.{}", d));
     file.carry("tally.contact", contact_);
     file.carry("tally.friction", friction_);
     file.carry("tally.breaking_x", breaking_x_);

@@ -11,8 +11,8 @@ namespace ice {
 namespace {
 
 // @param contact, friction  sums of its parts over the same steps
-ForceStatistics statistics(const std::vector<double>& total, double contact, double friction,
-                           double sign, double dt) {
+ForceStatistics statistics(const LongSeries& total, double contact, double friction, double sign,
+                           double dt) {
     ForceStatistics out;
     const MeanInterval interval = mean_interval(total);
     out.mean = sign * interval.mean + 0.0;  // no -0
@@ -21,12 +21,11 @@ ForceStatistics statistics(const std::vector<double>& total, double contact, dou
     out.effective_samples = interval.effective_samples;
     out.trend = sign * interval.trend + 0.0;
     out.trend_significant = interval.trend_significant;
-    const auto steps = static_cast<double>(total.size());  // of none the means are no number
+    const auto steps = static_cast<double>(total.count());  // of none the means are no number
     out.contact_mean = sign * (contact / steps) + 0.0;
     out.friction_mean = sign * (friction / steps) + 0.0;
-    out.std = standard_deviation(total);
-    for (const double force : total)
-        if (std::abs(force) > std::abs(out.max)) out.max = sign * force;
+    out.std = total.standard_deviation();
+    if (total.largest() != 0.0) out.max = sign * total.largest();
     return out;
 }
 
@@ -114,7 +113,7 @@ void RunStatistics::add_averaged(const StepRecord& record, double dt) {
     friction_ += record.friction_force;
     breaking_x_ += record.breaking_x;
     const Vec3 force = record.contact_force + record.friction_force;
-    for (int d = 0; d < 3; ++d) total_[d].push_back(force[d]);
+    for (int d = 0; d < 3; ++d) total_[d].add(force[d]);
     const auto book = [&](Doubtful& kind) {
         kind.force += force.x();
         ++kind.steps;
@@ -149,10 +148,10 @@ void RunStatistics::add_jam(const StepRecord& record, double time) {
 void RunStatistics::fill(Summary& summary) const {
     summary.average_from = options_.average_from;
     // resistance is positive when it slows the ship
-    const double dt = averaged_time_ / static_cast<double>(total_[0].size());
+    const double dt = averaged_time_ / static_cast<double>(total_[0].count());
     summary.resistance = statistics(total_[0], contact_.x(), friction_.x(), -1.0, dt);
     if (options_.bends)
-        split_resistance(-breaking_x_ / static_cast<double>(total_[0].size()) + 0.0,
+        split_resistance(-breaking_x_ / static_cast<double>(total_[0].count()) + 0.0,
                          summary.resistance);
     summary.lateral = statistics(total_[1], contact_.y(), friction_.y(), 1.0, dt);
     summary.vertical = statistics(total_[2], contact_.z(), friction_.z(), 1.0, dt);

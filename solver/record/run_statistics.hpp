@@ -10,6 +10,7 @@
 
 #include "common/formats/summary_file.hpp"
 #include "solver/contact/solve_contacts.hpp"
+#include "solver/record/long_series.hpp"
 #include "solver/record/measure_step.hpp"
 #include "solver/record/solid_overlap.hpp"
 
@@ -85,7 +86,7 @@ private:
 
     StatisticsOptions options_;
     double averaged_time_ = 0.0;
-    std::vector<double> total_[3];  ///< per averaged step, per axis [N]: the interval needs all
+    LongSeries total_[3];                                    ///< per averaged step, per axis [N]
     Vec3 contact_ = Vec3::Zero(), friction_ = Vec3::Zero();  ///< sums of its parts [N]
     double breaking_x_ = 0.0;  ///< sum along x by floes held until they bend [N]
     std::vector<Region> regions_;

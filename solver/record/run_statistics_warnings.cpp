@@ -72,11 +72,10 @@ void warn_of_averages(Summary& summary) {
 
 // How far the mean moves when these steps are left out, as a share of it.
 std::optional<double> RunStatistics::change_without(const Doubtful& kind, double mean) const {
-    const auto all = static_cast<std::int64_t>(total_[0].size());
+    const auto all = static_cast<std::int64_t>(total_[0].count());
     if (all == 0 || mean == 0.0) return std::nullopt;
     if (kind.steps == all) return 1.0;
-    const double sum = std::accumulate(total_[0].begin(), total_[0].end(), 0.0);
-    const double without = -(sum - kind.force) / static_cast<double>(all - kind.steps);
+    const double without = -(total_[0].sum() - kind.force) / static_cast<double>(all - kind.steps);
     return std::abs((mean - without) / mean);
 }
 
@@ -90,7 +89,8 @@ void RunStatistics::warn(Summary& summary) const {
             summary.residual_share));
     if (jammed_steps_ > 0 && matters(change_without(jam_, mean)))
         warnings.push_back(warn_of_jam(summary));
-    if (const double peaks = share_of_peaks(total_[0]); peaks > kWorryingPeaks)
+    const auto blocks = total_[0].blocks();  // the steps themselves, unless they are very many
+    if (const double peaks = share_of_peaks({blocks.begin(), blocks.end()}); peaks > kWorryingPeaks)
         warnings.push_back(judged(
             fmt::format(
                 "hits in 1 % of the steps carry {:.0f} % of the force along x, and "

@@ -21,19 +21,18 @@ constexpr double kStuckTime = 10.0;  // [s]
 constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
 constexpr std::size_t kMostOrdinates = 400;
 
-double mean_of_history(const std::vector<double>& series) {
-    return std::accumulate(series.begin(), series.end(), 0.0) / static_cast<double>(series.size());
-}
-
 // Period of the largest ordinate of the periodogram [s]; 0 where nothing changes.
-double dominant_period(std::vector<double> series, double dt) {
-    const double mean = mean_of_history(series);
+double dominant_period(const LongSeries& whole, double dt) {
+    std::vector<double> series(whole.blocks().begin(), whole.blocks().end());
+    const double mean =
+        std::accumulate(series.begin(), series.end(), 0.0) / static_cast<double>(series.size());
     for (double& value : series) value -= mean;
     const std::size_t count = std::min((series.size() - 1) / 2, kMostOrdinates);
     if (count == 0 || standard_deviation(series) == 0.0) return 0.0;
     const std::vector<double> power = low_periodogram(series, count);
     const auto most = std::max_element(power.begin(), power.end()) - power.begin() + 1;
-    return static_cast<double>(series.size()) * dt / static_cast<double>(most);
+    return static_cast<double>(series.size() * whole.block_length()) * dt /
+           static_cast<double>(most);
 }
 
 }  // namespace
@@ -45,10 +44,12 @@ void ShipStatistics::add(const FreeShip& ship, const Scene& scene, const Case& p
     if (std::abs(speed) >= kSlow) slow_since_ = time;
     stuck_ = stuck_ || time - slow_since_ >= kStuckTime;
     if (time < p.average_from - 1e-9) return;
-    speed_.push_back(speed);
-    thrust_.push_back(ship.loads().thrust);
-    tow_.push_back(ship.loads().tow.force.x());
-    mooring_.push_back(ship.loads().mooring.force.x());
+    speed_.add(speed);
+    thrust_.add(ship.loads().thrust);
+    tow_.add(ship.loads().tow.force.x());
+    mooring_.add(ship.loads().mooring.force.x());
+    // the water's own speed is along the course
+    power_ += delivered_power(p.propulsion, ship.loads().thrust, speed - p.current[0]);
     const ShipRig& rig = ship.rig();
     const Vec3 centre = b.position[kShip] + b.rotation[kShip] * rig.body.centre_of_gravity;
     const Vec3 off = centre - rig.anchor;
@@ -65,9 +66,9 @@ FreeTravel ShipStatistics::travel(const FreeShip& ship, const Scene& scene, cons
     const Bodies& b = scene.bodies;
     const ShipRig& rig = ship.rig();
     const Vec3 centre = b.position[kShip] + b.rotation[kShip] * rig.body.centre_of_gravity;
-    const double mean = speed_.empty() ? b.velocity[kShip].x() : mean_of_history(speed_);
+    const double mean = speed_.empty() ? b.velocity[kShip].x() : speed_.mean();
     return {rig.equilibrium.height, mean, centre.x() - rig.anchor.x(),
-            mean * p.time_step * static_cast<double>(speed_.size())};
+            mean * p.time_step * static_cast<double>(speed_.count())};
 }
 
 void ShipStatistics::fill(const FreeShip& ship, const Scene& scene, const Case& p,
@@ -101,27 +102,23 @@ void ShipStatistics::fill_means(const ShipRig& rig, const Case& p,
                                 std::map<std::string, double>& out) const {
     const MeanInterval speed = mean_interval(speed_);
     out["speed_ci95"] = speed.half_width;
-    out["speed_std"] = standard_deviation(speed_);
+    out["speed_std"] = speed_.standard_deviation();
     const double period = dominant_period(speed_, p.time_step);
     out["surge_period_s"] = period;
     // of a sinusoid with that period and the speed's deviation
     out["surge_amplitude_m"] =
         std::numbers::sqrt2 * out["speed_std"] * period / (2.0 * std::numbers::pi);
-    out["thrust_mean_N"] = mean_of_history(thrust_);
+    out["thrust_mean_N"] = thrust_.mean();
     if (p.tow.stiffness > 0.0) {
-        out["tow_fx_mean_N"] = mean_of_history(tow_);
-        out["tow_fx_std_N"] = standard_deviation(tow_);
+        out["tow_fx_mean_N"] = tow_.mean();
+        out["tow_fx_std_N"] = tow_.standard_deviation();
     }
     if (rig.body.free[surge] && p.mooring.stiffness[surge] > 0.0) {
-        out["mooring_fx_mean_N"] = mean_of_history(mooring_);
-        out["mooring_fx_std_N"] = standard_deviation(mooring_);
+        out["mooring_fx_mean_N"] = mooring_.mean();
+        out["mooring_fx_std_N"] = mooring_.standard_deviation();
     }
-    double power = 0.0;  // the water's own speed is along the course
-    for (std::size_t k = 0; k < speed_.size(); ++k)
-        power += delivered_power(p.propulsion, thrust_[k], speed_[k] - p.current[0]);
-    if (std::isfinite(power))
-        out["delivered_power_mean_W"] = power / static_cast<double>(speed_.size());
-    const auto steps = static_cast<double>(speed_.size());
+    const auto steps = static_cast<double>(speed_.count());
+    if (std::isfinite(power_)) out["delivered_power_mean_W"] = power_ / steps;
     constexpr const char* kNames[] = {"surge", "sway", "heave", "roll", "pitch", "yaw"};
     const bool moored = p.mooring.stiffness[surge] > 0.0;
     for (std::size_t k = 0; k < kFreedoms; ++k) {

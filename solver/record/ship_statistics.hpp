@@ -3,9 +3,9 @@
 
 #include <map>
 #include <string>
-#include <vector>
 
 #include "common/formats/summary_file.hpp"
+#include "solver/record/long_series.hpp"
 #include "solver/record/particulars.hpp"
 #include "solver/ship/free_ship.hpp"
 
@@ -33,7 +33,8 @@ private:
     void fill_means(const ShipRig& rig, const Case& parameters,
                     std::map<std::string, double>& out) const;
 
-    std::vector<double> speed_, thrust_, tow_, mooring_;  ///< per averaged step [m/s], [N]
+    LongSeries speed_, thrust_, tow_, mooring_;  ///< per averaged step [m/s], [N]
+    double power_ = 0.0;                         ///< sum of the power delivered in them [W]
     /// Sums over the averaged steps of the offsets from equilibrium and course in the six motions
     /// [m], [rad], and of their squares. Surge has none.
     SixNumbers sum_{}, square_{};

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "common/base/uncertainty.hpp"
+#include "solver/record/long_series.hpp"
 #include "solver/record/periodogram.hpp"
 
 namespace ice {
@@ -92,6 +93,42 @@ std::optional<bool> is_significant(double rise, const std::vector<double>& detre
                                 std::sqrt(12.0 * (band->mean + band->line_trend) / n);
 }
 
+// A series of `count` samples with this mean and deviation, given as means of blocks.
+struct BlockedSeries {
+    std::span<const double> blocks;
+    double mean, deviation;
+    std::size_t count;
+};
+
+MeanInterval interval_of(const BlockedSeries& series) {
+    const double unknown = std::nan("");
+    MeanInterval out{series.mean, unknown, unknown, unknown, unknown, std::nullopt};
+    if (series.count < kFewest) return out;
+    // Long series are averaged to blocks: low frequencies lose nothing, and the cost is bounded.
+    const std::size_t length = (series.blocks.size() + kMost - 1) / kMost;
+    std::vector<double> x = blocks_of(series.blocks, length);
+    subtract_mean(x);
+    const auto n = static_cast<double>(x.size());
+    // A constant force, as without ice, has no scatter and no period.
+    if (sum_of_squares(x) == 0.0) {
+        out.half_width = out.trend = 0.0;
+        return out;
+    }
+    // Equation (21): the low ordinates of the periodogram estimate S, the variance of the mean is S
+    // / n.
+    const std::optional<Band> band = low_band(x);
+    if (band) {
+        out.half_width = student_quantile(2.0 * static_cast<double>(band->stay), 0.05) *
+                         std::sqrt(band->mean / n);
+        // S of single samples is that of blocks times their length
+        out.effective_samples = n * series.deviation * series.deviation / band->mean;
+        out.correlation_time = static_cast<double>(series.count) / out.effective_samples;
+    }
+    out.trend = subtract_line(x);
+    out.trend_significant = is_significant(out.trend, x);
+    return out;
+}
+
 }  // namespace
 
 double standard_deviation(std::span<const double> series) {
@@ -113,33 +150,12 @@ MeanInterval student_interval(std::span<const double> values) {
 }
 
 MeanInterval mean_interval(std::span<const double> series) {
-    const double unknown = std::nan("");
-    MeanInterval out{mean_of(series), unknown, unknown, unknown, unknown, std::nullopt};
-    if (series.size() < kFewest) return out;
-    // Long series are averaged to blocks: low frequencies lose nothing, and the cost is bounded.
-    const std::size_t length = (series.size() + kMost - 1) / kMost;
-    std::vector<double> x = blocks_of(series, length);
-    subtract_mean(x);
-    const auto n = static_cast<double>(x.size());
-    // A constant force, as without ice, has no scatter and no period.
-    if (sum_of_squares(x) == 0.0) {
-        out.half_width = out.trend = 0.0;
-        return out;
-    }
-    // Equation (21): the low ordinates of the periodogram estimate S, the variance of the mean is S
-    // / n.
-    const std::optional<Band> band = low_band(x);
-    if (band) {
-        out.half_width = student_quantile(2.0 * static_cast<double>(band->stay), 0.05) *
-                         std::sqrt(band->mean / n);
-        // S of single samples is that of blocks times their length
-        const double spread = standard_deviation(series);
-        out.effective_samples = n * spread * spread / band->mean;
-        out.correlation_time = static_cast<double>(series.size()) / out.effective_samples;
-    }
-    out.trend = subtract_line(x);
-    out.trend_significant = is_significant(out.trend, x);
-    return out;
+    return interval_of({series, mean_of(series), standard_deviation(series), series.size()});
+}
+
+MeanInterval mean_interval(const LongSeries& series) {
+    return interval_of(
+        {series.blocks(), series.mean(), series.standard_deviation(), series.count()});
 }
 
 }  // namespace ice

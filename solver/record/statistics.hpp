@@ -8,6 +8,8 @@
 
 namespace ice {
 
+class LongSeries;
+
 /// Chance that a series without a trend is said to have one.
 inline constexpr double kTrendChance = 0.01;
 
@@ -56,6 +58,8 @@ struct MeanInterval {
 /// A constant series has half width 0. Fewer than 40 samples, or fewer than 2 W: half width,
 /// correlation time and samples are NaN, with none the mean too: unknown, not zero.
 MeanInterval mean_interval(std::span<const double> series);
+/// The same: mean, count and deviation of all single values, the spectrum of the series' blocks.
+MeanInterval mean_interval(const LongSeries& series);
 
 /// Mean of independent values with Student's 95 % interval; for fewer than two NaN.
 MeanInterval student_interval(std::span<const double> values);

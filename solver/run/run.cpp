@@ -254,6 +254,7 @@ Summary run(World& world, const RunOptions& options) {
         go_on(job, *options.saved);
     else
         start(job);
+    if (world.edge.lives()) world.edge.keep_gone_in(options.folder);
     summary.warnings.insert(summary.warnings.end(), job.progress.warnings.begin(),
                             job.progress.warnings.end());
     summary.warnings.insert(summary.warnings.end(), options.course_warnings.begin(),

@@ -2,11 +2,13 @@
 // Feature types against the rule for two spheres.
 #include "solver/narrow/feature_pair.hpp"
 
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
 
 #include "solver/broad/find_pairs.hpp"
+#include "solver/narrow/cone_sides.hpp"
 #include "solver/narrow/feature_pair_bound.hpp"
 #include "solver/narrow/find_contacts.hpp"
 #include "tests/support/make_worlds.hpp"
@@ -88,6 +90,30 @@ TEST_CASE("two spheres have the gap of their feature types, bit for bit", "[narr
         }
     }
     CHECK(valid > 200);
+}
+
+TEST_CASE("what the sides of a cone exclude is in the cone with neither sign",
+          "[narrow][equivalence]") {
+    Dice dice(31);
+    int excluded = 0, outside = 0;
+    for (int k = 0; k < 200000; ++k) {
+        // blunt, sharp and slender ones, turned either way round
+        const std::size_t count = k % 2 == 0 ? 2 : 3;
+        const double spread = 0.1 + 0.9 * std::abs(dice());
+        const Vec3 middle = dice.vector().normalized();
+        std::array<Vec3, 3> normals;
+        for (Vec3& n : normals) n = (middle + spread * dice.vector()).normalized();
+        const NormalCone cone = NormalCone::meeting({normals.data(), count});
+        const Vec3 n = dice.vector().normalized();
+        const double length = std::abs(dice()), slack = k % 3 == 0 ? 0.0 : 0.03 * std::abs(dice());
+        const auto signs = cone.contains_either_sign(n, 0.022, slack);
+        const bool excludes = ConeSides(cone).exclude(length * n, length * slack);
+        outside += signs.forth || signs.back ? 0 : 1;
+        excluded += excludes ? 1 : 0;
+        CAPTURE(k, spread, length, slack);
+        if (excludes) REQUIRE_FALSE((signs.forth || signs.back));
+    }
+    CHECK(2 * excluded > outside);  // and it finds most
 }
 
 TEST_CASE("no gap comes below the bound of two feature types within the skin",

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Level ice whose edge breaks where and when it is loaded: a small icebreaker goes into a sheet.
+#include <malloc.h>
+
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
@@ -309,4 +311,31 @@ TEST_CASE("a long way through level ice takes no more memory than what is within
     CHECK(static_cast<double>(corners) < 1.5 * static_cast<double>(corners_then));
     CHECK(static_cast<double>(recesses) < 2.0 * static_cast<double>(recesses_then));
     CHECK(static_cast<double>(alive) < 1.5 * static_cast<double>(alive_then));
+}
+
+TEST_CASE("a recorded way through level ice leaves on the heap what is known of its pieces, alone",
+          "[level_ice][edge][record][memory]") {
+    const TempFolder folder;
+    Case p = sheet_case(1.5, 60.0);
+    p.level_ice.extent[1] = 400.0;
+    p.average_from = 5.0;
+    World w = make_world(p);
+    const auto heap = [] {
+        const auto info = mallinfo2();  // of all threads; large blocks lie beside the arenas
+        return static_cast<double>(info.uordblks + info.hblkhd);
+    };
+    std::vector<double> bytes, pieces;  // every 10 s, the frames' buffers as full each time
+    RunOptions options{folder / "run", "first"};
+    options.keep_going = [&](double, const World& now) {
+        if (now.steps % 500 != 0) return true;
+        bytes.push_back(heap());
+        pieces.push_back(static_cast<double>(now.edge.broken()));
+        return true;
+    };
+    run(w, options);
+    REQUIRE(w.edge.retired() > 0);
+    for (std::size_t k = 0; k < bytes.size(); ++k)
+        UNSCOPED_INFO(10.0 * static_cast<double>(k + 1)
+                      << " s: " << bytes[k] << " bytes, " << pieces[k] << " pieces");
+    CHECK(bytes[5] - bytes[2] < 1.0);
 }

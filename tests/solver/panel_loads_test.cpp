@@ -2,11 +2,16 @@
 // Peaks, panels and what a known force is on them.
 #include "solver/record/panel_loads.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <numeric>
+#include <random>
 
 #include "solver/record/divide_hull.hpp"
 #include "solver/record/find_peaks.hpp"
+#include "solver/record/long_series.hpp"
+#include "solver/record/window_forces.hpp"
 #include "solver/run/make_world.hpp"
 #include "solver/run/run.hpp"
 #include "tests/common/fixtures.hpp"
@@ -90,6 +95,53 @@ TEST_CASE("exceedance of 1000 peaks of heights 1 to 1000 is a straight line with
     for (const Exceedance& e : peaks.exceeded)  // 1000 s
         CHECK(e.per_hour == Approx((2001.0 - e.level) * 3.6));
     CHECK(peaks.p99 == 1980.0);  // 20 of 2000 values are larger
+}
+
+TEST_CASE("a quantile of many windows is within 0.2 % of the exact one", "[record][property]") {
+    std::mt19937 random(8);
+    std::lognormal_distribution<double> draw(10.0, 1.5);
+    WindowForces forces;
+    std::vector<double> all;
+    double sum = 0.0;
+    for (std::size_t k = 1; k <= 5 * WindowForces::kExact; ++k) {
+        const double force = draw(random);
+        forces.add(force);
+        all.push_back(force);
+        sum += force;
+        if (k % 1000 != 0) continue;
+        const std::size_t windows = k + k / 3;  // a quarter without a load
+        std::vector<double> with_zeros = all;
+        with_zeros.resize(windows, 0.0);
+        for (const double share : {0.1, 0.3, 0.9, 0.99, 1.0}) {
+            const double exact = quantile(with_zeros, share);
+            const double got = forces.quantile(share, static_cast<std::int64_t>(windows));
+            CAPTURE(k, share);
+            if (k < WindowForces::kExact) REQUIRE(got == exact);
+            REQUIRE(std::abs(got - exact) <= 0.002 * exact);
+        }
+    }
+    CHECK(forces.sum() == sum);
+    CHECK(forces.largest() == *std::max_element(all.begin(), all.end()));
+}
+
+TEST_CASE("peaks of a long series are those of its windows, where they are blocks apart",
+          "[record][analytic]") {
+    LongSeries series(LongSeries::Join::largest);
+    std::vector<double> all;
+    for (std::size_t k = 0; k < 3 * LongSeries::kMost; ++k) {
+        all.push_back(k % 40 == 39 ? 10.0 + static_cast<double>(k % 7) : 0.5);
+        series.add(all.back());
+    }
+    REQUIRE(series.block_length() == 4);
+    const PeakStatistics exact = find_peaks(all, 0.1), got = find_peaks(series, 0.1);
+    CHECK(got.mean == exact.mean);
+    CHECK(got.max == exact.max);
+    CHECK(got.count == exact.count);
+    REQUIRE(got.exceeded.size() == exact.exceeded.size());
+    for (std::size_t k = 0; k < got.exceeded.size(); ++k) {
+        CHECK(got.exceeded[k].level == exact.exceeded[k].level);
+        CHECK(got.exceeded[k].per_hour == Approx(exact.exceeded[k].per_hour));
+    }
 }
 
 TEST_CASE("panels share all of the hull, and whole ones have the size that was asked for",

@@ -5,12 +5,15 @@
 // series holds a few times cannot be told from noise as slow, so there all 200 may be covered.
 #include "solver/record/statistics.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <numeric>
 #include <random>
 
+#include "solver/record/long_series.hpp"
 #include "solver/record/periodogram.hpp"
 
 using namespace ice;
@@ -247,6 +250,42 @@ TEST_CASE("a long series has the interval of its block means", "[record][propert
     CHECK(all.trend == Approx(of_blocks.trend).epsilon(1e-6));
     // and it is not far from theory: S = 1 / (1 - rho)^2
     CHECK(all.half_width == Approx(1.96 * 10.0 / std::sqrt(5.0 * 8192)).epsilon(0.3));
+}
+
+TEST_CASE("a long series keeps few blocks, and the mean and deviation of all its values",
+          "[record][property]") {
+    Random random(5);
+    const Series x = autoregression(random, 300000, 0.9);
+    LongSeries all, most(LongSeries::Join::largest);
+    for (std::size_t k = 0; k < x.size(); ++k) {
+        all.add(x[k]);
+        most.add(x[k]);
+        if (k + 1 != LongSeries::kMost - 1) continue;
+        // as long as it keeps single values it is the series
+        const std::span<const double> so_far(x.data(), k + 1);
+        const MeanInterval a = mean_interval(all), b = mean_interval(so_far);
+        CHECK(a.mean == b.mean);
+        CHECK(a.half_width == b.half_width);
+        CHECK(a.correlation_time == b.correlation_time);
+        CHECK(all.standard_deviation() == standard_deviation(so_far));
+        CHECK(all.block_length() == 1);
+    }
+    const MeanInterval blocked = mean_interval(all), exact = mean_interval(x);
+    CHECK(blocked.mean == exact.mean);  // the same sum
+    CHECK(all.standard_deviation() == Approx(standard_deviation(x)).epsilon(1e-12));
+    CHECK(blocked.half_width == Approx(exact.half_width).epsilon(0.05));
+    CHECK(all.count() == x.size());
+    CHECK(all.block_length() == 8);
+    CHECK(all.blocks().size() == x.size() / 8);
+    CHECK(most.blocks().size() == x.size() / 8);
+    for (const std::size_t block : {std::size_t{0}, std::size_t{777}, x.size() / 8 - 1}) {
+        const auto first = x.begin() + static_cast<std::ptrdiff_t>(8 * block);
+        CHECK(all.blocks()[block] == Approx(std::accumulate(first, first + 8, 0.0) / 8.0));
+        CHECK(most.blocks()[block] == *std::max_element(first, first + 8));
+    }
+    CHECK(all.largest() == *std::max_element(x.begin(), x.end(), [](double l, double r) {
+              return std::abs(l) < std::abs(r);
+          }));
 }
 
 TEST_CASE("a trend is found in a series that has one, and seldom in one that has none",

@@ -94,8 +94,9 @@ inline std::string edge_fault(const LiveEdge& edge, double whole, std::size_t se
         if (loop.size() < 3) return "a loop of the sheet has less than three corners";
     if (crossings && !is_simple(edge.sheet().loops())) return "the sheet's edges cross";
     const double least = 0.5 * edge.thickness();
-    for (; seen < edge.pieces().size(); ++seen) {
-        const Loop& outline = edge.pieces()[seen].outline;
+    const std::vector<IcePiece> pieces = edge.pieces();
+    for (; seen < pieces.size(); ++seen) {
+        const Loop& outline = pieces[seen].outline;
         if (!(area_of(outline) >= least * least)) return "a piece is too small";
         if (!is_simple({outline})) return "a piece's edges cross";
         if (common_part(outline, outline).size() != 1) return "a piece is not one";

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/live_edge/gone_pieces.hpp"
+
+#include <cerrno>
+#include <cstring>
+
+#include "common/base/error.hpp"
+
+namespace ice {
+
+namespace {
+
+constexpr const char* kName = "pieces-gone.tmp";
+
+// Of a piece in the file, before its outline. All are doubles: whole numbers up to 2^53 fit.
+constexpr std::size_t kNumbers = 9;
+
+}  // namespace
+
+void GonePieces::fail(const char* what) const {
+    throw run_failed(folder_, std::string(what) + ": " + std::strerror(errno),
+                     "make room there, or choose another folder");
+}
+
+void GonePieces::open(const std::filesystem::path& folder) {
+    folder_ = folder.string();
+    const std::filesystem::path path = folder / kName;
+    file_.reset(std::fopen(path.c_str(), "w+b"));
+    if (!file_) fail("a file of the pieces that are gone cannot be created there");
+    std::error_code ignored;  // then the file stays, which harms nothing
+    std::filesystem::remove(path, ignored);
+    count_ = 0;
+}
+
+void GonePieces::add(const IcePiece& piece) {
+    std::vector<double> row{static_cast<double>(piece.number),
+                            static_cast<double>(piece.body),
+                            piece.born,
+                            piece.gone,
+                            piece.load,
+                            piece.radius,
+                            piece.at.x(),
+                            piece.at.y(),
+                            static_cast<double>(piece.outline.size())};
+    for (const Vec2& p : piece.outline) row.insert(row.end(), {p.x(), p.y()});
+    if (std::fwrite(row.data(), sizeof(double), row.size(), file_.get()) != row.size() ||
+        std::fflush(file_.get()) != 0)
+        fail("the pieces that are gone cannot be written there");
+    ++count_;
+}
+
+void GonePieces::read(std::vector<IcePiece>& out) const {
+    if (count_ == 0) return;
+    std::FILE* const file = file_.get();
+    const auto take = [&](std::vector<double>& values) {
+        if (std::fread(values.data(), sizeof(double), values.size(), file) != values.size())
+            fail("the pieces that are gone cannot be read there");
+    };
+    std::rewind(file);
+    std::vector<double> row(kNumbers), corners;
+    for (std::int64_t k = 0; k < count_; ++k) {
+        take(row);
+        corners.resize(2 * static_cast<std::size_t>(row[8]));
+        take(corners);
+        IcePiece piece{static_cast<std::int64_t>(row[0]),
+                       static_cast<std::int32_t>(row[1]),
+                       row[2],
+                       row[3],
+                       row[4],
+                       row[5],
+                       Vec2(row[6], row[7]),
+                       {}};
+        for (std::size_t c = 0; c < corners.size(); c += 2)
+            piece.outline.emplace_back(corners[c], corners[c + 1]);
+        out.push_back(std::move(piece));
+    }
+    std::fseek(file, 0, SEEK_END);
+}
+
+}  // namespace ice
