@@ -17,6 +17,19 @@ constexpr std::size_t kNumbers = 9;
 
 }  // namespace
 
+GonePieces::GonePieces(const GonePieces& other) {
+    if (!other.is_open()) return;
+    open(other.folder_);
+    std::vector<IcePiece> pieces;
+    other.read(pieces);
+    for (const IcePiece& piece : pieces) add(piece);
+}
+
+GonePieces& GonePieces::operator=(const GonePieces& other) {
+    if (this != &other) *this = GonePieces(other);
+    return *this;
+}
+
 void GonePieces::fail(const char* what) const {
     throw run_failed(folder_, std::string(what) + ": " + std::strerror(errno),
                      "make room there, or choose another folder");

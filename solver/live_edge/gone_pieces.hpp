@@ -29,6 +29,14 @@ struct IcePiece {
 /// They are in a file without a name, which is gone with the program.
 class GonePieces {
 public:
+    GonePieces() = default;
+    /// A copy has a file of its own. @throws Error (exit code 1) as open(), read() and add()
+    GonePieces(const GonePieces& other);
+    GonePieces& operator=(const GonePieces& other);
+    GonePieces(GonePieces&&) = default;
+    GonePieces& operator=(GonePieces&&) = default;
+    ~GonePieces() = default;
+
     bool is_open() const { return file_ != nullptr; }
     /// @throws Error (exit code 1) naming the folder where no file can be created in it
     void open(const std::filesystem::path& folder);
