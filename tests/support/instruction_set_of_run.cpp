@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // ICE_TEST_SIMD=scalar runs all tests of a program on that instruction set: each test case begins
 // with it. A test that changes it goes back to the best of the machine, for its own rest only.
+#define CATCH_CONFIG_EXTERNAL_INTERFACES  // listeners
 #include <catch2/catch.hpp>
 #include <cstdlib>
 #include <string_view>
