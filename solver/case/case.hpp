@@ -35,13 +35,13 @@ struct FloeGroup {
                                  ///< loose floes
     Pattern pattern = Pattern::grid;
     std::array<int, 2> count{1, 1};  ///< along x, y
-    std::array<double, 2> origin{0,
-                                 0};  ///< x of the first row's leading edge, y of the centre line
+    /// x of the first row's leading edge, y of the centre line [m].
+    std::array<double, 2> origin{0, 0};
     std::array<double, 2> gap{0, 0};  ///< between neighbours along x, y [m]
     Hold hold = Hold::until_hull_contact;
-    Vec3 position = Vec3::Zero();  ///< pattern "single"; z is NaN for floating equilibrium
+    Vec3 position = Vec3::Zero();  ///< [m], pattern "single"; z is NaN for floating equilibrium
     Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
-    Vec3 velocity = Vec3::Zero(), angular_velocity = Vec3::Zero();
+    Vec3 velocity = Vec3::Zero(), angular_velocity = Vec3::Zero();  ///< at the start [m/s], [rad/s]
 };
 
 /// [bending]: when ice held until it bends is let go (solver/bending).
@@ -69,11 +69,11 @@ struct LevelIce {
 
 struct Case {
     std::string title;
-    int dimension = 3;
-    double duration = 0.0, time_step = 0.01;
+    int dimension = 3;  ///< 2: the plane y = 0, all quantities per metre of breadth
+    double duration = 0.0, time_step = 0.01;  ///< [s]
     int seed = 0;         ///< of the jitter: another seed, another run of an ensemble
     double jitter = 0.0;  ///< largest offset of a floe's place along x and y [m]
-    double gravity = 9.81, water_density = 1000.0;
+    double gravity = 9.81, water_density = 1000.0;  ///< [m/s2], [kg/m3]
 
     std::filesystem::path hull_spheres;
     Vec3 hull_position = Vec3::Zero();  ///< of the mesh's origin; z is ignored with a draught
@@ -87,7 +87,7 @@ struct Case {
     Tow tow;
     Mooring mooring;
 
-    double ice_density = 900.0;
+    double ice_density = 900.0;                      ///< [kg/m3]
     std::array<double, 2> drift_velocity{0.0, 0.0};  ///< of the floes at the start [m/s]
     /// In the case's order; behind them one group of unbroken ice for each pattern "file".
     std::vector<FloeGroup> floes;
@@ -100,7 +100,7 @@ struct Case {
 
     BuoyancyModel buoyancy = BuoyancyModel::distributed;
     DragModel drag = DragModel::panel;
-    double drag_coefficient = 1.0;
+    double drag_coefficient = 1.0;  ///< of the pressure rho/2 u^2 on an area across the flow [-]
 
     FlowModel flow = FlowModel::none;
     std::filesystem::path flow_file;          ///< with FlowModel::file
@@ -108,9 +108,9 @@ struct Case {
     bool flow_pressure = false;               ///< the flow's dynamic pressure acts on floes
     bool floes_move_water = false;            ///< floes have added mass
 
-    double frames_every = 0.1, history_every = 0.0;
-    std::vector<int> track;
-    double average_from = 0.0;
+    double frames_every = 0.1, history_every = 0.0;  ///< [s]; history 0: every step
+    std::vector<int> track;                          ///< numbers of floes with files of their own
+    double average_from = 0.0;                       ///< start of the averages [s]
 
     std::filesystem::path file;  ///< the case file
     std::string resolved;        ///< every key with its value, as TOML

@@ -11,7 +11,7 @@ namespace ice {
 namespace {
 
 // Normals of one region this near (cosine; 2.6 degrees) are one face's: curved hulls have many.
-constexpr double kSameFace = 0.999;
+constexpr double kSameRegionNormal = 0.999;
 
 // A face whose normal is nearer by less than this (cosine) lies in the same plane.
 constexpr double kSameRegionPlane = 1e-6;
@@ -45,7 +45,7 @@ void for_each_near(const SphereSet& set, const SphereGrid& grid, double largest,
 // Adds a face, or makes it nearer where it is known.
 void note(const NearFace& face, std::vector<NearFace>& faces) {
     for (NearFace& known : faces) {
-        if (known.region != face.region || known.normal.dot(face.normal) < kSameFace) continue;
+        if (known.region != face.region || known.normal.dot(face.normal) < kSameRegionNormal) continue;
         if (face.distance_sq < known.distance_sq) known = face;
         return;
     }
