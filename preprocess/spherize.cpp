@@ -176,6 +176,7 @@ int report_check(const Options& o, ice::SpheresReport& report) {
         ice::write_data(fmt::format("{}: closed solid, {} triangles, {:.9g} m3\n", o.mesh,
                                     mesh.triangles.size(), mass.volume));
     } catch (const ice::Error& refusal) {
+        // the JSON of a refused mesh has the reason, for programs that read no messages
         report.warnings.emplace_back(refusal.what());
         write_json();
         throw;

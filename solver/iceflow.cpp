@@ -194,6 +194,7 @@ int run_iceflow(const Options& o, const std::string& command_line) {
     ice::set_instruction_set(o.simd);
     const std::filesystem::path out = output_of(o);
     ice::OutputFiles files;
+    // no output may replace the hull or another output, which is checked before the long work
     files.protect(o.hull, "the hull");
     if (!o.check) files.add("--output", out);
     if (!o.exports.empty()) files.add("--export", export_of(out));

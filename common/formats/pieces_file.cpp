@@ -102,6 +102,7 @@ private:
             row.mass = mass[k];
             row.at = at[k];
             row.mesh.vertices.assign(vertices.begin() + first[k], vertices.begin() + first[k + 1]);
+            // triangles number the vertices of their own piece
             const auto count = static_cast<std::int32_t>(row.mesh.vertices.size());
             for (auto t = static_cast<std::size_t>(side[k]);
                  t < static_cast<std::size_t>(side[k + 1]); ++t) {

@@ -64,6 +64,7 @@ public:
                 std::adjacent_find(out.table.begin(), out.table.end(), falls) != out.table.end())
                 complain("table needs rows with rising speeds");
         } else if (find("constant")) {
+            // a constant thrust is a bollard pull without an open-water speed
             out.bollard_pull = number("constant");
         } else {
             if (!find("open_water_speed")) complain("open_water_speed is missing");

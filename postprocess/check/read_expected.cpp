@@ -107,6 +107,7 @@ private:
         e.max = number(entry, "max");
         e.abs = tolerance(entry, "abs");
         e.rel = tolerance(entry, "rel");
+        // a value needs a tolerance, a bound has none of its own: anything else is ambiguous
         const bool bounded = e.min || e.max,
                    tolerant = entry.contains("abs") || entry.contains("rel");
         if (e.value.has_value() == bounded || e.value.has_value() != tolerant)

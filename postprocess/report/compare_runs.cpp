@@ -73,6 +73,7 @@ std::string one_table(const std::vector<NamedSummary>& runs, int dimension) {
     std::string out;
     for (const auto& row : rows) {
         for (std::size_t k = 0; k < row.size(); ++k) {
+            // texts begin in one column, numbers end in one
             const bool text = k == 0 || k + 2 >= row.size();
             if (k > 0) out += "  ";
             if (k + 1 == row.size())

@@ -33,6 +33,8 @@ void warn_of(const char* what, const SurfaceDistance& d, double radius, SpheresR
 void judge_distances(const std::string& name, double radius, bool refuse, SpheresReport& report) {
     const SourceCheck& s = report.source;
     const IceBelt& belt = report.belt;
+    // Loads come from the ice belt: there a repair that moves the surface by more than a sphere's
+    // radius is refused, elsewhere it is a warning.
     for (const SurfaceDistance* d : {&belt.to_solid, &belt.to_source})
         if (belt && refuse && d->p99 > radius)
             throw bad_input(

@@ -48,6 +48,7 @@ std::string draw_axes(const Page& page, double step) {
             y1, x2, y2);
     };
     const auto ticks = [&](double low, double high, const auto& draw) {
+        // ticks are whole multiples of the step; + 0.0 turns -0 into 0
         for (double k = std::ceil(low / step - 1e-6); k <= high / step + 1e-6; k += 1.0)
             out += draw(k * step + 0.0, fmt::format("{:g}", k * step + 0.0));
     };

@@ -32,6 +32,7 @@ std::vector<std::string> cap_warnings(const ClosedSurface& closed) {
         else if (cap.kind != CapKind::hidden && cap.area > kWorthWarning * closed.surface)
             large.push_back(cap);
     }
+    // the largest openings by name, as they change the volume most; the others by number
     std::stable_sort(large.begin(), large.end(),
                      [](const CapVerdict& l, const CapVerdict& r) { return l.area > r.area; });
     for (std::size_t k = 0; k < std::min(large.size(), kMostNamed); ++k)

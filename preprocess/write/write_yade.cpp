@@ -57,6 +57,7 @@ if __name__ == "__main__":
 }  // namespace
 
 void write_yade_spheres(const SphereSet& set, const RigidBody& body, const Sink& sink) {
+    // YADE integrates a clump in its principal axes about its centre of mass
     const Mat3 to_principal = body.axes.toRotationMatrix().transpose();
     sink("#format x_y_z_r_clumpId\n");
     write_rows(sink, set.size(), [&](fmt::memory_buffer& out, std::size_t k) {

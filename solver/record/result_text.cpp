@@ -96,6 +96,7 @@ std::string energy_line(const Summary& s) {
           std::pair("residual_J", "unexplained")}) {
         const auto of_key = s.energy.find(key);
         if (of_key == s.energy.end()) continue;
+        // the largest shares first; small ones would hide them
         if (const double share = of_key->second / work; std::abs(share) >= kShown)
             shares.emplace_back(share, name);
     }

@@ -87,6 +87,7 @@ void RunStatistics::warn(Summary& summary) const {
             fmt::format("{} of {} steps did not reach contact.tolerance: raise contact.iterations",
                         unconverged_, steps_),
             summary.residual_share));
+    // a jam or an overlap is worth a warning only where the mean depends on it
     if (jammed_steps_ > 0 && matters(change_without(jam_, mean)))
         warnings.push_back(warn_of_jam(summary));
     const auto blocks = total_[0].blocks();  // the steps themselves, unless they are very many
