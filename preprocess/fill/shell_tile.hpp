@@ -21,8 +21,8 @@ struct Seed {
 
 /// The solid as a whole, seen once for all tiles.
 struct ShellSolid {
-    /// @param tree  kept by reference
-    explicit ShellSolid(const SurfaceTree& tree);
+    /// @param whole  kept by reference
+    explicit ShellSolid(const SurfaceTree& whole);
 
     const SurfaceTree& tree;
     Eigen::AlignedBox3d box;  ///< of its vertices [m]

@@ -20,9 +20,9 @@ struct Grid {
     }
     Vec3 at(std::size_t index) const {
         const auto nx = static_cast<std::size_t>(nodes[0]), ny = static_cast<std::size_t>(nodes[1]);
-        return origin + step * Vec3(static_cast<double>(index % nx),
-                                    static_cast<double>(index / nx % ny),
-                                    static_cast<double>(index / (nx * ny)));
+        const std::size_t i = index % nx, j = index / nx % ny, k = index / (nx * ny);
+        return origin +
+               step * Vec3(static_cast<double>(i), static_cast<double>(j), static_cast<double>(k));
     }
 };
 
