@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Level ice whose edge breaks where and when it is loaded: a small icebreaker goes into a sheet.
-#include <malloc.h>
-
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
@@ -9,6 +7,7 @@
 #include <random>
 
 #include "common/base/parallel.hpp"
+#include "common/formats/checkpoint_file.hpp"
 #include "solver/live_edge/edge_tiles.hpp"
 #include "solver/live_edge/edge_window.hpp"
 #include "solver/record/recorder.hpp"
@@ -306,36 +305,37 @@ TEST_CASE("a long way through level ice takes no more memory than what is within
     const std::size_t corners_then = corners, recesses_then = recesses;
     const std::int64_t alive_then = alive;
     REQUIRE(w.edge.retired() > 0);
+    const std::int64_t gone_then = w.edge.retired();
+    const TempFolder folder;
+    w.edge.keep_gone_in(folder / "");
     look(40.0);
     CAPTURE(corners, corners_then, recesses, recesses_then, alive, alive_then);
     CHECK(static_cast<double>(corners) < 1.5 * static_cast<double>(corners_then));
     CHECK(static_cast<double>(recesses) < 2.0 * static_cast<double>(recesses_then));
     CHECK(static_cast<double>(alive) < 1.5 * static_cast<double>(alive_then));
-}
 
-TEST_CASE("a recorded way through level ice leaves on the heap what is known of its pieces, alone",
-          "[level_ice][edge][record][memory]") {
-    const TempFolder folder;
-    Case p = sheet_case(1.5, 60.0);
-    p.level_ice.extent[1] = 400.0;
-    p.average_from = 5.0;
-    World w = make_world(p);
-    const auto heap = [] {
-        const auto info = mallinfo2();  // of all threads; large blocks lie beside the arenas
-        return static_cast<double>(info.uordblks + info.hblkhd);
-    };
-    std::vector<double> bytes, pieces;  // every 10 s, the frames' buffers as full each time
-    RunOptions options{folder / "run", "first"};
-    options.keep_going = [&](double, const World& now) {
-        if (now.steps % 500 != 0) return true;
-        bytes.push_back(heap());
-        pieces.push_back(static_cast<double>(now.edge.broken()));
-        return true;
-    };
-    run(w, options);
-    REQUIRE(w.edge.retired() > 0);
-    for (std::size_t k = 0; k < bytes.size(); ++k)
-        UNSCOPED_INFO(10.0 * static_cast<double>(k + 1)
-                      << " s: " << bytes[k] << " bytes, " << pieces[k] << " pieces");
-    CHECK(bytes[5] - bytes[2] < 1.0);
+    // those that are gone are on the disk, and a checkpoint holds all
+    REQUIRE(w.edge.retired() > gone_then);
+    const std::vector<IcePiece> pieces = w.edge.pieces();
+    REQUIRE(static_cast<std::int64_t>(pieces.size()) == w.edge.broken());
+    {
+        CheckpointFile file(folder / "edge.h5", CheckpointFile::Direction::write);
+        w.edge.carry(file);
+        file.finish();
+    }
+    World second = make_world(p);
+    CheckpointFile file(folder / "edge.h5", CheckpointFile::Direction::read);
+    second.edge.carry(file);
+    const std::vector<IcePiece> again = second.edge.pieces();
+    REQUIRE(again.size() == pieces.size());
+    std::int64_t gone = 0;
+    for (std::size_t k = 0; k < pieces.size(); ++k) {
+        REQUIRE(pieces[k].number == static_cast<std::int64_t>(k) + 1);
+        REQUIRE(again[k].number == pieces[k].number);
+        REQUIRE(again[k].gone == pieces[k].gone);
+        REQUIRE(again[k].outline == pieces[k].outline);
+        gone += std::isinf(pieces[k].gone) ? 0 : 1;
+    }
+    CHECK(gone == w.edge.retired());
+    CHECK(second.edge.retired() == w.edge.retired());
 }

@@ -77,7 +77,7 @@ TEST_CASE("peaks are the largest values between two up-crossings of the mean",
 TEST_CASE("a constant force has no peaks, nor has no force", "[record][degenerate]") {
     CHECK(find_peaks(std::vector<double>(50, 7.0), 0.1).count == 0);
     CHECK(find_peaks(std::vector<double>(50, 7.0), 0.1).p99 == 7.0);
-    CHECK(find_peaks({}, 0.1).exceeded.empty());
+    CHECK(find_peaks(std::vector<double>{}, 0.1).exceeded.empty());
     CHECK(quantile({}, 0.99) == 0.0);
 }
 

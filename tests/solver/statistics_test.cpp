@@ -111,8 +111,8 @@ TEST_CASE("the mean of a constant series is that constant, with no width", "[rec
 
 TEST_CASE("a series too short for an interval has none, and an empty one no mean",
           "[record][analytic]") {
-    CHECK(std::isnan(mean_interval({}).mean));
-    CHECK(std::isnan(mean_interval({}).half_width));
+    CHECK(std::isnan(mean_interval(Series{}).mean));
+    CHECK(std::isnan(mean_interval(Series{}).half_width));
     Random random(1);
     const MeanInterval few = mean_interval(white(random, 39));
     CHECK(std::isfinite(few.mean));
