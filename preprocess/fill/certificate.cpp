@@ -172,7 +172,7 @@ void measure_cover(const SurfaceTree& tree, const SphereSet& set, const SphereFi
     std::vector<Vec3> places(count, Vec3::Zero());
     parallel_for(count, 16, [&](std::size_t k) {
         const Sight& sight = sights[static_cast<std::size_t>(worst[k])];
-        const Vec3 normal = tree.normal(sight.triangle);
+        const Vec3& normal = tree.normal(sight.triangle);
         Vec3 at = sight.point.cast<double>() - set.radius * normal;
         double here = finder.covering(at, normal, finder.nearest(at)).distance;
         Vec3 e1 = set.dimension == 2 ? normal.cross(Vec3::UnitY()) : normal.unitOrthogonal();

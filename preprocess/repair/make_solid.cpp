@@ -64,7 +64,7 @@ public:
         if (options_.mode == RepairMode::strict) return demand(std::move(mesh), welded);
         open_edges_ = diagnose_edges(mesh).open_edges;
         if (open_edges_ > 0) stitch(mesh);
-        if (options_.mode == RepairMode::wrap) return wrap(std::move(mesh));
+        if (options_.mode == RepairMode::wrap) return wrap(mesh);
         if (auto solid = unite_touching(mesh)) return flood(std::move(*solid));
         if (!diagnose_edges(mesh).closed()) mesh = close(std::move(mesh));
         return flood(untangle(std::move(mesh)));
@@ -290,7 +290,7 @@ private:
     }
 
     // --repair wrap
-    TriangleMesh wrap(TriangleMesh mesh) {
+    TriangleMesh wrap(const TriangleMesh& mesh) {
         Repairs tried;  // on a copy, to learn the openings and which side is out
         const ClosedSurface closed = close_surface(mesh, options_, tried);
         if (closed.open.triangles.empty())
