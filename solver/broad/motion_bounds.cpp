@@ -23,6 +23,16 @@ double turn_between(const Quaternion& p, const Quaternion& q) {
 
 }  // namespace
 
+void MotionBounds::forget(const Scene& scene, const std::vector<std::int32_t>& bodies) {
+    for (const std::int32_t body : bodies) {
+        const auto i = static_cast<std::size_t>(body);
+        if (i >= path_.size()) continue;  // not met yet
+        path_[i] = path_after_step_[i] = rotation_[i] = crushed_[i] = 0.0;
+        position_[i] = scene.bodies.position[i];
+        orientation_[i] = scene.bodies.orientation[i];
+    }
+}
+
 void MotionBounds::update(const Scene& scene, double dt) {
     const Bodies& b = scene.bodies;
     const std::size_t known = std::min(path_.size(), b.size());

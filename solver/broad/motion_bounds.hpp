@@ -19,6 +19,10 @@ public:
     /// Adds the motion since the last call. @param dt  [s] the coming step, for path_after_step
     void update(const Scene& scene, double dt);
 
+    /// Bodies that have another form and place now begin anew: their jump is no path.
+    /// @pre all that was kept of their paths is dropped, too
+    void forget(const Scene& scene, const std::vector<std::int32_t>& bodies);
+
     /// Path of a body since the first call [m].
     double path(std::int32_t body) const { return path_[static_cast<std::size_t>(body)]; }
     /// Its path at the end of the coming step, if it keeps its velocity [m].

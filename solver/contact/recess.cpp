@@ -24,6 +24,9 @@ double most_closed(const Scene& scene, const Constraint& c, double dt) {
     return dt * std::max(0.0, -c.approach) + kToleratedOverlap * std::min(radius(c.a), radius(c.b));
 }
 
+// From the other body into the ice of the contact's sphere, world axes.
+Vec3 inwards_of(const Contact& c) { return c.crushes_a ? Vec3(-c.normal) : c.normal; }
+
 // How much deeper than a sphere its neighbours have been crushed, at most [m].
 double depth_beside(const Scene& scene, std::int32_t body, std::int32_t sphere,
                     const Vec3& inwards) {
@@ -40,11 +43,22 @@ double depth_beside(const Scene& scene, std::int32_t body, std::int32_t sphere,
 
 }  // namespace
 
+Recess::Place Recess::place_of(const Contact& c) {
+    return c.crushes_a ? Place{c.a, c.sphere_a} : Place{c.b, c.sphere_b};
+}
+
 double Recess::last_depth(const Contact& c, std::size_t& at) const {
     while (at < entries_.size() && std::tie(entries_[at].a, entries_[at].b) < std::tie(c.a, c.b))
         ++at;
     const bool known = at < entries_.size() && entries_[at].a == c.a && entries_[at].b == c.b;
     return known ? entries_[at].depth : 0.0;
+}
+
+void Recess::forget(const std::vector<std::int32_t>& bodies) { unknown_ = bodies; }
+
+bool Recess::has_past(const Contact& c) const {
+    return !std::binary_search(unknown_.begin(), unknown_.end(), c.a) &&
+           !std::binary_search(unknown_.begin(), unknown_.end(), c.b);
 }
 
 void Recess::remember(const std::vector<Contact>& contacts) {
@@ -56,30 +70,64 @@ void Recess::remember(const std::vector<Contact>& contacts) {
     }
 }
 
+void Recess::find_moves(const Scene& scene, double dt, const std::vector<Contact>& contacts,
+                        const std::vector<Constraint>& constraints) {
+    moves_.clear();
+    std::size_t at = 0;
+    for (std::size_t k = 0; k < contacts.size(); ++k) {
+        const Contact& c = contacts[k];
+        const Place place = place_of(c);
+        const double deeper = -c.gap - last_depth(c, at);
+        if (deeper <= 0.0 || scene.crushed.is_whole(place.body) || !has_past(c)) continue;
+        const double jump = deeper - most_closed(scene, constraints[k], dt);
+        if (jump <= 0.0) continue;
+        const Vec3 inwards = scene.bodies.rotation[place.body].transpose() * inwards_of(c);
+        const double way = std::min(jump, depth_beside(scene, place.body, place.sphere, inwards));
+        if (way > 0.0) moves_.push_back({place, k, way * inwards});
+    }
+    // by sphere: several contacts may ask for the same one's, which moves once
+    std::sort(moves_.begin(), moves_.end(), [](const Move& l, const Move& r) {
+        return std::tie(l.place.body, l.place.sphere, l.contact) <
+               std::tie(r.place.body, r.place.sphere, r.contact);
+    });
+    std::size_t kept = 0;
+    for (const Move& m : moves_) {
+        if (kept > 0 && moves_[kept - 1].place == m.place) {
+            Vec3& sum = moves_[kept - 1].way;
+            const Vec3 along = m.way.normalized();
+            sum += std::max(0.0, m.way.norm() - sum.dot(along)) * along;
+        } else {
+            moves_[kept++] = m;
+        }
+    }
+    moves_.resize(kept);
+}
+
 void Recess::move_spheres(Scene& scene, const ContactLaw& law, double dt,
                           std::vector<Contact>& contacts, std::vector<Constraint>& constraints) {
     ICE_ASSERT(constraints.size() == contacts.size());
     scene.crushed.recent.clear();
     if (law.is_rigid()) return;
-    std::size_t at = 0;
-    for (std::size_t k = 0; k < contacts.size() && started_ != 0; ++k) {
-        Contact& c = contacts[k];
-        const std::int32_t body = c.crushes_a ? c.a : c.b;
-        const double deeper = -c.gap - last_depth(c, at);
-        if (deeper <= 0.0 || scene.crushed.is_whole(body)) continue;
-        const double jump = deeper - most_closed(scene, constraints[k], dt);
-        if (jump <= 0.0) continue;
-        const std::int32_t sphere = c.crushes_a ? c.sphere_a : c.sphere_b;
-        const Vec3 inwards =
-            scene.bodies.rotation[body].transpose() * (c.crushes_a ? Vec3(-c.normal) : c.normal);
-        const double way = std::min(jump, depth_beside(scene, body, sphere, inwards));
-        if (way <= 0.0) continue;
-        const Shape& shape = scene.shapes[static_cast<std::size_t>(scene.bodies.shape[body])];
-        scene.crushed.crush(body, sphere, shape.center.size(), way * inwards);
-        c.gap += way;
-        constraints[k].gap += way;
+    moves_.clear();
+    if (started_ != 0) find_moves(scene, dt, contacts, constraints);
+    for (const Move& m : moves_) {
+        const auto shape = static_cast<std::size_t>(scene.bodies.shape[m.place.body]);
+        scene.crushed.crush(m.place.body, m.place.sphere, scene.shapes[shape].center.size(), m.way);
+    }
+    // all contacts of a sphere that has moved are less deep
+    for (std::size_t k = 0; k < contacts.size() && !moves_.empty(); ++k) {
+        const Place place = place_of(contacts[k]);
+        const auto move =
+            std::lower_bound(moves_.begin(), moves_.end(), place,
+                             [](const Move& m, const Place& p) { return m.place < p; });
+        if (move == moves_.end() || !(move->place == place)) continue;
+        const Vec3 way = scene.bodies.rotation[place.body] * move->way;
+        const double opened = std::max(0.0, way.dot(inwards_of(contacts[k])));
+        contacts[k].gap += opened;
+        constraints[k].gap += opened;
     }
     remember(contacts);
+    unknown_.clear();
     started_ = 1;
 }
 

@@ -2,6 +2,7 @@
 /// Crushed ice beside crushed contact spheres (docs/method.md, section 5).
 #pragma once
 
+#include <compare>
 #include <cstdint>
 #include <vector>
 
@@ -17,9 +18,9 @@ class CheckpointFile;
 /// neighbour in the same recess, which then seems to overlap by the depth of the recess at once.
 ///
 /// A contact may be deeper than the deepest one of its pair in the last step only by the way that
-/// the two bodies came closer there within the step. What it is deeper than that is ice that was
-/// crushed before: its sphere moves by as much, without force or work, but not deeper than its
-/// deepest neighbour.
+/// the two bodies came closer there within the step. Any further depth is ice that was crushed
+/// before: its sphere moves by as much, without force or work, but not deeper than its deepest
+/// neighbour was before the step. Several contacts of one sphere move it once.
 class Recess {
 public:
     /// Moves such spheres, and takes their way out of the contacts' overlaps. Its first call only
@@ -29,7 +30,11 @@ public:
     void move_spheres(Scene& scene, const ContactLaw& law, double dt,
                       std::vector<Contact>& contacts, std::vector<Constraint>& constraints);
 
-    /// Writes or sets its state, by the file's direction.
+    /// These bodies have another form now: contacts with them have no past in the coming step.
+    /// @pre sorted
+    void forget(const std::vector<std::int32_t>& bodies);
+
+    /// Writes or sets its state, by the file's direction. @pre no body was forgotten since the step
     void carry(CheckpointFile& file);
 
 private:
@@ -37,11 +42,28 @@ private:
         std::int32_t a, b;
         double depth;  ///< of the pair's deepest contact in the last step, at least 0 [m]
     };
+    // The ice's sphere of a contact.
+    struct Place {
+        std::int32_t body, sphere;
+        auto operator<=>(const Place&) const = default;
+    };
+    struct Move {
+        Place place;
+        std::size_t contact;  // that asked for it
+        Vec3 way;             // body axes [m]
+    };
+    static Place place_of(const Contact& c);
+    bool has_past(const Contact& c) const;
+    // One move for each sphere, sorted; from the depths before any of them.
+    void find_moves(const Scene& scene, double dt, const std::vector<Contact>& contacts,
+                    const std::vector<Constraint>& constraints);
     double last_depth(const Contact& c, std::size_t& at) const;
     void remember(const std::vector<Contact>& contacts);
 
-    std::vector<Entry> entries_;  ///< sorted by (a, b)
-    std::uint8_t started_ = 0;    ///< 1 once the depths of a step are known
+    std::vector<Entry> entries_;         ///< sorted by (a, b)
+    std::vector<std::int32_t> unknown_;  ///< bodies without a past, until the next step
+    std::vector<Move> moves_;            ///< memory of move_spheres
+    std::uint8_t started_ = 0;           ///< 1 once the depths of a step are known
 };
 
 }  // namespace ice

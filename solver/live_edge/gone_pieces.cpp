@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solver/live_edge/gone_pieces.hpp"
 
+#include <unistd.h>
+
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 
 #include "common/base/error.hpp"
@@ -10,7 +13,7 @@ namespace ice {
 
 namespace {
 
-constexpr const char* kName = "pieces-gone.tmp";
+constexpr const char* kName = "pieces-gone-XXXXXX";
 
 // Of a piece in the file, before its outline. All are doubles: whole numbers up to 2^53 fit.
 constexpr std::size_t kNumbers = 9;
@@ -36,12 +39,18 @@ void GonePieces::fail(const char* what) const {
 }
 
 void GonePieces::open(const std::filesystem::path& folder) {
-    folder_ = folder.string();
-    const std::filesystem::path path = folder / kName;
-    file_.reset(std::fopen(path.c_str(), "w+b"));
-    if (!file_) fail("a file of the pieces that are gone cannot be created there");
-    std::error_code ignored;  // then the file stays, which harms nothing
+    std::string path = (folder / kName).string();
+    const int number = mkstemp(path.data());  // a name that no other run has
+    std::unique_ptr<std::FILE, Close> file(number < 0 ? nullptr : fdopen(number, "w+b"));
+    if (!file) {
+        if (number >= 0) ::close(number);
+        folder_ = folder.string();
+        fail("a file of the pieces that are gone cannot be created there");
+    }
+    std::error_code ignored;  // then an empty name stays in the folder
     std::filesystem::remove(path, ignored);
+    file_ = std::move(file);
+    folder_ = folder.string();
     count_ = 0;
 }
 
@@ -63,7 +72,7 @@ void GonePieces::add(const IcePiece& piece) {
 }
 
 void GonePieces::read(std::vector<IcePiece>& out) const {
-    if (count_ == 0) return;
+    if (!is_open() || count_ == 0) return;
     std::FILE* const file = file_.get();
     const auto take = [&](std::vector<double>& values) {
         if (std::fread(values.data(), sizeof(double), values.size(), file) != values.size())

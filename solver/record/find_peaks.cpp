@@ -72,8 +72,10 @@ PeakStatistics find_peaks(std::span<const double> series, double window) {
 }
 
 PeakStatistics find_peaks(const LongSeries& series, double window) {
-    return peaks_of(series.blocks(), series.mean(),
-                    window * static_cast<double>(series.block_length()));
+    PeakStatistics out = peaks_of(series.blocks(), series.mean(),
+                                  window * static_cast<double>(series.block_length()));
+    out.max = series.largest();  // the unfinished block is in none of the others
+    return out;
 }
 
 }  // namespace ice

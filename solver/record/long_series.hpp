@@ -12,9 +12,9 @@ class CheckpointFile;
 
 /// A series of any length in bounded memory.
 ///
-/// Up to kMost values are kept one by one. Beyond that neighbours are joined two by two, again and
-/// again, so that at most kMost blocks of 1, 2, 4, ... values are kept. Count, mean, largest value
-/// and standard deviation are those of all single values whatever the length.
+/// Fewer than kMost values are kept one by one. Beyond that neighbours are joined two by two, again
+/// and again, so that fewer than kMost blocks of 1, 2, 4, ... values are kept. Count, mean, largest
+/// value and standard deviation are those of all single values whatever the length.
 class LongSeries {
 public:
     static constexpr std::size_t kMost = 65536;  ///< 22 minutes of steps of 0.02 s

@@ -55,9 +55,9 @@ void WindowForces::add(double force) {
     sum_ += force;
     largest_ = std::max(largest_, force);
     if (!classes_.empty()) return count(force);
-    forces_.push_back(force);
-    if (forces_.size() < kExact) return;
+    if (forces_.size() < kExact) return forces_.push_back(force);
     for (const double one : forces_) count(one);
+    count(force);
     forces_ = {};
 }
 

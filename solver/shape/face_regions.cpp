@@ -45,7 +45,8 @@ void for_each_near(const SphereSet& set, const SphereGrid& grid, double largest,
 // Adds a face, or makes it nearer where it is known.
 void note(const NearFace& face, std::vector<NearFace>& faces) {
     for (NearFace& known : faces) {
-        if (known.region != face.region || known.normal.dot(face.normal) < kSameRegionNormal) continue;
+        if (known.region != face.region || known.normal.dot(face.normal) < kSameRegionNormal)
+            continue;
         if (face.distance_sq < known.distance_sq) known = face;
         return;
     }

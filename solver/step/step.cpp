@@ -40,7 +40,8 @@ void renew_edge(World& w) {
     if (!w.edge.renew(w.scene, w.parameters, w.time)) return;
     *w.ledger.potential_start += potential_energy(w.scene, w.parameters) - before;
     w.warm_start = {};
-    w.recess = {};
+    w.recess.forget(w.edge.changed());
+    w.motion.forget(w.scene, w.edge.changed());
     w.pairs = {};
     w.finder.forget(w.edge.changed());
 }

@@ -3,7 +3,7 @@
 """clang-tidy 14 over sources of the programs; .clang-tidy has the checks.
 
     tidy.py --all ROOT WORK         every source
-    tidy.py --sample N ROOT WORK    N sources: those that HEAD or the working tree changes, then others
+    tidy.py --sample N ROOT WORK    N sources: those that HEAD or the tree changes, then others
 
 All sources take 20 minutes on two cores, longer than continuous integration has. Its sample is
 drawn by the hash of the commit and the source's name: the same for a commit wherever it is tested,

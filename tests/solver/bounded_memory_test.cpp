@@ -95,5 +95,13 @@ TEST_CASE("pieces that are gone take no memory, and come back as they were",
             REQUIRE(got.outline == wanted.outline);
         }
     }
+    GonePieces copy = gone;
+    copy.add(some_piece(kPieces + 1));
+    std::vector<IcePiece> of_copy, of_first;
+    copy.read(of_copy);
+    gone.read(of_first);
+    CHECK(of_copy.size() == kPieces + 1);
+    CHECK(of_first.size() == kPieces);
+    CHECK(of_copy[777].outline == some_piece(778).outline);
     CHECK_THROWS_AS(GonePieces().open(folder / "nowhere"), Error);
 }

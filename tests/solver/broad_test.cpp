@@ -92,3 +92,20 @@ TEST_CASE("a floe whose place is no number is in no pair with floes, and hides n
             std::includes(list.pairs().begin(), list.pairs().end(), before.begin(), before.end()));
     }
 }
+
+TEST_CASE("a body that has another form now begins a path of its own", "[broad]") {
+    World w = test::scattered_world(3, 20, 1.0, 10.0);
+    Bodies& b = w.scene.bodies;
+    MotionBounds motion;
+    motion.update(w.scene, 0.01);
+    const std::int32_t other = b.moving[0], same = b.moving[1];
+    for (const std::int32_t i : {other, same}) {
+        b.position[i].x() += 0.5;
+        b.orientation[i] = Quaternion(Eigen::AngleAxisd(2.0, Vec3::UnitZ())) * b.orientation[i];
+    }
+    motion.forget(w.scene, {other});
+    motion.update(w.scene, 0.01);
+    CHECK(motion.path(other) == 0.0);
+    CHECK(motion.rotation(other) == 0.0);
+    CHECK(motion.path(same) > 0.5);
+}

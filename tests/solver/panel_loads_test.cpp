@@ -142,6 +142,9 @@ TEST_CASE("peaks of a long series are those of its windows, where they are block
         CHECK(got.exceeded[k].level == exact.exceeded[k].level);
         CHECK(got.exceeded[k].per_hour == Approx(exact.exceeded[k].per_hour));
     }
+    // the largest of all, in a block that is not full
+    series.add(99.0);
+    CHECK(find_peaks(series, 0.1).max == 99.0);
 }
 
 TEST_CASE("panels share all of the hull, and whole ones have the size that was asked for",

@@ -148,3 +148,58 @@ TEST_CASE("between floes the incident one has the recess", "[contact][crushing][
     CHECK(f.w.scene.crushed.displacement_of(1, kSphere).z() == Approx(0.02 - kSlack).margin(1e-15));
     CHECK(f.w.scene.crushed.is_whole(2));
 }
+
+TEST_CASE("the order of the contacts does not matter, and a recess does not run on within a step",
+          "[contact][crushing][recess]") {
+    // three spheres in a row, of which only the first has a crushed neighbour
+    Floe f, g;
+    const Shape& shape = f.w.scene.shapes[1];
+    const auto apart = [&](std::int32_t k, std::int32_t l) {
+        return (shape.center[k] - shape.center[l]).norm() > 2.0 * shape.patch_radius;
+    };
+    std::int32_t crushed = 0, far = -1;
+    for (std::int32_t k = 0; k < std::ssize(shape.center); ++k)
+        if (!f.w.scene.crushed.displacement_of(1, k).isZero()) crushed = k;
+    for (std::int32_t k = 0; k < std::ssize(shape.center) && far < 0; ++k)
+        if (apart(k, crushed) && !apart(k, kSphere)) far = k;
+    REQUIRE(far >= 0);
+    const auto meet = [&](Floe& floe, std::int32_t first, std::int32_t second) {
+        floe.meet({0.0, 0.0});
+        for (std::size_t k = 0; k < 2; ++k) {
+            floe.contacts[k].sphere_b = k == 0 ? first : second;
+            floe.contacts[k].gap = floe.constraints[k].gap = -0.02;
+        }
+        floe.recess.move_spheres(floe.w.scene, floe.law, kDt, floe.contacts, floe.constraints);
+    };
+    meet(f, kSphere, far);
+    meet(g, far, kSphere);
+    CHECK(f.moved() == Approx(0.02 - kSlack).margin(1e-15));
+    CHECK(g.moved() == f.moved());
+    CHECK(f.w.scene.crushed.displacement_of(1, far).isZero());
+    CHECK(g.w.scene.crushed.displacement_of(1, far).isZero());
+}
+
+TEST_CASE("a sphere of two contacts moves once, and both are less deep",
+          "[contact][crushing][recess]") {
+    Floe f;
+    f.meet({0.0, 0.0});
+    for (Contact& c : f.contacts) c.sphere_b = kSphere;
+    for (std::size_t k = 0; k < 2; ++k)
+        f.contacts[k].gap = f.constraints[k].gap = k == 0 ? -0.02 : -0.015;
+    f.recess.move_spheres(f.w.scene, f.law, kDt, f.contacts, f.constraints);
+    CHECK(f.moved() == Approx(0.02 - kSlack).margin(1e-15));
+    CHECK(f.contacts[0].gap == Approx(-kSlack).margin(1e-15));
+    CHECK(f.contacts[1].gap == Approx(0.005 - kSlack).margin(1e-15));
+    CHECK(f.constraints[1].gap == f.contacts[1].gap);
+}
+
+TEST_CASE("contacts of a body that has another form now have no past for one step",
+          "[contact][crushing][recess]") {
+    Floe f;
+    f.meet({0.0});
+    f.recess.forget({1});
+    f.meet({0.02});
+    CHECK(f.moved() == 0.0);
+    f.meet({0.045});
+    CHECK(f.moved() == Approx(0.025 - kSlack).margin(1e-15));
+}

@@ -69,6 +69,7 @@ TEST_CASE("a heavy ship crushes held ice and jams as a captive one", "[ship][hel
     for (const auto& [row, hold] :
          {std::pair(0, Hold::always), {1, Hold::always}, {1, Hold::until_hull_contact}}) {
         World captive = rough_ride(4000.0, {}, 6, row);
+        // so heavy that the ice moves it by less than what a hundred steps of impacts enlarge
         World heavy = rough_ride(4e14, {surge, sway, yaw}, 6, row);
         bool held = false, jammed = false;
         for (World* w : {&captive, &heavy}) {

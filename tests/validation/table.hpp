@@ -32,7 +32,7 @@ struct Comparison {
 /// shown with their number: "(worst of 36)".
 ///
 /// A run of the whole program with the environment variable ICE_VALIDATION_TABLE=FILE writes the
-/// table to FILE as markdown when it ends. ICE_TOLERANCE_SCALE=0 takes all tolerances away: each row
+/// table to FILE as markdown when it ends. ICE_TOLERANCE_SCALE=0 takes tolerances away: each row
 /// that is not exact then fails and prints its residual as a share of its tolerance.
 void validate(const Comparison& row);
 
