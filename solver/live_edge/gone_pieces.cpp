@@ -13,7 +13,7 @@ namespace ice {
 
 namespace {
 
-constexpr const char* kName = "pieces-gone-XXXXXX";
+constexpr const char* kName = "pieces-gone-";
 
 // Of a piece in the file, before its outline. All are doubles: whole numbers up to 2^53 fit.
 constexpr std::size_t kNumbers = 9;
@@ -40,7 +40,8 @@ void GonePieces::fail(const char* what) const {
 
 void GonePieces::open(const std::filesystem::path& folder) {
     std::string path = (folder / kName).string();
-    const int number = mkstemp(path.data());  // a name that no other run has
+    path.append(6, 'X');  // mkstemp puts a name there that no other run has
+    const int number = mkstemp(path.data());
     std::unique_ptr<std::FILE, Close> file(number < 0 ? nullptr : fdopen(number, "w+b"));
     if (!file) {
         if (number >= 0) ::close(number);
