@@ -40,8 +40,9 @@ std::vector<MeshEdge> edge_table(const TriangleMesh& mesh) {
     std::vector<Side> sides = file_sides(mesh, first);
     std::vector<MeshEdge> edges;
     edges.reserve(sides.size() / 2);
-    // Sides are filed under their smaller vertex, so each list to sort is short; by the other
-    // vertex equal edges are neighbours, by triangle their order is that of the mesh.
+    // Sides are filed under their smaller vertex, so each list to sort is short. The other vertex
+    // is the first key: it makes equal edges neighbours. The triangle is the second: it keeps the
+    // order of the mesh.
     for (std::size_t v = 0; v + 1 < first.size(); ++v) {
         const auto begin = sides.begin() + static_cast<std::ptrdiff_t>(first[v]);
         const auto end = sides.begin() + static_cast<std::ptrdiff_t>(first[v + 1]);

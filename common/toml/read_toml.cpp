@@ -57,7 +57,7 @@ private:
         complain(error.source(), what + hint, 1);
     }
 
-    // a case given to icefield has a dozen mistakes, and none of them names the cause
+    // A case given to icefield would get a dozen errors, none of which names the cause.
     bool is_another_kind(const toml::table& root) {
         std::vector<std::string> names;
         for (auto&& [key, node] : root) names.emplace_back(key.str());

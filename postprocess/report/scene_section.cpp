@@ -117,7 +117,7 @@ std::string draw_opening(const RunData& run, const std::vector<std::size_t>& ins
     return picture.size() > most ? "" : picture;
 }
 
-// Pictures by instant, as many as the bytes of the page allow.
+// The pictures of each instant. The page's limit in bytes bounds their number.
 struct Pictures {
     std::vector<std::vector<std::string>> at;
     std::size_t dropped = 0;

@@ -177,8 +177,8 @@ void measure_cover(const SurfaceTree& tree, const SphereSet& set, const SphereFi
         double here = finder.covering(at, normal, finder.nearest(at)).distance;
         Vec3 e1 = set.dimension == 2 ? normal.cross(Vec3::UnitY()) : normal.unitOrthogonal();
         const Vec3 e2 = normal.cross(e1);
-        // A climb in eight directions with halved steps: from half the samples' distance to a
-        // twenty-fifth of it. The bound is that of the worst samples' neighbourhoods, not a proof.
+        // A climb in eight directions. Its steps are halved from half the samples' distance down to
+        // a twenty-fifth of it. The result holds near the worst samples only: it proves no bound.
         for (double step = 0.5 * size; step > 0.04 * size; step *= 0.5)
             for (int way = 0; way < (set.dimension == 2 ? 2 : 8); ++way) {
                 const double angle =
