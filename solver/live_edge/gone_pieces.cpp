@@ -53,6 +53,7 @@ void GonePieces::open(const std::filesystem::path& folder) {
     file_ = std::move(file);
     folder_ = folder.string();
     count_ = 0;
+    bytes_ = 0;
 }
 
 void GonePieces::add(const IcePiece& piece) {
@@ -70,6 +71,7 @@ void GonePieces::add(const IcePiece& piece) {
         std::fflush(file_.get()) != 0)
         fail("the pieces that are gone cannot be written there");
     ++count_;
+    bytes_ += sizeof(double) * row.size();
 }
 
 void GonePieces::read(std::vector<IcePiece>& out) const {

@@ -38,6 +38,8 @@ public:
     ~GonePieces() = default;
 
     bool is_open() const { return file_ != nullptr; }
+    /// Of the file; a checkpoint holds as many.
+    std::uint64_t bytes() const { return bytes_; }
     /// @throws Error (exit code 1) naming the folder where no file can be created in it
     void open(const std::filesystem::path& folder);
 
@@ -57,6 +59,7 @@ private:
     std::unique_ptr<std::FILE, Close> file_;
     std::string folder_;
     std::int64_t count_ = 0;
+    std::uint64_t bytes_ = 0;
 };
 
 }  // namespace ice

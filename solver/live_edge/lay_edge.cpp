@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "common/base/assert.hpp"
 #include "common/base/error.hpp"
 #include "common/base/parallel.hpp"
 #include "preprocess/field/fill_prism.hpp"
@@ -203,6 +204,7 @@ void LiveEdge::retire(std::size_t slot, double time, Plan& plan) {
     const auto piece =
         std::lower_bound(pieces_.begin(), pieces_.end(), slots_[slot].piece,
                          [](const IcePiece& p, std::int64_t number) { return p.number < number; });
+    ICE_ASSERT(piece != pieces_.end() && piece->number == slots_[slot].piece);
     piece->gone = time;
     if (gone_pieces_.is_open()) {
         gone_pieces_.add(*piece);

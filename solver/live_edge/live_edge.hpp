@@ -91,6 +91,8 @@ public:
     IceAreas areas() const;
     /// All that have broken off, by number; those that are gone are read from the disk.
     std::vector<IcePiece> pieces() const;
+    /// That those no longer in the scene take on the disk, and in a checkpoint.
+    std::uint64_t bytes_of_gone() const { return gone_pieces_.bytes(); }
     /// How many have broken off.
     std::int64_t broken() const { return broken_; }
     /// Floes in the scene now.

@@ -12,6 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "solver/record/long_series.hpp"
+
 namespace ice {
 
 namespace {
@@ -20,7 +22,7 @@ constexpr std::uint64_t kStride = 1 << 16;  // bytes of rows between two looks
 constexpr std::uint64_t kEnd = 1 << 19;     // HDF5's blocks and indices, summary.json, run.log
 // of a checkpoint, generous: a run of 5 floes has one of 53 kB
 constexpr std::uint64_t kFields = 1 << 16, kPerBody = 400, kPerContact = 400;
-constexpr std::uint64_t kPerStep = 64;     // statistics remember every step's forces
+constexpr std::uint64_t kPerStep = 64;     // statistics remember forces of LongSeries::kMost steps
 constexpr std::uint64_t kFrameBytes = 68;  // per floe
 // Rows in the CSV files between two looks: text takes at most 25 bytes for the 8 of a number, and
 // the streams buffer some.
@@ -132,9 +134,11 @@ bool DiskRoom::is_short(const Recorder& recorder, const World& world, bool saves
     looked_ = true;
     waiting_ = waiting;
     const std::uint64_t bodies = world.scene.bodies.size();
+    const auto kept =
+        std::min<std::uint64_t>(LongSeries::kMost, static_cast<std::uint64_t>(world.steps));
     const std::uint64_t checkpoint = kFields + kPerBody * bodies +
-                                     kPerContact * world.constraints.size() +
-                                     kPerStep * static_cast<std::uint64_t>(world.steps);
+                                     kPerContact * world.constraints.size() + kPerStep * kept +
+                                     world.edge.bytes_of_gone();
     const std::uint64_t more = waiting + 2 * kStride + kFrameBytes * bodies;  // at the next look
     // a checkpoint comes with a copy of the rows since the last one
     const std::uint64_t file = bytes_of(folder_ / kRows);

@@ -27,7 +27,9 @@ FOLDERS = ("common", "preprocess", "solver", "postprocess")
 
 def git(root, *arguments):
     """The lines that git prints; none outside a checkout or where the history is cut off."""
-    done = subprocess.run(["git", "-C", root, *arguments], capture_output=True, text=True)
+    # a checkout of another owner is read as well: nothing in it runs
+    done = subprocess.run(["git", "-c", f"safe.directory={os.path.abspath(root)}", "-C", root,
+                           *arguments], capture_output=True, text=True)
     return done.stdout.splitlines() if done.returncode == 0 else []
 
 

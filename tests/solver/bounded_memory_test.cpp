@@ -25,6 +25,24 @@ double heap() {
     return static_cast<double>(info.uordblks + info.hblkhd);
 }
 
+// Sanitizers have an allocator of their own, which these counters do not see: then there is nothing
+// to measure.
+bool is_counted() {
+    const double before = heap();
+    const std::vector<double> block(1 << 16, 1.0);
+    const volatile std::size_t any = 7;  // so that the block is not optimised away
+    return heap() - before >= static_cast<double>(sizeof(double) * block.size()) &&
+           block[any] == 1.0;
+}
+
+void check_growth(double before, double most) {
+    const double growth = heap() - before;
+    if (is_counted())
+        CHECK(growth <= most);
+    else
+        SUCCEED("the heap is not counted here");
+}
+
 IcePiece some_piece(std::int64_t number) {
     const auto x = static_cast<double>(number);
     IcePiece piece{number,
@@ -53,7 +71,7 @@ TEST_CASE("two million steps of a run take no more memory than 65 536",
     }
     CHECK(series.blocks().size() <= LongSeries::kMost);
     // a vector has up to twice the room of what it holds
-    CHECK(heap() - before <= 2.0 * 2.0 * sizeof(double) * LongSeries::kMost + 4096.0);
+    check_growth(before, 2.0 * 2.0 * sizeof(double) * LongSeries::kMost + 4096.0);
 }
 
 TEST_CASE("the forces of a panel take at most 256 kB", "[record][memory][level_ice]") {
@@ -62,7 +80,7 @@ TEST_CASE("the forces of a panel take at most 256 kB", "[record][memory][level_i
     const double before = heap();
     WindowForces forces;
     for (int k = 0; k < 300000; ++k) forces.add(draw(random));
-    CHECK(heap() - before <= 256e3);
+    check_growth(before, 256e3);
 }
 
 TEST_CASE("pieces that are gone take no memory, and come back as they were",
@@ -78,7 +96,7 @@ TEST_CASE("pieces that are gone take no memory, and come back as they were",
     CHECK(std::filesystem::is_empty(run));  // the file has no name
     const double before = heap();
     for (std::int64_t k = 1; k <= kPieces; ++k) gone.add(some_piece(k));
-    CHECK(heap() - before <= 64e3);
+    check_growth(before, 64e3);
     for (int time = 0; time < 2; ++time) {
         std::vector<IcePiece> all;
         gone.read(all);
