@@ -23,6 +23,7 @@ struct Sum {
         size += v.norm();
     }
     double share(const Vec3& axes) const {
+        // a sum without terms is balanced, too: not 0 / 0
         const double off = value.cwiseProduct(axes).norm();
         return off == 0.0 ? 0.0 : off / size;
     }
@@ -57,6 +58,7 @@ Sums all_together(const Momenta& before, const World& w, const StepRecord& ship,
             b.held[i] ? Vec3(-contacts[i].angular.value)
                       : Vec3(b.angular_momentum[i] - before.angular[i] - dt * loads[i].moment);
         all.linear.add(gain);
+        // angular momentum about the origin: spin and x times linear momentum
         all.angular.add(spin);
         all.angular.add(before.position[i].cross(gain));
         // the momenta and loads whose difference this is were rounded themselves

@@ -28,6 +28,8 @@ public:
         const Vec3 place = scene.bodies.position[kShip];
         low_ = hull.box.min() + place;
         const Vec3 size = hull.box.sizes();
+        // Cells as wide as the spheres' spacing, so that hardly a cell of the section is
+        // without one; larger where the section is huge.
         cell_ = std::max(hull.spacing, std::sqrt(size.y() * size.z() / kMostCells));
         columns_ = count(size.y());
         rows_ = count(size.z());
@@ -45,6 +47,7 @@ public:
         double least = kNever;
         for (int k = 0; k < 9; ++k) {
             const int beside = k % 3 - 1, above = k / 3 - 1;
+            // nine points of the cube's face that looks at the ship
             least =
                 std::min(least, distance_to_point(centre + radius * Vec3(-way_, beside, above)));
         }
@@ -108,6 +111,7 @@ private:
 
 // When the ship has gone a distance along its course [s]. @pre its speed does not change sign
 double time_of(const Case& p, double distance) {
+    // bisection: travel grows with time as the speed keeps its sign
     if (!(std::abs(p.ship_travel(0.0, p.duration)) > distance)) return kNever;
     double before = 0.0, after = p.duration;
     for (int k = 0; k < 60; ++k) {

@@ -160,6 +160,7 @@ void warn_of_speed(const World& w, std::vector<Warning>& warnings) {
 
 std::vector<StartOverlap> find_start_overlaps(Scene& scene, const Case& parameters) {
     std::vector<BodyPair> pairs = pairs_at_start(scene, parameters);
+    // a heap of floes would give millions of pairs; some of them suffice for the message
     pairs.resize(std::min(pairs.size(), most_worth_a_look(scene)));
     std::vector<StartOverlap> found(pairs.size());
     parallel_for(pairs.size(), 2, [&](std::size_t k) {
@@ -168,6 +169,7 @@ std::vector<StartOverlap> find_start_overlaps(Scene& scene, const Case& paramete
         found[k] = {a, b, pair.depth, pair.point, pair.inside};
     });
 
+    // A contact may be deeper than what the meshes alone show: the larger depth counts.
     std::vector<Contact> contacts;
     ContactFinder().find(scene, pairs, ContactRule(parameters), 0.0, 0.0, contacts);
     std::size_t k = 0;
@@ -181,6 +183,7 @@ std::vector<StartOverlap> find_start_overlaps(Scene& scene, const Case& paramete
         found[k].depth = -c.gap;
         found[k].point = c.point;
     }
+    // what position correction tolerates, (12), is no fault of the case
     std::erase_if(found, [&](const StartOverlap& o) {
         return o.depth <= kToleratedOverlap * std::min(smallest_radius(shape_of(scene, o.a)),
                                                        smallest_radius(shape_of(scene, o.b)));

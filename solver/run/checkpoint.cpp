@@ -142,6 +142,7 @@ void check_numbers(const std::filesystem::path& path, const Bodies& b) {
 
 void write_checkpoint(const std::filesystem::path& path, World& world, Recorder& recorder,
                       RunProgress& progress, SavedRows rows) {
+    // Rows before state: the checkpoint names places in files that must hold them by then.
     Identity identity = identity_of(world);
     RecordPosition position =
         rows == SavedRows::beside ? recorder.save_rows() : recorder.write_rows();
@@ -155,6 +156,7 @@ void write_checkpoint(const std::filesystem::path& path, World& world, Recorder&
 }
 
 SavedRun read_checkpoint(const std::filesystem::path& path, World& world) {
+    // The case first: nothing of another run may reach the world.
     CheckpointFile file(path, Direction::read);
     Identity then, now = identity_of(world);
     carry(file, then);

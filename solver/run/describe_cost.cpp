@@ -62,6 +62,7 @@ std::string describe_cost(World& w) {
     const RunCost cost = run_cost(w.parameters, w.scene.bodies.size() - 1,
                                   w.scene.shapes[kShip].region_names.size());
     const Timer timer;
+    // as many steps as half a second allows, at least two
     int taken = 0;
     for (; taken < std::min<std::int64_t>(kMostSteps, cost.steps); ++taken) {
         if (taken > 1 && timer.seconds() > kMostSeconds) break;
@@ -77,6 +78,7 @@ std::string describe_cost(World& w) {
 }
 
 void require_open_files(const Case& parameters) {
+    // the soft limit may be raised to the hard one without privileges
     const rlim_t wanted = parameters.track.size() + kOtherFiles;
     rlimit limit{};
     if (getrlimit(RLIMIT_NOFILE, &limit) != 0 || limit.rlim_cur >= wanted) return;

@@ -86,6 +86,8 @@ int allocate_ahead(const std::filesystem::path& path, std::uint64_t bytes) {
 
 bool DiskRoom::could_hold(std::uint64_t rows, std::uint64_t text_rows, std::uint64_t end) {
     if (!can_hold_) return true;
+    // The rows' blocks are allocated in their own files; what comes at the end of a run is
+    // reserved in a file without a name.
     int reason = allocate_ahead(folder_ / kRows, rows);
     for (const auto& path : csv_files(folder_))
         if (reason == 0) reason = allocate_ahead(path, text_rows);
@@ -125,6 +127,7 @@ void DiskRoom::saved() { saved_bytes_ = bytes_of(folder_ / kRows); }
 bool DiskRoom::is_used_up() const { return held_ >= 0 && free_space(folder_) < held_bytes_; }
 
 bool DiskRoom::is_short(const Recorder& recorder, const World& world, bool saves) {
+    // Asking the file system costs time: only when rows, a checkpoint or many bytes are due.
     const std::uint64_t waiting = recorder.waiting_bytes();
     if (looked_ && !saves && !recorder.is_about_to_write() && waiting >= waiting_ &&
         waiting - waiting_ < kStride)

@@ -103,6 +103,7 @@ private:
 FlowTable make_table(const Case& p, const Scene& scene) {
     const TriangleMesh& mesh = scene.shapes[0].mesh;
     FlowOptions options;
+    // the table's finest nodes are half a floe's thickness apart
     options.water = -scene.bodies.position[kShip].z();
     options.finest = round_down(0.5 * thinnest_floe(scene));
     const auto file = kept_as(p.hull_spheres, hash_of_flow(mesh, p.dimension, options));
@@ -146,6 +147,7 @@ FlowTable read_table(const Case& p, const Scene& scene) {
 }
 
 // Whether the ship ever moves through the water.
+// the flow of a ship that never moves relative to the water is zero: no table is needed
 bool pushes_water(const Case& p) {
     return p.ship.free[surge] ||
            std::any_of(p.speed_table.begin(), p.speed_table.end(),

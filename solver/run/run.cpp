@@ -238,6 +238,7 @@ Summary run(World& world, const RunOptions& options) {
     write_text_file(
         options.folder / "case.resolved.cfg",
         fmt::format("# icesolve {} ({})\n# {}\n{}", version(), git_commit(), command, p.resolved));
+    // duration / dt rounded: a last fraction of a step is not simulated, and said below
     const auto steps = static_cast<std::int64_t>(std::llround(p.duration / p.time_step));
 
     Job job{
