@@ -46,6 +46,7 @@ void follow(const TriangleMesh& mesh,
             std::vector<SharpEdge>& edges, std::int32_t vertex, Vec3 heading, double sharp,
             std::vector<std::pair<std::size_t, std::int32_t>>& path) {
     while (true) {
+        // of several continuations the last one listed; used edges are never walked again
         std::size_t next = edges.size();
         std::int32_t target = -1;
         for (const std::size_t e : at_vertex.at(vertex)) {

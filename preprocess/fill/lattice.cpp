@@ -56,6 +56,8 @@ void find_runs(const LatticeFrame& frame, const LatticeBits& bits, std::int64_t 
 
 LatticeFill fill_lattice_rows(const TriangleMesh& mesh, const LatticeOptions& o) {
     LatticeFill out;
+    // Three steps: the frame of points, the rows' parts inside the solid, then the points too
+    // near to the surface.
     out.frame = place_lattice(mesh, o.kind, o.radius, o.dimension, o.mirror);
     out.bits = rows_inside(mesh, out.frame);
     clear_near(mesh, out.frame, o.clearance * (1.0 - kRounding), out.bits);

@@ -24,6 +24,7 @@ void measure_distances(const TriangleSides& t, const PointBatch& points, double*
                          dz = z - part * edge.z();
             rim = std::min(rim, dx * dx + dy * dy + dz * dz);
         }
+        // inside all three edges the face is nearest, else the rim
         out[k] = least >= 0.0 ? height * height * t.per_area_sq : rim;
     }
 }

@@ -34,6 +34,7 @@ std::vector<Shell> find_shells(const TriangleMesh& mesh) {
         for (int k = 0; k < 3; ++k) shell.box.extend(mesh.corner(t, k));
     }
     for (Shell& shell : shells) {
+        // the origin in the shell itself, so that shells far away keep their digits
         const Vec3 reference = shell.box.center();
         for (const std::int32_t t : shell.triangles) {
             const auto tt = static_cast<std::size_t>(t);

@@ -99,6 +99,7 @@ public:
             if (common) walks_[k] = boost::apply_visitor(Walk(), *common);
             for (const Point& p : walks_[k]) CGAL::exact(p);
         });
+        // triangle -> the pairs it is in: each triangle is cut once, by all of its pairs
         std::map<std::size_t, std::vector<std::size_t>> cuts;
         for (std::size_t k = 0; k < pairs.size(); ++k) {
             if (walks_[k].empty()) continue;
@@ -164,6 +165,7 @@ private:
         for (int k = 0; k < 3; ++k)
             plan.insert(look.down(whole[k]))->info() = {
                 true, mesh_.triangles[t][static_cast<std::size_t>(k)]};
+        // the common part of each pair is a constraint: the pieces have it as edges
         for (const std::size_t cut : cuts) {
             const std::vector<Point>& walk = walks_[cut];
             auto last = plan.insert(look.down(walk.front()));

@@ -105,6 +105,7 @@ void fill_row(const Sources& s, const WindingNumber& hull, double water, std::si
 
 void fill_table(const Sources& s, const TriangleMesh& mesh, const FlowOptions& options,
                 HullFlow& out) {
+    // Row by row along x, by all threads: a row writes its own nodes only.
     const Timer timer;
     FlowTable& t = out.table;
     t.velocity.resize(3 * t.size());
@@ -165,6 +166,7 @@ void make_3d(const TriangleMesh& mesh, const FlowOptions& options, HullFlow& out
     out.table.panels = static_cast<std::int64_t>(flow.body.panels.size());
     out.table.symmetric = flow.body.symmetric;
     note(flow, out);
+    // the table reaches a breadth beyond the hull on all sides
     Sources s{hull.low, hull.high, hull.high.y() - hull.low.y(),
               [&](std::span<const Vec3> points) {
                   std::vector<FlowSample> samples(points.size());

@@ -36,6 +36,8 @@ std::vector<Triangle> cut(const std::vector<Triangle>& from, int axis, double si
         }
         if (d[0] >= 0.0 && d[1] >= 0.0 && d[2] >= 0.0) continue;  // beyond, or in the plane
         std::vector<Vec3> kept;
+        // Sutherland and Hodgman: corners inside stay, crossing edges give a new corner in the
+        // plane.
         for (std::size_t k = 0; k < 3; ++k) {
             const std::size_t n = (k + 1) % 3;
             if (d[k] <= 0.0) kept.push_back(t[k]);
@@ -68,6 +70,7 @@ bool is_symmetric(const TriangleMesh& mesh, double same) {
 
 // At most `most` triangles, the border left as it is.
 std::vector<Triangle> simplified(const std::vector<Triangle>& from, std::size_t most) {
+    // meshopt works on floats and indices; corners of the result are the doubles they came from
     std::vector<float> soup;
     for (const Triangle& t : from)
         for (const Vec3& p : t)

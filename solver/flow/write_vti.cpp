@@ -28,6 +28,7 @@ FlowTable whole(const FlowTable& half) {
     if (!half.symmetric) return half;
     FlowTable out = half;
     out.symmetric = false;
+    // the plane y = 0 is in both halves, once in the whole
     out.nodes[1] = 2 * half.nodes[1] - 1;
     out.origin.y() = -half.spacing * static_cast<double>(half.nodes[1] - 1);
     out.velocity.clear();

@@ -20,6 +20,7 @@ void set_breaking_loads(Scene& scene, const Case& parameters) {
         const TriangleMesh& mesh = scene.shapes[static_cast<std::size_t>(b.shape[i])].mesh;
         b.breaking_load[i] = breaking_load(measure_outline(mesh, b.rotation[i]), parameters);
     }
+    // bodies that came after the last one that bends have no load that breaks them
     if (!b.breaking_load.empty()) b.breaking_load.resize(b.size(), kNever);
 }
 

@@ -52,6 +52,7 @@ struct Triangle {
 Triangle make_triangle(const FacetBlock& block, std::size_t lane, const Vec3& v, const Vec3& w) {
     const Vector area = get(block.area, lane);
     const Vector turning = cross(area, get(w));
+    // f = a . (v + w x p) at the corners: linear over the triangle, so its integrals are exact
     const double even = dot(area, get(v));
     Triangle out;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -180,6 +181,7 @@ double integrate_facing(const FacetBlocks& facets, const WaterPlane& water, cons
     Sum sum{};
     for (const FacetBlock& block : facets.blocks)
         for (std::size_t lane = 0; lane < kLanes; ++lane) {
+            // (16): facets that face the flow, as far as they are wet
             const double facing = dot(get(block.area, lane), get(v));
             if (facing <= 0.0) continue;
             sum[lane] += facing * share_of(block, lane, water);
