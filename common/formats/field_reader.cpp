@@ -107,6 +107,7 @@ private:
         const std::size_t v = read_counts("/shape/vertices", 4, all_.vertices);
         const std::size_t t = read_counts("/shape/triangles", 4, all_.triangles);
         const std::size_t k = all_.spheres.size();
+        // lengths first: every later index relies on them
         for (const auto& counts : {all_.surface, all_.creases, all_.vertices, all_.triangles})
             check(counts.size() == k, "/shape", "has arrays of different lengths");
         all_.volume = finite<double>("/shape/volume", k);

@@ -17,6 +17,7 @@ namespace ice {
 namespace {
 
 void write_piece_rows(Hdf5File& file, const std::string& group, const std::vector<PieceRow>& rows) {
+    // meshes one after the other, with the rows at which each begins
     std::vector<std::int64_t> vertex_offset{0}, triangle_offset{0};
     std::vector<Vec3> vertices, at;
     std::vector<std::int32_t> triangles;
@@ -95,6 +96,7 @@ private:
                             sides = rows_of(group + "/triangles");
         const auto vertices = points(group + "/vertices", {corners});
         const auto triangles = read_as<std::int32_t>(group + "/triangles", {sides, 3});
+        // offsets are checked before they index anything
         const auto first = offsets(group + "/vertex_offset", rows.size(), corners);
         const auto side = offsets(group + "/triangle_offset", rows.size(), sides);
         for (std::size_t k = 0; k < rows.size(); ++k) {

@@ -96,6 +96,8 @@ private:
     std::vector<T> of_bodies(const std::vector<T>& values, bool per_triangle,
                              std::size_t columns = 1) const {
         if (!per_triangle) return values;
+        // one row per floe, repeated for each of its triangles, in the order of
+        // floe_triangles()
         std::vector<T> out;
         for (std::size_t b = 0; b < values.size() / columns; ++b)
             for (std::size_t t = 0; t < mesh_of(b).triangles.size(); ++t)
@@ -220,6 +222,7 @@ private:
     void add_bodies(const RunFrame& frame) {
         std::vector<float> turns;
         for (const Eigen::Quaterniond& q : frame.orientation)
+            // orientation as w, x, y, z, as all of the project's files have it
             for (const double v : {q.w(), q.x(), q.y(), q.z()})
                 turns.push_back(static_cast<float>(v));
         std::vector<NamedArray> values = floe_values(frame, false);

@@ -46,6 +46,7 @@ std::pair<double, double> middle_range(std::vector<double> values, double share)
     if (values.empty()) return {0.0, 0.0};
     std::sort(values.begin(), values.end());
     const double last = static_cast<double>(values.size() - 1);
+    // of few values all are shown: a share of them would be one or two
     const double tail = values.size() < kFew ? 0.0 : 0.5 * (1.0 - share);
     const auto at = [&](double part) { return values[static_cast<std::size_t>(part * last)]; };
     return {std::min(0.0, at(tail)), std::max(0.0, at(1.0 - tail))};
@@ -135,6 +136,7 @@ double average_window(const std::vector<HistoryRow>& history) {
     const double raw =
         std::max({span / 30.0, 5.0 * span / static_cast<double>(history.size() - 1), 1e-9});
     const double digit = std::pow(10.0, std::floor(std::log10(raw)));
+    // one digit: a window that a reader can name
     return std::floor(raw / digit * (1.0 + 1e-9)) * digit;
 }
 

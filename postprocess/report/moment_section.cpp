@@ -13,6 +13,7 @@ namespace {
 constexpr int kDecimals = 2;  // of a place [m]
 
 std::string place(const Vec3& p, int dimension) {
+    // in 2D without y, which has no meaning
     if (dimension == 2)
         return fmt::format("x {:.{}f}, z {:.{}f} m", p.x(), kDecimals, p.z(), kDecimals);
     return fmt::format("x {:.{}f}, y {:.{}f}, z {:.{}f} m", p.x(), kDecimals, p.y(), kDecimals,

@@ -147,6 +147,7 @@ RunFigures make_figures(const read::RunFolder& run, const RunData& data, std::si
 }  // namespace
 
 std::string make_report(const read::RunFolder& run, std::size_t frames) {
+    // figures first: several sections and the viewer use them
     const RunData data = with_few_tracks(run.data);
     const RunFigures figures = make_figures(run, data, frames);
     const ViewerData viewer = make_viewer_data(data, figures, frames);

@@ -157,6 +157,7 @@ std::pair<double, double> common_range(const std::vector<Curve>& curves,
                 add(band->high, std::nan(""));
             }
         }
+    // no bar reaches farther beyond the means than the means are apart
     const double span = high - low;
     low = std::max(low_bar, low - span);
     high = std::min(high_bar, high + span);
@@ -179,6 +180,7 @@ std::vector<std::string> name_curves(const Sweep& sweep, const std::vector<Curve
     std::size_t length = 0;
     for (const Curve& curve : curves) length += curve.label.size() + 6;
     const std::string axis = other_axis(sweep);
+    // short names only if they tell the curves apart
     std::set<std::string> values;
     if (!axis.empty() && length > kMostLetters)
         for (const Curve& curve : curves)

@@ -75,6 +75,7 @@ std::vector<Column> force_columns(const std::vector<Point>& points, const report
             columns[parts.size() + 2 + k].cells.push_back(
                 unit.text(point.formula(formulas[k].name, formulas[k].part)));
     }
+    // columns with nothing but zeros and unknowns are left out
     drop_empty(columns, 1);
     columns.push_back({"release rule", {}});
     for (const Point& point : points)

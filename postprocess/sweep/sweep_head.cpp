@@ -47,6 +47,7 @@ public:
             const auto speed = run.settings.find(kSpeedKey);
             if (speed != run.settings.end() && speed->second.number)
                 speeds_.add(*speed->second.number);
+            // by the summaries' own keys: a range where runs differ
             for (const auto& [key, value] : read_json_numbers(run.folder / "summary.json"))
                 if (key.starts_with("ship.") || key.starts_with("ice.")) numbers_[key].add(value);
         }

@@ -109,6 +109,7 @@ std::string point_table(const Sweep& sweep, const std::vector<Point>& points,
     for (std::size_t row = 0; row < points.size(); ++row) {
         const auto& runs = points[row].runs;
         out += "<tr>" + cells(axes, row) + "<td>";
+        // one link per run, numbered as in the row
         for (std::size_t k = 0; k < runs.size(); ++k)
             out += (k > 0 ? " " : "") + link(sweep.runs[runs[k]], std::to_string(k + 1), page);
         out += "</td>" + cells(forces, row) + "</tr>\n";

@@ -61,6 +61,7 @@ std::string download(const std::string& file, const std::string& csv) {
 
 // which regions were counted to which part
 std::string region_note(const Sweep& sweep) {
+    // so that a reader sees which region counts as bow, side or bottom
     std::map<Part, std::set<std::string>> names;
     for (const SweepRun& run : sweep.runs)
         if (run.summary)

@@ -197,6 +197,7 @@ std::string SceneView::Parts::draw_water() const {
 
 std::string SceneView::Parts::draw_frame_axes(const RunFrame& frame) const {
     const Vec3& ship = frame.ship_position;
+    // axes have the world's coordinates, the picture moves with the ship
     const double x_shift = from == ViewFrom::front ? ship.y() : ship.x();
     Axis x{window.left + x_shift, window.right + x_shift, kLeft, kLeft + width};
     Axis y{window.bottom, window.top, kTop + height, kTop};

@@ -61,6 +61,7 @@ std::vector<std::size_t> join_small(const std::vector<Sum>& sums, double enough,
         if (sums[k].area >= enough) continue;
         double least = reach;
         for (std::size_t other = 0; other < sums.size(); ++other) {
+            // only a panel that is large enough, of the same region and facing the same way
             const Sum& s = sums[other];
             if (s.area < enough || s.region != sums[k].region) continue;
             if (s.normal.normalized().dot(sums[k].normal.normalized()) < kSameSide) continue;
@@ -83,6 +84,7 @@ double panel_size(const Scene& scene) {
         if (box.isEmpty()) continue;
         Vec3 edges = box.sizes();
         if (scene.dimension == 2) edges.y() = std::numeric_limits<double>::infinity();
+        // the thinnest extent of a floe, of the thickest one
         thickness = std::max(thickness, edges.minCoeff());
     }
     return std::max(thickness, 2.0 * scene.shapes[kShip].spacing);

@@ -52,6 +52,7 @@ void EnergyLedger::begin(const Scene& scene, const Case& parameters) {
 }
 
 double EnergyLedger::residual(double potential_now) const {
+    // (19), solved for the residual; dU is the change of potential energy since the start
     return ship_work + drift_work + separation + water_work + applied_work - kinetic -
            (potential_now - potential_start.value_or(0.0)) - friction - restitution - crushing -
            breaking - drag - buoyancy_moment;

@@ -72,6 +72,7 @@ ShipParticulars measure_ship(const Scene& scene, const Case& parameters) {
 ShipParticulars measure_ship(const Scene& scene, const Case& parameters, double height) {
     const Shape& hull = scene.shapes[0];
     double keel = hull.mesh.vertices.front().z();
+    // in the ship's axes: the mesh with the water at -height
     for (const Vec3& v : hull.mesh.vertices) keel = std::min(keel, v.z());
     ShipParticulars ship;
     ship.draught = -height - keel;
@@ -136,6 +137,7 @@ void fill_particulars(const Scene& scene, const Case& parameters, double until, 
         went ? measure_ship(scene, parameters, went->height) : measure_ship(scene, parameters);
     summary.ship.speed_mean = went ? went->speed_mean : speed_mean(parameters, until);
     summary.ice = measure_ice(scene, parameters);
+    // a prescribed course first; a ship that answers has its own travel
     summary.travel = measure_travel(parameters, summary.ship, until);
     if (!scene.water.grid.empty())
         summary.flow = {parameters.flow == FlowModel::file ? "file" : "double-body",

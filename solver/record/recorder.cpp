@@ -92,6 +92,7 @@ std::uint64_t state_hash(const Scene& scene, const std::vector<Constraint>& cons
         for (int d = 0; d < 3; ++d) hash.add(v[d]);
     };
     const Bodies& b = scene.bodies;
+    // the bodies' state, and the impulses of the step
     for (std::size_t i = 0; i < b.size(); ++i) {
         add(b.position[i]);
         for (const double x : b.orientation[i].coeffs()) hash.add(x);
