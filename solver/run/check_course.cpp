@@ -35,6 +35,7 @@ public:
         rows_ = count(size.z());
         foremost_.assign(columns_ * rows_, -kNever);
         for (std::size_t k = 0; k < hull.center.size(); ++k)
+            // spheres reach ahead of their centres by the radius
             add(place + hull.center[k], hull.radius[k]);
         for (const auto& t : hull.mesh.triangles)
             add_triangle(place + hull.mesh.vertices[t[0]], place + hull.mesh.vertices[t[1]],
@@ -115,6 +116,7 @@ double time_of(const Case& p, double distance) {
     if (!(std::abs(p.ship_travel(0.0, p.duration)) > distance)) return kNever;
     double before = 0.0, after = p.duration;
     for (int k = 0; k < 60; ++k) {
+        // 60 halvings: to the last digit of any duration
         const double middle = 0.5 * (before + after);
         (std::abs(p.ship_travel(0.0, middle)) < distance ? before : after) = middle;
     }
@@ -128,6 +130,7 @@ void measure_clearance(const World& w, const Front& front, Course& course) {
         course.clearance =
             std::max(w.parameters.level_ice.extent[0] - box_of(w.scene, kShip).max().x(), 0.0);
     for (std::size_t i = 1; i < b.size(); ++i) {
+        // slots hold the sheet, which was measured above
         if (w.edge.has_slot(i)) continue;
         const Shape& shape = w.scene.shapes[static_cast<std::size_t>(b.shape[i])];
         double nearest = kNever;
@@ -148,6 +151,7 @@ double distance_through(const World& w, double way) {
     for (std::size_t i = 1; i < w.scene.bodies.size(); ++i) {
         if (is_unbroken(w.scene, w.parameters, i)) continue;
         const Eigen::AlignedBox3d box = box_of(w.scene, i);
+        // loose floes beside the way are not met
         if (box.max().y() < hull.min().y() || box.min().y() > hull.max().y()) continue;
         far = std::max(far, way > 0.0 ? box.max().x() : -box.min().x());
     }

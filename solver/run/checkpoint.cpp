@@ -85,6 +85,7 @@ std::map<std::string, std::string> keys_of(const std::string& resolved) {
             table = line.substr(1, line.size() - 2) + ".";
         } else if (const auto equals = line.find(" = "); equals != std::string::npos) {
             const std::string name = line.substr(0, equals);
+            // `spheres` of any table: the content of the files is compared by its hash
             if (name == "spheres" || table + name == "simulation.duration") continue;
             keys[table + name] = line.substr(equals + 3);
         }

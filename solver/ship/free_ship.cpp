@@ -31,6 +31,7 @@ void FreeShip::begin(const Case& p, Scene& scene) {
     begun_ = true;
     if (!p.ship.any_free()) return;
     rig_ = make_ship_rig(p, scene);
+    // the prescribed speed at t = 0, and the floating pose, is the start of the free motions
     velocity_ = Vec3(p.ship_speed(0.0), 0.0, 0.0);
     angles_ = rig_->equilibrium.angles;
     Bodies& b = scene.bodies;
@@ -91,6 +92,7 @@ void FreeShip::apply_loads(const Case& p, Scene& scene, double time) {
                                 speed_error_);
     add_damping(p, scene);
     const ShipForce total = loads_.total();
+    // (S1) without impulses: the contacts have theirs in the stages that follow
     b.velocity[kShip] += b.ship.inverse_mass * (p.time_step * total.force);
     b.angular_velocity[kShip] += b.ship.inverse_inertia * (p.time_step * total.moment);
     // the integral of the error for `hold_speed`
@@ -116,12 +118,14 @@ void FreeShip::add_damping(const Case& p, Scene& scene) {
             inverse_on_free(heavier, rig_->body, first) * (dt * (force - by.cwiseProduct(rate)));
         return -by.cwiseProduct(free_part(rig_->body, first, rate) + 0.5 * change);
     };
+    // through the water: damping of a ship that drifts with the current is zero
     const Vec3 through_water = axes.shift.transpose() * (b.velocity[kShip] - scene.water.current);
     const Vec3 rates = axes.turn.inverse() * b.angular_velocity[kShip];
     const Vec3 force =
         damped(surge, masses.shift, shift, through_water, axes.shift.transpose() * others.force);
     const Vec3 moment =
         damped(roll, masses.turn, turn, rates, axes.turn.transpose() * others.moment);
+    // back to world axes: the angles' own are not at right angles where the ship trims
     loads_.losses.force += axes.shift * force;
     loads_.losses.moment += axes.turn.transpose().inverse() * moment;
 }
@@ -145,6 +149,7 @@ void FreeShip::book(const Scene& scene, const std::vector<Constraint>& constrain
     energies_.separation -= loads_.water.force.dot(corrections.shift[kShip]) +
                             loads_.water.moment.dot(corrections.turn[kShip]);
     for (const Constraint& c : constraints) {
+        // an impulse J on the floe is -J on the ship, at arm_a from G
         if (c.a != static_cast<std::int32_t>(kShip) || c.total_normal() <= 0.0) continue;
         const Vec3 j = c.total_normal() * c.normal + c.total_tangent();
         energies_.ice += j.dot(v + w.cross(c.arm_a));

@@ -90,7 +90,6 @@ void add_tow(const Case& p, const ShipRig& rig, const ShipState& s, const Mat3& 
     const Vec3 carriage_velocity(p.ship_speed(s.time), 0.0, 0.0);
     out.tow.force = level(p.tow.stiffness * (carriage - point) +
                           p.tow.damping * (carriage_velocity - velocity));
-    // about the pose at the start; the moments belong to the angles' own axes
     out.tow.moment = arm.cross(out.tow.force);
 }
 
