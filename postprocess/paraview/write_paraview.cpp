@@ -107,6 +107,7 @@ private:
     }
     std::vector<std::int32_t> ids(bool per_triangle) const {
         std::vector<std::int32_t> out = counted(run_.header.body_shape.size());
+        // floes are numbered from 1, as in run.h5
         for (std::int32_t& id : out) ++id;
         return of_bodies(out, per_triangle);
     }
@@ -116,6 +117,7 @@ private:
         for (std::size_t b = 0; b < run_.header.body_shape.size(); ++b) {
             for (const auto& triangle : mesh_of(b).triangles)
                 for (const std::int32_t corner : triangle) out.push_back(first + corner);
+            // vertices of the floes stand one after the other in a frame's array
             first += static_cast<std::int32_t>(mesh_of(b).vertices.size());
         }
         return out;
