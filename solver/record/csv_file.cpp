@@ -73,6 +73,7 @@ CsvFile::CsvFile(std::filesystem::path path, const std::string& columns, int dim
     // finished one
     std::string text = first_bytes(part_of(earlier), bytes);
     if (text.empty()) text = first_bytes(earlier, bytes);
+    // rows that were lost: the file begins anew, and the caller warns
     begins_late_ = !text.starts_with(header + "\n");
     if (begins_late_) text = header + "\n";
     write_text_file(part_of(path_), text);

@@ -43,6 +43,8 @@ struct Grid {
         int axis = 0;
         for (int d = 1; d < 3; ++d)
             if (std::abs(n[d]) > std::abs(n[axis])) axis = d;
+        // counted from the bow and from the waterline: the same cells whatever the mesh's
+        // origin
         const long x = static_cast<long>(std::floor((bow - at.x()) / size));
         const long y = dimension == 2 ? 0 : std::lround(at.y() / size);
         const long z = std::lround((at.z() - waterline) / size);
@@ -129,6 +131,8 @@ HullPanels divide_hull(const Shape& hull, double size, double waterline) {
         // mean normal
         panel.center = sums[k].center / sums[k].area;
         panel.normal = sums[k].normal.normalized();
+        // a sliver that found no neighbour counts as half a panel, or its line load would be
+        // too large
         panel.area = std::max(sums[k].area, kSmall * whole);
         panel.length = flat ? 1.0 : std::max(sums[k].projected / size, kSmall * size);
         out.panels.push_back(panel);

@@ -62,6 +62,7 @@ PeakStatistics peaks_of(std::span<const double> series, double mean, double wind
 
 double quantile(std::vector<double> series, double share) {
     if (series.empty()) return 0.0;
+    // the smallest value that at least this share of the values does not exceed
     const auto rank = static_cast<std::size_t>(
         std::max(0.0, std::ceil(share * static_cast<double>(series.size())) - 1.0));
     const auto place = series.begin() + static_cast<std::ptrdiff_t>(rank);

@@ -71,6 +71,7 @@ StepRecord measure_step(const Scene& scene, const std::vector<Contact>& contacts
         out.contact_force += push / dt;
         out.friction_force += rub / dt;
         if (c.on_unbent) out.breaking_x += (push + rub).x() / dt;
+        // arms begin in the centre of gravity, the moment is about the mesh's origin
         out.moment += (c.arm_a + scene.bodies.ship.centre).cross(Vec3(push + rub)) / dt;
         out.regions.push_back({c.b, contacts[k].region, push + rub, rub});
     }

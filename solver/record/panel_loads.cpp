@@ -95,9 +95,9 @@ void PanelLoads::fill(Summary& summary) const {
     summary.panels.count = static_cast<std::int64_t>(all.panels.size());
     std::vector<PanelLoad> touched;
     for (const PanelLoad& panel : all.panels)
-        // by the line load, which is what a frame of the hull has to carry
         if (panel.max > 0.0) touched.push_back(panel);
     summary.panels.touched = static_cast<std::int64_t>(touched.size());
+    // by the line load, which is what a frame of the hull has to carry
     std::stable_sort(touched.begin(), touched.end(), [](const PanelLoad& a, const PanelLoad& b) {
         return a.max / a.length > b.max / b.length;
     });

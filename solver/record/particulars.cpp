@@ -72,9 +72,9 @@ ShipParticulars measure_ship(const Scene& scene, const Case& parameters) {
 ShipParticulars measure_ship(const Scene& scene, const Case& parameters, double height) {
     const Shape& hull = scene.shapes[0];
     double keel = hull.mesh.vertices.front().z();
-    // in the ship's axes: the mesh with the water at -height
     for (const Vec3& v : hull.mesh.vertices) keel = std::min(keel, v.z());
     ShipParticulars ship;
+    // in the mesh's axes the water lies at -height
     ship.draught = -height - keel;
     const auto form = measure_hull_form(hull.mesh, -height);
     if (!form) return ship;
@@ -118,6 +118,7 @@ IceParticulars measure_ice(const Scene& scene, const Case& parameters) {
 }
 
 double speed_mean(const Case& p, double until) {
+    // a run that ended before its averages began has the mean of all of it
     const double from = until > p.average_from ? p.average_from : 0.0;
     return until > from ? p.ship_travel(from, until) / (until - from) : p.ship_speed(0.0);
 }

@@ -49,7 +49,9 @@ std::vector<std::pair<std::int32_t, std::int32_t>> close_pairs(const Scene& scen
     for (std::size_t k = 0; k < order.size(); ++k)
         for (std::size_t n = k + 1; n < order.size(); ++n) {
             const auto [a, b] = std::minmax(order[k].second, order[n].second);
+            // sorted by their lower ends: all that follow begin farther ahead
             if (order[n].first > box[order[k].second].max().x()) break;
+            // neither moves, so their overlap is that of the start
             const bool held = (a == 0 || scene.bodies.held[a]) && scene.bodies.held[b];
             if (!held && box[a].intersects(box[b])) pairs.emplace_back(a, b);
         }
@@ -142,6 +144,7 @@ PairOverlap measure_overlap(const Scene& scene, std::int32_t a, std::int32_t b) 
         Deepest found = deepest_point(scene, a, b, {0.0, Vec3::Zero()});
         found = deepest_point(scene, b, a, found);
         out.depth = found.depth;
+        // where one body lies in the other the depth of its points says little
         out.point = found.at;
         out.inside = lies_in(scene, a, b) ? a : lies_in(scene, b, a) ? b : -1;
     }
@@ -166,6 +169,7 @@ OverlapFound measure_overlaps(const Scene& scene, const std::vector<Contact>& co
         if (parted_by(scene, a, b) || parted_by(scene, b, a)) continue;
         const std::pair<std::int32_t, std::int32_t> pair(a, b);
         while (contact != contacts.end() && std::pair(contact->a, contact->b) < pair) ++contact;
+        // what the contacts know of this pair; only more counts as unseen
         double known = 0.0;
         for (auto c = contact; c != contacts.end() && std::pair(c->a, c->b) == pair; ++c)
             known = std::max(known, -c->gap);

@@ -62,6 +62,7 @@ double subtract_line(std::vector<double>& x) {
 std::optional<std::size_t> bandwidth(const std::vector<double>& x) {
     const std::size_t window = correlation_window(x);
     if (x.size() < 2 * window) return std::nullopt;
+    // n / (6 W), rounded
     return std::max(kNarrowest, (x.size() + 3 * window) / (6 * window));
 }
 
@@ -109,6 +110,7 @@ MeanInterval interval_of(const BlockedSeries& series) {
     MeanInterval out{series.mean, unknown, unknown, unknown, unknown, std::nullopt};
     if (series.count < kFewest) return out;
     // Long series are averaged to blocks: low frequencies lose nothing, and the cost is bounded.
+    // as many samples to a block as bring their number to kMost
     const std::size_t length = (series.blocks.size() + kMost - 1) / kMost;
     std::vector<double> x = blocks_of(series.blocks, length);
     subtract_mean(x);
@@ -122,6 +124,7 @@ MeanInterval interval_of(const BlockedSeries& series) {
     // / n.
     const std::optional<Band> band = low_band(x);
     if (band) {
+        // each ordinate is a chi-square variable with two degrees of freedom
         out.half_width = student_quantile(2.0 * static_cast<double>(band->stay), 0.05) *
                          std::sqrt(band->mean / n);
         // S of single samples is that of blocks times their length
