@@ -76,6 +76,7 @@ int allocate_ahead(const std::filesystem::path& path, std::uint64_t bytes) {
     if (file < 0) return errno;
     struct stat state {};
     int reason = ::fstat(file, &state) == 0 ? 0 : errno;
+    // beyond the present end, without moving it
     const auto end = static_cast<off_t>(bytes) + state.st_size;
     if (reason == 0 && ::fallocate(file, FALLOC_FL_KEEP_SIZE, 0, end) != 0) reason = errno;
     ::close(file);

@@ -104,6 +104,7 @@ std::size_t add_floe(World& world, std::int32_t shape, const FloeStart& start) {
                         "give a finite Case::contact.crushing_pressure");
     const std::size_t i =
         add_floe(world.scene, shape, p.ice_density, placed, group_of(p, start.hold));
+    // for a floe that is held until it bends
     set_breaking_loads(world.scene, p);
     return i;
 }

@@ -46,6 +46,7 @@ void set_added_mass(Scene& scene, const Case& parameters) {
     std::vector<bool> done(b.inertias.size(), false);
     for (std::size_t i = kShip + 1; i < b.size(); ++i) {
         const auto row = static_cast<std::size_t>(b.inertia_row[i]);
+        // once for each form and density; ice that never moves needs none
         if (done[row] || stays(parameters, b, i)) continue;
         done[row] = true;
         add_water(scene, i, parameters.water_density);

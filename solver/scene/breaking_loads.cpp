@@ -14,6 +14,7 @@ void set_breaking_loads(Scene& scene, const Case& parameters) {
     const auto bends = [&](std::size_t i) {
         return parameters.floes[static_cast<std::size_t>(b.group[i])].hold == Hold::until_bent;
     };
+    // bodies from the last call on: the others have their loads
     for (std::size_t i = std::max(b.breaking_load.size(), kShip + 1); i < b.size(); ++i) {
         if (!bends(i)) continue;
         b.breaking_load.resize(b.size(), kNever);

@@ -94,6 +94,7 @@ struct ShapeRows {
 
 void add_set_group(Scene& scene, const Case& parameters, std::size_t g, ShapeRows& rows) {
     const auto& file = parameters.floes[g].spheres;
+    // a set that two groups share is read once
     const auto [found, fresh] =
         rows.of_set.try_emplace(file, static_cast<std::int32_t>(scene.shapes.size()));
     if (fresh) scene.shapes.push_back(read_shape(file, parameters.dimension, true));
@@ -113,6 +114,7 @@ void add_field_group(Scene& scene, const Case& parameters, std::size_t g, ShapeR
         found = rows.of_field.emplace(group.file, std::pair{read_field(group.file), first}).first;
         for (SphereSet& set : found->second.first.shapes) {
             scene.shapes.push_back(build_shape(set, true));
+            // a large field twice in memory would be too much
             set = {};
         }
     }
@@ -181,6 +183,7 @@ Scene make_scene(Shape hull, const Vec3& position, const Vec3& velocity) {
 
 std::size_t add_floe(Scene& scene, std::int32_t shape_row, double density, const FloeStart& start,
                      std::int32_t group) {
+    // floating heights are found before
     const Shape& shape = scene.shapes[static_cast<std::size_t>(shape_row)];
     ICE_ASSERT(std::isfinite(start.position.z()));
     const bool held = start.hold != Hold::never;
@@ -242,6 +245,7 @@ Scene build_scene(const Case& parameters) {
         else
             add_set_group(scene, parameters, g, rows);
     }
+    // only of a single field the cover of the whole is known
     if (rows.of_set.empty() && rows.of_field.size() == 1)
         scene.concentration = rows.of_field.begin()->second.first.concentration;
     apply_jitter(scene, parameters);
