@@ -133,6 +133,7 @@ std::vector<std::size_t> choose_regions(const RunData& run) {
 double average_window(const std::vector<HistoryRow>& history) {
     if (history.size() < 2) return 1.0;
     const double span = history.back().time - history.front().time;
+    // a thirtieth of the run, but five rows at least
     const double raw =
         std::max({span / 30.0, 5.0 * span / static_cast<double>(history.size() - 1), 1e-9});
     const double digit = std::pow(10.0, std::floor(std::log10(raw)));
@@ -160,6 +161,7 @@ std::vector<History> force_histories(const RunData& run, double average_from, do
         "resistance", fmt::format("Resistance, moving average over {:g} s", style.window),
         "resistance", time,
         {{"contact + friction", "friction"}, {views::kBlue, views::kOrange}, resistance}, style));
+    // components have no mean line: the page states that of the resistance alone
     style.mean = std::nan("");
     style.samples = true;
     for (const std::size_t axis : axes_of(run)) {

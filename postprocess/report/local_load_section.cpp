@@ -56,7 +56,7 @@ int three_digits(double largest) {
 }
 
 Units units_of(const RunData& run, const ForceUnit& force) {
-    // one unit and one number of digits for all tables of the section
+    // one unit and one number of digits for all tables of the section, by the largest values
     double line = 0.0, pressure = 0.0;
     for (const PanelLoad& p : run.panels.panels) {
         line = std::max(line, p.max / p.length);

@@ -64,6 +64,7 @@ public:
     }
 
 private:
+    // JSON stands within a script element, which no text of a case may end
     static std::string safe_text(const std::string& text) {
         std::string out;
         for (const char c : text)
@@ -145,6 +146,7 @@ private:
                     codes.push_back(axis.code(run_.frames[f].position[b][d]));
         }
         meta_["position"] = {{"scale", scale}, {"offset", offset}};
+        // places change smoothly: differences of differences are small
         pack_.add_series("position", std::move(codes), rows(), 2);
     }
 

@@ -69,6 +69,7 @@ void choose_axes(Sweep& sweep, const std::vector<std::string>& planned) {
     });
     sweep.x = choose_x(sweep, sweep.axes);
     if (sweep.x.empty() || !planned.empty()) return;
+    // a key that follows x would make a curve of each point: it is named beside x, and no axis
     const auto tied = std::stable_partition(
         sweep.axes.begin(), sweep.axes.end(),
         [&](const std::string& key) { return key == sweep.x || !is_tied(sweep, key, sweep.x); });

@@ -228,6 +228,8 @@ std::string draw_overview(const Sweep& sweep, const std::vector<Curve>& curves,
         const std::string name = names[k].empty() ? "computed" : names[k];
         plotter.add(chart, curves[k], {name, kColors[k], "", 2.2, kMarks[k]},
                     [](const Point& p) { return p.part(Part::total); });
+        // Of one curve the formulas are named; of several they have the curves' colours, and
+        // their dashes are explained once, below.
         for (const FormulaCurve& f : formulas)
             plotter.add(chart, curves[k],
                         {curves.size() == 1 ? f.legend : "", kColors[k], f.dash, 1.8}, value_of(f));

@@ -86,6 +86,7 @@ std::vector<Column> force_columns(const std::vector<Point>& points, const report
 std::vector<Column> work_columns(const Sweep& sweep, const std::vector<Point>& points,
                                  const report::ForceUnit& unit) {
     std::vector<Column> columns;
+    // all points have the same accounts, in the same order
     for (const auto& [title, force] : share_work(sweep, points.front()))
         columns.push_back({std::string(title) + " [" + unit.name + "]", {}});
     for (const Point& point : points) {

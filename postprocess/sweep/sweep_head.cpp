@@ -86,6 +86,7 @@ private:
         append(text, "ice on ice ", "ice.friction_ice_ice", "");
         const std::size_t before = text.size();
         append(text, "crushing pressure ", "ice.crushing_pressure_Pa", " MPa", 1e-6);
+        // no run states a finite pressure
         if (!text.empty() && text.size() == before) text += ", rigid";
         return text;
     }

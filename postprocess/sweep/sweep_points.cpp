@@ -106,6 +106,7 @@ Point make_point(const Sweep& sweep, const std::map<std::string, Setting>& at,
     std::vector<double> peaks;
     for (const std::size_t row : rows) peaks.push_back(sweep.runs[row].summary->resistance.max);
     point.peak = estimate_mean(peaks);
+    // of runs that broke off no largest force is known
     if (std::isfinite(point.peak.mean))
         point.largest = *std::max_element(peaks.begin(), peaks.end());
     point.lindqvist = estimate_mean(lindqvist).mean;

@@ -52,6 +52,7 @@ std::string link(const SweepRun& run, const std::string& text, const std::filesy
     const fs::path target = fs::exists(report) ? report : run.folder;
     if (!fs::exists(target)) return escape(text);
     std::error_code error;
+    // relative to the page, so that a folder may be moved as a whole
     const fs::path from = fs::absolute(page).parent_path();
     const std::string address = fs::absolute(target).lexically_relative(from).generic_string();
     return "<a href=\"" + encode_address(address) + "\">" + escape(text) + "</a>";
@@ -194,6 +195,7 @@ std::string run_csv(const Sweep& sweep) {
                    std::to_string(s->unconverged_steps) + "," + csv_number(s->wall_s) + "," +
                    csv_text(release_rule(s->ice));
         else
+            // as many commas as the numbers above have
             out += ",,,,,,,,,";
         out += "," + csv_text(run.fault) + "\r\n";
     }
