@@ -120,6 +120,7 @@ std::vector<Item> SceneView::Parts::sort_floes(const RunFrame& frame) const {
         const Vec3 offset = frame.position[b] - frame.ship_position;
         const Vec3 p = projection.apply(offset);
         const double r = radius[shape];
+        // outside the picture
         if (p.x() + r < window.left || p.x() - r > window.right || p.y() + r < window.bottom ||
             p.y() - r > window.top)
             continue;

@@ -99,6 +99,7 @@ private:
             for (; asked != 0; asked &= asked - 1) {
                 const int bit = std::countr_zero(asked);
                 const double along = frame_.step.x() * static_cast<double>(64 * w + bit);
+                // a full batch is measured before it takes more
                 if (visit.points.count == PointBatch::kMost) {
                     visit.measure();
                     visit.clear(bits_);

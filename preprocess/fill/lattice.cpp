@@ -94,6 +94,7 @@ void expand(const LatticeFill& fill, std::span<Vec3> out) {
 
 std::vector<std::uint8_t> outer_spheres(const LatticeFill& fill, int dimension) {
     const LatticeFrame& frame = fill.frame;
+    // beyond the frame there is no point
     const auto is_set = [&](std::int64_t i, std::int64_t j, std::int64_t k) {
         if (i < 0 || j < 0 || k < 0 || i >= frame.count[0] || j >= frame.count[1] ||
             k >= frame.count[2])

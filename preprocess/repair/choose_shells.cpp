@@ -54,6 +54,7 @@ int winding(const TriangleMesh& mesh, const Shell& shell, const Vec3& p) {
         const auto tt = static_cast<std::size_t>(t);
         sum += solid_angle(p, mesh.corner(tt, 0), mesh.corner(tt, 1), mesh.corner(tt, 2));
     }
+    // in turns: a whole number but for rounding
     return static_cast<int>(std::lround(sum));
 }
 

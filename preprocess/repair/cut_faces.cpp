@@ -117,6 +117,7 @@ public:
         out.mesh.vertices = mesh_.vertices;
         out.mesh.region_names = mesh_.region_names;
         const auto add = [&](const Triple& piece, std::size_t t) {
+            // a piece without area
             if (piece[0] == piece[1] || piece[1] == piece[2] || piece[2] == piece[0]) return;
             out.mesh.triangles.push_back(piece);
             out.mesh.region.push_back(mesh_.region[t]);
@@ -127,6 +128,7 @@ public:
             for (const std::int32_t v : mesh_.triangles[t])
                 known.try_emplace(place(mesh_.vertices[static_cast<std::size_t>(v)]), v);
         std::size_t next = 0;
+        // both lists are in the order of the triangles
         for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
             if (next == cuts_.size() || cuts_[next].first != t) {
                 add(mesh_.triangles[t], t);
@@ -141,6 +143,7 @@ public:
                 number.push_back(found->second);
             }
             for (Triple piece : of.triangles) {
+                // new corners have numbers below 0 until all are known
                 for (std::int32_t& v : piece)
                     if (v < 0) v = number[static_cast<std::size_t>(-1 - v)];
                 add(piece, t);

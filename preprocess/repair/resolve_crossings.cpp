@@ -48,10 +48,13 @@ std::vector<int> merge_copies(TriangleMesh& mesh) {
     std::vector<int> all(first.size(), 0), times;
     for (std::size_t t = 0; t < first.size(); ++t) {
         const auto at = static_cast<std::size_t>(first[t]);
+        // a copy that faces as the first one counts for it, one that faces the other way
+        // against it
         all[at] += even(mesh.triangles[t]) == even(mesh.triangles[at]) ? 1 : -1;
     }
     std::vector<std::uint8_t> keep(first.size());
     for (std::size_t t = 0; t < keep.size(); ++t) {
+        // as many one way as the other: two sides of nothing
         keep[t] = all[t] != 0;
         if (all[t] < 0) std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);
         if (keep[t]) times.push_back(std::abs(all[t]));

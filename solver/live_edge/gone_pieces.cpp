@@ -85,6 +85,7 @@ void GonePieces::read(std::vector<IcePiece>& out) const {
     std::vector<double> row(kNumbers), corners;
     for (std::int64_t k = 0; k < count_; ++k) {
         take(row);
+        // the last number is that of the outline's corners
         corners.resize(2 * static_cast<std::size_t>(row[8]));
         take(corners);
         IcePiece piece{static_cast<std::int64_t>(row[0]),

@@ -43,6 +43,7 @@ NormalCone outermost_faces(const std::vector<Vec3>& normals) {
                 out[0] = normals[i];
                 out[1] = normals[j];
             }
+    // faces nearly back to back: a knife, which counts as round
     if (least < kKnife) return {};
     const Vec3 across = out[0].cross(out[1]);
     for (const Vec3& n : normals)
