@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Reader of an ice field: the lengths of all arrays first, then shape after shape from its rows,
+// then the floes.
 #include <fmt/format.h>
 
 #include <cmath>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The report's sections on the mean force's line of action, the moments, and the motion of a ship
+// that answers.
 #include <fmt/format.h>
 
 #include "postprocess/report/page.hpp"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Drawings of ship and ice at several instants, as many as the page has room for.
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>

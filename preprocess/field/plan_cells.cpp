@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Patterns "voronoi" and "power-law": random sites, the cells around them, and floes that are
+// these cells made smaller.
 #include <fmt/format.h>
 
 #include <cmath>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Pattern "cusps": row after row, each bounded behind by the arcs of the row before.
 #include <algorithm>
 #include <cmath>
 

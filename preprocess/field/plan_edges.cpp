@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Unbroken ice around a field, of any pattern: both sides of the channel and its far end.
 #include <cmath>
 
 #include "common/base/error.hpp"

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Distances of points from a triangle: the definition, one point at a time.
+// triangle_distances_simd.cpp computes the same bits in lanes.
 #include <algorithm>
 #include <limits>
 

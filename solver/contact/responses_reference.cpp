@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Effective masses of contacts, (5) and k_t: the definition, one contact at a time.
+// responses_simd.cpp computes the same bits for as many pairs as the machine has lanes.
 #include <Eigen/Geometry>
 #include <cmath>
 

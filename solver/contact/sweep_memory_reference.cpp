@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Sums of (11) and the step along the search direction: the definition, one number at a time.
+// sweep_memory_simd.cpp computes the same bits in lanes.
 #include "common/math/ordered_products.hpp"
 #include "solver/contact/sweep_memory.hpp"
 

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// A sweep, (9) and (10): the definition, one contact at a time. sweep_simd.cpp computes the same
+// bits for eight pairs side by side.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// A drafted case, and a drafted field, as text with comments.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The table's flow at a point, trilinear between its nodes: the definition. look_up_flow_simd.cpp
+// computes the same bits in lanes.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Sums over source panels, (22): the definition, one point at a time. panel_sums_simd.cpp computes
+// the same bits with points in lanes.
 #include <algorithm>
 
 #include "solver/flow/own_functions.hpp"

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The end of a step for floes, sections 2 and 7: the definition, one floe at a time.
+// advance_floes_simd.cpp computes the same bits in lanes.
 #include "common/math/ordered_products.hpp"
 #include "solver/integrate/advance_floes.hpp"
 #include "solver/integrate/rotation.hpp"

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Which spheres of two bodies may meet, group by group: the definition, one sphere at a time.
+// near_spheres_simd.cpp finds the same in lanes.
 #include <algorithm>
 
 #include "solver/narrow/near_spheres.hpp"

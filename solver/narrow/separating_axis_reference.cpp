@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The widest gap of two convex solids, section 3: the definition, one pair of features at a time.
+// separating_axis_simd.cpp computes the same bits in lanes.
 #include <Eigen/Geometry>
 #include <cmath>
 

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Which listed spheres of the rule "centres" touch: the definition, one pair at a time.
+// touching_spheres_simd.cpp finds the same in lanes.
 #include <algorithm>
 #include <cmath>
 

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Integrals over a floe's wetted surface, (14) to (17): the definition, one facet at a time.
+// wetted_sums_simd.cpp and facing_sums_simd.cpp compute the same bits in lanes.
 #include <array>
 
 #include "solver/water/cut_triangle.hpp"
