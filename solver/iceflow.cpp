@@ -142,6 +142,7 @@ void add_added_mass(const Options& o, const ice::SphereSet& hull, double water,
         low = std::min(low, v.x());
         high = std::max(high, v.x());
     }
+    // midships, on the centre line, in the water's surface
     r.added_mass_about = {0.5 * (low + high), 0.0, water};
     if (!o.about.empty()) std::copy_n(o.about.begin(), 3, r.added_mass_about.begin());
     const ice::Vec3 about(r.added_mass_about[0], r.added_mass_about[1], r.added_mass_about[2]);
@@ -158,6 +159,7 @@ void add_added_mass(const Options& o, const ice::SphereSet& hull, double water,
 std::string added_mass_text(const ice::FlowReport& r) {
     if (!r.added_mass) return "";
     const auto& a = *r.added_mass;
+    // inertia as the radius r with A' = displacement r^2
     return fmt::format(
         "  added mass        surge {:.3f}, sway {:.3f}, heave {:.3f} of the displacement, {:.4g} "
         "t\n"

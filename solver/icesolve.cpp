@@ -38,6 +38,7 @@ namespace {
 // The command that resumes an interrupted run.
 std::string command_to_go_on(const ice::Options& o, const std::filesystem::path& folder) {
     std::string line = ice::typed_program() + " " + ice::shell_word(o.case_file);
+    // a checkpoint holds its case and refuses another: the same keys again
     for (const std::string& text : o.overrides) line += " --set " + ice::shell_word(text);
     if (o.checkpoint_every > 0.0) line += fmt::format(" --checkpoint-every {}", o.checkpoint_every);
     return line + " --restart " + ice::shell_word((folder / ice::kCheckpointName).string());
@@ -151,9 +152,11 @@ int run_case(const ice::Options& o, const std::string& command_line) {
     ice::World world = ice::build_world(parameters);
     const std::vector<ice::Warning> course = ice::check_course(world);  // before the ice moves
     std::optional<ice::SavedRun> saved;
+    // onto the scene that the case builds: a checkpoint holds state, no shapes
     if (!o.restart.empty()) saved.emplace(ice::read_checkpoint(o.restart, world));
     ice::SavedRun* going_on = saved ? &*saved : nullptr;
     std::vector<ice::Warning> warnings;
+    // of a resumed run the start is long past
     if (!saved) warnings = ice::check_start(world, o.allow_overlap);
     const auto of_water = ice::check_water(parameters, world.scene);
     warnings.insert(warnings.end(), of_water.begin(), of_water.end());
@@ -243,6 +246,7 @@ int run_seeds(const ice::Options& o, const std::string& command_line) {
 }
 
 int run_icesolve(const ice::Options& o, const std::string& command_line) {
+    // the short answers first: they need no case
     if (!o.explain.empty()) {
         ice::write_data(ice::explain_key(ice::case_schema(), o.explain));
     } else if (o.schema) {

@@ -93,6 +93,7 @@ void declare_options(CLI::App& app, Options& o) {
     auto* hashes =
         app.add_option("--hash-every", o.hash_every, "Print step and state hash every N steps")
             ->check(CLI::PositiveNumber);
+    // an ensemble resumes its members by itself, and has no single state to hash
     app.add_option("--seeds", o.seeds,
                    "Run an ensemble of N members in turn, in seed-1, seed-2, ... of the run "
                    "folder; the same command again resumes it")

@@ -22,6 +22,8 @@ FileTurn::FileTurn(const std::filesystem::path& file, Kind kind, std::chrono::se
     whole.l_type = kind == Kind::read ? F_RDLCK : F_WRLCK;
     whole.l_whence = SEEK_SET;
     const auto end = std::chrono::steady_clock::now() + longest_wait;
+    // locks of the open file, not of the process: two threads of one program exclude each
+    // other, too
     while (::fcntl(file_, F_OFD_SETLK, &whole) != 0) {
         const bool is_taken = errno == EAGAIN || errno == EACCES;
         if (!is_taken || std::chrono::steady_clock::now() > end) return;

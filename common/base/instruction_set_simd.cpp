@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Which of Highway's targets the kernels run on: the best that the machine has, or the one asked
+// for.
 #include <hwy/targets.h>
 
 #include <array>

@@ -20,6 +20,7 @@ FitSpread spread_of_fit(const Eigen::MatrixXd& a, double chi2, bool weighted) {
     const Eigen::Index n = a.cols();
     const auto degrees = static_cast<double>(a.rows() - n);
     const double scatter = degrees > 0.0 ? chi2 / degrees : 0.0;
+    // Weights are believed where the fit is as good as they say, and widened where it is worse.
     const double scale = weighted ? std::max(1.0, scatter) : scatter;
     return {(a.transpose() * a).ldlt().solve(Eigen::MatrixXd::Identity(n, n)) * scale,
             weighted        ? kNormalHalfWidth

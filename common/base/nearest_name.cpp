@@ -41,6 +41,7 @@ std::string nearest_name(std::string_view wrong, const std::vector<std::string>&
     for (const std::string& name : names) {
         const std::size_t longer = std::max(wrong.size(), name.size());
         const std::size_t changes = count_changes(wrong, name);
+        // at most two changes or a quarter of the letters, and less than half of them
         if (changes > std::max<std::size_t>(2, longer / 4) || 2 * changes >= longer) continue;
         if (best.empty() || changes < least) {
             best = name;

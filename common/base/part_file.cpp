@@ -27,6 +27,7 @@ bool bring_to_disk(const std::filesystem::path& path) {
 }
 
 void keep_file(const std::filesystem::path& part, const std::filesystem::path& final_path) {
+    // content first, then the name: a name never stands for half a file
     if (!bring_to_disk(part))
         throw run_failed(final_path.string(),
                          std::string("cannot be brought to the disk: ") + std::strerror(errno),

@@ -92,6 +92,8 @@ std::uint64_t address_space() {
 #endif
 
 void keep_within(const ReadBounds& bounds) {
+    // the soft limit's signal (SIGXCPU) says that time was the reason; the hard one ends what
+    // ignores it
     const auto seconds = static_cast<rlim_t>(std::ceil(bounds.seconds));
     limit(RLIMIT_CPU, seconds, seconds + 1);
     limit(RLIMIT_CORE, 0, 0);
@@ -149,6 +151,7 @@ ReadBounds ReadBounds::for_size(std::uint64_t size) {
 void rehearse(const std::filesystem::path& file, const ReadBounds& bounds,
               const std::function<void()>& read) {
     Pipe messages;
+    // a process of its own: a library that crashes or never ends takes no program with it
     const pid_t child = messages.good() ? fork() : -1;
     if (child == 0) do_in_child(bounds, read, messages);
     if (child < 0)
@@ -157,6 +160,7 @@ void rehearse(const std::filesystem::path& file, const ReadBounds& bounds,
             std::string("cannot be read: no process for it (") + std::strerror(errno) + ")",
             "end other programs, or raise the limits (ulimit -u, -n)");
     messages.close_end(1);
+    // until the child closes its end, by ending
     const std::string message = messages.read();
     int status = 0;
     while (waitpid(child, &status, 0) < 0 && errno == EINTR) {

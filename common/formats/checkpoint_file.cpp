@@ -93,6 +93,7 @@ void CheckpointFile::Parts::open() {
         file->read_text_attribute("/", "format") != kCheckpointFormat)
         throw bad_input(path.string(), "is not a checkpoint of icesolve", kStartAnew);
     created_by = file->read_text_attribute("/", "created_by");
+    // other versions hold other fields: a wrong guess would continue with wrong numbers
     const double format_version = file->read_number_attribute("/", "format_version")[0];
     if (format_version != kFormatVersion)
         throw bad_input(path.string(),

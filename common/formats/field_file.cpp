@@ -28,6 +28,8 @@ void add_shape(const SphereSet& set, FieldArrays& all) {
     all.area.push_back(set.solid.area);
     for (int k = 0; k < 3; ++k) all.centroid.push_back(set.solid.centroid[k]);
     for (int k = 0; k < 9; ++k) all.inertia.push_back(set.solid.inertia(k / 3, k % 3));
+    // all shapes in the same arrays, one after the other: thousands of small datasets would be
+    // slow
     append(all.center, flatten<double>(set.centers));
     append(all.share_volume, set.volumes);
     append(all.share_area, set.areas);

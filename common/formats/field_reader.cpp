@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Reader of an ice field: the lengths of all arrays first, then shape after shape from its rows,
+// then the floes.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -107,6 +109,7 @@ private:
         const std::size_t v = read_counts("/shape/vertices", 4, all_.vertices);
         const std::size_t t = read_counts("/shape/triangles", 4, all_.triangles);
         const std::size_t k = all_.spheres.size();
+        // lengths first: every later index relies on them
         for (const auto& counts : {all_.surface, all_.creases, all_.vertices, all_.triangles})
             check(counts.size() == k, "/shape", "has arrays of different lengths");
         all_.volume = finite<double>("/shape/volume", k);

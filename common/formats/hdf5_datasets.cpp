@@ -68,6 +68,7 @@ std::int64_t Hdf5File::open_dataset(const std::string& name) const {
     if (!has(name)) throw bad_input(describe(name), "is missing", kRemake);
     const hid_t dataset = H5Dopen2(id_, name.c_str(), H5P_DEFAULT);
     if (dataset < 0) throw bad_input(describe(name), "is not a dataset", kRemake);
+    // values in another file, or mapped from one, could name any file of the reader's
     const Handle properties(H5Dget_create_plist(dataset), H5Pclose);
     if (properties < 0 || H5Pget_external_count(properties) != 0 ||
         H5Pget_layout(properties) == H5D_VIRTUAL) {
@@ -100,6 +101,7 @@ void Hdf5File::write_rows(const std::string& name, const T* rows,
                           const std::vector<std::uint64_t>& shape, std::uint64_t count, T rest) {
     if (count == shape[0]) return write(name, rows, shape);
     constexpr hsize_t kRowsPerChunk = 1 << 15;
+    // chunks, so that rows that were never written take no room: they read as `rest`
     auto dims = to_hsize(shape), chunk = dims, block = dims;
     chunk[0] = std::min(dims[0], kRowsPerChunk);
     block[0] = count;

@@ -130,6 +130,7 @@ std::string Hdf5File::read_text_attribute(const std::string& object,
         H5Aopen_by_name(id_, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
     const Handle type(H5Aget_type(attribute), H5Tclose);
     if (H5Tget_class(type) != H5T_STRING) throw fail();
+    // variable length: HDF5 allocates the text, we release it
     if (H5Tis_variable_str(type) > 0) {
         char* text = nullptr;
         if (H5Aread(attribute, type, &text) < 0 || text == nullptr) throw fail();
@@ -185,6 +186,7 @@ bool Hdf5File::has(const std::string& name) const {
 }
 
 void Hdf5File::limit_reading(std::uint64_t times) const {
+    // small files may unpack to much more than their size: some room is free
     constexpr std::uint64_t kFree = 128u << 20;
     left_ = kFree + times * std::filesystem::file_size(path_);
 }

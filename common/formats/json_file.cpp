@@ -33,6 +33,7 @@ void add_origin(Json& json) {
 
 const Json& JsonReader::at(const std::string& key) const {
     const Json* found = &json_;
+    // step by step down the dotted key
     for (std::size_t begin = 0; begin <= key.size();) {
         const std::size_t end = std::min(key.find('.', begin), key.size());
         found = &child(*found, key.substr(begin, end - begin), key);

@@ -98,6 +98,8 @@ PanelSummary read_panels(const Json& summary) {
         p.normal = point(json, "normal");
         p.area = number(json, "area_m2");
         p.length = number(json, "length_m");
+        // loads and pressures in the file, forces in memory: the panel's length turns one into
+        // the other
         p.mean = number(json, "line_load_mean_N_per_m") * p.length;
         p.p99 = number(json, "line_load_p99_N_per_m") * p.length;
         p.max = number(json, "line_load_max_N_per_m") * p.length;

@@ -42,6 +42,7 @@ void from_json(const Json& json, ShipParticulars& s) {
         "length_m",        "breadth_m",         "draught_m",
         "displacement_kg", "stem_angle_deg",    "entrance_angle_deg",
         "speed_mean",      "parallel_length_m", "bow_length_m"};
+    // every other number is of a ship's motion, whatever its name
     for (const auto& [key, value] : json.items()) {
         if (of_hull.contains(key)) continue;
         if (value.is_boolean() && key == "stuck") s.stuck = value.get<bool>();

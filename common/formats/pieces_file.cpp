@@ -17,6 +17,7 @@ namespace ice {
 namespace {
 
 void write_piece_rows(Hdf5File& file, const std::string& group, const std::vector<PieceRow>& rows) {
+    // meshes one after the other, with the rows at which each begins
     std::vector<std::int64_t> vertex_offset{0}, triangle_offset{0};
     std::vector<Vec3> vertices, at;
     std::vector<std::int32_t> triangles;
@@ -95,6 +96,7 @@ private:
                             sides = rows_of(group + "/triangles");
         const auto vertices = points(group + "/vertices", {corners});
         const auto triangles = read_as<std::int32_t>(group + "/triangles", {sides, 3});
+        // offsets are checked before they index anything
         const auto first = offsets(group + "/vertex_offset", rows.size(), corners);
         const auto side = offsets(group + "/triangle_offset", rows.size(), sides);
         for (std::size_t k = 0; k < rows.size(); ++k) {
@@ -128,6 +130,7 @@ void add_floe(RunHeader& header, const PieceRow& row, std::int32_t group, double
     header.body_shape.push_back(static_cast<std::int32_t>(header.shapes.size()));
     header.body_group.push_back(group);
     header.body_mass.push_back(row.mass);
+    // mass / volume is the ice's density: the mesh's moments are those of its volume
     header.body_inertia.push_back(row.mass / solid.volume * solid.inertia.diagonal());
     header.body_born.push_back(born);
     header.body_breaking_load.push_back(row.load);
@@ -169,6 +172,7 @@ struct Floes {
 std::ptrdiff_t piece_of(const PiecesFile& file, std::int32_t body, double time) {
     for (std::size_t k = 0; k < file.pieces.size(); ++k) {
         const PieceRow& row = file.pieces[k];
+        // born at the end of one step and there from the next on
         if (row.body == body && row.born < time && time <= row.gone)
             return static_cast<std::ptrdiff_t>(k);
     }
@@ -198,6 +202,7 @@ void show_in_frame(const PiecesFile& file, std::size_t others, const RunFrame* b
             add_in_sheet(row, FloeState::behind);
     }
     for (const PieceRow& row : file.rest) add_in_sheet(row, FloeState::held);
+    // contacts name slots; readers want the pieces
     for (HullContact& contact : frame.hull_contacts) {
         if (contact.floe < file.first_body) continue;
         const std::ptrdiff_t piece = piece_of(file, contact.floe, frame.time);

@@ -85,6 +85,7 @@ RunWriter::Buffers::Buffers(const std::filesystem::path& path, const std::filesy
                          "this is a fault of the program: please report it");
     const FileTurn turn(part_path, FileTurn::Kind::write);
     write_attributes(file, header);
+    // coordinates of the arrays' short axes, so that xarray labels them
     write_labels(file, "/xyz", {"x", "y", "z"});
     write_labels(file, "/wxyz", {"w", "x", "y", "z"});
     write_labels(file, "/pose_parts", {"x", "y", "z", "qw", "qx", "qy", "qz"});
@@ -112,6 +113,7 @@ void RunWriter::Buffers::create_history(const RunHeader& header) {
     create(friction, "/ship/friction_force", {3}, force, {"/time", "/xyz"});
     create(total, "/ship/force", {3}, force, {"/time", "/xyz"});
     create(moment, "/ship/moment", {3}, header.dimension == 2 ? "N" : "N m", {"/time", "/xyz"});
+    // "m, 1": three lengths and a quaternion
     create(pose, "/ship/pose", {7}, "m, 1", {"/time", "/pose_parts"});
     create(contacts, "/ship/contacts", {}, "1", {"/time"});
     create(moving, "/ship/moving_floes", {}, "1", {"/time"});
@@ -154,6 +156,7 @@ void RunWriter::Buffers::create_regions(const RunHeader& header) {
     write_labels(file, "/hull_regions", names);
     for (auto& [column, name] : {std::pair(&region_contact, "/regions/contact_force"),
                                  std::pair(&region_friction, "/regions/friction_force")}) {
+        // single precision: three numbers for each region in every row
         column->name = name;
         create_column<float>(file, name, {regions, 3}, kHistoryChunk,
                              header.dimension == 2 ? "N/m" : "N",
@@ -167,6 +170,7 @@ void RunWriter::Buffers::create_frames(const RunHeader& header) {
                                      const std::string& unit, Scales scales) {
         column.name = "/frames/" + name;
         if (name != "frame_time") scales.insert(scales.begin(), "/frames/frame_time");
+        // a chunk holds whole frames
         create_column<T>(file, column.name, row, frames_per_chunk(bodies), unit, scales);
     };
     file.create_group("/frames");
@@ -176,6 +180,7 @@ void RunWriter::Buffers::create_frames(const RunHeader& header) {
     create(ship_position, "ship_position", {3}, "m", {"/xyz"});
     if (header.ship_answers) {
         create(ship_orientation, "ship_orientation", {4}, "1", {"/wxyz"});
+        // only of a ship that answers; another stays upright on its course
         file.write_attribute("/frames/ship_orientation", "order", "w,x,y,z ship to world");
     }
     create(position, "position", {n, 3}, "m", {"/frames/body", "/xyz"});
@@ -194,6 +199,7 @@ void RunWriter::Buffers::create_contacts(const RunHeader& header) {
     const auto create = [&]<class T>(Column<T>& column, const std::string& name, const Shape& row,
                                      const std::string& unit, Scales scales) {
         column.name = "/contacts/" + name;
+        // all columns but the time itself hang on the scale of time
         if (name != "contact_time") scales.insert(scales.begin(), "/contacts/contact_time");
         create_column<T>(file, column.name, row, kContactChunk, unit, scales);
     };
@@ -220,6 +226,7 @@ void RunWriter::Buffers::write_rows(bool all) {
         throw run_failed(final_path.string(), "cannot be written",
                          "check that the disk is not full");
     const FileTurn turn(part_path, FileTurn::Kind::write);
+    // a write that throws leaves columns of different length: no later one may follow it
     torn = true;  // until all went well
     // of the buffered rows: all, or as many as complete the file's last chunk and whole ones
     const auto take = [all](std::uint64_t& buffered, std::int64_t& on_disk, std::uint64_t chunk) {
@@ -338,6 +345,7 @@ bool RunWriter::is_about_to_write() const {
 
 void RunWriter::finish(const HullPanels& panels) {
     Buffers& b = *buffers_;
+    // what is left in the buffers; then the file gets its name, and is whole whenever it has it
     b.write_all();
     const FileTurn turn(b.part_path, FileTurn::Kind::write);
     if (!panels.panels.empty()) run_parts::write_panels(b.file, panels, b.dimension);

@@ -23,6 +23,7 @@ public:
     explicit RunFileReader(const std::filesystem::path& path) : RunArrays(path) {}
 
     RunData read() {
+        // header and shapes first: the later arrays are checked against their numbers
         RunData run;
         read_header(run.header);
         read_shapes(run.header.shapes);
@@ -59,6 +60,7 @@ private:
     void read_shapes(std::vector<RunShape>& shapes) const {
         const std::uint64_t count = length("/shapes/vertex_offset");
         check(count >= 1 && count < 1000000, "/shapes/vertex_offset", "has no shapes");
+        // offsets have one entry more than there are shapes: the end of the last
         shapes.resize(count - 1);
         const auto names = file().read_strings("/region_names");
         for (RunShape& shape : shapes) shape.mesh.region_names = names;
@@ -80,6 +82,7 @@ private:
         const auto corners = read_as<std::int32_t>("/shapes/triangles", {rows, 3});
         const auto region = read_as<std::int32_t>("/shapes/region", {rows});
         const auto offset = offsets("/shapes/triangle_offset", shapes.size(), rows);
+        // before anything is indexed with them
         for (const std::int32_t r : region)
             check(r >= 0 && r < static_cast<std::int32_t>(regions), "/shapes/region",
                   "points outside /region_names");
@@ -118,6 +121,7 @@ private:
         for (const std::int32_t shape : header.body_shape)
             check(shape >= 0 && shape < static_cast<std::int32_t>(header.shapes.size()),
                   "/frames/body_shape", "points outside the shapes");
+        // floes are numbered from 1, in files as in messages
         for (const std::int32_t id : header.tracked)
             check(id >= 1 && id <= static_cast<std::int32_t>(bodies), "/tracked/floe",
                   "names a floe that does not exist");
@@ -197,6 +201,7 @@ private:
         const auto names = file().read_strings("/hull_regions");
         const std::size_t n = run.history.size(), regions = names.size();
         const auto contact = read_as<float>(kRegionForces[0], {n, regions, 3});
+        // rows of time, then regions, then x, y, z
         const auto friction = read_as<float>(kRegionForces[1], {n, regions, 3});
         for (std::size_t r = 0; r < regions; ++r) {
             RegionHistory history{names[r], {}, {}};
@@ -216,6 +221,7 @@ private:
                 read_as<double>("/tracked/" + std::to_string(id), {run.history.size(), columns});
             std::vector<TrackRow> rows(run.history.size());
             for (std::size_t k = 0; k < rows.size(); ++k) {
+                // the order of track_columns()
                 const double* v = flat.data() + columns * k;
                 TrackRow& row = rows[k];
                 row.time = run.history[k].time;

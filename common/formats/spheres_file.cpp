@@ -32,6 +32,7 @@ void write_solid(Hdf5File& file, const MassProperties& solid) {
     file.write_attribute("/solid", "centroid",
                          {solid.centroid.x(), solid.centroid.y(), solid.centroid.z()}, {3});
     std::vector<double> inertia;
+    // row by row
     for (int r = 0; r < 3; ++r)
         for (int c = 0; c < 3; ++c) inertia.push_back(solid.inertia(r, c));
     file.write_attribute("/solid", "inertia", inertia, {3, 3});

@@ -28,6 +28,7 @@ RigidBody rigid_body(const MassProperties& solid, double density) {
     body.centroid = solid.centroid;
     body.inertia = 0.5 * density * (solid.inertia + solid.inertia.transpose());
 
+    // products of inertia that are rounding alone would turn the axes of a symmetric body
     Mat3 clean = body.inertia;
     for (int r = 0; r < 3; ++r)
         for (int c = 0; c < 3; ++c)
@@ -39,6 +40,7 @@ RigidBody rigid_body(const MassProperties& solid, double density) {
     axes.col(1) = positive(solver.eigenvectors().col(1));
     axes.col(2) = axes.col(0).cross(axes.col(1));
     body.axes = Eigen::Quaterniond(axes).normalized();
+    // q and -q are the same rotation
     if (body.axes.w() < 0.0) body.axes.coeffs() *= -1.0;
     return body;
 }

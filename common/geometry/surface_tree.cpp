@@ -34,6 +34,7 @@ SurfaceTree::SurfaceTree(const TriangleMesh& mesh) : mesh_(mesh) {
     grain_ = std::ldexp(box.sizes().maxCoeff(), -21);
     nodes_.reserve(mesh.triangles.size() / 4 + 2);
     build(0, count);
+    // corners in the order of the leaves: those of one leaf lie side by side in memory
     corners_.reserve(order_.size());
     rank_.resize(order_.size());
     for (const std::int32_t t : order_) {
@@ -217,6 +218,7 @@ Foot SurfaceTree::closest(const Vec3& p, std::int32_t hint) const {
         best.triangle = t;
         feature = q.feature;
     };
+    // a near triangle first rules out most of the boxes
     if (hint >= 0)
         look(hint, corners_[static_cast<std::size_t>(rank_[static_cast<std::size_t>(hint)])]);
     // boxes as near as the best are searched, too: of equal feet the first triangle's counts

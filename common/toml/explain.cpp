@@ -12,6 +12,7 @@ namespace ice {
 namespace {
 
 std::string kind_text(const Key& key) {
+    // in the words of a message: what the user has to write
     switch (key.kind) {
         case Kind::number:
             return "number";
@@ -46,6 +47,7 @@ std::string kind_text(const Key& key) {
 
 std::string default_note(const Key& key) {
     if (key.default_text.empty()) return "required";
+    // "-": left out, the program chooses; the description says what
     if (key.default_text == "-") return "optional";
     return "default " + std::string(key.default_text);
 }
@@ -65,6 +67,7 @@ std::string table_of(const Key& key) {
 std::string explain_key(const Schema& schema, const std::string& path) {
     const Key* key = schema.find(path);
     if (key == nullptr) {
+        // the name of a table explains all of its keys
         std::string table;  // of which all keys are explained
         for (const Key& inner : schema.keys)
             if (inner.path.starts_with(path + "."))
@@ -101,6 +104,7 @@ std::string default_text(const Schema& schema) {
         }
         const auto leaf = key.path.substr(key.path.rfind('.') + 1);
         const bool has_default = !key.default_text.empty() && key.default_text != "-";
+        // keys without a default stand in comments, for the user to fill in or leave
         out += fmt::format("{}{} = {}  # {} ({})\n", has_default ? "" : "# ", leaf,
                            has_default ? key.default_text : "...", key.doc, kind_text(key));
     }

@@ -20,6 +20,7 @@ std::string read_input_text(const std::filesystem::path& file, const std::string
                         look_into_folder(file, ending));
     if (!std::filesystem::is_regular_file(file, error))
         throw bad_input(file.string(), what + " not found", "check the path");
+    // before it is read: a wrong file may be many gigabytes
     if (std::filesystem::file_size(file, error) > largest)
         throw bad_input(file.string(),
                         fmt::format("is too large for a {} ({} MB)", what, largest >> 20),
@@ -27,6 +28,7 @@ std::string read_input_text(const std::filesystem::path& file, const std::string
     std::ifstream in(file, std::ios::binary);
     if (!in) throw bad_input(file.string(), "cannot be read", "check its permissions");
     std::string text{std::istreambuf_iterator<char>(in), {}};
+    // a mesh or an HDF5 file would give a syntax error that helps nobody
     if (const auto other = recognise_file(file, text))
         throw bad_input(file.string(), fmt::format("is {}, not a {}", other->what, what),
                         other->remedy);

@@ -106,6 +106,7 @@ Json value_schema(const Key& key) {
 Json default_json(const Key& key, const Schema& schema) {
     const Value value = default_value(key, schema);
     if (key.kind == Kind::boolean) return std::get<std::int64_t>(value) != 0;
+    // whole numbers are stored as doubles: an editor would show 1.0
     const bool whole = key.kind == Kind::counts || key.kind == Kind::integer_list;
     if (const auto* list = std::get_if<std::vector<double>>(&value); list && whole)
         return std::vector<std::int64_t>(list->begin(), list->end());
@@ -124,6 +125,7 @@ Json key_schema(const Key& key, const Schema& schema) {
     if (key.default_text.empty()) {
         text += " Required.";
     } else if (key.default_text != "-") {
+        // JSON has no infinity: the default is told in words
         const Json value = default_json(key, schema);
         if (value.is_number_float() && !std::isfinite(value.get<double>()))
             text += fmt::format(" Default {}.", key.default_text);
@@ -155,6 +157,7 @@ std::string json_schema(const Schema& schema) {
             else if (entry.is_null())
                 entry = table_schema();
             table = repeated ? &entry["items"] : &entry;
+            // a table with a required key is required itself, once
             if (key.default_text.empty() && !table->contains("required"))
                 root["required"].push_back(name);
         }
@@ -162,12 +165,14 @@ std::string json_schema(const Schema& schema) {
         (*table)["properties"][name] = key_schema(key, schema);
         if (key.default_text.empty()) (*table)["required"].push_back(name);
     }
+    // keys of which one must be given: the editor underlines a table that has none or both
     for (const auto& choice : schema.one_of) {
         const std::string table = choice.front().substr(0, choice.front().rfind('.'));
         Json& entry = root["properties"][table];
         for (const std::string& path : choice)
             entry["oneOf"].push_back({{"required", {path.substr(path.rfind('.') + 1)}}});
     }
+    // [[floes]] may be missing where [level_ice] stands in its place
     if (!schema.in_its_place.empty()) {
         for (const std::string& table : {schema.repeated_table, schema.in_its_place})
             root["anyOf"].push_back({{"required", {table}}});

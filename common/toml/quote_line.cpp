@@ -70,6 +70,7 @@ std::string quote_line(std::string_view line, std::size_t number, std::size_t at
                        std::size_t width) {
     if (line.ends_with('\r')) line.remove_suffix(1);
     const std::vector<std::string> all = printable_characters(line);
+    // a window of the line around the mistake: lines of generated files may be very long
     const std::size_t first = at > kMostOfLine / 2 ? at - kMostOfLine / 2 : 0;
     std::string part;
     for (std::size_t k = first; k < std::min(first + kMostOfLine, all.size()); ++k) part += all[k];
@@ -80,12 +81,14 @@ std::string quote_line(std::string_view line, std::size_t number, std::size_t at
 
 bool has_decimal_comma(std::string_view value) {
     const std::string_view rest = behind_number(trim(value));
+    // one comma with digits behind it; two or more are a list
     return rest.size() < value.size() && rest.size() > 1 && rest[0] == ',' && is_digit(rest[1]) &&
            behind_number(rest.substr(1)).find(',') == std::string_view::npos;
 }
 
 std::string explain_value(std::string_view line) {
     const auto equals = line.find('=');
+    // a comment with a '=' in it is no assignment
     if (equals == std::string_view::npos || line.find('#') < equals) return "";
     const std::string_view value = trim(line.substr(equals + 1, line.find('#') - equals - 1));
     if (value.empty()) return "";

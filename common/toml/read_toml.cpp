@@ -50,6 +50,7 @@ private:
     }
 
     void complain_of_syntax(const toml::parse_error& error) {
+        // the parser's own words, and what people usually did
         const std::string what(error.description());
         const std::string hint = what.find("utf-8") != std::string::npos
                                      ? "; save the file as UTF-8"
@@ -80,6 +81,7 @@ private:
                 is_repeated(path) && std::all_of(name.begin(), name.end(),
                                                  [](unsigned char c) { return std::isdigit(c); });
             if (number && node.is_table()) {  // an override's floes.2.gap, numbered from 1
+                // longer numbers name no group, and might not fit a long
                 const long group = name.size() < 9 ? std::atol(name.c_str()) : 0;
                 if (group < 1 || group > static_cast<long>(groups))
                     complain(
@@ -168,6 +170,7 @@ private:
         return !path.empty() && path == schema_.repeated_table;
     }
 
+    // a table is known by its keys: the schema lists no tables
     bool is_table(const std::string& path) const {
         return std::any_of(schema_.keys.begin(), schema_.keys.end(),
                            [&](const Key& key) { return key.path.starts_with(path + "."); });
@@ -191,6 +194,7 @@ private:
                      name.str().size());
             return;
         }
+        // where the key stands, for complaints that come after reading
         mistakes_.places[label] =
             fmt::format("{}:{}:{}", name_, name.source().begin.line, name.source().begin.column);
         Value value;
@@ -231,6 +235,7 @@ Values read_override(const std::string& text, const Schema& schema, std::size_t 
     }
     const std::string key = text.substr(0, equals), value = text.substr(equals + 1);
     std::string line = key + " = " + value;
+    // --set hull.spheres=a.h5 without the quotes that a shell takes away
     if (!parses(line)) line = key + " = \"" + value + "\"";
     return Document(line, "--set", schema, mistakes).read(line, false, groups);
 }

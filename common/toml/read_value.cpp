@@ -69,6 +69,7 @@ private:
         if (const auto text = node.value<std::string_view>(); text && node.is_string()) {
             const auto quantity = parse_quantity(*text, dimension);
             if (!quantity) {
+                // the message lists the units that the key may have, and knows a usual slip
                 const std::string units = unit_names(dimension);
                 complain(node.source(),
                          fmt::format(
@@ -113,10 +114,12 @@ private:
 
     bool read_integer(const Key& key, const toml::node& node, Value& out) {
         double number = 0.0;
+        // 3.0 is a float in TOML: refused
         if (!node.is_integer()) {
             complain(node.source(), fmt::format("{} must be a whole number", key.path), 1);
             return false;
         }
+        // whole numbers have no unit
         if (!read_scalar(key, Dimension::none, node, number)) return false;
         out = static_cast<std::int64_t>(number);
         return true;
@@ -135,6 +138,7 @@ private:
             complain(node.source(), fmt::format("{} must be a text in quotes", key.path), 1);
             return false;
         }
+        // the choices with bars at both ends, so that no part of a word is found
         const std::string list = "|" + std::string(key.choices) + "|";
         const bool chosen = key.kind == Kind::choice || key.kind == Kind::choice_or_vector;
         if (chosen && list.find("|" + *text + "|") == std::string::npos) {
@@ -211,11 +215,13 @@ private:
         std::vector<std::pair<double, double>> rows;
         const auto* list = node.as_array();
         const bool curve = key.kind == Kind::curve;
+        // a table over time, or over the ship's speed
         const Dimension first = curve ? Dimension::speed : Dimension::time;
         const char* const form = curve ? "[U, value] with U" : "[t, u] with t";
         for (std::size_t k = 0; list && k < list->size(); ++k) {
             const auto* row = list->get(k)->as_array();
             std::pair<double, double> pair;
+            // rows rise: values between them are interpolated, and a time twice would be a jump
             if (!row || row->size() != 2 || !read_scalar(key, first, *row->get(0), pair.first) ||
                 !read_scalar(key, key.dimension, *row->get(1), pair.second) ||
                 (!rows.empty() && pair.first <= rows.back().first)) {

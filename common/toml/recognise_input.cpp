@@ -69,7 +69,9 @@ std::string lower_extension(const std::filesystem::path& file) {
 }  // namespace
 
 std::optional<Recognised> recognise_file(const std::filesystem::path& file, std::string_view text) {
+    // the first bytes of every HDF5 file; the format's name stands among the attributes
     if (text.starts_with("\x89HDF\r\n\x1a\n"))
+        // the last entry has no name, so that it fits any other HDF5 file
         for (const Format& format : kFormats)
             if (text.find(format.name) != std::string_view::npos)
                 return Recognised{std::string(format.what), with_name(format.remedy, file)};
@@ -77,6 +79,7 @@ std::optional<Recognised> recognise_file(const std::filesystem::path& file, std:
         return Recognised{"a mesh", with_name("make a sphere set of it: spherize FILE; a case "
                                               "names that, and icesolve runs the case",
                                               file)};
+    // byte-order marks
     if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
         return Recognised{"text in UTF-16", "save it as UTF-8"};
     return std::nullopt;
@@ -93,6 +96,7 @@ std::optional<Recognised> recognise_tables(const std::filesystem::path& file,
     const FileKind* found = nullptr;
     for (const FileKind& kind : kKinds) {
         if (!shows(kind)) continue;
+        // it has a sign of the wanted kind: a mistake in it is told as such
         if (kind.title == wanted) return std::nullopt;
         if (found == nullptr) found = &kind;
     }

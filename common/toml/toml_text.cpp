@@ -9,6 +9,7 @@ std::string toml_text(const Value& value, const Key& key) {
     struct Writer {
         const Key& key;
         std::string operator()(double v) const {
+            // the shortest digits that read back as the same number
             const std::string text = fmt::format("{}", v);
             // TOML floats need a point, an exponent or a name (inf)
             return text.find_first_of(".einf") == std::string::npos ? text + ".0" : text;

@@ -26,6 +26,7 @@ Trial try_degree(const std::vector<SpeedPoint>& points, Eigen::Index degree, boo
     Eigen::VectorXd right(n);
     for (Eigen::Index i = 0; i < n; ++i) {
         const SpeedPoint& p = points[static_cast<std::size_t>(i)];
+        // 1 / standard deviation: the half width of a 95 % interval is 1.96 of them
         const double weight = weighted ? kNormalHalfWidth / p.half : 1.0;
         for (Eigen::Index k = 0; k <= degree; ++k)
             j(i, k) = weight * std::pow(p.speed, static_cast<double>(k));
@@ -43,7 +44,9 @@ Trial try_degree(const std::vector<SpeedPoint>& points, Eigen::Index degree, boo
 
 // First root of a function that begins above 0; NaN without one.
 double first_root(const std::function<double(double)>& f, double end) {
+    // not even at rest does the thrust overcome the ice
     if (!(f(0.0) > 0.0)) return 0.0;
+    // the lowest of several roots: a ship that speeds up stops there
     double low = 0.0;
     for (int k = 1; k <= kSteps; ++k) {
         double high = end * k / kSteps;
@@ -63,12 +66,14 @@ double first_root(const std::function<double(double)>& f, double end) {
 }  // namespace
 
 double ResistanceFit::at(double speed) const {
+    // Horner's rule
     double sum = 0.0;
     for (Eigen::Index k = coefficient.size() - 1; k >= 0; --k) sum = sum * speed + coefficient[k];
     return sum;
 }
 
 double ResistanceFit::half(double speed) const {
+    // variance of the curve at this speed: x . C x with x = (1, u, u^2)
     Eigen::VectorXd x(coefficient.size());
     for (Eigen::Index k = 0; k < x.size(); ++k) x[k] = std::pow(speed, static_cast<double>(k));
     return t * std::sqrt(x.dot(covariance * x));
@@ -95,11 +100,14 @@ ResistanceFit fit_resistance(const std::vector<SpeedPoint>& points) {
 }
 
 double attained_speed(const std::function<double(double)>& resistance, const Thrust& thrust) {
+    // beyond its own speeds a thrust has none
     const double end = std::min(thrust.fastest(), kMostSpeed);
     return first_root([&](double u) { return thrust.at(u) - resistance(u); }, end);
 }
 
 AttainedSpeed attained_speed(const ResistanceFit& fit, const Thrust& thrust) {
+    // the ends of the interval: against the upper curve the ship is slower, against the lower
+    // one faster
     const auto meets = [&](double halves) {
         return attained_speed([&](double u) { return fit.at(u) + halves * fit.half(u); }, thrust);
     };

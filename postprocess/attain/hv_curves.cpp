@@ -158,6 +158,7 @@ private:
         for (const auto& [h, rows] : by_thickness) {
             std::vector<SpeedPoint> speeds;
             for (const Row& row : rows) {
+                // the whole resistance; ships that go astern have negative speeds
                 const sweep::Estimate r = row.point->part(Part::total);
                 speeds.push_back({std::abs(row.summary->ship.speed_mean), r.mean, r.half});
             }
@@ -197,6 +198,7 @@ private:
             [](const Row& a, const Row& b) { return a.thickness < b.thickness; });
         const Summary& s = *rows.front().summary;
         IceParticulars ice = s.ice;
+        // speed and thickness vary, all else of ship and ice stays
         const auto at = [&](double thickness, double speed) {
             ice.thickness = thickness;
             return comparable_formulas(evaluate_formulas(s.ship, ice, speed, formulas_),

@@ -68,6 +68,7 @@ public:
             out.bollard_pull = number("constant");
         } else {
             if (!find("open_water_speed")) complain("open_water_speed is missing");
+            // any number, since the mistake is reported
             out.open_water_speed = find("open_water_speed") ? number("open_water_speed") : 1.0;
             out.bollard_pull = find("bollard_pull") ? number("bollard_pull") : pull_of_power();
         }
@@ -122,6 +123,7 @@ std::vector<Thrust> read_once(const std::filesystem::path& file) {
 double Thrust::at(double speed) const {
     if (!table.empty()) {
         if (speed <= table.front().first) return table.front().second;
+        // linear between rows, constant before and behind them
         for (std::size_t k = 1; k < table.size(); ++k) {
             const auto& [u0, t0] = table[k - 1];
             const auto& [u1, t1] = table[k];
@@ -130,6 +132,7 @@ double Thrust::at(double speed) const {
         return table.back().second;
     }
     if (open_water_speed == 0.0) return bollard_pull;
+    // (S2) of docs/method.md, section 14
     const double share = speed / open_water_speed;
     return bollard_pull * (1.0 - share / 3.0 - 2.0 / 3.0 * share * share);
 }
@@ -141,6 +144,7 @@ double Thrust::fastest() const {
 
 double bollard_pull(double power, double diameter, int propellers) {
     ICE_ASSERT(propellers >= 1 && propellers <= 3);
+    // T_B = K (P D)^(2/3) in kN, kW, m: 0.78, 0.98, 1.12 for one, two, three screws
     constexpr std::array<double, 3> kFactor{0.78, 0.98, 1.12};
     const double factor = kFactor[static_cast<std::size_t>(propellers - 1)];
     return 1e3 * factor * std::pow(1e-3 * power * diameter, 2.0 / 3.0);

@@ -148,6 +148,7 @@ std::string draw_hv(const HvStudy& study, double width) {
         }
     // width of the interval's end strokes, in metres of ice thickness
     const double cap = high > low ? 0.008 * (high - low) : 0.008 * high;
+    // from zero where that costs no more than half of the width
     chart.x_from_zero = low <= 0.5 * high || low == high;
     std::size_t formulas = 0;
     for (const HvCurve& curve : study.curves) {

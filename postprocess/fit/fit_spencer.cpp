@@ -23,6 +23,7 @@ struct Problem {
 };
 
 double clearing(const SpencerScales& s, double exponent) {
+    // at rest nothing is cleared, whatever the exponent
     return s.froude > 0.0 ? s.inertia * std::pow(s.froude, -exponent) : 0.0;
 }
 
@@ -41,6 +42,7 @@ Eigen::MatrixXd slopes(const Problem& p, double a, double c_c, int columns) {
 }
 
 // C_B and C_C with the exponent a.
+// for a given exponent the resistance is linear in both coefficients
 LeastSquares solve_at(const Problem& p, double a) {
     return solve_least_squares(slopes(p, a, 1.0, 2), p.weight.cwiseProduct(p.resistance));
 }
@@ -59,7 +61,9 @@ double find_exponent(const Problem& p) {
         const Eigen::MatrixXd j = slopes(p, a, now.x[1], 3);
         const Eigen::VectorXd miss = right - j.leftCols(2) * now.x;
         double step = solve_least_squares(j, miss).x[2];
+        // a step that makes the fit worse is halved: the exponent is not linear
         while (std::abs(step) > 1e-15 && solve_at(p, a + step).chi2 > now.chi2) step *= 0.5;
+        // with an exponent above 2 clearing would fall with the speed
         if (!(std::abs(step) > 1e-14) || a + step > 2.0) break;
         a += step;
     }
@@ -90,6 +94,7 @@ Problem take_broken(const std::vector<FitPoint>& points) {
         if (point.level_ice) continue;
         p.scales.push_back(point.scales);
         resistance.push_back(point.resistance);
+        // 1 / standard deviation; the half width of a 95 % interval is 1.96 of them
         weight.push_back(kNormalHalfWidth / point.half);
         p.weighted = p.weighted && point.half > 0.0;  // false for NaN as well
     }
@@ -115,6 +120,7 @@ void fit_breaking(const std::vector<FitPoint>& points, SpencerFit& fit) {
         if (!(left > 0.0) || !(point.scales.strength > 0.0)) continue;
         x.push_back(-std::log(point.scales.strength));
         y.push_back(std::log(left / point.scales.inertia));
+        // the deviation of a logarithm is that of the value over the value
         weight.push_back(kNormalHalfWidth * left / point.half);
         weighted = weighted && point.half > 0.0;
     }
@@ -135,6 +141,7 @@ void fit_breaking(const std::vector<FitPoint>& points, SpencerFit& fit) {
     const Eigen::VectorXd half = half_widths(j, line.chi2, weighted);
     fit.coefficients.breaking = std::exp(line.x[0]);
     fit.coefficients.breaking_exponent = line.x[1];
+    // and back: the deviation of C_BR is C_BR times that of its logarithm
     fit.intervals.breaking = fit.coefficients.breaking * half[0];
     fit.intervals.breaking_exponent = half[1];
     fit.breaking_fitted = true;

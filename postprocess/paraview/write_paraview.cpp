@@ -96,6 +96,8 @@ private:
     std::vector<T> of_bodies(const std::vector<T>& values, bool per_triangle,
                              std::size_t columns = 1) const {
         if (!per_triangle) return values;
+        // one row per floe, repeated for each of its triangles, in the order of
+        // floe_triangles()
         std::vector<T> out;
         for (std::size_t b = 0; b < values.size() / columns; ++b)
             for (std::size_t t = 0; t < mesh_of(b).triangles.size(); ++t)
@@ -105,6 +107,7 @@ private:
     }
     std::vector<std::int32_t> ids(bool per_triangle) const {
         std::vector<std::int32_t> out = counted(run_.header.body_shape.size());
+        // floes are numbered from 1, as in run.h5
         for (std::int32_t& id : out) ++id;
         return of_bodies(out, per_triangle);
     }
@@ -114,6 +117,7 @@ private:
         for (std::size_t b = 0; b < run_.header.body_shape.size(); ++b) {
             for (const auto& triangle : mesh_of(b).triangles)
                 for (const std::int32_t corner : triangle) out.push_back(first + corner);
+            // vertices of the floes stand one after the other in a frame's array
             first += static_cast<std::int32_t>(mesh_of(b).vertices.size());
         }
         return out;
@@ -220,6 +224,7 @@ private:
     void add_bodies(const RunFrame& frame) {
         std::vector<float> turns;
         for (const Eigen::Quaterniond& q : frame.orientation)
+            // orientation as w, x, y, z, as all of the project's files have it
             for (const double v : {q.w(), q.x(), q.y(), q.z()})
                 turns.push_back(static_cast<float>(v));
         std::vector<NamedArray> values = floe_values(frame, false);

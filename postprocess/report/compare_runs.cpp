@@ -40,6 +40,7 @@ std::string short_number(double value) {
     if (!std::isfinite(value)) return "-";
     const double size = std::abs(value);
     if (value == std::round(value)) return fmt::format("{:.0f}", value);
+    // digits before the point, so that small and large numbers show about as many in all
     const int before = size < 1.0 ? 1 : static_cast<int>(std::floor(std::log10(size))) + 1;
     return fmt::format("{:.{}f}", value, std::clamp(4 - before, 0, 2));
 }
@@ -98,6 +99,7 @@ std::string compare_text(const std::vector<NamedSummary>& runs) {
 std::string compare_csv(const std::vector<NamedSummary>& runs) {
     const auto solid = of_dimension(runs, 3), flat = of_dimension(runs, 2);
     if (!solid.empty() && !flat.empty())
+        // a table of whole forces and of forces per metre would invite comparing them
         throw bad_input(fmt::format("{} and {}", solid.front().first, flat.front().first),
                         "are in 3D and in 2D: newtons and newtons per metre share no column",
                         "give runs of one dimension to a table with --csv");

@@ -54,6 +54,7 @@ std::string draw_plot(const read::RunFolder& run) {
     for (std::size_t track = 0; track < run.data.tracks.size(); ++track)
         for (const History& h : track_histories(run.data, track, unit))
             charts.push_back(draw_history(h));
+    // two columns of charts of equal size, in the order in which they were made
     const views::Chart size;  // all charts have the default size
     const auto rows = (charts.size() + kColumns - 1) / kColumns;
     const double gap = 12.0, title = 30.0;

@@ -9,6 +9,7 @@ void evaluate_run(Summary& s, const FormulaOptions& options) {
     FormulaOptions chosen = options;
     const bool stated =
         std::isfinite(options.flexural_strength) || std::isfinite(s.ice.flexural_strength);
+    // level ice without a stated strength gets the usual one: formulas for it need a number
     if (is_level_ice(s.ice) && !stated) chosen.flexural_strength = kFlexuralStrength;
     auto formulas = evaluate_formulas(s.ship, s.ice, s.ship.speed_mean, chosen);
     if (formulas.empty() || !std::isfinite(s.ice.water_density)) return;

@@ -47,6 +47,7 @@ std::vector<Bar> make_bars(const Summary& s) {
     const bool level = is_level_ice(s.ice);
     for (const FormulaValue& sum : comparable_formulas(formulas, level)) {
         Bar bar{sum.name, {}};
+        // what breaking takes compares with runs in level ice only
         for (const FormulaValue& f : formulas) {
             const bool breaks = f.part == "crushing" || f.part == "bending" || f.part == "breaking";
             const bool part = f.part == "submersion" || f.part == "buoyancy" ||
@@ -111,6 +112,7 @@ std::string draw_formulas(const Summary& s, const ForceUnit& unit, double width)
     const double height = kTop + kRow * static_cast<double>(bars.size()) + 6.0;
     const std::string title = "Resistance and formulas [" + unit.name + "]";
     std::string out = views::svg_open(width, height, title) +
+                      // the band of the comparable formulas, behind the bars
                       views::text_element(8.0, 16.0, title, "start", "font-weight=\"600\"");
     const auto band = band_of(comparable_formulas(formulas_of(s), is_level_ice(s.ice)));
     if (band && band->high > band->low)
@@ -143,6 +145,7 @@ std::string formula_section(const Summary& s, const ForceUnit& unit) {
     const bool level = is_level_ice(s.ice);
     const auto compared = comparable_formulas(formulas, level);
     std::vector<std::vector<std::string>> rows;
+    // a formula's part that says the same as the run is marked
     for (const FormulaValue& f : formulas) {
         const bool same = std::any_of(compared.begin(), compared.end(), [&](const auto& c) {
             return c.name == f.name && c.part == f.part;

@@ -135,6 +135,7 @@ std::string key_numbers(const Summary& s, const ForceUnit& unit, double speed) {
     }
     if (!s.ice.hold.empty())
         out += card(release_rule(s.ice), "release rule: until when floes are held");
+    // resistance times speed; unknown where the speed is
     if (std::isfinite(speed)) {
         out += card(fmt::format("{:.2f} m/s", speed), fmt::format("{:.2f} knots", speed / kKnot));
         // kW from 10 kW on: models have watts, ships megawatts.

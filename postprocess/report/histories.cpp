@@ -46,6 +46,7 @@ std::pair<double, double> middle_range(std::vector<double> values, double share)
     if (values.empty()) return {0.0, 0.0};
     std::sort(values.begin(), values.end());
     const double last = static_cast<double>(values.size() - 1);
+    // of few values all are shown: a share of them would be one or two
     const double tail = values.size() < kFew ? 0.0 : 0.5 * (1.0 - share);
     const auto at = [&](double part) { return values[static_cast<std::size_t>(part * last)]; };
     return {std::min(0.0, at(tail)), std::max(0.0, at(1.0 - tail))};
@@ -132,9 +133,11 @@ std::vector<std::size_t> choose_regions(const RunData& run) {
 double average_window(const std::vector<HistoryRow>& history) {
     if (history.size() < 2) return 1.0;
     const double span = history.back().time - history.front().time;
+    // a thirtieth of the run, but five rows at least
     const double raw =
         std::max({span / 30.0, 5.0 * span / static_cast<double>(history.size() - 1), 1e-9});
     const double digit = std::pow(10.0, std::floor(std::log10(raw)));
+    // one digit: a window that a reader can name
     return std::floor(raw / digit * (1.0 + 1e-9)) * digit;
 }
 
@@ -158,6 +161,7 @@ std::vector<History> force_histories(const RunData& run, double average_from, do
         "resistance", fmt::format("Resistance, moving average over {:g} s", style.window),
         "resistance", time,
         {{"contact + friction", "friction"}, {views::kBlue, views::kOrange}, resistance}, style));
+    // components have no mean line: the page states that of the resistance alone
     style.mean = std::nan("");
     style.samples = true;
     for (const std::size_t axis : axes_of(run)) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Sections of the report with curves over time: forces, regions of the hull, tracked floes.
 #include <fmt/format.h>
 
 #include "postprocess/report/page.hpp"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The report's map of the mean load on the hull, seen from several sides.
 #include <fmt/format.h>
 
 #include "postprocess/report/page.hpp"

@@ -56,6 +56,7 @@ int three_digits(double largest) {
 }
 
 Units units_of(const RunData& run, const ForceUnit& force) {
+    // one unit and one number of digits for all tables of the section, by the largest values
     double line = 0.0, pressure = 0.0;
     for (const PanelLoad& p : run.panels.panels) {
         line = std::max(line, p.max / p.length);
@@ -71,6 +72,7 @@ Units units_of(const RunData& run, const ForceUnit& force) {
 
 std::string peak_table(const Regions& regions, const Summary& s, const Units& units,
                        double lengths) {
+    // rates per hour of averaged time, and per ship length of way where that is known
     const double hours = (s.simulated_s - s.average_from) / 3600.0;
     double most = 0.0;
     for (const auto& [name, region] : regions)

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The report's sections on the mean force's line of action, the moments, and the motion of a ship
+// that answers.
 #include <fmt/format.h>
 
 #include "postprocess/report/page.hpp"
@@ -13,6 +15,7 @@ namespace {
 constexpr int kDecimals = 2;  // of a place [m]
 
 std::string place(const Vec3& p, int dimension) {
+    // in 2D without y, which has no meaning
     if (dimension == 2)
         return fmt::format("x {:.{}f}, z {:.{}f} m", p.x(), kDecimals, p.z(), kDecimals);
     return fmt::format("x {:.{}f}, y {:.{}f}, z {:.{}f} m", p.x(), kDecimals, p.y(), kDecimals,

@@ -16,6 +16,7 @@ static_assert(std::endian::native == std::endian::little, "arrays are written in
 
 void Pack::append(const std::string& name, const char* type, const void* data, std::size_t count,
                   std::size_t size) {
+    // arrays begin at multiples of four bytes: the viewer reads them in place
     bytes_.resize((bytes_.size() + 3) / 4 * 4, '\0');
     table_[name] = {{"type", type}, {"offset", bytes_.size()}, {"count", count}};
     if (count > 0) bytes_.append(static_cast<const char*>(data), count * size);
@@ -36,6 +37,8 @@ void Pack::add(const std::string& name, const std::vector<std::uint8_t>& values)
 
 void Pack::add_series(const std::string& name, std::vector<std::int16_t> values, std::size_t rows,
                       int order) {
+    // Differences of neighbours, once or twice, and low bytes apart from high bytes: smooth
+    // series then consist of small numbers, which compress well.
     const auto wrap = [](int difference) { return static_cast<std::int16_t>(difference); };
     for (int pass = 0; pass < order; ++pass)
         for (std::size_t first = 0; first < values.size(); first += rows)
@@ -78,6 +81,7 @@ std::int16_t Quantiser::code(double value) const {
 }
 
 Quantiser make_quantiser(double low, double high, double finest) {
+    // all values equal or unknown: any step will do
     if (!(high >= low) || !std::isfinite(high - low)) return {finest > 0.0 ? finest : 1.0, 0.0};
     const double step = std::max((high - low) / 65000.0, finest);
     return {step > 0.0 ? step : 1.0, 0.5 * (low + high)};

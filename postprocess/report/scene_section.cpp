@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Drawings of ship and ice at several instants, as many as the page has room for.
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
@@ -63,6 +64,7 @@ views::ViewOptions view_options(const RunData& run) {
         length = hull.sizes().x();
         hull_half = std::max(std::abs(hull.min().y()), std::abs(hull.max().y()));
     }
+    // the breadth shown: the hull and some ice beside it, and not more of the field than useful
     const RunFrame& first = run.frames.front();
     for (std::size_t b = 0; b < first.position.size(); ++b) {
         double radius = 0.0;
@@ -84,6 +86,7 @@ std::vector<views::Trail> make_trails(const RunData& run) {
         trail.floe = run.header.tracked[k];
         trail.color = views::trail_style(k).color;
         trail.dash = views::trail_style(k).dash;
+        // at most about a thousand points of a path are drawn
         const std::size_t count = run.tracks[k].size(), stride = count / 1000 + 1;
         for (std::size_t s = 0; s < count; s += stride) {
             trail.time.push_back(run.tracks[k][s].time);

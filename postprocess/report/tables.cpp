@@ -52,6 +52,7 @@ ForceUnit choose_unit(double largest, int dimension) {
     const std::string per = dimension == 2 ? "/m" : "";
     const double size = size_of(largest);
     ForceUnit unit{"N" + per, 1.0, 0};
+    // unit by the largest number; three digits after the first one
     if (size >= 1e4) unit = {"kN" + per, 1e3, 0};
     if (size >= 1e7) unit = {"MN" + per, 1e6, 0};
     if (size > 0.0)

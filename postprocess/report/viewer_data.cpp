@@ -22,6 +22,7 @@ constexpr double kTurns = 8191.0;            // integers per quaternion componen
 constexpr double kLoads = 8191.0;            // 13 bits; two more hold the floe's state
 constexpr std::size_t kFloeTriangles = 400;  // of one shape
 
+// 1, 2 or 5 times a power of ten: ends of a scale that can be read
 double round_up(double value) {
     if (!(value > 0.0)) return 1.0;
     const double power = std::pow(10.0, std::floor(std::log10(value)));
@@ -63,6 +64,7 @@ public:
     }
 
 private:
+    // JSON stands within a script element, which no text of a case may end
     static std::string safe_text(const std::string& text) {
         std::string out;
         for (const char c : text)
@@ -129,6 +131,7 @@ private:
         json scale = json::array(), offset = json::array();
         for (int d = 0; d < 3; ++d) {
             double low = std::numeric_limits<double>::infinity(), high = -low;
+            // positions in 16 bits over the range that they have along each axis
             for (const std::size_t f : chosen_)
                 for (const Vec3& p : run_.frames[f].position) {
                     low = std::min(low, p[d]);
@@ -143,6 +146,7 @@ private:
                     codes.push_back(axis.code(run_.frames[f].position[b][d]));
         }
         meta_["position"] = {{"scale", scale}, {"offset", offset}};
+        // places change smoothly: differences of differences are small
         pack_.add_series("position", std::move(codes), rows(), 2);
     }
 
@@ -202,6 +206,8 @@ private:
     // of level ice: when each floe broke off [s], < 0: never, and by what share of the scale's end
     void add_pieces() {
         std::vector<float> born, load;
+        // colours by age and by the load that broke each piece, relative to the ends of their
+        // scales
         if (!chosen_.empty() && !run_.header.body_born.empty()) {
             const double start = run_.frames[chosen_.front()].time;
             const double age = std::max(run_.frames[chosen_.back()].time - start, 1e-9);

@@ -131,6 +131,7 @@ RunFigures make_figures(const read::RunFolder& run, const RunData& data, std::si
                         : std::isfinite(data.header.average_from) ? data.header.average_from
                                                                   : 0.0;
     const double mean =
+        // without a summary there is no stated mean to draw
         run.summary ? run.summary->resistance.mean : std::numeric_limits<double>::quiet_NaN();
     const ForceUnit unit = page_unit(run);
     return {statistics::make_load_map(data, from),
@@ -147,6 +148,7 @@ RunFigures make_figures(const read::RunFolder& run, const RunData& data, std::si
 }  // namespace
 
 std::string make_report(const read::RunFolder& run, std::size_t frames) {
+    // figures first: several sections and the viewer use them
     const RunData data = with_few_tracks(run.data);
     const RunFigures figures = make_figures(run, data, frames);
     const ViewerData viewer = make_viewer_data(data, figures, frames);
@@ -179,6 +181,7 @@ std::string make_report(const read::RunFolder& run, std::size_t frames) {
     rest += origin(run);
     // The 3D scene takes the room that the rest of the page leaves: the page stays small enough to
     // mail.
+    // everything else is made first, since its size is known only then
     const std::size_t used = make_page(page).size() + head.size() + rest.size();
     page.body += scene_section(
         data, std::clamp(kPageSize - std::min(kPageSize, used), kLeastBudget, kMostBudget));

@@ -30,12 +30,15 @@ Estimate estimate_ensemble(const Seeds& ensemble) {
 Estimate estimate_difference(const Seeds& a, const Seeds& b) {
     const Estimate first = estimate_ensemble(a), second = estimate_ensemble(b);
     const double mean = second.mean - first.mean;
+    // without a scatter between seeds the runs' own intervals count, as independent errors
     if (a.resistance.size() < 2 || b.resistance.size() < 2)
         return {mean, std::hypot(first.half, second.half)};
     const double qa = square_error(a.resistance, first.mean);
     const double qb = square_error(b.resistance, second.mean);
     if (!std::isfinite(qa + qb)) return {mean, kNaN};
+    // runs that are equal to the last digit, as for an input without effect
     if (qa + qb == 0.0) return {mean, 0.0};
+    // degrees of freedom by Welch and Satterthwaite: both ensembles may scatter differently
     const double freedom = (qa + qb) * (qa + qb) /
                            (qa * qa / static_cast<double>(a.resistance.size() - 1) +
                             qb * qb / static_cast<double>(b.resistance.size() - 1));

@@ -39,12 +39,14 @@ void add_run(const toml::table& entry, Study& study) {
     const auto run = std::find_if(study.runs.runs.begin(), study.runs.runs.end(),
                                   [&](const sweep::SweepRun& r) { return r.name == name; });
     Seeds* values = &study.base;
+    // a run without an input is the case itself
     if (!input.empty()) {
         const auto owner = std::find_if(study.inputs.begin(), study.inputs.end(),
                                         [&](const Input& i) { return i.name == input; });
         if (owner == study.inputs.end()) return;
         values = &find_or_add(owner->values, text_of(entry, "label"));
     }
+    // planned, but not run yet or failed: the input keeps its place without a value
     if (run == study.runs.runs.end() || !run->summary) return;
     values->resistance.push_back(run->summary->resistance.mean);
     values->half.push_back(run->summary->resistance.ci95);

@@ -116,6 +116,7 @@ private:
                             "resistance [" + unit_.name + "]", "middle");
         const double percent = 0.01 * base_.mean / unit_.newtons;
         const double mean = base_.mean / unit_.newtons;
+        // of a mean of zero there are no per cent
         if (percent == 0.0) return out;
         double low = (x_.low - mean) / percent, high = (x_.high - mean) / percent;
         if (low > high) std::swap(low, high);
@@ -134,6 +135,7 @@ private:
         out += text_element(kLeft - 12.0, middle - 3.0, input.name, "end", "font-weight=\"600\"");
         out += text_element(kLeft - 12.0, middle + 12.0, "case: " + input.base, "end", kSmall);
         double y = top + 0.5 * kBetween;
+        // a single bar stands in the middle of the row
         if (input.changes.size() < 2) y += 0.5 * kBar;
         for (const Change& change : input.changes) {
             out += bar(change, y);

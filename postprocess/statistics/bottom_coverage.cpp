@@ -32,6 +32,7 @@ struct Plan {
         for (long r = 0; r < rows; ++r)
             for (long c = 0; c < columns; ++c) {
                 const Vec3 page = from.apply(Vec3(x(c), y(r), 0.0));
+                // seen from below the nearest point is the lowest: nearness is -z
                 const double z = -map.nearness(page.x(), page.y());
                 const bool is_wet = std::isfinite(z) && z < waterline;
                 height.push_back(is_wet ? z : std::nan(""));
@@ -52,6 +53,7 @@ struct Plan {
 void cover(const Plan& plan, const Vec3 corner[3], std::vector<char>& covered) {
     const Vec3 &a = corner[0], &b = corner[1], &c = corner[2];
     const double twice = (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
+    // seen from its edge it covers nothing
     if (twice == 0.0) return;
     const auto range = [&](int axis, double origin, long count) {
         const auto [low, high] = std::minmax({a[axis], b[axis], c[axis]});
@@ -62,6 +64,7 @@ void cover(const Plan& plan, const Vec3 corner[3], std::vector<char>& covered) {
     const auto [r0, r1] = range(1, plan.box.min().y(), plan.rows);
     for (long row = r0; row < r1; ++row)
         for (long column = c0; column < c1; ++column) {
+            // barycentric coordinates of the cell's centre
             const double x = plan.x(column), y = plan.y(row);
             const double u =
                 ((x - a.x()) * (c.y() - a.y()) - (y - a.y()) * (c.x() - a.x())) / twice;
@@ -80,6 +83,7 @@ double covered_share(const Plan& plan, const RunHeader& header, const std::vecto
     for (std::size_t b = 0; b < frame.position.size(); ++b) {
         const auto shape = static_cast<std::size_t>(header.body_shape[b]);
         const Vec3 offset = frame.position[b] - frame.ship_position;
+        // no part of this floe lies below the hull
         if (plan.box.exteriorDistance(offset) > radius[shape]) continue;
         const Mat3 turn = frame.orientation[b].toRotationMatrix();
         const TriangleMesh& mesh = header.shapes[shape].mesh;
@@ -100,6 +104,7 @@ BottomCoverage measure_bottom_coverage(const RunData& run, std::size_t frames) {
     if (run.frames.empty() || run.header.shapes.empty() ||
         run.header.shapes[0].mesh.triangles.empty())
         return out;
+    // in the hull's axes the water lies at minus the ship's height
     const Plan plan(run.header.shapes[0].mesh, -run.frames.front().ship_position.z());
     if (plan.wet == 0) return out;
     out.area = static_cast<double>(plan.wet) * plan.cell * plan.cell;

@@ -10,6 +10,7 @@ std::optional<Vec3> center_of_load(const RunData& run, double from) {
     Vec3 sum = Vec3::Zero();
     for (std::size_t f = 1; f < run.frames.size(); ++f) {
         const double begin = run.frames[f - 1].time;
+        // forces of a frame are means since the one before: with that time they are impulses
         if (begin < from - 1e-9) continue;
         for (const HullContact& c : run.frames[f].hull_contacts) {
             const double impulse = c.normal_force.norm() * (run.frames[f].time - begin);

@@ -36,6 +36,7 @@ bool all_numbers(const Sweep& sweep, const std::string& key) {
 std::string choose_x(const Sweep& sweep, const std::vector<std::string>& keys) {
     std::string best;
     std::size_t most = 1;
+    // the speed if it varies, else the number with the most values
     for (const std::string& key : keys) {
         const std::size_t count = values_of(sweep, key).size();
         if (count < 2 || !all_numbers(sweep, key)) continue;
@@ -50,6 +51,7 @@ std::string choose_x(const Sweep& sweep, const std::vector<std::string>& keys) {
 
 bool is_tied(const Sweep& sweep, const std::string& key, const std::string& x) {
     std::map<std::string, std::string> value_at;
+    // tied: each value of x has one value of this key, as a field made for each speed
     for (const SweepRun& run : sweep.runs) {
         if (run.settings.empty()) continue;
         const auto [entry, added] = value_at.emplace(run.text(x), run.text(key));
@@ -67,6 +69,7 @@ void choose_axes(Sweep& sweep, const std::vector<std::string>& planned) {
     });
     sweep.x = choose_x(sweep, sweep.axes);
     if (sweep.x.empty() || !planned.empty()) return;
+    // a key that follows x would make a curve of each point: it is named beside x, and no axis
     const auto tied = std::stable_partition(
         sweep.axes.begin(), sweep.axes.end(),
         [&](const std::string& key) { return key == sweep.x || !is_tied(sweep, key, sweep.x); });

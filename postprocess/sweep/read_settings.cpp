@@ -34,6 +34,7 @@ Setting make_setting(const toml::node& node) {
 
 void flatten(const toml::table& table, const std::string& prefix,
              std::map<std::string, Setting>& out) {
+    // nested tables as dotted keys; a single [[floes]] without a number, several with theirs
     for (const auto& [name, node] : table) {
         const std::string key = prefix + std::string(name.str());
         const toml::array* list = node.as_array();
@@ -104,6 +105,7 @@ std::map<std::string, Setting> read_settings(const std::filesystem::path& resolv
     } catch (const toml::parse_error&) {
         return {};
     }
+    // title and output change no result
     std::erase_if(out, [](const auto& entry) {
         return entry.first == "title" || entry.first.starts_with("output.");
     });

@@ -42,6 +42,7 @@ std::vector<fs::path> find_runs(const fs::path& folder) {
                                         error),
         end;
     while (!error && it != end) {
+        // a run's own folders hold no runs: the search does not go into it
         if (it->is_directory(error) && is_run(it->path())) {
             found.push_back(it->path());
             it.disable_recursion_pending();
@@ -58,6 +59,7 @@ void unite_members(std::vector<SweepRun>& runs) {
     for (SweepRun& run : runs)
         if (is_ensemble(run.folder.parent_path()))
             ensembles[run.folder.parent_path()].push_back(&run);
+    // keys that differ among the members are what the ensemble draws: no settings of the run
     for (const auto& [folder, members] : ensembles) {
         const std::map<std::string, Setting> first = members.front()->settings;
         for (const auto& entry : first) {  // no structured binding: clang 14 captures none

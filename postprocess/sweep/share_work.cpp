@@ -43,6 +43,7 @@ double travel(const SweepRun& run) {
 std::vector<WorkShare> share_work(const Sweep& sweep, const Point& point) {
     std::vector<WorkShare> shares;
     for (const auto& [title, key, sign] : kAccounts) {
+        // energy per way is a force: means over the runs of the point
         double sum = 0.0;
         for (const std::size_t row : point.runs) {
             const SweepRun& run = sweep.runs[row];

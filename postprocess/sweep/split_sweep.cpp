@@ -33,6 +33,7 @@ std::vector<Sweep> split_sweep(const Sweep& sweep) {
         if (!part.runs.empty()) parts.push_back(std::move(part));
     }
     if (parts.size() < 2) return {sweep};
+    // runs that failed before they had a dimension are listed with the first part
     for (const SweepRun& run : sweep.runs)
         if (dimension_of_run(run) == 0) parts.front().runs.push_back(run);
     parts.back().warnings.clear();

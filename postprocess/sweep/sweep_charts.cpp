@@ -157,6 +157,7 @@ std::pair<double, double> common_range(const std::vector<Curve>& curves,
                 add(band->high, std::nan(""));
             }
         }
+    // no bar reaches farther beyond the means than the means are apart
     const double span = high - low;
     low = std::max(low_bar, low - span);
     high = std::min(high_bar, high + span);
@@ -179,6 +180,7 @@ std::vector<std::string> name_curves(const Sweep& sweep, const std::vector<Curve
     std::size_t length = 0;
     for (const Curve& curve : curves) length += curve.label.size() + 6;
     const std::string axis = other_axis(sweep);
+    // short names only if they tell the curves apart
     std::set<std::string> values;
     if (!axis.empty() && length > kMostLetters)
         for (const Curve& curve : curves)
@@ -226,6 +228,8 @@ std::string draw_overview(const Sweep& sweep, const std::vector<Curve>& curves,
         const std::string name = names[k].empty() ? "computed" : names[k];
         plotter.add(chart, curves[k], {name, kColors[k], "", 2.2, kMarks[k]},
                     [](const Point& p) { return p.part(Part::total); });
+        // Of one curve the formulas are named; of several they have the curves' colours, and
+        // their dashes are explained once, below.
         for (const FormulaCurve& f : formulas)
             plotter.add(chart, curves[k],
                         {curves.size() == 1 ? f.legend : "", kColors[k], f.dash, 1.8}, value_of(f));

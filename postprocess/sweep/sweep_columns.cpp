@@ -75,6 +75,7 @@ std::vector<Column> force_columns(const std::vector<Point>& points, const report
             columns[parts.size() + 2 + k].cells.push_back(
                 unit.text(point.formula(formulas[k].name, formulas[k].part)));
     }
+    // columns with nothing but zeros and unknowns are left out
     drop_empty(columns, 1);
     columns.push_back({"release rule", {}});
     for (const Point& point : points)
@@ -85,6 +86,7 @@ std::vector<Column> force_columns(const std::vector<Point>& points, const report
 std::vector<Column> work_columns(const Sweep& sweep, const std::vector<Point>& points,
                                  const report::ForceUnit& unit) {
     std::vector<Column> columns;
+    // all points have the same accounts, in the same order
     for (const auto& [title, force] : share_work(sweep, points.front()))
         columns.push_back({std::string(title) + " [" + unit.name + "]", {}});
     for (const Point& point : points) {

@@ -47,6 +47,7 @@ public:
             const auto speed = run.settings.find(kSpeedKey);
             if (speed != run.settings.end() && speed->second.number)
                 speeds_.add(*speed->second.number);
+            // by the summaries' own keys: a range where runs differ
             for (const auto& [key, value] : read_json_numbers(run.folder / "summary.json"))
                 if (key.starts_with("ship.") || key.starts_with("ice.")) numbers_[key].add(value);
         }
@@ -85,6 +86,7 @@ private:
         append(text, "ice on ice ", "ice.friction_ice_ice", "");
         const std::size_t before = text.size();
         append(text, "crushing pressure ", "ice.crushing_pressure_Pa", " MPa", 1e-6);
+        // no run states a finite pressure
         if (!text.empty() && text.size() == before) text += ", rigid";
         return text;
     }

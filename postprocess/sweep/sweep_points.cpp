@@ -97,6 +97,7 @@ Point make_point(const Sweep& sweep, const std::map<std::string, Setting>& at,
             values.push_back(part_value(*sweep.runs[row].summary, static_cast<Part>(k)));
         point.parts[k] = estimate_mean(values);
     }
+    // one run has the interval of its own series; several have that between them
     if (rows.size() == 1) point.parts[0].half = first.resistance.ci95;
     std::vector<double> lindqvist;
     for (const std::size_t row : rows)
@@ -105,6 +106,7 @@ Point make_point(const Sweep& sweep, const std::map<std::string, Setting>& at,
     std::vector<double> peaks;
     for (const std::size_t row : rows) peaks.push_back(sweep.runs[row].summary->resistance.max);
     point.peak = estimate_mean(peaks);
+    // of runs that broke off no largest force is known
     if (std::isfinite(point.peak.mean))
         point.largest = *std::max_element(peaks.begin(), peaks.end());
     point.lindqvist = estimate_mean(lindqvist).mean;
@@ -142,6 +144,7 @@ double Point::formula(const std::string& name, const std::string& part) const {
 const char* part_name(Part part) { return row_of(part).name; }
 
 Part part_of_region(const std::string& region) {
+    // by parts of the region's name, as shipbuilders use them
     std::string name = region;
     std::transform(name.begin(), name.end(), name.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -203,6 +206,7 @@ std::vector<Curve> make_curves(const Sweep& sweep, const std::vector<Point>& poi
         }
         return label;
     };
+    // full labels tell curves apart, short ones are shown where they suffice
     std::map<std::string, std::size_t> row_of, count_of;
     std::vector<Curve> curves;
     for (const Point& point : points) {

@@ -52,6 +52,7 @@ std::string link(const SweepRun& run, const std::string& text, const std::filesy
     const fs::path target = fs::exists(report) ? report : run.folder;
     if (!fs::exists(target)) return escape(text);
     std::error_code error;
+    // relative to the page, so that a folder may be moved as a whole
     const fs::path from = fs::absolute(page).parent_path();
     const std::string address = fs::absolute(target).lexically_relative(from).generic_string();
     return "<a href=\"" + encode_address(address) + "\">" + escape(text) + "</a>";
@@ -109,6 +110,7 @@ std::string point_table(const Sweep& sweep, const std::vector<Point>& points,
     for (std::size_t row = 0; row < points.size(); ++row) {
         const auto& runs = points[row].runs;
         out += "<tr>" + cells(axes, row) + "<td>";
+        // one link per run, numbered as in the row
         for (std::size_t k = 0; k < runs.size(); ++k)
             out += (k > 0 ? " " : "") + link(sweep.runs[runs[k]], std::to_string(k + 1), page);
         out += "</td>" + cells(forces, row) + "</tr>\n";
@@ -193,6 +195,7 @@ std::string run_csv(const Sweep& sweep) {
                    std::to_string(s->unconverged_steps) + "," + csv_number(s->wall_s) + "," +
                    csv_text(release_rule(s->ice));
         else
+            // as many commas as the numbers above have
             out += ",,,,,,,,,";
         out += "," + csv_text(run.fault) + "\r\n";
     }

@@ -59,7 +59,7 @@ std::string download(const std::string& file, const std::string& csv) {
            encode_address(csv) + "\">" + file + "</a></p>\n";
 }
 
-// which regions were counted to which part
+// which regions were counted to which part: names decide, and a reader may see how
 std::string region_note(const Sweep& sweep) {
     std::map<Part, std::set<std::string>> names;
     for (const SweepRun& run : sweep.runs)

@@ -13,6 +13,7 @@ namespace {
 constexpr const char* kGrid = "stroke=\"#dde3e8\" stroke-width=\"1\"";
 
 double choose_step(double extent, int most) {
+    // the next of 1, 2, 5 times a power of ten
     const double raw = extent / std::max(1, most);
     const double power = std::pow(10.0, std::floor(std::log10(raw)));
     for (const double factor : {1.0, 2.0, 5.0})
@@ -79,6 +80,7 @@ std::string draw_axes(const Axis& x, const Axis& y, const std::string& x_title,
         return ticks.size() > 1 ? ticks[1] - ticks[0] : 1.0;
     };
     for (const double v : xs) {
+        // decades only: labels between them would be unreadable powers
         if (x.logarithmic && v != std::round(v)) continue;
         out += line_element(x.pixel(v), y.from, x.pixel(v), y.to, kGrid);
         const std::string label =

@@ -67,6 +67,7 @@ std::vector<Key> list_keys(const Chart& chart) {
 
 double key_width(const Key& key) { return 29.0 + text_width(key.name) + 14.0; }
 
+// a row takes keys as long as they fit
 // names with samples in rows that are full
 std::vector<std::vector<Key>> fill_rows(const std::vector<Key>& keys, double width) {
     std::vector<std::vector<Key>> rows;
@@ -148,6 +149,7 @@ std::pair<Range, Range> find_ranges(const Chart& chart) {
             xs.add(p.x());
             ys.add(p.y());
         }
+    // without a point there is no range
     if (!(xs.low <= xs.high)) return {xs, ys};
     if (chart.y_range) ys = {chart.y_range->first, chart.y_range->second};
     ys.add(0.0);
@@ -181,6 +183,7 @@ std::string draw_chart(const Chart& given) {
     const double legend = 22.0 + kRow * static_cast<double>(keys.size());
     const double top = legend + (chart.top_scale ? 48.0 : 8.0);
     const Axis y{ys.low, ys.high, chart.height - 42.0, top};
+    // the y axis first: the width of its labels decides where the plot begins
     const Axis x{xs.low, xs.high, 34.0 + label_width(y), right, chart.x_logarithmic};
     if (chart.averaged) {
         const double from = std::clamp(x.pixel(chart.averaged->first), x.from, x.to);

@@ -21,6 +21,7 @@ std::vector<Vec2> decimate(const std::vector<double>& x, const std::vector<doubl
     };
     std::vector<Vec2> kept;
     for (std::size_t begin = 0; begin < points.size();) {
+        // lowest and highest of each bin, in their order in time: peaks stay to the full height
         std::size_t end = begin, lowest = begin, highest = begin;
         for (; end < points.size() && bin_of(points[end]) == bin_of(points[begin]); ++end) {
             if (points[end].y() < points[lowest].y()) lowest = end;

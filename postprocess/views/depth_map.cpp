@@ -40,6 +40,7 @@ void DepthMap::draw(std::size_t triangle, const Vec3& a, const Vec3& b, const Ve
     const int last = std::min(columns_ - 1, column(std::max({a.x(), b.x(), c.x()})));
     const int bottom = std::max(0, row(std::min({a.y(), b.y(), c.y()})));
     const int top = std::min(rows_ - 1, row(std::max({a.y(), b.y(), c.y()})));
+    // cell by cell the triangle nearest to the viewer, at the cell's middle
     for (int r = bottom; r <= top; ++r)
         for (int k = first; k <= last; ++k) {
             const double x = right0_ + (k + 0.5) * cell_, y = up0_ + (r + 0.5) * cell_;

@@ -40,6 +40,8 @@ std::vector<std::int32_t> border_loop(const TriangleMesh& mesh,
     for (const std::size_t t : triangles)
         for (std::size_t k = 0; k < 3; ++k)
             ++used[{mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3]}];
+    // an edge without its reverse is border; a vertex where two such edges begin has no single
+    // loop
     for (const auto& [edge, count] : used) {
         if (used.count({edge.second, edge.first})) continue;
         if (count > 1 || !next.emplace(edge.first, edge.second).second) return {};
@@ -84,6 +86,7 @@ std::vector<Face> make_faces(const TriangleMesh& mesh) {
     std::vector<Vec3> normals(count);
     std::map<Edge, std::size_t> owner;
     for (std::size_t t = 0; t < count; ++t) {
+        // directed edges: the neighbour has the same edge the other way round
         const Vec3 area = mesh.area_vector(t);
         normals[t] = area.norm() > 0.0 ? Vec3(area.normalized()) : Vec3(Vec3::Zero());
         for (std::size_t k = 0; k < 3; ++k)

@@ -72,6 +72,8 @@ std::string silhouette(const TriangleMesh& mesh, const Projection& projection,
     std::string data;
     for (const auto& [a, b] : turning_edges(mesh, projection)) {
         const Vec2 from = a.head<2>(), way = b.head<2>() - from;
+        // each edge in pieces of some pixels; a piece is outline where one of its sides shows
+        // no hull
         const double length = way.norm();
         const int pieces = std::max(1, static_cast<int>(length * scale.per_metre / kPiece));
         const Vec2 beside =
@@ -99,6 +101,8 @@ std::string silhouette(const TriangleMesh& mesh, const Projection& projection,
 }  // namespace
 
 double brightness(const Vec3& normal, const Projection& projection) {
+    // light from ahead of the viewer, a little from the left and from above; rounded to few
+    // shades
     const Vec3 light =
         (projection.toward - 0.45 * projection.right + 0.5 * projection.up).normalized();
     const double value = 0.68 + 0.38 * std::max(0.0, normal.dot(light));
@@ -119,6 +123,7 @@ std::string draw_hull_faces(const TriangleMesh& mesh, const Projection& projecti
     auto painted = visible_faces(below, colours.wet, projection);
     const auto dry = visible_faces(above, colours.dry, projection);
     painted.insert(painted.end(), dry.begin(), dry.end());
+    // painter's algorithm: the farthest faces first
     std::stable_sort(painted.begin(), painted.end(),
                      [](const Painted& a, const Painted& b) { return a.nearness < b.nearness; });
 
@@ -145,6 +150,7 @@ std::string draw_hull_lines(const TriangleMesh& mesh, const Projection& projecti
         "<path d=\"{}\" fill=\"none\" stroke=\"#222\" stroke-width=\"1.6\" "
         "stroke-linecap=\"round\"/>\n",
         silhouette(simple, projection, scale));
+    // seen from above or below the waterline is drawn as well
     if (std::abs(projection.toward.z()) > 0.9) {
         std::string data;
         for (const auto& [a, b] : cut_mesh(simple, waterline).section) {

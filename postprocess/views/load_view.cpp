@@ -47,6 +47,7 @@ std::string draw_loads(const HullLoad& hull, const Projection& projection, const
     const double cell = kCell / scale.per_metre;
     const auto columns = static_cast<int>(page.sizes().x() / cell) + 1;
     const auto rows = static_cast<int>(page.sizes().y() / cell) + 1;
+    // finer than the cells, so that each cell's middle has a face
     const DepthMap seen(hull.mesh, projection, 2 * std::max(columns, rows));
     std::map<int, std::string> paths;
     for (int row = 0; row < rows; ++row) {
@@ -101,6 +102,7 @@ std::string draw_load_view(const HullLoad& hull, ViewFrom from, double width) {
     const double room = 0.03 * std::max(page.sizes().x(), page.sizes().y());
     const double left = page.min().x() - room, right = page.max().x() + room;
     const double low = page.min().y() - room, high = page.max().y() + room;
+    // as wide as the page, and at most about half as high
     const double per_metre =
         std::min((width - kMapLeft - kMapRight) / (right - left), 0.55 * width / (high - low));
     const double wide = per_metre * (right - left), tall = per_metre * (high - low);

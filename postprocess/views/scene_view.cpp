@@ -120,6 +120,7 @@ std::vector<Item> SceneView::Parts::sort_floes(const RunFrame& frame) const {
         const Vec3 offset = frame.position[b] - frame.ship_position;
         const Vec3 p = projection.apply(offset);
         const double r = radius[shape];
+        // outside the picture
         if (p.x() + r < window.left || p.x() - r > window.right || p.y() + r < window.bottom ||
             p.y() - r > window.top)
             continue;
@@ -197,6 +198,7 @@ std::string SceneView::Parts::draw_water() const {
 
 std::string SceneView::Parts::draw_frame_axes(const RunFrame& frame) const {
     const Vec3& ship = frame.ship_position;
+    // axes have the world's coordinates, the picture moves with the ship
     const double x_shift = from == ViewFrom::front ? ship.y() : ship.x();
     Axis x{window.left + x_shift, window.right + x_shift, kLeft, kLeft + width};
     Axis y{window.bottom, window.top, kTop + height, kTop};

@@ -74,6 +74,7 @@ std::string path_data(const std::vector<Vec2>& points, bool closed) {
     for (std::size_t k = 1; k < points.size(); ++k) {
         const long next_x = to_tenths(points[k].x()), next_y = to_tenths(points[k].y());
         const std::string dx = tenths(next_x - x), dy = tenths(next_y - y);
+        // a minus sign separates numbers by itself
         if (!first && dx[0] != '-') out += ' ';
         out += dx;
         if (dy[0] != '-') out += ' ';

@@ -37,6 +37,7 @@ Eigen::AlignedBox2d box_around(const Vec2& middle, const std::string& text) {
 Vec2 free_place(const Vec2& at, const std::string& text,
                 const std::vector<Eigen::AlignedBox2d>& taken) {
     for (int step = 0; step < 40; ++step) {
+        // alternately above and below, a quarter of a line farther each time
         const int away = (step + 1) / 2;
         const double up = (step % 2 == 0 ? -0.25 : 0.25) * kLine * away;
         Vec2 place = at + Vec2(0.0, up);

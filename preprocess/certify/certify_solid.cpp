@@ -61,6 +61,7 @@ void judge_distances(const std::string& name, double radius, bool refuse, Sphere
 void refuse_thin_mesh(const std::string& name, const TriangleMesh& surface, double radius,
                       int dimension) {
     const Vec3 size = bounding_box(surface).sizes();
+    // a sphere that fits has at most half of the least extent; in 2D a disc, in x-z
     const double most = 0.5 * (dimension == 3 ? size.minCoeff() : std::min(size.x(), size.z()));
     if (most <= kFlat * size.maxCoeff())
         throw bad_input(
@@ -87,6 +88,7 @@ bool was_mirrored(const SpheresReport& report) {
 void certify_solid(const std::string& name, TriangleMesh surface, const TriangleMesh& solid,
                    double radius, bool wrapped, SpheresReport& report) {
     const Timer timer;
+    // what was read is the half: its image makes it comparable with the whole solid
     if (was_mirrored(report)) add_mirror_image(surface);
     compare_with_source(surface, solid, radius, report);
     judge_distances(name, radius, !wrapped, report);

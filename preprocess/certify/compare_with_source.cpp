@@ -57,6 +57,7 @@ Probed take_samples(const TriangleMesh& mesh, const std::vector<std::uint8_t>& s
 double sample_size(const TriangleMesh& mesh, double radius) {
     double area = 0.0;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) area += mesh.area_vector(t).norm();
+    // half a radius apart, or as many as the bound allows on a large surface
     return std::max(0.5 * radius, std::sqrt(area / kMostSamples));
 }
 
@@ -71,6 +72,7 @@ SurfaceDistance summarize(std::vector<Probe> probes, double equal_area) {
     double sum = equal_area;
     for (const Probe& p : probes) {
         sum += p.area;
+        // the distance at which the sum of the area passes the half, and 99 %
         if (sum - p.area < 0.5 * total && sum >= 0.5 * total) out.p50 = p.distance;
         if (sum - p.area < 0.99 * total && sum >= 0.99 * total) out.p99 = p.distance;
     }
@@ -110,6 +112,7 @@ public:
         candidate_.assign(count, 0);
         for (std::size_t p = 0; p < count; ++p)
             candidate_[p] = open[p] != 0 ||
+                            // a box around the solid with far more volume is a tank
                             (boxes[p].contains(solid) && boxes[p].volume() > 2.0 * solid.volume());
     }
 
@@ -131,6 +134,7 @@ public:
             if (v < 0) continue;
             part[k] = vertex_part[static_cast<std::size_t>(v)];
             if (part[k] < 0) continue;
+            // what lies off the solid by more than a radius, and what lies on it
             auto& sum = probes[k].distance > radius ? away : here;
             sum[static_cast<std::size_t>(part[k])] += probes[k].area;
         }
@@ -171,6 +175,7 @@ void probe_source(const TriangleMesh& solid, double radius, std::vector<Probe>& 
     parallel_for(probes.size(), 256, [&](std::size_t k) {
         const Foot foot = tree.closest(probes[k].at);
         probes[k].distance = foot.distance > rounding ? foot.distance : 0.0;
+        // deeper inside than a radius: inner skins and bulkheads, which are no outside
         hidden[k] = foot.inside && foot.distance > radius;
     });
     std::size_t kept = 0;
@@ -197,6 +202,8 @@ void probe_solid(const TriangleMesh& source, const TriangleMesh& solid, std::vec
         if (probe.distance <= kRounding / kOnSurface * on) probe.distance = 0.0;
         if (probe.distance <= on) return;
         const auto t = static_cast<std::size_t>(probe.triangle);
+        // A triangle off the source with all corners in vertices of the source closes a hole: a
+        // cap.
         cap[k] = 1;
         for (int c = 0; c < 3; ++c)
             if (!is_vertex(solid.corner(t, c))) cap[k] = 0;
@@ -220,6 +227,7 @@ void compare_with_source(const TriangleMesh& source, const TriangleMesh& solid, 
     check.known = true;
     for (std::size_t t = 0; t < source.triangles.size(); ++t)
         check.area += source.area_vector(t).norm();
+    // equal triangles have equal bits: only the others need be measured
     const PlacedVertices in_solid(solid, 0.0), in_source(source, 0.0);
     const double size = std::max(sample_size(source, radius), sample_size(solid, radius));
     Probed from_source =

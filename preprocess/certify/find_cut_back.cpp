@@ -54,6 +54,7 @@ Extents sections_of(const TriangleMesh& mesh, int across, int along, const Level
             Vec3 a = mesh.corner(t, c), b = mesh.corner(t, (c + 1) % 3);
             if (a[across] > b[across]) std::swap(a, b);
             for (int k = levels.first_above(a[across]); k <= levels.last_below(b[across]); ++k) {
+                // an edge in the level itself counts with its first end
                 const double rise = b[across] - a[across];
                 const double part = rise > 0.0 ? (levels.at(k) - a[across]) / rise : 0.0;
                 const double x = a[along] + part * (b[along] - a[along]);
@@ -70,6 +71,7 @@ Extents sections_of(const SphereSet& set, int across, int along, const Levels& l
         const double r = set.radii[s];
         for (int k = levels.first_above(c[across] - r); k <= levels.last_below(c[across] + r);
              ++k) {
+            // the circle in which the level cuts the sphere
             const double aside = levels.at(k) - c[across];
             const double reach = std::sqrt(std::max(r * r - aside * aside, 0.0));
             out.extend(k, c[along] - reach, c[along] + reach);
@@ -111,6 +113,7 @@ void find_cut_back(const SphereSet& set, SpheresReport& report) {
     for (const Vec3& v : set.mesh.vertices) box.extend(v);
     const double r = set.radius, least = kDepthWorthSaying * r;
     const IceBelt& belt = report.belt;
+    // without a belt a radius from the ends: no sphere's centre is nearer to them
     const Levels heights(belt ? std::max(belt.low, box.min().z()) : box.min().z() + r,
                          belt ? std::min(belt.high, box.max().z()) : box.max().z() - r, r);
     const Levels stations(box.min().x() + r, box.max().x() - r, r);

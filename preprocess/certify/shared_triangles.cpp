@@ -32,6 +32,7 @@ PlacedVertices::PlacedVertices(const TriangleMesh& mesh, double tolerance) {
 std::array<double, 3> PlacedVertices::key(const Vec3& p) const {
     std::array<double, 3> out{};
     for (int d = 0; d < 3; ++d)
+        // places rounded to a grid are equal within it; without a tolerance equal bits decide
         out[static_cast<std::size_t>(d)] =
             grid_ > 0.0 ? std::round(p[d] / grid_) : p[d] + 0.0;  // -0 is 0
     return out;

@@ -65,7 +65,8 @@ RepeatCounts drop_repeats(TriangleMesh& mesh) {
             at->second -= static_cast<int>(members.size()) - 1;
         }
     }
-    // `alone` now counts each group once
+    // `alone` now counts each group once. Of copies one stays where the edges' triangles are
+    // then even in number, else none: two copies of a wall without thickness enclose nothing.
     for (const auto& [corner, members] : groups) {
         if (members.size() < 2) continue;
         int needed = 0;

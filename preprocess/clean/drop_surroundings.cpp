@@ -27,6 +27,7 @@ struct Piece {
     bool on_box = true;  // all triangles lie in faces of the box
     bool gone = false;
 
+    // thin along one axis: a sheet; all triangles in the box's faces: a box
     Form form() const {
         const double small = kFlat * box.diagonal().norm();
         const auto thin = (box.sizes().array() <= small).count();
@@ -62,6 +63,7 @@ bool surrounds(const Piece& piece, const Box& rest) {
     const bool flat = piece.form() == Form::flat;
     const double times = flat ? kFlatBeyond : kBoxBeyond;
     int beyond = 0;
+    // around the rest in all directions, and far larger in two of them
     for (int d = 0; d < 3; ++d) {
         if (flat && piece.box.sizes()[d] <= kFlat * piece.box.diagonal().norm()) continue;
         if (piece.box.min()[d] > rest.min()[d] || piece.box.max()[d] < rest.max()[d]) return false;

@@ -51,6 +51,7 @@ std::vector<double> part_volumes(const TriangleMesh& mesh, const Parts& parts) {
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         const auto part = static_cast<std::size_t>(parts.of_triangle[t]);
         if (first[part] < 0) first[part] = static_cast<std::int32_t>(t);
+        // the origin in the part itself: volumes of parts far away keep their digits
         const Vec3 o = mesh.corner(static_cast<std::size_t>(first[part]), 0);
         const Vec3 a = mesh.corner(t, 0) - o, b = mesh.corner(t, 1) - o, c = mesh.corner(t, 2) - o;
         volumes[part] += a.dot(b.cross(c)) / 6.0;

@@ -31,6 +31,8 @@ std::vector<NearEdge> find_near_edges(const std::vector<Vec3>& points,
     std::vector<NearEdge> out;
     CGAL::box_intersection_d(of_points.begin(), of_points.end(), of_edges.begin(), of_edges.end(),
                              [&](const EdgeBox& point, const EdgeBox& edge) {
+                                 // the foot of the point on the edge's line, which must lie
+                                 // between its ends
                                  const auto& [a, b] = edges[edge.info()];
                                  const Vec3 along = b - a, to = points[point.info()] - a;
                                  const double part = along.dot(to) / along.squaredNorm();

@@ -54,6 +54,8 @@ std::int64_t orient_faces(TriangleMesh& mesh) {
         part.assign(1, static_cast<std::int32_t>(seed));
         side[seed] = as_is;
         double balance = 0.0;  // area that stays minus area that turns
+        // breadth first through the part: each neighbour turns to agree with the one that found
+        // it
         for (std::size_t k = 0; k < part.size(); ++k) {
             const auto t = static_cast<std::size_t>(part[k]);
             balance += (side[t] == as_is ? 1.0 : -1.0) * mesh.area_vector(t).norm();

@@ -61,10 +61,12 @@ bool cross(const Soup& soup, const Triple& a, const Triple& b) {
             shared = v;
             ++count;
         }
+    // three common corners: one lies on the other
     if (count == 3) return true;
     const auto flat = [&](const Triple& t) {
         return CGAL::collinear(soup.at(t[0]), soup.at(t[1]), soup.at(t[2]));
     };
+    // triangles without area are left out
     if (flat(a) || flat(b)) return false;
     if (count == 2) return fold_on_edge(soup, a, b);
     if (count == 1) return cross_beyond_corner(soup, a, b, shared);

@@ -57,6 +57,8 @@ using Inserted =
 // sides that are sides of the mesh.
 void fill(const Triple& t, std::array<bool, 3> of_mesh, const Inserted& inserted,
           std::vector<Triple>& out) {
+    // The side is replaced by a walk over its vertices, and the triangle by a fan from the far
+    // corner; the fan's outer sides may have vertices of their own.
     for (std::size_t k = 0; k < 3; ++k) {
         const std::int32_t a = t[k], b = t[(k + 1) % 3], c = t[(k + 2) % 3];
         const auto found = of_mesh[k] ? inserted.find(std::minmax(a, b)) : inserted.end();
@@ -78,6 +80,7 @@ void fill(const Triple& t, std::array<bool, 3> of_mesh, const Inserted& inserted
 }
 
 bool split_edges(TriangleMesh& mesh, double tolerance, StitchCounts& counts) {
+    // open edges, and how far from each a vertex of another border may be
     const Borders borders = find_borders(mesh, tolerance);
     std::vector<Vec3> points;
     std::vector<std::pair<Vec3, Vec3>> segments;
@@ -124,6 +127,7 @@ StitchCounts stitch_borders(TriangleMesh& mesh) {
     StitchCounts counts;
     Eigen::AlignedBox3d box;
     for (const Vec3& v : mesh.vertices) box.extend(v);
+    // narrow cracks first: what is closed then is no border for the wide tolerance
     for (const double of_diagonal : kStitchTolerances) {
         const double tolerance = of_diagonal * box.diagonal().norm();
         const auto merge_ends = [&] {

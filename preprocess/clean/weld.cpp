@@ -46,6 +46,7 @@ std::vector<std::int32_t> find_near(const std::vector<Vec3>& vertices,
         if (reach[k] <= 0.0) continue;
         Key side;
         const Key at = cell_of(vertices[k], side);
+        // eight cells: its own and those on its nearer sides
         for (std::uint64_t n = 0; n < 8; ++n) {
             const auto near = cells.find({at[0] + (n & 1) * side[0], at[1] + (n >> 1 & 1) * side[1],
                                           at[2] + (n >> 2) * side[2]});
@@ -69,6 +70,7 @@ std::vector<std::int32_t> find_near(const std::vector<Vec3>& vertices,
 std::int64_t merge(TriangleMesh& mesh, const std::vector<std::int32_t>& representative,
                    WeldCounts& counts) {
     std::vector<std::uint8_t> keep(mesh.triangles.size(), 1);
+    // corners get their representatives; triangles that lose a corner go
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         auto& corner = mesh.triangles[t];
         for (std::int32_t& v : corner) v = representative[static_cast<std::size_t>(v)];
@@ -108,6 +110,7 @@ WeldCounts weld(TriangleMesh& mesh) {
     counts.equal_vertices = merge(mesh, find_equal_vertices(mesh.vertices), counts);
     Eigen::AlignedBox3d box;
     for (const Vec3& v : mesh.vertices) box.extend(v);
+    // Only vertices of open edges are merged: inside a closed surface nothing is too near.
     for (const double tolerance : kTolerances) {
         std::vector<double> reach(mesh.vertices.size(), 0.0);
         bool open = false;

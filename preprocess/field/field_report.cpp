@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The measures of a field as JSON.
 #include <nlohmann/json.hpp>
 
 #include "preprocess/field/make_field.hpp"

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The field from above as a drawing: floes and unbroken ice on water, axes in metres, and what the
+// colours mean.
 #include <fmt/format.h>
 
 #include <algorithm>

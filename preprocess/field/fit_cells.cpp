@@ -47,12 +47,16 @@ Eigen::VectorXd newton_step(const std::vector<Vec2>& sites, const State& state) 
                 (cell.corners[(k + 1) % cell.corners.size()] - cell.corners[k]).norm();
             const double apart =
                 (sites[static_cast<std::size_t>(j)] - sites[static_cast<std::size_t>(i)]).norm();
+            // the common edge moves by 1 / (2 apart) for a unit of weight, and its length
+            // sweeps the area
             const double slope = 0.5 * edge / apart;
             sum += slope;
             if (i > 0 && j > 0 && j < i) entries.emplace_back(i - 1, j - 1, -slope);
         }
         if (i > 0) entries.emplace_back(i - 1, i - 1, sum);
     }
+    // with a column for every site the matrix would be singular: a constant on all weights
+    // moves no edge
     Eigen::SparseMatrix<double> matrix(n - 1, n - 1);
     matrix.setFromTriplets(entries.begin(), entries.end());
     const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(matrix);  // lower triangle
@@ -72,6 +76,8 @@ std::vector<PowerCell> fit_cells(const std::vector<Vec2>& sites, const std::vect
         std::fill(weights.begin(), weights.end(), 0.0);
         now = measure(sites, areas, rectangle, weights);
     }
+    // A cell that vanishes has no edges left, and the matrix no longer knows how to bring it
+    // back.
     const double floor = 0.5 * std::min(least, now.smallest);
     for (int step = 0; step < kMostSteps && sites.size() > 1; ++step) {
         const double error = now.lack.cwiseAbs().maxCoeff();
@@ -83,6 +89,8 @@ std::vector<PowerCell> fit_cells(const std::vector<Vec2>& sites, const std::vect
             for (std::size_t k = 0; k < trial.size(); ++k)
                 trial[k] += length * change[static_cast<Eigen::Index>(k)];
             State next = measure(sites, areas, rectangle, trial);
+            // a full step would close the whole lack if areas were linear in the weights; half
+            // of that is enough
             better = next.smallest >= floor &&
                      next.lack.norm() <= (1.0 - 0.5 * length) * now.lack.norm();
             if (!better) continue;

@@ -38,6 +38,7 @@ public:
         std::vector<std::int64_t> key;
         for (const Vec2& corner : outline) {
             form.push_back(corner - centre);
+            // to a micrometre: forms that differ by rounding are one
             for (int d = 0; d < 2; ++d) key.push_back(std::llround(form.back()[d] / kEqual));
         }
         const auto [found, fresh] =
@@ -57,6 +58,7 @@ private:
 void refuse_too_many(const FieldSpec& spec, const std::vector<Outline>& outlines) {
     double surface = 0.0;
     for (const Outline& outline : outlines)
+        // both faces, and a side around them of some four sizes
         surface += 2.0 * area_of(outline) + 4.0 * size_of(outline) * spec.thickness;
     const double count = 1.155 * surface / (spec.spacing * spec.spacing);
     if (count > kMostSpheres)
@@ -74,6 +76,7 @@ std::vector<SphereSet> fill_forms(const FieldSpec& spec, const std::vector<Outli
     std::vector<SphereSet> shapes(outlines.size());
     std::vector<std::optional<Error>> errors(outlines.size());
     std::vector<std::int64_t> corners(outlines.size(), 0);
+    // no exception may leave a thread: the first floe's is thrown afterwards
     parallel_tasks(outlines.size(), true, [&](std::size_t k) {
         try {
             shapes[k] = fill_prism(outlines[k], form, &corners[k]);

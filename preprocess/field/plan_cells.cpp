@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Patterns "voronoi" and "power-law": random sites, the cells around them, and floes that are
+// these cells made smaller.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -90,6 +92,7 @@ std::vector<Outline> plan_voronoi(const FieldSpec& s, const Rectangle& area) {
     refuse_count(std::round(equal));
     auto floes = voronoi_floes(s, area, static_cast<std::size_t>(std::lround(equal)));
     const double ratio = mean_size(floes) / s.mean_size;
+    // the number of floes goes with 1 / size^2
     const double better = std::round(static_cast<double>(floes.size()) * ratio * ratio);
     if (std::abs(ratio - 1.0) > kSizeMiss && better >= 1.0 &&
         better != static_cast<double>(floes.size()))
@@ -101,6 +104,7 @@ std::vector<Outline> plan_voronoi(const FieldSpec& s, const Rectangle& area) {
 double mean_square(const FieldSpec& s) {
     const double a = s.exponent, low = s.smallest, high = s.largest;
     const double share = std::pow(low, -a) - std::pow(high, -a);
+    // the limit of the expression below for a -> 2
     if (std::abs(a - 2.0) < 1e-6) return 2.0 * std::log(high / low) / share;
     return a / (2.0 - a) * (std::pow(high, 2.0 - a) - std::pow(low, 2.0 - a)) / share;
 }
@@ -116,6 +120,7 @@ std::vector<double> draw_areas(const FieldSpec& s, double ice) {
         const double u =
             (static_cast<double>(k) + random_unit(static_cast<std::uint64_t>(s.seed), kSizes + k)) /
             count;
+        // the share u of the floes, counted from the smallest, has diameters below this one
         areas.push_back(disc(std::pow(low + u * (high - low), -1.0 / s.exponent)));
     }
     return areas;
@@ -133,6 +138,8 @@ std::vector<Outline> plan_power_law(const FieldSpec& s, const Rectangle& area) {
     for (const double floe : floes) wanted.push_back(floe * area.volume() / sum);
 
     std::vector<Vec2> sites = random_sites(area, floes.size(), s.seed);
+    // the sites move after every round, so that a rough fit will do; only the last one must be
+    // exact
     std::vector<double> weights(floes.size(), 0.0);
     std::vector<PowerCell> cells;
     for (int round = 0; round < s.relaxations; ++round) {
@@ -142,6 +149,7 @@ std::vector<Outline> plan_power_law(const FieldSpec& s, const Rectangle& area) {
     cells = fit_cells(sites, wanted, area, kFit, weights);
     std::vector<Outline> out;
     for (std::size_t k = 0; k < floes.size(); ++k) {
+        // fit_cells returns what it has after its last step, met or not
         const double got = cells[k].corners.empty() ? 0.0 : area_of(cells[k].corners);
         if (std::abs(got - wanted[k]) > 1e-3 * wanted[k])
             throw run_failed("floes", "no cells of these sizes were found",

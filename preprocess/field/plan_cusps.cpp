@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Pattern "cusps": row after row, each bounded behind by the arcs of the row before.
 #include <algorithm>
 #include <cmath>
 
@@ -98,6 +99,8 @@ private:
             double y = low + (k - (odd ? 0.5 : 0.0)) * width_;
             y += 0.5 * s_.jitter * width_ *
                  random_offset(static_cast<std::uint64_t>(s_.seed), number);
+            // an end a hair beside a knot of the row behind would give a floe an edge too short
+            // to be filled
             ends.push_back(behind ? behind->snapped(y, kSnap * width_) : y);
         }
         ends.push_back(low + breadth_);
@@ -135,6 +138,7 @@ private:
     // height of a circle's arc above its chord of 2 `half`, at `y` from the middle
     static double arc(double y, double half, double depth) {
         if (depth == 0.0) return 0.0;
+        // radius from half the chord and the height: R^2 = half^2 + (R - depth)^2
         const double radius = (half * half + depth * depth) / (2.0 * depth);
         return std::sqrt(radius * radius - y * y) - (radius - depth);
     }
@@ -145,6 +149,7 @@ private:
         const double side = s_.origin[1] - 0.5 * breadth_;
         if (low > side) low += 0.5 * s_.gap[1];
         if (high < side + breadth_) high -= 0.5 * s_.gap[1];
+        // anticlockwise: along the front from low y to high y, and back along the row behind
         Outline outline = front.between(low, high);
         for (Vec2& p : outline) p.x() -= 0.5 * s_.gap[0];
         Outline back = behind.between(low, high);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Unbroken ice around a field, of any pattern: both sides of the channel and its far end.
 #include <cmath>
 
 #include "common/base/error.hpp"
@@ -32,6 +33,7 @@ void add_edges(const FieldSpec& s, FieldPlan& plan) {
     const double first = plan.area.min().x() - s.edge_overhang[0];
     double last = plan.area.max().x() + s.edge_overhang[1];
     const double end = far_end(plan) + s.edge_gap;  // where the ice ahead begins
+    // the sides go on beside the ice ahead, or floes would leave between them
     if (s.edge_ahead > 0.0) last = std::max(last, end + s.edge_ahead);
     const double length = last - first;
     if (!(length > 0.0))

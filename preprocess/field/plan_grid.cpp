@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Patterns "grid" and "brick": equal rectangles, as sawn in model tests.
 #include "common/base/error.hpp"
 #include "preprocess/field/plan_floes.hpp"
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Pattern "polygons": outlines of a file, cleaned, and refused where they overlap.
 #include <fmt/format.h>
 
 #include <algorithm>

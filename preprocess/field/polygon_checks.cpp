@@ -35,6 +35,7 @@ double depth_of(const Triangle& a, const Triangle& b) {
             const Vec2 edge = (*t)[(k + 1) % 3] - (*t)[k];
             const Vec2 out = Vec2(edge.y(), -edge.x()).normalized();
             const Triangle& other = t == &a ? b : a;
+            // how far the other triangle reaches behind this edge's line
             double inside = -std::numeric_limits<double>::infinity();
             for (const Vec2& p : other) inside = std::max(inside, out.dot((*t)[k] - p));
             least = std::min(least, inside);

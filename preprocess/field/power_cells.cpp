@@ -35,6 +35,8 @@ Regular triangulate_sites(const std::vector<Vec2>& sites, const std::vector<doub
     for (std::size_t k = 0; k < sites.size(); ++k) {
         const double x = sites[k].x(), y = sites[k].y(), w = weights[k];
         add(x, y, w, static_cast<std::int32_t>(k));
+        // Halfway to a site's image across a side lies that side: with images the cells end
+        // there.
         if (x - r.min().x() < margin) add(2.0 * r.min().x() - x, y, w, -1);
         if (r.max().x() - x < margin) add(2.0 * r.max().x() - x, y, w, -1);
         if (y - r.min().y() < margin) add(x, 2.0 * r.min().y() - y, w, -1);
@@ -71,8 +73,11 @@ std::vector<PowerCell> power_cells(const std::vector<Vec2>& sites,
     ICE_ASSERT(!sites.empty() && weights.size() == sites.size());
     const double mean = std::sqrt(rectangle.volume() / static_cast<double>(sites.size()));
     const auto [least, most] = std::minmax_element(weights.begin(), weights.end());
+    // Weights move an edge away from the middle: sites that far away may still have one at the
+    // side.
     double margin = kMargin * mean + 2.0 * std::sqrt(*most - *least);
     const double all = 2.0 * rectangle.sizes().maxCoeff();
+    // where the images were too few, once more with all of them
     for (;; margin = all) {
         std::vector<PowerCell> cells(sites.size());
         const Regular regular = triangulate_sites(sites, weights, rectangle, margin);

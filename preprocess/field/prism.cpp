@@ -40,6 +40,7 @@ std::vector<Triangle> fill_outline(const Outline& outline) {
 TriangleMesh make_prism(const Outline& outline, double thickness, double chamfer) {
     ICE_ASSERT(area_of(outline) > 0.0 && chamfer >= 0.0 && chamfer < 0.5 * thickness);
     const auto n = static_cast<std::int32_t>(outline.size());
+    // the faces are drawn in by the chamfer, which makes its slope 45 degrees
     const Outline flat = chamfer > 0.0 ? inset(outline, chamfer) : outline;
     if (flat.empty()) {
         const Vec2 at = centroid_of(outline);

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// From the text of a specification to a FieldSpec: keys are read by the schema, then checked
+// against the pattern and against each other, and completed.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -95,6 +95,7 @@ std::vector<NamedOutline> read_csv(const std::filesystem::path& file, const std:
                             "is no row floe, x, y: '" + line.substr(0, kMostQuoted) +
                                 (line.size() > kMostQuoted ? "...'" : "'"),
                             "write for instance 7, 12.5, -3");
+        // rows of one floe stand together
         if (out.empty() || id != last) out.push_back({"floe " + id, {}});
         out.back().corners.emplace_back(x->value, y->value);
         last = id;

@@ -52,6 +52,7 @@ public:
         : belt_(belt), least_(std::hypot(1.5 * set.radius, kAside * set.spacing) - set.radius) {}
 
     void add(const Sight& sight) {
+        // above the water only the belt counts: a deck and a superstructure touch no ice
         const auto z = static_cast<double>(sight.point.z());
         if (belt_ && z > belt_.water()) return add_in_belt(sight, z);
         area_ += sight.area;

@@ -65,6 +65,7 @@ public:
         const Range js((from.y() - y) * per_.y() + frame_.middle,
                        (to.y() - y) * per_.y() + frame_.middle, frame_.count[1]);
         const std::array<Range, 2> ks{heights(from.z(), to.z(), 0), heights(from.z(), to.z(), 1)};
+        // rows of one j have one of two sets of heights: the close packing's layers alternate
         for (std::int64_t j = js.from; j <= js.to; ++j) {
             const Range& rows = ks[static_cast<std::size_t>(j & 1)];
             for (std::int64_t k = rows.from; k <= rows.to; ++k) {
@@ -87,6 +88,7 @@ private:
     void ask_row(Visit& visit, double from, double to, const Vec3& start, std::size_t row) const {
         const Range is((from - start.x()) * per_.x(), (to - start.x()) * per_.x(), frame_.count[0]);
         if (is.from > is.to) return;
+        // 64 points per word; bits outside the range are masked, and only set bits are asked
         for (std::int64_t w = is.from >> 6; w <= is.to >> 6; ++w) {
             std::uint64_t mask = ~std::uint64_t{0};
             if (w == is.from >> 6) mask <<= is.from & 63;
@@ -97,6 +99,7 @@ private:
             for (; asked != 0; asked &= asked - 1) {
                 const int bit = std::countr_zero(asked);
                 const double along = frame_.step.x() * static_cast<double>(64 * w + bit);
+                // a full batch is measured before it takes more
                 if (visit.points.count == PointBatch::kMost) {
                     visit.measure();
                     visit.clear(bits_);

@@ -21,6 +21,8 @@ double way_to_next(const SurfaceTree& tree, const Vec3& center, const Vec3& alon
                    double most) {
     constexpr double kLeastRise = 0.1;  // sine between the way and the face
     thread_local std::vector<Foot> feet;
+    // The distance to a face shrinks by the cosine of the angle between the way and the face's
+    // direction: the face is touched after (distance - radius) / cosine.
     tree.within(center, radius + most, feet);
     for (const Foot& foot : feet) {
         const double rise = (foot.point - center).dot(along);

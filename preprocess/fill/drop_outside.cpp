@@ -48,6 +48,7 @@ class Cubes {
 public:
     Cubes(const std::vector<Vec3>& centers, double range)
         : centers_(centers), range_(range), of_point_(centers.size()) {
+        // a cube with a diagonal below the range: all its points overlap each other
         const double edge = 0.999 * range / std::sqrt(3.0);
         Eigen::AlignedBox3d box;
         for (const Vec3& c : centers) box.extend(c);
@@ -76,6 +77,7 @@ public:
     // Joins the cubes that are `step` apart. Both run through the sorted cubes side by side.
     void join_across(const Step& step, Heaps& heaps) const {
         std::uint64_t ahead = 0;  // modulo 2^64, so that steps back are right too
+        // A key has one digit per axis: a step in space is a fixed difference of keys.
         for (const int digit : step)
             ahead = (ahead << kDigits) + static_cast<std::uint64_t>(std::int64_t{digit});
         std::size_t other = 0;
@@ -154,6 +156,8 @@ std::vector<std::uint8_t> are_inside(const TriangleMesh& solid, const std::vecto
 }  // namespace
 
 std::int64_t drop_outside(const TriangleMesh& solid, double radius, std::vector<Vec3>& centers) {
+    // Spheres that overlap lie on the same side of the surface: one winding number per heap
+    // will do.
     const Cubes cubes(centers, kOverlap * radius);
     Heaps heaps = find_heaps(cubes);
     constexpr std::size_t kUnknown = std::numeric_limits<std::size_t>::max();

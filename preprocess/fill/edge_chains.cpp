@@ -46,6 +46,7 @@ void follow(const TriangleMesh& mesh,
             std::vector<SharpEdge>& edges, std::int32_t vertex, Vec3 heading, double sharp,
             std::vector<std::pair<std::size_t, std::int32_t>>& path) {
     while (true) {
+        // of several continuations the last one listed; used edges are never walked again
         std::size_t next = edges.size();
         std::int32_t target = -1;
         for (const std::size_t e : at_vertex.at(vertex)) {
@@ -173,6 +174,7 @@ std::vector<std::vector<Vec3>> trace_section(const SurfaceTree& tree, double rad
             at = next.find(to);
         }
         std::vector<Vec3> starts = walk(line, true, step);
+        // a closed line ends where it begins
         if (!starts.empty()) starts.push_back(starts.front());
         out.push_back(std::move(starts));
     }
@@ -193,9 +195,11 @@ std::vector<Vec3> resample(const std::vector<Vec3>& polyline, double spacing) {
             length += next.norm();
             ++end;
         }
+        // pieces of equal length, none longer than the spacing; corners stay points
         const int n = std::max(1, static_cast<int>(std::ceil(length / spacing - 1e-6)));
         double walked = 0.0;
         std::size_t at = begin;
+        // the end of the run before is its beginning
         for (int k = out.empty() ? 0 : 1; k < n; ++k) {
             const double target = length * k / n;
             while (walked + (polyline[at + 1] - polyline[at]).norm() < target && at + 2 <= end) {

@@ -49,6 +49,7 @@ void refuse_too_large(const SurfaceTree& tree, int dimension, double radius) {
 void refuse_too_many(const SphereSet& set, const FillOptions& o) {
     const double wide = 2.0 * o.radius;
     const bool flat = set.dimension == 2;
+    // two radii apart on a square lattice: fewer than the close packing has
     double count =
         flat ? set.solid.volume / (wide * wide) : set.solid.volume / (wide * wide * wide);
     if (o.surface_only) count = 0.0;
@@ -185,6 +186,9 @@ SphereSet fill(const TriangleMesh& solid, const TriangleMesh& space, int dimensi
 
     tell(o, "certificate");
     const Timer measuring;
+    // Order matters: normals before shares, because a sample belongs to a sphere that agrees
+    // with its normal; surface before interior, because the interior's cells leave the rest of
+    // the volume to the surface.
     const std::vector<std::int32_t> twins = set_features(tree, o, mirror, set, report);
     const SphereFinder finder(set);
     const std::vector<Sight> sights = survey_surface(tree, set, finder, mirror, o.quick);
@@ -222,6 +226,7 @@ SphereSet fill_discs(const Section& section, const std::vector<std::string>& reg
     TriangleMesh space = solid;
     Eigen::AlignedBox3d box;
     for (const Vec3& v : solid.vertices) box.extend(v);
+    // the section's prism made so long that its ends are never the nearest face
     for (Vec3& v : space.vertices) v.y() *= 2.0 * box.diagonal().norm() + 10.0 * options.radius;
     SphereSet set = fill(solid, space, 2, options, report);
     // surface of the section per metre: its outline, without the ends

@@ -28,6 +28,8 @@ public:
 
     Inscribed run() {
         std::vector<Cell> cells = first_cells();
+        // Branch and bound: measure the cells' centres, improve the best by climbing, drop the
+        // cells that cannot hold a larger sphere, halve the rest.
         for (std::size_t asked = 0; !cells.empty();) {
             ask(cells);
             asked += cells.size();
@@ -81,6 +83,9 @@ private:
             Cell& cell = cells[k];
             const Foot foot = tree_.closest(cell.center);
             depth[k] = foot.inside ? foot.distance : -foot.distance;
+            // Two bounds: the farthest point of the cell from the centre's foot, and the depth
+            // of the centre plus half the cell's diagonal, as depth changes by no more than the
+            // distance.
             const double farthest =
                 ((cell.center - foot.point).cwiseAbs() + half).norm();  // of the cell from the foot
             cell.bound = std::min({cell.bound, farthest, depth[k] + half.norm()});

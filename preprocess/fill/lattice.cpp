@@ -56,6 +56,8 @@ void find_runs(const LatticeFrame& frame, const LatticeBits& bits, std::int64_t 
 
 LatticeFill fill_lattice_rows(const TriangleMesh& mesh, const LatticeOptions& o) {
     LatticeFill out;
+    // Three steps: the frame of points, the rows' parts inside the solid, then the points too
+    // near to the surface.
     out.frame = place_lattice(mesh, o.kind, o.radius, o.dimension, o.mirror);
     out.bits = rows_inside(mesh, out.frame);
     clear_near(mesh, out.frame, o.clearance * (1.0 - kRounding), out.bits);
@@ -92,6 +94,7 @@ void expand(const LatticeFill& fill, std::span<Vec3> out) {
 
 std::vector<std::uint8_t> outer_spheres(const LatticeFill& fill, int dimension) {
     const LatticeFrame& frame = fill.frame;
+    // beyond the frame there is no point
     const auto is_set = [&](std::int64_t i, std::int64_t j, std::int64_t k) {
         if (i < 0 || j < 0 || k < 0 || i >= frame.count[0] || j >= frame.count[1] ||
             k >= frame.count[2])

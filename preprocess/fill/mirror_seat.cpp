@@ -26,6 +26,7 @@ std::optional<Seat> on_centre_plane(const SurfaceTree& tree, const Seat& seat, d
             find_crease(tree, radius, middle);
             return middle;
         }
+        // the part of the step in the centre plane; across it the mirror image balances
         const Vec3 away(-out.x(), 0.0, -out.z());
         if (away.norm() < 0.1) return std::nullopt;
         c += lack / away.squaredNorm() * away;
@@ -40,6 +41,7 @@ std::optional<Seat> mirror_seat(const SurfaceTree& tree, Seat seat, double radiu
         if (seat.center.y() != 0.0) seat.touches = 0;
         seat.center.y() = 0.0;
     }
+    // the half y >= 0 is made, the other is its image
     if (seat.center.y() < 0.0) seat = image_of(seat);
     if (seat.center.y() > 0.0 && seat.center.y() < gap) return on_centre_plane(tree, seat, radius);
     return seat;

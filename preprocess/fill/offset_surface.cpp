@@ -153,11 +153,15 @@ std::optional<Seat> settle_from(const SurfaceTree& tree, const Vec3& start, doub
             if (!smooth) find_crease(tree, radius, seat);
             return seat;
         }
+        // the first steps, and any from too far inside: along the foot's direction to the
+        // distance of a radius
         const bool direct = smooth && foot.distance > 0.1 * radius;
         if (direct || foot.distance > radius) {
             c += (foot.distance - radius) / foot.distance * (foot.point - c);
             continue;
         }
+        // in a crease: the smallest move that brings up to three faces to the distance of a
+        // radius
         collect(tree, c, radius, foot.distance, feet, conditions);
         const Vec3 move = smallest_move(conditions);
         if (!(move.norm() < 4.0 * radius)) return std::nullopt;  // a wedge too sharp to fit in
@@ -213,6 +217,7 @@ void find_crease(const SurfaceTree& tree, double radius, Seat& seat) {
     std::copy_n(directions.begin(), seat.touches, seat.touch.begin());
     const Cone cone = narrowest_cone(directions);
     seat.normal = cone.axis;
+    // a crease's sphere agrees with normals of its whole cone
     seat.agree = std::cos(std::min(cone.half_angle + kFaceTurn, std::numbers::pi));
 }
 

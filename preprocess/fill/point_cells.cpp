@@ -18,6 +18,7 @@ PointCells::PointCells(std::span<const Vec3> points, double cell)
         low_ = low_.cwiseMin(p);
         high_ = high_.cwiseMax(p);
     }
+    // few empty cubes: number them all; many: a hash table of the used ones
     const Vec3 cubes = ((high_ - low_) * per_metre_).array().floor() + 1.0;
     if (cubes.prod() <= kMostCubes * static_cast<double>(points.size())) {
         for (int d = 0; d < 3; ++d)
@@ -123,6 +124,7 @@ PointCells::Nearest PointCells::nearest_numbered(const Vec3& p, Nearest known) c
     const double most = (p - low_).cwiseMax(high_ - p).norm();  // no point is farther away
     double range = known.distance;
     if (!std::isfinite(range))
+        // without a known point the search begins with a cube, and doubles until one is found
         range = cell_ + std::max((p - high_).cwiseMax(low_ - p).maxCoeff(), 0.0);
     for (;; range *= 2.0) {
         for_each_near(p, range * (1.0 + 1e-12), look_at);
@@ -161,6 +163,7 @@ PointCells::Nearest PointCells::nearest_hashed(const Vec3& p, Nearest known) con
     for (int ring = 0; ring <= kMostRings; ++ring) {
         const double reach = (ring - 1) * cell_;
         if (reach > 0.0 && reach * reach > best_sq) break;
+        // beyond some rings the cubes are mostly empty: blocks of points instead
         if (ring == kMostRings) return look_at_blocks();
         for (int x = -ring; x <= ring; ++x)
             for (int y = -ring; y <= ring; ++y) {

@@ -80,6 +80,8 @@ private:
             const double z = frame_.z(family, k);
             if (z < a->z()) continue;
             if (!(z < c->z())) break;
+            // the plane z cuts the triangle in a segment between its longest edge and a shorter
+            // one
             const Cut longer = cut_edge(*a, *c, z);
             const Cut shorter = z < b->z() ? cut_edge(*a, *b, z) : cut_edge(*b, *c, z);
             // a, b, c run up the shorter edges and down the longer one
@@ -141,6 +143,7 @@ SortedCrossings sort_crossings(const std::vector<std::vector<Crossing>>& chunks,
     SortedCrossings out;
     out.offset.assign(rows + 2, 0);
     std::uint32_t* const next = out.offset.data() + 1;
+    // a counting sort by row: one count, one place for each crossing
     for (const auto& chunk : chunks)
         for (const Crossing& c : chunk) ++next[c.row + 1];
     for (std::size_t r = 0; r < rows; ++r) next[r + 1] += next[r];

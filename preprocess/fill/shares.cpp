@@ -69,9 +69,12 @@ void match_moments(std::size_t count, const Eigen::Vector4d& others, bool mirror
     Eigen::Vector4d target = -others;
     target[0] += set.solid.volume;
     const double least = 1e-3 * target[0] / static_cast<double>(count);
+    // a share that would become negative is held above zero: the least that counts as positive
     const std::vector<double> before(set.volumes.begin(),
                                      set.volumes.begin() + static_cast<std::ptrdiff_t>(count));
     for (int pass = 0; pass < kMostPasses; ++pass) {
+        // least squares: factors 1 + f0 + f . (x - centroid) for which the shares have the
+        // volume and the centroid
         Eigen::Matrix4d moments = sum_of(0, count, Eigen::Matrix4d(Eigen::Matrix4d::Zero()),
                                          [&](std::size_t k) -> Eigen::Matrix4d {
                                              Eigen::Vector4d u;
@@ -198,9 +201,11 @@ void share_surface(const SurfaceTree& tree, const std::vector<Sight>& sights,
         regions.add(sphere, tree.mesh().region[static_cast<std::size_t>(sight.triangle)],
                     sight.area);
     }
+    // a region by the largest part of the sphere's area
     set.regions = regions.largest();
     // in 2D the two flat ends belong to no disc
     double whole = set.dimension == 2 ? total : set.solid.area;
+    // both sides of a symmetric solid have half of the area each
     if (!twins.empty()) whole *= 0.5;
     for (std::size_t k = 0; k < count; ++k) {
         if (!twins.empty() && set.centers[k].y() < 0.0) continue;
@@ -225,6 +230,8 @@ double share_volume(double cell, bool mirror, SphereSet& set) {
         return centroid_miss(others, set.size(), set);
     }
     const double most = (1.0 - kLeastRest) * set.solid.volume;
+    // interior cells may add up to more than the solid where it is thin: then they are made
+    // smaller
     if (static_cast<double>(inside) * cell > most) cell = most / static_cast<double>(inside);
     others[0] = static_cast<double>(inside) * cell;
     const double rest = set.solid.volume - others[0];

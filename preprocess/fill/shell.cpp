@@ -37,11 +37,15 @@ public:
         : tree_(tree), solid_(tree), o_(options), width_(kTile * options.spacing) {}
 
     std::vector<Vec3> make() {
+        // Edges first: their spheres are the fixed points from which fronts start, and which
+        // gaps keep.
         lines_ = seat_lines(tree_, o_);
         make_seeds();
         if (o_.dimension == 3) {
             for (const Seat& seat : lines_) tile_at(tile_of(seat.center)).own.push_back(seat);
             fill_tiles([](ShellTile& work, const Tile& tile) { work.advance_front(tile.seeds); });
+            // only now gaps: a gap at a tile's rim is one only if the neighbour's front left
+            // it, too
             fill_tiles([](ShellTile& work, const Tile& tile) {
                 work.close_gaps();
                 work.cover(tile.seeds);
@@ -94,6 +98,7 @@ private:
     void fill_tiles(const Fill& fill) {
         for (int colour = 0; colour < 8; ++colour) {
             if (o_.progress) o_.progress(steps_done_++ / 16.0);
+            // Even and odd tiles along each axis make eight colours.
             std::vector<std::size_t> now;
             for (const auto& [at, k] : index_)
                 if ((at[0] & 1) + 2 * (at[1] & 1) + 4 * (at[2] & 1) == colour) now.push_back(k);

@@ -81,6 +81,7 @@ std::vector<SettledLine> settle_line(const SurfaceTree& tree, const ShellOptions
         const auto& seat = seats[k];
         const Line& line = out.back().centers;
         const double apart = k > 0 ? (starts[k] - starts[k - 1]).norm() : 0.0;
+        // a start that settled on another edge ends the line: the way there is no edge
         const bool jump = seat && !line.empty() &&
                           (seat->center - line.back()).norm() > std::max(o.spacing, 1.5 * apart);
         if ((!seat || jump) && !line.empty()) out.emplace_back();

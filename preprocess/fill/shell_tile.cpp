@@ -44,6 +44,7 @@ Eigen::AlignedBox3d around(const Eigen::AlignedBox3d& box, double halo) {
 }  // namespace
 
 ShellSolid::ShellSolid(const SurfaceTree& whole) : tree(whole), convex(true) {
+    // every vertex behind every face's plane; tested for small meshes only
     const TriangleMesh& mesh = tree.mesh();
     for (const Vec3& v : mesh.vertices) box.extend(v);
     if (mesh.triangles.size() * mesh.vertices.size() > kMostConvexTests) convex = false;
@@ -101,8 +102,10 @@ bool ShellTile::place(const Vec3& start, std::int32_t hint, double separation, d
     Vec3 from = start;
     if (o_.mirror && from.y() < 0.0) from.y() = -from.y();
     auto seat = settle(tree_, from, o_.radius, hint);
+    // settle on the offset surface, then keep to the half y >= 0
     if (seat && o_.mirror) seat = mirror_seat(tree_, *seat, o_.radius, mirror_gap * s);
     if (!seat) return false;
+    // a front places seats in its own tile only; gaps are closed a little beyond it, too
     if (outside_too ? box_.exteriorDistance(seat->center) >= kBeyond * s
                     : !box_.contains(seat->center))
         return false;
@@ -172,6 +175,8 @@ void ShellTile::surround_in(const Plane& plane, std::int32_t hint) {
     }
     const std::size_t count = neighbours_.size();
     for (std::size_t k = 0; k < count; ++k) {
+        // Six neighbours of a hexagon stand 60 degrees apart: a gap of more than 90 degrees
+        // takes another one, or several.
         const double end =
             k + 1 < count ? neighbours_[k + 1].angle : neighbours_.front().angle + 2.0 * kPi;
         double angle = neighbours_[k].angle, distance = neighbours_[k].distance;
@@ -201,6 +206,7 @@ void ShellTile::advance_front(const std::vector<Seed>& seeds) {
         }
     };
     run();
+    // seeds that no front reached: separate faces, and parts behind sharp edges
     for (const Seed& seed : seeds) {
         if (grid_.any_within(seed.seat, kUnreached * o_.spacing, tree_.normal(seed.triangle)))
             continue;
@@ -243,6 +249,7 @@ void ShellTile::close_gaps_in(const Plane& plane, std::int32_t hint) {
         far_sq = 0.0;
         for (const auto& p : cell_) far_sq = std::max(far_sq, p[0] * p[0] + p[1] * p[1]);
     }
+    // corners of a Voronoi cell are the points farthest from all seats around
     for (const auto& corner : cell_) {
         if (std::hypot(corner[0], corner[1]) <= kGap * s) continue;
         const Vec3 start = plane.at(corner[0], corner[1]);
@@ -267,6 +274,7 @@ void ShellTile::cover(const std::vector<Seed>& seeds) {
     };
     std::vector<const Seed*> open;
     for (const Seed& seed : seeds)
+        // settled in parallel, placed one by one: a seat may cover the seeds after it
         if (!is_covered(seed) && !tried_near(seed)) open.push_back(&seed);
     std::vector<std::optional<Seat>> seats(open.size());
     parallel_for(open.size(), fine_ ? kFewFine : open.size() + 1, [&](std::size_t k) {

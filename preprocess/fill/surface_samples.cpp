@@ -31,6 +31,7 @@ void SurfaceSampler::add_strips(std::size_t t, std::vector<SurfaceSample>& out) 
     const Vec3 a = mesh_.corner(t, longest), b = mesh_.corner(t, (longest + 1) % 3),
                c = mesh_.corner(t, (longest + 2) % 3);
     const Vec3 normal = vector / area;
+    // strips as high as the samples are apart; at the apex they become shorter
     const int rows = pieces(2.0 * area / length, size_);
     for (int row = 0; row < rows; ++row) {
         // a strip is a trapezoid between two heights; its pieces are equal trapezoids
@@ -80,6 +81,7 @@ void SurfaceSampler::sample(std::size_t t, std::vector<SurfaceSample>& out) cons
         return;
     add_strips(t, out);
     if (!half_) return;
+    // samples in the plane of symmetry belong to both halves
     std::erase_if(out, [](const SurfaceSample& s) { return s.point.y() < 0.0; });
     for (SurfaceSample& s : out)
         if (s.point.y() == 0.0) s.area *= 0.5;

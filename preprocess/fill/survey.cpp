@@ -28,12 +28,14 @@ Sight look(const SurfaceTree& tree, const SphereSet& set, const SphereFinder& fi
     out.triangle = sample.triangle;
     out.point = sample.point.cast<float>();
     const Vec3 seat = sample.point - radius * sample.normal;
+    // the sphere of the sample: the nearest one whose normals agree with the surface there
     const auto any = finder.nearest(seat, last);
     last = any.index;
     const auto near = finder.agreeing(seat, sample.normal, any);
     out.owner = near.index;
     const Vec3& center = set.centers[static_cast<std::size_t>(near.index)];
     out.gap = static_cast<float>(std::max((sample.point - center).norm() - radius, 0.0));
+    // where no sphere fits, nothing can cover
     if (share_only || !tree.is_clear(seat, radius * (1.0 - kReachable))) return out;
     out.cover = static_cast<float>(finder.covering(seat, sample.normal, any).distance);
     const auto k = static_cast<std::size_t>(near.index);
@@ -78,6 +80,7 @@ PointCells::Nearest SphereFinder::nearest_of(const Vec3& p, const PointCells::Ne
                                              const Accept& accept) const {
     if (accept(any.index) || any.distance > kFar * set_.spacing) return any;
     PointCells::Nearest best{-1, any.distance + 2.0 * set_.spacing};
+    // others that accept lie at most two spacings farther away than the nearest of all
     cells_.visit(p, best.distance, [&](std::int32_t k, double distance) {
         if (distance > best.distance || (distance == best.distance && k > best.index)) return;
         if (accept(k)) best = {k, distance};

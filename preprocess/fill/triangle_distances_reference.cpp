@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Distances of points from a triangle: the definition, one point at a time.
+// triangle_distances_simd.cpp computes the same bits in lanes.
 #include <algorithm>
 #include <limits>
 
@@ -24,6 +26,7 @@ void measure_distances(const TriangleSides& t, const PointBatch& points, double*
                          dz = z - part * edge.z();
             rim = std::min(rim, dx * dx + dy * dy + dz * dz);
         }
+        // inside all three edges the face is nearest, else the rim
         out[k] = least >= 0.0 ? height * height * t.per_area_sq : rim;
     }
 }

@@ -26,6 +26,7 @@ std::vector<std::int32_t> find_twins(const SphereSet& set) {
         }
     }
     if (apart.empty()) return twin;
+    // a lattice's twins are rows apart: each image is searched
     const PointCells cells(spheres, set.spacing);
     for (const std::size_t k : apart) {
         const auto near = cells.nearest(image(k));

@@ -63,6 +63,7 @@ private:
             frame_.metres = *file_.metres;
             note("units", fmt::format("{}, as {}", unit_name(frame_.metres), file_said()));
         } else if (length >= 1000.0 && length <= 1000.0 * kLongest) {
+            // no ship or floe is a kilometre long
             frame_.metres = 1e-3;
             note("units",
                  fmt::format("mm, because the solid would be {:.0f} m long in metres", length));
@@ -120,6 +121,7 @@ private:
         }
         // The found hull axes are of use only if they agree with the chosen up axis.
         const bool lies_flat = hull_ && hull_->vertical == frame_.up.axis;
+        // x, unless x is up
         frame_.forward = {frame_.up.axis == 0 ? 1 : 0, true};
         if (lies_flat && hull_->length == frame_.forward.axis) {
             keep_forward();
@@ -159,6 +161,7 @@ private:
         }
         const double ratio = fineness_ratio(mesh_, *hull_);
         const bool known = ratio <= kFiner || ratio >= 1.0 / kFiner;
+        // to the positive end, unless the other one is clearly finer
         frame_.forward = {hull_->length, ratio > kFiner};
         note("forward",
              fmt::format("{}, because the hull is longest along {}{}", frame_.forward.text(), along,
@@ -186,6 +189,7 @@ private:
 
     // An open half hull in other axes: named, not turned, since an open deck looks the same.
     void doubt_half() {
+        // the axis that is left: the three numbers add up to 3
         const int port = 3 - frame_.up.axis - frame_.forward.axis;
         int open = -1, count = 0;
         for (int axis = 0; axis < 3 && !options_.up; ++axis)
@@ -221,6 +225,7 @@ Mat3 Frame::matrix() const {
         throw bad_input("--forward " + forward.text(), "points along the up axis " + up_name(up),
                         "choose --up and --forward at right angles");
     Mat3 m;
+    // the ship's x, y and z in the file's axes: up x forward points to port
     m.row(0) = forward.vector().transpose();
     m.row(1) = up.vector().cross(forward.vector()).transpose();
     m.row(2) = up.vector().transpose();

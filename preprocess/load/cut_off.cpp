@@ -23,6 +23,7 @@ long largest_vertex(std::string_view line, long vertices, int& corners) {
         if (at == std::string_view::npos) break;
         long number = 0;
         std::from_chars(line.data() + at, line.data() + line.size(), number);
+        // a negative number counts back from the vertex before the line
         largest = std::max(largest, number < 0 ? vertices + number + 1 : number);
         ++corners;
         at = std::min(line.find_first_of(" \t", at), line.size());
@@ -41,6 +42,7 @@ std::string check_obj(std::ifstream& in) {
         corners = 0;
         used = std::max(used, largest_vertex(line, vertices, corners));
     }
+    // Faces come last in a file: without its end vertices are left that no face uses.
     if (used > 0 && used < vertices)
         return cut_off(fmt::format("no face uses its last {} vertices", vertices - used));
     if (last_is_face && corners < 3)
@@ -50,6 +52,7 @@ std::string check_obj(std::ifstream& in) {
 
 // Of text only: a binary PLY may end in any byte.
 std::string check_last_line(std::ifstream& in) {
+    // "format binary_..." and "OFF BINARY" stand in the first two lines
     std::string line;
     for (int k = 0; k < 2 && std::getline(in, line); ++k)
         if (line.find("binary") != std::string::npos) return {};

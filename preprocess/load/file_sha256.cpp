@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The hash of a file's bytes, read block by block with OpenSSL.
 #include <fmt/format.h>
 #include <openssl/evp.h>
 

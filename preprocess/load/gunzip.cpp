@@ -57,6 +57,7 @@ std::vector<char> gunzip(const std::filesystem::path& file, std::uint64_t limit)
             throw damaged(file, code == Z_BUF_ERROR ? "it ends too early" : message);
         if (count == 0) break;
         filled += static_cast<std::size_t>(count);
+        // a small file may unpack to any size
         if (filled > limit)
             throw bad_input(file.string(), fmt::format("unpacks to more than {} bytes", limit),
                             "unpack it yourself, or export a coarser mesh");

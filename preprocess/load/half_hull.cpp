@@ -72,6 +72,8 @@ std::vector<Edge> open_edges_in_plane(const TriangleMesh& mesh, int axis, double
 }
 
 // Whether something in the plane reaches over half of the mesh both ways.
+// A transom or a hatch in the plane does not: of half a hull the centre plane is nearly all
+// there.
 bool reaches_far(const Eigen::AlignedBox3d& part, const Eigen::AlignedBox3d& whole, int axis) {
     if (part.isEmpty()) return false;
     const Vec3 p = part.sizes(), w = whole.sizes();
@@ -143,6 +145,7 @@ void add_mirror_image(TriangleMesh& mesh) {
     std::vector<std::int32_t> image(mesh.vertices.size());
     for (std::size_t k = 0; k < image.size(); ++k) {
         const Vec3 v = mesh.vertices[k];
+        // vertices in the plane belong to both halves
         if (v.y() == 0.0) {
             image[k] = static_cast<std::int32_t>(k);
             continue;
@@ -154,6 +157,7 @@ void add_mirror_image(TriangleMesh& mesh) {
     const std::size_t triangles = mesh.triangles.size();
     for (std::size_t t = 0; t < triangles; ++t) {
         const auto [a, b, c] = mesh.triangles[t];
+        // a mirror image turns triangles inside out: two corners change places
         mesh.triangles.push_back({at(a), at(c), at(b)});
         mesh.region.push_back(mesh.region[t]);
     }

@@ -29,6 +29,7 @@ double section_width(const TriangleMesh& mesh, int along, double station, int ac
         for (int k = 0; k < 3; ++k) {
             const Vec3 p = mesh.corner(t, k), q = mesh.corner(t, (k + 1) % 3);
             const double a = p[along] - station, b = q[along] - station;
+            // the edge does not cross the station
             if ((a < 0.0) == (b < 0.0)) continue;
             const double at = p[across] + (q[across] - p[across]) * a / (a - b);
             low = std::min(low, at);
@@ -46,8 +47,10 @@ std::optional<HullAxes> find_hull_axes(const TriangleMesh& mesh) {
     HullAxes axes;
     size.maxCoeff(&axes.length);
     const int b = (axes.length + 1) % 3, c = (axes.length + 2) % 3;
+    // shorter meshes may be floes or boxes, whose axes nobody can tell
     if (size[axes.length] < 1.5 * std::max(size[b], size[c])) return std::nullopt;
     const double off_b = asymmetry(mesh, b), off_c = asymmetry(mesh, c);
+    // one plane of symmetry along the length, but not two: a box or a spindle has no upper side
     if (std::min(off_b, off_c) > kSymmetric || std::max(off_b, off_c) < kLopsided)
         return std::nullopt;
     const bool about_b = off_b < off_c;
@@ -61,6 +64,7 @@ double fineness_ratio(const TriangleMesh& mesh, const HullAxes& axes) {
     const Eigen::AlignedBox3d box = bounding_box(mesh);
     const double from = box.min()[axes.length], to = box.max()[axes.length];
     double low = 0.0, high = 0.0;
+    // some stations near each end: the ends themselves may be a stem or a transom
     for (const double share : {0.02, 0.05, 0.08, 0.11, 0.14}) {
         const double step = share * (to - from);
         low += section_width(mesh, axes.length, from + step, axes.breadth);

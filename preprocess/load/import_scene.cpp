@@ -96,6 +96,7 @@ private:
 
     std::int32_t region_of(const aiMesh& mesh, const aiNode& node) {
         const std::string name = part_name(mesh, node);
+        // names that stand for none
         if (name.empty() || name == "default" || name == "defaultobject") return 0;
         const auto known = std::find(out_.region_names.begin(), out_.region_names.end(), name);
         if (known == out_.region_names.end()) {
@@ -107,6 +108,7 @@ private:
 
     void add(const aiMesh& mesh, const aiNode& node, const Mat4& here) {
         const auto first = static_cast<std::int32_t>(out_.vertices.size());
+        // a node may mirror its part: its triangles are then inside out
         const bool reflects = here.topLeftCorner<3, 3>().determinant() < 0.0;
         for (unsigned k = 0; k < mesh.mNumVertices; ++k) {
             const aiVector3D& v = mesh.mVertices[k];
@@ -176,6 +178,7 @@ FileFrame frame_of(const aiScene& scene) {
     if (format == "Collada") frame = collada_frame(scene);
     if (format == "FBX") frame = fbx_frame(*scene.mMetaData);
     if (format == "glTF") {
+        // by its definition: metres, y up, the front along z
         frame.metres = 1.0;
         frame.up = Direction{1, true};
         frame.front = Direction{2, true};

@@ -92,6 +92,7 @@ TriangleMesh main_parts(const TriangleMesh& mesh, std::int64_t& left_out) {
     const auto is_around = [&](std::size_t p) {
         return parts[p].on_box && std::any_of(present.begin(), present.end(), [&](std::size_t q) {
                    return q != p && !parts[q].flat() && parts[p].box.contains(parts[q].box) &&
+                          // twice as large along each axis
                           parts[p].box.volume() > 8.0 * parts[q].box.volume();
                });
     };

@@ -70,6 +70,7 @@ TriangleMesh read_mesh(const std::filesystem::path& file, const ReadOptions& opt
     check_area(mesh, file);
     ReadNotes unread;
     ReadNotes& noted = notes != nullptr ? *notes : unread;
+    // from here on x forward, z up, metres
     const Mat3 turn = choose_frame(mesh, said, options, noted).matrix();
     for (Vec3& v : mesh.vertices) v = turn * v;
     check_distance(mesh, file, noted);
@@ -78,6 +79,7 @@ TriangleMesh read_mesh(const std::filesystem::path& file, const ReadOptions& opt
             noted.warnings.emplace_back(
                 "the mesh lies on both sides of y = 0 already: leave out --mirror y if it holds "
                 "the whole hull");
+        // walls in the centre plane would lie inside the whole hull
         noted.centre_plane_dropped = drop_centre_plane(mesh);
         add_mirror_image(mesh);
     }

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// PLY, OFF and binary STL say how much follows their header. It is counted before any reader sees
+// the file: assimp 5.2 crashes on PLY and OFF files that were cut off.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -78,6 +80,7 @@ PlyHeader read_header(std::ifstream& in) {
 
 // Rows of an element that are whole in the bytes from `at` on, which moves behind them.
 long whole_rows(const Element& element, bool swapped, const std::string& bytes, std::size_t& at) {
+    // an element without properties has no bytes
     if (element.properties.empty()) return element.count;
     for (long row = 0; row < element.count; ++row) {
         std::size_t end = at;
@@ -93,6 +96,7 @@ long whole_rows(const Element& element, bool swapped, const std::string& bytes, 
                 }
                 end += property.count_size;
             }
+            // a damaged length would overflow the product below
             if (values > bytes.size()) return row;
             end += values * property.size;
             if (end > bytes.size()) return row;
@@ -135,6 +139,7 @@ void check_text(const std::filesystem::path& file, std::ifstream& in, long promi
     std::string last;
     const long found = count_lines(in, last);
     if (found < promised) throw refusal(file, promised, found);
+    // all lines are there, but the last one may be cut within
     if (found == promised && lacks_corners(last)) throw refusal(file, promised, found - 1);
 }
 
@@ -159,6 +164,7 @@ void check_off(const std::filesystem::path& file, std::ifstream& in) {
     std::string line;
     if (!std::getline(in, line) || line.find("BINARY") != std::string::npos) return;
     const std::size_t word = line.find("OFF");
+    // "OFF 8 12 0" in one line, or the counts in the next one that is no comment
     std::string counts = word == std::string::npos ? line : line.substr(word + 3);
     while (counts.find_first_of("0123456789") == std::string::npos && std::getline(in, counts))
         if (counts.find('#') != std::string::npos) counts.clear();
@@ -173,6 +179,7 @@ void check_stl_length(const std::filesystem::path& file, std::ifstream& in) {
     std::array<char, 84> head{};
     in.read(head.data(), head.size());
     const auto size = static_cast<std::int64_t>(std::filesystem::file_size(file));
+    // text is judged by its last line (cut_off.cpp)
     if (std::string_view(head.data(), 5) == "solid") return;
     if (size < 84)
         throw bad_input(file.string(),

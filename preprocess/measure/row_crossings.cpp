@@ -63,6 +63,7 @@ private:
 
     void meet(const Vec3& a, const Vec3& b, const Vec3& c, std::int32_t i, std::int32_t j) {
         const std::int32_t row = i * grid_.count_v + j;
+        // two numbers for each row and axis, so that no two rows are scattered alike
         const auto key =
             static_cast<std::uint64_t>(row) * 6u + 2u * static_cast<std::uint64_t>(grid_.axis);
         const double du = grid_.scattered ? hashed(key) : 0.0;
@@ -72,6 +73,7 @@ private:
         const double wa = side_of(b, c, pu, pv, u_, v_);
         const double wb = side_of(c, a, pu, pv, u_, v_);
         const double wc = side_of(a, b, pu, pv, u_, v_);
+        // inside the triangle all three areas have one sign
         if ((wa > 0) != (wb > 0) || (wb > 0) != (wc > 0)) return;
         const int d = grid_.axis;
         const double depth = (wa * a[d] + wb * b[d] + wc * c[d]) / (wa + wb + wc);

@@ -13,6 +13,8 @@ RowVolume integrate(const std::vector<RowCrossing>& crossings, double area) {
         int winding = 0, count = 0;
         const std::int32_t row = crossings[k].row;
         for (; k < crossings.size() && crossings[k].row == row; ++k, ++count) {
+            // from the crossing before to this one, over the row's cell: three opinions on what
+            // lies there
             const double behind =
                 count == 0 ? 0.0 : area * (crossings[k].depth - crossings[k - 1].depth);
             out.by_sign += winding * behind;
@@ -20,6 +22,7 @@ RowVolume integrate(const std::vector<RowCrossing>& crossings, double area) {
             if (count % 2 == 1) out.by_parity += behind;
             winding += crossings[k].sign;
         }
+        // on a closed surface a row leaves as often as it enters
         if (winding != 0) ++out.open_rows;
     }
     return out;

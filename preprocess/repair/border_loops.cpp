@@ -21,6 +21,8 @@ class Walker {
 public:
     explicit Walker(const TriangleMesh& mesh) : mesh_(mesh) {
         for (const MeshEdge& edge : edge_table(mesh)) {
+            // an edge with more triangles one way than the other is a border, walked against
+            // them
             const int net = 2 * edge.forwards - edge.count;
             for (int k = 0; k < std::abs(net); ++k)
                 net > 0 ? add(edge.b, edge.a, edge) : add(edge.a, edge.b, edge);
@@ -65,6 +67,7 @@ private:
         for (Step& step : from_[at]) {
             if (step.used) continue;
             const Vec3 out = vertices[static_cast<std::size_t>(step.to)] - here;
+            // the angle from the way out to the way back, on the side of the hole
             const Vec3 back = vertices[static_cast<std::size_t>(before)] - here;
             double angle = std::atan2(n.dot(out.cross(back)), n.norm() * out.dot(back));
             if (angle <= 0.0) angle += 2.0 * std::numbers::pi;

@@ -26,6 +26,7 @@ std::vector<Vec3> points_across(const TriangleMesh& mesh, const BorderLoop& loop
     const std::size_t n = loop.vertices.size();
     for (std::size_t k = 0; k < n; ++k) {
         const std::int32_t a = loop.vertices[k], b = loop.vertices[(k + 1) % n];
+        // the corner of the triangle across the edge: the patch continues its slope
         Vec3 far = mesh.vertices[static_cast<std::size_t>(a)];
         if (loop.neighbours[k] >= 0)
             for (const std::int32_t v :

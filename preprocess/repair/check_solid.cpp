@@ -43,6 +43,7 @@ SolidDiagnosis diagnose_solid(const TriangleMesh& mesh) {
         const std::size_t t = pairs.front().first;
         out.example = (mesh.corner(t, 0) + mesh.corner(t, 1) + mesh.corner(t, 2)) / 3.0;
     }
+    // with crossings the signed volume proves nothing
     out.inside_out = pairs.empty() && out.volume < 0.0;
     return out;
 }

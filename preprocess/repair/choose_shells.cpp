@@ -34,6 +34,7 @@ std::vector<Shell> find_shells(const TriangleMesh& mesh) {
         for (int k = 0; k < 3; ++k) shell.box.extend(mesh.corner(t, k));
     }
     for (Shell& shell : shells) {
+        // the origin in the shell itself, so that shells far away keep their digits
         const Vec3 reference = shell.box.center();
         for (const std::int32_t t : shell.triangles) {
             const auto tt = static_cast<std::size_t>(t);
@@ -53,6 +54,7 @@ int winding(const TriangleMesh& mesh, const Shell& shell, const Vec3& p) {
         const auto tt = static_cast<std::size_t>(t);
         sum += solid_angle(p, mesh.corner(tt, 0), mesh.corner(tt, 1), mesh.corner(tt, 2));
     }
+    // in turns: a whole number but for rounding
     return static_cast<int>(std::lround(sum));
 }
 

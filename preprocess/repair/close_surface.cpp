@@ -31,6 +31,7 @@ void mirror(TriangleMesh& mesh, Repairs& repairs) {
 // Parts made of little but a cap and the triangles below it: loose triangles, flags, single plates.
 std::vector<std::uint8_t> find_scraps(const TriangleMesh& mesh, const Parts& parts,
                                       const std::vector<Cap>& caps) {
+    // scrap: flat beside its own area, as a plate or a loose triangle with its cap
     std::vector<std::uint8_t> scrap(static_cast<std::size_t>(parts.count), 0);
     const std::vector<double> volumes = part_volumes(mesh, parts);
     std::vector<double> area(scrap.size(), 0.0);
@@ -133,11 +134,13 @@ ClosedSurface close_surface(TriangleMesh mesh, const SolidOptions& options, Repa
     note("openings inside other parts closed", count(CapKind::hidden));
     note("holes in flat faces closed", count(CapKind::continued));
     note("small holes closed", count(CapKind::small));
+    // the surface without any cap, and without guesses: for the second opinions on the volume
     out.open = without_caps(mesh, caps, [](std::size_t) { return true; });
     out.unsure =
         without_caps(mesh, caps, [&](std::size_t k) { return out.caps[k].kind == CapKind::guess; });
     for (const double part : part_volumes(mesh, find_parts(mesh))) out.volume += std::abs(part);
     for (const CapVerdict& cap : out.caps)
+        // how much volume the caps leave in doubt; decks and hidden caps are certain
         if (cap.kind != CapKind::deck && cap.kind != CapKind::hidden)
             out.doubt += cap.doubt / out.volume;
     for (std::size_t t = 0; t < out.open.triangles.size(); ++t)

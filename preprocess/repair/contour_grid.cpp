@@ -35,6 +35,8 @@ public:
         mesh_.vertices.resize(edges_.size());
         parallel_for(edges_.size(), 100, [&](std::size_t k) {
             const Vec3 in = grid_.at(edges_[k].first), out = grid_.at(edges_[k].second);
+            // vertices keep off the grid's nodes: cuts that meet in a node would make triangles
+            // without area
             mesh_.vertices[k] = in + std::clamp(cut(in, out), 0.02, 0.98) * (out - in);
         });
         mesh_.region.assign(mesh_.triangles.size(), 0);
@@ -55,6 +57,7 @@ private:
     }
 
     void cut_tetrahedron(std::size_t base, const int (&corner)[4]) {
+        // One corner alone is cut off by a triangle; two and two are parted by a quadrilateral.
         int in[4], out[4], in_count = 0, out_count = 0;
         for (const int c : corner)
             inside_[base + offset_[c]] ? in[in_count++] = c : out[out_count++] = c;

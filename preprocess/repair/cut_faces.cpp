@@ -99,6 +99,7 @@ public:
             if (common) walks_[k] = boost::apply_visitor(Walk(), *common);
             for (const Point& p : walks_[k]) CGAL::exact(p);
         });
+        // triangle -> the pairs it is in: each triangle is cut once, by all of its pairs
         std::map<std::size_t, std::vector<std::size_t>> cuts;
         for (std::size_t k = 0; k < pairs.size(); ++k) {
             if (walks_[k].empty()) continue;
@@ -116,6 +117,7 @@ public:
         out.mesh.vertices = mesh_.vertices;
         out.mesh.region_names = mesh_.region_names;
         const auto add = [&](const Triple& piece, std::size_t t) {
+            // a piece without area
             if (piece[0] == piece[1] || piece[1] == piece[2] || piece[2] == piece[0]) return;
             out.mesh.triangles.push_back(piece);
             out.mesh.region.push_back(mesh_.region[t]);
@@ -126,6 +128,7 @@ public:
             for (const std::int32_t v : mesh_.triangles[t])
                 known.try_emplace(place(mesh_.vertices[static_cast<std::size_t>(v)]), v);
         std::size_t next = 0;
+        // both lists are in the order of the triangles
         for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
             if (next == cuts_.size() || cuts_[next].first != t) {
                 add(mesh_.triangles[t], t);
@@ -140,6 +143,7 @@ public:
                 number.push_back(found->second);
             }
             for (Triple piece : of.triangles) {
+                // new corners have numbers below 0 until all are known
                 for (std::int32_t& v : piece)
                     if (v < 0) v = number[static_cast<std::size_t>(-1 - v)];
                 add(piece, t);
@@ -164,6 +168,7 @@ private:
         for (int k = 0; k < 3; ++k)
             plan.insert(look.down(whole[k]))->info() = {
                 true, mesh_.triangles[t][static_cast<std::size_t>(k)]};
+        // the common part of each pair is a constraint: the pieces have it as edges
         for (const std::size_t cut : cuts) {
             const std::vector<Point>& walk = walks_[cut];
             auto last = plan.insert(look.down(walk.front()));

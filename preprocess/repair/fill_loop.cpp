@@ -38,6 +38,8 @@ std::vector<std::array<std::int32_t, 3>> fill_loop(const std::vector<Vec3>& poin
     for (const Vec3& p : across) third.emplace_back(p.x(), p.y(), p.z());
     std::vector<std::array<std::int32_t, 3>> out;
     std::vector<CGAL::Triple<int, int, int>> patch;
+    // beyond kCubic corners only CGAL's search among Delaunay triangles is tried: the complete
+    // one is cubic
     try {
         // the flat short cut uses the loop only, not its neighbours
         CGAL::Polygon_mesh_processing::triangulate_hole_polyline(

@@ -65,6 +65,8 @@ public:
         open_edges_ = diagnose_edges(mesh).open_edges;
         if (open_edges_ > 0) stitch(mesh);
         if (options_.mode == RepairMode::wrap) return wrap(mesh);
+        // parts that touch in edges, then holes, then crossings: each step needs what the one
+        // before made
         if (auto solid = unite_touching(mesh)) return flood(std::move(*solid));
         if (!diagnose_edges(mesh).closed()) mesh = close(std::move(mesh));
         return flood(untangle(std::move(mesh)));

@@ -48,10 +48,13 @@ std::vector<int> merge_copies(TriangleMesh& mesh) {
     std::vector<int> all(first.size(), 0), times;
     for (std::size_t t = 0; t < first.size(); ++t) {
         const auto at = static_cast<std::size_t>(first[t]);
+        // a copy that faces as the first one counts for it, one that faces the other way
+        // against it
         all[at] += even(mesh.triangles[t]) == even(mesh.triangles[at]) ? 1 : -1;
     }
     std::vector<std::uint8_t> keep(first.size());
     for (std::size_t t = 0; t < keep.size(); ++t) {
+        // as many one way as the other: two sides of nothing
         keep[t] = all[t] != 0;
         if (all[t] < 0) std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);
         if (keep[t]) times.push_back(std::abs(all[t]));
@@ -98,6 +101,8 @@ enum class Role : std::uint8_t { inner, boundary, turned };
 Role role_of(const TriangleMesh& mesh, const WindingNumber& all, std::size_t t, int times) {
     const Vec3 a = mesh.corner(t, 0), b = mesh.corner(t, 1), c = mesh.corner(t, 2);
     const Vec3 middle = (a + b + c) / 3.0;
+    // the winding number jumps by `times` at the triangle: half of it to either side of the
+    // middle
     const double others = all.at(middle) - times * solid_angle(middle, a, b, c);
     const bool behind = others + 0.5 * times > 0.5, before = others - 0.5 * times > 0.5;
     return behind == before ? Role::inner : behind ? Role::boundary : Role::turned;
@@ -138,6 +143,7 @@ void keep_boundary(TriangleMesh& mesh, const std::vector<int>& times) {
 }  // namespace
 
 std::optional<TriangleMesh> resolve_crossings(
+    // cut all faces where they cross, merge equal places and copies, keep what bounds the solid
     const TriangleMesh& mesh, const std::vector<std::pair<std::size_t, std::size_t>>& pairs) {
     auto cut = cut_faces(mesh, pairs);
     if (!cut) return std::nullopt;

@@ -52,6 +52,8 @@ Pairing pair_up(const TriangleMesh& mesh, const Parts& parts, const Key& edge,
     const auto forwards = [&](std::int32_t t) {
         return (corner_of(mesh, t, edge.first) + 1) % 3 == corner_of(mesh, t, edge.second);
     };
+    // a triangle that runs forwards pairs with one that runs backwards: of the same part, and
+    // with the smallest angle between them
     std::vector<Choice> choices;
     for (const std::int32_t s : triangles)
         for (const std::int32_t t : triangles)

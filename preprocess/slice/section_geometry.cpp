@@ -28,6 +28,7 @@ bool inside(const std::vector<Polygon>& polygons, const Kernel::Point_2& p) {
     int count = 0;
     for (const Polygon& polygon : polygons)
         count += polygon.bounded_side(p) == CGAL::ON_BOUNDED_SIDE ? 1 : 0;
+    // in an odd number of loops: in the solid, not in a hole
     return count % 2 == 1;
 }
 

@@ -21,6 +21,8 @@ constexpr double kStraight = 1e-6;
 
 Vec3 outward_normal(const Vec3& a, const Vec3& b) {
     const Vec3 d = (b - a).normalized();
+    // to the right of the way along the loop: outwards of outer loops, into the hole of inner
+    // ones
     return Vec3(d.z(), 0.0, -d.x());
 }
 
@@ -63,6 +65,7 @@ std::vector<SectionEdge> make_loop(const std::vector<Vec3>& points, const Surfac
             joined.push_back(edge);
         }
     }
+    // the loop may have begun in the middle of a straight line
     if (joined.size() > 2 && joined.front().region == joined.back().region &&
         std::abs(joined.front().normal.cross(joined.back().normal).y()) < kStraight &&
         joined.front().normal.dot(joined.back().normal) > 0.0) {
@@ -82,6 +85,7 @@ Section slice_solid(const TriangleMesh& mesh, double offset) {
     Section section;
     for (const auto& points : orient_loops(polylines)) {
         auto loop = make_loop(points, tree, box.diagonal().norm(), offset);
+        // fewer edges enclose nothing
         if (loop.size() >= 3) section.loops.push_back(std::move(loop));
     }
     if (section.loops.empty())

@@ -6,6 +6,7 @@
 namespace ice {
 
 void write_chrono_spheres(const SphereSet& set, const RigidBody& body, const Sink& sink) {
+    // DEM-Engine moves a clump in its principal axes about its centre of mass
     const Mat3 to_principal = body.axes.toRotationMatrix().transpose();
     sink("x,y,z,r\n");
     write_rows(sink, set.size(), [&](fmt::memory_buffer& out, std::size_t k) {

@@ -8,6 +8,7 @@ namespace ice {
 namespace {
 
 std::string quoted(const std::string& name) {
+    // as spreadsheets read it: a name with a comma or a quote in quotes, quotes in it doubled
     if (name.find_first_of(",\"\r\n") == std::string::npos) return name;
     std::string out = "\"";
     for (const char c : name) out += c == '"' ? std::string("\"\"") : std::string(1, c);

@@ -44,6 +44,7 @@ class OutputFiles {
 public:
     explicit OutputFiles(std::filesystem::path base) : base_(std::move(base)) {}
 
+    // the scripts name the file of spheres beside them
     std::string name(const std::string& ending) const { return base_.filename().string() + ending; }
     void add(const std::string& ending, const std::function<void(const Sink&)>& write) {
         OutputFile& file = files_.emplace_back(base_.string() + ending);
@@ -53,6 +54,7 @@ public:
     void add_text(const std::string& ending, const std::string& text) {
         add(ending, [&](const Sink& sink) { sink(text); });
     }
+    // names only now, when all are written: no script without its spheres
     std::vector<std::filesystem::path> keep() {
         std::vector<std::filesystem::path> paths;
         for (OutputFile& file : files_) {
@@ -150,6 +152,7 @@ std::vector<std::filesystem::path> write_exports(const SphereSet& set,
     OutputFiles files(base);
     std::set<std::string> done;
     for (const std::string& format : formats)
+        // a format given twice is written once
         if (done.insert(format).second) add_format(files, format, set, body);
     return files.keep();
 }

@@ -7,6 +7,7 @@ namespace ice {
 
 void write_liggghts_spheres(const SphereSet& set, const RigidBody& body, const Sink& sink) {
     write_rows(sink, set.size(), [&](fmt::memory_buffer& out, std::size_t k) {
+        // about the centre of mass, axes of the mesh: the template's inertia tensor is full
         const Vec3 c = set.centers[k] - body.centroid;
         fmt::format_to(std::back_inserter(out), FMT_COMPILE("{} {} {} {}\n"), c.x(), c.y(), c.z(),
                        set.radii[k]);

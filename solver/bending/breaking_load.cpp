@@ -50,6 +50,7 @@ PieceOutline measure_outline(const TriangleMesh& mesh, const Mat3& rotation) {
     const double length = chord.norm();
     PieceOutline out{area, 0.0, height.sizes().x()};
     if (length == 0.0) return out;
+    // extent across the longest chord: the depth d of the piece (section 5)
     double low = 0.0, high = 0.0;
     for (const Vec2& p : corners) {
         const double across = cross(chord, p - corners.front()) / length;
@@ -60,6 +61,8 @@ PieceOutline measure_outline(const TriangleMesh& mesh, const Mat3& rotation) {
     return out;
 }
 
+// theta = 2 A / d^2 is the angle of the circular sector with this area and the radius d. A half
+// disc, and so a straight edge, has pi; more is not possible at an edge.
 double opening_angle(const PieceOutline& piece) {
     const double square = piece.depth * piece.depth;
     return 2.0 * piece.area < std::numbers::pi * square ? 2.0 * piece.area / square

@@ -18,6 +18,8 @@ bool turns_left(const Vec2& a, const Vec2& b, const Vec2& c) {
 }  // namespace
 
 std::vector<Vec2> convex_corners(std::vector<Vec2> points) {
+    // Andrew's monotone chain: from left to right the lower side, from right to left the upper
+    // one.
     std::sort(points.begin(), points.end(), [](const Vec2& l, const Vec2& r) {
         return l.x() < r.x() || (l.x() == r.x() && l.y() < r.y());
     });

@@ -17,12 +17,15 @@ double strength_of(const IcePlate& p) { return p.flexural_strength * p.thickness
 }  // namespace
 
 double characteristic_length(const IcePlate& p) {
+    // bending stiffness of the plate, D = E h^3 / (12 (1 - nu^2)); l = (D / (rho_w g))^(1/4)
     const double stiffness = p.elastic_modulus * std::pow(p.thickness, 3) /
                              (12.0 * (1.0 - p.poisson_ratio * p.poisson_ratio));
     return std::pow(stiffness / p.water_weight, 0.25);
 }
 
 double beam_breaking_load(const IcePlate& p) {
+    // (28): a semi-infinite beam with the load F at its end has the bending moment F / lambda
+    // exp(-lambda x) sin(lambda x), which is largest at lambda x = pi / 4.
     const double lambda =
         std::pow(3.0 * p.water_weight / (p.elastic_modulus * std::pow(p.thickness, 3)), 0.25);
     return std::exp(0.25 * kPi) / (6.0 * std::sin(0.25 * kPi)) * strength_of(p) * lambda;

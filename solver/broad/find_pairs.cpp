@@ -54,6 +54,7 @@ Eigen::AlignedBox3d reach_of_motion(const Scene& scene, double margin) {
         const auto corner = scene.shapes[0].box.corner(Eigen::AlignedBox3d::CornerType(k));
         ship.extend(Vec3(b.position[kShip] + b.rotation[kShip] * corner));
     }
+    // a position that is not a number would make the box one, too, and hide all floes
     for (const std::int32_t i : b.moving)
         if (b.position[i].allFinite()) floes.extend(b.position[i]);
     ship = grown(ship, largest + margin);
@@ -70,6 +71,9 @@ void find_floes(const Scene& scene, const Eigen::AlignedBox3d& box,
 
 // The pairs of the ship and `floes`, those within reach_of_motion() and perhaps others.
 void find_pairs_among(const Scene& scene, double margin, std::span<const std::int32_t> floes,
+                      // The ship is one long body: its box against each floe. Floes are many of
+                      // about one size: a grid of their bounding spheres, with cells as large
+                      // as the farthest pair.
                       std::vector<BodyPair>& out) {
     out.clear();
     const Bodies& b = scene.bodies;
@@ -116,7 +120,8 @@ namespace {
 // The list is made for bodies that go this far [m]; more makes it longer, less makes it anew often.
 constexpr double kSkin = 0.1;
 
-// The held floe that drifts fastest, or -1 where none does.
+// The held floe that drifts fastest, or -1 where none does: its path bounds those of all
+// others.
 std::int32_t fastest_held(const Bodies& b) {
     std::int32_t found = -1;
     double most = 0.0;
@@ -136,9 +141,11 @@ constexpr double kVicinityRoom = 5.0;
 }  // namespace
 
 bool PairList::is_good(const Scene& scene, const MotionBounds& motion) const {
+    // other bodies, or other ones that move: the list lacks their pairs
     if (bodies_ != scene.bodies.size() || moving_ != scene.bodies.moving) return false;
     // not-a-number never passes
     const auto stays = [&](std::int32_t i, double way) {
+        // the path at the end of the coming step, so that the step itself is covered
         return motion.path_after_step(i) <= way + kSkin;
     };
     if (!stays(kShipId, ship_path_)) return false;
@@ -149,9 +156,12 @@ bool PairList::is_good(const Scene& scene, const MotionBounds& motion) const {
 
 void PairList::update(const Scene& scene, const MotionBounds& motion, double margin) {
     if (is_good(scene, motion)) return;
+    // A pair may come nearer by both bodies' skins before the list is renewed.
     const double reach = margin + 2.0 * kSkin;  // both bodies of a pair may go as far
     const Eigen::AlignedBox3d box = reach_of_motion(scene, reach);
     drifting_ = fastest_held(scene.bodies);
+    // Two levels: the floes in the vicinity change seldom, the pairs among them more often.
+    // Drifting floes come into the vicinity by themselves, so it is looked through each time.
     if (bodies_ != scene.bodies.size() || !vicinity_.contains(box) || drifting_ >= 0) {
         vicinity_ = grown(box, kVicinityRoom);
         find_floes(scene, vicinity_, floes_);

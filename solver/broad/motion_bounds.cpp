@@ -42,6 +42,8 @@ void MotionBounds::update(const Scene& scene, double dt) {
     crushed_.resize(b.size(), 0.0);
     position_.resize(b.size());
     orientation_.resize(b.size());
+    // A path grows by |dx| + theta (R + 0.5 m) in a step (section 9); at the end of the coming
+    // step by the present velocities instead of the difference of poses.
     const auto look = [&](std::size_t i) {
         if (i < known) {
             double arm = MotionBounds::lever(scene.shapes[static_cast<std::size_t>(b.shape[i])]);
@@ -56,11 +58,13 @@ void MotionBounds::update(const Scene& scene, double dt) {
         orientation_[i] = b.orientation[i];
     };
     for (std::size_t i = known; i < b.size(); ++i) look(i);
-    if (known < b.size()) return update(scene, dt);  // `soon` of those just met
+    if (known < b.size()) return update(scene, dt);  // path_after_step of those just met
+    // a crushed sphere moves in its body as if the body had moved
     for (const CrushedIce::CrushEvent& event : scene.crushed.recent) {
         for (auto* sum : {&path_, &path_after_step_, &crushed_})
             (*sum)[static_cast<std::size_t>(event.body)] += event.depth;
     }
+    // Only bodies that can move are measured: the ship, free floes, and held ones that drift.
     look(kShip);
     for (const std::int32_t i : b.moving) look(static_cast<std::size_t>(i));
     for (std::size_t i = 1; i < b.size(); ++i)

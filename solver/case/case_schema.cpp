@@ -27,6 +27,9 @@ constexpr std::string_view kBendings = "wedge|kashtelyan";
 using D = Dimension;
 using G = FloeGroup;
 
+// Columns of all these tables: path, kind, unit, default ("" for a key that must be given, "-"
+// for one that may be missing), least and greatest value, count of numbers, choices,
+// description, and where the value goes.
 std::vector<CaseKey> run_keys() {
     return {
         {"title", Kind::text, D::none, "\"\"", 0, 0, 0, "",
@@ -51,6 +54,8 @@ std::vector<CaseKey> run_keys() {
          "Gravitational acceleration.", [](Case& c, G&, const Value& v) { c.gravity = number(v); }},
         {"environment.water_density", Kind::number, D::density, "1000.0", kTiny, 2000, 0, "",
          "Density of the water.", [](Case& c, G&, const Value& v) { c.water_density = number(v); }},
+        // z of the position or the draught, and a speed or a table: read_case.cpp asks for one
+        // of each
         {"hull.spheres", Kind::path, D::none, "", 0, 0, 0, "",
          "Sphere set of the hull, made by spherize; relative to the case file.",
          [](Case& c, G&, const Value& v) { c.hull_spheres = text(v); }},
@@ -83,6 +88,8 @@ std::vector<CaseKey> run_keys() {
 
 std::vector<CaseKey> floe_keys() {
     return {
+        // A set for the patterns made here, a file for "file", which has shapes, places and
+        // edges of its own.
         {"floes.spheres", Kind::path, D::none, "-", 0, 0, 0, "",
          "Sphere set of these floes, made by spherize; relative to the case file.",
          [](Case&, G& g, const Value& v) { g.spheres = text(v); }},
@@ -112,6 +119,7 @@ std::vector<CaseKey> floe_keys() {
          "until-bent: until its load breaks them ([bending]); pattern file: never unless stated, "
          "and its unbroken ice always.",
          [](Case&, G& g, const Value& v) { g.hold = choice<Hold>(v, kHolds); }},
+        // of pattern "single" alone: a floe at any pose, for tests and studies of one body
         {"floes.position", Kind::place, D::length, "-", -1e6, 1e6, 3, "",
          "Pattern single: centre of mass; z left out (two numbers) gives floating equilibrium.",
          [](Case&, G& g, const Value& v) { g.position = place3(v); }},
@@ -145,10 +153,13 @@ std::vector<CaseKey> contact_keys() {
          "Contact normal: of the surfaces that spheres represent, or from centre to centre (the "
          "paper).",
          [](Case& c, G&, const Value& v) { c.normal = choice<NormalRule>(v, kNormals); }},
+        // (13): p A dt; the default differs in 2D (read_case.cpp), where the paper's ice is
+        // rigid
         {"contact.crushing_pressure", Kind::number, D::pressure, "1e6", 0, kInf, 0, "",
          "Largest normal impulse of a contact is this pressure x the section cut x time_step, and "
          "ice so crushed is gone; inf is rigid, which jams; in 2D the default is inf (the paper).",
          [](Case& c, G&, const Value& v) { c.contact.crushing_pressure = number(v); }},
+        // both stop a solution: the tolerance where it converges, the number where it does not
         {"contact.iterations", Kind::integer, D::none, "30", 1, 100000, 0, "",
          "Upper bound of the contact solver's iterations for a solution; a step takes a few.",
          [](Case& c, G&, const Value& v) { c.contact.iterations = integer(v); }},
@@ -210,6 +221,7 @@ std::vector<CaseKey> output_keys() {
 
 std::vector<CaseKey> bending_keys() {
     return {
+        // the plate of (28) and (29); factor and table stand beside the formulas
         {"bending.flexural_strength", Kind::number, D::pressure, "5e5", kTiny, 1e9, 0, "",
          "Largest bending stress that ice bears, for floes with hold until-bent.",
          [](Case& c, G&, const Value& v) { c.bending.flexural_strength = number(v); }},
@@ -265,6 +277,7 @@ std::vector<CaseKey> level_ice_keys() {
         {"level_ice.seed", Kind::integer, D::none, "0", 0, 2e9, 0, "",
          "Which of the random sizes of the pieces; simulation.seed changes them, too.",
          [](Case& c, G&, const Value& v) { c.level_ice.seed = integer(v); }},
+        // (30): R = C_l l (1 + C_v v_n) (1 + scatter u)
         {"level_ice.length_factor", Kind::number, D::none, "0.32", 1e-3, 10, 0, "",
          "Radius of the cracks over the ice's characteristic length.",
          [](Case& c, G&, const Value& v) { c.level_ice.length_factor = number(v); }},
@@ -280,6 +293,7 @@ std::vector<CaseKey> level_ice_keys() {
 }  // namespace
 
 const std::vector<CaseKey>& case_keys() {
+    // in the order in which the resolved case prints them
     static const std::vector<CaseKey> keys = [] {
         std::vector<CaseKey> all = run_keys();
         for (const auto& part : {ship_keys(), floe_keys(), level_ice_keys(), bending_keys(),

@@ -32,6 +32,7 @@ void check_group(FloeGroup& group, std::size_t g, int dimension, const Values& v
     const auto wrong = [&](const char* key, const std::string& what) {
         complaints.add_at(label(key), fmt::format("floes.{}.{} {}", g + 1, key, what));
     };
+    // a 2D set is a section, and fields are filled in 3D
     if (group.pattern == Pattern::file && dimension == 2)
         wrong("pattern", "= \"file\" is for cases of dimension 3");
     if (group.pattern == Pattern::single && !values.contains(label("position")))
@@ -47,6 +48,8 @@ void check_group(FloeGroup& group, std::size_t g, int dimension, const Values& v
 }
 
 // Ice held until it bends: the load is what crushing lets through.
+// Why each is needed: F of (26) against rigid ice is not finite, l of (28) grows without bound
+// as g goes to zero, and Kashtelyan's form has an opening angle, which a section has not.
 void check_bending(const Case& checked, std::size_t groups, const Complaints& complaints) {
     const auto check = [&](const std::string& label, const std::string& what) {
         const auto wrong = [&](const std::string& why) {
@@ -81,6 +84,7 @@ void check_level_ice(const Case& checked, const Complaints& complaints) {
         complaints.add_at("level_ice.extent",
                           "level_ice.extent is empty: give smallest and largest x, then smallest "
                           "and largest y");
+    // as heavy as water it would sink, and the sheet's height comes from the share that floats
     if (checked.ice_density >= checked.water_density)
         complaints.add_at("ice.density",
                           "ice.density is not below environment.water_density: the "
@@ -91,6 +95,7 @@ void check_level_ice(const Case& checked, const Complaints& complaints) {
 
 void check_case(Case& checked, std::size_t groups, const Values& values,
                 const Complaints& complaints) {
+    // the order of the complaints is that of the tables in a case
     check_ship(checked, values, complaints);
     for (std::size_t g = 0; g < groups; ++g)
         check_group(checked.floes[g], g, checked.dimension, values, complaints);
@@ -116,6 +121,7 @@ void check_case(Case& checked, std::size_t groups, const Values& values,
                           "flow.added_mass is computed in 3D only; leave it out of a 2D case");
     if (checked.dimension == 2 && checked.current[1] != 0.0)
         complaints.add_at("flow.current", "flow.current leaves the plane y = 0 of a 2D case");
+    // a floe tracked twice would have two histories of one name
     std::vector<int> track = checked.track;
     std::sort(track.begin(), track.end());
     const auto twice = std::adjacent_find(track.begin(), track.end());

@@ -13,10 +13,13 @@ public:
     Checker(const Case& checked, const Values& values, const Complaints& complaints)
         : case_(checked), values_(values), complaints_(complaints) {}
 
+    // Mistakes that a single key does not show: which keys go together, and which need a
+    // freedom.
     void check() {
         check_propulsion();
         check_net_thrust();
         check_lines();
+        // two statements of one thing, and no rule says which counts
         if (!case_.ship.matrix.empty() && has_added_mass())
             complaints_.add_at("ship.matrix",
                                "ship.matrix and ship.added_mass both give the water that moves "
@@ -30,6 +33,7 @@ public:
             complaints_.add_at("ship.added_mass",
                                "ship.added_mass is computed for hulls in 3D only; give a 2D case "
                                "six numbers, or none");
+        // motions out of the plane y = 0
         for (const auto& [freedom, name] :
              {std::pair(sway, "sway"), std::pair(roll, "roll"), std::pair(yaw, "yaw")})
             if (case_.ship.free[freedom])
@@ -57,6 +61,7 @@ private:
                                             key, name, name));
     }
 
+    // One kind of thrust alone, and only where the ship can follow it.
     void check_propulsion() const {
         std::vector<std::string> given;
         for (const char* key :
@@ -74,6 +79,9 @@ private:
         if (case_.propulsion.hold_heading) needs_freedom("propulsion.heading", yaw, "yaw");
     }
 
+    // Net thrust T(U) falls to zero at the open-water speed, so it needs that speed; and since
+    // it is the thrust that is left over the open-water resistance, a table of that resistance
+    // would count twice.
     void check_net_thrust() const {
         const bool pull = has("propulsion.bollard_pull"), power = has("propulsion.power");
         if ((pull || power) && !has("propulsion.open_water_speed"))
@@ -105,12 +113,14 @@ private:
     void check_lines() const {
         if (case_.tow.stiffness > 0.0 || case_.tow.damping > 0.0)
             needs_freedom("tow.stiffness", surge, "surge");
+        // with a tow the table is the carriage's speed
         const bool towed = case_.tow.stiffness > 0.0;
         if (case_.ship.free[surge] && has("hull.speed_table") && !towed)
             complaints_.add_at(
                 "hull.speed_table",
                 "hull.speed_table is given, but a ship free in surge goes as its thrust makes it; "
                 "give hull.speed for the start, or tow it with tow.stiffness");
+        // a mooring on a motion that is prescribed would pull in vain
         constexpr const char* kNames[] = {"surge", "sway", "heave", "roll", "pitch", "yaw"};
         for (std::size_t k = 0; k < kFreedoms; ++k)
             if (!case_.ship.free[k] &&
@@ -138,12 +148,15 @@ void take_drift(Case& checked, std::size_t groups, const Values& values,
     if (checked.dimension == 2 && y != 0.0)
         complaints.add_at("ice.drift_velocity",
                           "ice.drift_velocity leaves the plane y = 0 of a 2D case");
+    // the water goes with the ice unless the case says otherwise: nothing then drags on free
+    // floes
     if (const auto given = values.find("flow.current");
         given == values.end() ||
         std::get<std::vector<double>>(given->second) == std::vector<double>{0.0, 0.0})
         checked.current = checked.drift_velocity;
     for (std::size_t g = 0; g < groups; ++g) {
         FloeGroup& group = checked.floes[g];
+        // a velocity of its own is not replaced
         if (group.velocity.isZero(0.0)) group.velocity = Vec3(x, y, 0.0);
     }
 }

@@ -30,11 +30,14 @@ public:
     }
 
     Case build() {
+        // Which of several keys is meant first: it decides what is missing and some of the
+        // defaults.
         check_choices();
         case_.floes.resize(groups_);
         std::string table;
         const auto& keys = case_keys();
         for (std::size_t k = 0; k < keys.size();) {
+            // all keys of [[floes]] at once, for each group in turn
             if (keys[k].path.starts_with("floes.")) {
                 k = build_floes(k);
                 continue;
@@ -44,6 +47,7 @@ public:
             take(keys[k], std::string(keys[k].path), unused);
             ++k;
         }
+        // rules between keys would mislead where one of them is already wrong
         if (mistakes_.texts.empty()) check_case(case_, groups_, values_, complaints_);
         // unbroken ice of fields: groups of their own, behind the case's, which keep their numbers
         for (std::size_t g = 0; g < groups_; ++g) {
@@ -65,6 +69,7 @@ private:
         table = now;
     }
 
+    // Keys of [[floes]] stand together in the schema. @return the first key behind them
     std::size_t build_floes(std::size_t first) {
         const auto& keys = case_keys();
         std::size_t end = first;
@@ -81,6 +86,8 @@ private:
 
     // stores the given value of a key, or its default
     void take(const CaseKey& key, const std::string& label, FloeGroup& group) {
+        // Not given: "-" stays away, a mistake was named already, "" is required, all else has
+        // a default.
         auto given = values_.find(label);
         if (given == values_.end() && key.default_text == "-") return;
         if (given == values_.end() && mistakes_.bad_keys.contains(label)) return;
@@ -99,6 +106,7 @@ private:
 
     Value resolve_path(const std::string& label, const Value& value) {
         std::filesystem::path path = std::get<std::string>(value);
+        // paths are relative to the case, not to where the program was started
         if (path.is_relative())
             path = std::filesystem::absolute(complaints_.file).parent_path() / path;
         path = path.lexically_normal();
@@ -124,6 +132,7 @@ private:
                     : "";
     }
 
+    // what the message proposes, by the key that names the file
     // a shipped case brings the list of commands that make its files
     static std::string maker_of(const std::filesystem::path& missing, const std::string& label) {
         const auto folder = missing.parent_path();
@@ -140,9 +149,11 @@ private:
         const bool draught = values_.contains("hull.draught");
         const auto position = values_.find("hull.position");
         if (position == values_.end()) {
+            // no place, but a draught: the mesh's origin lies at x = y = 0
             if (draught) values_["hull.position"] = std::vector<double>{0.0, 0.0};
             return;
         }
+        // two numbers leave the height to the draught, three give it
         const bool has_z = std::get<std::vector<double>>(position->second).size() == 3;
         if (has_z && draught)
             complaints_.add_at(
@@ -157,6 +168,7 @@ private:
 
     void check_choices() {
         check_hull_place();
+        // the paper's 2D ice is rigid; a value that was given stays (try_emplace)
         if (const auto dimension = values_.find("simulation.dimension");
             dimension != values_.end() && std::get<std::int64_t>(dimension->second) == 2)
             values_.try_emplace("contact.crushing_pressure",
@@ -173,6 +185,7 @@ private:
         if (groups_ == 0 && !values_.contains("level_ice.thickness"))
             complaints_.add(
                 "no [[floes]] table and no [level_ice]: a run needs at least one group of floes");
+        // the first third, in which the ship enters the ice, is left out
         if (!values_.contains("output.average_from") && values_.contains("simulation.duration"))
             values_["output.average_from"] = std::get<double>(values_["simulation.duration"]) / 3.0;
     }
@@ -202,6 +215,7 @@ private:
         const auto pattern = values_.find(label("pattern"));
         const bool field =
             pattern != values_.end() && std::get<std::string>(pattern->second) == "file";
+        // floes of a field are afloat and loose unless the case says otherwise
         if (field && !given("hold")) values_[label("hold")] = std::string("never");
         const char* const needed = field ? "file" : "spheres";
         const char* const other = field ? "spheres" : "file";
@@ -277,6 +291,8 @@ Case read_once(const std::filesystem::path& file, const std::vector<std::string>
 }  // namespace
 
 Case read_case(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+    // First in a child process, which may crash or run out of memory on a strange file; then
+    // here.
     rehearse_input(file, [&] { read_once(file, overrides); });
     return read_once(file, overrides);
 }

@@ -19,6 +19,7 @@ constexpr double kHuge = 1e15;
 
 std::vector<CaseKey> body_keys() {
     return {
+        // "free" first: which other keys have an effect follows from it
         {"ship.free", Kind::words, D::none, "[]", 0, 0, 0, kFreedomNames,
          "Motions in which the ship answers forces; in the others it keeps its course (hull.speed, "
          "upright). None: it goes as prescribed.",
@@ -52,6 +53,8 @@ std::vector<CaseKey> body_keys() {
          "examples/ship_matrix.py writes it; relative to the case file. In 3D, without "
          "ship.added_mass; its damping adds to ship.damping.",
          [](Case& c, G&, const Value& v) { c.ship.matrix = text(v); }},
+        // the unit depends on the motion: a critical damping exists only with a restoring
+        // force
         {"ship.damping", Kind::vector, D::none, "[0.0, 0.0, 0.0, 0.0, 0.0, 0.0]", 0, kHuge, 6, "",
          "Linear damping of surge to yaw: share of the critical one where water, mooring or tow "
          "restores, else N s/m (N m s).",
@@ -61,6 +64,9 @@ std::vector<CaseKey> body_keys() {
 
 std::vector<CaseKey> propulsion_keys() {
     return {
+        // Five ways to say the thrust, of which a case has one (check_ship.cpp); net thrust is
+        // less the open-water resistance already, the other kinds are gross and may take a
+        // resistance_table.
         {"propulsion.thrust", Kind::number, D::force, "-", -kHuge, kHuge, 0, "",
          "Constant thrust along the ship; give one of thrust, thrust_table, bollard_pull, power, "
          "hold_speed.",
@@ -107,6 +113,7 @@ std::vector<CaseKey> propulsion_keys() {
 
 std::vector<CaseKey> line_keys() {
     return {
+        // tow and mooring are springs in world axes, zero by default
         {"tow.point", Kind::vector, D::length, "[0.0, 0.0, 0.0]", -1e4, 1e4, 3, "",
          "Where the ship is towed, in the hull mesh's axes; the carriage goes at hull.speed.",
          [](Case& c, G&, const Value& v) { c.tow.point = vector3(v); }},

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The prescribed course: speed and way of the ship by its table.
 #include <algorithm>
 
 #include "common/base/interpolate.hpp"
@@ -14,6 +15,7 @@ bool Case::has_bending() const {
 
 double Case::ship_speed(double time) const { return interpolate(speed_table, time); }
 
+// Trapezoids between the rows of the table: exact, since the speed is linear there.
 double Case::ship_travel(double from, double to) const {
     double sum = 0.0, before = from;
     const auto go_to = [&](double time) {  // the speed is linear up to there

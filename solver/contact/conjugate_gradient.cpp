@@ -27,6 +27,7 @@ void ConjugateGradient::begin(const ContactRows& contacts, bool bounded) {
 }
 
 void ConjugateGradient::advance(ContactRows& contacts) {
+    // beta of equation (11); the first sweep has no direction to go on with
     const double size = measure_change(contacts.rows, memory_);
     double beta = last_size_ > 0.0 ? size / last_size_ : 0.0;
     beta = beta > restart_ ? 0.0 : std::min(beta, 1.0);

@@ -35,6 +35,7 @@ bool gives_way(const ShipResponse& ship, const Vec3& arm, const Vec3& normal) {
 // Largest normal impulse: crushing pressure on the section cut half way through the step.
 double max_impulse(const Contact& contact, double approach, const ContactLaw& law, double dt) {
     if (law.is_rigid()) return law.crushing_pressure;
+    // half a step of closing speed: the section of (13) at mid-step; opening does not reduce it
     const double depth = contact.patch.depth - 0.5 * dt * std::min(approach, 0.0);
     return law.crushing_pressure * cut_area(contact.patch, depth) * dt;
 }
@@ -42,6 +43,7 @@ double max_impulse(const Contact& contact, double approach, const ContactLaw& la
 }  // namespace
 
 void apply_impulse(Bodies& bodies, const Constraint& c, const Vec3& j) {
+    // (5): the impulse acts on b, its opposite on a, both at the contact's point
     bodies.velocity[c.a] -= bodies.response(static_cast<std::size_t>(c.a), j);
     bodies.velocity[c.b] += bodies.response(static_cast<std::size_t>(c.b), j);
     bodies.angular_velocity[c.a] -= bodies.inverse_inertia_world[c.a] * c.arm_a.cross(j);
@@ -56,6 +58,7 @@ void push_ship(Bodies& bodies, const Constraint& c, const Vec3& j) {
 }
 
 double ship_response(const ShipResponse& ship, const Vec3& arm, const Vec3& direction) {
+    // k(d) of section 14, d . (M + A)^-1 d + (r x d) . (I + A')^-1 (r x d)
     const Vec3 turn = arm.cross(direction);
     return direction.dot(ship.inverse_mass * direction) + turn.dot(ship.inverse_inertia * turn);
 }
@@ -94,6 +97,7 @@ double largest_response(const ShipResponse& ship) {
 
 Mat3 response_matrix(double inverse_mass, const Mat3& inverse_inertia_a, const Vec3& arm_a,
                      const Mat3& inverse_inertia_b, const Vec3& arm_b) {
+    // (5) as a matrix: (I^-1 (r x j)) x r is -[r] I^-1 [r] j with the matrix [r] of r x
     return inverse_mass * Mat3::Identity() - crossed_twice(arm_a, inverse_inertia_a) -
            crossed_twice(arm_b, inverse_inertia_b);
 }
@@ -110,6 +114,8 @@ bool WarmStart::precedes(const Entry& e, const Contact& c) {
 void WarmStart::recall(const std::vector<Contact>& contacts,
                        std::vector<Constraint>& constraints) const {
     ICE_ASSERT(constraints.size() == contacts.size() && are_ordered(constraints));
+    // Entries and contacts are both sorted by pair: one walk, and a search by key within the
+    // pair.
     auto first = entries_.begin(), last = entries_.begin();  // of the contact's pair
     for (std::size_t k = 0; k < contacts.size(); ++k) {
         const Contact& contact = contacts[k];
@@ -121,6 +127,8 @@ void WarmStart::recall(const std::vector<Contact>& contacts,
         if (found == last || found->key != contact.key) continue;
         Constraint& c = constraints[k];
         if (!c.can_move) continue;
+        // The rest stage has what the impact left of the bound (13), and the plane and the cone
+        // of today's normal: the first guess satisfies bounds and friction law.
         c.rest_normal = std::min(found->normal, std::max(c.max_impulse - c.impact_normal, 0.0));
         if (c.rest_normal <= 0.0) continue;
         c.rest_tangent = found->tangent - found->tangent.dot(c.normal) * c.normal;
@@ -136,6 +144,7 @@ void WarmStart::remember(const std::vector<Contact>& contacts,
     entries_.clear();
     std::size_t first = 0;  // of the pair's entries
     for (const std::int32_t k : which) {
+        // contacts without an impulse are not worth an entry: zero is the guess without one
         if (constraints[k].rest_normal <= 0.0) continue;
         if (entries_.size() > first && precedes(entries_[first], contacts[k])) {
             std::sort(entries_.begin() + static_cast<std::ptrdiff_t>(first), entries_.end(), less);

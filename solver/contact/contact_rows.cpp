@@ -75,6 +75,7 @@ void ContactRows::find_pairs(const Bodies& bodies, const std::vector<Constraint>
 
 // A ship that only turns answers shifts as a free one would: copies must answer something.
 void ContactRows::set_copies(const Bodies& bodies) {
+    // n copies, each with 1/n of the mass, respond n times as much as the ship.
     const double copies = static_cast<double>(copies_.size());
     inverse_mass_ = bodies.ship.inverse_mass;
     copy_inverse_mass_ = copies * largest_response(bodies.ship);
@@ -157,6 +158,9 @@ void ContactRows::sort_pairs() {
 
 void ContactRows::fill_block(const Bodies& bodies, const std::vector<Constraint>& constraints,
                              std::size_t first_pair, std::size_t last_pair) {
+    // One block is eight pairs of a colour, one pair in each lane; its rows hold their first,
+    // second, ... contacts. Lanes with fewer contacts than the first have rows of zeros, which
+    // change nothing.
     PairBlock block;
     BlockInverseInertias inverse_inertias;
     block.first_row = static_cast<std::int32_t>(rows.size());
@@ -196,6 +200,7 @@ void ContactRows::fill_block(const Bodies& bodies, const std::vector<Constraint>
                 static_cast<std::int32_t>(kLanes) * (block.first_row + k) + static_cast<int>(lane);
         }
     }
+    // added mass: the part of 1 / (m + A) that is not 1 / m, which depends on the direction
     if (bodies.have_added_mass()) {
         PairExcess& water = excess.emplace_back();
         for (std::size_t lane = 0; lane < last_pair - first_pair; ++lane) {
@@ -244,6 +249,8 @@ void ContactRows::load_motions(const Bodies& bodies) {
 void ContactRows::set(std::size_t slot, double normal, const Vec3& tangent, const Target& target) {
     ContactRow& row = rows[slot / kLanes];
     const std::size_t lane = slot % kLanes;
+    // the target and the bound of the stage, (6); the impulse is the guess or the last
+    // solution's
     row.target_velocity.v[lane] = target.target_velocity;
     row.max_impulse.v[lane] = std::max(target.max_impulse, 0.0);
     row.impulse.normal.v[lane] = normal;

@@ -53,6 +53,7 @@ void ImpactEnergyLimiter::save(const Bodies& bodies, const ContactRows& contacts
 void ImpactEnergyLimiter::find_islands(const Bodies& bodies, const ContactRows& contacts,
                                        const std::vector<Constraint>& constraints) {
     islands_.resize(contacts.bodies().size());
+    // Union-find: each body points to one of its island, the root to itself.
     std::iota(islands_.begin(), islands_.end(), 0);
     const auto root = [&](std::int32_t i) {
         while (islands_[i] != i) i = islands_[i] = islands_[islands_[i]];
@@ -77,6 +78,8 @@ std::int32_t ImpactEnergyLimiter::island_of(const Bodies& bodies, const ContactR
 void ImpactEnergyLimiter::measure_gains(const Bodies& bodies, const ContactRows& contacts,
                                         const std::vector<Constraint>& constraints,
                                         const State& end, std::vector<double>& out) const {
+    // A contact's work is booked on the island of its free body, so islands may be limited
+    // apart.
     out.assign(contacts.bodies().size(), 0.0);
     for (std::size_t n = 0; n < which_.size(); ++n) {
         const Constraint& c = constraints[which_[n]];
@@ -128,6 +131,8 @@ void ImpactEnergyLimiter::set_aside(Bodies& bodies, const ContactRows& contacts,
 void ImpactEnergyLimiter::limit_rebound(Bodies& bodies, const ContactRows& contacts,
                                         std::vector<Constraint>& constraints) {
     ICE_ASSERT(rebound_.velocity.size() == contacts.bodies().size());
+    // The gain of a mixture is a parabola in s, because velocities and impulses are linear in
+    // it: it is measured at the plastic solution, half way, and at the rebound.
     save(bodies, contacts, constraints, plastic_);
     mix(plastic_.velocity, rebound_.velocity, now_.velocity);
     mix(plastic_.angular_velocity, rebound_.angular_velocity, now_.angular_velocity);
@@ -152,6 +157,7 @@ void ImpactEnergyLimiter::limit_rebound(Bodies& bodies, const ContactRows& conta
         bodies.velocity[body] = rebound_.velocity[k];
         bodies.angular_velocity[body] = rebound_.angular_velocity[k];
     }
+    // impulses with the same share as the velocities that they made: momentum stays balanced
     for (std::size_t n = 0; n < which_.size(); ++n) {
         Constraint& c = constraints[which_[n]];
         const double s = c.can_move ? share(island_of(bodies, contacts, c)) : 1.0;

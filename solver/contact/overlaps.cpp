@@ -51,6 +51,7 @@ Overlaps::Push Overlaps::push_of(const Bodies& bodies, const Constraint& c, std:
                &of_b = bodies.inverse_inertia_world[c.b];
     const Mat3 response = response_matrix(bodies.inverse_mass[c.a] + bodies.inverse_mass[c.b], of_a,
                                           c.arm_a, of_b, c.arm_b);
+    // 1 / k(n) of (5), for a move instead of a velocity
     double yields = ordered_dot(c.normal, ordered_product(response, c.normal));
     Vec3 shift = Vec3::Zero();
     if (ship) {
@@ -72,6 +73,7 @@ void Overlaps::correct_positions(const Scene& scene, const std::vector<Constrain
     const double share = std::min(dt / kOpeningTime, kMostInStep);
     out.shift.resize(bodies.size(), Vec3::Zero());
     out.turn.resize(bodies.size(), Vec3::Zero());
+    // only moving bodies have corrections from the last step to be cleared
     out.shift[kShip].setZero();
     out.turn[kShip].setZero();
     for (const std::int32_t i : bodies.moving) {
@@ -95,6 +97,8 @@ void Overlaps::correct_positions(const Scene& scene, const std::vector<Constrain
             const Vec3 move = out.shift[c.b] + out.turn[c.b].cross(c.arm_b) - out.shift[c.a] -
                               out.turn[c.a].cross(c.arm_a);
             const double next =
+                // (9) with moves: accumulated, so that a push which another one made needless
+                // is taken back
                 std::max(push.done + (push.target - move.dot(c.normal)) * push.mass, 0.0);
             const double change = next - push.done;
             push.done = next;
@@ -115,6 +119,8 @@ void Overlaps::crush(Scene& scene, const std::vector<Contact>& contacts,
     for (std::size_t k = 0; k < constraints.size(); ++k) {
         const Constraint& c = constraints[k];
         if (!c.crushed()) continue;
+        // what the step leaves at the final velocities; an opening contact has crushed nothing
+        // more
         const double gap = gap_after(bodies, c, dt);
         if (gap >= 0.0) continue;
         const Contact& contact = contacts[k];
@@ -137,6 +143,7 @@ void Overlaps::crush(Scene& scene, const std::vector<Contact>& contacts,
              ++k)
             move += std::max(0.0, -crush_events_[k].gap - move.dot(crush_events_[k].inwards)) *
                     crush_events_[k].inwards;
+        // stored in the body's axes: crushed ice moves and turns with its floe
         const Shape& shape = scene.shapes[static_cast<std::size_t>(bodies.shape[body])];
         scene.crushed.crush(body, sphere, shape.center.size(),
                             bodies.rotation[body].transpose() * move);

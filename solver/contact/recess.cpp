@@ -31,6 +31,7 @@ Vec3 inwards_of(const Contact& c) { return c.crushes_a ? Vec3(-c.normal) : c.nor
 double depth_beside(const Scene& scene, std::int32_t body, std::int32_t sphere,
                     const Vec3& inwards) {
     const Shape& shape = scene.shapes[static_cast<std::size_t>(scene.bodies.shape[body])];
+    // in body axes: crushing of neighbours counts along this contact's inward direction only
     const double reach = kNeighbours * shape.patch_radius;
     double deepest = 0.0;
     for (std::size_t k = 0; k < shape.center.size(); ++k) {
@@ -48,6 +49,7 @@ Recess::Place Recess::place_of(const Contact& c) {
 }
 
 double Recess::last_depth(const Contact& c, std::size_t& at) const {
+    // entries and contacts are both sorted by pair: the caller's `at` walks along
     while (at < entries_.size() && std::tie(entries_[at].a, entries_[at].b) < std::tie(c.a, c.b))
         ++at;
     const bool known = at < entries_.size() && entries_[at].a == c.a && entries_[at].b == c.b;
@@ -75,6 +77,8 @@ void Recess::find_moves(const Scene& scene, double dt, const std::vector<Contact
     moves_.clear();
     std::size_t at = 0;
     for (std::size_t k = 0; k < contacts.size(); ++k) {
+        // (13a): what has become deeper since the last step, less what the motion explains, at
+        // most down to the deepest neighbour. Without crushed ice around there is no recess.
         const Contact& c = contacts[k];
         const Place place = place_of(c);
         const double deeper = -c.gap - last_depth(c, at);
@@ -91,6 +95,7 @@ void Recess::find_moves(const Scene& scene, double dt, const std::vector<Contact
                std::tie(r.place.body, r.place.sphere, r.contact);
     });
     std::size_t kept = 0;
+    // A second contact adds to the move only what the first one does not already do along it.
     for (const Move& m : moves_) {
         if (kept > 0 && moves_[kept - 1].place == m.place) {
             Vec3& sum = moves_[kept - 1].way;
@@ -109,6 +114,7 @@ void Recess::move_spheres(Scene& scene, const ContactLaw& law, double dt,
     scene.crushed.recent.clear();
     if (law.is_rigid()) return;
     moves_.clear();
+    // the first step knows no depths of a step before
     if (started_ != 0) find_moves(scene, dt, contacts, constraints);
     for (const Move& m : moves_) {
         const auto shape = static_cast<std::size_t>(scene.bodies.shape[m.place.body]);

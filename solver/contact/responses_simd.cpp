@@ -61,6 +61,7 @@ HWY_INLINE Vectors LeastAxis(Vectors n) {
 }
 
 HWY_INLINE Lanes LargestTangentResponse(const Matrices& k, Vectors n) {
+    // largest eigenvalue of K in the tangent plane, in the reference's order of operations
     const Vectors across = Cross(n, LeastAxis(n));
     const Lanes length = hn::Sqrt(Dot(across, across));
     const Vectors s = {hn::Div(across.x, length), hn::Div(across.y, length),
@@ -85,6 +86,7 @@ void MeasureResponses(const PairBlock& block, const BlockInverseInertias& invers
         for (ContactRow& row : rows) {
             const Vectors n = Get(row.normal, lane);
             const Vectors arm_a = Get(row.arm_a, lane), arm_b = Get(row.arm_b, lane);
+            // lanes without a contact compute not-a-numbers, which `put` replaces by zeros
             const Mask there = NotZero(n);
             const auto put = [&](Lanes value, LaneValues& to)
                                  HWY_ATTR { Put(hn::IfThenElseZero(there, value), to, lane); };

@@ -39,11 +39,13 @@ bool meets_within_step(const Constraint& c, double dt) {
 // The ship and ice that is held for good: neither can give way, so the ice crushes. A ship that can
 // in other directions is rubbed, by no more than what ends the sliding.
 void drive_through(Bodies& bodies, Constraint& c) {
+    // friction opposite the sliding velocity, on the cone: mu times the bound
     const Vec3 v = relative_velocity(bodies, c);
     const Vec3 sliding = v - v.dot(c.normal) * c.normal;
     const double speed = sliding.norm();
     c.impact_normal = c.max_impulse;
     if (speed > 0.0) c.impact_tangent = -(c.friction * c.max_impulse / speed) * sliding;
+    // A ship that answers in some direction is slowed down by the friction, not turned round.
     if (c.a != static_cast<std::int32_t>(kShip) || !bodies.ship.free || speed == 0.0) return;
     const double yields = ship_response(bodies.ship, c.arm_a, sliding / speed);
     if (yields * c.friction * c.max_impulse > speed) c.impact_tangent = -1.0 / yields * sliding;
@@ -70,12 +72,15 @@ SolveReport ContactSolver::iterate(const ContactLaw& law) {
     gradient_.begin(contacts_, !law.is_rigid());
     while (true) {
         ++report.iterations;
+        // A free ship is solved as copies, one per pair (section 14), which become one ship
+        // again after each sweep; a captive one is not touched.
         contacts_.part_ship();
         report.residual =
             sweep(contacts_.blocks, contacts_.rows, contacts_.motion, contacts_.excess);
         contacts_.join_ship();
         report.converged = report.residual <= law.tolerance;
         if (report.converged || report.iterations >= law.iterations) return report;
+        // plain sweeps at the end: they restore bounds and cones that a direction may leave
         if (report.iterations * kPlainShare < law.iterations * (kPlainShare - 1))
             gradient_.advance(contacts_);
     }
@@ -83,6 +88,8 @@ SolveReport ContactSolver::iterate(const ContactLaw& law) {
 
 SolveReport ContactSolver::solve_impacts(Bodies& bodies, std::vector<Constraint>& constraints,
                                          const ContactLaw& law, double restitution) {
+    // (6): the target is Newton's -e v_r0 . n, with v_r0 before the stage; 0 where the ice
+    // crushes
     contacts_.begin_stage(bodies, constraints, &Constraint::impact_normal,
                           &Constraint::impact_tangent,
                           [&](const Constraint& c) -> ContactRows::Target {
@@ -100,6 +107,7 @@ SolveReport ContactSolver::solve_impacts(Bodies& bodies, std::vector<Constraint>
 SolveReport ContactSolver::rebound(Bodies& bodies, std::vector<Constraint>& constraints,
                                    const ContactLaw& law) {
     if (law.is_rigid()) return solve_impacts(bodies, constraints, law, law.restitution);
+    // first without rebound: it shows which contacts reach their bound, p A dt
     SolveReport report = solve_impacts(bodies, constraints, law, 0.0);
     for (int pass = 0; pass < kRebounds; ++pass) {
         int fresh = 0;
@@ -121,15 +129,21 @@ SolveReport ContactSolver::resolve_impacts(Bodies& bodies, std::vector<Constrain
     bool approaching = false;
     for (std::size_t k = 0; k < constraints.size(); ++k) {
         Constraint& c = constraints[k];
+        // a contact that stays open through the step has no part in the impacts
         if (!meets_within_step(c, dt)) continue;
         meeting_.push_back(static_cast<std::int32_t>(k));
         approaching = approaching || c.approach < 0.0;
+        // Neither body can move: the bound (13) acts as long as they approach. Rigid ice has no
+        // bound: it carries nothing, and the step counts as jammed.
         if (!c.can_move && !std::isinf(c.max_impulse) && c.approach < 0.0) drive_through(bodies, c);
     }
     if (!approaching) return {};
     contacts_.build(bodies, constraints, meeting_);
+    // the state before the solution, to which (8) may have to return
     limiter_.begin(bodies, contacts_, constraints, meeting_);
     SolveReport report = rebound(bodies, constraints, law);
+    // Without rebound the solution loses energy by itself. With it, islands that would gain
+    // energy get the largest share of the rebound for which they do not, (8).
     if (law.restitution == 0.0 || limiter_.energy_gain(bodies, contacts_, constraints) <= 0.0)
         return report;
     limiter_.set_aside(bodies, contacts_, constraints);
@@ -144,12 +158,14 @@ bool ContactSolver::enlist(const Bodies& bodies, const std::vector<Constraint>& 
     double most = 0.0;
     for (std::size_t k = 0; k < constraints.size(); ++k) {
         const Constraint& c = constraints[k];
+        // those that take part already, and those between immovable bodies, are left out
         if (is_active_[k] || !c.can_move) continue;
         const double closes = closes_by(bodies, c, dt);
         most = std::max(most, closes);
         if (closes >= -kNear || c.rest_normal > 0.0)
             active_.push_back(static_cast<std::int32_t>(k));
     }
+    // Nothing of the others closes by more than the tolerance: the last solution stands.
     if (before > 0 && most <= tolerance * dt) {
         active_.resize(before);
         return false;
@@ -163,6 +179,8 @@ void ContactSolver::begin_rest(const Bodies& bodies, const std::vector<Constrain
                                double dt) {
     contacts_.begin_stage(bodies, constraints, &Constraint::rest_normal, &Constraint::rest_tangent,
                           [&](const Constraint& c) -> ContactRows::Target {
+                              // (6): the velocity that closes an open gap at the end of the
+                              // step, and no further
                               return {-std::max(c.gap, 0.0) / dt, c.max_impulse - c.impact_normal};
                           });
 }

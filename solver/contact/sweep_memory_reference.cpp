@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Sums of (11) and the step along the search direction: the definition, one number at a time.
+// sweep_memory_simd.cpp computes the same bits in lanes.
 #include "common/math/ordered_products.hpp"
 #include "solver/contact/sweep_memory.hpp"
 
@@ -11,6 +13,7 @@ double measure_change(const std::vector<ContactRow>& rows, const SweepMemory& me
             const RowImpulses &now = rows[r].impulse, &before = memory.before[r];
             const double normal = now.normal.v[lane] - before.normal.v[lane];
             const Vec3 tangent = get(now.tangent, lane) - get(before.tangent, lane);
+            // |g|^2 of (11): each change of impulse weighted with k(n), so that it is an energy
             sum[lane] += (normal * normal + ordered_dot(tangent, tangent)) *
                          rows[r].inverse_effective_mass.v[lane];
         }

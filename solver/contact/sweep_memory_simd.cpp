@@ -29,6 +29,7 @@ double MeasureChange(const std::vector<ContactRow>& rows, const SweepMemory& mem
         Put(part, sum, lane);
     }
     const double* s = sum.v;
+    // as the reference sums its lanes
     return ((s[0] + s[1]) + (s[2] + s[3])) + ((s[4] + s[5]) + (s[6] + s[7]));
 }
 

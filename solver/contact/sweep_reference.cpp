@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// A sweep, (9) and (10): the definition, one contact at a time. sweep_simd.cpp computes the same
+// bits for eight pairs side by side.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -30,6 +32,7 @@ struct Side {
         }
     }
     Vec3 at(const Vec3& arm) const { return velocity + angular_velocity.cross(arm); }
+    // v := v + (1/m + excess) j, w := w + I^-1 (r x j), with the world's inverse inertia
     void push(const Vec3& arm, const Vec3& j) {
         velocity = velocity + inverse_mass * j;
         if (has_added_mass) velocity = velocity + product(excess, j);
@@ -81,6 +84,7 @@ void solve(ContactRow& row, std::size_t lane, Side& a, Side& b, Changes& most) {
     row.impulse.tangent[1].v[lane] = tangent.y();
     row.impulse.tangent[2].v[lane] = tangent.z();
 
+    // both bodies get the change of the contact's impulse, at their own arms
     const Vec3 j = change * n + turned;
     a.push(arm_a, -1.0 * j);
     b.push(arm_b, j);

@@ -140,6 +140,7 @@ HWY_INLINE void End(const Streams<N, kWater>& streams, std::size_t s,
     StoreSide(streams.b, s, pairs.b, pairs.inverse_mass_b, stream.lane, motion);
 }
 
+// The streams that are left when one has ended and none waits.
 template <std::size_t N, bool kWater>
 HWY_INLINE Streams<N - 1, kWater> Without(std::size_t left_out, const Streams<N, kWater>& streams) {
     Streams<N - 1, kWater> out;
@@ -177,6 +178,7 @@ struct Waiting {
 template <std::size_t N, bool kWater>
 HWY_INLINE void Finish(Streams<N, kWater>& streams, Waiting& waiting,
                        std::vector<BodyMotion>& motion, Changes& most) {
+    // All streams do as many rows as the shortest has left, so that no lane is masked.
     while (true) {
         std::int32_t together = streams.of[0].left;
         for (std::size_t s = 1; s < N; ++s) together = std::min(together, streams.of[s].left);
@@ -200,6 +202,7 @@ HWY_INLINE void Finish(Streams<N, kWater>& streams, Waiting& waiting,
 
 // Begins up to N streams, and takes all to their ends.
 template <std::size_t N, bool kWater>
+// fewer streams than N: a narrower kernel, so that no stream is a dummy
 HWY_INLINE void Run(Waiting waiting, std::vector<BodyMotion>& motion, Changes& most) {
     if constexpr (N > 1) {
         const auto streams =
@@ -211,6 +214,8 @@ HWY_INLINE void Run(Waiting waiting, std::vector<BodyMotion>& motion, Changes& m
     Finish(streams, waiting, motion, most);
 }
 
+// Each row waits for the velocities that the row before it has left; a second stream uses that
+// time.
 // Streams beside each other; a third gains nothing.
 constexpr std::size_t kStreams = 2;
 
@@ -219,6 +224,7 @@ double Sweep(const std::vector<PairBlock>& blocks, std::vector<ContactRow>& rows
     const Tag d;
     Changes most{hn::Zero(d), hn::Zero(d)};
     const PairBlock* const end = blocks.data() + blocks.size();
+    // colour by colour: pairs of one colour share no free body and may be swept in any order
     for (const PairBlock* first = blocks.data(); first != end;) {
         const PairBlock* last = first;
         while (last != end && last->colour == first->colour) ++last;

@@ -36,6 +36,7 @@ double round_step(double x) {
     return rounded(decade * (lead >= 5.0 ? 5.0 : lead >= 2.0 ? 2.0 : 1.0), 1);
 }
 
+// What the scene can be built from before draught, place and times are known.
 Case first_case(const std::filesystem::path& hull, const std::filesystem::path& field) {
     Case p;
     p.file = "--new";
@@ -44,6 +45,7 @@ Case first_case(const std::filesystem::path& hull, const std::filesystem::path& 
     p.duration = 1.0;
     p.speed_table = {{0.0, 1.0}};
     p.floes.resize(2);
+    // the field twice: its loose floes, and its unbroken ice, which is held
     for (FloeGroup& group : p.floes) {
         group.pattern = Pattern::file;
         group.file = field;
@@ -66,6 +68,8 @@ void guess_draught(const TriangleMesh& hull, Draft& draft) {
     Eigen::AlignedBox3d box;
     for (const Vec3& v : hull.vertices) box.extend(v);
     const double keel = box.min().z(), depth = box.sizes().z();
+    // A mesh whose z = 0 lies well within its depth has its water line there; another one says
+    // nothing of its draught.
     draft.draught_from_mesh = -keel > 0.05 * depth && -keel < 0.95 * depth;
     draft.draught = rounded(draft.draught_from_mesh ? -keel : kDraughtShare * depth, 3);
 }
@@ -135,6 +139,7 @@ void plan_sheet(const World& w, Draft& draft) {
 Draft draft_case(const std::filesystem::path& hull, const std::filesystem::path& field) {
     Draft draft;
     guess_draught(read_spheres(hull).mesh, draft);
+    // a scene with the guessed draught tells water line, clearances and room; the rest follows
     World world;
     world.parameters = first_case(hull, field);
     world.parameters.hull_draught = draft.draught;

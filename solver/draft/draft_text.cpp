@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// A drafted case, and a drafted field, as text with comments.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -30,6 +31,7 @@ std::string quoted(const std::string& text) {
 
 }  // namespace
 
+// The text is written, not serialised: a comment beside each number says where it comes from.
 std::string draft_text(const Draft& d, const std::string& hull, const std::string& field) {
     std::string out =
         fmt::format("#:schema {0}\n# for editors, made by: icesolve --print-schema > {0}\n",
@@ -56,6 +58,7 @@ std::string draft_text(const Draft& d, const std::string& hull, const std::strin
                 fmt::format("m/s, CHECK: {:.2g} kn", d.speed / kKnot));
     out += "\n[ice]\n" + line("density = 900.0", "kg/m3, CHECK");
     out += fmt::format("\n[[floes]]\npattern = \"file\"\nfile = {}\n", quoted(field));
+    // the sheet stands in comments, as the other choice
     out +=
         line("hold = \"never\"", "broken ice; \"until-hull-contact\" where the bow breaks it off");
     out += "# Unbroken ice, which the bow breaks: these tables in the place of [[floes]].\n";
@@ -70,12 +73,15 @@ std::string draft_text(const Draft& d, const std::string& hull, const std::strin
     out += line(fmt::format("average_from = {:g}", d.average_from),
                 fmt::format("s: forces are averaged over the last {:.2f} ship lengths",
                             d.averaged_lengths));
+    // 200 frames, but no more than steps
     out += line(fmt::format("frames_every = {:.1g}", std::max(d.time_step, d.duration / 200.0)),
                 "s between stored poses");
     return out;
 }
 
 std::string draft_field(double length, double breadth) {
+    // In ship lengths L and breadths B: ice of L / 100, spheres of a quarter of the thickness,
+    // an area of 2 L by 3 B, floes of L / 12.
     return fmt::format(
         "#:schema specification.schema.json\n"
         "# for editors, made by: icefield --print-schema > specification.schema.json\n"

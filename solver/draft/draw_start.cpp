@@ -44,6 +44,7 @@ private:
 void draw_start(const World& w, const fs::path& picture) {
     check_picture_name(picture);
     const ScratchFolder folder;
+    // A run of no step: its folder has all that icepost needs to draw, and goes afterwards.
     Recorder recorder(w.parameters, w.scene);
     recorder.open(folder.path(), "icesolve --check", w.scene);
     Summary unused;

@@ -39,6 +39,7 @@ void require_program(const std::string& name) {
 }
 
 void run_program_beside(const std::string& name, const std::vector<std::string>& words) {
+    // exit code 2 is a fault of the user's file, which the program has named already
     const auto code = run_sibling(name, words);
     if (!code) throw run_failed("--new", "cannot start " + name, "make its file yourself");
     if (*code == 2) throw bad_input("--new", name + " did not take its input", "see above");
@@ -57,9 +58,11 @@ fs::path make_spheres(const fs::path& mesh, const std::vector<std::string>& opti
         words.insert(words.end(), options.begin(), options.end());
         run_program_beside("spherize", words);
     };
+    // first the area alone: the spacing follows from it
     spherize({"--check", "--json", report.string()});
     const double area = read_json_numbers(report).at("area_m2");
     fs::remove(report);
+    // each sphere of a hexagonal packing covers spacing^2 / 1.155
     const double spacing = std::stod(fmt::format("{:.2g}", std::sqrt(1.155 * area / kSpheres)));
     spherize({"-r", fmt::format("{:.2g}", spacing / kSpacing), "-s", fmt::format("{:g}", spacing),
               "--mode", "surface", "-o", out.string()});
@@ -100,6 +103,7 @@ fs::path write_new_case(const NewCase& wish) {
         throw bad_input(wish.mesh_options[0],
                         "says how to read a mesh, but " + wish.hull.string() + " is a sphere set",
                         "leave it out, or give the mesh");
+    // "hull.spheres.h5" becomes "hull.cfg"
     std::string stem = wish.hull.stem().string();
     if (stem.ends_with(".spheres")) stem.resize(stem.size() - sizeof(".spheres") + 1);
     fs::path out = wish.out.empty() ? fs::path(stem + ".cfg") : wish.out;
@@ -115,6 +119,7 @@ fs::path write_new_case(const NewCase& wish) {
     if (field.extension() == ".toml") field = make_field_file(field, folder);
     const Draft draft = draft_case(hull, field);
     write_text_file(out, draft_text(draft, seen_from(folder, hull), seen_from(folder, field)));
+    // a mean over less than a ship length has not seen the ship's whole side pass
     if (draft.averaged_lengths < 0.95)
         say_warning(fmt::format(
             "the field is short: forces are averaged over {:.2f} ship lengths; area.size of {:.3g} "

@@ -55,10 +55,12 @@ ForceStatistics average(const Members& members, ForceStatistics Summary::*force)
     out.contact_mean = mean(&ForceStatistics::contact_mean);
     out.friction_mean = mean(&ForceStatistics::friction_mean);
     out.std = mean(&ForceStatistics::std);
+    // only cases that bend ice have these
     for (const auto part : {&ForceStatistics::breaking_mean, &ForceStatistics::submersion_mean})
         if ((members.front().summary.*force).*part)
             out.*part = mean_over(
                 members, [&](const Summary& s) { return (s.*force.*part).value_or(std::nan("")); });
+    // the peak of all, with its sign
     for (const Member& m : members)
         if (const double peak = (m.summary.*force).max; std::abs(peak) > std::abs(out.max))
             out.max = peak;
@@ -67,6 +69,7 @@ ForceStatistics average(const Members& members, ForceStatistics Summary::*force)
     return out;
 }
 
+// sums with shares 1 / n are means
 void add_share(std::array<double, 3>& sum, const std::array<double, 3>& value, double share) {
     for (std::size_t d = 0; d < 3; ++d) sum[d] += share * value[d];
 }
@@ -164,6 +167,8 @@ std::vector<Warning> gather_warnings(const Members& members) {
     std::vector<Warning> shared, single;
     for (const Member& m : members)
         for (Warning warning : m.summary.warnings) {
+            // one member's trend, where as many as chance explains have one, is no warning of
+            // the ensemble
             if (is_chance(m, warning, trend)) continue;
             const bool everywhere =
                 std::all_of(members.begin(), members.end(), [&](const Member& other) {
@@ -193,6 +198,7 @@ std::map<std::string, double> worst_imbalance(const Members& members) {
 }
 
 }  // namespace
+// Starts as the first member's summary: what is not replaced below is the same for all.
 
 Summary average_members(const std::vector<Member>& members) {
     ICE_ASSERT(!members.empty());

@@ -26,6 +26,7 @@ std::vector<std::string> icefield_words(const std::string& specification, std::i
     std::vector<std::string> words{"-q", spec.string(), "-o", out.string()};
     std::istringstream lines(specification);
     for (std::string line; std::getline(lines, line);) {
+        // the same --set again, and the member's seed last: the later one counts
         if (!line.starts_with(kOverride)) continue;
         words.push_back("--set");
         words.push_back(line.substr(kOverride.size()));
@@ -34,6 +35,7 @@ std::vector<std::string> icefield_words(const std::string& specification, std::i
     return words;
 }
 
+// Are shapes and poses the same? A grid without random parts ignores the seed.
 bool same_floes(const Field& a, const Field& b) {
     return std::equal(a.floes.begin(), a.floes.end(), b.floes.begin(), b.floes.end(),
                       [](const FieldFloe& f, const FieldFloe& g) {
@@ -57,6 +59,7 @@ std::string reason(int code) {
 
 MemberFields::MemberFields(const Case& parameters, std::int64_t first, const fs::path& folder) {
     for (std::size_t k = 0; k < parameters.floes.size(); ++k) {
+        // unbroken parts come from the same file as their group
         const FloeGroup& of_case = parameters.floes[k];
         if (of_case.pattern != Pattern::file || of_case.unbroken_part) continue;
         const Group group{k + 1, of_case.file, folder / fmt::format("group-{}", k + 1),
@@ -73,6 +76,7 @@ fs::path MemberFields::file_of(const Group& group, std::int64_t seed) const {
 // @return 0, or icefield's exit code
 int MemberFields::make(const Group& group, std::int64_t seed) {
     const fs::path out = file_of(group, seed), spec = group.stem.string() + ".toml";
+    // made already for changes_with_seed()
     if (made_.contains(out)) return 0;
     std::error_code ignored;
     fs::create_directories(group.stem.parent_path(), ignored);
@@ -94,6 +98,8 @@ bool MemberFields::changes_with_seed(const Group& group, std::int64_t first) {
                             group.file.string(), seed, reason(code)));
         return false;
     }
+    // two seeds with the same floes: the seed changes nothing, and jitter must make the
+    // difference
     const fs::path one = file_of(group, first), other = file_of(group, first + 1);
     if (!same_floes(read_field(one), read_field(other))) return true;
     std::error_code ignored;

@@ -27,6 +27,8 @@ namespace fs = std::filesystem;
 constexpr double kJitter = 0.01;  // of the smallest ice sphere's radius
 
 // Where no field changes with the seed and the case moves no floe, jitter makes the difference.
+// So little leaves the field as it is; but the motion is chaotic, and after a few impacts the
+// histories differ.
 double default_jitter(const Case& parameters) {
     const Scene scene = build_scene(parameters);
     double smallest = std::numeric_limits<double>::infinity();
@@ -58,9 +60,11 @@ std::string resolved_case_in(const fs::path& folder) {
 // A finished member of this ensemble, if the folder holds one.
 std::optional<Summary> finished_member(const EnsembleOptions& o, const fs::path& folder,
                                        const std::vector<std::string>& overrides) {
+    // an interrupted member is resumed from its checkpoint (run_member), not kept
     if (!fs::exists(folder / "summary.json")) return std::nullopt;
     Summary summary = read_summary(folder / "summary.json");
     if (summary.status != "completed") return std::nullopt;
+    // all keys are in it; options such as --threads change no result
     if (resolved_case_in(folder) != read_case(o.case_file, overrides).resolved)
         throw bad_input(folder.string(), "holds a member of another case",
                         "choose another folder with --out, or compute all anew with --overwrite");
@@ -73,6 +77,7 @@ int run_member(const EnsembleOptions& o, const fs::path& folder,
     std::vector<std::string> words{o.case_file};
     for (const std::string& text : overrides) words.insert(words.end(), {"--set", text});
     words.insert(words.end(), o.member_words.begin(), o.member_words.end());
+    // of a member that was interrupted
     const fs::path checkpoint = folder / kCheckpointName;
     if (fs::exists(checkpoint))
         words.insert(words.end(), {"--restart", checkpoint.string()});
@@ -144,6 +149,7 @@ EnsembleResult run_ensemble(const EnsembleOptions& o) {
             summary = read_summary(folder / "summary.json");
         }
         members.push_back({seed, std::move(*summary)});
+        // after each member: what is there can be read while the next one runs
         write_ensemble(
             o, members,
             members.size() < static_cast<std::size_t>(o.members) ? "interrupted" : "completed",

@@ -44,12 +44,14 @@ PanelBody both_halves(const PanelBody& half) {
 Mat6 added_mass(const PanelBody& body, const Vec3& about, double density) {
     const auto n = static_cast<Eigen::Index>(body.panels.size());
     const std::vector<Vec3> points = all_points(body);
+    // one right-hand side for each unit velocity: d phi_i / dn = n_i on the hull (section 6)
     Eigen::MatrixXd wanted(n, 6);
     for (Eigen::Index i = 0; i < n; ++i) {
         const SourcePanel& p = body.panels[static_cast<std::size_t>(i)];
         wanted.row(i) = normals_of(p, p.centre, about);
     }
     const Eigen::MatrixXd strength = solve_strengths(body, wanted);
+    // A_ij = -rho int phi_i n_j dA, with the mean of three points on each panel
     Mat6 out = Mat6::Zero();
     for (Eigen::Index mode = 0; mode < 6; ++mode) {
         PanelFlow flow;

@@ -43,6 +43,7 @@ void lay_grid(const Sources& s, bool plane, const FlowOptions& options, FlowTabl
     // The coarsest grid within the bound on nodes that still resolves half a floe's thickness.
     const Vec3 low = s.low - Vec3::Constant(s.margin), high = s.high + Vec3::Constant(s.margin);
     const double length = high.x() - low.x(), depth = -low.z();
+    // a symmetric hull has one half in the table; look_up_flow mirrors the other
     const double breadth = out.symmetric ? high.y() : high.y() - low.y();
     if (spacing <= 0.0)
         spacing = std::max(options.finest, plane ? std::sqrt(length * depth / kNodes2D)
@@ -68,9 +69,11 @@ double fade(double from_rim, double width) {
 double fade_at(const FlowTable& t, const Vec3& p, double width) {
     const Vec3 high = t.origin + t.spacing * Vec3(double(t.nodes[0] - 1), double(t.nodes[1] - 1),
                                                   double(t.nodes[2] - 1));
+    // a product: in the corners of the table it fades along all axes
     double out = fade(p.x() - t.origin.x(), width) * fade(high.x() - p.x(), width) *
                  fade(p.z() - t.origin.z(), width);
     if (t.nodes[1] > 1) out *= fade(high.y() - p.y(), width);
+    // the rim of a half table in y = 0 is no rim
     if (t.nodes[1] > 1 && !t.symmetric) out *= fade(p.y() - t.origin.y(), width);
     return out;
 }
@@ -105,6 +108,7 @@ void fill_row(const Sources& s, const WindingNumber& hull, double water, std::si
 
 void fill_table(const Sources& s, const TriangleMesh& mesh, const FlowOptions& options,
                 HullFlow& out) {
+    // Row by row along x, by all threads: a row writes its own nodes only.
     const Timer timer;
     FlowTable& t = out.table;
     t.velocity.resize(3 * t.size());
@@ -117,6 +121,7 @@ void fill_table(const Sources& s, const TriangleMesh& mesh, const FlowOptions& o
 
 // The point of the panels nearest to p, a little into the water.
 Vec3 off_panels(const PanelBody& body, const Vec3& p, double off) {
+    // beyond any hull: the first panel is nearer
     double least = 1e300;
     Vec3 nearest = p;
     for (const SourcePanel& panel : body.panels) {
@@ -158,6 +163,7 @@ void note(const Flow& flow, HullFlow& out) {
 
 void make_3d(const TriangleMesh& mesh, const FlowOptions& options, HullFlow& out) {
     const Timer timer;
+    // half of the panels, since a symmetric hull's other half are images
     WettedHull hull = make_wetted_hull(mesh, options.water, {options.panel, kMostPanels / 2});
     const PanelFlow flow = solve_panels(std::move(hull.body));
     out.solve_seconds = timer.seconds();
@@ -165,6 +171,7 @@ void make_3d(const TriangleMesh& mesh, const FlowOptions& options, HullFlow& out
     out.table.panels = static_cast<std::int64_t>(flow.body.panels.size());
     out.table.symmetric = flow.body.symmetric;
     note(flow, out);
+    // the table reaches a breadth beyond the hull on all sides
     Sources s{hull.low, hull.high, hull.high.y() - hull.low.y(),
               [&](std::span<const Vec3> points) {
                   std::vector<FlowSample> samples(points.size());
@@ -191,6 +198,7 @@ void make_2d(const TriangleMesh& prism, const FlowOptions& options, HullFlow& ou
     Sources s{Vec3::Constant(1e300), Vec3::Constant(-1e300), 0.0,
               [&](std::span<const Vec3> points) { return flow_at(flow, points); },
               [&](const Vec3& p, double off) { return off_lines(flow.lines, p, off); }};
+    // a section's box from its lines; y is 0
     for (const SourceLine& line : flow.lines) {
         out.panel = std::max(out.panel, line.length);
         for (const Vec3& p : {line.from, line.to}) {
@@ -210,6 +218,7 @@ void make_2d(const TriangleMesh& prism, const FlowOptions& options, HullFlow& ou
 
 HullFlow make_hull_flow(const TriangleMesh& hull, int dimension, const FlowOptions& options) {
     HullFlow out;
+    // the water is `water` above the mesh's origin, the keel its lowest vertex
     double keel = 1e300;
     for (const Vec3& v : hull.vertices) keel = std::min(keel, v.z());
     out.table.draught = options.water - keel;

@@ -21,6 +21,8 @@ constexpr double kLinesAlong = 100.0;
 constexpr double kLeastSquare = 1e-60;  // of a distance: at the very end of a line [m2]
 
 FlowSample line_flow(const SourceLine& line, const Vec3& x) {
+    // (23) without 1 / (2 pi): t ln(r_a / r_b) + theta n, where theta is the angle in which the
+    // line is seen. The potential is its integral along x.
     const Vec3 a = x - line.from, b = x - line.to;
     const double log_a = own::log(std::max(a.x() * a.x() + a.z() * a.z(), kLeastSquare));
     const double log_b = own::log(std::max(b.x() * b.x() + b.z() * b.z(), kLeastSquare));
@@ -70,6 +72,7 @@ SourceLine make_line(const Vec3& from, const Vec3& to, const Vec3& normal) {
 
 std::vector<SourceLine> make_wetted_lines(const TriangleMesh& prism, double water, double longest) {
     std::vector<SourceLine> wet;
+    // The section is the prism's outline: each side once, as far as it is under water.
     double low = 1e300, high = -1e300, first_y = 1e300;
     for (const Vec3& v : prism.vertices) first_y = std::min(first_y, v.y());
     for (std::size_t t = 0; t < prism.triangles.size(); ++t) {
@@ -83,6 +86,7 @@ std::vector<SourceLine> make_wetted_lines(const TriangleMesh& prism, double wate
         if (ends.size() != 2) continue;
         if (ends[0].z() > ends[1].z()) std::swap(ends[0], ends[1]);
         if (ends[0].z() >= 0.0) continue;
+        // the line that crosses the water ends at z = 0
         if (ends[1].z() > 0.0) {
             ends[1] = ends[0] + ends[0].z() / (ends[0].z() - ends[1].z()) * (ends[1] - ends[0]);
             ends[1].z() = 0.0;
@@ -98,6 +102,7 @@ std::vector<SourceLine> make_wetted_lines(const TriangleMesh& prism, double wate
                         "give a draught above 0, or a mesh that reaches below z = 0");
     if (longest <= 0.0) longest = (high - low) / kLinesAlong;
     std::vector<SourceLine> out;
+    // parts of equal length: a strength that is constant on each follows the curve of the flow
     for (const SourceLine& line : wet) {
         const int parts = static_cast<int>(std::ceil(line.length / longest));
         for (int k = 0; k < parts; ++k)

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The table's flow at a point, trilinear between its nodes: the definition. look_up_flow_simd.cpp
+// computes the same bits in lanes.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -31,6 +33,8 @@ namespace reference {
 FlowSample look_up_flow(const FlowGrid& g, const Vec3& point) {
     FlowSample out;
     if (g.empty()) return out;
+    // Half of a symmetric flow is stored; the other half has v_y of the opposite sign. Above
+    // the water the flow is that of the surface, outside the table there is none.
     const bool mirrored = g.symmetric && point.y() < 0.0;
     const double gx = (point.x() - g.origin.x()) * g.per_spacing;
     const double off_y = ((mirrored ? -point.y() : point.y()) - g.origin.y()) * g.per_spacing;
@@ -47,6 +51,7 @@ FlowSample look_up_flow(const FlowGrid& g, const Vec3& point) {
     const float* first = g.node.data() + FlowGrid::kNumbers * static_cast<std::size_t>(i) +
                          g.stride_y * static_cast<std::size_t>(j) +
                          g.stride_z * static_cast<std::size_t>(k);
+    // trilinear: along x on four edges of the cell, along y on two, then along z
     std::array<double, FlowGrid::kNumbers> value;
     for (std::size_t n = 0; n < value.size(); ++n) {
         const auto along_x = [&](std::size_t at) {

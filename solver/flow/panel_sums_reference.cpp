@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Sums over source panels, (22): the definition, one point at a time. panel_sums_simd.cpp computes
+// the same bits with points in lanes.
 #include <algorithm>
 
 #include "solver/flow/own_functions.hpp"
@@ -27,6 +29,9 @@ double dot(const Vec3& a, double x, double y, double z) {
 
 // 4 pi times the flow of a triangle.
 Flow near_flow(const SourcePanel& p, double x, double y, double z) {
+    // (22): from each edge ln((r_k + r_k+1 + l) / (r_k + r_k+1 - l)) m_k, from the face Omega
+    // n. The potential has the same logarithms and angle, times the heights over edges and
+    // face.
     double ax[3], ay[3], az[3], r[3];
     for (std::size_t k = 0; k < 3; ++k) {
         ax[k] = p.corner[k].x() - x;
@@ -46,6 +51,7 @@ Flow near_flow(const SourcePanel& p, double x, double y, double z) {
         out.z = out.z + log * p.outward[k].z();
         out.phi = out.phi - log * dot(p.outward[k], ax[k], ay[k], az[k]);
     }
+    // tan(Omega / 2) = up / down, the formula of van Oosterom and Strackee
     const auto product = [&](std::size_t i, std::size_t k) {
         return (ax[i] * ax[k] + ay[i] * ay[k]) + az[i] * az[k];
     };

@@ -75,6 +75,7 @@ struct Flow {
 HWY_INLINE Flow Sum(const Flow& a, const Flow& b) { return {Add(a.v, b.v), hn::Add(a.phi, b.phi)}; }
 
 HWY_INLINE Flow NearFlow(const SourcePanel& p, Vectors at) {
+    // as near_flow() of the reference, in its order of operations
     Vectors a[3];
     Lanes r[3];
     for (std::size_t k = 0; k < 3; ++k) {
@@ -110,6 +111,8 @@ HWY_INLINE Flow UnitFlow(const SourcePanel& p, Vectors at) {
     const Mask far = hn::Gt(square, All(p.far_squared));
     const Lanes phi = hn::Div(All(p.area), hn::Sqrt(square));
     const Flow point{Scale(hn::Div(phi, square), off), hn::Neg(phi)};
+    // most pairs of panel and point are far apart: the face's sums are left out where all lanes
+    // are
     if (hn::AllTrue(d, far)) return point;
     const Flow face = NearFlow(p, at);
     return {Choose(far, point.v, face.v), hn::IfThenElse(far, point.phi, face.phi)};

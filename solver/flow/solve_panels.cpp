@@ -93,6 +93,7 @@ PanelFlow solve_panels(PanelBody body, const Vec3& direction) {
     flow.body = std::move(body);
     const auto n = static_cast<Eigen::Index>(flow.body.panels.size());
     Eigen::VectorXd right(n);
+    // the normal velocity that a unit speed of the hull gives to each panel
     for (Eigen::Index i = 0; i < n; ++i)
         right[i] = flow.body.panels[static_cast<std::size_t>(i)].normal.dot(direction);
     const Eigen::MatrixXd strength = solve_strengths(flow.body, right, &flow.iterations);

@@ -12,6 +12,7 @@ namespace {
 constexpr double kFarRadii = 6.0;
 
 std::array<Vec3, 3> points_at(const SourcePanel& p, double apex) {
+    // the weight apex on one corner, the rest on both others alike
     const double rest = 0.5 * (1.0 - apex);
     const Vec3 off = kOffPanel * std::sqrt(p.area) * p.normal;
     std::array<Vec3, 3> out;
@@ -33,6 +34,7 @@ SourcePanel make_panel(const Vec3& a, const Vec3& b, const Vec3& c) {
     for (std::size_t k = 0; k < 3; ++k) {
         const Vec3 edge = out.corner[(k + 1) % 3] - out.corner[k];
         out.length[k] = edge.norm();
+        // in the panel's plane, away from the third corner: m_k of (22)
         out.outward[k] = edge.cross(out.normal) / out.length[k];
         radius = std::max(radius, (out.corner[k] - out.centre).norm());
     }
@@ -40,8 +42,10 @@ SourcePanel make_panel(const Vec3& a, const Vec3& b, const Vec3& c) {
     return out;
 }
 
+// three points whose mean is exact for quadratic functions of place
 std::array<Vec3, 3> flux_points(const SourcePanel& panel) { return points_at(panel, 2.0 / 3.0); }
 
+// other points than those of the solution: what is left there is the panels' error
 std::array<Vec3, 3> check_points(const SourcePanel& panel) { return points_at(panel, 0.5); }
 
 }  // namespace ice

@@ -36,6 +36,8 @@ std::vector<Triangle> cut(const std::vector<Triangle>& from, int axis, double si
         }
         if (d[0] >= 0.0 && d[1] >= 0.0 && d[2] >= 0.0) continue;  // beyond, or in the plane
         std::vector<Vec3> kept;
+        // Sutherland and Hodgman: corners inside stay, crossing edges give a new corner in the
+        // plane.
         for (std::size_t k = 0; k < 3; ++k) {
             const std::size_t n = (k + 1) % 3;
             if (d[k] <= 0.0) kept.push_back(t[k]);
@@ -45,6 +47,7 @@ std::vector<Triangle> cut(const std::vector<Triangle>& from, int axis, double si
                 kept.push_back(p);
             }
         }
+        // a fan: what a plane cuts off a triangle is convex, with four corners at most
         for (std::size_t k = 2; k < kept.size(); ++k)
             out.push_back({kept[0], kept[k - 1], kept[k]});
     }
@@ -53,6 +56,7 @@ std::vector<Triangle> cut(const std::vector<Triangle>& from, int axis, double si
 
 // Has every vertex another one where the mirror shows it?
 bool is_symmetric(const TriangleMesh& mesh, double same) {
+    // sorted by x, so that only vertices of nearly the same x are compared
     std::vector<Vec3> sorted = mesh.vertices;
     std::sort(sorted.begin(), sorted.end(),
               [](const Vec3& a, const Vec3& b) { return a.x() < b.x(); });
@@ -68,12 +72,14 @@ bool is_symmetric(const TriangleMesh& mesh, double same) {
 
 // At most `most` triangles, the border left as it is.
 std::vector<Triangle> simplified(const std::vector<Triangle>& from, std::size_t most) {
+    // meshopt works on floats and indices; corners of the result are the doubles they came from
     std::vector<float> soup;
     for (const Triangle& t : from)
         for (const Vec3& p : t)
             for (int axis = 0; axis < 3; ++axis) soup.push_back(static_cast<float>(p[axis]));
     const std::size_t corners = soup.size() / 3, stride = 3 * sizeof(float);
     std::vector<unsigned> index(corners), kept(corners);
+    // corners in one place become one vertex, or the mesh would fall apart into triangles
     const std::size_t count =
         meshopt_generateVertexRemap(index.data(), nullptr, corners, soup.data(), corners, stride);
     std::vector<float> points(3 * count);
@@ -95,11 +101,13 @@ std::vector<Triangle> simplified(const std::vector<Triangle>& from, std::size_t 
 std::vector<Triangle> split(std::vector<Triangle> open, double longest, std::size_t most) {
     std::vector<Triangle> done;
     while (!open.empty()) {
+        // the number of those open only grows: no need to go on to the end
         if (open.size() + done.size() > most) return {};
         const Triangle t = open.back();
         open.pop_back();
         std::size_t edge = 0;
         double length = 0.0;
+        // halving the longest edge keeps triangles from becoming needles
         for (std::size_t k = 0; k < 3; ++k)
             if (const double l = (t[(k + 1) % 3] - t[k]).norm(); l > length) {
                 length = l;
@@ -136,6 +144,7 @@ void measure(const std::vector<Triangle>& triangles, bool symmetric, WettedHull&
         out.volume += nx * (t[0].x() + t[1].x() + t[2].x()) / 3.0;
     }
     if (symmetric) {
+        // the half that was measured stands for both
         out.volume *= 2.0;
         const double breadth = box.max().y();
         box.extend(Vec3(box.max().x(), -breadth, box.min().z()));
@@ -198,6 +207,7 @@ TriangleMesh without_regions(const TriangleMesh& mesh, std::span<const std::stri
         if (std::find(known.begin(), known.end(), name) == known.end())
             throw bad_input(fmt::format("region \"{}\"", name), "the hull has none of that name",
                             fmt::format("its regions are {}", fmt::join(known, ", ")));
+    // the hole that is left has no panels: water passes through the plate's place
     TriangleMesh out = mesh;
     out.triangles.clear();
     out.region.clear();

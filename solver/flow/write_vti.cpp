@@ -28,6 +28,7 @@ FlowTable whole(const FlowTable& half) {
     if (!half.symmetric) return half;
     FlowTable out = half;
     out.symmetric = false;
+    // the plane y = 0 is in both halves, once in the whole
     out.nodes[1] = 2 * half.nodes[1] - 1;
     out.origin.y() = -half.spacing * static_cast<double>(half.nodes[1] - 1);
     out.velocity.clear();
@@ -35,6 +36,7 @@ FlowTable whole(const FlowTable& half) {
     for (std::int64_t k = 0; k < half.nodes[2]; ++k)
         for (std::int64_t j = 1 - half.nodes[1]; j < half.nodes[1]; ++j)
             for (std::int64_t i = 0; i < half.nodes[0]; ++i) {
+                // mirrored in y = 0: x and z components alike, the y component turned round
                 const std::int64_t y = j < 0 ? -j : j;
                 const auto at =
                     static_cast<std::size_t>((k * half.nodes[1] + y) * half.nodes[0] + i);
@@ -49,6 +51,7 @@ FlowTable whole(const FlowTable& half) {
 
 void write_vti(const std::filesystem::path& file, const FlowTable& table) {
     const FlowTable t = whole(table);
+    // VTK counts extents in nodes, from 0 to the last one
     const std::string extent =
         fmt::format("0 {} 0 {} 0 {}", t.nodes[0] - 1, t.nodes[1] - 1, t.nodes[2] - 1);
     std::string out = fmt::format(
@@ -61,6 +64,7 @@ void write_vti(const std::filesystem::path& file, const FlowTable& table) {
         "<DataArray type=\"Float32\" Name=\"potential\" format=\"appended\" offset=\"{5}\"/>\n"
         "</PointData></Piece></ImageData>\n<AppendedData encoding=\"raw\">_",
         extent, t.origin.x(), t.origin.y(), t.origin.z(), t.spacing,
+        // where the second array begins: behind the first one and its size
         sizeof(std::uint64_t) + t.velocity.size() * sizeof(float));
     append(t.velocity, out);
     append(t.potential, out);

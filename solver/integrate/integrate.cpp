@@ -10,6 +10,7 @@ void advance(Scene& scene, const Advance& step) {
     ICE_ASSERT(step.angular_velocity_start.size() == scene.bodies.size());
     ICE_ASSERT(step.corrections.shift.size() == scene.bodies.size());
     Bodies& b = scene.bodies;
+    // the ship's orientation, where it may turn, is ShipMotion's
     b.position[kShip] += step.dt * b.velocity[kShip];
     for_each_group(b, [&](std::span<const std::int32_t> floes, std::size_t) {
         advance_floes(b, floes, step);

@@ -26,6 +26,7 @@ Eigen::Quaterniond exponential_map(const Vec3& angle) {
     // Horner in x^2
     const double x2 = ordered_dot(half, half);
     double sinc = 1.0, cosine = 1.0;
+    // shorter series for small angles, as most floes turn by less in a step
     const RotationSeries& series = kRotationSeries;
     for (std::size_t k = x2 <= series.kSmall ? series.kFewTerms : series.kTerms; k >= 1; --k) {
         sinc = 1.0 - x2 * series.of_sinc[k] * sinc;
@@ -41,6 +42,7 @@ Eigen::Quaterniond advance_orientation(const Eigen::Quaterniond& orientation,
                                        const Mat3& inverse_inertia_body,
                                        const Vec3& angular_momentum, double dt) {
     const auto turn_at = [&](const Eigen::Quaterniond& q) -> Vec3 {
+        // k = dt w(q) of (18)
         return dt * angular_velocity_at(q, inverse_inertia_body, angular_momentum);
     };
     const auto turn = [&](const Vec3& angle) {

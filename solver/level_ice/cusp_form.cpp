@@ -18,12 +18,15 @@ constexpr double kLeast = 0.2;  // of the radius at rest
 }  // namespace
 
 double cusp_radius(const CuspLaw& law, double length, double normal_speed, std::uint64_t cusp) {
+    // (30); the radius of a fast load is at least a fifth of that at rest
     const double rest = law.length_factor * length;
     return rest * std::max(kLeast, 1.0 + law.speed_factor * normal_speed) *
            (1.0 + law.scatter * random_offset(law.seed, cusp));
 }
 
 Loop crack_outline(const Vec2& at, const Vec2& inwards, double radius) {
+    // The chord lies half a radius seawards of the load, so that ice in front of a notch breaks
+    // off with the piece.
     const Vec2 along(inwards.y(), -inwards.x());  // to the right of one who looks into the ice
     const auto place = [&](double x, double y) -> Vec2 { return at + x * along + y * inwards; };
     Loop out{place(-radius, -kStrip * radius), place(radius, -kStrip * radius)};

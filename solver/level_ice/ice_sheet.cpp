@@ -61,6 +61,7 @@ std::vector<Part> parts_of(const cl::PolyTree& tree) {
 }
 
 std::vector<Part> combine(const std::vector<Loop>& sheet, const Loop& crack, cl::ClipType how) {
+    // ioStrictlySimple: outlines of the result neither cross nor touch themselves
     cl::Clipper clipper(cl::ioStrictlySimple);
     clipper.AddPaths(to_lattice(sheet), cl::ptSubject, true);
     clipper.AddPath(to_lattice(crack), cl::ptClip, true);
@@ -90,6 +91,7 @@ std::vector<Part> opened(Part part) {
     Eigen::AlignedBox2d box, hole;
     for (const Vec2& p : part.outer) box.extend(p);
     for (const Vec2& p : part.holes[0]) hole.extend(p);
+    // two halves, left and right of the hole's middle, each without that hole
     Eigen::AlignedBox2d low = box, high = box;
     low.max().x() = high.min().x() = hole.center().x();
     const std::vector<Loop> loops = all_loops({std::move(part)});
@@ -113,6 +115,8 @@ IceSheet::IceSheet(const Eigen::AlignedBox2d& extent, double smallest) : smalles
 }
 
 IceSheet::Broken IceSheet::break_off(const Loop& crack) {
+    // Inside the crack everything is loose. Of what lies outside, the largest part is the
+    // sheet, and smaller parts as well if they have ten times the crack's area.
     std::vector<Part> loose = combine(loops_, crack, cl::ctIntersection);
     if (loose.empty()) return {};
     std::vector<Part> rest = combine(loops_, crack, cl::ctDifference);
@@ -121,6 +125,7 @@ IceSheet::Broken IceSheet::break_off(const Loop& crack) {
                                      [&](const Part& p) { return p.area < sheet; });
     std::move(parted, rest.end(), std::back_inserter(loose));
     rest.erase(parted, rest.end());
+    // A ring around an earlier hole is no outline of a prism: it is cut open.
     std::vector<Part> whole;
     for (Part& part : loose)
         for (Part& open : opened(std::move(part))) whole.push_back(std::move(open));
@@ -129,6 +134,7 @@ IceSheet::Broken IceSheet::break_off(const Loop& crack) {
                      [](const Part& l, const Part& r) { return l.area > r.area; });
 
     Broken out;
+    // ice too small for a floe is counted, and no body
     for (Part& part : loose) {
         if (is_too_small(part.outer, smallest_))
             out.brash += part.area;
@@ -142,12 +148,14 @@ IceSheet::Broken IceSheet::break_off(const Loop& crack) {
 double IceSheet::take(const Loop& region) {
     const double before = area();
     std::vector<Part> rest = combine(loops_, region, cl::ctDifference);
+    // slivers that the region leaves count as taken, so that areas add up
     std::erase_if(rest, [&](const Part& p) { return is_too_small(p.outer, smallest_); });
     loops_ = all_loops(std::move(rest));
     return before - area();
 }
 
 double IceSheet::area_in(const Loop& region) const {
+    // holes are counted by their negative areas
     double sum = 0.0;
     for (const Part& part : combine(loops_, region, cl::ctIntersection)) sum += part.area;
     return sum;
@@ -206,6 +214,7 @@ Loop joined(const Loop& a, const Loop& b) {
 std::vector<Loop> shrunk(const Loop& loop, double by, double smallest) {
     constexpr double kMitre = 2.0;     // longest mitre, in widths of the strip
     constexpr double kNearest = 1e-3;  // of corners [m]
+    // Corners move along their mitres; those nearer to each other than a millimetre are merged.
     cl::ClipperOffset offset(kMitre);
     offset.AddPath(to_lattice(loop), cl::jtMiter, cl::etClosedPolygon);
     cl::PolyTree tree;

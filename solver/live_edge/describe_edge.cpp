@@ -21,6 +21,7 @@ std::string describe_edge(const LiveEdge& edge) {
     for (const IcePiece& piece : pieces) {
         radius += piece.radius;
         load += piece.load;
+        // the opening angle of section 5, 2 A / R^2, at most that of a half disc
         angle += std::min(2.0 * area_of(piece.outline) / (piece.radius * piece.radius),
                           std::numbers::pi);
         for (const Vec2& p : piece.outline) channel.extend(Eigen::Matrix<double, 1, 1>(p.x()));

@@ -8,6 +8,7 @@ namespace ice {
 namespace {
 
 PieceRow row_of(const LiveEdge& edge, const Loop& outline) {
+    // a prism about its own centroid, afloat: where it was when the crack opened
     const Vec2 centre = centroid_of(outline);
     Loop centred;
     for (const Vec2& p : outline) centred.push_back(p - centre);

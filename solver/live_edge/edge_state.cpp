@@ -55,6 +55,8 @@ void carry_outlines(CheckpointFile& file, const std::string& name, std::vector<R
 }  // namespace
 
 void LiveEdge::carry_pieces(CheckpointFile& file) {
+    // Pieces that are gone lie in a file of their own: both kinds go through the checkpoint,
+    // and reading sets them as if all were still there.
     std::vector<IcePiece> all = pieces();
     if (file.reading()) all.clear();
     file.column("edge.piece_number", all, &IcePiece::number);
@@ -73,6 +75,7 @@ void LiveEdge::carry_pieces(CheckpointFile& file) {
 
 void LiveEdge::carry(CheckpointFile& file) {
     if (!lives()) return;
+    // the sheet, then what each slot holds, then the cracks that open with the next step
     std::vector<Loop> sheet = sheet_.loops();
     carry_loops(file, "edge.sheet", sheet);
     sheet_.restore(std::move(sheet));

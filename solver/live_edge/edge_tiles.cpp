@@ -28,6 +28,8 @@ public:
     }
 
     void join_slivers(const std::function<bool(const Loop&)>& holds) {
+        // A strip too thin for a sphere would be ice that nothing meets. It joins a neighbour
+        // with which it has a common side; without one it is left out.
         for (std::int64_t i = 0; i < count_[0]; ++i)
             for (std::int64_t j = 0; j < count_[1]; ++j) {
                 std::vector<Loop> kept;
@@ -44,8 +46,11 @@ public:
     // Those of the cells that the box touches which may be met.
     std::vector<Loop> met() {
         std::vector<Loop> out;
+        // the outer row of cells serves to judge the others only
         for (std::int64_t i = 1; i + 1 < count_[0]; ++i)
             for (std::int64_t j = 1; j + 1 < count_[1]; ++j) {
+                // whole, with whole neighbours: no body reaches it before a crack or the hull
+                // has opened them
                 if (is_inside(i, j)) continue;
                 for (Loop& part : parts(i, j)) out.push_back(std::move(part));
             }
@@ -112,6 +117,7 @@ std::vector<Loop> edge_tiles(const IceSheet& sheet, const EdgeGrid& grid, const 
     cells.join_slivers(holds);
     std::vector<Loop> tiles = cells.met();
     for (Loop& tile : tiles) {
+        // A tile is recognized by its corners, which begin at the same one however it was cut.
         const auto first =
             std::min_element(tile.begin(), tile.end(), [](const Vec2& l, const Vec2& r) {
                 return std::pair(l.x(), l.y()) < std::pair(r.x(), r.y());

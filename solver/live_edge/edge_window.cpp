@@ -21,6 +21,8 @@ EdgeWindow window_around(const std::vector<EdgeLoad>& loads, const Vec2& middle,
     Vec2 push = Vec2::Zero();
     double weight = 0.0, normal = 0.0, level = 0.0, closing = 0.0;
     for (const EdgeLoad& load : loads) {
+        // (26) and the closing speed of one window; a load upwards reduces the sum, but has no
+        // part in the centre
         if ((load.at - middle).squaredNorm() > radius * radius) continue;
         out.down += load.down;
         out.at += std::max(load.down, 0.0) * (load.at - middle);
@@ -43,9 +45,12 @@ std::vector<EdgeWindow> edge_windows(std::vector<EdgeLoad> loads, double radius)
     std::vector<EdgeWindow> out;
     std::vector<double> down;  // of all loads near each
     for (const EdgeLoad& load : loads) down.push_back(down_near(loads, load.at, radius));
+    // Greedily: the largest sum within a radius first, its loads are taken out, and so on.
     while (!loads.empty()) {
         const auto most = std::max_element(down.begin(), down.end());  // the first of equal ones
         if (*most <= 0.0) break;
+        // The largest sum belongs to one load; the window's centre is then the mean of those
+        // around it.
         const Vec2 middle = loads[static_cast<std::size_t>(most - down.begin())].at;
         const EdgeWindow window = window_around(loads, middle, radius);
         if (!window.inwards.isZero(0.0)) out.push_back(window);

@@ -21,6 +21,7 @@ constexpr std::size_t kNumbers = 9;
 }  // namespace
 
 GonePieces::GonePieces(const GonePieces& other) {
+    // A copy has a file of its own: both would otherwise write at the same place.
     if (!other.is_open()) return;
     open(other.folder_);
     std::vector<IcePiece> pieces;
@@ -48,6 +49,7 @@ void GonePieces::open(const std::filesystem::path& folder) {
         folder_ = folder.string();
         fail("a file of the pieces that are gone cannot be created there");
     }
+    // The file has no name any more: it disappears with the program, however that ends.
     std::error_code ignored;  // then an empty name stays in the folder
     std::filesystem::remove(path, ignored);
     file_ = std::move(file);
@@ -85,6 +87,7 @@ void GonePieces::read(std::vector<IcePiece>& out) const {
     std::vector<double> row(kNumbers), corners;
     for (std::int64_t k = 0; k < count_; ++k) {
         take(row);
+        // the last number is that of the outline's corners
         corners.resize(2 * static_cast<std::size_t>(row[8]));
         take(corners);
         IcePiece piece{static_cast<std::int64_t>(row[0]),
@@ -99,6 +102,7 @@ void GonePieces::read(std::vector<IcePiece>& out) const {
             piece.outline.emplace_back(corners[c], corners[c + 1]);
         out.push_back(std::move(piece));
     }
+    // the next piece goes to the end
     std::fseek(file, 0, SEEK_END);
 }
 

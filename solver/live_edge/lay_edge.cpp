@@ -89,6 +89,8 @@ void LiveEdge::set_up(const Scene& scene, const Case& p) {
 // As many as pieces of a quarter of a half disc can lie in the channel within reach, and the tiles
 // on both sides of it.
 void LiveEdge::add_slots(Scene& scene, const Case& p) {
+    // Room for everything that may lie within reach: pieces of a quarter of a half disc, pi / 2
+    // R^2, and tiles along the channel's sides and ends.
     const Vec2 size = reach(scene).sizes();
     const double pieces = size.x() * size.y() / (kCover * 1.57 * radius_ * radius_);
     const double tiles = 6.0 * size.x() / radius_ + 4.0 * size.y() / radius_;
@@ -103,6 +105,8 @@ void LiveEdge::add_slots(Scene& scene, const Case& p) {
     const double height = (0.5 - share_) * thickness_;
     first_ = scene.bodies.size();
     slots_.resize(static_cast<std::size_t>(std::ceil(pieces + tiles)));
+    // Each slot is a body with a form of its own from the start: the number of bodies is
+    // constant, and lists and checkpoints need no new rows.
     for (std::size_t k = 0; k < slots_.size(); ++k) {
         scene.shapes.push_back(empty_);
         FloeStart start;
@@ -123,6 +127,7 @@ void LiveEdge::begin(Scene& scene, Case& p) {
                         "the hull does not reach the height of the ice",
                         "change hull.draught or level_ice.thickness");
     sheet_ = IceSheet(extent_, kSmallestPiece * thickness_);
+    // the hull lies in the sheet from the start: its own place is taken out
     for (const Loop& loop : hull) gone_.crushed += sheet_.take(loop);
     piece_group_ = add_group(p, Hold::until_bent);
     tile_group_ = add_group(p, Hold::always);
@@ -141,6 +146,7 @@ void LiveEdge::lay_tiles(const Scene& scene, Plan& plan) {
     const auto tiles = edge_tiles(sheet_, {extent_.min(), radius_}, reach(scene),
                                   [&](const Loop& part) { return !bodies_of(part).empty(); });
     for (const Loop& tile : tiles)
+        // a tile whose outline is unchanged stays with its body, its notches and its contacts
         for (Loop& body : bodies_of(tile)) wanted.push_back(std::move(body));
     for (std::size_t k = 0; k < slots_.size(); ++k) {
         Slot& slot = slots_[k];
@@ -169,6 +175,7 @@ void LiveEdge::put(Scene& scene, double time, Plan& plan) {
     for (Plan::Body& body : plan.bodies) {
         if (!body.shape) continue;
         const std::size_t k = free_slot(scene, time, plan), i = first_ + k;
+        // the outline is in the ice's axes; a body is where these have drifted to
         const Vec2 centre = centroid_of(body.outline);
         b.group[i] = body.is_tile ? tile_group_ : piece_group_;
         // a tile breaks where a window of the edge does, never as a whole
@@ -182,6 +189,7 @@ void LiveEdge::put(Scene& scene, double time, Plan& plan) {
         Slot& slot = slots_[k];
         slot = {body.is_tile ? Use::tile : Use::piece, std::move(body.outline), 0};
         plan.changed.push_back(static_cast<std::int32_t>(i));
+        // from here on pieces only
         if (body.is_tile) continue;
         slot.piece = ++broken_;
         gone_.pieces += body.area;
@@ -189,6 +197,7 @@ void LiveEdge::put(Scene& scene, double time, Plan& plan) {
         pieces_.push_back({slot.piece, static_cast<std::int32_t>(i), time, kNever, body.load,
                            body.radius, centre, slot.outline});
     }
+    // slots that were given up and not filled again are parked far away, without contacts
     for (const std::int32_t i : plan.changed) {
         const auto body = static_cast<std::size_t>(i);
         if (slots_[body - first_].use != Use::free) continue;
@@ -205,6 +214,7 @@ void LiveEdge::retire(std::size_t slot, double time, Plan& plan) {
         std::lower_bound(pieces_.begin(), pieces_.end(), slots_[slot].piece,
                          [](const IcePiece& p, std::int64_t number) { return p.number < number; });
     ICE_ASSERT(piece != pieces_.end() && piece->number == slots_[slot].piece);
+    // the piece leaves the memory; its row is read back from the file at the end
     piece->gone = time;
     if (gone_pieces_.is_open()) {
         gone_pieces_.add(*piece);
@@ -246,6 +256,7 @@ std::vector<Loop> LiveEdge::rest() const {
 }
 
 void LiveEdge::restore(Scene& scene, const Case& p) const {
+    // Shapes are made anew from outlines, by the same code: a checkpoint does not hold meshes.
     std::vector<std::optional<Shape>> shapes(slots_.size());
     parallel_tasks(slots_.size(), true, [&](std::size_t k) {
         if (slots_[k].use != Use::free) shapes[k] = shape_of(slots_[k].outline, prism_form(p));

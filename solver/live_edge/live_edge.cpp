@@ -76,6 +76,8 @@ void LiveEdge::keep_gone_in(const std::filesystem::path& folder) {
 }
 
 Box LiveEdge::reach(const Scene& scene) const {
+    // in axes that drift with the ice: a box around the hull's turned box, longer ahead and
+    // aside
     const Bodies& b = scene.bodies;
     const Eigen::AlignedBox3d& hull = scene.shapes[0].box;
     const Vec3 half = b.rotation[kShip].cwiseAbs() * (0.5 * hull.sizes());
@@ -101,6 +103,9 @@ void LiveEdge::find(const Case& parameters, const std::vector<Contact>& contacts
                               sign * c.total_normal() * c.normal.head<2>()});
         }
     }
+    // Each window by itself: R of (30) with its closing speed, the angle 2 A / R^2 with the ice
+    // that is there, P_f of (29) times f(v_n). A window at its load opens a crack in the next
+    // step.
     for (const EdgeWindow& window : edge_windows(loads_, radius_)) {
         const double radius =
             cusp_radius(law_, length_, window.normal_speed, cusp_ + cracks_.size());
@@ -115,12 +120,15 @@ void LiveEdge::find(const Case& parameters, const std::vector<Contact>& contacts
 bool LiveEdge::is_due(const Scene& scene) const {
     if (!lives()) return false;
     if (!cracks_.empty()) return true;
+    // hull and sheet are compared each time the ship has moved by an eighth of a thickness
     return (ship_in_ice(scene) - looked_at_).norm() >= kCrushed * thickness_;
 }
 
 bool LiveEdge::renew(Scene& scene, const Case& parameters, double time) {
     const std::vector<Loop> hull = hull_in_ice(scene);
     looked_at_ = ship_in_ice(scene);
+    // First what the hull has gone through, then the cracks: pieces are cut from the sheet that
+    // is left.
     bool is_new = crush_through(hull);
     changed_.clear();
     Plan plan;
@@ -128,8 +136,10 @@ bool LiveEdge::renew(Scene& scene, const Case& parameters, double time) {
         break_off(crack, hull, plan);
         is_new = true;
     }
+    // without new ice tiles are laid only when the ship has come a cell farther
     if (!is_new && (looked_at_ - laid_at_).norm() < radius_) return false;
     laid_at_ = looked_at_;
+    // Ice and floes astern of the reach are never met again: both are counted and given up.
     const double behind = reach(scene).min().x();
     if (behind > extent_.min().x())
         gone_.astern += sheet_.take(
@@ -138,6 +148,8 @@ bool LiveEdge::renew(Scene& scene, const Case& parameters, double time) {
         if (slots_[k].use == Use::piece &&
             scene.bodies.position[first_ + k].x() - drifted_.x() < behind)
             retire(k, time, plan);
+    // Outlines first, then all fills at once by all threads, then the bodies in the order of
+    // the plan.
     lay_tiles(scene, plan);
     fill(parameters, plan);
     put(scene, time, plan);
@@ -151,6 +163,9 @@ bool LiveEdge::renew(Scene& scene, const Case& parameters, double time) {
 bool LiveEdge::crush_through(const std::vector<Loop>& hull) {
     if (hull.size() < 2) return false;
     bool any = false;
+    // Common to both faces: where the section at the upper and at the lower face overlap, the
+    // whole thickness is gone. It must be deep, and more than a sliver, before the polygon
+    // changes.
     for (const Loop& core : common_part(hull[0], hull[1]))
         for (const Loop& deep : shrunk(core, 2.0 * kCrushed * thickness_, 0.0)) {
             if (sheet_.area_in(deep) <= kCrushed * thickness_ * thickness_) continue;
@@ -169,6 +184,8 @@ void LiveEdge::break_off(const Crack& crack, const std::vector<Loop>& hull, Plan
     const IceSheet::Broken broken = sheet_.break_off(outline);
     gone_.brash += broken.brash;
     for (const Loop& piece : broken.pieces) add_piece(piece, crack, hull, plan);
+    // The box of grid cells around the crack: these cells are laid anew, so the hull's notch
+    // must be cut out of them.
     Box around;
     for (const Vec2& corner : outline)
         for (int d = 0; d < 2; ++d) {
@@ -186,6 +203,7 @@ void LiveEdge::break_off(const Crack& crack, const std::vector<Loop>& hull, Plan
 
 void LiveEdge::add_piece(const Loop& piece, const Crack& crack, const std::vector<Loop>& hull,
                          Plan& plan) {
+    // the piece without the hull's outlines at both faces
     std::vector<Loop> parts{piece};
     for (const Loop& loop : hull) {
         std::vector<Loop> left;
@@ -193,6 +211,8 @@ void LiveEdge::add_piece(const Loop& piece, const Crack& crack, const std::vecto
             for (Loop& rest : without(part, loop)) left.push_back(std::move(rest));
         parts = std::move(left);
     }
+    // Its area is crushed ice, less the parts that are left. These are brash until put() makes
+    // bodies of them and counts their area as pieces.
     gone_.crushed += area_of(piece);
     for (const Loop& part : parts) {
         gone_.crushed -= area_of(part);

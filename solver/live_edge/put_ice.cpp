@@ -17,6 +17,7 @@ void make_whole(CrushedIce& crushed, std::int32_t body, std::size_t spheres) {
     const auto i = static_cast<std::size_t>(body);
     const std::int64_t gone = std::exchange(crushed.first[i], -1);
     const auto count = static_cast<std::int64_t>(spheres);
+    // its rows are cut out of the table, and those of later bodies move up
     crushed.deepest[i] = 0.0;
     crushed.displacement.erase(crushed.displacement.begin() + gone,
                                crushed.displacement.begin() + gone + count);
@@ -37,6 +38,7 @@ void put_ice(Scene& scene, std::size_t body, Shape shape, const PutIce& as) {
     Bodies& b = scene.bodies;
     const Shape& old = scene.shapes[static_cast<std::size_t>(b.shape[body])];
     make_whole(scene.crushed, static_cast<std::int32_t>(body), old.center.size());
+    // afloat at its own draught, without a velocity relative to the ice: no force acts at first
     const double height = floating_height(shape, Mat3::Identity(), as.share);
     put_form(scene, body, std::move(shape), as.density);
     b.position[body] = {as.at.x(), as.at.y(), height};

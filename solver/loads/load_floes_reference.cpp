@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Weight, buoyancy, drag and pressure of a floe, section 6: the definition, and the place where a
+// load is added. load_floes_simd.cpp computes the same bits for floes of one form in lanes.
 #include <cmath>
 
 #include "common/math/ordered_products.hpp"
@@ -15,6 +17,7 @@ WaterLoad flow_pressure(const Scene& scene, const Case& parameters, std::size_t 
     const WaterFlow& water = scene.water;
     const bool reached = water.presses && water.reaches(b.position[floe], shape.bounding_radius);
     if (!reached) return {};
+    // p of (P1) where a point of the floe is, in world axes
     const auto pressure = [&](const Vec3& at) {
         return parameters.water_density *
                reference::pressure_at(water,
@@ -36,6 +39,7 @@ double length(const Vec3& v) { return std::sqrt(ordered_dot(v, v)); }
 // Drag slows down, it never turns a motion through the water round: in a step longer than it takes
 // to stop, the force is the one that just stops. At the paper's steps this is never reached.
 void limit_drag(const Bodies& b, std::size_t i, const Vec3& u, double dt, WaterLoad& drag) {
+    // the force that stops the floe within the step is m |u| / dt; moments likewise with I w
     const double stop = b.mass[i] * length(u), push = dt * length(drag.force);
     if (push > stop) drag.force *= stop / push;
     const double halt = length(ordered_turned(b.rotation[i], b.inertia(i), b.angular_velocity[i]));
@@ -50,6 +54,7 @@ void limit_drag(const Bodies& b, std::size_t i, double radius, double dt, Relati
         drag.force *= stop / push;
         drag.loss = drag.loss * (stop / push);
     }
+    // the flow may turn a floe that does not turn yet: the force at its rim counts as well
     const double turning =
         length(ordered_turned(b.rotation[i], b.inertia(i), b.angular_velocity[i])) + radius * stop;
     const double twist = dt * length(drag.moment);
@@ -127,9 +132,11 @@ FloeLoad load_of(const Scene& scene, const Case& p, std::size_t i) {
     }
     load.force = load.drag.force;
     load.moment = load.drag.moment;
+    // weight, at the centre of mass: no moment
     load.force.z() -= b.mass[i] * p.gravity;
     if (p.buoyancy != BuoyancyModel::none) {
         const Submerged wet = measure_submerged(shape, b.rotation[i], b.position[i].z());
+        // (14): rho_w g V upwards, at the centre of buoyancy relative to the centre of mass
         const Vec3 lift(0.0, 0.0, p.water_density * p.gravity * wet.volume);
         load.force += lift;
         load.righting = wet.centre.cross(lift);

@@ -75,6 +75,8 @@ void LoadPart(const Scene& scene, const Case& p, std::span<const std::int32_t> i
     const Matrices inertia = at.Load(b, &Inertia::body);
 
     const Mask flows = InFlow(scene.water, floes);
+    // Lanes in the flow and lanes outside it are computed apart, each kind where a lane has it,
+    // and chosen lane by lane: a floe's load does not depend on its neighbours in the register.
     Load drag{Zero(), Zero()}, pressure{Zero(), Zero()};
     Lanes water_power = hn::Zero(d);
     if (!hn::AllTrue(d, flows)) {
@@ -110,6 +112,7 @@ void LoadPart(const Scene& scene, const Case& p, std::span<const std::int32_t> i
         all = {Add(all.force, pressure.force), Add(all.moment, pressure.moment)};
     const Vectors parts[7] = {all.force, all.moment,     drag.force,     drag.moment,
                               righting,  pressure.force, pressure.moment};
+    // from one register per component to one vector per floe
     HWY_ALIGN double value[7][3 * kMostLanes];
     for (int k = 0; k < 7; ++k)
         hn::StoreInterleaved3(parts[k].x, parts[k].y, parts[k].z, d, value[k]);
@@ -130,6 +133,8 @@ void LoadFloes(const Scene& scene, const Case& parameters, std::span<const std::
     const auto form_of = [&](std::size_t k) {
         return scene.bodies.shape[static_cast<std::size_t>(floes[k])];
     };
+    // Runs of floes of one form: they share the mesh, whose triangles are then read once for
+    // all.
     for (std::size_t first = 0; first < floes.size();) {
         std::size_t last = first + 1;
         while (last < floes.size() && last < first + kMostLanes && form_of(last) == form_of(first))

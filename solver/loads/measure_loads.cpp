@@ -40,6 +40,7 @@ std::vector<FloeLoad> loads_by_body(const Bodies& bodies, const std::vector<Floe
 void apply_loads(Bodies& bodies, const std::vector<FloeLoad>& loads, double dt) {
     ICE_ASSERT(loads.size() == bodies.moving.size());
     for_each_moving(bodies, [&](std::size_t i, std::size_t k) {
+        // stage 6: v'' = v' + dt F / m, with added mass (m + A)^-1 instead of 1 / m
         bodies.velocity[i] += dt * bodies.inverse_mass[i] * loads[k].force;
         if (bodies.have_added_mass())
             bodies.velocity[i] += dt * (bodies.inverse_mass_excess[i] * loads[k].force);

@@ -14,6 +14,8 @@ double potential_energy(const Scene& scene, const Case& p) {
         if (p.buoyancy == BuoyancyModel::none) continue;
         const Shape& shape = scene.shapes[static_cast<std::size_t>(b.shape[i])];
         const Submerged wet = measure_submerged(shape, b.rotation[i], z);
+        // The displaced water has left the depth of the centre of buoyancy: its potential
+        // energy is gained when the floe rises.
         energy -= p.water_density * p.gravity * wet.volume * (z + wet.centre.z());
     }
     return energy;

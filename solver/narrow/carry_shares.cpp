@@ -27,6 +27,7 @@ double section_of(const Contact& c, double lean) {
 Contact* edge_over(const PairView& view, std::span<Contact> contacts, std::int32_t ice,
                    const Vec3& axis) {
     const Shape& hull = view.shape_a;
+    // the seat of the ice's sphere, in the hull's axes
     const Vec3 seat = view.rotation_ab * (view.shape_b.center[ice] +
                                           view.shape_b.radius[ice] * view.shape_b.normal[ice]) +
                       view.translation_ab;
@@ -36,6 +37,8 @@ Contact* edge_over(const PairView& view, std::span<Contact> contacts, std::int32
     double least = std::numeric_limits<double>::infinity();
     Contact* nearest = nullptr;
     for (Contact& c : contacts) {
+        // ice spheres on the hull's faces have their own sections; only the hull's edges
+        // receive here
         if (incident_is_b(c)) continue;
         const double distance = beside(c).norm();
         if (distance >= least) continue;
@@ -43,6 +46,8 @@ Contact* edge_over(const PairView& view, std::span<Contact> contacts, std::int32
         nearest = &c;
     }
     if (nearest == nullptr) return nullptr;
+    // Along an edge the nearest sphere's part ends where the next one's begins. Across it the
+    // part ends where its wings end, seen along the contact's normal.
     const NormalCone& faces = hull.cone[nearest->sphere_a];
     Vec3 from_edge = beside(*nearest);
     if (faces.count == 2) from_edge = part_across(from_edge, faces.edge(0));
@@ -55,6 +60,8 @@ Contact* edge_over(const PairView& view, std::span<Contact> contacts, std::int32
 void carry_shares(const PairView& view, std::span<Contact> contacts) {
     const ConvexPiece &a = view.shape_a.convex, &b = view.shape_b.convex;
     if (view.pair.a != static_cast<std::int32_t>(kShip) || a.empty() || b.empty()) return;
+    // `enough` is 0: of solids that overlap every axis is measured, of solids apart one that
+    // separates them will do.
     const RelativePose pose{view.rotation_ab, view.translation_ab};
     const Vec3 axis = axis_normal(a, b, pose, find_axes(a, b, pose, 0.0));
     thread_local std::vector<double> carried;  // by contact: of its part of the section [m2]
@@ -64,6 +71,7 @@ void carry_shares(const PairView& view, std::span<Contact> contacts) {
         const Vec3 n = in_axes_of_a(view, c.normal),
                    m = view.rotation_ab * -view.shape_b.normal[c.sphere_b];
         const double facing = m.dot(n), lean = n.dot(axis);
+        // a share that looks away from the hull or from the axis has no part in the section
         if (facing <= 0.0 || lean <= 0.0) continue;
         // A (-n_j . s) / (n . s) of docs/method.md, section 3: the share's projection on the
         // separating axis, brought to the contact's normal.

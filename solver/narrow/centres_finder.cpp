@@ -140,13 +140,19 @@ CentresFinder::Found CentresFinder::look(std::size_t k, BodyPair pair, const Ste
     double gone = gone_since(row, view, crushed - row.crushed);
     std::span<const ListedSpheres> listed = lists_.listed(k);
     const bool held = are_held(view);
+    // A gap shrinks by at most `gone`, so the list holds all gaps up to range - gone. The step
+    // needs those up to `most`: where that is more, the list is renewed.
     if (gone + most > row.range) {
         const double apart = separation(view, most, row.axis);
+        // Solids this far apart need no list. The pair sleeps until both bodies' paths have
+        // used up the distance.
         if (apart > most) {
             lists_.wake(k) =
                 way + (apart - kRounding - margin) / (held ? 1.0 : separation_share(view));
             return found;
         }
+        // The list reaches as far as the pair closes in some steps, at least as far as in this
+        // one.
         const double radius = view.shape_b.largest_radius;
         const double ahead =
             std::clamp(kListLookAhead * closing, kLeastListShare * radius, kMostListShare * radius);
@@ -161,15 +167,22 @@ CentresFinder::Found CentresFinder::look(std::size_t k, BodyPair pair, const Ste
         found.blocks = batch.listed.size() - found.block;
         listed = std::span(batch.listed).subspan(found.block);
     }
+    // Places in whole units are off by up to kError units, and spheres crushed since the list
+    // was made lie elsewhere by up to the crushed depth: both widen the range.
     const double rounding = ListedSpheres::kError * row.unit;
     const double unsure = rounding + crushed - row.crushed;
     const FloatPose pose =
         to_floats(view.rotation_ab, (view.translation_ab - row.shift) / row.unit);
     find_touching(listed, pose, static_cast<float>((most + unsure) / row.unit), batch.touching);
+    // Two things can end the pair's sleep: the nearest listed spheres come within the margin,
+    // or spheres that were not listed, all beyond row.range then, may have done so.
     const double least = batch.touching.least * row.unit;
     lists_.wake(k) = way + std::min(least - unsure - margin, row.range - margin - gone);
     measure(view, batch.touching, most, batch.candidates);
     found.count = batch.candidates.size() - found.first;
+    // A sphere represents surface beyond its body's rim, but bodies that are apart have no
+    // contact. Where spheres stay within their hulls the touching spheres already prove that
+    // the hulls are near enough, and the separation need not be computed.
     if (found.count > 0 && !(held && least + rounding + kRounding <= most) &&
         separation(view, most, row.axis) > most)
         found.count = 0;
@@ -181,6 +194,8 @@ void CentresFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
                          std::vector<Contact>& out) {
     const std::uint64_t call = next_call();
     lists_.match(pairs);
+    // A look at the wake-up path costs a comparison; only the pairs whose bodies have used it
+    // up are measured.
     awake_.resize(pairs.size());
     std::size_t count = 0;
     for (std::size_t k = 0; k < pairs.size(); ++k) {
@@ -197,6 +212,8 @@ void CentresFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
             look(awake_[n], pairs[awake_[n]], {scene, motion, dt, margin}, batch_of<Batch>(call));
     });
     touching_.clear();
+    // Gathered in the order of the pairs: the contacts do not depend on which thread found
+    // them.
     std::size_t contacts = 0;
     for (std::size_t n = 0; n < awake_.size(); ++n) {
         const Found& found = found_[n];
@@ -208,6 +225,7 @@ void CentresFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
         contacts += found.count;
     }
     out.resize(contacts);
+    // Places in `out` are known now, so all threads write at once.
     parallel_for(touching_.size(), kSerialLists, [&](std::size_t n) {
         const Touching& t = touching_[n];
         const Found& found = found_[t.found];

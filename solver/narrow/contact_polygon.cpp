@@ -57,6 +57,9 @@ void clip(const Vec3& outward, double offset, std::uint32_t border, std::vector<
         const Clipped &from = polygon[k], &to = polygon[(k + 1) % polygon.size()];
         const double before = ordered_dot(outward, from.at) - offset,
                      after = ordered_dot(outward, to.at) - offset;
+        // Sutherland and Hodgman: corners inside stay, and an edge across the border gives a
+        // new one. From there the outline follows the border where it goes out, and the same
+        // edge where it comes in.
         if (before <= 0.0) rest.push_back(from);
         if ((before <= 0.0) == (after <= 0.0)) continue;
         rest.push_back(
@@ -94,6 +97,8 @@ public:
             const Vec3 at = m.incident.corners[static_cast<std::size_t>(corner)];
             face_.push_back(ordered_product(m.pose.rotation, at) + m.pose.translation);
         }
+        // The whole incident face is clipped by one border after the other. Nothing is left of
+        // it where the faces lie side by side.
         polygon_.clear();
         for (const Vec3& at : face_)
             polygon_.push_back({at, static_cast<std::uint32_t>(polygon_.size())});
@@ -108,6 +113,8 @@ public:
     template <class Visit>
     void for_each(const Visit& visit) const {
         for (std::size_t k = 0; k < polygon_.size(); ++k) {
+            // The two edges that meet in a corner name it: the same corner has the same id in
+            // the next step.
             const std::uint32_t before = polygon_[(k + polygon_.size() - 1) % polygon_.size()].edge,
                                 after = polygon_[k].edge;
             visit(place(before, after, polygon_[k].at), before << 7 | after);
@@ -119,6 +126,7 @@ private:
         if (before < kBorders && after < kBorders) return clipped;  // the incident face's own
         if (before >= kBorders && after >= kBorders)
             return over_corner(before - kBorders, after - kBorders, clipped);
+        // one edge of either face: where the incident edge passes the border
         const std::size_t edge = std::min(before, after);
         const Border border = border_of(m_, std::max(before, after) - kBorders);
         const Vec3 &p = face_[edge], &q = face_[(edge + 1) % face_.size()];
@@ -131,6 +139,7 @@ private:
         const std::vector<std::int32_t>& loop = m_.reference.loops[m_.face];
         if (before != (after + 1) % loop.size()) return clipped;  // they meet beyond other borders
         const Vec3 corner = m_.reference.corners[static_cast<std::size_t>(loop[before])];
+        // along the reference's normal to the incident plane
         const Vec3 incident = ordered_product(m_.pose.rotation, m_.incident.normals[plane_]);
         const double offset =
             m_.incident.offsets[plane_] + ordered_dot(incident, m_.pose.translation);
@@ -153,6 +162,7 @@ void meet_faces(const Meeting& m, double gap, double most, std::uint32_t kind,
     const Vec3 n = m.reference.normals[m.face];
     const std::uint32_t face_id = kind << 30 | static_cast<std::uint32_t>(m.face) << 14;
     ClippedFace(m, slack_of_gap(gap)).for_each([&](const Vec3& at, std::uint32_t id) {
+        // half of the gap back from the incident corner: midway between the surfaces
         const double height = ordered_dot(n, at) - m.reference.offsets[m.face];
         if (height <= most) out.corners.push_back({at - 0.5 * height * n, height, face_id | id});
     });
@@ -166,6 +176,8 @@ void meet_edges(const ConvexPiece& a, const ConvexPiece& b, const RelativePose& 
     const Vec3 pa = a.edge_middle[ka], ea = a.edge_along[ka];
     const Vec3 pb = ordered_product(pose.rotation, b.edge_middle[kb]) + pose.translation,
                eb = ordered_product(pose.rotation, b.edge_along[kb]);
+    // The closest points p_a + s e_a and p_b + t e_b of two lines, with c = e_a x e_b: s = (e_b
+    // x c) . (p_b - p_a) / |c|^2 and t = (e_a x c) . (p_b - p_a) / |c|^2.
     const Vec3 apart = pb - pa, across = ea.cross(eb);
     const double square = ordered_dot(across, across);
     const double along_a = ordered_dot(eb.cross(across), apart) / square,
@@ -196,6 +208,7 @@ double loss_of(const std::vector<PolygonCorner>& corners, std::size_t k) {
 enum class AxisKind { face_a, face_b, edges };
 
 AxisKind widest_kind(const SeparatingAxes& axes) {
+    // In the order a's face, b's face, edges: a later kind needs a wider gap by kPrefer.
     const bool of_b = axes.face_b > axes.face_a + PolygonTolerances::kPrefer;
     if (axes.edges > (of_b ? axes.face_b : axes.face_a) + PolygonTolerances::kPrefer)
         return AxisKind::edges;
@@ -226,6 +239,7 @@ void make_contact_polygon(const ConvexPiece& a, const ConvexPiece& b, const Rela
         meet_faces({a, b, pose, plane}, axes.face_a, most, 0u, out);
         return;
     }
+    // b's face is the reference: the same in b's axes, and back again
     const RelativePose back{pose.rotation.transpose(),
                             -ordered_transposed(pose.rotation, pose.translation)};
     meet_faces({b, a, back, static_cast<std::size_t>(axes.plane_b)}, axes.face_b, most, 1u, out);

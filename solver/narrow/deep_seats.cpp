@@ -115,6 +115,7 @@ DeepSeat seat_of(const PairView& view, const Side& side, std::int32_t sphere, co
     DeepSeat out;
     out.sphere = sphere;
     out.of_b = side.body == view.pair.b;
+    // minus the distance to the nearest point of the mesh; ice crushed around the seat is gone
     out.facing = nearest_sphere(side.in, foot.point);
     const Vec3 outward = (foot.point - seat) / foot.distance;  // of the solid
     out.gap = crushed_near(view.scene, side.other, seat) - foot.distance;
@@ -139,9 +140,12 @@ double add_side(const PairView& view, const Side& side, double slack,
         const Foot foot = side.in.surface->closest(seat);
         const double depth = foot.inside ? foot.distance : -foot.distance;
         deepest = std::max(deepest, depth);
+        // A seat at the distance s is at most s deeper. Within this room none is deeper than
+        // the slack or than the deepest so far: it changes neither the list nor the result.
         clear.add(seat, std::min(deepest, slack) - depth);
         if (depth <= slack) return;
         const DeepSeat deep = seat_of(view, side, sphere, seat, foot);
+        // the spheres' own contacts explain the depth up to the slack
         if (deep.gap < -slack - depth_known(found, deep.of_b, sphere)) out.push_back(deep);
     });
     return deepest;
@@ -176,6 +180,7 @@ double find_deep_seats(const PairView& view, std::span<const Candidate> found,
         return key(l) < key(r);
     });
     keep_one_direction(out);
+    // a seat's depth grows by no more than the bodies' relative motion
     return slack - deepest;
 }
 
@@ -200,6 +205,7 @@ void emit_deep_seats(const PairView& view, const ContactRule& rule, std::span<co
         contact.crushes_a = !ship && !s.of_b;
         contact.patch = Patch{};
         contact.patch.depth = -s.gap;
+        // between floes that cannot be crushed no patch is needed: the bound is infinite
         if (ship || rule.crushes)
             contact.patch = contact.crushes_a ? patch_of_a(view, s.sphere, s.normal, s.gap)
                                               : ice_patch(view, contact.sphere_b, s.normal, s.gap);

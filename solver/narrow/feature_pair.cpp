@@ -9,16 +9,21 @@ namespace ice {
 
 AxisChoice choose_axis_rule(const Feature& a, const Feature& b, bool prefer_reference_a,
                             double slack) {
+    // The flatter feature is the reference: the one with the smaller half angle, a where both
+    // are equal. Two edges or vertices compare all their axes instead.
     const bool same = std::abs(a.spread_cos - b.spread_cos) <= kSameSpread;
     AxisChoice out{AxisRule::never, same || a.spread_cos > b.spread_cos, Vec3::Zero()};
     if (a.cone.count > 0 && b.cone.count > 0) {
         out.rule = AxisRule::all_axes;
         return out;
     }
+    // A reference with a spread of its own turns its normal with the line of centres: no axis
+    // is common to all spheres of the types.
     const bool mean = same && !prefer_reference_a;
     out.rule = AxisRule::in_full;
     if ((out.reference_is_a ? a : b).spread_cos != 1.0 || (mean && b.spread_cos != 1.0)) return out;
     out.rule = AxisRule::never;
+    // from here on one axis, fixed in one body, serves all spheres of both types
     out.normal = out.reference_is_a ? a.normal : Vec3(-b.normal);
     if (mean) {
         out.normal = a.normal - b.normal;
@@ -36,6 +41,8 @@ FeaturePair::FeaturePair(const Feature& a, const Feature& b, bool prefer_referen
     const AxisChoice meeting = choose_axis_rule(a, b, prefer_reference_a);
     rule_ = meeting.rule;
     reference_is_a_ = meeting.reference_is_a;
+    // The support point of an edge or vertex is its apex in any direction; that of a face
+    // depends on n.
     const Vec3 n = rule_ == AxisRule::all_axes ? Vec3(-b.normal) : meeting.normal;
     offset_a_ = support_offset(a, n);
     offset_b_ = support_offset(b, -n);
@@ -77,6 +84,7 @@ void FeaturePair::add_edge_axis(int edge_a, int edge_b) {
     const Vec3 across = ea.cross(eb);
     const double sine = across.norm();
     if (sine <= kParallel) return;
+    // parallel edges: kSlantOnEdge leaves them a face axis
     EdgeAxis c;
     c.normal = 1.0 / sine * across;
     // The cross product has no sign of its own: both senses are tried. An axis separates two edges
@@ -99,7 +107,9 @@ void FeaturePair::add_edge_axis(int edge_a, int edge_b) {
 
 Gap FeaturePair::measure_face_axis(const Vec3& center_a, const Vec3& center_b) const {
     const Vec3& n = face_[0].normal;
+    // the axis would push the bodies into each other
     if (n.dot(center_b - center_a) <= 0.0) return kNone;
+    // equation (3), with the support points of both spheres
     const Vec3 point_a = center_a + offset_a_, point_b = center_b + offset_b_;
     const double gap = n.dot(point_b - point_a);
     const Vec3 at =
@@ -121,6 +131,7 @@ void FeaturePair::for_each_across(const Vec3& d, const Vec3& between, const doub
                                   const Visit& visit) const {
     for (std::uint8_t k = 0; k < edge_axes_; ++k) {
         const EdgeAxis& c = edge_axis_[k];
+        // of the two senses of the cross product the one from a to b
         const double along = c.normal.dot(d), sign = along < 0.0 ? -1.0 : 1.0;
         const double now = sign * c.normal.dot(between);
         if (now <= least || along == 0.0 || !(along < 0.0 ? c.back : c.forth) || !meet(c, between))
@@ -165,11 +176,13 @@ bool FeaturePair::meet_elsewhere(const Vec3& between, double gap) const {
 
 Gap FeaturePair::measure_all_axes(const Vec3& center_a, const Vec3& center_b) const {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    // equation (3) for all axes: both support points are the apexes, whatever the axis
     const Vec3 d = center_b - center_a;
     const Vec3 point_a = center_a + offset_a_, point_b = center_b + offset_b_;
     const Vec3 between = point_b - point_a;
     const FaceAxis* face = nullptr;
     double gap = -kInfinity;
+    // The widest gap among the face axes that point from a to b.
     for (std::uint8_t k = 0; k < faces_; ++k) {
         const double now = face_[k].normal.dot(between);
         if (now <= gap || face_[k].normal.dot(d) <= 0.0) continue;
@@ -180,6 +193,9 @@ Gap FeaturePair::measure_all_axes(const Vec3& center_a, const Vec3& center_b) co
     // An edge axis with a larger gap than any face axis separates the features: it decides alone.
     if (across.axis) return gap_across(across, between);
     if (!face || meet_elsewhere(between, gap)) return kNone;
+    // The reference is the face over which the other's apex lies: a's unless b's apex misses it
+    // by more than a's apex misses b's face. Farther out than the patch radius the apex belongs
+    // to another sphere.
     const Vec3& n = face->normal;
     const double offset_a_sq =
         distance_from(face->footprint_a, a_->radius, part_across(point_b - center_a, n), 0.0);
@@ -199,6 +215,7 @@ Gap FeaturePair::measure_all_axes(const Vec3& center_a, const Vec3& center_b) co
 }
 
 Gap FeaturePair::measure_in_full(const Vec3& center_a, const Vec3& center_b) const {
+    // the definition itself: centres enter the choice of the normal
     Feature a = *a_, b = *b_;
     a.center = center_a;
     b.center = center_b;

@@ -82,9 +82,9 @@ private:
     const Feature *a_, *b_;
     bool prefer_reference_a_, reference_is_a_;
     AxisRule rule_;
-    std::uint8_t faces_ = 0, edge_axes_ = 0;  // that may part them
+    std::uint8_t faces_ = 0, edge_axes_ = 0;  // that may separate them
     Vec3 offset_a_, offset_b_;                // from the centres to the foremost points [m]
-    std::array<FaceAxis, 6> face_;            // the first one is the only one of rule `direction`
+    std::array<FaceAxis, 6> face_;            // the first one is the only one of rule `face_axis`
     std::array<EdgeAxis, 9> edge_axis_;
 };
 

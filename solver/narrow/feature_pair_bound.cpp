@@ -20,6 +20,8 @@ constexpr double kMostTurn = 4.0;
 FeaturePairBound::FeaturePairBound(const Feature& a, const Feature& b, bool prefer_reference_a,
                                    double reach, const Skin& skin)
     : a_(&a), b_(&b), far_(reach + skin.distance), skin_(skin) {
+    // All bounds are widened by the skin's angle, so that no spheres are left out that may come to
+    // touch. Edge axes are listed when they are first needed.
     const AxisChoice meeting = choose_axis_rule(a, b, prefer_reference_a, skin.angle);
     rule_ = meeting.rule;
     reference_is_a_ = meeting.reference_is_a;
@@ -34,6 +36,8 @@ void FeaturePairBound::list_faces() {
     const auto add = [&](bool of_a, std::size_t k) {
         const NormalCone &own = (of_a ? a_ : b_)->cone, &other = (of_a ? b_ : a_)->cone;
         const Vec3 outward = -own.normal[k];  // of the other
+        // Widened by the skin's angle: an axis that may become valid. Narrowed by it: one that
+        // stays valid wherever the bodies turn within the skin.
         if (!other.contains(outward, kSlantOnEdge, skin_.angle)) return;
         certain_[faces_] = other.contains(outward, kSlantOnEdge, -skin_.angle);
         const Vec3 n = of_a ? own.normal[k] : outward;
@@ -76,15 +80,19 @@ void FeaturePairBound::list_edge_axes() {
 double FeaturePairBound::least(const Vec3& center_a, const Vec3& center_b) {
     if (rule_ == AxisRule::all_axes) return least_of_edges(center_a, center_b);
     if (rule_ == AxisRule::face_axis) return least_along(center_a, center_b);
+    // in_full: the normal turns with the centres, and nothing is known of later gaps
     return rule_ == AxisRule::never ? kUnbounded : -kUnbounded;
 }
 
 double FeaturePairBound::least_along(const Vec3& center_a, const Vec3& center_b) const {
     const Vec3& n = face_[0].normal;
+    // n . d changes by at most the skin's distance: the axis stays invalid until the list is
+    // renewed
     if (n.dot(center_b - center_a) <= -skin_.distance) return kUnbounded;
     const Vec3 point_a = center_a + offset_a_, point_b = center_b + offset_b_;
     const Vec3 at =
         part_across(reference_is_a_ ? Vec3(point_b - center_a) : Vec3(point_a - center_b), n);
+    // farther across the axis than the patch radius and the skin: no contact within the skin
     return at.squaredNorm() > far_ * far_ ? kUnbounded : n.dot(point_b - point_a);
 }
 
@@ -94,10 +102,13 @@ double FeaturePairBound::least_across(const Vec3& d, const Vec3& between) {
     const double apart = d.norm(), length = between.norm();
     for (std::int8_t k = 0; k < edge_axes_; ++k) {
         const auto& [n, turn, skew, edge] = edge_axis_[k];
+        // the axis stays invalid: n . d changes by the motion and by the axis's own rotation
         if (n.dot(d) <= -skin_.distance - turn * apart) continue;
         const double gap = n.dot(between);
         // nearly parallel edges have no contact where their apexes are far apart along them
         if (turn == kMostTurn && std::abs(edge.dot(between)) > 2.0 * far_) continue;
+        // Apexes that are farther apart across the axis than two patch radii allow, motion and
+        // rotation included, cannot meet where these edges cross.
         const double beside = skew * far_ + 2.0 * turn * length;
         if (length * length - gap * gap > beside * beside) continue;
         least = std::min(least, gap - turn * length);

@@ -53,7 +53,7 @@ private:
     std::uint8_t faces_ = 0;
     std::int8_t edge_axes_ = -1;     // -1: not listed yet
     Vec3 offset_a_, offset_b_;       // from the centres to the foremost points [m]
-    std::array<FaceAxis, 6> face_;   // the first one is the only one of rule `direction`
+    std::array<FaceAxis, 6> face_;   // the first one is the only one of rule `face_axis`
     std::array<bool, 6> certain_{};  // will the face's normal surely be one of both?
     std::array<EdgeAxis, 18> edge_axis_;
 };

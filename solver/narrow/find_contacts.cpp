@@ -129,6 +129,8 @@ void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
     parallel_for(pairs.size(), kSerialPairs, [&](std::size_t k) {
         thread_local Workspace work;  // keeps its memory between pairs
         FoundBatch& batch = batch_of<FoundBatch>(call);
+        // Contacts are wanted up to the distance that the pair can close in the step (section
+        // 2, margin).
         const double most = dt * closing_speed(scene, pairs[k]) + margin;
         const PairView view(scene, pairs[k]);
         found_[k].batch = &batch;
@@ -140,6 +142,7 @@ void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
         const double apart = separation(view);
         if (apart <= most) search_contacts(view, most, work);
         keep_candidates(work.candidates, found_[k], batch);
+        // Spheres of deep bodies have passed each other: their solids tell what is lost.
         if (is_deep(view, apart)) {
             keep_polygon(find_lost_polygon(view, work.candidates, most), found_[k], batch);
         } else if (has_deep_seats(view, apart)) {
@@ -201,12 +204,14 @@ void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
         else
             measure_known(view, most, near, work);
         keep_candidates(work.candidates, found, batch);
+        // Only bodies that overlap may have contacts that no sphere finds.
         if (!cache_.deep(k)) return;
         if (is_convex_pair(view))
             return keep_polygon(find_lost_polygon(view, work.candidates, most), found, batch);
         cache_.set_room(k, view, find_deep_seats(view, work.candidates, work.seats));
         keep_seats(work.seats, found, batch);
     });
+    // Lists are stored by one thread, in the order of the pairs.
     for (std::size_t n = 0; n < awake_.size(); ++n) {
         const Found& found = found_[n];
         if (states_[awake_[n]] == PairCache::State::stale)
@@ -267,6 +272,7 @@ void find_contacts(const Scene& scene, BodyPair pair, ContactRule how, double ma
     if (apart > margin) return;
     const bool centres = how.normal == NormalRule::centres;
     std::vector<Candidate> candidates;
+    // by brute force: every sphere of one body with every sphere of the other
     for (std::int32_t i = 0; i < std::ssize(view.shape_a.center); ++i)
         for (std::int32_t j = 0; j < std::ssize(view.shape_b.center); ++j) {
             if (view.is_gone_a(i) || view.is_gone_b(j)) continue;

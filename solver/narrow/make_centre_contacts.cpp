@@ -50,9 +50,12 @@ void make_centre_contacts(const PairView& view, std::span<const Candidate> candi
     for (const ContactPlace& place : places) {
         const Candidate& c = *place.candidate;
         const Vec3 inward = -c.gap.normal;
+        // midway between the surfaces, from b's surface by half the gap
         const Vec3 surface = view.center_b(c.j) + view.shape_b.radius[c.j] * inward;
         fill_contact(view, place, surface + 0.5 * c.gap.gap * inward, *contact);
         contact->crushes_a = false;
+        // A sphere with several contacts shares its area among them: no surface counts twice.
+        // Between floes the smaller of both areas bounds the force.
         double area = facing_area(view.shape_b, c.j, view.rotation_ab.transpose() * inward) /
                       contacts_of_b[c.j];
         if (!ship)

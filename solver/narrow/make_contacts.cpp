@@ -42,6 +42,8 @@ Patch probe_patch(const PairView& view, const Candidate& c) {
     const bool ship = view.pair.a == static_cast<std::int32_t>(kShip);
     Patch patch = c.gap.reference_is_a ? patch_of(view.shape_b, c.j, out_b)
                                        : patch_of(view.shape_a, c.i, out_a);
+    // Depth counts from the uncrushed surface: in a notch the section and so the bound (13)
+    // stay as large as when it was cut.
     patch.depth = -c.gap.gap + (c.gap.reference_is_a || ship
                                     ? crushed_depth(view.scene, view.pair.b, c.j, out_b)
                                     : crushed_depth(view.scene, view.pair.a, c.i, out_a));
@@ -58,6 +60,7 @@ Vec3 crossing_point(const Feature& a, const Feature& b, const Gap& gap) {
 
 // The incident sphere decides where the bodies meet: midway between both surfaces at its support.
 Vec3 meeting_point(const PairView& view, const Candidate& c) {
+    // edges that cross: the closest points are not those of the support points
     if (c.gap.crossing) return crossing_point(view.sphere_a(c.i), view.sphere_b(c.j), c.gap);
     const double sign = c.gap.reference_is_a ? -1.0 : 1.0;
     const Vec3 outward = sign * c.gap.normal;
@@ -109,6 +112,7 @@ void make_contacts(const PairView& view, std::span<const Candidate> candidates, 
     for (const ContactPlace& place : places) {
         const Candidate& c = *place.candidate;
         fill_contact(view, place, meeting_point(view, c), *contact);
+        // Of ship and floe the ice gives way; of two floes the one whose sphere is incident.
         contact->crushes_a = !ship && !c.gap.reference_is_a;
         contact->patch = probe_patch(view, c);
         ++contact;

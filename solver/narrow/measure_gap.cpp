@@ -17,6 +17,8 @@ Vec3 nearest_normal(const Feature& s, const Vec3& d) {
     if (s.spread_cos == 1.0) return s.normal;
     const double distance = d.norm();
     if (distance == 0.0) return s.normal;  // no direction: the pair will be invalid
+    // On the rim of the normal cone, in the plane of d and the middle normal: cos s m + sin s
+    // t, with t the unit vector across m towards d.
     Vec3 u = d / distance;
     const double along = u.dot(s.normal);
     if (along >= s.spread_cos) return u;
@@ -51,11 +53,14 @@ void for_each_across(const Feature& a, const Feature& b, const Visit& visit) {
         for (int kb = 0; kb < b.cone.edges(); ++kb) {
             const Vec3 ea = a.cone.edge(ka), eb = b.cone.edge(kb), across = ea.cross(eb);
             const double sine = across.norm();
+            // no axis where edges are parallel, else the sense that points from a to b
             if (sine <= kParallel) continue;
             const Vec3 n = (across.dot(d) < 0.0 ? -1.0 : 1.0) / sine * across;
             if (n.dot(d) <= 0.0 || !a.cone.contains(n, kSlantOnEdge) ||
                 !b.cone.contains(-n, kSlantOnEdge))
                 continue;
+            // An edge that ends at its vertex has no part beyond the apex: a crossing there is
+            // not on it.
             const LineParameters at = closest_on_lines(Vec3::Zero(), ea, between, eb);
             if (a.cone.ends() && at.along_a < -kBeyond * a.radius) continue;
             if (b.cone.ends() && at.along_b < -kBeyond * b.radius) continue;
@@ -131,11 +136,14 @@ Gap measure_gap_of_edges(const Feature& a, const Feature& b) {
     const Vec3& n = best.normal;
     if (n.isZero(0.0) || meet_elsewhere(a, b, best)) return kNone;
     if (best.edge_a >= 0) return gap_across(a, b, best);
+    // Which apex lies over the other's face? That face is the reference, a's where both do.
     const double offset_a_sq = distance_across(a, n, support_point(b, -n));
     const double offset_b_sq = distance_across(b, n, support_point(a, n));
     const bool on_a = offset_a_sq <= offset_b_sq + kFlush * a.radius * a.radius;
     const bool over = on_a ? offset_a_sq <= a.patch_radius * a.patch_radius
                            : offset_b_sq <= b.patch_radius * b.patch_radius;
+    // Where neither apex lies over a face the crossing of two edges decides. So it does where
+    // it is deeper along nearly the same normal: edges that cross at a small angle.
     const CandidateAxis across = nearest_edge_axis(a, b);
     if (!across.normal.isZero(0.0) &&
         (!over || (across.gap < best.gap - kFlush * std::min(a.radius, b.radius) &&
@@ -169,11 +177,14 @@ Gap measure_gap_surface(const Feature& a, const Feature& b, bool prefer_referenc
     const Vec3 d = b.center - a.center;
     const bool same = std::abs(a.spread_cos - b.spread_cos) <= kSameSpread;
     const bool reference_is_a = same || a.spread_cos > b.spread_cos;
+    // the reference's normal nearest to the line of centres; of two faces between floes the
+    // mean
     const Vec3 n = same && !prefer_reference_a
                        ? mean_normal(nearest_normal(a, d), nearest_normal(b, -d))
                    : reference_is_a ? nearest_normal(a, d)
                                     : Vec3(-nearest_normal(b, -d));
     if (n.isZero(0.0) || n.dot(d) <= 0.0 || !belongs(a, n) || !belongs(b, -n)) return kNone;
+    // equation (3), and the incident support point's distance from the reference across n
     const Vec3 point_a = support_point(a, n), point_b = support_point(b, -n);
     const Vec3 at =
         part_across(reference_is_a ? Vec3(point_b - a.center) : Vec3(point_a - b.center), n);

@@ -25,6 +25,8 @@ public:
     bool meet(const SpherePair& s) {
         const std::int32_t type_a = view_.shape_a.feature_type[s.a],
                            type_b = view_.shape_b.feature_type[s.b];
+        // Pairs come sorted by feature types: what depends on the types is computed when they
+        // change.
         if (type_a != type_a_ || type_b != type_b_) {
             if (type_a != type_a_) feature_a_ = view_.sphere_a(s.a);
             if (type_b != type_b_) feature_b_ = view_.sphere_b(s.b);
@@ -70,6 +72,7 @@ bool edges_hold(const PairView& view, std::int32_t i, std::int32_t j, const Gap&
     const Vec3 edge_a = view.shape_a.cone[i].edge(gap.edge_a);
     const Vec3 edge_b = view.rotation_ab * view.shape_b.cone[j].edge(gap.edge_b);
     const LineParameters at = closest_on_lines(point_a, edge_a, point_b, edge_b);
+    // A sphere without side planes has no border to miss.
     return (!view.shape_a.side_planes.has(i) ||
             a_holds(view, i, gap, point_a + at.along_a * edge_a)) &&
            (!view.shape_b.side_planes.has(j) ||
@@ -100,6 +103,8 @@ bool is_candidate(const PairView& view, std::int32_t i, std::int32_t j, const Ga
     if (!gap.valid) return false;
     const double a = view.shape_a.patch_radius, b = view.shape_b.patch_radius;
     const double reach = gap.reference_is_a ? a : b, of_incident = gap.reference_is_a ? b : a;
+    // Beyond a patch radius the surface belongs to another sphere, which finds the contact
+    // itself.
     return gap.reference_offset_sq <= reach * reach &&
            gap.incident_offset_sq <= of_incident * of_incident &&
            is_within_side_planes(view, i, j, gap);
@@ -114,6 +119,7 @@ void group_by_types(const PairView& view, std::span<SpherePair> spheres) {
     const auto join = [](std::int32_t high, std::int32_t low) {
         return static_cast<std::uint64_t>(high) << 32 | static_cast<std::uint64_t>(low);
     };
+    // Two integers per row, compared at once: the types decide, the spheres break ties.
     rows.clear();
     for (const SpherePair& s : spheres)
         rows.push_back(
@@ -136,6 +142,7 @@ double bound_spheres(const PairView& view, double reach, const Skin& skin, std::
     std::size_t kept = first;
     for (std::size_t k = first; k < spheres.size(); ++k) {
         const auto [i, j] = spheres[k];
+        // A sphere driven right through its body never comes back: it needs no bound.
         if (view.is_gone_a(i) || view.is_gone_b(j)) continue;
         if (view.shape_a.feature_type[i] != type_a || view.shape_b.feature_type[j] != type_b) {
             if (view.shape_a.feature_type[i] != type_a) feature_a = view.sphere_a(i);
@@ -145,6 +152,8 @@ double bound_spheres(const PairView& view, double reach, const Skin& skin, std::
             type_b = view.shape_b.feature_type[j];
         }
         const double gap = bound->least(view.center_a(i), view.center_b(j));
+        // no contact within the skin, wherever the bodies move: the pair of spheres is not
+        // listed
         if (gap == kInfinity) continue;
         least = std::min(least, gap);
         spheres[kept++] = {i, j};
@@ -160,6 +169,7 @@ void measure_spheres(const PairView& view, const SphereRange& range,
         view.scene.crushed.is_whole(view.pair.a) && view.scene.crushed.is_whole(view.pair.b);
     LastMeasured last(view, range);
     for (const SpherePair& s : spheres) {
+        // most pairs fail the distance: it costs less than the gap
         if (!last.meet(s)) continue;
         if (!whole && (view.is_gone_a(s.a) || view.is_gone_b(s.b))) continue;
         const Gap gap = last.gap();

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Which spheres of two bodies may meet, group by group: the definition, one sphere at a time.
+// near_spheres_simd.cpp finds the same in lanes.
 #include <algorithm>
 
 #include "solver/narrow/near_spheres.hpp"
@@ -11,6 +13,7 @@ void find_groups(const SphereBlocks& spheres, const FloatBox& box, float reach,
     const BoxRows& rows = spheres.groups;
     for (std::size_t g = 0; g < spheres.group_count; ++g) {
         bool near = true;
+        // boxes overlap unless one of six faces separates them
         for (int d = 0; d < 3; ++d)
             near = near && rows.low[d][g] <= box.high[d] + reach &&
                    rows.high[d][g] >= box.low[d] - reach;
@@ -46,6 +49,7 @@ void pick(const Spheres& from, std::size_t k, const float (&at)[3], const FloatB
     out.id.push_back(from.id[k]);
     ++out.count;
     for (int d = 0; d < 3; ++d) {
+        // the box of what was picked narrows the search in the other body
         out.box.low[d] = std::min(out.box.low[d], at[d]);
         out.box.high[d] = std::max(out.box.high[d], at[d]);
     }
@@ -84,6 +88,8 @@ void find_near_pairs(const NearSpheres& few, std::size_t first, std::size_t last
         for (std::size_t m = 0; m < many.count; ++m) {
             const float dx = many.x[m] - few.x[f], dy = many.y[m] - few.y[f],
                         dz = many.z[m] - few.z[f];
+            // The limits along and across the normal make a cylinder; the sphere around it
+            // needs no normal.
             const float along = many.normal_extent[m] + (few.normal_extent[f] + range.along);
             const float across = many.tangent_extent[m] + (few.tangent_extent[f] + range.across);
             if (dx * dx + dy * dy + dz * dz <= along * along + across * across)

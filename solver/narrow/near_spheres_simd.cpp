@@ -58,6 +58,8 @@ void FindGroups(const SphereBlocks& spheres, const FloatBox& box, float reach,
     out.resize(spheres.groups.size() + 2 * kBlock);  // full vectors are stored behind the last
     std::size_t found = 0;
     std::int32_t clusters[2 * kBlock];
+    // Two levels: a cluster is 16 groups, of which most are ruled out with one test of 16
+    // boxes.
     for (std::size_t k = 0; k < spheres.clusters.size(); k += kBlock) {
         const std::size_t near = TouchingBoxes(spheres.clusters, k, box, reach, clusters);
         for (std::size_t c = 0; c < near; ++c)
@@ -206,6 +208,7 @@ HWY_INLINE void TestRows(const NearSpheres& few, std::size_t f, const NearSphere
             hn::StoreMaskBits(d, near, to + r * row_bytes);
         }
     }
+    // a row without partners is not decoded
     for (std::size_t r = 0; r < N; ++r) any[r] = !hn::AllFalse(d, hits[r]);
 }
 
@@ -223,10 +226,12 @@ void FindNearPairs(const NearSpheres& few, std::size_t first, std::size_t last,
     std::size_t found = 0;
     for (std::size_t f = first; f < last;) {
         const std::size_t rows = last - f < kRowsAtOnce ? 1 : kRowsAtOnce;
+        // four rows at a time, the last ones one by one
         bool any[kRowsAtOnce];
         rows == 1 ? TestRows<1>(few, f, many, range, out.masks.data(), row_bytes, any)
                   : TestRows<kRowsAtOnce>(few, f, many, range, out.masks.data(), row_bytes, any);
         for (std::size_t r = 0; r < rows; ++r) {
+            // bits to ids, in the order of the many
             for (std::size_t v = 0; any[r] && v < vectors; ++v) {
                 const Mask near =
                     hn::LoadMaskBits(d, out.masks.data() + r * row_bytes + v * kMaskBytes);

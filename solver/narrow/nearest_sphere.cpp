@@ -25,6 +25,7 @@ double distance_sq(const SphereBlocks& blocks, std::size_t g, const Vec3& p, dou
 
 std::int32_t nearest_sphere(const Shape& shape, const Vec3& point) {
     const SphereBlocks& blocks = shape.blocks;
+    // Distance decides, then the mirror rank: mirror images choose mirrored spheres.
     const auto key = [&](std::int32_t k) {
         const auto row = static_cast<std::size_t>(k);
         return std::tuple((shape.center[row] - point).squaredNorm(), shape.mirror_rank[row], k);
@@ -32,6 +33,7 @@ std::int32_t nearest_sphere(const Shape& shape, const Vec3& point) {
     const double rounding = static_cast<double>(SphereBlocks::kFloatShare * blocks.size);
     auto least = std::tuple(std::numeric_limits<double>::infinity(), std::int32_t{0}, 0);
     for (std::size_t g = 0; g < blocks.group_count; ++g) {
+        // a group whose box is farther than the best sphere has none that is nearer
         if (distance_sq(blocks, g, point, rounding) > std::get<0>(least)) continue;
         for (std::size_t lane = 0; lane < SphereBlocks::kGroup; ++lane) {
             const std::int32_t k = blocks.id[g * SphereBlocks::kGroup + lane];
@@ -44,6 +46,7 @@ std::int32_t nearest_sphere(const Shape& shape, const Vec3& point) {
 double crushed_near(const Scene& scene, std::int32_t body, const Vec3& point) {
     if (scene.crushed.is_whole(body)) return 0.0;
     const Shape& shape = scene.shapes[static_cast<std::size_t>(scene.bodies.shape[body])];
+    // how far the nearest sphere has been driven inwards along its normal
     const std::int32_t k = nearest_sphere(shape, point);
     return std::max(0.0, -scene.crushed.displacement_of(body, k).dot(shape.normal[k]));
 }

@@ -37,6 +37,7 @@ void PairCache::carry_over(const std::vector<BodyPair>& pairs) {
     if (pairs == pairs_) return;
     moved_.assign(pairs.size(), Row{});
     kept_ = 0;
+    // both lists are sorted: one walk finds the rows that stay
     std::size_t old = 0;
     for (std::size_t k = 0; k < pairs.size(); ++k) {
         while (old < pairs_.size() && pairs_[old] < pairs[k]) ++old;
@@ -64,6 +65,7 @@ void PairCache::keep(std::size_t k, std::span<const SpherePair> near) {
     row.count = near.size();
     row.first = listed_.size();
     listed_.insert(listed_.end(), near.begin(), near.end());
+    // lists are appended; once most of the memory is abandoned it is closed up
     if (listed_.size() > kFewestListed && listed_.size() > 2 * kept_) close_gaps();
 }
 
@@ -98,6 +100,8 @@ void PairCache::set_wakeups(Row& row, BodyPair pair, const MotionBounds& motion,
     // solids deep in each other have contacts even where no spheres may touch: never asleep
     row.path_wake = row.deep ? -std::numeric_limits<double>::infinity()
                              : now + std::min(row.clearance - gone, row.room);
+    // Stale where the relative motion may exceed the skin: as the sum of paths bounds the
+    // motion, the rest of the skin may be spent on it.
     row.path_stale = now + row.skin.distance - gone;
     row.rotation_stale =
         motion.rotation(pair.a) + motion.rotation(pair.b) + row.skin.angle - turned;
@@ -113,8 +117,10 @@ void PairCache::set_room(std::size_t k, const PairView& view, double room) {
 double PairCache::room_left(const Row& row, const PairView& view, double apart) {
     if (view.shape_a.dimension == 2 || is_convex_pair(view))
         return std::numeric_limits<double>::infinity();  // their axis tells the depth of solids
+    // apart: no seat lies inside, and one needs the slack to become deep
     if (apart > 0.0) return deep_slack(view);
     if (row.seat_room < 0.0) return row.seat_room;
+    // what the last search left, less the motion since then
     return row.seat_room - relative_motion(view, row.seat_turn, row.seat_shift).distance;
 }
 
@@ -136,12 +142,16 @@ PairCache::State PairCache::state(std::size_t k, const Scene& scene, BodyPair pa
                                   const MotionBounds& motion, double dt, double margin,
                                   bool polygon) {
     Row& row = rows_[k];
+    // First without poses: the paths bound the motion since the last comparison.
     const double path = motion.path_after_step(pair.a) + motion.path_after_step(pair.b);
     if (path < std::min(row.path_wake, row.path_stale) &&
         motion.rotation(pair.a) + motion.rotation(pair.b) < row.rotation_stale)
         return State::separated;
     const PairView view(scene, pair);
     const double closing = dt * closing_speed(scene, pair);
+    // Second the solids: where they are apart by more than the step can close, sleep until both
+    // paths have used up the rest. The separation shrinks by at most separation_share times the
+    // path.
     const double apart = (polygon ? part_solids(row, view, closing + margin)
                                   : separation(view, closing + margin, row.axis)) -
                          margin;
@@ -150,6 +160,7 @@ PairCache::State PairCache::state(std::size_t k, const Scene& scene, BodyPair pa
         row.path_stale = row.rotation_stale = std::numeric_limits<double>::infinity();
         return State::separated;
     }
+    // Polygons have no list to become stale: they are measured anew in each step.
     if (polygon) {
         row.path_stale = row.rotation_stale = std::numeric_limits<double>::infinity();
         row.path_wake = -row.path_stale;
@@ -158,11 +169,14 @@ PairCache::State PairCache::state(std::size_t k, const Scene& scene, BodyPair pa
     row.room = room_left(row, view, apart + margin);
     row.deep = is_deep(view, apart + margin) || row.room <= 0.0;
     if (row.skin.distance < 0.0) return State::stale;  // never settled
+    // Third the skin: how much of it has the motion used up? Crushing moves spheres as motion
+    // does.
     const auto [moved, turned] = relative_motion(view, row.turn, row.shift);
     const double gone = moved + motion.crushed(pair.a) + motion.crushed(pair.b) - row.crushed;
     const double then = gone + closing;
     if (then >= row.skin.distance || turned >= row.skin.angle) return State::stale;
     set_wakeups(row, pair, motion, gone, turned);
+    // within the clearance no listed spheres can touch yet
     return row.deep || then >= row.clearance ? State::listed : State::separated;
 }
 
@@ -170,6 +184,7 @@ Skin skin_of(const Scene& scene, BodyPair pair, double dt) {
     const Bodies& b = scene.bodies;
     const auto shape = static_cast<std::size_t>(b.shape[static_cast<std::size_t>(pair.b)]);
     const double radius = scene.shapes[shape].largest_radius, ahead = kLookAhead * dt;
+    // a pair that turns uses up the skin by its angle, one that slides by its distance
     const Vec3 turning = b.angular_velocity[pair.b] - b.angular_velocity[pair.a];
     return {
         std::clamp(ahead * closing_speed(scene, pair), kLeastShare * radius, kMostShare * radius),

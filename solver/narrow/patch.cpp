@@ -18,6 +18,8 @@ constexpr double kLeastFacing = 0.05;
 // wing goes down from the foot at the angle with this sine and cosine, up where the sine is < 0.
 double cut_wing(double sine, double cosine, double wing, double depth) {
     if (cosine <= 0.0) return 0.0;  // stands upright: no area along the normal
+    // Of a wing that goes down from the foot the face cuts the upper part. A wing that rises is
+    // cut whole, or only its tip where the face has not reached the foot (depth < 0).
     const double rise = wing * std::abs(sine) + kTouch;
     const double part = sine > 0.0 ? (depth + kTouch) / rise : 1.0 + depth / rise;
     return cosine * std::clamp(part, 0.0, 1.0);
@@ -26,12 +28,16 @@ double cut_wing(double sine, double cosine, double wing, double depth) {
 }  // namespace
 
 double wing_length(double radius, double share, double spread_cos, double spread_sin) {
+    // touch is r tan s, from the foot to the point of touch; the wing w solves 4 w (w - touch)
+    // = share (patch.hpp)
     const double touch = radius * spread_sin / std::max(spread_cos, 1e-3);
     return 0.5 * (touch + std::sqrt(touch * touch + share));
 }
 
 double cut_area(const Patch& patch, double depth) {
     depth = std::max(depth, 0.0);
+    // The wings' normals are at s + t and s - t from the contact's normal: sines and cosines by
+    // the addition theorems.
     const double ct = std::clamp(patch.facing, -1.0, 1.0), st = std::sqrt(1.0 - ct * ct);
     const double cs = patch.spread_cos, ss = patch.spread_sin;
     const double below_foot = depth - patch.foot;
@@ -39,6 +45,7 @@ double cut_area(const Patch& patch, double depth) {
     const double other = cut_wing(ss * ct - cs * st, cs * ct + ss * st, patch.wing, below_foot);
     // where a wing faces backwards, or three meet in a corner, the signed sum is the whole section
     const double whole = std::max(cs * ct, 0.0);
+    // at least 5 % of what the same depth cuts from a patch that stands upright
     const double least = kLeastFacing * cut_wing(1.0, 1.0, patch.wing, depth);
     return patch.share * std::max(std::min(0.5 * (away + other), whole), least);
 }

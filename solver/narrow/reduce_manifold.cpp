@@ -60,6 +60,7 @@ void sort_by_incident(const PairView& view, const std::vector<Candidate>& candid
 }  // namespace
 
 void reduce_manifold(const PairView& view, double margin, std::vector<Candidate>& candidates) {
+    // Gaps beyond the margin serve only to rule out others: alone they leave no contact.
     if (std::none_of(candidates.begin(), candidates.end(),
                      [&](const Candidate& c) { return c.gap.gap <= margin; }))
         return candidates.clear();
@@ -72,11 +73,14 @@ void reduce_manifold(const PairView& view, double margin, std::vector<Candidate>
         const Candidate& now = *row.candidate;
         if (kept.size() > group && !same_incident(kept[group], now)) group = kept.size();
         const auto first = kept.begin() + static_cast<std::ptrdiff_t>(group), last = kept.end();
+        // Rows come by distance: a face that is kept already has the nearer reference sphere.
         if (std::any_of(first, last, [&](const Candidate& other) {
                 return other.gap.normal.dot(now.gap.normal) > kSameFace;
             }))
             continue;
         const Face face = first == last ? Face{} : face_of(view, now);
+        // At a convex edge the point is outside where it is outside of either face: the larger
+        // gap decides.
         const auto edge = std::find_if(first, last, [&](const Candidate& other) {
             return meet_outwards(face_of(view, other), face);
         });
@@ -86,6 +90,7 @@ void reduce_manifold(const PairView& view, double margin, std::vector<Candidate>
             *edge = now;
     }
     candidates.clear();
+    // now that they have ruled out others, the gaps beyond the margin go
     for (const Candidate& c : kept)
         if (c.gap.gap <= margin) candidates.push_back(c);
 }

@@ -14,6 +14,7 @@ constexpr std::size_t kAllAtOnce = 64;
 FloatBox move_box(const FloatBox& box, const Mat3& turn, const Vec3& shift) {
     Vec3 middle, half;
     for (int d = 0; d < 3; ++d) {
+        // The half sizes of a turned box: absolute values of the rotation times the old ones.
         middle[d] = 0.5 * (box.high[d] + box.low[d]);
         half[d] = 0.5 * (box.high[d] - box.low[d]);
     }
@@ -56,6 +57,8 @@ void PairSearch::pick(const PairView& view, double along, double across,
         few_a ? view.translation_ab : Vec3(-(view.rotation_ab.transpose() * view.translation_ab));
     const Mat3 back = turn.transpose();
 
+    // Floats round with the extent of the numbers, and crushed spheres lie elsewhere than their
+    // groups: both widen the range, so no pair of spheres is missed.
     const double extent = 2.0 * (few.size + 2.0 * many.size) + shift.norm();
     const double slack = static_cast<double>(SphereBlocks::kFloatShare) * extent +
                          view.scene.crushed.deepest_of(view.pair.a) +
@@ -65,6 +68,8 @@ void PairSearch::pick(const PairView& view, double along, double across,
     const float reach_few = reach_of(many, range_);
     reach_ = reach_of(few, range_);
     few_.count = 0;
+    // Each body is narrowed by the other's box: many against the box of all few, then the few
+    // against the box of the many that are left.
     find_groups(many, move_box(few.box, back, -(back * shift)), many.largest_own + reach_, groups_);
     if (groups_.empty()) return;
     pick_spheres(many, groups_, to_floats(turn, shift), few.box, reach_, many_);
@@ -75,6 +80,7 @@ void PairSearch::pick(const PairView& view, double along, double across,
 }
 
 const NearSpheres& PairSearch::partners_of(std::size_t first, std::size_t last) {
+    // the box around these rows: only the many near it are compared with them
     if (many_.count <= kAllAtOnce) return many_;
     const auto extent = [&](const std::vector<float>& values, int d, FloatBox& box) {
         const auto [low, high] = std::minmax_element(values.begin() + static_cast<long>(first),

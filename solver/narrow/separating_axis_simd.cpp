@@ -76,6 +76,7 @@ HWY_INLINE void Reduce(Lanes gaps, std::size_t first, std::size_t count, Widest&
     const Tag d;
     HWY_ALIGN double gap[kBlock];
     hn::Store(gaps, d, gap);
+    // lanes in ascending order, so that the first of equals wins as in the reference
     for (std::size_t lane = 0; lane < hn::Lanes(d) && first + lane < count; ++lane)
         if (gap[lane] > widest.gap) {
             widest.gap = gap[lane];
@@ -93,6 +94,7 @@ HWY_INLINE Widest GapOfPlanes(const VectorBlock* normals, std::size_t planes, co
         for (std::size_t lane = 0; lane < kBlock; lane += hn::Lanes(d)) {
             const Vectors n = Get(normals[k / kBlock], lane);
             Lanes least = hn::Set(d, std::numeric_limits<double>::infinity());
+            // one corner at a time against as many planes as there are lanes
             for (std::size_t c = 0; c < corner_count; ++c)
                 least = hn::Min(least, Dot(n, Broadcast(corners[c / kBlock], c % kBlock)));
             Reduce(hn::Sub(least, offset(k + lane, n)), k + lane, planes, widest);
@@ -116,6 +118,8 @@ HWY_INLINE Crossing CrossEdges(const ConvexPiece& a, Vectors eb, Vectors b1, Vec
         const Vectors ea = Broadcast(a.edge_along.blocks()[block], at);
         const Vectors a1 = Broadcast(a.edge_left.blocks()[block], at);
         const Vectors a2 = Broadcast(a.edge_right.blocks()[block], at);
+        // arcs_cross of the reference, on one of a's edges and as many of b's as there are
+        // lanes
         const Lanes b1_ea = Dot(b1, ea), a2_eb = Dot(a2, eb);
         const Mask cross = hn::And(hn::And(hn::Lt(hn::Mul(b1_ea, Dot(b2, ea)), zero),
                                            hn::Lt(hn::Mul(Dot(a1, eb), a2_eb), zero)),
@@ -150,6 +154,8 @@ HWY_INLINE void FindCrossing(const ConvexPiece& a, const ConvexPiece& b, const P
             HWY_ALIGN double gap[kBlock], edge_a[kBlock];
             hn::Store(found.gap, d, gap);
             hn::Store(found.edge_a, d, edge_a);
+            // The reference walks a's edges outside and b's inside: of equal gaps the smaller
+            // number of a's edge wins, then the smaller of b's.
             for (std::size_t n = 0; n < hn::Lanes(d) && k + lane + n < b.edges.size(); ++n) {
                 const auto ka = static_cast<std::int32_t>(edge_a[n]);
                 if (gap[n] < out.edges || ka < 0) continue;

@@ -16,6 +16,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // no more than `least`, anything between.
 double gap_along(const ConvexBounds& from, std::size_t k, const ConvexBounds& other,
                  const Mat3& turn, const Vec3& shift, double least) {
+    // n . (turn v + shift) for each corner v, with the normal turned instead of all corners
     const Vec3 along = turn.transpose() * from.normals[k];
     const double rest = from.normals[k].dot(shift);
     double nearest = kInfinity;
@@ -31,6 +32,7 @@ double gap_along(const ConvexBounds& from, std::size_t k, const ConvexBounds& ot
 
 double separation(const PairView& view, double enough, std::size_t& axis) {
     const ConvexBounds &a = view.shape_a.bounds, &b = view.shape_b.bounds;
+    // without bounds nothing can be ruled out
     if (!a.known() || !b.known()) return -kInfinity;
     const Mat3 back = view.rotation_ab.transpose();
     const Vec3 shift_back = -(back * view.translation_ab);

@@ -66,6 +66,7 @@ void emit_polygon(const PairView& view, const ContactRule& rule, const Vec3& nor
         contact.region = -1;
         contact.crushes_a = false;
         if (!ship && !rule.crushes) continue;
+        // Crushing and regions need spheres: those nearest to the corner lend share and patch.
         contact.sphere_a = nearest_sphere(view.shape_a, corner.point);
         contact.sphere_b = nearest_sphere(view.shape_b, view.to_b(corner.point));
         if (ship) contact.region = view.shape_a.region.at(contact.sphere_a, normal);
@@ -81,6 +82,7 @@ bool is_deep(const PairView& view, double apart) {
 
 const ContactPolygon* find_lost_polygon(const PairView& view, std::span<const Candidate> found,
                                         double most) {
+    // 0 as `enough`: the solids overlap, and of these all axes are measured
     const SeparatingAxes axes = find_axes(view.shape_a.convex, view.shape_b.convex,
                                           {view.rotation_ab, view.translation_ab}, 0.0);
     double least = 0.0;

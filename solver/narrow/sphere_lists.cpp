@@ -15,8 +15,10 @@ constexpr std::size_t kFewest = 256;
 void SphereLists::match(const std::vector<BodyPair>& pairs) {
     if (pairs == pairs_) return;
     moved_rows_.assign(pairs.size(), Row{});
+    // a pair without a row never sleeps: its wake-up path is minus infinity
     moved_wake_.assign(pairs.size(), -std::numeric_limits<double>::infinity());
     kept_ = 0;
+    // both lists are sorted: one walk finds the rows that stay
     std::size_t old = 0;
     for (std::size_t k = 0; k < pairs.size(); ++k) {
         while (old < pairs_.size() && pairs_[old] < pairs[k]) ++old;
@@ -37,6 +39,7 @@ void SphereLists::keep(std::size_t k, std::span<const ListedSpheres> listed) {
     row.count = listed.size();
     row.first = blocks_.size();
     blocks_.insert(blocks_.end(), listed.begin(), listed.end());
+    // at least half of the memory is abandoned rows: close it up
     if (blocks_.size() > kFewest && blocks_.size() > 2 * kept_) close_gaps();
 }
 

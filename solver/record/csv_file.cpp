@@ -50,6 +50,8 @@ std::string CsvFile::whole_header(const std::string& columns, int dimension) {
     std::istringstream names(columns);
     std::size_t column = 0;
     for (std::string name; std::getline(names, name, ','); ++column) {
+        // a section's forces and energies are per metre of breadth: the same value under a name
+        // that says it
         if (!name.ends_with("_N") && !name.ends_with("_J")) continue;
         header += "," + name + "_per_m";
         per_metre_.push_back(column);
@@ -67,8 +69,11 @@ CsvFile::CsvFile(std::filesystem::path path, const std::string& columns, int dim
                  const std::filesystem::path& earlier, std::int64_t bytes)
     : path_(std::move(path)) {
     const std::string header = whole_header(columns, dimension);
+    // the rows up to the checkpoint, from the unfinished file or, where that is gone, the
+    // finished one
     std::string text = first_bytes(part_of(earlier), bytes);
     if (text.empty()) text = first_bytes(earlier, bytes);
+    // rows that were lost: the file begins anew, and the caller warns
     begins_late_ = !text.starts_with(header + "\n");
     if (begins_late_) text = header + "\n";
     write_text_file(part_of(path_), text);
@@ -81,6 +86,7 @@ void CsvFile::open(const char* mode) {
     if (!out_)
         throw run_failed(path_.string(), "cannot be written",
                          "check that the folder is writable and the disk is not full");
+    // unbuffered: what `bytes_` counts is in the file, so a checkpoint can name the place
     std::setvbuf(out_.get(), nullptr, _IONBF, 0);
 }
 

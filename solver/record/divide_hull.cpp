@@ -43,6 +43,8 @@ struct Grid {
         int axis = 0;
         for (int d = 1; d < 3; ++d)
             if (std::abs(n[d]) > std::abs(n[axis])) axis = d;
+        // counted from the bow and from the waterline: the same cells whatever the mesh's
+        // origin
         const long x = static_cast<long>(std::floor((bow - at.x()) / size));
         const long y = dimension == 2 ? 0 : std::lround(at.y() / size);
         const long z = std::lround((at.z() - waterline) / size);
@@ -61,6 +63,7 @@ std::vector<std::size_t> join_small(const std::vector<Sum>& sums, double enough,
         if (sums[k].area >= enough) continue;
         double least = reach;
         for (std::size_t other = 0; other < sums.size(); ++other) {
+            // only a panel that is large enough, of the same region and facing the same way
             const Sum& s = sums[other];
             if (s.area < enough || s.region != sums[k].region) continue;
             if (s.normal.normalized().dot(sums[k].normal.normalized()) < kSameSide) continue;
@@ -83,6 +86,7 @@ double panel_size(const Scene& scene) {
         if (box.isEmpty()) continue;
         Vec3 edges = box.sizes();
         if (scene.dimension == 2) edges.y() = std::numeric_limits<double>::infinity();
+        // the thinnest extent of a floe, of the thickest one
         thickness = std::max(thickness, edges.minCoeff());
     }
     return std::max(thickness, 2.0 * scene.shapes[kShip].spacing);
@@ -127,6 +131,8 @@ HullPanels divide_hull(const Shape& hull, double size, double waterline) {
         // mean normal
         panel.center = sums[k].center / sums[k].area;
         panel.normal = sums[k].normal.normalized();
+        // a sliver that found no neighbour counts as half a panel, or its line load would be
+        // too large
         panel.area = std::max(sums[k].area, kSmall * whole);
         panel.length = flat ? 1.0 : std::max(sums[k].projected / size, kSmall * size);
         out.panels.push_back(panel);

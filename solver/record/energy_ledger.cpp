@@ -23,9 +23,11 @@ void book_contact(const Bodies& now, const Constraint& c, const StepStart& start
     // velocities are linear in impulses.
     const Vec3 mean = 0.5 * (before + relative_velocity(now, c));
     const Vec3 push = c.total_normal() * c.normal, rub = c.total_tangent();
+    // ship and ice that is held until it bends: the work before the break
     if (c.on_unbent) {
         ledger.breaking -= (push + rub).dot(mean);
     } else {
+        // at its bound the impulse crushes ice, below it the work is lost in the impact
         (c.crushed() ? ledger.crushing : ledger.restitution) -= push.dot(mean);
         ledger.friction -= rub.dot(mean);
     }
@@ -37,6 +39,7 @@ void book_contact(const Bodies& now, const Constraint& c, const StepStart& start
     if (works_on(c.a)) ledger.drift_work += (push + rub).dot(now.velocity[c.a]);
     if (works_on(c.b)) ledger.drift_work -= (push + rub).dot(now.velocity[c.b]);
     if (c.a != static_cast<std::int32_t>(kShip)) return;
+    // the ship's work is that of its own mean velocity, too; on a course it does not change
     const Vec3 ship =
         now.ship.free ? Vec3(0.5 * (start.velocity[kShip] + now.velocity[kShip]) +
                              (0.5 * (start.angular_velocity[kShip] + now.angular_velocity[kShip]))
@@ -52,6 +55,7 @@ void EnergyLedger::begin(const Scene& scene, const Case& parameters) {
 }
 
 double EnergyLedger::residual(double potential_now) const {
+    // (19), solved for the residual; dU is the change of potential energy since the start
     return ship_work + drift_work + separation + water_work + applied_work - kinetic -
            (potential_now - potential_start.value_or(0.0)) - friction - restitution - crushing -
            breaking - drag - buoyancy_moment;
@@ -74,8 +78,11 @@ void book_step(const Scene& scene, const Case& parameters,
         const Vec3 v = 0.5 * (start.velocity[i] + b.velocity[i]);
         const Vec3 w = 0.5 * (start.angular_velocity[i] + b.angular_velocity[i]);
         ledger.drag -= dt * (load.drag.force.dot(v) + load.drag.moment.dot(w));
+        // of the drag's work the part against the water; the rest is what moving water puts in
         ledger.drag += dt * load.water_power;
         ledger.water_work += dt * load.water_power;
+        // potential energy includes the moment that buoyancy "centre" leaves out: its work is
+        // missing
         if (unrighted) ledger.buoyancy_moment += dt * load.righting.dot(w);
         const WaterLoad& push = load.pressure;
         ledger.water_work += dt * (push.force.dot(v) + push.moment.dot(w));

@@ -18,6 +18,7 @@ constexpr double kHour = 3600.0;
 
 std::vector<double> peaks_above(std::span<const double> series, double level) {
     std::vector<double> peaks;
+    // between two up-crossings of the level the largest value counts once
     bool above = true;  // what begins above the level has no up-crossing
     bool counts = false;
     for (const double value : series) {
@@ -47,6 +48,7 @@ PeakStatistics peaks_of(std::span<const double> series, double mean, double wind
     std::sort(peaks.begin(), peaks.end(), std::greater<>());
     out.count = static_cast<std::int64_t>(peaks.size());
     const double hours = count * window / kHour;
+    // exceedance: the peak of this rank is reached so often per hour
     for (std::size_t rank = 1; rank <= peaks.size();) {
         out.exceeded.push_back({peaks[rank - 1], static_cast<double>(rank) / hours});
         if (rank == peaks.size()) break;
@@ -60,6 +62,7 @@ PeakStatistics peaks_of(std::span<const double> series, double mean, double wind
 
 double quantile(std::vector<double> series, double share) {
     if (series.empty()) return 0.0;
+    // the smallest value that at least this share of the values does not exceed
     const auto rank = static_cast<std::size_t>(
         std::max(0.0, std::ceil(share * static_cast<double>(series.size())) - 1.0));
     const auto place = series.begin() + static_cast<std::ptrdiff_t>(rank);

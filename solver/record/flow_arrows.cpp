@@ -46,6 +46,8 @@ private:
 
     // Even places in the plane of x and `axis`.
     void sample_plane(Eigen::Index axis) {
+        // squares of equal area, so that the number of arrows does not depend on the hull's
+        // size
         const double step =
             std::sqrt((high_.x() - low_.x()) * (high_[axis] - low_[axis]) / kOnSurface);
         for (double x = low_.x() + 0.5 * step; x < high_.x(); x += step)
@@ -65,6 +67,8 @@ private:
         const auto panels = split_triangles(scene_.shapes[0].mesh, cell, kMostPieces);
         std::set<std::array<long, 3>> taken;
         for (const SourcePanel& panel : panels) {
+            // a little off the panel and below the surface, where the table's flow is that
+            // around the hull
             const Vec3 at = panel.centre + Vec3(0, 0, height_) + 0.1 * cell * panel.normal;
             if (at.z() > -0.1 * cell) continue;
             const Vec3 c = (at / cell).array().floor();

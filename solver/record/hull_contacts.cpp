@@ -9,13 +9,15 @@ void HullContacts::add(const Bodies& bodies, const std::vector<Contact>& contact
         const Constraint& c = constraints[k];
         const double normal = c.total_normal();
         if (c.a != static_cast<std::int32_t>(kShip) || normal <= 0.0) continue;
-        // impulses act on the floe; the ship feels the opposite
+        // one entry for a floe and a hull sphere over the frame; its point is weighted by the
+        // impulses
         Sum& sum = sums_[{c.b, contacts[k].sphere_a}];
         sum.weight += normal;
         // a ship that does not turn has the world's axes
         sum.point += normal * (bodies.ship.free ? Vec3(bodies.rotation[kShip].transpose() *
                                                        (c.arm_a + bodies.ship.centre))
                                                 : c.arm_a);
+        // impulses act on the floe; the ship feels the opposite
         sum.push -= normal * c.normal;
         sum.rub -= c.total_tangent();
     }

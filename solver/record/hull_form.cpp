@@ -40,6 +40,8 @@ double foremost(const std::vector<Segment>& section) {
 std::pair<double, double> ends_at(const std::vector<Segment>& section, double half_breadth) {
     std::pair<double, double> ends{1e300, -1e300};
     const auto add = [&](double x) { ends = {std::min(ends.first, x), std::max(ends.second, x)}; };
+    // corners far enough from the centre line, and points between where the breadth is just
+    // reached
     for (const auto& [p, q] : section) {
         const double yp = std::abs(p.y()), yq = std::abs(q.y());
         if (yp >= half_breadth) add(p.x());

@@ -23,6 +23,7 @@ void LongSeries::add(double value) {
         squares_ += off * (value - middle_);
     }
     const bool begins = resting_ == 0;
+    // values wait until a block is whole; a full series halves its blocks, so memory is bounded
     rest_ = join_ == Join::mean ? (begins ? value : rest_ + value)
                                 : (begins ? value : std::max(rest_, value));
     if (++resting_ < length_) return;
@@ -32,6 +33,8 @@ void LongSeries::add(double value) {
 }
 
 void LongSeries::halve() {
+    // from here on single values are no longer kept: their variance is continued by Welford's
+    // sums
     if (length_ == 1) {
         middle_ = mean();
         for (const double value : blocks_) squares_ += (value - middle_) * (value - middle_);

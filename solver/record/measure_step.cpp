@@ -33,6 +33,7 @@ void merge_regions(std::vector<RegionImpulse>& regions) {
 }
 
 void find_jam(const Scene& scene, const Constraint& c, double dt, StepRecord& out) {
+    // v_r . n + gap / dt of (6) in the rest stage: below zero the contact still closes
     const double closing =
         relative_velocity(scene.bodies, c).dot(c.normal) + std::max(c.gap, 0.0) / dt;
     // a floe that no impulse reached is no jam, unless it cannot move at all
@@ -52,6 +53,7 @@ StepRecord measure_step(const Scene& scene, const std::vector<Contact>& contacts
     for (std::size_t k = 0; k < constraints.size(); ++k) {
         const Constraint& c = constraints[k];
         const double normal = c.total_normal();
+        // overlap before the step's motion; the closing speed before the impacts
         out.max_overlap = std::max(out.max_overlap, -c.gap);
         if (-c.approach > out.closing_speed) {
             out.closing_speed = -c.approach;
@@ -69,6 +71,7 @@ StepRecord measure_step(const Scene& scene, const std::vector<Contact>& contacts
         out.contact_force += push / dt;
         out.friction_force += rub / dt;
         if (c.on_unbent) out.breaking_x += (push + rub).x() / dt;
+        // arms begin in the centre of gravity, the moment is about the mesh's origin
         out.moment += (c.arm_a + scene.bodies.ship.centre).cross(Vec3(push + rub)) / dt;
         out.regions.push_back({c.b, contacts[k].region, push + rub, rub});
     }
@@ -85,6 +88,7 @@ void measure_floe_forces(const std::vector<Constraint>& constraints, double dt,
     for (const Constraint& c : constraints) {
         const std::int32_t a = asked[c.a], b = asked[c.b];
         if (a < 0 && b < 0) continue;
+        // forces on the floe: contact and friction by the ship, `ice` by its neighbours
         const Vec3 push = c.total_normal() / dt * c.normal, rub = c.total_tangent() / dt;
         if (c.a == static_cast<std::int32_t>(kShip)) {
             out[b].contact -= push;

@@ -26,6 +26,8 @@ std::optional<Warning> warn_of_open_end(const Scene& scene, const Case& paramete
     double farthest = 0.0;
     for (const std::int32_t floe : scene.bodies.moving) {
         const auto i = static_cast<std::size_t>(floe);
+        // ice that never moves cannot be pushed out; floes astern of the bow are no obstacle
+        // any more
         if (is_unbroken(scene, parameters, i) || scene.bodies.position[i].x() < bow) continue;
         const Eigen::AlignedBox3d box = box_of(scene, i);
         const double out = box.max().x() - end;

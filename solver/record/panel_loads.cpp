@@ -38,6 +38,8 @@ void PanelLoads::add(const std::vector<Contact>& contacts,
         const Constraint& c = constraints[k];
         const double normal = c.total_normal();
         if (c.a != static_cast<std::int32_t>(kShip) || normal <= 0.0) continue;
+        // by the region of the contact, which at an edge depends on its normal, and by the
+        // sphere's panel
         on_region_[static_cast<std::size_t>(contacts[k].region)] += normal;
         if (hull_.panels.empty()) continue;
         const auto sphere = static_cast<std::size_t>(contacts[k].sphere_a);
@@ -53,6 +55,7 @@ void PanelLoads::close_window() {
         on_region_[r] = 0.0;
     }
     std::vector<double> lines(on_region_.size(), 0.0);
+    // windows without a load are not stored: the quantile knows their number
     for (std::size_t k = 0; k < on_panel_.size(); ++k) {
         if (on_panel_[k] <= 0.0) continue;
         const double force = on_panel_[k] / hull_.window;
@@ -94,6 +97,7 @@ void PanelLoads::fill(Summary& summary) const {
     for (const PanelLoad& panel : all.panels)
         if (panel.max > 0.0) touched.push_back(panel);
     summary.panels.touched = static_cast<std::int64_t>(touched.size());
+    // by the line load, which is what a frame of the hull has to carry
     std::stable_sort(touched.begin(), touched.end(), [](const PanelLoad& a, const PanelLoad& b) {
         return a.max / a.length > b.max / b.length;
     });

@@ -74,6 +74,7 @@ ShipParticulars measure_ship(const Scene& scene, const Case& parameters, double 
     double keel = hull.mesh.vertices.front().z();
     for (const Vec3& v : hull.mesh.vertices) keel = std::min(keel, v.z());
     ShipParticulars ship;
+    // in the mesh's axes the water lies at -height
     ship.draught = -height - keel;
     const auto form = measure_hull_form(hull.mesh, -height);
     if (!form) return ship;
@@ -117,6 +118,7 @@ IceParticulars measure_ice(const Scene& scene, const Case& parameters) {
 }
 
 double speed_mean(const Case& p, double until) {
+    // a run that ended before its averages began has the mean of all of it
     const double from = until > p.average_from ? p.average_from : 0.0;
     return until > from ? p.ship_travel(from, until) / (until - from) : p.ship_speed(0.0);
 }
@@ -136,6 +138,7 @@ void fill_particulars(const Scene& scene, const Case& parameters, double until, 
         went ? measure_ship(scene, parameters, went->height) : measure_ship(scene, parameters);
     summary.ship.speed_mean = went ? went->speed_mean : speed_mean(parameters, until);
     summary.ice = measure_ice(scene, parameters);
+    // a prescribed course first; a ship that answers has its own travel
     summary.travel = measure_travel(parameters, summary.ship, until);
     if (!scene.water.grid.empty())
         summary.flow = {parameters.flow == FlowModel::file ? "file" : "double-body",

@@ -34,6 +34,7 @@ std::size_t correlation_window(std::span<const double> x) {
     };
     const double variance = covariance(0);
     ICE_ASSERT(variance > 0.0);
+    // tau(W) = 1/2 + sum of c_k / c_0 up to the first lag W >= 5 tau(W) (section 11, rule 1)
     double time = 0.5;
     for (std::size_t lag = 1; lag < x.size(); ++lag) {
         time += covariance(lag) / variance;
@@ -88,6 +89,7 @@ Band without_lines(std::span<const double> ordinates, std::size_t first) {
 }
 
 std::size_t flat_band(std::span<const double> ordinates) {
+    // rule 2: half the band until both halves have the same mean, within two deviations
     std::size_t count = ordinates.size();
     while (count >= 4) {
         const std::size_t half = count / 2;

@@ -92,6 +92,7 @@ std::uint64_t state_hash(const Scene& scene, const std::vector<Constraint>& cons
         for (int d = 0; d < 3; ++d) hash.add(v[d]);
     };
     const Bodies& b = scene.bodies;
+    // the bodies' state, and the impulses of the step
     for (std::size_t i = 0; i < b.size(); ++i) {
         add(b.position[i]);
         for (const double x : b.orientation[i].coeffs()) hash.add(x);
@@ -136,6 +137,7 @@ void Recorder::open(const std::filesystem::path& folder, const std::string& comm
     run_.emplace(folder / "run.h5", make_header(parameters_, scene, command_line));
     for (const CsvTable& table : csv_tables(parameters_))
         csv_files_.emplace_back(folder / table.name, table.columns, parameters_.dimension);
+    // the first frame is the start, before any force
     const std::vector<Contact> no_contacts;
     const std::vector<Constraint> no_constraints;
     add_frame({scene, no_contacts, no_constraints, {}, 0.0, true});
@@ -212,6 +214,7 @@ void Recorder::add_history(const StepView& view, const StepRecord& record) {
     row_.breaking_x += record.breaking_x;
     row_.moment += record.moment;
     row_.contacts += record.contacts;
+    // number, overlap and energy are not averaged: the last ones, and the largest
     row_.moving_floes = record.moving_floes;
     row_.max_overlap = std::max(row_.max_overlap, record.max_overlap);
     row_.kinetic_energy = record.kinetic_energy;

@@ -11,6 +11,7 @@
 namespace ice {
 
 void Recorder::carry(CheckpointFile& file) {
+    // the row of the histories that is begun, and the frame
     file.carry("row.contact_force", row_.contact_force);
     file.carry("row.friction_force", row_.friction_force);
     file.carry("row.moment", row_.moment);
@@ -47,6 +48,7 @@ void ShipStatistics::carry(CheckpointFile& file) {
         file.carry(fmt::format("ship_tally.sum.{}", k), sum_[k]);
         file.carry(fmt::format("ship_tally.square.{}", k), square_[k]);
     }
+    // a checkpoint has no truth values
     std::uint8_t stuck = stuck_ ? 1 : 0;
     file.carry("ship_tally.slow_since", slow_since_);
     file.carry("ship_tally.stuck", stuck);
@@ -78,6 +80,7 @@ void HullContacts::carry(CheckpointFile& file) {
     file.column("hull_contacts.point", sums, &Sum::point);
     file.column("hull_contacts.push", sums, &Sum::push);
     file.column("hull_contacts.rub", sums, &Sum::rub);
+    // the same again where it was written, the saved entries where it was read
     sums_.clear();
     for (std::size_t k = 0; k < keys.size(); ++k) sums_.emplace(keys[k], sums[k]);
 }

@@ -28,6 +28,9 @@ double residual_impulse(const Bodies& bodies, const std::vector<Constraint>& con
     for (const Constraint& c : constraints) {
         if (!c.can_move) continue;
         const double u = relative_velocity(bodies, c).dot(c.normal) + std::max(c.gap, 0.0) / dt;
+        // An impulse is missing where the contact still closes below its bound, and is too much
+        // where it pushes bodies apart. Contacts with an impact's impulse may separate: they
+        // rebound.
         if (u < 0.0 && !c.crushed())
             sum -= u / response(bodies, c);
         else if (u > 0.0 && c.rest_normal > 0.0 && c.impact_normal == 0.0)

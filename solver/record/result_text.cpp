@@ -38,6 +38,7 @@ Format format_for(double value, double error, int dimension, const char* unit) {
     out.unit = kilo ? 1e3 : 1.0;
     out.name = fmt::format("{}{}{}", kilo ? "k" : "", unit, dimension == 2 ? "/m" : "");
     if (!(error > 0.0) || !std::isfinite(error)) error = 0.01 * std::abs(value);
+    // two digits of the error, and no more digits of the value than that
     if (!(error > 0.0)) return out;
     const int digit = static_cast<int>(std::floor(std::log10(error / out.unit))) - 1;
     out.step = std::pow(10.0, digit);
@@ -81,6 +82,7 @@ std::string resistance_line(const Summary& s) {
 }
 
 std::string energy_line(const Summary& s) {
+    // shares of the ship's work; entries that a case does not have are missing
     const auto found = s.energy.find("ship_work_J");
     if (found == s.energy.end() || found->second == 0.0) return "";
     const double work = found->second;

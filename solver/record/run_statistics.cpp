@@ -70,6 +70,7 @@ void RunStatistics::add(const StepRecord& record, double time, double dt,
 }
 
 void RunStatistics::add_look(const OverlapFound& found, const StepRecord& record, double time) {
+    // seldom, as it costs a search in the meshes: what contacts did not know of overlaps
     ++looks_;
     if (found.deepest > max_overlap_) {
         max_overlap_ = found.deepest;
@@ -123,6 +124,7 @@ void RunStatistics::add_averaged(const StepRecord& record, double dt) {
 }
 
 void RunStatistics::add_regions(const StepRecord& record, bool averaged) {
+    // pairs of floe and region that touch in this step
     std::set<std::pair<std::int32_t, std::int32_t>> now;
     for (const RegionImpulse& r : record.regions) {
         Region& region = regions_[static_cast<std::size_t>(r.region)];

@@ -82,6 +82,7 @@ std::optional<double> RunStatistics::change_without(const Doubtful& kind, double
 void RunStatistics::warn(Summary& summary) const {
     auto& warnings = summary.warnings;
     const double mean = summary.resistance.mean;
+    // each warning only where it matters for the mean, by something measured
     if (summary.residual_share > kMatters)
         warnings.push_back(judged(
             fmt::format("{} of {} steps did not reach contact.tolerance: raise contact.iterations",

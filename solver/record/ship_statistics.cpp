@@ -41,6 +41,7 @@ void ShipStatistics::add(const FreeShip& ship, const Scene& scene, const Case& p
     const Bodies& b = scene.bodies;
     const Vec3 ahead = axes_of(ship.angles()).shift.col(0);
     const double speed = ahead.dot(b.velocity[kShip]);
+    // stuck: slower than 0.1 m/s for ten seconds on end
     if (std::abs(speed) >= kSlow) slow_since_ = time;
     stuck_ = stuck_ || time - slow_since_ >= kStuckTime;
     if (time < p.average_from - 1e-9) return;
@@ -83,6 +84,7 @@ void ShipStatistics::fill(const FreeShip& ship, const Scene& scene, const Case& 
 
     const ShipEnergies& e = ship.energies();
     auto& energy = summary.energy;
+    // (S3): changes since the start; the residual is what the entries do not explain
     const double kinetic = ship.kinetic_energy(scene.bodies) - e.kinetic_start.value_or(0.0);
     const double potential = ship.potential_energy(scene, p) - e.potential_start.value_or(0.0);
     energy["thrust_work_J"] = e.thrust;

@@ -49,7 +49,9 @@ std::vector<std::pair<std::int32_t, std::int32_t>> close_pairs(const Scene& scen
     for (std::size_t k = 0; k < order.size(); ++k)
         for (std::size_t n = k + 1; n < order.size(); ++n) {
             const auto [a, b] = std::minmax(order[k].second, order[n].second);
+            // sorted by their lower ends: all that follow begin farther ahead
             if (order[n].first > box[order[k].second].max().x()) break;
+            // neither moves, so their overlap is that of the start
             const bool held = (a == 0 || scene.bodies.held[a]) && scene.bodies.held[b];
             if (!held && box[a].intersects(box[b])) pairs.emplace_back(a, b);
         }
@@ -61,6 +63,7 @@ bool parted_by(const Scene& scene, std::int32_t a, std::int32_t b) {
     const ConvexBounds &of_a = shape_of(scene, a).bounds, &of_b = shape_of(scene, b).bounds;
     if (!of_a.known() || !of_b.known()) return false;
     const Bodies& bodies = scene.bodies;
+    // b's plane n . x = offset in a's axes, with all of a's corners before it
     const Mat3 turn = bodies.rotation[b].transpose() * bodies.rotation[a];
     const Vec3 shift = bodies.rotation[b].transpose() * (bodies.position[a] - bodies.position[b]);
     for (std::size_t k = 0; k < of_b.normals.size(); ++k) {
@@ -89,6 +92,8 @@ Deepest deepest_point(const Scene& scene, std::int32_t a, std::int32_t b, const 
     Vec3 shallow = Vec3::Zero();  // a point in b's axes; none within `room` of it is deeper
     double room = 0.0;
     const auto look = [&](const Vec3& at) {
+        // two cheap tests first; a point within `room` of a shallow one is no deeper than the
+        // best
         if (!seen.contains(at)) return;
         const Vec3 p = turn * at + shift;
         if (!solid.box.contains(p) || (p - shallow).norm() < room) return;
@@ -97,6 +102,7 @@ Deepest deepest_point(const Scene& scene, std::int32_t a, std::int32_t b, const 
         shallow = p;
         room = out.depth - depth;
         if (depth <= out.depth) return;
+        // ice crushed around the point is gone
         depth -= crushed_near(scene, b, p);
         if (depth > out.depth) out = {depth, bodies.position[b] + bodies.rotation[b] * p};
     };
@@ -138,6 +144,7 @@ PairOverlap measure_overlap(const Scene& scene, std::int32_t a, std::int32_t b) 
         Deepest found = deepest_point(scene, a, b, {0.0, Vec3::Zero()});
         found = deepest_point(scene, b, a, found);
         out.depth = found.depth;
+        // where one body lies in the other the depth of its points says little
         out.point = found.at;
         out.inside = lies_in(scene, a, b) ? a : lies_in(scene, b, a) ? b : -1;
     }
@@ -158,9 +165,11 @@ OverlapFound measure_overlaps(const Scene& scene, const std::vector<Contact>& co
     auto pairs = close_pairs(scene);
     std::sort(pairs.begin(), pairs.end());
     for (const auto& [a, b] : pairs) {
+        // separated solids have no overlap that contacts could miss
         if (parted_by(scene, a, b) || parted_by(scene, b, a)) continue;
         const std::pair<std::int32_t, std::int32_t> pair(a, b);
         while (contact != contacts.end() && std::pair(contact->a, contact->b) < pair) ++contact;
+        // what the contacts know of this pair; only more counts as unseen
         double known = 0.0;
         for (auto c = contact; c != contacts.end() && std::pair(c->a, c->b) == pair; ++c)
             known = std::max(known, -c->gap);

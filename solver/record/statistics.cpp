@@ -51,6 +51,7 @@ double subtract_line(std::vector<double>& x) {
     const double middle = 0.5 * (n - 1.0);
     double sum = 0.0;
     for (std::size_t t = 0; t < x.size(); ++t) sum += (static_cast<double>(t) - middle) * x[t];
+    // sum (t - middle)^2 = n (n^2 - 1) / 12 for t = 0 ... n - 1
     const double slope = sum / (n * (n * n - 1.0) / 12.0);
     for (std::size_t t = 0; t < x.size(); ++t) x[t] -= slope * (static_cast<double>(t) - middle);
     return slope * n;
@@ -61,11 +62,14 @@ double subtract_line(std::vector<double>& x) {
 std::optional<std::size_t> bandwidth(const std::vector<double>& x) {
     const std::size_t window = correlation_window(x);
     if (x.size() < 2 * window) return std::nullopt;
+    // n / (6 W), rounded
     return std::max(kNarrowest, (x.size() + 3 * window) / (6 * window));
 }
 
 // The low end of the spectrum of a series with mean 0; none where it is too short for one.
 // @pre not all values are 0
+// rules 1 to 3 of section 11: the width by the autocorrelation, halved while it is not flat,
+// once more on block means, without periodic lines
 std::optional<Band> low_band(const std::vector<double>& x) {
     const std::optional<std::size_t> widest = bandwidth(x);
     if (!widest) return std::nullopt;
@@ -87,6 +91,7 @@ std::optional<bool> is_significant(double rise, const std::vector<double>& detre
     if (sum_of_squares(detrended) == 0.0) return rise != 0.0;
     const std::optional<Band> band = low_band(detrended);
     if (!band) return std::nullopt;
+    // the slope of a line through noise of spectral density S has the variance 12 S / n^3
     const auto n = static_cast<double>(detrended.size());
     const double degrees = 2.0 * static_cast<double>(band->stay) - 1.0;  // one is the slope's
     return std::abs(rise) > student_quantile(degrees, kTrendChance) *
@@ -105,6 +110,7 @@ MeanInterval interval_of(const BlockedSeries& series) {
     MeanInterval out{series.mean, unknown, unknown, unknown, unknown, std::nullopt};
     if (series.count < kFewest) return out;
     // Long series are averaged to blocks: low frequencies lose nothing, and the cost is bounded.
+    // as many samples to a block as bring their number to kMost
     const std::size_t length = (series.blocks.size() + kMost - 1) / kMost;
     std::vector<double> x = blocks_of(series.blocks, length);
     subtract_mean(x);
@@ -118,6 +124,7 @@ MeanInterval interval_of(const BlockedSeries& series) {
     // / n.
     const std::optional<Band> band = low_band(x);
     if (band) {
+        // each ordinate is a chi-square variable with two degrees of freedom
         out.half_width = student_quantile(2.0 * static_cast<double>(band->stay), 0.05) *
                          std::sqrt(band->mean / n);
         // S of single samples is that of blocks times their length

@@ -23,6 +23,7 @@ struct Sum {
         size += v.norm();
     }
     double share(const Vec3& axes) const {
+        // a sum without terms is balanced, too: not 0 / 0
         const double off = value.cwiseProduct(axes).norm();
         return off == 0.0 ? 0.0 : off / size;
     }
@@ -35,6 +36,7 @@ struct Sums {
 // Contact impulses on each body, and their moment about its position before the step.
 void add_contacts(const std::vector<Constraint>& constraints, std::vector<Sums>& sums) {
     for (const Constraint& c : constraints) {
+        // J acts on b and -J on a; both are taken off what the momenta gained
         const Vec3 j = c.total_normal() * c.normal + c.total_tangent();
         sums[c.a].linear.add(j);
         sums[c.b].linear.add(-j);
@@ -57,6 +59,7 @@ Sums all_together(const Momenta& before, const World& w, const StepRecord& ship,
             b.held[i] ? Vec3(-contacts[i].angular.value)
                       : Vec3(b.angular_momentum[i] - before.angular[i] - dt * loads[i].moment);
         all.linear.add(gain);
+        // angular momentum about the origin: spin and x times linear momentum
         all.angular.add(spin);
         all.angular.add(before.position[i].cross(gain));
         // the momenta and loads whose difference this is were rounded themselves
@@ -82,6 +85,7 @@ double off_balance(const ShipBody& body, Freedom first, const Mat3& masses, cons
     double off = 0.0, size = given;
     for (int k = 0; k < 3; ++k) {
         if (!is_free(k)) continue;
+        // the row of the matrix on the free motions: locked ones have no equation
         Vec3 row = masses.row(k);
         for (int j = 0; j < 3; ++j)
             if (!is_free(j)) row[j] = 0.0;
@@ -100,6 +104,7 @@ double imbalance_of_ship(const Momenta& before, const World& w, const StepRecord
     const ShipMasses masses = masses_of(body, before.ship_angles);
     const ShipForce loads = w.ship.loads().total();
     const Vec3 ice = reported.contact_force + reported.friction_force;
+    // about the centre of gravity, as (S1); the report's moment is about the mesh's origin
     const Vec3 ice_moment = reported.moment - b.ship.centre.cross(ice);
     const Mat3 to_axes = axes.shift.transpose(), to_rates = axes.turn.inverse();
     // Equations of motion in the ship's axes: along the axes that answer, the change of M v is the
@@ -171,6 +176,7 @@ Imbalance require_balance(const Momenta& before, const World& after) {
                         what, share, kBalanceTolerance),
             "this is a defect of the program: report it with the case, or run without --verify");
     };
+    // each test is negated, so that a not-a-number is refused
     if (!(found.linear <= kBalanceTolerance))
         refuse(fmt::format("floe {}", found.linear_floe), "momentum", found.linear);
     if (!(found.angular <= kBalanceTolerance))

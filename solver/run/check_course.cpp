@@ -28,11 +28,14 @@ public:
         const Vec3 place = scene.bodies.position[kShip];
         low_ = hull.box.min() + place;
         const Vec3 size = hull.box.sizes();
+        // Cells as wide as the spheres' spacing, so that hardly a cell of the section is
+        // without one; larger where the section is huge.
         cell_ = std::max(hull.spacing, std::sqrt(size.y() * size.z() / kMostCells));
         columns_ = count(size.y());
         rows_ = count(size.z());
         foremost_.assign(columns_ * rows_, -kNever);
         for (std::size_t k = 0; k < hull.center.size(); ++k)
+            // spheres reach ahead of their centres by the radius
             add(place + hull.center[k], hull.radius[k]);
         for (const auto& t : hull.mesh.triangles)
             add_triangle(place + hull.mesh.vertices[t[0]], place + hull.mesh.vertices[t[1]],
@@ -45,6 +48,7 @@ public:
         double least = kNever;
         for (int k = 0; k < 9; ++k) {
             const int beside = k % 3 - 1, above = k / 3 - 1;
+            // nine points of the cube's face that looks at the ship
             least =
                 std::min(least, distance_to_point(centre + radius * Vec3(-way_, beside, above)));
         }
@@ -108,9 +112,11 @@ private:
 
 // When the ship has gone a distance along its course [s]. @pre its speed does not change sign
 double time_of(const Case& p, double distance) {
+    // bisection: travel grows with time as the speed keeps its sign
     if (!(std::abs(p.ship_travel(0.0, p.duration)) > distance)) return kNever;
     double before = 0.0, after = p.duration;
     for (int k = 0; k < 60; ++k) {
+        // 60 halvings: to the last digit of any duration
         const double middle = 0.5 * (before + after);
         (std::abs(p.ship_travel(0.0, middle)) < distance ? before : after) = middle;
     }
@@ -124,6 +130,7 @@ void measure_clearance(const World& w, const Front& front, Course& course) {
         course.clearance =
             std::max(w.parameters.level_ice.extent[0] - box_of(w.scene, kShip).max().x(), 0.0);
     for (std::size_t i = 1; i < b.size(); ++i) {
+        // slots hold the sheet, which was measured above
         if (w.edge.has_slot(i)) continue;
         const Shape& shape = w.scene.shapes[static_cast<std::size_t>(b.shape[i])];
         double nearest = kNever;
@@ -144,6 +151,7 @@ double distance_through(const World& w, double way) {
     for (std::size_t i = 1; i < w.scene.bodies.size(); ++i) {
         if (is_unbroken(w.scene, w.parameters, i)) continue;
         const Eigen::AlignedBox3d box = box_of(w.scene, i);
+        // loose floes beside the way are not met
         if (box.max().y() < hull.min().y() || box.min().y() > hull.max().y()) continue;
         far = std::max(far, way > 0.0 ? box.max().x() : -box.min().x());
     }

@@ -78,6 +78,7 @@ std::string describe(const std::vector<StartOverlap>& overlaps, const char* sepa
 }
 
 // How to part them; for a hull in loose ice, whose bow may lie before all of it, with the place.
+// first what a user can do at once: with the bow before the ice nothing overlaps
 std::string remedy(const World& w, const std::vector<StartOverlap>& overlaps) {
     std::string move = "move the hull (hull.position)";
     const Eigen::AlignedBox2d& ice = w.scene.start.loose;
@@ -96,6 +97,8 @@ std::string remedy(const World& w, const std::vector<StartOverlap>& overlaps) {
 // The set with the widest spacing, if spheres of other bodies pass between its own.
 void warn_of_spacing(const World& w, std::vector<Warning>& warnings) {
     const bool centres = w.parameters.normal == NormalRule::centres;
+    // the limits of both rules: with "surface" a sphere's feature reaches farther than the
+    // sphere
     const double limit = centres ? 2.0 : kWidestSpacing;
     std::vector<double> in_radii;
     for (const Shape& shape : w.scene.shapes)
@@ -117,6 +120,7 @@ void warn_of_spacing(const World& w, std::vector<Warning>& warnings) {
 // The hull between the ice's lower side and the water line, where no sphere fits.
 void warn_of_unfelt_hull(const World& w, std::vector<Warning>& warnings) {
     if (w.scene.dimension != 3) return;
+    // how deep any ice floats: below it the hull meets none at the start
     double low = 0.0;
     for (std::size_t i = 1; i < w.scene.bodies.size(); ++i)
         low = std::min(low, box_of(w.scene, i).min().z());
@@ -160,6 +164,7 @@ void warn_of_speed(const World& w, std::vector<Warning>& warnings) {
 
 std::vector<StartOverlap> find_start_overlaps(Scene& scene, const Case& parameters) {
     std::vector<BodyPair> pairs = pairs_at_start(scene, parameters);
+    // a heap of floes would give millions of pairs; some of them suffice for the message
     pairs.resize(std::min(pairs.size(), most_worth_a_look(scene)));
     std::vector<StartOverlap> found(pairs.size());
     parallel_for(pairs.size(), 2, [&](std::size_t k) {
@@ -168,6 +173,7 @@ std::vector<StartOverlap> find_start_overlaps(Scene& scene, const Case& paramete
         found[k] = {a, b, pair.depth, pair.point, pair.inside};
     });
 
+    // A contact may be deeper than what the meshes alone show: the larger depth counts.
     std::vector<Contact> contacts;
     ContactFinder().find(scene, pairs, ContactRule(parameters), 0.0, 0.0, contacts);
     std::size_t k = 0;
@@ -181,6 +187,7 @@ std::vector<StartOverlap> find_start_overlaps(Scene& scene, const Case& paramete
         found[k].depth = -c.gap;
         found[k].point = c.point;
     }
+    // what position correction tolerates, (12), is no fault of the case
     std::erase_if(found, [&](const StartOverlap& o) {
         return o.depth <= kToleratedOverlap * std::min(smallest_radius(shape_of(scene, o.a)),
                                                        smallest_radius(shape_of(scene, o.b)));

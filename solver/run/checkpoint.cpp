@@ -85,6 +85,7 @@ std::map<std::string, std::string> keys_of(const std::string& resolved) {
             table = line.substr(1, line.size() - 2) + ".";
         } else if (const auto equals = line.find(" = "); equals != std::string::npos) {
             const std::string name = line.substr(0, equals);
+            // `spheres` of any table: the content of the files is compared by its hash
             if (name == "spheres" || table + name == "simulation.duration") continue;
             keys[table + name] = line.substr(equals + 3);
         }
@@ -142,6 +143,7 @@ void check_numbers(const std::filesystem::path& path, const Bodies& b) {
 
 void write_checkpoint(const std::filesystem::path& path, World& world, Recorder& recorder,
                       RunProgress& progress, SavedRows rows) {
+    // Rows before state: the checkpoint names places in files that must hold them by then.
     Identity identity = identity_of(world);
     RecordPosition position =
         rows == SavedRows::beside ? recorder.save_rows() : recorder.write_rows();
@@ -155,6 +157,7 @@ void write_checkpoint(const std::filesystem::path& path, World& world, Recorder&
 }
 
 SavedRun read_checkpoint(const std::filesystem::path& path, World& world) {
+    // The case first: nothing of another run may reach the world.
     CheckpointFile file(path, Direction::read);
     Identity then, now = identity_of(world);
     carry(file, then);

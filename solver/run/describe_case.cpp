@@ -49,6 +49,7 @@ std::string motion_line(const World& w) {
     const Equilibrium& e = rig.equilibrium;
     constexpr double kDegree = std::numbers::pi / 180.0;
     out += fmt::format(" floats with {:.4g} t displaced, trim {:.3g} deg by the bow",
+                       // + 0.0: no "-0" in the text
                        1e-3 * w.parameters.water_density * e.volume, e.angles[1] / kDegree + 0.0);
     if (w.scene.dimension == 3)
         out += fmt::format(", heel {:.3g} deg, GM {:.4g} m", e.angles[0] / kDegree + 0.0,
@@ -70,6 +71,7 @@ std::string ice_line(const World& w, const IceParticulars& ice) {
     out += fmt::format(", {:.3g} m thick", ice.thickness);
     if (std::isfinite(ice.concentration))
         out += fmt::format(", cover {:.0f} %", 100.0 * ice.concentration);
+    // bodies that are no loose floes, without the ship
     const auto fixed = static_cast<std::int64_t>(w.scene.bodies.size()) - 1 - ice.floes;
     if (fixed > 0) out += fmt::format("; {} pieces of unbroken ice", fixed);
     return out + fmt::format("; held: {}", fmt::join(ice.hold, ", "));

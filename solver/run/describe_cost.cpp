@@ -46,6 +46,7 @@ std::string time_text(double seconds) {
 
 RunCost run_cost(const Case& p, std::size_t floes, std::size_t regions) {
     RunCost out;
+    // rows and frames are written at steps alone
     out.steps = std::llround(p.duration / p.time_step);
     out.rows = std::llround(p.duration / std::max(p.history_every, p.time_step));
     out.frames = 1 + std::llround(p.duration / std::max(p.frames_every, p.time_step));
@@ -62,8 +63,10 @@ std::string describe_cost(World& w) {
     const RunCost cost = run_cost(w.parameters, w.scene.bodies.size() - 1,
                                   w.scene.shapes[kShip].region_names.size());
     const Timer timer;
+    // as many steps as half a second allows, at least two
     int taken = 0;
     for (; taken < std::min<std::int64_t>(kMostSteps, cost.steps); ++taken) {
+        // the first step also fills lists and caches: one more is needed for a fair time
         if (taken > 1 && timer.seconds() > kMostSeconds) break;
         step(w);
     }
@@ -77,6 +80,7 @@ std::string describe_cost(World& w) {
 }
 
 void require_open_files(const Case& parameters) {
+    // the soft limit may be raised to the hard one without privileges
     const rlim_t wanted = parameters.track.size() + kOtherFiles;
     rlimit limit{};
     if (getrlimit(RLIMIT_NOFILE, &limit) != 0 || limit.rlim_cur >= wanted) return;

@@ -78,6 +78,7 @@ int allocate_ahead(const std::filesystem::path& path, std::uint64_t bytes) {
     if (file < 0) return errno;
     struct stat state {};
     int reason = ::fstat(file, &state) == 0 ? 0 : errno;
+    // beyond the present end, without moving it
     const auto end = static_cast<off_t>(bytes) + state.st_size;
     if (reason == 0 && ::fallocate(file, FALLOC_FL_KEEP_SIZE, 0, end) != 0) reason = errno;
     ::close(file);
@@ -88,6 +89,8 @@ int allocate_ahead(const std::filesystem::path& path, std::uint64_t bytes) {
 
 bool DiskRoom::could_hold(std::uint64_t rows, std::uint64_t text_rows, std::uint64_t end) {
     if (!can_hold_) return true;
+    // The rows' blocks are allocated in their own files; what comes at the end of a run is
+    // reserved in a file without a name.
     int reason = allocate_ahead(folder_ / kRows, rows);
     for (const auto& path : csv_files(folder_))
         if (reason == 0) reason = allocate_ahead(path, text_rows);
@@ -127,6 +130,7 @@ void DiskRoom::saved() { saved_bytes_ = bytes_of(folder_ / kRows); }
 bool DiskRoom::is_used_up() const { return held_ >= 0 && free_space(folder_) < held_bytes_; }
 
 bool DiskRoom::is_short(const Recorder& recorder, const World& world, bool saves) {
+    // Asking the file system costs time: only when rows, a checkpoint or many bytes are due.
     const std::uint64_t waiting = recorder.waiting_bytes();
     if (looked_ && !saves && !recorder.is_about_to_write() && waiting >= waiting_ &&
         waiting - waiting_ < kStride)

@@ -104,6 +104,7 @@ FlowTable make_table(const Case& p, const Scene& scene) {
     const TriangleMesh& mesh = scene.shapes[0].mesh;
     FlowOptions options;
     options.water = -scene.bodies.position[kShip].z();
+    // the table's finest nodes are half a floe's thickness apart
     options.finest = round_down(0.5 * thinnest_floe(scene));
     const auto file = kept_as(p.hull_spheres, hash_of_flow(mesh, p.dimension, options));
     if (std::filesystem::exists(file)) return read_flow(file);
@@ -133,6 +134,7 @@ FlowTable make_table(const Case& p, const Scene& scene) {
 FlowTable read_table(const Case& p, const Scene& scene) {
     FlowTable table = read_flow(p.flow_file);
     const double draught = -scene.bodies.position[kShip].z() - keel_of(scene.shapes[0].mesh);
+    // a table of a section has one node across
     if ((table.nodes[1] == 1) != (p.dimension == 2))
         throw bad_input(p.flow_file.string(),
                         p.dimension == 2 ? "is of a hull in 3D" : "is of a section",
@@ -145,7 +147,7 @@ FlowTable read_table(const Case& p, const Scene& scene) {
     return table;
 }
 
-// Whether the ship ever moves through the water.
+// Whether the ship ever moves through the water: else its flow is zero, and no table is needed.
 bool pushes_water(const Case& p) {
     return p.ship.free[surge] ||
            std::any_of(p.speed_table.begin(), p.speed_table.end(),

@@ -62,6 +62,7 @@ World make_world(const Case& parameters, const SphereSet& hull) {
     require_dimension(hull, parameters.dimension, "the hull");
     World world;
     world.parameters = parameters;
+    // a world has no groups until add_floe makes them, one for each way of holding
     world.parameters.floes.clear();
     if (world.parameters.speed_table.empty()) world.parameters.speed_table = {{0.0, 0.0}};
     Shape shape = build_shape(hull, false);
@@ -88,6 +89,7 @@ std::size_t add_floe(World& world, std::int32_t shape, const FloeStart& start) {
     FloeStart placed = start;
     placed.orientation = start.orientation.normalized();
     double& z = placed.position.z();
+    // without z: afloat in the given attitude
     if (std::isnan(z)) {
         const double fraction = p.ice_density / p.water_density;
         if (fraction >= 1.0)
@@ -102,6 +104,7 @@ std::size_t add_floe(World& world, std::int32_t shape, const FloeStart& start) {
                         "give a finite Case::contact.crushing_pressure");
     const std::size_t i =
         add_floe(world.scene, shape, p.ice_density, placed, group_of(p, start.hold));
+    // for a floe that is held until it bends
     set_breaking_loads(world.scene, p);
     return i;
 }

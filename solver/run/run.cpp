@@ -80,6 +80,7 @@ void fill_run(const World& w, double wall_seconds, Summary& s) {
 
 void write_summary(const World& w, const RunOptions& options, double wall_seconds,
                    Recorder& recorder, Summary& summary) {
+    // before the summary is completed: means over ship lengths need the travel
     fill_particulars(w.scene, w.parameters, w.time, summary, recorder.travel(view_of(w)));
     recorder.finish(view_of(w), summary);  // its warnings look at the travel
     if (auto warning = warn_of_open_end(w.scene, w.parameters, summary.travel.distance))
@@ -119,6 +120,7 @@ void start(Job& job) {
 }
 
 // The part of the averaged time that is over.
+// 0 before the averages begin, 1 at the end
 double averaged_share(const World& w) {
     const Case& p = w.parameters;
     return std::clamp((w.time - p.average_from) / (p.duration - p.average_from), 0.0, 1.0);
@@ -149,6 +151,7 @@ void go_on(Job& job, const SavedRun& saved) {
 }
 
 void save(Job& job, SavedRows rows = SavedRows::beside) {
+    // state and files are saved already
     if (job.saved_step == job.world.steps) return;
     job.progress.wall_seconds = job.wall_seconds();
     write_checkpoint(job.options.folder / kCheckpointName, job.world, job.recorder, job.progress,
@@ -198,6 +201,7 @@ bool is_due(const Job& job) {
 void advance(Job& job) {
     World& w = job.world;
     while (w.steps < job.steps) {
+        // room is looked at before the step: what it writes must fit
         if (job.room.is_short(job.recorder, w)) return stop_for_room(job);
         if (job.options.verify)
             verified_step(w, job.summary);
@@ -238,6 +242,7 @@ Summary run(World& world, const RunOptions& options) {
     write_text_file(
         options.folder / "case.resolved.cfg",
         fmt::format("# icesolve {} ({})\n# {}\n{}", version(), git_commit(), command, p.resolved));
+    // duration / dt rounded: a last fraction of a step is not simulated, and said below
     const auto steps = static_cast<std::int64_t>(std::llround(p.duration / p.time_step));
 
     Job job{

@@ -111,6 +111,7 @@ int lock_file(const fs::path& folder) {
         throw run_failed(log.string(), std::string("cannot be written: ") + std::strerror(errno),
                          "check that the folder is writable and the disk is not full, or choose "
                          "another with --out");
+    // the lock ends with the program, however that ends
     if (::flock(file, LOCK_EX | LOCK_NB) == 0) return file;
     const bool is_locked = errno == EWOULDBLOCK;
     ::close(file);
@@ -148,6 +149,7 @@ RunFolder::~RunFolder() {
 
 fs::path default_run_folder(const fs::path& case_file) {
     fs::path name = case_file.stem();
+    // of a case called "case" the folder says more
     const fs::path folder = fs::absolute(case_file).lexically_normal().parent_path().filename();
     if (name == "case" && !folder.empty()) name = folder;
     return fs::path("results") / name;

@@ -12,6 +12,7 @@ void carry(CheckpointFile& file, World& w) {
     for (std::size_t k = 0; k < kStageNames.size(); ++k)
         file.carry(fmt::format("stage_seconds.{}", kStageNames[k]), w.stage_seconds[k]);
 
+    // momenta, not velocities: these are derived from them (2)
     Bodies& b = w.scene.bodies;
     file.carry_each("bodies.position", b.position);
     file.carry_each("bodies.orientation", b.orientation);

@@ -15,6 +15,7 @@ constexpr int kMostParts = 100;  // of a triangle's side
 
 // Seats and tips of the hull's spheres, by x.
 std::vector<Vec3> places_felt(const Shape& hull) {
+    // where a hull's sphere touches from inside, and the sharp tip of an edge or vertex
     std::vector<Vec3> out;
     for (std::size_t k = 0; k < hull.center.size(); ++k) {
         out.push_back(hull.center[k] + hull.radius[k] * hull.normal[k]);
@@ -30,6 +31,7 @@ double distance_to_nearest(const std::vector<Vec3>& places, const Vec3& p) {
     const auto middle = std::lower_bound(places.begin(), places.end(), p.x(),
                                          [](const Vec3& s, double x) { return s.x() < x; });
     double least = std::numeric_limits<double>::infinity();
+    // Sorted by x: a place farther away along x alone than the best one ends the search.
     const auto is_nearer = [&](const Vec3& s) {
         const double dx = s.x() - p.x();
         if (dx * dx >= least) return false;
@@ -47,6 +49,7 @@ void for_each_part(const Vec3& a, const Vec3& b, const Vec3& c, double apart, co
     const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
     const int n = static_cast<int>(std::clamp(std::ceil(longest / apart), 1.0, 1.0 * kMostParts));
     const double area = 0.5 * (b - a).cross(c - a).norm() / (n * n);
+    // n x n equal triangles, those that stand upright and those between them upside down
     const Vec3 u = (b - a) / n, v = (c - a) / n;
     for (int i = 0; i < n; ++i)
         for (int j = 0; j < n - i; ++j) {

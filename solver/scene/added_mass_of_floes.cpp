@@ -33,6 +33,7 @@ void add_water(Scene& scene, std::size_t body, double water_density) {
         scene.shapes[static_cast<std::size_t>(b.shape[body])].mesh, water_density);
     Inertia& inertia = b.inertias[static_cast<std::size_t>(b.inertia_row[body])];
     inertia.added = of_water.topLeftCorner<3, 3>();
+    // (m + A)^-1 - 1 / m: what the response to an impulse has beyond 1 / m, (P2)
     inertia.inverse_excess =
         (mass * Mat3::Identity() + inertia.added).inverse() - Mat3::Identity() / mass;
     inertia.body += of_water.bottomRightCorner<3, 3>();
@@ -45,11 +46,13 @@ void set_added_mass(Scene& scene, const Case& parameters) {
     std::vector<bool> done(b.inertias.size(), false);
     for (std::size_t i = kShip + 1; i < b.size(); ++i) {
         const auto row = static_cast<std::size_t>(b.inertia_row[i]);
+        // once for each form and density; ice that never moves needs none
         if (done[row] || stays(parameters, b, i)) continue;
         done[row] = true;
         add_water(scene, i, parameters.water_density);
     }
     b.inverse_mass_excess.assign(b.size(), Mat3::Zero());
+    // velocities as the case gives them: the momenta have the water's part as well
     for (std::size_t i = kShip + 1; i < b.size(); ++i) {
         const Mat3& r = b.rotation[i];
         b.momentum[i] =

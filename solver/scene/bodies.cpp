@@ -21,6 +21,7 @@ void update_derived(Bodies& bodies, std::size_t i) {
         return;
     }
     const Mat3& r = bodies.rotation[i];
+    // (2), and with added mass v = P / m + excess P, (P2)
     bodies.inverse_mass[i] = 1.0 / bodies.mass[i];
     bodies.inverse_inertia_world[i] = ordered_turned(r, bodies.inverse_inertia(i));
     bodies.velocity[i] = bodies.momentum[i] / bodies.mass[i];

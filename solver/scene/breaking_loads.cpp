@@ -14,12 +14,14 @@ void set_breaking_loads(Scene& scene, const Case& parameters) {
     const auto bends = [&](std::size_t i) {
         return parameters.floes[static_cast<std::size_t>(b.group[i])].hold == Hold::until_bent;
     };
+    // bodies from the last call on: the others have their loads
     for (std::size_t i = std::max(b.breaking_load.size(), kShip + 1); i < b.size(); ++i) {
         if (!bends(i)) continue;
         b.breaking_load.resize(b.size(), kNever);
         const TriangleMesh& mesh = scene.shapes[static_cast<std::size_t>(b.shape[i])].mesh;
         b.breaking_load[i] = breaking_load(measure_outline(mesh, b.rotation[i]), parameters);
     }
+    // bodies that came after the last one that bends have no load that breaks them
     if (!b.breaking_load.empty()) b.breaking_load.resize(b.size(), kNever);
 }
 

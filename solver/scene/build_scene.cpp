@@ -59,6 +59,7 @@ void add_group(Scene& scene, const Case& parameters, std::size_t g, std::int32_t
     const FloeGroup& group = parameters.floes[g];
     const Shape& shape = scene.shapes[static_cast<std::size_t>(shape_row)];
     const Mat3 rotation = group.orientation.toRotationMatrix();
+    // the box in the group's orientation: neighbours keep the gap however they are turned
     Eigen::AlignedBox3d box;
     for (const Vec3& v : shape.mesh.vertices) box.extend(rotation * v);
     // as doubles: the product of two counts may exceed an integer
@@ -93,6 +94,7 @@ struct ShapeRows {
 
 void add_set_group(Scene& scene, const Case& parameters, std::size_t g, ShapeRows& rows) {
     const auto& file = parameters.floes[g].spheres;
+    // a set that two groups share is read once
     const auto [found, fresh] =
         rows.of_set.try_emplace(file, static_cast<std::int32_t>(scene.shapes.size()));
     if (fresh) scene.shapes.push_back(read_shape(file, parameters.dimension, true));
@@ -112,6 +114,7 @@ void add_field_group(Scene& scene, const Case& parameters, std::size_t g, ShapeR
         found = rows.of_field.emplace(group.file, std::pair{read_field(group.file), first}).first;
         for (SphereSet& set : found->second.first.shapes) {
             scene.shapes.push_back(build_shape(set, true));
+            // a large field twice in memory would be too much
             set = {};
         }
     }
@@ -145,6 +148,7 @@ std::int32_t share_inertia(Scene& scene, std::int32_t shape_row, double density)
 
 Inertia inertia_of(const Shape& shape, double density) {
     Inertia inertia{density, density * shape.solid.inertia, Mat3::Zero()};
+    // In 2D a floe turns about y alone: the other components of the inverse stay zero.
     if (shape.dimension == 2)
         inertia.inverse(1, 1) = 1.0 / inertia.body(1, 1);
     else
@@ -157,6 +161,7 @@ Scene make_scene(Shape hull, const Vec3& position, const Vec3& velocity) {
     scene.dimension = hull.dimension;
     scene.ship_velocity = velocity;
     scene.shapes.push_back(std::move(hull));
+    // body 0, with zeros for everything that a prescribed course does not answer
     Bodies& b = scene.bodies;
     b.shape.push_back(0);
     b.group.push_back(-1);
@@ -178,6 +183,7 @@ Scene make_scene(Shape hull, const Vec3& position, const Vec3& velocity) {
 
 std::size_t add_floe(Scene& scene, std::int32_t shape_row, double density, const FloeStart& start,
                      std::int32_t group) {
+    // floating heights are found before
     const Shape& shape = scene.shapes[static_cast<std::size_t>(shape_row)];
     ICE_ASSERT(std::isfinite(start.position.z()));
     const bool held = start.hold != Hold::never;
@@ -198,6 +204,7 @@ std::size_t add_floe(Scene& scene, std::int32_t shape_row, double density, const
     b.inverse_inertia_world.push_back(Mat3::Zero());
     const std::size_t i = b.size() - 1;
     if (!held) b.moving.push_back(static_cast<std::int32_t>(i));
+    // at rest momenta stay exact zeros; else P = m v and L = R I R^T w, (2)
     if (!start.velocity.isZero(0.0) || !start.angular_velocity.isZero(0.0)) {
         const Mat3 rotation = start.orientation.toRotationMatrix();
         b.momentum[i] = b.mass[i] * start.velocity;
@@ -238,6 +245,7 @@ Scene build_scene(const Case& parameters) {
         else
             add_set_group(scene, parameters, g, rows);
     }
+    // only of a single field the cover of the whole is known
     if (rows.of_set.empty() && rows.of_field.size() == 1)
         scene.concentration = rows.of_field.begin()->second.first.concentration;
     apply_jitter(scene, parameters);

@@ -30,6 +30,7 @@ bool is_unbroken(const Scene& scene, const Case& parameters, std::size_t floe) {
 }
 
 IceAtStart find_ice_at_start(const Scene& scene, const Case& parameters) {
+    // level ice that never moves is the channel's wall; all other floes lie in the channel
     IceAtStart ice;
     std::vector<Eigen::AlignedBox2d> unbroken;
     for (std::size_t i = 1; i < scene.bodies.size(); ++i) {

@@ -82,6 +82,8 @@ ConvexBounds::ConvexBounds(const TriangleMesh& mesh, std::span<const BoundedSphe
         normals.clear();
         return;
     }
+    // Each normal's foremost corner bounds the mesh; spheres and tips may lie before it by the
+    // excess, which separation() takes off.
     for (const Vec3& n : normals) {
         double foremost = n.dot(corners.front());
         for (const Vec3& v : corners) foremost = std::max(foremost, n.dot(v));

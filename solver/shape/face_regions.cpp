@@ -61,6 +61,7 @@ FaceRegions::FaceRegions(const SphereSet& set) : of_sphere_(set.regions) {
     const double largest = *std::max_element(set.radii.begin(), set.radii.end());
     const SphereGrid grid(std::span(set.centers).first(count), 2.0 * largest);
 
+    // Two passes: which spheres see a second region at all, then the faces of these alone.
     std::vector<std::uint8_t> at_border(count, 0);
     for_each_near(set, grid, largest, [&](std::size_t k, std::size_t t, double) {
         if (set.mesh.region[t] != of_sphere_[k]) at_border[k] = 1;
@@ -87,6 +88,7 @@ std::int32_t FaceRegions::at(std::int32_t sphere, const Vec3& n) const {
     const auto k = static_cast<std::size_t>(sphere);
     std::int32_t region = of_sphere_[k];
     if (first_.empty()) return region;
+    // the face whose normal is nearest to the contact's tells the region of a sphere in an edge
     double nearest = -2.0;  // below any cosine
     for (std::size_t f = first_[k]; f < first_[k + 1]; ++f) {
         const double along = n.dot(faces_[f].normal);

@@ -12,6 +12,7 @@ MeshEdges find_edges(const TriangleMesh& mesh) {
     std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> known;
     for (const auto& corners : mesh.triangles) {
         auto& edges = out.of_triangle.emplace_back();
+        // an edge has two triangles: the second one finds the middle of the first
         for (std::size_t k = 0; k < 3; ++k) {
             const std::int32_t a = corners[k], b = corners[(k + 1) % 3];
             const auto [edge, fresh] =

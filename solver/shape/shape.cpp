@@ -43,6 +43,7 @@ NormalCone outermost_faces(const std::vector<Vec3>& normals) {
                 out[0] = normals[i];
                 out[1] = normals[j];
             }
+    // faces nearly back to back: a knife, which counts as round
     if (least < kKnife) return {};
     const Vec3 across = out[0].cross(out[1]);
     for (const Vec3& n : normals)
@@ -63,6 +64,8 @@ std::vector<NormalCone> meeting_faces(const SphereSet& set) {
         NormalCone faces = outermost_faces(normals[k]);
         // the point along the middle normal that no face's plane leaves outside
         double nearest = 0.0;
+        // the plane nearest to the centre ends the middle normal first: r / cos of the largest
+        // angle
         for (const Vec3& n : normals[k]) nearest = std::max(nearest, n.dot(set.normals[k]));
         faces.apex_distance =
             faces.count > 0 && nearest > 0.0 ? set.radii[k] / nearest : set.radii[k];
@@ -93,6 +96,8 @@ void find_kinds(Shape& shape) {
     std::map<std::array<double, 18>, std::int32_t> known;
     for (std::size_t k = 0; k < shape.center.size(); ++k) {
         const NormalCone& faces = shape.cone[k];
+        // A feature type is everything but the place: equal bits, as copies along an edge have
+        // them.
         std::array<double, 18> key{shape.radius[k], shape.spread_cos[k], faces.apex_distance,
                                    faces.tangent_extent, static_cast<double>(faces.count)};
         auto to = key.begin() + 5;
@@ -110,6 +115,7 @@ void rank_places(Shape& shape) {
     const auto place = [&](std::int32_t k) {
         return std::tuple(at[k].x(), std::abs(at[k].y()), at[k].z());
     };
+    // Mirror images about y = 0 share a rank, so that an order by ranks treats them alike.
     std::vector<std::int32_t> order(at.size());
     std::iota(order.begin(), order.end(), 0);
     std::sort(order.begin(), order.end(),
@@ -154,6 +160,8 @@ Shape build_shape(const SphereSet& set, bool about_centre_of_mass) {
         throw bad_input(set.source_mesh, "the sphere set has no surface spheres",
                         "make it again with spherize");
 
+    // the mesh and everything derived from it about the centre of mass, the hull's about its
+    // origin
     shape.mesh = set.mesh;
     for (Vec3& v : shape.mesh.vertices) v -= origin;
     shape.solid = set.solid;

@@ -36,6 +36,8 @@ public:
     const std::vector<Face>& of(std::size_t k) {
         found_.clear();
         const NormalCone& faces = shape_.cone[k];
+        // A corner ends at its own planes, and a sphere on a curved part has no flat face to
+        // end.
         if (faces.count > 2 || (faces.count == 0 && shape_.spread_cos[k] != 1.0)) return found_;
         find_near(k);
         if (near_.empty()) return found_;
@@ -43,6 +45,7 @@ public:
             list_next(k, shape_.normal[k], found_);
             return found_;
         }
+        // An edge ends where both its faces end: at planes that both lists have.
         list_next(k, faces.normal[0], found_);
         list_next(k, faces.normal[1], other_);
         std::erase_if(found_, [&](const Face& f) {
@@ -83,6 +86,7 @@ private:
     void list_next(std::size_t k, const Vec3& normal, std::vector<Face>& out) {
         out.clear();
         beside_.clear();
+        // Spheres in edges that share this face: their other faces are the face's neighbours.
         const Face own = face_of(k, normal);
         for (const std::size_t m : near_) {
             const NormalCone& faces = shape_.cone[m];

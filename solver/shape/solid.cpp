@@ -63,6 +63,7 @@ bool list_planes(const TriangleMesh& mesh, const std::vector<Vec3>& points, doub
         if (std::any_of(out.begin(), out.end(),
                         [&](const Plane& p) { return p.normal.dot(n) > kSameNormal; }))
             continue;
+        // Where another vertex lies before the facet's plane the mesh is not convex.
         const double offset = foremost(points, n);
         if (std::min({n.dot(a), n.dot(b), n.dot(c)}) < offset - flat) return false;
         if (out.size() == ConvexPiece::kMost) return false;
@@ -90,6 +91,7 @@ void add_edge(const std::vector<Plane>& planes, const std::vector<Vec3>& corners
               std::int32_t right, double flat, std::vector<SolidEdge>& out) {
     const Plane &l = planes[static_cast<std::size_t>(left)],
                 &r = planes[static_cast<std::size_t>(right)];
+    // of all corners in both planes the first and the last along their line
     const Vec3 along = l.normal.cross(r.normal);
     SolidEdge edge{-1, -1, left, right};
     double first = 0.0, last = 0.0;
@@ -118,6 +120,7 @@ std::vector<std::int32_t> loop_round(const std::vector<SolidEdge>& edges, std::i
     }
     std::vector<std::int32_t> loop;
     if (steps.empty()) return loop;
+    // The edges are oriented round the plane: each one begins where the one before it ends.
     std::int32_t at = steps.front().first;
     for (std::size_t n = 0; n < steps.size(); ++n) {
         loop.push_back(at);

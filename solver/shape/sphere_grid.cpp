@@ -13,6 +13,7 @@ void SphereGrid::build(std::span<const Vec3> points, double cell) {
     for (const Vec3& p : points) box.extend(p);
     origin_ = box.min();
     cell_ = cell;
+    // Cells are enlarged where a few points far apart would need too many of them.
     const double most_cells = 4.0 * static_cast<double>(points.size()) + 1000.0;
     double cells = 0.0;
     do {

@@ -26,6 +26,7 @@ Facet make_facet(const Vec3& a, const Vec3& b, const Vec3& c) {
 FacetBlocks::FacetBlocks(std::span<const Facet> facets) : count(facets.size()) {
     blocks.resize((count + kLanes - 1) / kLanes);
     for (std::size_t k = 0; k < kLanes * blocks.size(); ++k) {
+        // copies of the last facet without an area add nothing to a sum
         Facet facet = facets[std::min(k, count - 1)];
         if (k >= count) facet.area.setZero();
         put(facet, k % kLanes, blocks[k / kLanes]);

@@ -29,6 +29,7 @@ public:
 
     // generalised force of the three motions at the centre of gravity
     Vec3 force(const Attitude& a) const {
+        // about the axes of the angles, in which the stiffness is that of roll and pitch
         const ShipAngles angles(a[1], a[2], 0.0);
         const ShipAxes axes = axes_of(angles);
         const FloatingForce f = floating(a);
@@ -51,6 +52,7 @@ public:
     }
     // the scale of each motion's force
     Vec3 scale() const {
+        // moments count against weight times length, so that one tolerance serves all three
         const double weight = body_.mass * case_.gravity;
         return {weight, weight * size_.y() + (size_.y() == 0.0 ? 1.0 : 0.0), weight * size_.x()};
     }

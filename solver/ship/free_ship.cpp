@@ -31,6 +31,7 @@ void FreeShip::begin(const Case& p, Scene& scene) {
     begun_ = true;
     if (!p.ship.any_free()) return;
     rig_ = make_ship_rig(p, scene);
+    // the prescribed speed at t = 0, and the floating pose, is the start of the free motions
     velocity_ = Vec3(p.ship_speed(0.0), 0.0, 0.0);
     angles_ = rig_->equilibrium.angles;
     Bodies& b = scene.bodies;
@@ -57,6 +58,8 @@ void FreeShip::start_step(const Case& p, Scene& scene, double time) {
     // Speed in the middle of the step: the displacement of a linear speed table is then exact.
     const Vec3 course(p.ship_speed(time + 0.5 * p.time_step), 0.0, 0.0);
     if (answers()) {
+        // The free motions go on with the velocity of the last step; the others follow the
+        // course.
         const ShipAxes axes = axes_of(angles_);
         const Vec3 along = axes.shift.transpose() * velocity_;
         Vec3 velocity = free_part(rig_->body, surge, along);
@@ -64,6 +67,7 @@ void FreeShip::start_step(const Case& p, Scene& scene, double time) {
         const Vec3 rates = free_part(rig_->body, roll, axes.turn.inverse() * spin_);
         b.velocity[kShip] = axes.shift * velocity;
         b.angular_velocity[kShip] = axes.turn * rates;
+        // response to impulses with the matrices at the step's start, (S1)
         b.ship = response_of(rig_->body, angles_);
         if (!energies_.kinetic_start) {
             energies_.kinetic_start = kinetic_energy(b);
@@ -88,8 +92,10 @@ void FreeShip::apply_loads(const Case& p, Scene& scene, double time) {
                                 speed_error_);
     add_damping(p, scene);
     const ShipForce total = loads_.total();
+    // (S1) without impulses: the contacts have theirs in the stages that follow
     b.velocity[kShip] += b.ship.inverse_mass * (p.time_step * total.force);
     b.angular_velocity[kShip] += b.ship.inverse_inertia * (p.time_step * total.moment);
+    // the integral of the error for `hold_speed`
     if (!std::isnan(p.propulsion.hold_speed))
         speed_error_ += p.time_step * (p.propulsion.hold_speed -
                                        axes_of(angles_).shift.col(0).dot(b.velocity[kShip]));
@@ -112,12 +118,14 @@ void FreeShip::add_damping(const Case& p, Scene& scene) {
             inverse_on_free(heavier, rig_->body, first) * (dt * (force - by.cwiseProduct(rate)));
         return -by.cwiseProduct(free_part(rig_->body, first, rate) + 0.5 * change);
     };
+    // through the water: damping of a ship that drifts with the current is zero
     const Vec3 through_water = axes.shift.transpose() * (b.velocity[kShip] - scene.water.current);
     const Vec3 rates = axes.turn.inverse() * b.angular_velocity[kShip];
     const Vec3 force =
         damped(surge, masses.shift, shift, through_water, axes.shift.transpose() * others.force);
     const Vec3 moment =
         damped(roll, masses.turn, turn, rates, axes.turn.transpose() * others.moment);
+    // back to world axes: the angles' own are not at right angles where the ship trims
     loads_.losses.force += axes.shift * force;
     loads_.losses.moment += axes.turn.transpose().inverse() * moment;
 }
@@ -127,6 +135,7 @@ void FreeShip::book(const Scene& scene, const std::vector<Constraint>& constrain
     if (!answers()) return;
     const Bodies& b = scene.bodies;
     const ShipAxes axes = axes_of(angles_);
+    // (S3): each force times the mean of the step's first and last velocity, free motions only
     const Vec3 mean = 0.5 * (velocity_start_ + b.velocity[kShip]);
     const Vec3 mean_spin = 0.5 * (spin_start_ + b.angular_velocity[kShip]);
     const Vec3 v = axes.shift * free_part(rig_->body, surge, axes.shift.transpose() * mean);
@@ -136,9 +145,11 @@ void FreeShip::book(const Scene& scene, const std::vector<Constraint>& constrain
     energies_.tow += work(loads_.tow);
     energies_.mooring += work(loads_.mooring);
     energies_.losses -= work(loads_.losses);
+    // position corrections move the ship against the water's forces: work without a velocity
     energies_.separation -= loads_.water.force.dot(corrections.shift[kShip]) +
                             loads_.water.moment.dot(corrections.turn[kShip]);
     for (const Constraint& c : constraints) {
+        // an impulse J on the floe is -J on the ship, at arm_a from G
         if (c.a != static_cast<std::int32_t>(kShip) || c.total_normal() <= 0.0) continue;
         const Vec3 j = c.total_normal() * c.normal + c.total_tangent();
         energies_.ice += j.dot(v + w.cross(c.arm_a));
@@ -153,6 +164,7 @@ void FreeShip::turn(Scene& scene, const PositionCorrections& corrections, double
     velocity_ = b.velocity[kShip];
     spin_ = b.angular_velocity[kShip];
     const Vec3 rates = axes.turn.inverse() * spin_;
+    // momenta in world axes, for the checks and the hash; the state is velocity and angles
     b.momentum[kShip] = axes.shift * (masses.shift * (axes.shift.transpose() * velocity_));
     b.angular_momentum[kShip] = axes.turn.transpose().inverse() * (masses.turn * rates);
     const Vec3 shift = axes.shift.transpose() * corrections.shift[kShip];

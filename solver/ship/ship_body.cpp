@@ -75,6 +75,8 @@ Quaternion orientation_of(const ShipAngles& a) {
 }
 
 ShipAxes axes_of(const ShipAngles& a) {
+    // Shifts lie along the heading, level, and up; roll about the ship's own axis, pitch about
+    // its level one, yaw about the vertical: the axes of R = R_z R_y R_x.
     ShipAxes out;
     if (a.isZero(0.0)) return out;
     out.shift = exponential_map(Vec3(0.0, 0.0, a[2])).toRotationMatrix();
@@ -88,6 +90,7 @@ ShipMasses masses_of(const ShipBody& body, const ShipAngles& a) {
     const Mat3 r = orientation_of(a).toRotationMatrix();
     const Vec3 added(body.added[surge], body.added[sway], body.added[heave]);
     const Vec3 added_turn(body.added[roll], body.added[pitch], body.added[yaw]);
+    // mass and inertia are the ship's, given in its own axes, turned into those of the motions
     const Mat3 to_ship = r.transpose() * axes.shift, turn = r.transpose() * axes.turn;
     ShipMasses out;
     out.shift = body.mass * Mat3::Identity() + to_ship.transpose() * added.asDiagonal() * to_ship;
@@ -96,6 +99,8 @@ ShipMasses masses_of(const ShipBody& body, const ShipAngles& a) {
 }
 
 Mat3 inverse_on_free(const Mat3& matrix, const ShipBody& body, Freedom first) {
+    // Locked motions take no part: their rows and columns leave the matrix before it is
+    // inverted.
     Mat3 kept = Mat3::Identity();
     const auto is_free = [&](int k) { return body.free[static_cast<std::size_t>(first + k)]; };
     for (int k = 0; k < 3; ++k)

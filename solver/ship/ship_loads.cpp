@@ -41,6 +41,8 @@ void set_damping(const Case& p, ShipRig& rig) {
     const ShipMasses masses = masses_of(rig.body, rig.equilibrium.angles);
     const SixNumbers stiffness = restoring(p, rig);
     for (int k = 0; k < kFreedoms; ++k) {
+        // c = 2 zeta sqrt(C (M + A)) where something restores; else the given coefficient
+        // itself
         const auto i = static_cast<std::size_t>(k);
         if (!rig.body.free[i]) continue;
         const double mass = k < 3 ? masses.shift(k, k) : masses.turn(k - 3, k - 3);
@@ -64,6 +66,7 @@ void add_propulsion(const Case& p, const ShipRig& rig, const ShipState& s, const
     if (std::isnan(p.propulsion.hold_speed)) {
         out.thrust = thrust_at(p.propulsion, through_water);
     } else {
+        // a regulator with the time tau: proportional and integral, critically damped
         const double error = p.propulsion.hold_speed - ahead.dot(s.velocity);
         out.thrust =
             (rig.body.mass + rig.body.added[surge]) * (error + speed_error / (4.0 * tau)) / tau;
@@ -76,6 +79,7 @@ void add_propulsion(const Case& p, const ShipRig& rig, const ShipState& s, const
     out.propulsion.moment.z() = -inertia * omega * (omega * off + 2.0 * s.angular_velocity.z());
 }
 
+// A spring and a damper from the towing point to the carriage, which has the prescribed course.
 void add_tow(const Case& p, const ShipRig& rig, const ShipState& s, const Mat3& rotation,
              ShipLoads& out) {
     if (p.tow.stiffness == 0.0 && p.tow.damping == 0.0) return;

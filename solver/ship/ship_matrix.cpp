@@ -72,11 +72,14 @@ private:
     // The symmetric part of a table's rows.
     Mat6 matrix(const char* table) {
         Mat6 out = Mat6::Zero();
+        // rows that are missing are named one by one, and count as zero until then
         for (int i = 0; i < 6; ++i)
             if (const auto* row = needed(fmt::format("{}.{}", table, kRows[i])))
                 for (int j = 0; j < 6; ++j) out(i, j) = (*row)[static_cast<std::size_t>(j)];
         if (out.diagonal().minCoeff() < 0.0)
             complain(fmt::format("[{}] has a number below 0 on its diagonal", table));
+        // a radiation program's rounding leaves it not quite symmetric; energy asks for
+        // symmetry
         return 0.5 * (out + out.transpose());
     }
     void complain(const std::string& what) {
@@ -107,6 +110,8 @@ ShipMatrix read_ship_matrix(const std::filesystem::path& file) {
 }
 
 Mat6 moved(const Mat6& matrix, const Vec3& arm) {
+    // The velocity of the old point is T times that of the new one, T = [1, [arm x]; 0, 1];
+    // equal energy gives M' = T^T M T (section 14).
     Mat6 to_old = Mat6::Identity();
     for (int k = 0; k < 3; ++k) to_old.block<3, 1>(0, 3 + k) = arm.cross(Vec3::Unit(k));
     return to_old.transpose() * matrix * to_old;
@@ -114,6 +119,7 @@ Mat6 moved(const Mat6& matrix, const Vec3& arm) {
 
 double largest_coupling(const Mat6& matrix) {
     double most = 0.0;
+    // a motion without mass of its own, in a 2D problem, has no share
     for (int i = 0; i < 6; ++i)
         for (int j = 0; j < i; ++j)
             if (const double both = std::sqrt(matrix(i, i) * matrix(j, j)); both > 0.0)

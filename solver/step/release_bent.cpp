@@ -42,6 +42,7 @@ void BentFloes::find(Scene& scene, const Case& parameters,
     }
     for (const std::int32_t floe : pressed_) {
         const auto i = static_cast<std::size_t>(floe);
+        // taken and set to zero at once: the table of loads is empty again for the next step
         const Load load = std::exchange(loads_[i], Load{});
         // Impulses of a step against load times step: P_f f(v_n) dt with the mean closing speed,
         // weighted by normal impulse.

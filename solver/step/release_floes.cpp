@@ -45,6 +45,7 @@ bool release_touched(Scene& scene, const Case& parameters, const std::vector<Con
     // next.
     bool any = false;
     for (const Contact& c : contacts) {
+        // either body may be held by the rule of its own group
         const bool a = lets_go(scene, parameters, c.a, c.b);
         const bool b = lets_go(scene, parameters, c.b, c.a);
         if ((!a && !b) || !touches(scene.bodies, c, parameters.time_step)) continue;

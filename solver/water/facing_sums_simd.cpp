@@ -21,6 +21,7 @@ FacingIntegrals IntegrateFacing(const FacetBlocks& facets, const WaterPlane& wat
     const Vectors velocity = Set(v), spin = Set(w);
     Sum flow;
     VectorSum first, square, mixed;
+    // each lane sums the same facets in the same order on every instruction set
     for (std::size_t lane = 0; lane < kLanes; lane += hn::Lanes(d)) {
         Facing sum;
         for (const FacetBlock& block : facets.blocks) {

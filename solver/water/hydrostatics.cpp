@@ -53,6 +53,7 @@ Submerged measure_submerged(const Shape& shape, const Mat3& rotation, double hei
 double floating_height(const Shape& shape, const Mat3& rotation, double fraction) {
     ICE_ASSERT(fraction > 0.0);
     const auto [low, high] = vertical_extent(shape, rotation);
+    // bisection: the wetted volume falls as the shape rises
     double wet = -high, dry = -low;  // heights of the origin: all below, all above the water
     const double target = fraction * shape.solid.volume;
     if (target >= shape.solid.volume) return wet;

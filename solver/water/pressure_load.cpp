@@ -61,6 +61,8 @@ WaterLoad pressure_load(const Shape& shape, const Mat3& rotation, double height,
     Vector force{}, moment{};
     for (std::size_t n = 0; n < shape.mesh.triangles.size(); ++n) {
         const FacetBlock& block = shape.facets.blocks[n / FacetBlock::kLanes];
+        // (P1): the pressure is linear over the quarters that the edges' middles make of a
+        // triangle
         const std::size_t lane = n % FacetBlock::kLanes;
         const Vector quarter =
             0.25 * Vector{block.area[0][lane], block.area[1][lane], block.area[2][lane]};

@@ -99,6 +99,7 @@ Sums integrate(const Shape& shape, const WaterPlane& plane, const Relative& rela
     for (std::size_t n = 0; n < shape.mesh.triangles.size(); ++n) {
         const FacetBlock& block = shape.facets.blocks[n / FacetBlock::kLanes];
         const std::size_t lane = n % FacetBlock::kLanes;
+        // (25): the flow is linear over the quarters that the edges' middles make of a triangle
         const Vector quarter =
             0.25 * Vector{block.area[0][lane], block.area[1][lane], block.area[2][lane]};
         std::array<Vec3, 6> p;  // corners, then the middles of the edges behind them

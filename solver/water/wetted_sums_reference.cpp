@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Integrals over a floe's wetted surface, (14) to (17): the definition, one facet at a time.
+// wetted_sums_simd.cpp and facing_sums_simd.cpp compute the same bits in lanes.
 #include <array>
 
 #include "solver/water/cut_triangle.hpp"
@@ -52,6 +54,7 @@ struct Triangle {
 Triangle make_triangle(const FacetBlock& block, std::size_t lane, const Vec3& v, const Vec3& w) {
     const Vector area = get(block.area, lane);
     const Vector turning = cross(area, get(w));
+    // f = a . (v + w x p) at the corners: linear over the triangle, so its integrals are exact
     const double even = dot(area, get(v));
     Triangle out;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -180,6 +183,7 @@ double integrate_facing(const FacetBlocks& facets, const WaterPlane& water, cons
     Sum sum{};
     for (const FacetBlock& block : facets.blocks)
         for (std::size_t lane = 0; lane < kLanes; ++lane) {
+            // (16): facets that face the flow, as far as they are wet
             const double facing = dot(get(block.area, lane), get(v));
             if (facing <= 0.0) continue;
             sum[lane] += facing * share_of(block, lane, water);
