@@ -257,7 +257,7 @@ std::vector<CaseKey> level_ice_keys() {
          }},
         {"level_ice.spacing", Kind::number, D::length, "0.5", 1e-3, 100, 0, "",
          "Distance of the pieces' contact spheres on their surface; their radius is a quarter of "
-         "the thickness.",
+         "the thickness, in 2D no more than the spacing.",
          [](Case& c, G&, const Value& v) { c.level_ice.spacing = number(v); }},
         {"level_ice.gap", Kind::number, D::length, "0.05", 0, 10, 0, "",
          "Open water between pieces, as broad as a crack.",

@@ -36,7 +36,10 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 
 PrismForm prism_form(const Case& p) {
     const LevelIce& ice = p.level_ice;
-    return {ice.thickness, 0.0, kRadius * ice.thickness, ice.spacing, true};
+    const double radius = kRadius * ice.thickness;
+    // a corner's disc stands for its radius of both faces: finer discs, finer sections
+    return {ice.thickness, 0.0, p.dimension == 2 ? std::min(radius, ice.spacing) : radius,
+            ice.spacing, true};
 }
 
 // About its centroid; none where no sphere fits, or a corner gets none.

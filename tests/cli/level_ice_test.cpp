@@ -100,7 +100,7 @@ TEST_CASE("in 2D level ice breaks off in a beam's lengths", "[cli][level_ice][st
     CAPTURE(check.err, check.out);
     REQUIRE(check.code == 0);
     // pi / 4 (E h^3 / (3 rho_w g))^(1/4) at the default 5 GPa, and 0.680 sigma_f (...)^(1/4)
-    CHECK_THAT(check.err + check.out, Catch::Contains("cracks 2.82 m from the tip"));
+    CHECK_THAT(check.err + check.out, Catch::Contains("cracks 2.84 m from the tip"));
     CHECK_THAT(check.err + check.out, Catch::Contains("under 0.716 kN/m"));
     const Result first = w.run("icesolve strip.cfg --out run --verify");
     CAPTURE(first.err);
@@ -114,7 +114,7 @@ TEST_CASE("in 2D level ice breaks off in a beam's lengths", "[cli][level_ice][st
     const PiecesFile pieces = read_pieces(w / "run" / kPiecesName);
     REQUIRE(static_cast<std::int64_t>(pieces.pieces.size()) == s.floes_total);
     for (const PieceRow& row : pieces.pieces) {
-        CHECK(row.radius == Approx(2.82).epsilon(0.2));  // and its scatter
+        CHECK(row.radius == Approx(2.8355).epsilon(0.2));  // and its scatter
         CHECK(row.load >= 715.0);
         CHECK(row.at.y() == 0.0);
     }
