@@ -82,4 +82,19 @@ SphereSet fill_prism(const Outline& outline, const PrismForm& form, std::int64_t
     return set;
 }
 
+SphereSet fill_strip(double length, const PrismForm& form) {
+    FillOptions options;
+    options.radius = form.radius;
+    options.spacing = form.spacing;
+    options.surface_only = form.surface_only;
+    const double x = 0.5 * length, z = 0.5 * form.thickness;
+    const Vec3 corners[]{{-x, 0, -z}, {x, 0, -z}, {x, 0, z}, {-x, 0, z}};
+    const Vec3 normals[]{-Vec3::UnitZ(), Vec3::UnitX(), Vec3::UnitZ(), -Vec3::UnitX()};
+    Section section{{{}}};
+    for (int k = 0; k < 4; ++k)
+        section.loops[0].push_back({corners[k], corners[(k + 1) % 4], normals[k], 0});
+    SpheresReport report;
+    return fill_discs(section, {"ice"}, options, report);
+}
+
 }  // namespace ice

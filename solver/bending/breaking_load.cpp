@@ -70,15 +70,13 @@ double opening_angle(const PieceOutline& piece) {
 }
 
 double breaking_load(const PieceOutline& piece, const Case& parameters) {
-    if (parameters.dimension == 2)
-        return parameters.bending.factor *
-               beam_breaking_load(plate_of(piece.thickness, parameters));
     return breaking_load(opening_angle(piece), piece.thickness, parameters);
 }
 
 double breaking_load(double angle, double thickness, const Case& parameters) {
     const BendingLaw& law = parameters.bending;
     const IcePlate plate = plate_of(thickness, parameters);
+    if (parameters.dimension == 2) return law.factor * beam_breaking_load(plate);
     if (!std::isnan(law.opening_angle)) angle = law.opening_angle;
     return law.factor * (law.model == BendingModel::wedge
                              ? wedge_breaking_load(plate, angle, law.load_length)

@@ -12,6 +12,11 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr double kWedgesOnStraightEdge = 5.0;
 
+// Of a beam on water, per length [1/m].
+double lambda_of(const IcePlate& p) {
+    return std::pow(3.0 * p.water_weight / (p.elastic_modulus * std::pow(p.thickness, 3)), 0.25);
+}
+
 double strength_of(const IcePlate& p) { return p.flexural_strength * p.thickness * p.thickness; }
 
 }  // namespace
@@ -26,10 +31,10 @@ double characteristic_length(const IcePlate& p) {
 double beam_breaking_load(const IcePlate& p) {
     // (28): a semi-infinite beam with the load F at its end has the bending moment F / lambda
     // exp(-lambda x) sin(lambda x), which is largest at lambda x = pi / 4.
-    const double lambda =
-        std::pow(3.0 * p.water_weight / (p.elastic_modulus * std::pow(p.thickness, 3)), 0.25);
-    return std::exp(0.25 * kPi) / (6.0 * std::sin(0.25 * kPi)) * strength_of(p) * lambda;
+    return std::exp(0.25 * kPi) / (6.0 * std::sin(0.25 * kPi)) * strength_of(p) * lambda_of(p);
 }
+
+double beam_breaking_length(const IcePlate& p) { return 0.25 * kPi / lambda_of(p); }
 
 double nevel_bracket(double ratio) { return 1.05 + 2.0 * ratio + 0.5 * ratio * ratio * ratio; }
 

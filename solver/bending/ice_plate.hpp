@@ -23,9 +23,14 @@ double characteristic_length(const IcePlate& plate);
 ///
 ///     P = exp(pi/4) / (6 sin(pi/4)) sigma_f h^2 lambda,   lambda = (3 rho_w g / (E h^3))^(1/4),
 ///
-/// which is 0.680 sigma_f (rho_w g h^5 / E)^(1/4); it breaks pi / (4 lambda) from its edge.
+/// which is 0.680 sigma_f (rho_w g h^5 / E)^(1/4).
 /// Source: Hetényi, Beams on Elastic Foundation, 1946, chapter III.
 double beam_breaking_load(const IcePlate& plate);
+
+/// Where that load breaks the beam: how far its largest bending moment is from its edge [m].
+///
+///     M(x) = P / lambda exp(-lambda x) sin(lambda x),   dM/dx = 0 at x = pi / (4 lambda)
+double beam_breaking_length(const IcePlate& plate);
 
 /// Nevel's bracket: load that breaks a wedge on water over tan(angle / 2) / 3 sigma_f h^2, when it
 /// is spread evenly over the wedge from its tip to the distance `ratio` x l:

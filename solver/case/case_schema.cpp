@@ -262,14 +262,14 @@ std::vector<CaseKey> level_ice_keys() {
          "Thickness of a sheet that the ship breaks into pieces, in place of floes; 0 is none.",
          [](Case& c, G&, const Value& v) { c.level_ice.thickness = number(v); }},
         {"level_ice.extent", Kind::vector, D::length, "[0.0, 0.0, 0.0, 0.0]", -1e5, 1e5, 4, "",
-         "Smallest and largest x, smallest and largest y of the sheet.",
+         "Smallest and largest x, smallest and largest y of the sheet; in 2D y is not used.",
          [](Case& c, G&, const Value& v) {
              const auto& x = std::get<std::vector<double>>(v);
              c.level_ice.extent = {x[0], x[1], x[2], x[3]};
          }},
         {"level_ice.spacing", Kind::number, D::length, "0.5", 1e-3, 100, 0, "",
          "Distance of the pieces' contact spheres on their surface; their radius is a quarter of "
-         "the thickness.",
+         "the thickness, in 2D no more than the spacing.",
          [](Case& c, G&, const Value& v) { c.level_ice.spacing = number(v); }},
         {"level_ice.gap", Kind::number, D::length, "0.05", 0, 10, 0, "",
          "Open water between pieces, as broad as a crack.",
@@ -279,13 +279,14 @@ std::vector<CaseKey> level_ice_keys() {
          [](Case& c, G&, const Value& v) { c.level_ice.seed = integer(v); }},
         // (30): R = C_l l (1 + C_v v_n) (1 + scatter u)
         {"level_ice.length_factor", Kind::number, D::none, "0.32", 1e-3, 10, 0, "",
-         "Radius of the cracks over the ice's characteristic length.",
+         "Radius of the cracks over the ice's characteristic length; in 2D a beam's length takes "
+         "its place.",
          [](Case& c, G&, const Value& v) { c.level_ice.length_factor = number(v); }},
         {"level_ice.speed_factor", Kind::number, D::none, "-0.144", -10, 10, 0, "",
-         "Relative change of that radius with the speed along the hull's normal [s/m].",
+         "Relative change of that radius with the speed along the hull's normal [s/m]; in 3D.",
          [](Case& c, G&, const Value& v) { c.level_ice.speed_factor = number(v); }},
         {"level_ice.scatter", Kind::number, D::none, "0.2", 0, 0.9, 0, "",
-         "Largest random deviation of that radius, as a share of it.",
+         "Largest random deviation of that radius, in 2D of the length, as a share of it.",
          [](Case& c, G&, const Value& v) { c.level_ice.scatter = number(v); }},
     };
 }

@@ -76,11 +76,15 @@ void check_bending(const Case& checked, std::size_t groups, const Complaints& co
 void check_level_ice(const Case& checked, const Complaints& complaints) {
     if (!checked.has_level_ice()) return;
     const auto& [from, to, starboard, port] = checked.level_ice.extent;
-    if (checked.dimension == 2)
-        complaints.add_at("level_ice.thickness",
-                          "level_ice is for cases of dimension 3; in 2D lay floes that are held "
-                          "until-bent");
-    if (!(from < to) || !(starboard < port))
+    const auto is_given = [&](const std::string& key, double LevelIce::*value) {
+        if (checked.dimension == 2 && checked.level_ice.*value != LevelIce{}.*value)
+            complaints.add_at(key, key +
+                                       " is for cases of dimension 3; in 2D the length of a piece "
+                                       "is that of a beam: leave it out");
+    };
+    is_given("level_ice.length_factor", &LevelIce::length_factor);
+    is_given("level_ice.speed_factor", &LevelIce::speed_factor);
+    if (!(from < to) || (checked.dimension == 3 && !(starboard < port)))
         complaints.add_at("level_ice.extent",
                           "level_ice.extent is empty: give smallest and largest x, then smallest "
                           "and largest y");

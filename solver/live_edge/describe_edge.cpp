@@ -8,7 +8,32 @@
 
 namespace ice {
 
+namespace {
+
+std::string describe_strip(const LiveEdge& edge) {
+    const IceAreas areas = edge.areas();
+    const auto pieces = edge.pieces();
+    std::string out = fmt::format(
+        "level ice: {} pieces broke off, {:.4g} m; crushed {:.3g} m, brash {:.3g} m; {} pieces far "
+        "astern taken out",
+        pieces.size(), areas.pieces, areas.crushed, areas.brash, edge.retired());
+    if (pieces.empty()) return out;
+    double length = 0.0, load = 0.0;
+    for (const IcePiece& piece : pieces) {
+        length += piece.radius;
+        load += piece.load;
+    }
+    const auto count = static_cast<double>(pieces.size());
+    return out + fmt::format(
+                     "\nlevel ice: cracks {:.2g} m from the tip, {:.2g} thicknesses (ships: 3 to "
+                     "10); {:.3g} kN/m each",
+                     length / count, length / count / edge.thickness(), 1e-3 * load / count);
+}
+
+}  // namespace
+
 std::string describe_edge(const LiveEdge& edge) {
+    if (edge.is_strip()) return describe_strip(edge);
     const IceAreas areas = edge.areas();
     const auto pieces = edge.pieces();
     std::string out = fmt::format(

@@ -16,6 +16,7 @@
 #include "solver/live_edge/edge_tiles.hpp"
 #include "solver/live_edge/hull_outlines.hpp"
 #include "solver/live_edge/put_ice.hpp"
+#include "solver/live_edge/strip.hpp"
 #include "solver/scene/added_mass_of_floes.hpp"
 #include "solver/scene/build_scene.hpp"
 
@@ -36,16 +37,20 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 
 PrismForm prism_form(const Case& p) {
     const LevelIce& ice = p.level_ice;
-    return {ice.thickness, 0.0, kRadius * ice.thickness, ice.spacing, true};
+    const double radius = kRadius * ice.thickness;
+    // a corner's disc stands for its radius of both faces: finer discs, finer sections
+    return {ice.thickness, 0.0, p.dimension == 2 ? std::min(radius, ice.spacing) : radius,
+            ice.spacing, true};
 }
 
 // About its centroid; none where no sphere fits, or a corner gets none.
-std::optional<Shape> shape_of(const Loop& outline, const PrismForm& form) {
+std::optional<Shape> shape_of(const Loop& outline, const PrismForm& form, bool is_strip) {
     Loop centred;
     const Vec2 centre = centroid_of(outline);
     for (const Vec2& p : outline) centred.push_back(p - centre);
     try {
-        return build_shape(fill_prism(centred, form), true);
+        return build_shape(
+            is_strip ? fill_strip(strip_length(outline), form) : fill_prism(centred, form), true);
     } catch (const Error&) {
         return std::nullopt;
     }
@@ -72,15 +77,22 @@ bool can_be_filled(const Loop& outline, double thickness) {
 
 void LiveEdge::set_up(const Scene& scene, const Case& p) {
     const LevelIce& ice = p.level_ice;
+    is_strip_ = p.dimension == 2;
     thickness_ = ice.thickness;
     gap_ = ice.gap;
-    length_ = characteristic_length(plate_of(ice.thickness, p));
+    const IcePlate plate = plate_of(ice.thickness, p);
+    length_ = characteristic_length(plate);
     density_ = p.ice_density;
     share_ = p.ice_density / p.water_density;
     extent_ = {Vec2(ice.extent[0], ice.extent[2]), Vec2(ice.extent[1], ice.extent[3])};
     law_ = {ice.length_factor, ice.speed_factor, ice.scatter,
             static_cast<std::uint64_t>(ice.seed) * 1000003u + static_cast<std::uint64_t>(p.seed)};
-    radius_ = cusp_radius({ice.length_factor}, length_, 0.0, 0);
+    if (is_strip_) {
+        extent_ = strip_extent(ice.extent[0], ice.extent[1]);
+        law_.length_factor = beam_breaking_length(plate) / length_;
+        law_.speed_factor = 0.0;
+    }
+    radius_ = cusp_radius({law_.length_factor}, length_, 0.0, 0);
     drift_ = Vec2(p.drift_velocity[0], p.drift_velocity[1]);
     ahead_ = kAhead * radius_;
     astern_ = kAstern * scene.shapes[0].box.sizes().x();
@@ -96,7 +108,7 @@ void LiveEdge::add_slots(Scene& scene, const Case& p) {
     const double tiles = 6.0 * size.x() / radius_ + 4.0 * size.y() / radius_;
     const double half = 0.5 * thickness_;
     const Loop square = loop_of(Box(Vec2(-half, -half), Vec2(half, half)));
-    if (std::optional<Shape> shape = shape_of(square, prism_form(p)))
+    if (std::optional<Shape> shape = shape_of(square, prism_form(p), is_strip_))
         empty_ = std::move(*shape);
     else
         throw bad_input(p.file.string() + ": level_ice.spacing",
@@ -126,9 +138,13 @@ void LiveEdge::begin(Scene& scene, Case& p) {
         throw bad_input(p.file.string() + ": level_ice",
                         "the hull does not reach the height of the ice",
                         "change hull.draught or level_ice.thickness");
-    sheet_ = IceSheet(extent_, kSmallestPiece * thickness_);
+    const double least = kSmallestPiece * thickness_;
+    sheet_ = IceSheet(extent_, is_strip_ ? std::sqrt(least) : least);  // as long, 1 m broad
     // the hull lies in the sheet from the start: its own place is taken out
     for (const Loop& loop : hull) gone_.crushed += sheet_.take(loop);
+    if (is_strip_)  // what lies behind the bow has no edge that could be met
+        for (const Loop& loop : hull)
+            for (const Vec2& corner : loop) drop_behind(corner.x());
     piece_group_ = add_group(p, Hold::until_bent);
     tile_group_ = add_group(p, Hold::always);
     add_slots(scene, p);
@@ -143,8 +159,10 @@ void LiveEdge::begin(Scene& scene, Case& p) {
 // Tiles that stay as they are keep their bodies, and what was crushed of them.
 void LiveEdge::lay_tiles(const Scene& scene, Plan& plan) {
     std::vector<Loop> wanted;
-    const auto tiles = edge_tiles(sheet_, {extent_.min(), radius_}, reach(scene),
-                                  [&](const Loop& part) { return !bodies_of(part).empty(); });
+    const auto tiles = is_strip_
+                           ? strip_tiles(sheet_, extent_.min().x(), radius_)
+                           : edge_tiles(sheet_, {extent_.min(), radius_}, reach(scene),
+                                        [&](const Loop& part) { return !bodies_of(part).empty(); });
     for (const Loop& tile : tiles)
         // a tile whose outline is unchanged stays with its body, its notches and its contacts
         for (Loop& body : bodies_of(tile)) wanted.push_back(std::move(body));
@@ -166,7 +184,7 @@ void LiveEdge::lay_tiles(const Scene& scene, Plan& plan) {
 void LiveEdge::fill(const Case& p, Plan& plan) const {
     const PrismForm form = prism_form(p);
     parallel_tasks(plan.bodies.size(), true, [&](std::size_t k) {
-        plan.bodies[k].shape = shape_of(plan.bodies[k].outline, form);
+        plan.bodies[k].shape = shape_of(plan.bodies[k].outline, form, is_strip_);
     });
 }
 
@@ -259,7 +277,8 @@ void LiveEdge::restore(Scene& scene, const Case& p) const {
     // Shapes are made anew from outlines, by the same code: a checkpoint does not hold meshes.
     std::vector<std::optional<Shape>> shapes(slots_.size());
     parallel_tasks(slots_.size(), true, [&](std::size_t k) {
-        if (slots_[k].use != Use::free) shapes[k] = shape_of(slots_[k].outline, prism_form(p));
+        if (slots_[k].use != Use::free)
+            shapes[k] = shape_of(slots_[k].outline, prism_form(p), is_strip_);
     });
     Bodies& b = scene.bodies;
     for (std::size_t k = 0; k < slots_.size(); ++k) {

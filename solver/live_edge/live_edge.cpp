@@ -10,6 +10,7 @@
 #include "solver/bending/breaking_load.hpp"
 #include "solver/live_edge/edge_plan.hpp"
 #include "solver/live_edge/hull_outlines.hpp"
+#include "solver/live_edge/strip.hpp"
 
 namespace ice {
 
@@ -39,9 +40,16 @@ Vec2 LiveEdge::ship_in_ice(const Scene& scene) const {
 std::vector<Loop> LiveEdge::hull_in_ice(const Scene& scene) const {
     const double top = (1.0 - share_) * thickness_;
     std::vector<Loop> out = hull_outlines(scene, top, top - thickness_);
-    for (Loop& loop : out)
+    for (Loop& loop : out) {
         for (Vec2& p : loop) p -= drifted_;
+        if (is_strip_) loop = across_strip(std::move(loop), thickness_);
+    }
     return out;
+}
+
+// What a crack cuts out.
+Loop LiveEdge::region_of(const Vec2& at, const Vec2& inwards, double radius) const {
+    return is_strip_ ? strip_crack(at.x(), radius) : crack_outline(at, inwards, radius);
 }
 
 IceAreas LiveEdge::areas() const {
@@ -103,13 +111,15 @@ void LiveEdge::find(const Case& parameters, const std::vector<Contact>& contacts
                               sign * c.total_normal() * c.normal.head<2>()});
         }
     }
+    const auto windows =
+        is_strip_ ? tip_window(loads_, tip_of(sheet_), radius_) : edge_windows(loads_, radius_);
     // Each window by itself: R of (30) with its closing speed, the angle 2 A / R^2 with the ice
     // that is there, P_f of (29) times f(v_n). A window at its load opens a crack in the next
     // step.
-    for (const EdgeWindow& window : edge_windows(loads_, radius_)) {
+    for (const EdgeWindow& window : windows) {
         const double radius =
             cusp_radius(law_, length_, window.normal_speed, cusp_ + cracks_.size());
-        const double area = sheet_.area_in(crack_outline(window.at, window.inwards, radius));
+        const double area = sheet_.area_in(region_of(window.at, window.inwards, radius));
         const double bears = breaking_load(angle_of(area, radius), thickness_, parameters) *
                              speed_factor(parameters.bending, window.closing);
         const double load = window.down / parameters.time_step;
@@ -141,9 +151,7 @@ bool LiveEdge::renew(Scene& scene, const Case& parameters, double time) {
     laid_at_ = looked_at_;
     // Ice and floes astern of the reach are never met again: both are counted and given up.
     const double behind = reach(scene).min().x();
-    if (behind > extent_.min().x())
-        gone_.astern += sheet_.take(
-            loop_of({extent_.min() - Vec2(1.0, 1.0), Vec2(behind, extent_.max().y() + 1.0)}));
+    drop_behind(behind);
     for (std::size_t k = 0; k < slots_.size(); ++k)
         if (slots_[k].use == Use::piece &&
             scene.bodies.position[first_ + k].x() - drifted_.x() < behind)
@@ -159,16 +167,23 @@ bool LiveEdge::renew(Scene& scene, const Case& parameters, double time) {
     return !changed_.empty();
 }
 
+void LiveEdge::drop_behind(double x) {
+    if (x > extent_.min().x())
+        gone_.astern += sheet_.take(
+            loop_of({extent_.min() - Vec2(1.0, 1.0), Vec2(x, extent_.max().y() + 1.0)}));
+}
+
 // What the hull has gone through at both faces is gone. A strip stays, whose spheres know.
 bool LiveEdge::crush_through(const std::vector<Loop>& hull) {
     if (hull.size() < 2) return false;
     bool any = false;
+    const double breadth = is_strip_ ? 1.0 : thickness_;
     // Common to both faces: where the section at the upper and at the lower face overlap, the
     // whole thickness is gone. It must be deep, and more than a sliver, before the polygon
     // changes.
     for (const Loop& core : common_part(hull[0], hull[1]))
         for (const Loop& deep : shrunk(core, 2.0 * kCrushed * thickness_, 0.0)) {
-            if (sheet_.area_in(deep) <= kCrushed * thickness_ * thickness_) continue;
+            if (sheet_.area_in(deep) <= kCrushed * thickness_ * breadth) continue;
             for (const Loop& gone : shrunk(core, kCrushed * thickness_, 0.0))
                 gone_.crushed += sheet_.take(gone);
             any = true;
@@ -180,7 +195,7 @@ bool LiveEdge::crush_through(const std::vector<Loop>& hull) {
 // thickness: what is laid does not overlap with the hull.
 void LiveEdge::break_off(const Crack& crack, const std::vector<Loop>& hull, Plan& plan) {
     ++cusp_;
-    const Loop outline = crack_outline(crack.at, crack.inwards, crack.radius);
+    const Loop outline = region_of(crack.at, crack.inwards, crack.radius);
     const IceSheet::Broken broken = sheet_.break_off(outline);
     gone_.brash += broken.brash;
     for (const Loop& piece : broken.pieces) add_piece(piece, crack, hull, plan);
@@ -229,6 +244,7 @@ void LiveEdge::add_piece(const Loop& piece, const Crack& crack, const std::vecto
 bool LiveEdge::holds(const Loop& outline) const { return can_be_filled(outline, thickness_); }
 
 std::vector<Loop> LiveEdge::bodies_of(const Loop& part) const {
+    if (is_strip_) return strip_bodies(part, gap_, kSmallestPiece * thickness_);
     std::vector<Loop> out;
     for (Loop& loop : shrunk(part, 0.5 * gap_, kSmallestPiece * thickness_))
         if (holds(loop)) out.push_back(std::move(loop));

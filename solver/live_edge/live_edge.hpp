@@ -38,6 +38,8 @@ struct IceAreas {
 /// are theirs plus drift() times the time. So ice that drifts past a ship is the same to it as a
 /// ship that goes through ice.
 ///
+/// In 2D the sheet is a strip (strip.hpp): areas are lengths, per metre of breadth.
+///
 /// Bodies come from a fixed number of slots; floes further astern than half a ship's length, or the
 /// last one where no slot is left, are taken out of the scene.
 class LiveEdge {
@@ -80,8 +82,11 @@ public:
     double height() const { return (0.5 - share_) * thickness_; }
     double density() const { return density_; }
     double length() const { return length_; }  ///< characteristic length of the plate [m]
-    /// Side of the cells of its tiles: how far from a load it cracks at rest [m].
+    /// Side of the cells of its tiles: how far from a load it cracks at rest [m]; in 2D how far
+    /// from its tip.
     double radius() const { return radius_; }
+    /// Is it a strip, in 2D?
+    bool is_strip() const { return is_strip_; }
     /// The sheet that is left, in the ice's axes: in strips across it, in loops without holes.
     std::vector<Loop> rest() const;
     /// Body of the first slot, and the groups of floes and tiles in the case.
@@ -126,6 +131,8 @@ private:
     void set_up(const Scene& scene, const Case& parameters);
     void add_slots(Scene& scene, const Case& parameters);
     bool is_tile(std::int32_t body) const;
+    Loop region_of(const Vec2& at, const Vec2& inwards, double radius) const;
+    void drop_behind(double x);
     Vec2 ship_in_ice(const Scene& scene) const;
     std::vector<Loop> hull_in_ice(const Scene& scene) const;
     Eigen::AlignedBox2d reach(const Scene& scene) const;
@@ -142,6 +149,7 @@ private:
     std::vector<Loop> bodies_of(const Loop& part) const;
 
     // from the case and the hull
+    bool is_strip_ = false;
     std::size_t first_ = 0;  // body of slots_[0]; 0: there is no sheet
     double thickness_ = 0.0, gap_ = 0.0, length_ = 0.0, radius_ = 0.0;
     double density_ = 0.0, share_ = 0.0;

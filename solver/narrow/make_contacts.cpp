@@ -25,7 +25,10 @@ Patch patch_of(const Shape& shape, std::int32_t k, const Vec3& outward) {
     patch.facing = shape.normal[k].dot(outward);
     patch.spread_cos = shape.spread_cos[k];
     patch.spread_sin = shape.spread_sin[k];
-    patch.wing = wing_length(shape.radius[k], patch.share, patch.spread_cos, patch.spread_sin);
+    patch.wing =
+        shape.dimension == 2  // a share is a length: half of it on each side of the foot
+            ? 0.5 * patch.share
+            : wing_length(shape.radius[k], patch.share, patch.spread_cos, patch.spread_sin);
     // depth counts from an edge's corner, but on a face that leans from the sphere's foremost point
     const double facing = std::clamp(patch.facing, -1.0, 1.0);
     if (shape.cone[k].count == 0 && facing < patch.spread_cos) {

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "common/formats/spheres_file.hpp"
+#include "solver/bending/breaking_load.hpp"
 #include "solver/record/particulars.hpp"
 #include "solver/run/check_course.hpp"
 #include "solver/scene/ice_extent.hpp"
@@ -60,6 +61,12 @@ std::string motion_line(const World& w) {
 std::string ice_line(const World& w, const IceParticulars& ice) {
     if (w.edge.lives()) {
         const auto& extent = w.parameters.level_ice.extent;
+        if (w.edge.is_strip())
+            return fmt::format(
+                "  ice        level, {:.3g} m thick, x from {:g} to {:g} m; cracks {:.3g} m from "
+                "the tip, under {:.3g} kN/m",
+                w.edge.thickness(), extent[0], extent[1], w.edge.radius(),
+                1e-3 * breaking_load(0.0, w.edge.thickness(), w.parameters));
         return fmt::format(
             "  ice        level, {:.3g} m thick, x from {:g} to {:g} m, y from {:g} "
             "to {:g} m; cracks {:.3g} m from the load at rest",

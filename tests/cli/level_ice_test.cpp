@@ -23,6 +23,20 @@ void prepare(const Workshop& w) {
                 .code == 0);
 }
 
+// A section of the paper's hull in thin ice, a few pieces long.
+const char* const kStrip =
+    "[simulation]\ndimension = 2\nduration = 24.0\ntime_step = 0.01\n[hull]\nspheres = "
+    "\"section.h5\"\nposition = [-9.8, 0]\ndraught = 1.2\nspeed = 0.5\n"
+    "[level_ice]\nthickness = 0.1\nextent = [0, 30, 0, 0]\nspacing = 0.05\n"
+    "[contact]\ncrushing_pressure = \"1 MPa\"\n";
+
+void prepare_strip(const Workshop& w) {
+    w.write("strip.cfg", kStrip);
+    REQUIRE(w.run("spherize " ICE_MESHES
+                  "/paper-hull-2d.obj --slice y=0 -r 0.05 --mode surface -o section.h5 -q")
+                .code == 0);
+}
+
 }  // namespace
 
 TEST_CASE("level ice breaks where it is loaded, and another seed is other ice",
@@ -77,4 +91,55 @@ TEST_CASE("level ice that cannot be is refused with its key", "[cli][level_ice][
     const Result far = w.run("icesolve case.cfg --check --set level_ice.extent=[100,120,-8,8]");
     CHECK(far.code == 0);
     CHECK_THAT(far.err + far.out, Catch::Contains("never meets the ice"));
+}
+
+TEST_CASE("in 2D level ice breaks off in a beam's lengths", "[cli][level_ice][strip]") {
+    const Workshop w;
+    prepare_strip(w);
+    const Result check = w.run("icesolve strip.cfg --check");
+    CAPTURE(check.err, check.out);
+    REQUIRE(check.code == 0);
+    // pi / 4 (E h^3 / (3 rho_w g))^(1/4) at the default 5 GPa, and 0.680 sigma_f (...)^(1/4)
+    CHECK_THAT(check.err + check.out, Catch::Contains("cracks 2.84 m from the tip"));
+    CHECK_THAT(check.err + check.out, Catch::Contains("under 0.716 kN/m"));
+    const Result first = w.run("icesolve strip.cfg --out run --verify");
+    CAPTURE(first.err);
+    REQUIRE(first.code == 0);
+    CHECK_THAT(first.err + first.out, Catch::Contains("m from the tip"));
+    CHECK(fs::exists(w / "run" / "report.html"));
+    const Summary s = read_summary(w / "run" / "summary.json");
+    CHECK(s.floes_total >= 3);
+    REQUIRE(s.resistance.breaking_mean);
+    CHECK(s.energy.at("breaking_J") > 0.0);
+    const PiecesFile pieces = read_pieces(w / "run" / kPiecesName);
+    REQUIRE(static_cast<std::int64_t>(pieces.pieces.size()) == s.floes_total);
+    for (const PieceRow& row : pieces.pieces) {
+        CHECK(row.radius == Approx(2.8355).epsilon(0.2));  // and its scatter
+        CHECK(row.load >= 715.0);
+        CHECK(row.at.y() == 0.0);
+    }
+    const Result again = w.run("icesolve strip.cfg --out again --threads 1 --no-report");
+    REQUIRE(again.code == 0);
+    CHECK(read_summary(w / "again" / "summary.json").state_hash == s.state_hash);
+    const Result other = w.run("icesolve strip.cfg --out other --no-report --set level_ice.seed=1");
+    REQUIRE(other.code == 0);
+    CHECK(read_summary(w / "other" / "summary.json").state_hash != s.state_hash);
+}
+
+TEST_CASE("level ice in 2D that cannot be is refused with its key",
+          "[cli][level_ice][strip][errors]") {
+    const Workshop w;
+    prepare_strip(w);
+    const auto refuses = [&](const std::string& set, const std::string& words) {
+        const Result r = w.run("icesolve strip.cfg --check --set " + set);
+        CAPTURE(set, r.err);
+        CHECK(r.code == 2);
+        CHECK_THAT(r.err, Catch::Contains(words));
+    };
+    refuses("contact.crushing_pressure=inf", "needs a finite contact.crushing_pressure");
+    refuses("level_ice.extent=[30,0,0,0]", "level_ice.extent is empty");
+    refuses("level_ice.length_factor=0.4", "level_ice.length_factor is for cases of dimension 3");
+    refuses("level_ice.speed_factor=0", "level_ice.speed_factor is for cases of dimension 3");
+    refuses("bending.model=\\\"kashtelyan\\\"", "is for cases of dimension 3");
+    refuses("ice.density=1000", "the sheet has no floating equilibrium");
 }

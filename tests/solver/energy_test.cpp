@@ -256,3 +256,22 @@ TEST_CASE("more than 0.5 % of unexplained work is worth a warning, less is not",
     CHECK(idle.warnings.empty());
     CHECK(idle.energy.at("residual_share") == 0.0);
 }
+
+TEST_CASE("ice that is held does not spin at the start of a step, whatever it did before",
+          "[energy][level_ice]") {
+    World w = test::plate_world(test::empty_space(0.01), Vec3(4, 2, 0.6), 0.1, 0.2, 0.0);
+    const auto shape = test::add_shape(w, test::make_box_set(Vec3(1, 1, 0.5), 0.05, 0.1));
+    const std::size_t floe =
+        add_floe(w.scene, shape, 900.0, Vec3(9, 0, 0), Quaternion::Identity(), 0, false);
+    Bodies& b = w.scene.bodies;
+    b.angular_velocity[floe] = Vec3(0, 2, 0);
+    StepStart start;
+    start.take(b);
+    REQUIRE(start.angular_velocity[floe].y() == 2.0);
+    // a slot of level ice whose piece is gone holds a part of the edge
+    b.held[floe] = 1;
+    list_moving(b);
+    update_derived(b, floe);
+    start.take(b);
+    CHECK(start.angular_velocity[floe].isZero(0.0));
+}

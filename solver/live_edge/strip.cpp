@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/live_edge/strip.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace ice {
+
+namespace {
+
+using Box = Eigen::AlignedBox2d;
+
+constexpr double kHalf = 0.5;   // of the breadth of a section's solid [m]
+constexpr double kWide = 1.0;   // y of cuts, beyond its sides [m]
+constexpr double kCells = 3.0;  // of a tile
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+Box box_of(const Loop& loop) {
+    Box box;
+    for (const Vec2& p : loop) box.extend(p);
+    return box;
+}
+
+}  // namespace
+
+Box strip_extent(double from, double to) { return {Vec2(from, -kHalf), Vec2(to, kHalf)}; }
+
+double tip_of(const IceSheet& strip) {
+    return strip.loops().empty() ? kInfinity : box_of(strip.loops()[0]).min().x();
+}
+
+Loop across_strip(Loop outline, double by) {
+    for (Vec2& p : outline) p.y() = std::copysign(kHalf + by, p.y());
+    return outline;
+}
+
+Loop strip_crack(double tip, double length) {
+    return loop_of(Box(Vec2(tip - length, -kWide), Vec2(tip + length, kWide)));
+}
+
+std::vector<EdgeWindow> tip_window(std::vector<EdgeLoad> loads, double tip, double length) {
+    std::erase_if(loads, [&](const EdgeLoad& load) { return load.at.x() > tip + length; });
+    std::vector<EdgeWindow> out = edge_windows(std::move(loads), kInfinity);
+    for (EdgeWindow& window : out) {
+        window.at = Vec2(tip, 0.0);
+        window.inwards = Vec2::UnitX();
+    }
+    return out;
+}
+
+std::vector<Loop> strip_tiles(const IceSheet& strip, double origin, double cell) {
+    if (strip.loops().empty()) return {};
+    const Box box = box_of(strip.loops()[0]);
+    const double from = box.min().x();
+    const double to = origin + cell * (std::floor((from - origin) / cell) + kCells);
+    return {loop_of(strip_extent(from, std::min(to, box.max().x())))};
+}
+
+std::vector<Loop> strip_bodies(const Loop& part, double gap, double least) {
+    const Box box = box_of(part);
+    const double from = box.min().x() + 0.5 * gap, to = box.max().x() - 0.5 * gap;
+    if (!(to - from >= least)) return {};
+    return {loop_of(strip_extent(from, to))};
+}
+
+double strip_length(const Loop& part) { return box_of(part).sizes().x(); }
+
+}  // namespace ice
