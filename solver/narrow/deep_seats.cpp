@@ -12,7 +12,7 @@ namespace ice {
 
 namespace {
 
-constexpr double kDeepShare = 0.5;  // of the ice's radius
+constexpr double kDeepShare = 0.1;  // of the ice's radius
 
 constexpr double kSameWay = 0.5;  // cosine between directions in which one pair is pushed apart
 

@@ -24,7 +24,8 @@ struct DeepSeat {
 
 /// So deep in the other solid [m] a seat is a contact of its own where its sphere has none.
 ///
-/// Half the radius of b's spheres: spheres pass each other, and are lost, from two radii on.
+/// A tenth of the radius of b's spheres. Contacts that are found at this depth are pushed out of it
+/// and lost again: with half a radius pairs trembled at that depth for seconds.
 double deep_slack(const PairView& view);
 
 /// Finds the seats of either body that lie in the other's solid by more than deep_slack, and of

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "common/base/parallel.hpp"
+#include "solver/narrow/check_depths.hpp"
 #include "solver/narrow/deep_seats.hpp"
 #include "solver/narrow/make_centre_contacts.hpp"
 #include "solver/narrow/make_contacts.hpp"
@@ -57,6 +58,7 @@ void search_contacts(const PairView& view, double margin, Workspace& work) {
     });
     group_by_types(view, work.spheres);
     measure_spheres(view, range, work.spheres, work.candidates);
+    check_depths(view, work.candidates);
     reduce_manifold(view, margin, work.candidates);
 }
 
@@ -64,6 +66,7 @@ void search_contacts(const PairView& view, double margin, Workspace& work) {
 void measure_known(const PairView& view, double margin, std::span<const SpherePair> near,
                    Workspace& work) {
     measure_spheres(view, SphereRange(view, margin), near, work.candidates);
+    check_depths(view, work.candidates);
     reduce_manifold(view, margin, work.candidates);
 }
 
@@ -284,7 +287,10 @@ void find_contacts(const Scene& scene, BodyPair pair, ContactRule how, double ma
                         : SphereRange(view, margin).holds(a, b) && is_candidate(view, i, j, gap);
             if (counts) candidates.push_back({i, j, gap});
         }
-    if (!centres) reduce_manifold(view, margin, candidates);
+    if (!centres) {
+        check_depths(view, candidates);
+        reduce_manifold(view, margin, candidates);
+    }
     out.resize(out.size() + candidates.size());
     Contact* first = out.data() + (out.size() - candidates.size());
     centres ? make_centre_contacts(view, candidates, first)

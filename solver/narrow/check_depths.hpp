@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "solver/narrow/pair_view.hpp"
+
+namespace ice {
+
+/// Holds deep candidates of solids that are not both convex to the meshes.
+///
+/// measure_gap_surface knows the faces that meet at two spheres, not the solids: behind two planes
+/// that cross far away a point may seem to be deep although it lies outside, or near another face.
+/// Of each candidate deeper than deep_slack:
+/// - on a face, the incident support point must lie in the other solid, and is as deep as its
+///   distance from that surface at most;
+/// - across two edges, the point midway between them must lie in both solids.
+/// Others are dropped; find_deep_seats finds where such bodies meet. 2D and two convex solids,
+/// whose separating axis tells their depth, are left as they are.
+///
+/// Crushed ice belongs to the meshes, too: no true depth is cut short by it.
+void check_depths(const PairView& view, std::vector<Candidate>& candidates);
+
+}  // namespace ice
