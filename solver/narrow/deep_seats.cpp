@@ -102,11 +102,16 @@ void for_each_seat(const PairView& view, const Side& side, const Visit& visit) {
     }
 }
 
-// How deep the deepest contact of a sphere is, 0 without one [m].
-double depth_known(std::span<const Candidate> found, bool of_b, std::int32_t sphere) {
+// How deep the deepest contact is whose sphere, on either body, lies within a patch radius of the
+// seat; 0 without one [m]. A face's spheres share its contacts: most seats have none of their own.
+// @param seat  a's axes
+double depth_known(const PairView& view, std::span<const Candidate> found, const Vec3& seat) {
+    const double reach = std::max(view.shape_a.patch_radius, view.shape_b.patch_radius);
     double depth = 0.0;
     for (const Candidate& c : found)
-        if ((of_b ? c.j : c.i) == sphere) depth = std::max(depth, -c.gap.gap);
+        if (-c.gap.gap > depth && ((view.center_a(c.i) - seat).norm() <= reach ||
+                                   (view.center_b(c.j) - seat).norm() <= reach))
+            depth = -c.gap.gap;
     return depth;
 }
 
@@ -145,8 +150,8 @@ double add_side(const PairView& view, const Side& side, double slack,
         clear.add(seat, std::min(deepest, slack) - depth);
         if (depth <= slack) return;
         const DeepSeat deep = seat_of(view, side, sphere, seat, foot);
-        // the spheres' own contacts explain the depth up to the slack
-        if (deep.gap < -slack - depth_known(found, deep.of_b, sphere)) out.push_back(deep);
+        // the spheres' contacts nearby explain the depth up to the slack
+        if (deep.gap < -slack - depth_known(view, found, deep.seat)) out.push_back(deep);
     });
     return deepest;
 }

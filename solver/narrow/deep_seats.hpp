@@ -28,8 +28,8 @@ struct DeepSeat {
 /// and lost again: with half a radius pairs trembled at that depth for seconds.
 double deep_slack(const PairView& view);
 
-/// Finds the seats of either body that lie in the other's solid by more than deep_slack, and of
-/// whose sphere no contact is as deep, less that length.
+/// Finds the seats of either body that lie in the other's solid by more than deep_slack, where no
+/// contact of a sphere within a patch radius is as deep, less that length.
 ///
 /// Depth and direction are those of the nearest point of the other's mesh: exact for any closed
 /// solid, but the shortest way out is the wrong one for a seat beyond the middle of a body. The
