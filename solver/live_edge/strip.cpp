@@ -39,14 +39,21 @@ Loop strip_crack(double tip, double length) {
     return loop_of(Box(Vec2(tip - length, -kWide), Vec2(tip + length, kWide)));
 }
 
-std::vector<EdgeWindow> tip_window(std::vector<EdgeLoad> loads, double tip, double length) {
-    std::erase_if(loads, [&](const EdgeLoad& load) { return load.at.x() > tip + length; });
-    std::vector<EdgeWindow> out = edge_windows(std::move(loads), kInfinity);
-    for (EdgeWindow& window : out) {
-        window.at = Vec2(tip, 0.0);
-        window.inwards = Vec2::UnitX();
+std::vector<EdgeWindow> tip_window(const std::vector<EdgeLoad>& loads, double tip, double length) {
+    EdgeWindow out{Vec2(tip, 0.0), Vec2::UnitX(), 0.0, 0.0, 0.0};
+    double normal = 0.0, level = 0.0, closing = 0.0;
+    for (const EdgeLoad& load : loads) {
+        if (load.at.x() > tip + length) continue;
+        out.down += load.down;
+        normal += load.normal;
+        level += load.push.norm();
+        closing += load.closing;
     }
-    return out;
+    if (out.down <= 0.0) return {};
+    out.closing = closing / normal;
+    // a flat bottom that settles on the tip pushes straight down: no speed along its outline
+    if (level > 0.0) out.normal_speed = closing / level;
+    return {out};
 }
 
 std::vector<Loop> strip_tiles(const IceSheet& strip, double origin, double cell) {

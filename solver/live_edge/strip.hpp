@@ -25,7 +25,7 @@ Loop strip_crack(double tip, double length);
 
 /// What presses on the strip within `length` [m] of its tip, as one window there; none where that
 /// does not press downwards.
-std::vector<EdgeWindow> tip_window(std::vector<EdgeLoad> loads, double tip, double length);
+std::vector<EdgeWindow> tip_window(const std::vector<EdgeLoad>& loads, double tip, double length);
 
 /// The ice behind the tip that is contact geometry: to the third corner of cells from x = `origin`
 /// on, which is two to three cells [m]. It changes with the tip alone. None where no ice is left.
