@@ -40,7 +40,7 @@ void declare_messages(CLI::App& app, Options& o) {
     app.add_flag("--allow-overlap", o.allow_overlap,
                  "Run a case whose bodies overlap at the start, with a warning");
     app.add_flag("--verify", o.verify,
-                 "Stop at a step that loses momentum; the worst imbalance goes into the summary");
+                 "Stop at a step that loses momentum; the summary has the worst imbalance");
     app.add_option("--explain", o.explain, "Explain a case key: unit, values, default")
         ->type_name("KEY");
     app.add_flag("--print-schema", o.schema, "JSON schema of the case file");

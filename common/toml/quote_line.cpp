@@ -97,8 +97,8 @@ std::string explain_value(std::string_view line) {
     if (unit.empty() || !(is_letter(unit.front()) || unit.front() == '%')) return "";
     const std::string shown = fmt::format("{}", fmt::join(printable_characters(value), ""));
     return unit.size() < value.size()
-               ? fmt::format("; a number with a unit stands in quotes: \"{}\"", shown)
-               : fmt::format("; a text stands in quotes: \"{}\"", shown);
+               ? fmt::format("; write a number with a unit in quotes: \"{}\"", shown)
+               : fmt::format("; write a text in quotes: \"{}\"", shown);
 }
 
 }  // namespace ice

@@ -92,7 +92,7 @@ std::string which_resistance(const HvStudy& study) {
     return study.level_ice
                ? "The resistance is that of level ice which the ship breaks."
                : "The resistance is that of ice which is broken already (pre-sawn, or a broken "
-                 "channel): in level ice the ship is slower, as breaking takes thrust, too.";
+                 "channel): in level ice the ship is slower, as breaking needs thrust, too.";
 }
 
 std::string study_table(const HvStudy& study) {
@@ -182,10 +182,10 @@ std::string make_hv_page(const sweep::Sweep& sweep, const HvStudy& study) {
     }
     out += report::section(
         "hv", "Speed against thickness",
-        "Fixed course: the speed at which the thrust, net of open water, meets the resistance that "
-        "was run at given speeds, a line or a parabola through it; bars where the thrust meets its "
-        "95 % interval. Free ship: mean speed of ships that the thrust drives. Formulas (dashed) "
-        "meet the same thrust.",
+        "Fixed course: the speed at which the thrust, net of open water, equals the resistance. "
+        "The resistance is a line or a parabola through runs at given speeds; bars show where the "
+        "thrust equals the ends of its 95 % interval. Free ship: mean speed of ships that the "
+        "thrust drives. Formulas (dashed): the speed at which they equal the same thrust.",
         "<div class=\"both\"><div class=\"opening desk\">" + draw_hv(study, kWide) +
             "</div><div class=\"opening phone\">" + draw_hv(study, kPhone) + "</div></div>");
     out += report::section("table", "Speeds", "",

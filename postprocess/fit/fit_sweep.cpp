@@ -55,7 +55,7 @@ std::vector<std::string> fit_warnings(const sweep::Sweep& sweep, const SpencerFi
     for (const std::string& axis : sweep.axes)
         if (!is_formula_axis(axis))
             out.push_back(
-                fmt::format("{} varies between the runs, which the formula does not know: "
+                fmt::format("{} varies between the runs, which the formula leaves out: "
                             "fit a sweep over speed and thickness alone",
                             axis));
     if (!fit.exponent_fitted)

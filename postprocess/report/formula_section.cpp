@@ -154,9 +154,9 @@ std::string formula_section(const Summary& s, const ForceUnit& unit) {
                         f.verified ? "yes" : "recalled"});
     }
     std::string intro =
-        level ? "This run breaks level ice, so totals stand beside it."
-              : "This run's ice is broken from the start, so only the parts that broken ice takes "
-                "stand beside it: what breaking level ice would take comes on top.";
+        level ? "This run breaks level ice: it is compared with the totals of the formulas."
+              : "This run's ice is broken from the start: it is compared with the formulas' parts "
+                "for broken ice. Their breaking part, for level ice, comes on top.";
     if (std::isfinite(s.ice.flexural_strength))
         intro +=
             fmt::format(" Level ice of {} kPa.", views::readable(1e-3 * s.ice.flexural_strength));

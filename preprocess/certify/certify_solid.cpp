@@ -51,7 +51,7 @@ void judge_distances(const std::string& name, double radius, bool refuse, Sphere
                 report);
     if (s.left_out_area > kWorthSaying * s.area)
         report.warnings.push_back(
-            fmt::format("{:.3g} m2 of the mesh, at {}, bound nothing of the solid and were left "
+            fmt::format("{:.3g} m2 of the mesh, at {}, are no surface of the solid and were left "
                         "out",
                         s.left_out_area, place(s.left_out_at)));
 }

@@ -35,7 +35,7 @@ std::vector<FieldKey> common_keys() {
         {"pattern", Kind::choice, D::none, "", 0, 0, 0, kPatterns, "How the floes are made.",
          [](S& s, const Value& v) { s.pattern = pattern_of(text(v)); }},
         {"seed", Kind::integer, D::none, "0", 0, 2e9, 0, "",
-         "Which of the random fields: cusps, voronoi and power-law.",
+         "Seed of the random patterns: cusps, voronoi and power-law.",
          [](S& s, const Value& v) { s.seed = std::get<std::int64_t>(v); }},
         {"ice.thickness", Kind::number, D::length, "", kTiny, 100, 0, "", "Thickness of the ice.",
          [](S& s, const Value& v) { s.thickness = number(v); }},
@@ -49,7 +49,7 @@ std::vector<FieldKey> common_keys() {
          "Distance of the spheres' centres on the surface; default twice the radius.",
          [](S& s, const Value& v) { s.spacing = number(v); }},
         {"spheres.mode", Kind::choice, D::none, "\"surface\"", 0, 0, 0, "surface|fill",
-         "surface, or fill for spheres inside, too: they touch nothing but carry volume.",
+         "surface, or fill: spheres inside as well, with shares of the volume but no contacts.",
          [](S& s, const Value& v) { s.surface_only = text(v) == "surface"; }},
         {"area.origin", Kind::vector, D::length, "[0.0, 0.0]", -kFar, kFar, 2, "",
          "x of the field's edge that meets the ship first (its smallest x), y of its centre line; "

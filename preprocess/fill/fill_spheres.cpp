@@ -156,8 +156,8 @@ std::vector<std::int32_t> set_features(const SurfaceTree& tree, const FillOption
     report.blind_corners = static_cast<std::int64_t>(corners.blind.size());
     if (!corners.blind.empty())
         report.warnings.push_back(fmt::format(
-            "{} of {} corners have no sphere that knows their three faces: what meets them there "
-            "is felt late; try another radius or spacing",
+            "{} of {} corners have no sphere whose feature has their three faces: a contact there "
+            "begins late; try another radius or spacing",
             corners.blind.size(), corners.all));
     return twins;
 }
@@ -204,7 +204,7 @@ SphereSet fill(const TriangleMesh& solid, const TriangleMesh& space, int dimensi
     const double miss = share_volume(cell, mirror, set);
     if (!(miss <= kCentroidMiss * o.radius))
         report.warnings.push_back(fmt::format(
-            "the volume shares miss the centroid by {:.3g} m: too few spheres to stand for the "
+            "the volume shares miss the centroid by {:.3g} m: too few spheres to represent the "
             "volume; mass and inertia are exact all the same",
             miss));
     report.seconds["shares"] += sharing.seconds();

@@ -44,11 +44,11 @@ std::vector<CaseKey> run_keys() {
          "Length of a step; the paper uses 0.005 s in 2D and 0.01 s in 3D.",
          [](Case& c, G&, const Value& v) { c.time_step = number(v); }},
         {"simulation.seed", Kind::integer, D::none, "0", 0, 2e9, 0, "",
-         "Which of the random offsets simulation.jitter draws: the member of an ensemble.",
+         "Seed of the random offsets (simulation.jitter); the members of an ensemble differ in it.",
          [](Case& c, G&, const Value& v) { c.seed = integer(v); }},
         {"simulation.jitter", Kind::number, D::length, "0.0", 0, 1e3, 0, "",
-         "Largest random offset of every floe along x and y; it also turns by as much at its "
-         "edge. Unbroken ice (hold always) stays.",
+         "Largest random offset of every floe along x and y; each floe also turns, by as much at "
+         "its edge. Unbroken ice (hold always) stays.",
          [](Case& c, G&, const Value& v) { c.jitter = number(v); }},
         {"environment.gravity", Kind::number, D::acceleration, "9.81", 0, 100, 0, "",
          "Gravitational acceleration.", [](Case& c, G&, const Value& v) { c.gravity = number(v); }},
@@ -97,9 +97,8 @@ std::vector<CaseKey> floe_keys() {
          "Pattern file: the field, made by icefield; its unbroken ice is held always.",
          [](Case&, G& g, const Value& v) { g.file = text(v); }},
         {"floes.pattern", Kind::choice, D::none, "\"grid\"", 0, 0, 0, kPatterns,
-         "How the floes lie: rows and columns, columns shifted by half a floe, one floe, or as in "
-         "a "
-         "file.",
+         "Arrangement of the floes: rows and columns, columns shifted by half a floe, one floe, or "
+         "that of a file.",
          [](Case&, G& g, const Value& v) { g.pattern = choice<Pattern>(v, kPatterns); }},
         {"floes.count", Kind::counts, D::none, "[1, 1]", 1, 1e5, 2, "",
          "Number of floes along x and y.",
@@ -156,8 +155,8 @@ std::vector<CaseKey> contact_keys() {
         // (13): p A dt; the default differs in 2D (read_case.cpp), where the paper's ice is
         // rigid
         {"contact.crushing_pressure", Kind::number, D::pressure, "1e6", 0, kInf, 0, "",
-         "Largest normal impulse of a contact is this pressure x the section cut x time_step, and "
-         "ice so crushed is gone; inf is rigid, which jams; in 2D the default is inf (the paper).",
+         "The normal impulse of a contact is at most this pressure x the section cut x time_step; "
+         "ice so crushed is removed. inf: rigid ice, which can jam; the default in 2D (the paper).",
          [](Case& c, G&, const Value& v) { c.contact.crushing_pressure = number(v); }},
         // both stop a solution: the tolerance where it converges, the number where it does not
         {"contact.iterations", Kind::integer, D::none, "30", 1, 100000, 0, "",
@@ -180,8 +179,8 @@ std::vector<CaseKey> water_keys() {
         {"drag.coefficient", Kind::number, D::none, "1.0", 0, 100, 0, "", "Drag coefficient C_d.",
          [](Case& c, G&, const Value& v) { c.drag_coefficient = number(v); }},
         {"flow.model", Kind::choice, D::none, "\"double-body\"", 0, 0, 0, kFlows,
-         "Water that the ship pushes, for drag: at rest, the potential flow around the hull "
-         "without waves, or a file of iceflow.",
+         "Flow around the hull, for drag: none, double-body (potential flow without waves), or "
+         "file (made by iceflow).",
          [](Case& c, G&, const Value& v) { c.flow = choice<FlowModel>(v, kFlows); }},
         {"flow.file", Kind::path, D::none, "-", 0, 0, 0, "",
          "Model file: the flow, made by iceflow; relative to the case file.",
@@ -193,8 +192,7 @@ std::vector<CaseKey> water_keys() {
          "The dynamic pressure of the flow around the hull acts on the floes, beside its drag.",
          [](Case& c, G&, const Value& v) { c.flow_pressure = integer(v) != 0; }},
         {"flow.added_mass", Kind::choice, D::none, "\"none\"", 0, 0, 0, kAddedMasses,
-         "Water that moves along with a floe, as inertia: none, or computed for each form in deep "
-         "water, in 3D.",
+         "Added mass of the floes: none, or computed for each form in deep water, in 3D.",
          [](Case& c, G&, const Value& v) { c.floes_move_water = text(v) == "computed"; }},
     };
 }
@@ -237,8 +235,9 @@ std::vector<CaseKey> bending_keys() {
          "h^2 (Kashtelyan); in 2D of a beam on water, as wedge.",
          [](Case& c, G&, const Value& v) { c.bending.model = choice<BendingModel>(v, kBendings); }},
         {"bending.factor", Kind::number, D::none, "1.0", 0, 100, 0, "",
-         "On the breaking load. Wedge: 1 is a dry static plate. Kashtelyan: models of ships use "
-         "about 3.1, and 1 is chosen on one set of model tests (docs/validation-measured.md).",
+         "Factor on the breaking load. With wedge, 1 is a dry plate under a static load. With "
+         "kashtelyan, models of ships use about 3.1; 1 was chosen by one set of model tests "
+         "(docs/validation-measured.md).",
          [](Case& c, G&, const Value& v) { c.bending.factor = number(v); }},
         {"bending.factor_table", Kind::curve, D::none, "-", 0, 100, 0, "",
          "Rows [v, f]: a second factor f at the normal speed v [m/s] of hull and ice, linear "
@@ -275,7 +274,7 @@ std::vector<CaseKey> level_ice_keys() {
          "Open water between pieces, as broad as a crack.",
          [](Case& c, G&, const Value& v) { c.level_ice.gap = number(v); }},
         {"level_ice.seed", Kind::integer, D::none, "0", 0, 2e9, 0, "",
-         "Which of the random sizes of the pieces; simulation.seed changes them, too.",
+         "Seed of the pieces' random sizes; simulation.seed changes them, too.",
          [](Case& c, G&, const Value& v) { c.level_ice.seed = integer(v); }},
         // (30): R = C_l l (1 + C_v v_n) (1 + scatter u)
         {"level_ice.length_factor", Kind::number, D::none, "0.32", 1e-3, 10, 0, "",

@@ -106,8 +106,8 @@ private:
                                "speed is that of a net thrust; leave it or open_water_speed out");
         if ((pull || power) && has("propulsion.resistance_table"))
             complaints_.add_at("propulsion.resistance_table",
-                               "propulsion.resistance_table is given, but net thrust is less the "
-                               "open-water resistance already; leave it out");
+                               "propulsion.resistance_table is given, but net thrust has the "
+                               "open-water resistance subtracted already; leave it out");
     }
 
     void check_lines() const {
@@ -118,7 +118,7 @@ private:
         if (case_.ship.free[surge] && has("hull.speed_table") && !towed)
             complaints_.add_at(
                 "hull.speed_table",
-                "hull.speed_table is given, but a ship free in surge goes as its thrust makes it; "
+                "hull.speed_table is given, but thrust moves a ship that is free in surge; "
                 "give hull.speed for the start, or tow it with tow.stiffness");
         // a mooring on a motion that is prescribed would pull in vain
         constexpr const char* kNames[] = {"surge", "sway", "heave", "roll", "pitch", "yaw"};

@@ -21,8 +21,8 @@ std::vector<CaseKey> body_keys() {
     return {
         // "free" first: which other keys have an effect follows from it
         {"ship.free", Kind::words, D::none, "[]", 0, 0, 0, kFreedomNames,
-         "Motions in which the ship answers forces; in the others it keeps its course (hull.speed, "
-         "upright). None: it goes as prescribed.",
+         "Motions in which forces move the ship; in the others it keeps its course (hull.speed, "
+         "upright). Empty: the ship keeps its prescribed course.",
          [](Case& c, G&, const Value& v) {
              c.ship.free.fill(false);
              for (const std::string& word : std::get<std::vector<std::string>>(v))
@@ -40,8 +40,8 @@ std::vector<CaseKey> body_keys() {
          "length.",
          [](Case& c, G&, const Value& v) { c.ship.gyration = vector3(v); }},
         {"ship.added_mass", Kind::choice_or_vector, D::none, "\"none\"", 0, 100, 6, kAddedMasses,
-         "Water that moves along: shares of the mass in surge, sway, heave and of the moments of "
-         "inertia in roll, pitch, yaw; or computed for the hull in ideal water, in 3D.",
+         "Added mass: shares of the mass in surge, sway, heave and of the moments of inertia in "
+         "roll, pitch, yaw; or computed for the hull in ideal water, in 3D.",
          [](Case& c, G&, const Value& v) {
              c.ship.added_mass = {};
              c.ship.computes_added_mass =
@@ -56,8 +56,8 @@ std::vector<CaseKey> body_keys() {
         // the unit depends on the motion: a critical damping exists only with a restoring
         // force
         {"ship.damping", Kind::vector, D::none, "[0.0, 0.0, 0.0, 0.0, 0.0, 0.0]", 0, kHuge, 6, "",
-         "Linear damping of surge to yaw: share of the critical one where water, mooring or tow "
-         "restores, else N s/m (N m s).",
+         "Linear damping of surge to yaw: share of the critical damping where water, mooring or "
+         "tow has a stiffness, else N s/m (N m s).",
          [](Case& c, G&, const Value& v) { c.ship.damping = vector6(v); }},
     };
 }
@@ -78,7 +78,7 @@ std::vector<CaseKey> propulsion_keys() {
          }},
         {"propulsion.bollard_pull", Kind::number, D::force, "-", 1e-9, kHuge, 0, "",
          "Net thrust T (1 - U/(3 U_ow) - 2/3 (U/U_ow)^2) from this pull T and open_water_speed "
-         "U_ow; it is less the open-water resistance already.",
+         "U_ow. T is net: open-water resistance is already subtracted.",
          [](Case& c, G&, const Value& v) { c.propulsion.bollard_pull = number(v); }},
         {"propulsion.power", Kind::number, D::power, "-", 1e-9, kHuge, 0, "",
          "Delivered power, for a bollard pull of K (P D)^(2/3) with propeller_diameter D; in place "
@@ -99,7 +99,8 @@ std::vector<CaseKey> propulsion_keys() {
          "Speed that the thrust is steered to hold: the thrust is a result.",
          [](Case& c, G&, const Value& v) { c.propulsion.hold_speed = number(v); }},
         {"propulsion.heading", Kind::choice, D::none, "\"free\"", 0, 0, 0, kHeadings,
-         "A ship free in yaw goes where it is turned, or is steered back to its heading.",
+         "Of a ship free in yaw. free: forces alone turn it; hold: it is steered back to its "
+         "heading.",
          [](Case& c, G&, const Value& v) {
              c.propulsion.hold_heading = place_in(text(v), kHeadings) == 1;
          }},
@@ -115,17 +116,16 @@ std::vector<CaseKey> line_keys() {
     return {
         // tow and mooring are springs in world axes, zero by default
         {"tow.point", Kind::vector, D::length, "[0.0, 0.0, 0.0]", -1e4, 1e4, 3, "",
-         "Where the ship is towed, in the hull mesh's axes; the carriage goes at hull.speed.",
+         "Where the ship is towed, in the hull mesh's axes; the carriage moves at hull.speed.",
          [](Case& c, G&, const Value& v) { c.tow.point = vector3(v); }},
         {"tow.stiffness", Kind::number, D::none, "0.0", 0, kHuge, 0, "",
-         "Spring between carriage and ship, level [N/m]; 0: no tow.",
+         "Stiffness of the level spring between carriage and ship [N/m]; 0: no tow.",
          [](Case& c, G&, const Value& v) { c.tow.stiffness = number(v); }},
         {"tow.damping", Kind::number, D::none, "0.0", 0, kHuge, 0, "",
-         "Damper beside the spring [N s/m].",
+         "Damping coefficient of the damper beside the spring [N s/m].",
          [](Case& c, G&, const Value& v) { c.tow.damping = number(v); }},
         {"mooring.stiffness", Kind::vector, D::none, "[0.0, 0.0, 0.0, 0.0, 0.0, 0.0]", 0, kHuge, 6,
-         "",
-         "Linear restoring of surge to yaw about the pose at the start, world axes [N/m, N m/rad].",
+         "", "Stiffness in surge to yaw about the pose at the start, world axes [N/m, N m/rad].",
          [](Case& c, G&, const Value& v) { c.mooring.stiffness = vector6(v); }},
         {"mooring.pretension", Kind::vector, D::none, "[0.0, 0.0, 0.0, 0.0, 0.0, 0.0]", -kHuge,
          kHuge, 6, "", "Force and moment of the mooring on the ship in that pose [N, N m].",

@@ -46,7 +46,7 @@ std::string draft_text(const Draft& d, const std::string& hull, const std::strin
         fmt::format("duration = {:g}", d.duration),
         fmt::format("s: {:.4g} m of travel, {:.2f} ship lengths", d.speed * d.duration, d.lengths));
     out += line(fmt::format("time_step = {:g}", d.time_step),
-                "s: the ship goes a fifth of a sphere's radius, or less");
+                "s: the ship moves a fifth of a sphere's radius in it, or less");
     out += "\n[environment]\n" + line("water_density = 1025.0", "kg/m3: sea water");
     out += fmt::format("\n[hull]\nspheres = {}\n", quoted(hull));
     out += line(fmt::format("draught = {:g}", d.draught),

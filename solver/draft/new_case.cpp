@@ -42,7 +42,7 @@ void run_program_beside(const std::string& name, const std::vector<std::string>&
     // exit code 2 is a fault of the user's file, which the program has named already
     const auto code = run_sibling(name, words);
     if (!code) throw run_failed("--new", "cannot start " + name, "make its file yourself");
-    if (*code == 2) throw bad_input("--new", name + " did not take its input", "see above");
+    if (*code == 2) throw bad_input("--new", name + " refused its input", "see above");
     if (*code != 0)
         throw run_failed("--new", fmt::format("{} ended with code {}", name, *code), "see above");
 }

@@ -93,8 +93,8 @@ bool MemberFields::changes_with_seed(const Group& group, std::int64_t first) {
         if (code == 0) continue;
         if (!interrupted())
             say_warning(
-                fmt::format("{}: makes no other field with seed {}: {}; the floes of all "
-                            "members are moved by simulation.jitter instead",
+                fmt::format("{}: no field was made with seed {}: {}; all members have the "
+                            "same field, its floes moved by simulation.jitter",
                             group.file.string(), seed, reason(code)));
         return false;
     }
@@ -115,7 +115,7 @@ std::vector<std::string> MemberFields::overrides(std::int64_t seed) {
         if (code != 0)
             throw run_failed(
                 group.file.string(),
-                fmt::format("makes no field for the member with seed {}: {}", seed, reason(code)),
+                fmt::format("gave no field for the member with seed {}: {}", seed, reason(code)),
                 "choose seeds from another number on: --set simulation.seed=100");
         out.push_back(fmt::format("floes.{}.file={}", group.number, file_of(group, seed).string()));
     }

@@ -20,11 +20,18 @@ namespace ice {
 
 namespace {
 
+// Faster flow than this many ship speeds is slowed down to it: at a sharp edge ideal flow has no
+// bound.
 constexpr double kMostSpeed = 1.2;
 constexpr double kFade = 1.0 / 3.0;  // of the margin
+// Nodes of a table where no spacing is given, in 3D and in 2D; more than the last are refused.
 constexpr double kNodes = 3e5, kNodes2D = 1e4, kMostNodes = 2e7;
+// Lines of a section, or twice the panels of the half that a symmetric hull is solved by. The matrix
+// of the equations is stored whole: 512 MB for 8000 lines, 128 MB for 4000 panels.
 constexpr std::size_t kMostPanels = 8000;
 constexpr double kWorryingResidual = 0.05;  // hulls with sharp edges have 2 to 4 %, smooth ones 1 %
+// Net source over the sum of all sources' amounts: above it the hull is not closed, or its panels are
+// too large.
 constexpr double kWorryingFlux = 0.005;
 // Nodes in the hull take the flow this far off its surface, in spacings: on the panels themselves
 // it is rough by their edges.
@@ -234,12 +241,13 @@ std::vector<std::string> warnings_of(const HullFlow& flow) {
     const Vec3& at = flow.worst_place;
     if (flow.table.residual > kWorryingResidual)
         out.push_back(fmt::format(
-            "flow: {:.1f} % of the ship's speed goes through the hull (rms), most at ({:.2f}, "
-            "{:.2f}, {:.2f}) m: use smaller panels, or leave thin plates out (iceflow --without)",
+            "flow: velocity through the hull is {:.1f} % of the ship's speed (rms), most at "
+            "({:.2f}, {:.2f}, {:.2f}) m: use smaller panels, or leave thin plates out (iceflow "
+            "--without)",
             100.0 * flow.table.residual, at.x(), at.y(), at.z()));
     if (std::abs(flow.net_flux) > kWorryingFlux)
         out.push_back(
-            fmt::format("flow: {:.2f} % of the sources do not vanish in sinks: the hull "
+            fmt::format("flow: sources and sinks differ by {:.2f} % of all sources: the hull "
                         "is not closed, or its panels are too large",
                         100.0 * std::abs(flow.net_flux)));
     return out;

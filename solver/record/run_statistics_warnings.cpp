@@ -95,8 +95,8 @@ void RunStatistics::warn(Summary& summary) const {
     if (const double peaks = share_of_peaks({blocks.begin(), blocks.end()}); peaks > kWorryingPeaks)
         warnings.push_back(judged(
             fmt::format(
-                "hits in 1 % of the steps carry {:.0f} % of the force along x, and "
-                "the mean's interval may be too narrow: run several seeds (icesolve --seeds)",
+                "1 % of the steps carry {:.0f} % of the force along x, so the interval of the mean "
+                "may be too narrow: run several seeds (icesolve --seeds)",
                 100.0 * peaks),
             peaks));
     if (max_overlap_ > options_.worrying_overlap && matters(share_of_separation(summary)))
@@ -161,9 +161,9 @@ Warning RunStatistics::warn_of_overlap(const Summary& summary) const {
 
 Warning RunStatistics::warn_of_unseen() const {
     return judged(
-        fmt::format("{} and floe {} lay {:.3g} m deeper in each other at t = {:.2f} s than their "
-                    "contacts knew, the worst of {} of {} looks at the solids with such a pair: "
-                    "pictures and loads on these floes are wrong; use finer ice spheres",
+        fmt::format("{} and floe {} overlapped by {:.3g} m more than their contacts show, at t = "
+                    "{:.2f} s; {} of {} checks of the solids found such a pair: pictures and "
+                    "loads on these floes are wrong; use finer ice spheres",
                     name_of(unseen_a_), unseen_b_, unseen_overlap_, unseen_time_, doubtful_looks_,
                     looks_),
         unseen_share());

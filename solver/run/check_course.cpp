@@ -168,14 +168,14 @@ void warn_of_meeting(const Case& p, const Course& c, std::vector<Warning>& warni
     // From the gravest to the mildest: a run without ice needs no word about its averages.
     const double averaged = p.duration - p.average_from;
     if (c.clearance == kNever) {
-        warnings.push_back({fmt::format("no ice lies in the ship's way: it goes {:.4g} m and meets "
-                                        "nothing; put hull.position before the ice, along +x",
+        warnings.push_back({fmt::format("no ice lies in the ship's way: it moves {:.4g} m and "
+                                        "meets nothing; put hull.position before the ice, along +x",
                                         c.travel),
                             true, 1.0});
     } else if (c.meets_at == kNever) {
         warnings.push_back(
-            {fmt::format("the ship never meets the ice: it goes {:.4g} m, and the first ice on its "
-                         "way is {:.4g} m ahead; move hull.position on, or lengthen "
+            {fmt::format("the ship never meets the ice: it moves {:.4g} m, and the first ice on "
+                         "its way is {:.4g} m ahead; move hull.position on, or lengthen "
                          "simulation.duration",
                          c.travel, c.clearance),
              true, 1.0});

@@ -91,7 +91,7 @@ std::string remedy(const World& w, const std::vector<StartOverlap>& overlaps) {
         move += fmt::format(": with x = {:g} m its bow lies before the ice", x);
     }
     return move +
-           ", widen floes.gap or lower simulation.jitter; --allow-overlap goes on all the same";
+           ", widen floes.gap or lower simulation.jitter; --allow-overlap runs it all the same";
 }
 
 // The set with the widest spacing, if spheres of other bodies pass between its own.
@@ -129,8 +129,9 @@ void warn_of_unfelt_hull(const World& w, std::vector<Warning>& warnings) {
     const double radius = w.scene.shapes[0].largest_radius;
     warnings.push_back({fmt::format(
         "no contact sphere represents {:.2g} % of the hull between the water line and {:.3g} m "
-        "below it, as far as {:.3g} m from one at x = {:.2f}, y = {:.2f}, z = {:.2f} m of the "
-        "ship: ice goes into it unfelt; make the hull's set with spheres smaller than {:.3g} m",
+        "below it (farthest from a sphere: {:.3g} m, at x = {:.2f}, y = {:.2f}, z = {:.2f} m of "
+        "the ship); no contact acts there and ice can enter the hull: make the hull's set with "
+        "spheres smaller than {:.3g} m",
         100.0 * hull.share, -low, hull.distance, hull.at.x(), hull.at.y(), hull.at.z(), radius)});
 }
 
@@ -153,8 +154,8 @@ void warn_of_speed(const World& w, std::vector<Warning>& warnings) {
     }
     if (fastest <= limit) return;
     const std::string text = fmt::format(
-        "{} goes {:.3g} m/s, but bodies may pass through each other above {:.3g} m/s, where they "
-        "go a contact sphere's diameter within a step: lower simulation.time_step to {:.2g} s",
+        "{} moves at {:.3g} m/s, but bodies may pass through each other above {:.3g} m/s, a "
+        "contact sphere's diameter per step: lower simulation.time_step to {:.2g} s",
         who == 0 ? "the ship" : name_of(who) + ", seen from the ship,", fastest, limit,
         p.time_step * limit / fastest);
     warnings.push_back({text});

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <vector>
 
 #include "common/formats/spheres_file.hpp"
 #include "solver/bending/breaking_load.hpp"
@@ -48,7 +50,6 @@ std::string motion_line(const World& w) {
             rig.body.coupling);
     if (!rig.body.floats()) return out;
     const Equilibrium& e = rig.equilibrium;
-    constexpr double kDegree = std::numbers::pi / 180.0;
     out += fmt::format(" floats with {:.4g} t displaced, trim {:.3g} deg by the bow",
                        // + 0.0: no "-0" in the text
                        1e-3 * w.parameters.water_density * e.volume, e.angles[1] / kDegree + 0.0);
@@ -56,6 +57,16 @@ std::string motion_line(const World& w) {
         out += fmt::format(", heel {:.3g} deg, GM {:.4g} m", e.angles[0] / kDegree + 0.0,
                            e.gm_transverse);
     return out + fmt::format(", longitudinal GM {:.4g} m", e.gm_longitudinal);
+}
+
+// Until when the floes are held, as the case says it, and what these words make of the ice.
+std::string hold_text(const std::vector<std::string>& hold) {
+    std::vector<std::string> words;
+    for (const std::string& until : hold)
+        words.push_back(until == "never"    ? "never (loose)"
+                        : until == "always" ? "always (unbroken)"
+                                            : until);
+    return fmt::format("{}", fmt::join(words, ", "));
 }
 
 std::string ice_line(const World& w, const IceParticulars& ice) {
@@ -81,7 +92,7 @@ std::string ice_line(const World& w, const IceParticulars& ice) {
     // bodies that are no loose floes, without the ship
     const auto fixed = static_cast<std::int64_t>(w.scene.bodies.size()) - 1 - ice.floes;
     if (fixed > 0) out += fmt::format("; {} pieces of unbroken ice", fixed);
-    return out + fmt::format("; held: {}", fmt::join(ice.hold, ", "));
+    return out + fmt::format("; held: {}", hold_text(ice.hold));
 }
 
 std::string distance_text(double distance) {
@@ -143,7 +154,7 @@ std::string describe_case(const World& w) {
 }
 
 std::string describe_rules(const Summary& s) {
-    return fmt::format("floes held: {}; crushing {}; averaged over {}", fmt::join(s.ice.hold, ", "),
+    return fmt::format("floes held: {}; crushing {}; averaged over {}", hold_text(s.ice.hold),
                        pressure_text(s.ice.crushing_pressure),
                        averaged_text(s.travel.averaged_lengths));
 }

@@ -186,9 +186,9 @@ std::vector<Warning> check_water(const Case& p, const Scene& scene) {
             froude * froude));
     if (water.grid.residual > kMostResidual)
         out.push_back(
-            judged(fmt::format("flow: {:.1f} % of the ship's speed goes through the hull (rms): "
-                               "iceflow --check says where, --panel makes smaller panels, "
-                               "--without leaves out thin plates, flow.file takes the result",
+            judged(fmt::format("flow: velocity through the hull is {:.1f} % of the ship's speed "
+                               "(rms): iceflow --check says where, --panel makes smaller panels, "
+                               "--without leaves out thin plates, flow.file reads the result",
                                100.0 * water.grid.residual),
                    kOfMean * water.grid.residual));
     return out;

@@ -227,7 +227,7 @@ void require_tracked_floes(const Scene& scene, const Case& parameters) {
             fmt::format("floe {} does not exist: there are {} as the run begins", id, floes),
             parameters.has_level_ice()
                 ? "leave it out: pieces that break off [level_ice] cannot be tracked, "
-                  "pieces.h5 and run.h5 hold where they go"
+                  "pieces.h5 and run.h5 have their motion"
                 : "floes are numbered from 1 in the order of [[floes]], x fastest");
     }
 }

@@ -119,7 +119,7 @@ ShipRig make_ship_rig(const Case& p, const Scene& scene) {
     rig.body = make_ship_body(p, scene);
     if (!(rig.body.mass > 0.0))
         throw bad_input(p.file.string() + ": ship.mass",
-                        "is missing, and the hull displaces no water that could stand for it",
+                        "is missing, and the hull displaces no water to take it from",
                         "give ship.mass, or a draught");
     rig.equilibrium = find_equilibrium(p, scene, rig.body);
     rig.anchor_angles = rig.equilibrium.angles;

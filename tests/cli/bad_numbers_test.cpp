@@ -193,7 +193,7 @@ TEST_CASE("a time step in which bodies may tunnel is warned of, before and after
     const Result r = w.run(fast + " --set hull.speed=5 --set simulation.duration=0.5");
     CAPTURE(r.err);
     CHECK(r.code == 0);
-    CHECK_THAT(r.err, Catch::Contains("the ship goes 5 m/s, but bodies may pass through each "
+    CHECK_THAT(r.err, Catch::Contains("the ship moves at 5 m/s, but bodies may pass through each "
                                       "other above 4 m/s") &&
                           Catch::Contains("lower simulation.time_step to 0.04 s"));
     CHECK_THAT(r.err, Catch::Contains("the hull and floe 1 met at "));

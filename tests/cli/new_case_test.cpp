@@ -106,9 +106,10 @@ TEST_CASE("the option --check says draught, displacement, travel, steps, clearan
     const Result r = w.run("icesolve case.cfg --set hull.speed=0.5 --check --picture start.svg");
     CAPTURE(r.err);
     REQUIRE(r.code == 0);
-    for (const char* words : {"draught 1.44 m of", "displacement 20.21 t", "30 floes of 1.13",
-                              "held: never, always", "10 m, 1.05 ship lengths, in 1000 steps",
-                              "clearance", "hull 0.1 m, 0.2 m apart", "crushing 1 MPa"})
+    for (const char* words :
+         {"draught 1.44 m of", "displacement 20.21 t", "30 floes of 1.13",
+          "held: never (loose), always (unbroken)", "10 m, 1.05 ship lengths, in 1000 steps",
+          "clearance", "hull 0.1 m, 0.2 m apart", "crushing 1 MPa"})
         CHECK_THAT(r.err, Catch::Contains(words));
     CHECK_THAT(slurp(w / "start.svg"), Catch::StartsWith("<svg"));
     const auto names = w.files();

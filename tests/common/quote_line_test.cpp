@@ -48,9 +48,9 @@ TEST_CASE("of a long line the characters around the mistake are shown, the caret
 TEST_CASE("what TOML does not read is explained where the meaning is plain", "[toml]") {
     CHECK(explain_value("speed = 0,3") == "; the decimal point is '.', not ','");
     CHECK(explain_value("speed = -1,5 m/s # slow") == "; the decimal point is '.', not ','");
-    CHECK(explain_value("speed = 2 kn") == "; a number with a unit stands in quotes: \"2 kn\"");
-    CHECK(explain_value("share = 80%") == "; a number with a unit stands in quotes: \"80%\"");
-    CHECK(explain_value("pattern = grid\r") == "; a text stands in quotes: \"grid\"");
+    CHECK(explain_value("speed = 2 kn") == "; write a number with a unit in quotes: \"2 kn\"");
+    CHECK(explain_value("share = 80%") == "; write a number with a unit in quotes: \"80%\"");
+    CHECK(explain_value("pattern = grid\r") == "; write a text in quotes: \"grid\"");
     for (const char* line : {"speed", "speed =", "speed = 1.2.3", "speed = 1, 2, 3", "x = [1,2",
                              "x = \"a", "# a = b", "speed = 2,"}) {
         CAPTURE(line);

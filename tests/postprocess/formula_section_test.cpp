@@ -57,7 +57,7 @@ TEST_CASE("broken ice stands beside submersion and clearing, level ice beside to
     s.ice.hold = {"until-bent"};
     evaluate_run(s, {});  // nobody states a strength: 500 kPa, which the page says
     const std::string level = formula_section(s, unit);
-    CHECK_THAT(level, Catch::Contains("totals stand beside it") &&
+    CHECK_THAT(level, Catch::Contains("compared with the totals of the formulas") &&
                           Catch::Contains("Level ice of 500 kPa") && Catch::Contains("Riska 1997"));
     // Lindqvist's and Jeong's three parts, Riska's one; the run and the band
     CHECK(count(draw_formulas(s, unit, 600.0), "<rect") ==

@@ -88,7 +88,7 @@ TEST_CASE("what lies inside the solid or is left out on purpose is no distance",
         CHECK(report.source.to_solid.max <= 1.0);
         CHECK(report.source.left_out_area > 4e5);  // (3 L)^2 but for the hull's waterplane
         certify_solid("sea.stl", source, hull, 1.0, false, report);
-        CHECK(warns(report, "bound nothing of the solid"));
+        CHECK(warns(report, "are no surface of the solid"));
     }
     SECTION("a domain's box") {
         const SpheresReport report = compared(test::in_domain_box(hull), hull, 1.0);

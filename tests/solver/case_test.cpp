@@ -229,7 +229,7 @@ TEST_CASE("a ship that answers: lists of words, curves, numbers or a word, and w
     wrong(surge_free +
               "[propulsion]\nbollard_pull = 1e3\nopen_water_speed = 5\n"
               "resistance_table = [[0, 0]]",
-          "less the open-water resistance already");
+          "open-water resistance subtracted already");
     wrong(surge_free + "[propulsion]\nheading = \"hold\"", "free in yaw");
     wrong(surge_free + "[propulsion]\nthrust_table = [[1, 0], [1, 5]]", "above the row before");
     wrong("[tow]\nstiffness = 1e3", "free in surge");

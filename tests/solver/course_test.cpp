@@ -119,7 +119,7 @@ TEST_CASE("clearance is the way to the first ice that the hull's section meets",
 TEST_CASE("a ship that meets no ice, or too late, is warned of with both distances", "[step]") {
     CHECK_THAT(only_warning(world_of({Vec3(7, 5, -0.1)})), Catch::Contains("no ice lies in the"));
     World w = world_of({Vec3(40.5, 0, -0.1)});
-    CHECK_THAT(only_warning(w), Catch::Contains("never meets the ice: it goes 20 m") &&
+    CHECK_THAT(only_warning(w), Catch::Contains("never meets the ice: it moves 20 m") &&
                                     Catch::Contains("hull.position"));
     w.parameters.duration = 40.0;
     w.parameters.average_from = 20.0;
@@ -213,7 +213,7 @@ TEST_CASE("floes pushed out of a channel's open end are warned of, with count an
     CHECK(warning->affects_mean == true);
     CHECK_THAT(warning->text,
                Catch::Contains("pushed 2 floes out") &&
-                   Catch::Contains("x = 15.5 m, the farthest by 2.09 m while it went 10 m") &&
+                   Catch::Contains("x = 15.5 m, the farthest by 2.09 m while it moved 10 m") &&
                    Catch::Contains("edges.ahead"));
     CHECK_FALSE(warn_of_open_end(w.scene, w.parameters, 30.0));  // they only spread
     // behind the bow they have only let the ship pass
