@@ -92,10 +92,12 @@ HWY_INLINE Load DragInCurrent(const Afloat& floes, const Case& p, const Vec3& cu
     Load drag{Zero(), Zero()};
     if (p.drag == DragModel::projected) drag = ProjectedDrag(floes, p, u);
     if (p.drag == DragModel::panel) drag = PanelDrag(floes, p, u);
-    drag.force = Limited(drag.force, hn::Mul(floes.mass, Length(u)), dt);
+    const Lanes stop = hn::Mul(floes.mass, Length(u));
+    drag.force = Limited(drag.force, stop, dt);
     if (p.drag == DragModel::panel) {
         const Vectors spin = Turned(floes.rotation, inertia, floes.angular_velocity);
-        drag.moment = Limited(drag.moment, Length(spin), dt);
+        const Lanes rim = hn::Mul(All(floes.shape.bounding_radius), stop);
+        drag.moment = Limited(drag.moment, hn::Add(Length(spin), rim), dt);
     }
     return drag;
 }

@@ -37,28 +37,19 @@ namespace {
 double length(const Vec3& v) { return std::sqrt(ordered_dot(v, v)); }
 
 // Drag slows down, it never turns a motion through the water round: in a step longer than it takes
-// to stop, the force is the one that just stops. At the paper's steps this is never reached.
-void limit_drag(const Bodies& b, std::size_t i, const Vec3& u, double dt, WaterLoad& drag) {
-    // the force that stops the floe within the step is m |u| / dt; moments likewise with I w
-    const double stop = b.mass[i] * length(u), push = dt * length(drag.force);
-    if (push > stop) drag.force *= stop / push;
-    const double halt = length(ordered_turned(b.rotation[i], b.inertia(i), b.angular_velocity[i]));
-    const double twist = dt * length(drag.moment);
-    if (twist > halt) drag.moment *= halt / twist;
-}
-
-// In the ship's flow the fastest motion that a corner has decides.
-void limit_drag(const Bodies& b, std::size_t i, double radius, double dt, RelativeDrag& drag) {
-    const double stop = b.mass[i] * drag.fastest, push = dt * length(drag.force);
-    if (push > stop) {
-        drag.force *= stop / push;
-        drag.loss = drag.loss * (stop / push);
-    }
-    // the flow may turn a floe that does not turn yet: the force at its rim counts as well
+// to stop, the force is the one that just stops, m `fastest` / dt. The moment is limited likewise,
+// by I w and by that force at the rim, for drag also turns a floe that does not turn yet.
+// @return what is left of the force, as a share
+double limit_drag(const Bodies& b, std::size_t i, double radius, double fastest, double dt,
+                  WaterLoad& drag) {
+    const double stop = b.mass[i] * fastest, push = dt * length(drag.force);
+    const double left = push > stop ? stop / push : 1.0;
+    drag.force *= left;
     const double turning =
         length(ordered_turned(b.rotation[i], b.inertia(i), b.angular_velocity[i])) + radius * stop;
     const double twist = dt * length(drag.moment);
     if (twist > turning) drag.moment *= turning / twist;
+    return left;
 }
 
 // In 2D the plane's other components are rounding only; they must not add up over a run.
@@ -82,7 +73,7 @@ WaterLoad drag_in_current(const Scene& scene, const Case& p, std::size_t i) {
         drag = projected_drag(shape, motion, p.drag_coefficient, p.water_density);
     if (p.drag == DragModel::panel)
         drag = panel_drag(shape, motion, p.drag_coefficient, p.water_density);
-    limit_drag(b, i, u, p.time_step, drag);
+    limit_drag(b, i, shape.bounding_radius, length(u), p.time_step, drag);
     return drag;
 }
 
@@ -91,7 +82,7 @@ RelativeDrag drag_in_flow(const Scene& scene, const Case& p, std::size_t i) {
     const Shape& shape = scene.shapes[static_cast<std::size_t>(b.shape[i])];
     RelativeDrag drag;
     if (p.drag == DragModel::projected) {
-        // drag of a body as a whole: the flow at its centre is the flow
+        // (16) for the body as a whole, with u of (24) at its centre
         const Vec3 u = b.velocity[i] - water_at(scene.water, b.position[i]);
         const Motion motion{b.rotation[i], b.position[i].z(), u, b.angular_velocity[i]};
         static_cast<WaterLoad&>(drag) =
@@ -100,7 +91,7 @@ RelativeDrag drag_in_flow(const Scene& scene, const Case& p, std::size_t i) {
         drag.loss = -ordered_dot(drag.force, u);
     }
     if (p.drag == DragModel::panel) {
-        // drag of each facet: the flow differs along the floe, given in the floe's own axes
+        // (25), each facet by itself: u differs along the floe, given in the floe's own axes
         const auto water = [&](const Vec3& at) {
             return ordered_transposed(
                 b.rotation[i],
@@ -109,7 +100,7 @@ RelativeDrag drag_in_flow(const Scene& scene, const Case& p, std::size_t i) {
         const Motion motion{b.rotation[i], b.position[i].z(), b.velocity[i], b.angular_velocity[i]};
         drag = relative_drag(shape, motion, water, p.drag_coefficient, p.water_density);
     }
-    limit_drag(b, i, shape.bounding_radius, p.time_step, drag);
+    drag.loss *= limit_drag(b, i, shape.bounding_radius, drag.fastest, p.time_step, drag);
     return drag;
 }
 

@@ -82,6 +82,29 @@ TEST_CASE("every instruction set loads floes to the bits of the reference", "[wa
     }
 }
 
+TEST_CASE(
+    "drag turns a floe that moves without turning: the wetted front face's load times its arm",
+    "[water][analytic]") {
+    Case p = test::empty_space(0.01);
+    p.drag = DragModel::panel;
+    p.drag_coefficient = 1.0;
+    p.buoyancy = BuoyancyModel::none;
+    World w = test::plate_world(p, Vec3(1, 1, 1), 0.1, 0.2, 100.0);
+    const Vec3 size(1.0, 0.8, 0.3);
+    const std::int32_t form = test::add_shape(w, test::make_box_set(size, 0.05, 0.1));
+    const double height = -0.05, draught = 0.5 * size.z() - height, speed = 0.5;
+    const std::size_t i =
+        add_floe(w.scene, form, 900.0, Vec3(3.0, 0.0, height), Quaternion::Identity(), 0, false);
+    w.scene.bodies.velocity[i] = Vec3(speed, 0.0, 0.0);
+    const std::vector<std::int32_t> floes{static_cast<std::int32_t>(i)};
+    std::vector<FloeLoad> loads(1);
+    load_floes(w.scene, w.parameters, floes, loads);
+    const double force = -0.5 * p.water_density * speed * speed * size.y() * draught;
+    CHECK(loads[0].force.x() == Approx(force).epsilon(1e-12));
+    CHECK(loads[0].moment.y() == Approx(force * (-0.5 * draught - height)).epsilon(1e-12));
+    check_bits(w, floes);
+}
+
 TEST_CASE("floes all above, all under or all level with the water have the reference's bits",
           "[water][simd]") {
     Case p = test::empty_space(0.01);
