@@ -19,7 +19,7 @@ struct Options {
     std::map<std::string, std::string> of_mesh;  // options of spherize that --new passes on
     int threads = 0, seeds = 0;
     std::int64_t hash_every = 0;
-    double checkpoint_every = 0.0, autosave = 300.0;
+    double checkpoint_every = 0.0, autosave = 300.0;  // [s] simulated, [s] of wall time
     bool check = false, schema = false, defaults = false, json = false, verify = false,
          no_report = false, allow_overlap = false, overwrite = false;
     MessageOptions messages;

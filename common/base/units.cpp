@@ -3,7 +3,6 @@
 
 #include <array>
 #include <charconv>
-#include <numbers>
 
 namespace ice {
 
@@ -14,8 +13,6 @@ struct Unit {
     double factor;  ///< SI = number * factor
     Dimension dimension;
 };
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 // the first unit of each dimension that has one is the SI one
 constexpr std::array kUnits{

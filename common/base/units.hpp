@@ -2,13 +2,16 @@
 /// Units people write, turned into SI: "2 kn", "80 mm", "1.5 MPa".
 #pragma once
 
+#include <numbers>
 #include <optional>
 #include <string>
 #include <string_view>
 
 namespace ice {
 
-inline constexpr double kKnot = 1852.0 / 3600.0;  ///< [m/s]
+inline constexpr double kKnot = 1852.0 / 3600.0;                       ///< [m/s]
+inline constexpr double kDegree = std::numbers::pi / 180.0;            ///< [rad]
+inline constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;  ///< rounded by itself
 
 /// Dimension of a number. `none` is dimensionless and takes no unit, `share` is a part of a whole
 /// and may be given in per cent.

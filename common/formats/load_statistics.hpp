@@ -24,7 +24,7 @@ struct Exceedance {
 /// Peaks of a series: of the means between two up-crossings of their mean, the largest.
 struct PeakStatistics {
     std::int64_t count = 0;
-    double mean = 0.0, p99 = 0.0, max = 0.0;  ///< of the series
+    double mean = 0.0, p99 = 0.0, max = 0.0;  ///< of the series [N], or [N/m] of a line load
     std::vector<Exceedance> exceeded;         ///< levels falling, rates rising
 };
 
@@ -34,7 +34,7 @@ struct PanelLoad {
     Vec3 center = Vec3::Zero(), normal = Vec3::Zero();  ///< ship frame [m]; outward, unit
     double area = 0.0;                                  ///< [m2]; 2D: per metre of breadth
     double length = 0.0;                      ///< along the waterline [m]; 2D: the metre of breadth
-    double mean = 0.0, p99 = 0.0, max = 0.0;  ///< of the force
+    double mean = 0.0, p99 = 0.0, max = 0.0;  ///< of the force [N]; 2D: [N/m]
 };
 
 /// All panels of a hull. Empty in files of versions that had none.

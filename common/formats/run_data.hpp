@@ -76,10 +76,10 @@ struct RegionHistory {
 
 /// One history sample of a tracked floe.
 struct TrackRow {
-    double time = 0.0;
+    double time = 0.0;                                                ///< [s]
     Vec3 position = Vec3::Zero();                                     ///< centre of mass [m]
     Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< body to world
-    Vec3 velocity = Vec3::Zero(), angular_velocity = Vec3::Zero();    ///< world axes
+    Vec3 velocity = Vec3::Zero(), angular_velocity = Vec3::Zero();    ///< world axes [m/s], [rad/s]
     Vec3 contact_force = Vec3::Zero();   ///< this floe on the ship, normal part [N]
     Vec3 friction_force = Vec3::Zero();  ///< this floe on the ship, tangential part [N]
     Vec3 ice_force = Vec3::Zero();       ///< of the other floes on this one [N]
@@ -100,11 +100,11 @@ enum class FloeState : std::uint8_t { held = 0, moving = 1, behind = 2 };
 
 /// Poses of all floes at one instant; arrays of length Nb.
 struct RunFrame {
-    double time = 0.0;
-    Vec3 ship_position = Vec3::Zero();
-    std::vector<Vec3> position;                   ///< centres of mass [m]
-    std::vector<Eigen::Quaterniond> orientation;  ///< body to world, sign continuous in time
-    std::vector<Vec3> velocity, angular_velocity;
+    double time = 0.0;                             ///< [s]
+    Vec3 ship_position = Vec3::Zero();             ///< of the hull's mesh origin [m]
+    std::vector<Vec3> position;                    ///< centres of mass [m]
+    std::vector<Eigen::Quaterniond> orientation;   ///< body to world, sign continuous in time
+    std::vector<Vec3> velocity, angular_velocity;  ///< [m/s], [rad/s]
     std::vector<Vec3> contact_force;  ///< of the ship on the floe, mean since last frame [N]
     std::vector<FloeState> state;
     std::vector<HullContact> hull_contacts;  ///< sorted by floe, sphere; as many as there were

@@ -54,7 +54,8 @@ struct CutBack {
     double from = 0.0, to = 0.0;  ///< z of stem and stern, x of the keel [m]
 };
 
-/// Certificate of a sphere set (schema spherize/1, docs/contract.md, section 2).
+/// Certificate of a sphere set (schema spherize/1, docs/contract.md, section 2). Lengths [m], area
+/// [m2], volume [m3], inertia at 1 kg/m3 [kg m2]; in 2D the last three per metre of breadth.
 struct SpheresReport {
     int dimension = 3;
     double radius = 0.0, spacing = 0.0;
@@ -78,7 +79,7 @@ struct SpheresReport {
     std::vector<std::pair<std::string, std::int64_t>> repairs;  ///< step, count
     std::map<std::string, std::string> guessed;
     std::vector<std::string> warnings;
-    std::map<std::string, double> seconds;
+    std::map<std::string, double> seconds;  ///< wall time per stage
     std::string source_mesh, command_line;
 };
 

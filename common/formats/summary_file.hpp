@@ -79,14 +79,15 @@ struct Summary {
     std::uint64_t state_hash = 0;
     std::int64_t hull_spheres = 0, ice_spheres = 0;
     std::int64_t floes_total = 0, floes_moved = 0, floes_behind = 0;
-    double average_from = 0.0;
+    double average_from = 0.0;  ///< start of the means [s]
     ShipParticulars ship;
     IceParticulars ice;
     TravelParticulars travel;
     ForceStatistics resistance, lateral, vertical;
     std::map<std::string, RegionStatistics> regions;
     PanelSummary panels;
-    double contacts_mean = 0.0, contacts_max = 0.0, max_overlap = 0.0;
+    double contacts_mean = 0.0, contacts_max = 0.0;  ///< contacts per step
+    double max_overlap = 0.0;                        ///< deepest of a contact [m]
     /// Deepest overlap of two solids less that of their contacts [m]; NaN: not measured.
     double unseen_overlap = std::numeric_limits<double>::quiet_NaN();
     std::int64_t unconverged_steps = 0;

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "common/base/units.hpp"
 #include "common/formulas/lindqvist.hpp"
 #include "common/formulas/riska.hpp"
 
@@ -12,7 +12,6 @@ namespace ice {
 
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr const char* kLindqvist = "Lindqvist 1989";
 constexpr const char* kRiska = "Riska 1997";
 constexpr const char* kBroken = "buoyancy + clearing";

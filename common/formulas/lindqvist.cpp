@@ -19,6 +19,7 @@ double lindqvist_submersion(const HullForm& hull, const IceConditions& ice) {
 }
 
 LindqvistParts lindqvist_resistance(const HullForm& hull, const IceConditions& ice) {
+    // (F1), term by term
     const double sin_phi = std::sin(hull.stem_angle), cos_phi = std::cos(hull.stem_angle);
     const double tan_phi = std::tan(hull.stem_angle), sin_alpha = std::sin(hull.entrance_angle);
     const double psi = std::atan(tan_phi / sin_alpha), cos_psi = std::cos(psi);

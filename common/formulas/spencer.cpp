@@ -14,6 +14,7 @@ SpencerScales spencer_scales(const HullForm& hull, const IceConditions& ice) {
 
 SpencerParts spencer_resistance(const HullForm& hull, const IceConditions& ice,
                                 const SpencerCoefficients& c) {
+    // (F3), term by term
     const SpencerScales s = spencer_scales(hull, ice);
     // 0 V^2 and 0^-a at rest: the limit, not NaN
     const auto power = [&](double number, double exponent) {

@@ -35,8 +35,8 @@ std::string draw_history(const History& h) {
     chart.y_title = h.y_title;
     for (const History::Curve& curve : h.curves) {
         // samples stand beside averages of the same colour and are not named again
-        const bool has_average = !curve.average;
-        Curve line{has_average ? "" : curve.name, curve.color, {}, 0.8, "", 0.35};
+        const bool is_samples = !curve.average;
+        Curve line{is_samples ? "" : curve.name, curve.color, {}, 0.8, "", 0.35};
         if (curve.average) {
             line.width = 1.8;
             line.opacity = 1.0;

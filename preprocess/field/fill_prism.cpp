@@ -72,7 +72,7 @@ SphereSet fill_prism(const Outline& outline, const PrismForm& form, std::int64_t
         throw bad_input("--radius",
                         fmt::format("{} of {} corners have no sphere that knows their three faces",
                                     report.blind_corners, report.corners),
-                        "");
+                        "try another radius or spacing");
     if (corners != nullptr) *corners = report.corners;
     for (Vec3& vertex : set.mesh.vertices) vertex = pose.from(vertex);
     for (Vec3& center : set.centers) center = pose.from(center);

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "common/base/parallel.hpp"
+#include "common/base/units.hpp"
 #include "preprocess/fill/offset_surface.hpp"
 #include "preprocess/fill/point_cells.hpp"
 
@@ -236,13 +237,13 @@ void certify(const SurfaceTree& tree, const SphereFinder& finder, const std::vec
         error_sum += static_cast<double>(sight.normal_error) * sight.area;
         error_area += sight.area;
     }
-    constexpr double kDegrees = 180.0 / std::numbers::pi;
     report.gap_p50 = gaps.percentile(0.5);
     report.gap_p99 = gaps.percentile(0.99);
     report.gap_max = gap_max;
     unfitted.tell(report);
-    report.normal_error_mean_deg = error_area > 0.0 ? kDegrees * error_sum / error_area : 0.0;
-    report.normal_error_p99_deg = kDegrees * errors.percentile(0.99);
+    report.normal_error_mean_deg =
+        error_area > 0.0 ? kDegreesPerRadian * error_sum / error_area : 0.0;
+    report.normal_error_p99_deg = kDegreesPerRadian * errors.percentile(0.99);
     report.thin_features = group(thin, 3.0 * set.radius);
 }
 

@@ -71,6 +71,8 @@ private:
 }  // namespace
 
 bool is_corner(const Seat& seat) {
+    // Triple product of the three faces' normals: of less, they lie almost in a plane, and the
+    // place is an edge.
     constexpr double kLeastVolume = 0.1;
     const auto& t = seat.touch;
     return seat.touches == 3 && std::abs(t[0].cross(t[1]).dot(t[2])) >= kLeastVolume;

@@ -16,7 +16,9 @@ namespace ice {
 
 namespace {
 
+// Volumes that differ by no more than this share agree.
 constexpr double kRowError = 0.005;
+// Rows per side, tried in turn until they agree.
 constexpr int kRows[] = {100, 300, 1000};
 
 // Van der Corput sequence in a base: with bases 2, 3, 5 it fills the box evenly (Halton).

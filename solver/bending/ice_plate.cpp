@@ -10,6 +10,7 @@ namespace ice {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
+// A straight edge breaks into wedges of 36 degrees.
 constexpr double kWedgesOnStraightEdge = 5.0;
 
 // Of a beam on water, per length [1/m].

@@ -64,7 +64,7 @@ struct LevelIce {
     std::array<double, 4> extent{};    ///< smallest and largest x, smallest and largest y [m]
     double spacing = 0.5, gap = 0.05;  ///< of contact spheres; between pieces [m]
     int seed = 0;
-    double length_factor = 0.32, speed_factor = -0.144, scatter = 0.2;  ///< CuspLaw
+    double length_factor = 0.32, speed_factor = -0.144, scatter = 0.2;  ///< CrackLaw
 };
 
 struct Case {

@@ -10,9 +10,9 @@ namespace ice {
 ///
 /// Sweeps alone converge slowly where many contacts share a load (a face's spheres, a chain of
 /// floes): after a hundred of them nine tenths of the error may be left. After each sweep, with g
-/// the change it made to the impulses and p the direction so far,
+/// the change it made to the impulses and d the direction so far,
 ///
-///     beta = |g|^2 / |g_last|^2,   impulses += beta p,   p = beta p + g,
+///     beta = |g|^2 / |g_last|^2,   impulses += beta d,   d = beta d + g,
 ///
 /// restarted with beta = 0 where |g|^2 grows (Silcowitz-Hansen, Niebe, Erleben, The Visual Computer
 /// 26, 2010: a nonsmooth nonlinear conjugate gradient method). |g|^2 is sum g^2 k(n), an energy.

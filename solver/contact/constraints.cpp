@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <tuple>
 
 #include "common/base/assert.hpp"
@@ -34,7 +35,7 @@ bool gives_way(const ShipResponse& ship, const Vec3& arm, const Vec3& normal) {
 
 // Largest normal impulse: crushing pressure on the section cut half way through the step.
 double max_impulse(const Contact& contact, double approach, const ContactLaw& law, double dt) {
-    if (law.is_rigid()) return law.crushing_pressure;
+    if (law.is_rigid()) return std::numeric_limits<double>::infinity();
     // half a step of closing speed: the section of (13) at mid-step; opening does not reduce it
     const double depth = contact.patch.depth - 0.5 * dt * std::min(approach, 0.0);
     return law.crushing_pressure * cut_area(contact.patch, depth) * dt;

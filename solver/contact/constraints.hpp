@@ -34,7 +34,8 @@ struct Constraint {
 
     double total_normal() const { return impact_normal + rest_normal; }
     Vec3 total_tangent() const { return impact_tangent + rest_tangent; }
-    bool crushed() const { return total_normal() >= max_impulse * (1.0 - 1e-9); }
+    /// Does the ice give way here? Never where max_impulse is infinite.
+    bool is_at_bound() const { return total_normal() >= max_impulse * (1.0 - 1e-9); }
 };
 
 /// Prepares contacts with the bodies' present pose and velocity, v_r = (v_b + w_b x r_b) -

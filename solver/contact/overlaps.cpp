@@ -24,6 +24,7 @@ constexpr double kMostOpened = 0.5;
 // Most of an overlap that one step opens. All of it would overshoot where contacts share a body.
 constexpr double kMostInStep = 0.2;
 
+// Sweeps over the moves of a step; overlap that they leave opens in the next steps.
 constexpr int kSeparationIterations = 10;
 
 // The smaller one of the bodies' spheres [m]: lengths of a contact count in it.
@@ -45,7 +46,7 @@ bool is_of_ship(const Bodies& bodies, const Constraint& c) {
 }  // namespace
 
 Overlaps::Push Overlaps::push_of(const Bodies& bodies, const Constraint& c, std::size_t row,
-                                 double wanted) {
+                                 double target) {
     const bool ship = is_of_ship(bodies, c);
     const Mat3 &of_a = ship ? bodies.ship.inverse_inertia : bodies.inverse_inertia_world[c.a],
                &of_b = bodies.inverse_inertia_world[c.b];
@@ -59,7 +60,7 @@ Overlaps::Push Overlaps::push_of(const Bodies& bodies, const Constraint& c, std:
         yields += ordered_dot(c.normal, shift);
     }
     return {row,
-            wanted,
+            target,
             0.0,
             ordered_product(of_a, c.arm_a.cross(c.normal)),
             ordered_product(of_b, c.arm_b.cross(c.normal)),
@@ -87,7 +88,7 @@ void Overlaps::correct_positions(const Scene& scene, const std::vector<Constrain
         const double radius = radius_of(scene, c);
         const double overlap = -gap_after(bodies, c, dt) - kToleratedOverlap * radius;
         // a captive ship and held ice keep theirs
-        if (overlap <= 0.0 || c.crushed() || !c.can_move) continue;
+        if (overlap <= 0.0 || c.is_at_bound() || !c.can_move) continue;
         pushes_.push_back(push_of(bodies, c, k, share * std::min(overlap, kMostOpened * radius)));
     }
     // Gauss-Seidel on the moves: n . (d_b - d_a) >= target with a push that never pulls
@@ -99,7 +100,7 @@ void Overlaps::correct_positions(const Scene& scene, const std::vector<Constrain
             const double next =
                 // (9) with moves: accumulated, so that a push which another one made needless
                 // is taken back
-                std::max(push.done + (push.target - move.dot(c.normal)) * push.mass, 0.0);
+                std::max(push.done + (push.target - move.dot(c.normal)) * push.effective_mass, 0.0);
             const double change = next - push.done;
             push.done = next;
             out.shift[c.a] -= change * bodies.inverse_mass[c.a] * c.normal;
@@ -118,7 +119,7 @@ void Overlaps::crush(Scene& scene, const std::vector<Contact>& contacts,
     if (law.is_rigid()) return;
     for (std::size_t k = 0; k < constraints.size(); ++k) {
         const Constraint& c = constraints[k];
-        if (!c.crushed()) continue;
+        if (!c.is_at_bound()) continue;
         // what the step leaves at the final velocities; an opening contact has crushed nothing
         // more
         const double gap = gap_after(bodies, c, dt);
@@ -141,8 +142,7 @@ void Overlaps::crush(Scene& scene, const std::vector<Contact>& contacts,
         for (; k < crush_events_.size() && crush_events_[k].body == body &&
                crush_events_[k].sphere == sphere;
              ++k)
-            move += std::max(0.0, -crush_events_[k].gap - move.dot(crush_events_[k].inwards)) *
-                    crush_events_[k].inwards;
+            add_along(-crush_events_[k].gap, crush_events_[k].inwards, move);
         // stored in the body's axes: crushed ice moves and turns with its floe
         const Shape& shape = scene.shapes[static_cast<std::size_t>(bodies.shape[body])];
         scene.crushed.crush(body, sphere, shape.center.size(),

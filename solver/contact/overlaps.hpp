@@ -3,6 +3,7 @@
 /// (docs/method.md, section 5).
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "solver/contact/constraints.hpp"
@@ -21,6 +22,12 @@ struct PositionCorrections {
     std::vector<Vec3> turn;   ///< per body, rotation vector [rad]
 };
 
+/// Extends a move by what it lacks of `length` [m] along a unit direction: of several pushes on one
+/// sphere each adds only what the others do not already do along it.
+inline void add_along(double length, const Vec3& direction, Vec3& move) {
+    move += std::max(0.0, length - move.dot(direction)) * direction;
+}
+
 /// Takes care of overlaps; keeps its memory between steps, and nothing else.
 class Overlaps {
 public:
@@ -29,14 +36,14 @@ public:
     /// radii a second, at any scale and time step.
     ///
     /// The same inequality solver on displacements instead of velocities: n . (d_b - d_a) >= push.
-    /// Crushed contacts are left alone: that ice is gone. A ship that answers moves by its share,
-    /// of its mass and the water's that moves along; where it is captive floes move alone.
+    /// Contacts at their bound are left alone: that ice is gone. A ship that answers moves by its
+    /// share, of its mass and the water's that moves along; where it is captive floes move alone.
     /// @param dt  time step [s]
     void correct_positions(const Scene& scene, const std::vector<Constraint>& constraints,
                            double dt, PositionCorrections& out);
 
-    /// Ice at its strength gives way: the overlap that the step leaves at a crushed contact is
-    /// taken off the ice for good; rigid ice is never at its strength.
+    /// Ice at its bound gives way: the overlap that the step leaves at such a contact is taken off
+    /// the ice for good; rigid ice has no bound.
     /// @pre called before the poses advance, after resolve_rest, with the constraints' law and dt
     void crush(Scene& scene, const std::vector<Contact>& contacts,
                const std::vector<Constraint>& constraints, const ContactLaw& law, double dt);
@@ -44,12 +51,12 @@ public:
 private:
     struct Push {
         std::size_t constraint;
-        double target, done;  // move along the normal wanted [m]; impulse so far [kg m]
-        Vec3 turn_a, turn_b;  // by a unit push: I^-1 (r x n) [rad/(kg m)]
-        double mass;          // 1 / k(n) [kg]
-        Vec3 ship_shift;      // by a unit push, of a ship that answers [1/kg]
+        double target, done;    // move along the normal [m]; impulse so far [kg m]
+        Vec3 turn_a, turn_b;    // by a unit push: I^-1 (r x n) [rad/(kg m)]
+        double effective_mass;  // 1 / k(n) [kg]
+        Vec3 ship_shift;        // by a unit push, of a ship that answers [1/kg]
     };
-    static Push push_of(const Bodies& bodies, const Constraint& c, std::size_t row, double wanted);
+    static Push push_of(const Bodies& bodies, const Constraint& c, std::size_t row, double target);
 
     struct CrushEvent {
         std::int32_t body, sphere;

@@ -98,9 +98,7 @@ void Recess::find_moves(const Scene& scene, double dt, const std::vector<Contact
     // A second contact adds to the move only what the first one does not already do along it.
     for (const Move& m : moves_) {
         if (kept > 0 && moves_[kept - 1].place == m.place) {
-            Vec3& sum = moves_[kept - 1].way;
-            const Vec3 along = m.way.normalized();
-            sum += std::max(0.0, m.way.norm() - sum.dot(along)) * along;
+            add_along(m.way.norm(), m.way.normalized(), moves_[kept - 1].way);
         } else {
             moves_[kept++] = m;
         }

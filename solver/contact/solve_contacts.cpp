@@ -19,7 +19,7 @@ namespace ice {
 namespace {
 
 // Solutions with rebound at most; the second one is for contacts that crush by another's rebound.
-// Contacts that only this one brings to their strength keep what rebound it leaves them.
+// Contacts that only this one brings to their bound keep what rebound it leaves them.
 constexpr int kRebounds = 2;
 
 // The last third of the iterations is plain sweeps: they end near the answer also where the

@@ -28,23 +28,23 @@ public:
     ///
     /// For every contact with gap + dt min(v_r0 . n, 0) <= 0, accumulated impulses J_n, J_t with
     ///
-    ///     0 <= J_n <= strength,   v_r . n >= -e v_r0 . n  with equality where J_n > 0,
+    ///     0 <= J_n <= max_impulse,   v_r . n >= -e v_r0 . n  with equality where J_n > 0,
     ///     |J_t| <= mu J_n, opposite to the sliding.
     ///
-    /// A contact that reaches its strength does not rebound (e = 0 for it): with a finite crushing
+    /// A contact that reaches its bound does not rebound (e = 0 for it): with a finite crushing
     /// pressure the stage first solves with e = 0 for all, then with e for contacts that held.
     /// Contacts at rest have v_r0 . n = 0 and do not bounce, without any threshold (Guendelman,
     /// Bridson, Fedkiw, ACM TOG 22(3), 2003, section 5).
     ///
     /// Where this would add energy (friction at e near 1) the rebound is weakened: limit_rebound().
     /// Between the ship and a held floe nothing can give way: with a finite crushing pressure the
-    /// contact carries its strength and friction, without one nothing (a jam, see measure_step).
+    /// contact carries its bound and friction, without one nothing (a jam, see measure_step).
     /// @param dt  time step [s], that of build_constraints
     SolveReport resolve_impacts(Bodies& bodies, std::vector<Constraint>& constraints,
                                 const ContactLaw& law, double dt);
 
     /// Resting stage, after the loads: no contact closes further than its gap,
-    /// v_r . n >= -max(gap, 0) / dt, with what strength the impact stage left. Starts from
+    /// v_r . n >= -max(gap, 0) / dt, with what the impact stage left of the bound. Starts from
     /// rest_normal and rest_tangent as given (WarmStart::recall).
     ///
     /// Solved for the contacts that the loads close or nearly close; while a solution closes

@@ -11,15 +11,16 @@ namespace ice {
 /// Brings every contact in turn to its conditions, the others being as they are.
 ///
 /// Blocks one after the other, the rows of a block one after the other, its eight pairs at once.
-/// For a contact with accumulated impulses J_n n + J_t, relative velocity v_r, masses m_n, m_t:
+/// For a contact with accumulated impulses J_n n + J_t, relative velocity v_r and effective masses
+/// 1 / k(n), 1 / k_t:
 ///
-///     J_n'  = clamp(J_n + (target_velocity - v_r . n) m_n, 0, max_impulse)
+///     J_n'  = clamp(J_n + (target_velocity - v_r . n) / k(n), 0, max_impulse)
 ///     v_r'  = v_r + (J_n' - J_n) K n
-///     J_t'  = J_t - m_t (v_r' - (v_r' . n) n), shortened to mu J_n' where longer
+///     J_t'  = J_t - (v_r' - (v_r' . n) n) / k_t, shortened to mu J_n' where longer
 ///
 /// and the bodies' velocities change by the change of impulse.
 /// @param excess  of the blocks' bodies (ContactRows::excess); empty where none has added mass
-/// @return largest change of a contact's velocity [m/s]: |dJ_n| k(n) or |dJ_t| k(t)
+/// @return largest change of a contact's velocity [m/s]: |dJ_n| k(n) or |dJ_t| k_t
 double sweep(const std::vector<PairBlock>& blocks, std::vector<ContactRow>& rows,
              std::vector<BodyMotion>& motion, const std::vector<PairExcess>& excess = {});
 

@@ -13,11 +13,12 @@ struct SweepMemory {
     std::vector<BodyMotion> motion_before, motion_direction;
 };
 
-/// |g|^2 = sum of k(n) (dJ_n^2 + dJ_t^2) for the changes since `memory` [J], twice the energy of
-/// them on unit masses; summed by lanes, then over the lanes.
+/// |g|^2 = sum of k(n) (dJ_n^2 + dJ_t^2) for the changes since `memory` [J]: k J^2 is twice the
+/// kinetic energy that an impulse J gives the contact's effective mass 1 / k. Summed by lanes, then
+/// over the lanes.
 double measure_change(const std::vector<ContactRow>& rows, const SweepMemory& memory);
 
-/// With g the change since `before` and p the direction: values += beta p, p = beta p + g,
+/// With g the change since `before` and d the direction: values += beta d, d = beta d + g,
 /// before = values; for impulses and velocities.
 void move_on(std::vector<ContactRow>& rows, std::vector<BodyMotion>& motion, double beta,
              SweepMemory& memory);

@@ -71,8 +71,8 @@ void solve(ContactRow& row, std::size_t lane, Side& a, Side& b, Changes& most) {
     const double change = next - normal;
     normal = next;
 
-    // Equation (10): the sliding velocity already includes the normal impulse just applied;
-    // friction is a projection on the disc of radius mu J_n.
+    // Equations (7) and (10): the sliding velocity already includes the normal impulse just
+    // applied; friction is a projection on the disc of radius mu J_n.
     const Vec3 after = v + change * get(row.response, lane);
     const Vec3 sliding = after - ordered_dot(n, after) * n;
     const Vec3 before = get(row.impulse.tangent, lane);

@@ -202,11 +202,11 @@ HWY_INLINE void Finish(Streams<N, kWater>& streams, Waiting& waiting,
 
 // Begins up to N streams, and takes all to their ends.
 template <std::size_t N, bool kWater>
-// fewer streams than N: a narrower kernel, so that no stream is a dummy
 HWY_INLINE void Run(Waiting waiting, std::vector<BodyMotion>& motion, Changes& most) {
     if constexpr (N > 1) {
         const auto streams =
             static_cast<std::size_t>(waiting.end - waiting.block) * (kLanes / hn::Lanes(Tag()));
+        // a narrower kernel, so that no stream is a dummy
         if (streams < N) return Run<N - 1, kWater>(waiting, motion, most);
     }
     Streams<N, kWater> streams;
@@ -214,9 +214,8 @@ HWY_INLINE void Run(Waiting waiting, std::vector<BodyMotion>& motion, Changes& m
     Finish(streams, waiting, motion, most);
 }
 
-// Each row waits for the velocities that the row before it has left; a second stream uses that
-// time.
-// Streams beside each other; a third gains nothing.
+// Streams side by side. Each row waits for the velocities that the row before it has left, and a
+// second stream uses that time; a third gains nothing.
 constexpr std::size_t kStreams = 2;
 
 double Sweep(const std::vector<PairBlock>& blocks, std::vector<ContactRow>& rows,

@@ -7,15 +7,15 @@
 
 namespace ice {
 
-/// The numbers of a drafted case that its files do not contain. SI.
+/// Numbers of a drafted case that its files do not contain: lengths [m], speed [m/s], times [s].
 struct Draft {
     double draught = 0.0;
     bool draught_from_mesh = false;  ///< the mesh crosses z = 0, which is taken for its water line
     double x = 0.0, y = 0.0;         ///< of the mesh's origin
     double speed = 0.0, duration = 0.0, time_step = 0.0, average_from = 0.0;
     double length = 0.0;                         ///< of the waterline
-    double lengths = 0.0;                        ///< travelled
-    double averaged_lengths = 0.0;               ///< of them averaged
+    double lengths = 0.0;                        ///< travelled, in lengths of the waterline [1]
+    double averaged_lengths = 0.0;               ///< of them averaged [1]
     double clearance = 0.0;                      ///< between the bow and the first ice
     double thickness = 0.0;                      ///< of the first floe
     double ice_from = 0.0, ice_to = 0.0;         ///< along x, of a sheet in the field's place

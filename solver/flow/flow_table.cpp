@@ -26,12 +26,12 @@ constexpr double kMostSpeed = 1.2;
 constexpr double kFade = 1.0 / 3.0;  // of the margin
 // Nodes of a table where no spacing is given, in 3D and in 2D; more than the last are refused.
 constexpr double kNodes = 3e5, kNodes2D = 1e4, kMostNodes = 2e7;
-// Lines of a section, or twice the panels of the half that a symmetric hull is solved by. The matrix
-// of the equations is stored whole: 512 MB for 8000 lines, 128 MB for 4000 panels.
+// Lines of a section; half as many panels of a hull. Their matrix is stored whole: 512 MB for 8000
+// lines, 128 MB for 4000 panels.
 constexpr std::size_t kMostPanels = 8000;
 constexpr double kWorryingResidual = 0.05;  // hulls with sharp edges have 2 to 4 %, smooth ones 1 %
-// Net source over the sum of all sources' amounts: above it the hull is not closed, or its panels are
-// too large.
+// Net source over the sum of all sources' amounts: above it the hull is not closed, or its panels
+// are too large.
 constexpr double kWorryingFlux = 0.005;
 // Nodes in the hull take the flow this far off its surface, in spacings: on the panels themselves
 // it is rough by their edges.

@@ -17,6 +17,7 @@ namespace ice {
 namespace {
 
 constexpr double kPerCircle = 0.5 / std::numbers::pi;
+// Where no length is given, a line is at most this part of the wetted section's length.
 constexpr double kLinesAlong = 100.0;
 constexpr double kLeastSquare = 1e-60;  // of a distance: at the very end of a line [m2]
 

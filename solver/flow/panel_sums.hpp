@@ -2,11 +2,15 @@
 /// The flow of source panels at points: docs/method.md, section 6.
 #pragma once
 
+#include <numbers>
 #include <span>
 
 #include "solver/flow/source_panel.hpp"
 
 namespace ice {
+
+/// Flow at unit distance from a source of strength and area 1: 1 / (4 pi).
+constexpr double kPerSphere = 0.25 / std::numbers::pi;
 
 /// The flow at a point, for a ship at 1 m/s along +x.
 struct FlowSample {

@@ -10,8 +10,6 @@ namespace ice::reference {
 
 namespace {
 
-constexpr double kPerSphere = 0.25 / std::numbers::pi;
-
 // Of the least distance from an edge's line, in the edge's length: there a logarithm is 32.
 constexpr double kLeastGap = 1e-14;
 

@@ -17,7 +17,7 @@ constexpr double kLeast = 0.2;  // of the radius at rest
 
 }  // namespace
 
-double cusp_radius(const CuspLaw& law, double length, double normal_speed, std::uint64_t cusp) {
+double crack_size(const CrackLaw& law, double length, double normal_speed, std::uint64_t cusp) {
     // (30); the radius of a fast load is at least a fifth of that at rest
     const double rest = law.length_factor * length;
     return rest * std::max(kLeast, 1.0 + law.speed_factor * normal_speed) *

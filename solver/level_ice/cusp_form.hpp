@@ -22,7 +22,7 @@ using Loop = std::vector<Vec2>;
 /// with l the characteristic length and v_n the normal speed of hull and ice. Source of form and
 /// constants: Wang 2001 as used by Su, Riska, Moan, Cold Regions Science and Technology, 2010;
 /// unverified: neither was read.
-struct CuspLaw {
+struct CrackLaw {
     double length_factor = 0.32;   ///< C_l
     double speed_factor = -0.144;  ///< C_v [s/m]
     double scatter = 0.0;          ///< largest relative deviation, 0 to < 1
@@ -31,7 +31,7 @@ struct CuspLaw {
 
 /// R of a law [m], for the cusp of a number; at least a fifth of its value at rest, which the
 /// fitted speeds do not go below. @pre length > 0
-double cusp_radius(const CuspLaw& law, double length, double normal_speed, std::uint64_t cusp);
+double crack_size(const CrackLaw& law, double length, double normal_speed, std::uint64_t cusp);
 
 /// The region that a crack cuts out: a half disc about the load, and seawards of its straight side
 /// a strip of half a radius, for ice that stands out beside the load.

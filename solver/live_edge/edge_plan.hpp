@@ -16,8 +16,8 @@ struct LiveEdge::Plan {
     struct Body {
         Loop outline;
         bool is_tile;
-        double load, radius;         // of the crack
-        double area;                 // of the part of the sheet that it stands for
+        double load, radius;         // of the crack [N] (2D: N/m), [m]
+        double area;                 // of the part of the sheet that it stands for [m2]
         std::optional<Shape> shape;  // none: no spheres fit
     };
     std::vector<Body> bodies;

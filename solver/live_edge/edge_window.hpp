@@ -18,11 +18,12 @@ struct EdgeLoad {
 
 /// A stretch of edge and what presses on it.
 struct EdgeWindow {
-    Vec2 at;              ///< centre of the downward impulses [m]
-    Vec2 inwards;         ///< unit vector along the push
-    double down;          ///< impulse downwards [N s], > 0
-    double closing;       ///< mean closing speed along the contacts' normals [m/s]
-    double normal_speed;  ///< the same along their level parts: a ship's along its outline's normal
+    Vec2 at;         ///< centre of the downward impulses [m]
+    Vec2 inwards;    ///< unit vector along the push
+    double down;     ///< impulse downwards [N s], > 0
+    double closing;  ///< mean closing speed along the contacts' normals [m/s]
+    /// The same along their level parts, a ship's along its outline's normal [m/s].
+    double normal_speed;
 };
 
 /// Loads that act on one piece of ice together, the heaviest first.

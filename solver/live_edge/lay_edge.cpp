@@ -88,11 +88,12 @@ void LiveEdge::set_up(const Scene& scene, const Case& p) {
     law_ = {ice.length_factor, ice.speed_factor, ice.scatter,
             static_cast<std::uint64_t>(ice.seed) * 1000003u + static_cast<std::uint64_t>(p.seed)};
     if (is_strip_) {
+        // (30a) is (30) with C_l l = pi / (4 lambda), the length of a beam, and C_v = 0
         extent_ = strip_extent(ice.extent[0], ice.extent[1]);
         law_.length_factor = beam_breaking_length(plate) / length_;
         law_.speed_factor = 0.0;
     }
-    radius_ = cusp_radius({law_.length_factor}, length_, 0.0, 0);
+    radius_ = crack_size({law_.length_factor}, length_, 0.0, 0);
     drift_ = Vec2(p.drift_velocity[0], p.drift_velocity[1]);
     ahead_ = kAhead * radius_;
     astern_ = kAstern * scene.shapes[0].box.sizes().x();

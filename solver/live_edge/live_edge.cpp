@@ -118,7 +118,7 @@ void LiveEdge::find(const Case& parameters, const std::vector<Contact>& contacts
     // step.
     for (const EdgeWindow& window : windows) {
         const double radius =
-            cusp_radius(law_, length_, window.normal_speed, cusp_ + cracks_.size());
+            crack_size(law_, length_, window.normal_speed, cusp_ + cracks_.size());
         const double area = sheet_.area_in(region_of(window.at, window.inwards, radius));
         const double bears = breaking_load(angle_of(area, radius), thickness_, parameters) *
                              speed_factor(parameters.bending, window.closing);

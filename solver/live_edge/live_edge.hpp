@@ -155,7 +155,7 @@ private:
     double density_ = 0.0, share_ = 0.0;
     Vec2 drift_ = Vec2::Zero();
     Eigen::AlignedBox2d extent_;
-    CuspLaw law_;
+    CrackLaw law_;
     Shape empty_;  // of slots without ice
     std::int32_t piece_group_ = 0, tile_group_ = 0;
     double ahead_ = 0.0, astern_ = 0.0;  // of the hull's box, that is within reach [m]

@@ -9,7 +9,7 @@ namespace {
 
 void add(const Scene& scene, const Case& p, std::size_t i, FloeLoad& load) {
     const Bodies& b = scene.bodies;
-    // Kirchhoff's equations for a body with added mass A, in world axes. In water at rest the
+    // (P3), Kirchhoff's equations for a body with added mass A, in world axes. In water at rest the
     // moment is that of Munk, -v x A v.
     const Mat3 water_mass = ordered_turned(b.rotation[i], b.inertias_of(i).added);
     const Vec3 &v = b.velocity[i], &spin = b.angular_velocity[i];

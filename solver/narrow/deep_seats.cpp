@@ -14,7 +14,8 @@ namespace {
 
 constexpr double kDeepShare = 0.1;  // of the ice's radius
 
-constexpr double kSameWay = 0.5;  // cosine between directions in which one pair is pushed apart
+// cos 60 degrees: a seat whose way out differs more from the deepest one's leads to another face.
+constexpr double kSameWay = 0.5;
 
 // One body's seats, seen from the other's solid.
 struct Side {

@@ -155,7 +155,7 @@ FeaturePair::DirectedEdgeAxis FeaturePair::nearest_edge_axis(const Vec3& d,
     for_each_across(d, between, -kInfinity, [&](const DirectedEdgeAxis& now) {
         const LineParameters at = now.axis->at(between);
         const double beside = distance_sq(at);
-        if (beside >= least || !is_in_reach(at, *a_, *b_)) return;
+        if (beside >= least || !is_within_patches(at, *a_, *b_)) return;
         least = beside;
         nearest = now;
     });

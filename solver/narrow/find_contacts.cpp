@@ -83,6 +83,16 @@ double find_near(const PairView& view, double margin, const Skin& skin, PairSear
     return bound_spheres(view, range.reach, skin, first, out);
 }
 
+// Spheres of deep bodies have passed each other: their solids tell which contacts are lost. Those
+// of two convex ones are a polygon's corners (null: none is lost), of others their deep seats.
+const ContactPolygon* find_lost(const PairView& view, double apart, double most,
+                                const std::vector<Candidate>& found, std::vector<DeepSeat>& seats) {
+    seats.clear();
+    if (is_deep(view, apart)) return find_lost_polygon(view, found, most);
+    if (has_deep_seats(view, apart)) find_deep_seats(view, found, seats);
+    return nullptr;
+}
+
 SeparatingAxes axes_of(const PairView& view, double enough) {
     return find_axes(view.shape_a.convex, view.shape_b.convex,
                      {view.rotation_ab, view.translation_ab}, enough);
@@ -145,13 +155,8 @@ void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
         const double apart = separation(view);
         if (apart <= most) search_contacts(view, most, work);
         keep_candidates(work.candidates, found_[k], batch);
-        // Spheres of deep bodies have passed each other: their solids tell what is lost.
-        if (is_deep(view, apart)) {
-            keep_polygon(find_lost_polygon(view, work.candidates, most), found_[k], batch);
-        } else if (has_deep_seats(view, apart)) {
-            find_deep_seats(view, work.candidates, work.seats);
-            keep_seats(work.seats, found_[k], batch);
-        }
+        keep_polygon(find_lost(view, apart, most, work.candidates, work.seats), found_[k], batch);
+        keep_seats(work.seats, found_[k], batch);
     });
     emit(scene, pairs, rule, out);
 }
@@ -207,8 +212,9 @@ void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
         else
             measure_known(view, most, near, work);
         keep_candidates(work.candidates, found, batch);
-        // Only bodies that overlap may have contacts that no sphere finds.
-        if (!cache_.deep(k)) return;
+        // As find_lost, where the cache cannot rule it out: for seats it also keeps how far the
+        // bodies may move before one can be deep.
+        if (!cache_.may_be_deep(k)) return;
         if (is_convex_pair(view))
             return keep_polygon(find_lost_polygon(view, work.candidates, most), found, batch);
         cache_.set_room(k, view, find_deep_seats(view, work.candidates, work.seats));
@@ -297,15 +303,11 @@ void find_contacts(const Scene& scene, BodyPair pair, ContactRule how, double ma
             : make_contacts(view, candidates, first);
     // Under "centres" bodies are their spheres: no solid can be deeper than these tell.
     if (centres) return;
-    if (is_deep(view, apart)) {
-        if (const ContactPolygon* polygon = find_lost_polygon(view, candidates, margin))
-            append(*polygon);
-    } else if (has_deep_seats(view, apart)) {
-        std::vector<DeepSeat> seats;
-        find_deep_seats(view, candidates, seats);
-        out.resize(out.size() + seats.size());
-        emit_deep_seats(view, how, seats, out.data() + (out.size() - seats.size()));
-    }
+    std::vector<DeepSeat> seats;
+    if (const ContactPolygon* polygon = find_lost(view, apart, margin, candidates, seats))
+        append(*polygon);
+    out.resize(out.size() + seats.size());
+    emit_deep_seats(view, how, seats, out.data() + (out.size() - seats.size()));
 }
 
 }  // namespace reference

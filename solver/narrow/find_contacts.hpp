@@ -90,6 +90,8 @@ private:
 
 namespace reference {
 /// The contacts of one pair by testing every sphere with every other: the definition for tests.
+/// measure_gap, check_depths, reduce_manifold and find_deep_seats are the finder's own: this proves
+/// its search, not the contact rule.
 void find_contacts(const Scene& scene, BodyPair pair, ContactRule how, double margin,
                    std::vector<Contact>& out);
 }  // namespace reference

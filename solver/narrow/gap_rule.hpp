@@ -14,7 +14,8 @@ namespace ice {
 /// Spreads closer than this (in cosine) count as equally flat: normals are stored as floats.
 constexpr double kSameSpread = 1e-6;
 
-/// Cosine of the tilt from which on a face is met by its edge.
+/// Cosine of the angle between a face's normal and the contact's: below it the face leans so much
+/// that its edge is met first.
 constexpr double kLeaning = 0.2;
 
 /// Largest component of a normal along an edge (cosine): an edge that slants towards a face meets
@@ -81,7 +82,7 @@ inline double distance_sq(const LineParameters& at) {
     return at.along_a * at.along_a + at.along_b * at.along_b;
 }
 /// Do the edges cross within the patch radius of both spheres?
-inline bool is_in_reach(const LineParameters& at, const Feature& a, const Feature& b) {
+inline bool is_within_patches(const LineParameters& at, const Feature& a, const Feature& b) {
     return std::abs(at.along_a) <= a.patch_radius && std::abs(at.along_b) <= b.patch_radius;
 }
 

@@ -76,7 +76,7 @@ CandidateAxis nearest_edge_axis(const Feature& a, const Feature& b) {
     double least = std::numeric_limits<double>::infinity();
     for_each_across(a, b, [&](const Vec3& n, const LineParameters& at, int ka, int kb) {
         const double beside = distance_sq(at);
-        if (beside >= least || !is_in_reach(at, a, b)) return;
+        if (beside >= least || !is_within_patches(at, a, b)) return;
         least = beside;
         nearest = {n, n.dot(between), static_cast<std::int8_t>(ka), static_cast<std::int8_t>(kb)};
     });

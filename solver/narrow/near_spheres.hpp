@@ -21,6 +21,9 @@ struct SearchRange {
     float along, across;  ///< added to the two spheres' own extents [m]
 };
 
+/// Larger than any coordinate [m]: an empty box has it as its low and minus it as its high corner.
+constexpr float kBeyondAll = 1e18f;
+
 /// Spheres picked from a body, in the axes of the search; entries from `count` on mean nothing.
 struct NearSpheres {
     std::vector<float> x, y, z, normal_extent, tangent_extent, own;

@@ -23,14 +23,12 @@ void find_groups(const SphereBlocks& spheres, const FloatBox& box, float reach,
 
 namespace {
 
-constexpr float kNone = 1e18f;
-
 void clear(NearSpheres& out) {
     for (auto* values : {&out.x, &out.y, &out.z, &out.normal_extent, &out.tangent_extent, &out.own})
         values->clear();
     out.id.clear();
     out.count = 0;
-    out.box = {{kNone, kNone, kNone}, {-kNone, -kNone, -kNone}};
+    out.box = {{kBeyondAll, kBeyondAll, kBeyondAll}, {-kBeyondAll, -kBeyondAll, -kBeyondAll}};
 }
 
 // Appends sphere k of `from`, which is at `at`, where it lies in the box.

@@ -126,13 +126,12 @@ public:
     }
 
 private:
-    static constexpr float kNone = 1e18f;
     FloatBox box_;
     float grow_;
     NearSpheres& out_;
     std::size_t count_ = 0;
-    Lanes low_x_ = hn::Set(Tag(), kNone), low_y_ = low_x_, low_z_ = low_x_;
-    Lanes high_x_ = hn::Set(Tag(), -kNone), high_y_ = high_x_, high_z_ = high_x_;
+    Lanes low_x_ = hn::Set(Tag(), kBeyondAll), low_y_ = low_x_, low_z_ = low_x_;
+    Lanes high_x_ = hn::Set(Tag(), -kBeyondAll), high_y_ = high_x_, high_z_ = high_x_;
 };
 
 void PickMoved(const SphereBlocks& spheres, const std::vector<std::int32_t>& groups,

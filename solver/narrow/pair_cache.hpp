@@ -52,7 +52,7 @@ public:
 
     /// May row k's solids overlap so far that spheres have lost each other (is_deep, DeepSeat)?
     /// @pre state() returned State::listed or State::stale
-    bool deep(std::size_t k) const { return rows_[k].deep; }
+    bool may_be_deep(std::size_t k) const { return rows_[k].deep; }
 
     /// No seat of row k lies deep before its bodies have moved `room` [m] relative to each other
     /// (find_deep_seats). Different rows may be set at the same time.

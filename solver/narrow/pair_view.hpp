@@ -14,7 +14,7 @@ struct PairView {
     const Shape& shape_a;
     const Shape& shape_b;
     Mat3 rotation_ab;     // b's axes to a's
-    Vec3 translation_ab;  // b's origin in a's axes
+    Vec3 translation_ab;  // b's origin in a's axes [m]
 
     PairView(const Scene& s, BodyPair p)
         : scene(s),

@@ -28,7 +28,7 @@ void book_contact(const Bodies& now, const Constraint& c, const StepStart& start
         ledger.breaking -= (push + rub).dot(mean);
     } else {
         // at its bound the impulse crushes ice, below it the work is lost in the impact
-        (c.crushed() ? ledger.crushing : ledger.restitution) -= push.dot(mean);
+        (c.is_at_bound() ? ledger.crushing : ledger.restitution) -= push.dot(mean);
         ledger.friction -= rub.dot(mean);
     }
     const auto works_on = [&](std::int32_t i) {  // drifting held ice, on its neighbours
@@ -56,7 +56,7 @@ void EnergyLedger::begin(const Scene& scene, const Case& parameters) {
 
 double EnergyLedger::residual(double potential_now) const {
     // (19), solved for the residual; dU is the change of potential energy since the start
-    return ship_work + drift_work + separation + water_work + applied_work - kinetic -
+    return ship_work + drift_work + separation + water_work + applied_work - kinetic_change -
            (potential_now - potential_start.value_or(0.0)) - friction - restitution - crushing -
            breaking - drag - buoyancy_moment;
 }
@@ -107,7 +107,7 @@ void fill_energy(const EnergyLedger& ledger, double potential_now, Summary& summ
     out["ship_work_J"] = ledger.ship_work;
     // Entries of parts that a case does not have are left out of the summary.
     if (ledger.drift_work != 0.0) out["drift_work_J"] = ledger.drift_work;
-    out["kinetic_change_J"] = ledger.kinetic;
+    out["kinetic_change_J"] = ledger.kinetic_change;
     out["potential_J"] = potential_now - ledger.potential_start.value_or(potential_now);
     out["friction_J"] = ledger.friction;
     out["restitution_J"] = ledger.restitution;

@@ -29,7 +29,7 @@ namespace ice {
 ///                      mean of its velocities there at the step's start and end
 ///     drift_work       sum of J_c . v over the contacts of held ice that drifts at v
 ///     friction         -J_t . V
-///     crushing         -J_n n . V where the contact is at its strength
+///     crushing         -J_n n . V where the contact is at its bound
 ///     restitution      -J_n n . V elsewhere: what a plastic or partly elastic impact takes
 ///     breaking         -(J_n n + J_t) . V instead of the three where the ship presses on a floe
 ///                      that is held until it bends: crushing and friction before it breaks off
@@ -52,7 +52,7 @@ namespace ice {
 /// dt F . (change of v) / 2: 0.8 % of the ship's work in the paper's 2D case at 0.5 m/s.
 struct EnergyLedger {
     double ship_work = 0.0, drift_work = 0.0;
-    double kinetic = 0.0;  ///< change of kinetic energy over all steps
+    double kinetic_change = 0.0;  ///< of the floes, over all steps
     double friction = 0.0, restitution = 0.0, crushing = 0.0, breaking = 0.0, drag = 0.0;
     double water_work = 0.0, applied_work = 0.0;
     double separation = 0.0;

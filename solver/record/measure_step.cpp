@@ -38,7 +38,7 @@ void find_jam(const Scene& scene, const Constraint& c, double dt, StepRecord& ou
         relative_velocity(scene.bodies, c).dot(c.normal) + std::max(c.gap, 0.0) / dt;
     // a floe that no impulse reached is no jam, unless it cannot move at all
     const bool pressed = c.total_normal() > 0.0 || !c.can_move;
-    if (!pressed || c.crushed() || closing > -kJamSpeed) return;
+    if (!pressed || c.is_at_bound() || closing > -kJamSpeed) return;
     if (out.jammed_contacts++ > 0) return;
     out.jammed_floe = c.b;
     out.jam_point = scene.bodies.position[c.b] + c.arm_b;

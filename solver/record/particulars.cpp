@@ -6,6 +6,7 @@
 #include <numbers>
 #include <string_view>
 
+#include "common/base/units.hpp"
 #include "common/formulas/formula_band.hpp"
 #include "solver/record/hull_form.hpp"
 #include "solver/water/hydrostatics.hpp"
@@ -13,8 +14,6 @@
 namespace ice {
 
 namespace {
-
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 // As the case file names them, in the order of Hold.
 constexpr std::string_view kHoldNames[] = {"never", "until-hull-contact", "until-contact",
@@ -81,8 +80,8 @@ ShipParticulars measure_ship(const Scene& scene, const Case& parameters, double 
     ship.length = form->length;
     if (scene.dimension == 2) return ship;
     ship.breadth = form->breadth;
-    ship.stem_angle_deg = form->stem_angle * kDegrees;
-    ship.entrance_angle_deg = form->entrance_angle * kDegrees;
+    ship.stem_angle_deg = form->stem_angle * kDegreesPerRadian;
+    ship.entrance_angle_deg = form->entrance_angle * kDegreesPerRadian;
     ship.parallel_length = form->parallel_length;
     ship.bow_length = form->bow_length;
     ship.displacement =

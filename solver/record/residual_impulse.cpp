@@ -31,7 +31,7 @@ double residual_impulse(const Bodies& bodies, const std::vector<Constraint>& con
         // An impulse is missing where the contact still closes below its bound, and is too much
         // where it pushes bodies apart. Contacts with an impact's impulse may separate: they
         // rebound.
-        if (u < 0.0 && !c.crushed())
+        if (u < 0.0 && !c.is_at_bound())
             sum -= u / response(bodies, c);
         else if (u > 0.0 && c.rest_normal > 0.0 && c.impact_normal == 0.0)
             sum += std::min(c.rest_normal, u / response(bodies, c));

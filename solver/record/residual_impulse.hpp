@@ -14,7 +14,7 @@ namespace ice {
 ///
 ///     u = v_r . n + max(gap, 0) / dt,
 ///
-/// -u / k(n) where the contact still closes, u < 0, and is not at its strength; u / k(n), at most
+/// -u / k(n) where the contact still closes, u < 0, and is not at its bound; u / k(n), at most
 /// the impulse it has, where a resting impulse pushes it apart, u > 0, and no impact did.
 /// 0 when all conditions of the resting stage hold. Contacts that nothing can move are left out.
 ///

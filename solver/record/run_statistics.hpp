@@ -49,7 +49,7 @@ public:
 private:
     struct Region {
         std::int64_t hits = 0;
-        double max_impulse = 0.0;
+        double max_impulse = 0.0;      ///< [N s]
         Vec3 impulse = Vec3::Zero();   ///< sum over the averaged time [N s]
         Vec3 friction = Vec3::Zero();  ///< the part of friction in it
     };
@@ -85,25 +85,26 @@ private:
     std::optional<double> change_without(const Doubtful& kind, double mean) const;
 
     StatisticsOptions options_;
-    double averaged_time_ = 0.0;
+    double averaged_time_ = 0.0;                             ///< [s]
     LongSeries total_[3];                                    ///< per averaged step, per axis [N]
     Vec3 contact_ = Vec3::Zero(), friction_ = Vec3::Zero();  ///< sums of its parts [N]
     double breaking_x_ = 0.0;  ///< sum along x by floes held until they bend [N]
     std::vector<Region> regions_;
     std::set<std::pair<std::int32_t, std::int32_t>> touching_;  ///< (floe, region) of the last step
     std::int64_t steps_ = 0, unconverged_ = 0, jammed_steps_ = 0;
-    double contacts_ = 0.0, contacts_max_ = 0.0, max_overlap_ = 0.0;
+    double contacts_ = 0.0, contacts_max_ = 0.0, max_overlap_ = 0.0;  ///< overlap [m]
     std::int64_t looks_ = 0,
                  doubtful_looks_ = 0;  ///< at the solids; with a worrying unseen overlap
-    double unseen_overlap_ = 0.0, unseen_time_ = 0.0;
+    double unseen_overlap_ = 0.0, unseen_time_ = 0.0;  ///< [m], [s]
     std::int32_t unseen_a_ = 0, unseen_b_ = 0;
     UnseenLoads unseen_loads_;
-    double kinetic_ = 0.0, kinetic_max_ = 0.0;
-    double impulse_ = 0.0, residual_ = 0.0;  ///< sums over the averaged time [N s]
+    double kinetic_ = 0.0, kinetic_max_ = 0.0;  ///< [J]
+    double impulse_ = 0.0, residual_ = 0.0;     ///< sums over the averaged time [N s]
     Doubtful jam_, fast_;
-    double first_jam_time_ = 0.0, deepest_time_ = 0.0, closing_speed_ = 0.0, closing_time_ = 0.0;
+    double first_jam_time_ = 0.0, deepest_time_ = 0.0, closing_time_ = 0.0;  ///< [s]
+    double closing_speed_ = 0.0;                                             ///< [m/s]
     std::int32_t first_jam_floe_ = 0, closing_a_ = 0, closing_b_ = 0;
-    Vec3 first_jam_point_ = Vec3::Zero();
+    Vec3 first_jam_point_ = Vec3::Zero();  ///< [m]
 };
 
 }  // namespace ice

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "common/base/assert.hpp"
+#include "common/base/units.hpp"
 #include "solver/record/periodogram.hpp"
 #include "solver/record/statistics.hpp"
 #include "solver/ship/delivered_power.hpp"
@@ -18,7 +19,6 @@ namespace {
 
 constexpr double kSlow = 0.1;        // [m/s]
 constexpr double kStuckTime = 10.0;  // [s]
-constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
 constexpr std::size_t kMostOrdinates = 400;
 
 // Period of the largest ordinate of the periodogram [s]; 0 where nothing changes.

@@ -6,10 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <vector>
 
+#include "common/base/units.hpp"
 #include "common/formats/spheres_file.hpp"
 #include "solver/bending/breaking_load.hpp"
 #include "solver/record/particulars.hpp"

@@ -24,6 +24,7 @@ constexpr double kShipText = 11 * 12, kTrackText = 23 * 12, kStepMemory = 64;
 // Files that HDF5, the log, the libraries and the terminal keep open.
 constexpr rlim_t kOtherFiles = 32;
 
+// Trial steps that the time of a step is measured by: at most so many, begun within this time [s].
 constexpr int kMostSteps = 50;
 constexpr double kMostSeconds = 0.5;
 

@@ -17,7 +17,8 @@ struct RunOptions {
     std::filesystem::path folder;  ///< run folder; created. Claim it before (RunFolder): files of
                                    ///< an older run are replaced, not removed
     std::string command_line;
-    /// Simulated seconds; 0: when interrupted, and every checkpoint_wall_seconds until the run ends
+    /// Simulated time between checkpoints [s]; 0: when interrupted, and every
+    /// checkpoint_wall_seconds until the run ends
     double checkpoint_every = 0.0;
     SavedRun* saved = nullptr;                 ///< resume this run; its recorder is taken over
     std::vector<Warning> start_warnings = {};  ///< of check_start(), for the summary
@@ -29,7 +30,7 @@ struct RunOptions {
     };
     /// Of check_course(), for the summary: of this duration, so that no checkpoint carries them.
     std::vector<Warning> course_warnings = {};
-    double checkpoint_wall_seconds = 300.0;  ///< where checkpoint_every is 0
+    double checkpoint_wall_seconds = 300.0;  ///< [s], where checkpoint_every is 0
 };
 
 /// A case made ready: sphere sets read, floes placed.

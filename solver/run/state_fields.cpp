@@ -23,7 +23,7 @@ void carry(CheckpointFile& file, World& w) {
     EnergyLedger& ledger = w.ledger;
     file.carry("ledger.ship_work", ledger.ship_work);
     file.carry("ledger.drift_work", ledger.drift_work);
-    file.carry("ledger.kinetic", ledger.kinetic);
+    file.carry("ledger.kinetic", ledger.kinetic_change);
     file.carry("ledger.friction", ledger.friction);
     file.carry("ledger.restitution", ledger.restitution);
     file.carry("ledger.crushing", ledger.crushing);

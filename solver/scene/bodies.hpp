@@ -117,10 +117,10 @@ struct Scene {
     std::vector<Shape> shapes;  ///< row 0: hull
     Bodies bodies;
     CrushedIce crushed;
-    WaterFlow water;  ///< at rest unless the case says otherwise
-    Vec3 ship_velocity = Vec3::Zero();
+    WaterFlow water;                    ///< at rest unless the case says otherwise
+    Vec3 ship_velocity = Vec3::Zero();  ///< [m/s]
+    IceAtStart start;                   ///< set by build_scene()
     /// Area of the floes over the field's; NaN unless all come from one field file.
-    IceAtStart start;  ///< set by build_scene()
     double concentration = std::numeric_limits<double>::quiet_NaN();
 };
 

@@ -19,7 +19,7 @@ struct CrushedIce {
     /// Spheres that have moved since MotionBounds was updated: their bodies and ways [m].
     struct CrushEvent {
         std::int32_t body;
-        double depth;
+        double depth;  ///< [m]
     };
     std::vector<CrushEvent> recent;
 

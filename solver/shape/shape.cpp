@@ -92,7 +92,7 @@ void copy_surface_spheres(const SphereSet& set, const Vec3& origin, Shape& shape
 }
 
 // Numbers the feature types by their first spheres.
-void find_kinds(Shape& shape) {
+void number_feature_types(Shape& shape) {
     std::map<std::array<double, 18>, std::int32_t> known;
     for (std::size_t k = 0; k < shape.center.size(); ++k) {
         const NormalCone& faces = shape.cone[k];
@@ -154,7 +154,7 @@ Shape build_shape(const SphereSet& set, bool about_centre_of_mass) {
     shape.region = FaceRegions(set);
     shape.region_names = set.mesh.region_names;
     copy_surface_spheres(set, origin, shape);
-    find_kinds(shape);
+    number_feature_types(shape);
     rank_places(shape);
     if (shape.center.empty())
         throw bad_input(set.source_mesh, "the sphere set has no surface spheres",

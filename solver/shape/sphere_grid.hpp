@@ -47,8 +47,6 @@ public:
             }
     }
 
-    std::size_t cell_count() const { return begin_.empty() ? 0 : begin_.size() - 1; }
-
 private:
     int cell_of(double x, int axis) const {
         // far away points would overflow the int: clamp first

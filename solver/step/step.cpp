@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-//
+// The stages have the numbers of docs/method.md, section 2.
 // In:  bodies at time t.   Out: bodies at t + dt, and the impulses in world.constraints.
 #include "solver/step/step.hpp"
 
@@ -60,12 +60,13 @@ void step(World& w) {
     Bodies& bodies = w.scene.bodies;
     begin_step(w);
 
-    // the ship goes as prescribed, its speed at mid-step carrying it to the end of the step, or
-    // with the velocity it has come to
+    // 1 ship: as prescribed, its speed at mid-step carrying it to the end of the step, or with the
+    // velocity it has come to
     w.ship.start_step(w.parameters, w.scene, w.time);
     w.scene.water.follow(bodies.position[kShip], w.scene.ship_velocity);
 
-    // who touches whom; a floe let go may touch neighbours that did not matter while it was held
+    // 2 to 4 broad, narrow, release: a floe let go may touch neighbours that did not matter while
+    // it was held
     do {
         timed(w, Stage::broad, [&] {
             w.motion.update(w.scene, dt);
@@ -77,14 +78,14 @@ void step(World& w) {
         });
     } while (release_touched(w.scene, w.parameters, w.contacts));
     w.start.take(bodies);
-    // impacts act on the velocities before the loads, so that ice at rest does not bounce
+    // 4a recess, 5 impacts: on the velocities before the loads, so that ice at rest does not bounce
     timed(w, Stage::contact, [&] {
         build_constraints(bodies, w.contacts, law, dt, w.constraints);
         w.recess.move_spheres(w.scene, law, dt, w.contacts, w.constraints);
         w.impacts = w.solver.resolve_impacts(bodies, w.constraints, law, dt);
     });
 
-    // gravity, buoyancy and drag change velocities; resting contacts then carry those loads
+    // 6 loads: gravity, buoyancy and drag change velocities; 7 rest: contacts then carry them
     timed(w, Stage::water, [&] {
         measure_loads(w.scene, w.parameters, w.loads);
         add_applied(bodies, w.applied_loads, w.loads);
@@ -97,20 +98,20 @@ void step(World& w) {
         w.warm_start.remember(w.contacts, w.constraints, w.solver.resting());
     });
 
-    // overlap that the finite step left is taken out of the poses, not of the velocities; where the
-    // ice crushes, out of the ice
+    // 8 overlap that the finite step left is taken out of the poses, not of the velocities; where
+    // the ice crushes, out of the ice
     timed(w, Stage::contact, [&] {
         w.overlaps.correct_positions(w.scene, w.constraints, dt, w.corrections);
         w.overlaps.crush(w.scene, w.contacts, w.constraints, law, dt);
     });
-    timed(w, Stage::integrate, [&] {
+    timed(w, Stage::integrate, [&] {  // 9 move
         book_step(w.scene, w.parameters, w.constraints, w.loads, w.corrections, w.start, w.ledger);
         w.ship.book(w.scene, w.constraints, w.corrections, dt);
         advance(w.scene, {w.start.angular_velocity, w.corrections, dt});
         w.ship.turn(w.scene, w.corrections, dt);
-        w.ledger.kinetic += kinetic_energy(bodies) - w.start.kinetic;
+        w.ledger.kinetic_change += kinetic_energy(bodies) - w.start.kinetic;
     });
-    w.bent.find(w.scene, w.parameters, w.constraints);
+    w.bent.find(w.scene, w.parameters, w.constraints);  // 10 bend
     w.edge.find(w.parameters, w.contacts, w.constraints);
     ++w.steps;
     w.time = static_cast<double>(w.steps) * dt;

@@ -27,7 +27,7 @@ WaterLoad projected_drag(const Shape& shape, const Motion& motion, double coeffi
     WaterLoad out;
     if (motion.velocity.isZero(0.0) || motion.height >= shape.bounding_radius) return out;
     const WaterPlane water(motion.rotation, motion.height);
-    // A |v|: the facets' areas are not divided by the speed, so that it need not be multiplied
+    // (16), A |v|: facets' areas are not divided by the speed, so that it need not be multiplied
     const double flow =
         integrate_facing(shape.facets, water, ordered_transposed(motion.rotation, motion.velocity));
     out.force = -0.5 * water_density * coefficient * flow * motion.velocity;
@@ -40,7 +40,7 @@ WaterLoad panel_drag(const Shape& shape, const Motion& motion, double coefficien
     if (motion.height >= shape.bounding_radius) return out;
     if (motion.velocity.isZero(0.0) && motion.angular_velocity.isZero(0.0)) return out;
     const WaterPlane water(motion.rotation, motion.height);
-    // in body axes: facets stay, the two velocities turn
+    // (17) in body axes: facets stay, the two velocities turn
     const Vec3 v = ordered_transposed(motion.rotation, motion.velocity);
     const Vec3 w = ordered_transposed(motion.rotation, motion.angular_velocity);
     const FacingIntegrals met = integrate_facing(shape.facets, water, v, w);

@@ -77,6 +77,7 @@ class Relative {
 public:
     Relative(const Vec3& v, const Vec3& w, const std::function<Vec3(const Vec3&)>& water)
         : v_(get(v)), w_(get(w)), water_(water) {}
+    // u of (24): v + w x p less the water's velocity
     Vector at(const Vec3& p) const { return (v_ + cross(w_, get(p))) - get(water_(p)); }
 
 private:

@@ -9,7 +9,7 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PAGE = (ROOT / "docs/method.md").read_text(encoding="utf-8")
 TABLE = PAGE.split("### Where the equations are")[1].split("### Symbols")[0]
-LABEL = r"(?:[A-Z]?\d+)"
+LABEL = r"(?:[A-Z]?\d+[a-z]?)"
 
 
 def rows():

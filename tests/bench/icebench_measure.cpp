@@ -25,8 +25,8 @@ constexpr int kEnergyEvery = 10, kFloesPerStep = 1000;
 // that buoyancy "centre" leaves out takes energy like a load from outside.
 double energy_above_input(const World& w) {
     const EnergyLedger& ledger = w.ledger;
-    return ledger.kinetic + potential_energy(w.scene, w.parameters) - *ledger.potential_start +
-           ledger.buoyancy_moment - ledger.ship_work;
+    return ledger.kinetic_change + potential_energy(w.scene, w.parameters) -
+           *ledger.potential_start + ledger.buoyancy_moment - ledger.ship_work;
 }
 
 // Of one thread its own: another one that waits for work uses up time of the process, too.

@@ -2,7 +2,6 @@
 // Empirical formulas against tables worked out by an independent script, published values, limits.
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <numbers>
 
 #include "common/base/error.hpp"
 #include "common/base/units.hpp"
@@ -17,8 +16,6 @@ using namespace ice;
 using namespace ice::test;
 
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 // The icebreaker of the tables: L 95, B 22, T 8, alpha 30, parallel body and bow 33 and 24 m.
 HullForm icebreaker(double phi = 25.0) {

@@ -99,7 +99,7 @@ TEST_CASE("an impact books 1 - e^2 of its energy as restitution, for a ship at a
     for (int k = 0; k < 40; ++k) step(w);
     const double approach = 0.5 * w.scene.bodies.mass[1] * 0.7 * 0.7;
     CHECK(w.ledger.restitution == Approx((1 - e * e) * approach).epsilon(1e-12).margin(1e-14));
-    CHECK(w.ledger.kinetic == Approx((e * e - 1) * approach).epsilon(1e-12).margin(1e-14));
+    CHECK(w.ledger.kinetic_change == Approx((e * e - 1) * approach).epsilon(1e-12).margin(1e-14));
     CHECK(w.ledger.ship_work == Approx(0.0).margin(1e-12));  // pushed straight down
     CHECK(w.ledger.crushing == 0.0);
     CHECK(residual(w) == Approx(0.0).margin(1e-12));
@@ -128,7 +128,7 @@ TEST_CASE("a ship that drags a floe up to its speed loses as much to friction as
     // 0.5 m/s at mu (rho_w - rho_i) / rho_i g takes 4.6 s
     for (int k = 0; k < 600; ++k) step(w);
     const double gained = 0.5 * kMass * 0.5 * 0.5;
-    CHECK(w.ledger.kinetic == Approx(gained).epsilon(1e-6));
+    CHECK(w.ledger.kinetic_change == Approx(gained).epsilon(1e-6));
     CHECK(w.ledger.friction == Approx(gained).epsilon(1e-6));
     CHECK(w.ledger.ship_work == Approx(2 * gained).epsilon(1e-6));
     CHECK(std::abs(w.ledger.restitution) < 1e-6 * gained);
@@ -186,7 +186,7 @@ TEST_CASE("what rises at its terminal speed loses its potential energy to drag",
     for (int k = 0; k < 1500; ++k) step(w);
     const double lost = -potential_change(w);
     CHECK(lost > 2000.0);
-    CHECK(w.ledger.drag + w.ledger.kinetic == Approx(lost).epsilon(1e-3));
+    CHECK(w.ledger.drag + w.ledger.kinetic_change == Approx(lost).epsilon(1e-3));
     CHECK(w.ledger.ship_work == 0.0);
 }
 
@@ -224,7 +224,7 @@ TEST_CASE("a ship among floes: what it gives is what motion, height and losses t
                      Quaternion::Identity(), 0, false);
     for (int k = 0; k < 1000; ++k) step(w);
     CAPTURE(w.ledger.ship_work, w.ledger.friction, w.ledger.restitution, w.ledger.crushing,
-            w.ledger.drag, w.ledger.kinetic, potential_change(w), w.ledger.separation);
+            w.ledger.drag, w.ledger.kinetic_change, potential_change(w), w.ledger.separation);
     REQUIRE(w.ledger.ship_work > 100.0);
     CHECK(w.ledger.friction > 0.0);
     CHECK(w.ledger.restitution > 0.0);
@@ -240,7 +240,7 @@ TEST_CASE("more than 0.5 % of unexplained work is worth a warning, less is not",
     ledger.ship_work = 1000.0;
     ledger.friction = 700.0;
     ledger.drag = 194.0;
-    ledger.kinetic = 2.0;
+    ledger.kinetic_change = 2.0;
     Summary good, bad, idle;
     fill_energy(ledger, 150.0, good);  // 100 J of potential energy gained
     CHECK(good.energy.at("potential_J") == Approx(100.0));

@@ -4,8 +4,8 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <numbers>
 
+#include "common/base/units.hpp"
 #include "solver/record/measure_step.hpp"
 #include "tests/support/make_worlds.hpp"
 
@@ -13,7 +13,6 @@ using namespace ice;
 
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 // a sum of a dozen contacts, divided by the step late or early
 constexpr double kRounding = 1e-14;
 constexpr double kRadius = 0.1, kSpacing = 0.2;

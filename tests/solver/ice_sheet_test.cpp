@@ -62,22 +62,22 @@ TEST_CASE("a crack's outline is a half disc and a strip", "[level_ice][analytic]
 }
 
 TEST_CASE("the radius has the law's length, speed and scatter", "[level_ice]") {
-    CuspLaw law;
-    CHECK(cusp_radius(law, 14.6, 0.0, 1) == Approx(4.67).margin(0.005));
-    CHECK(cusp_radius(law, 14.6, 1.0, 1) == Approx(4.0).margin(0.005));
-    CHECK(cusp_radius(law, 14.6, 50.0, 1) == Approx(0.2 * 0.32 * 14.6));
+    CrackLaw law;
+    CHECK(crack_size(law, 14.6, 0.0, 1) == Approx(4.67).margin(0.005));
+    CHECK(crack_size(law, 14.6, 1.0, 1) == Approx(4.0).margin(0.005));
+    CHECK(crack_size(law, 14.6, 50.0, 1) == Approx(0.2 * 0.32 * 14.6));
     law.scatter = 0.25;
     double low = 1e9, high = 0.0;
     for (std::uint64_t cusp = 0; cusp < 1000; ++cusp) {
-        const double radius = cusp_radius(law, 14.6, 0.0, cusp);
-        CHECK(radius == cusp_radius(law, 14.6, 0.0, cusp));
+        const double radius = crack_size(law, 14.6, 0.0, cusp);
+        CHECK(radius == crack_size(law, 14.6, 0.0, cusp));
         low = std::min(low, radius);
         high = std::max(high, radius);
     }
     CHECK(low == Approx(0.75 * 4.672).epsilon(0.01));
     CHECK(high == Approx(1.25 * 4.672).epsilon(0.01));
     law.seed = 1;
-    CHECK(cusp_radius(law, 14.6, 0.0, 7) != cusp_radius({0.32, -0.144, 0.25, 0}, 14.6, 0.0, 7));
+    CHECK(crack_size(law, 14.6, 0.0, 7) != crack_size({0.32, -0.144, 0.25, 0}, 14.6, 0.0, 7));
 }
 
 TEST_CASE("a cusp at a straight edge is a half disc", "[level_ice][analytic]") {

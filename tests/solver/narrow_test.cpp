@@ -1,5 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Gaps, contacts and pairs.
+//
+// reference::find_contacts shares measure_gap, check_depths, reduce_manifold and find_deep_seats
+// with the finder: it proves the search. The rule has other oracles: tests/poses (volumes, no
+// common code), contact_polygon_test.cpp, tests/validation/deep_seats_test.cpp.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
@@ -164,14 +169,19 @@ TEST_CASE("a grid query finds every point in range", "[shape][property]") {
     for (int k = 0; k < 50; ++k) {
         const Vec3 at(4 * unit(random), 2 * unit(random), 2 * unit(random));
         const double range = 0.4;
-        std::size_t expected = 0, found = 0;
-        for (const Vec3& p : points) expected += (p - at).norm() <= range;
+        const auto is_near = [&](std::int32_t i) {
+            return (points[static_cast<std::size_t>(i)] - at).norm() <= range;
+        };
+        std::vector<std::int32_t> expected, found;
+        for (std::int32_t i = 0; i < std::ssize(points); ++i)
+            if (is_near(i)) expected.push_back(i);
         grid.for_each_near(at, range, [&](std::int32_t i) {
-            found += (points[static_cast<std::size_t>(i)] - at).norm() <= range;
+            if (is_near(i)) found.push_back(i);
         });
+        std::sort(found.begin(), found.end());
         REQUIRE(found == expected);
     }
-    CHECK(SphereGrid({}, 1.0).cell_count() == 0);
+    SphereGrid({}, 1.0).for_each_near(Vec3::Zero(), 10.0, [](std::int32_t) { FAIL(); });
 }
 
 TEST_CASE("mirror-image poses give mirror-image contacts in the same order, bit for bit",

@@ -5,14 +5,13 @@
 #include <catch2/catch.hpp>
 #include <numbers>
 
+#include "common/base/units.hpp"
 #include "tests/support/make_worlds.hpp"
 
 using namespace ice;
 using namespace ice::test;
 
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 // A pontoon of 12 x 2 x 1 m whose lower face is at `lower_face`.
 World pontoon_world(double lower_face) {

@@ -2,8 +2,8 @@
 // Statistics, the empirical formula, and the forces a step reports.
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <numbers>
 
+#include "common/base/units.hpp"
 #include "common/formulas/lindqvist.hpp"
 #include "solver/record/hull_contacts.hpp"
 #include "solver/record/hull_form.hpp"
@@ -15,12 +15,6 @@
 #include "tests/support/make_worlds.hpp"
 
 using namespace ice;
-
-namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
-
-}  // namespace
 
 TEST_CASE("Lindqvist's submersion resistance of the paper's ship is 1.4 kN at 0.5 m/s",
           "[record][analytic]") {

@@ -99,7 +99,7 @@ Window between(const Entry& a, const Entry& b) {
         return (b.ledger.*sum - a.ledger.*sum) / travel;
     };
     // opening overlaps puts energy in that the ship did not give: a loss of the other sign
-    return {mean(&EnergyLedger::ship_work), mean(&EnergyLedger::kinetic),
+    return {mean(&EnergyLedger::ship_work), mean(&EnergyLedger::kinetic_change),
             (b.potential - a.potential) / travel,
             mean(&EnergyLedger::drag) + mean(&EnergyLedger::restitution) +
                 mean(&EnergyLedger::friction) + mean(&EnergyLedger::crushing) -
