@@ -180,45 +180,15 @@ void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
     found_.assign(awake_.size(), Found{});
     const std::uint64_t call = next_call();
     parallel_for(awake_.size(), kSerialPairs, [&](std::size_t n) {
-        thread_local Workspace work;
         const std::size_t k = awake_[n];
         FoundBatch& batch = batch_of<FoundBatch>(call);
-        Found& found = found_[n];
-        found.batch = &batch;
-        found.sphere = batch.spheres.size();
-        auto state = states_[k];
-        if (state == PairCache::State::polygon) {
-            const double most = dt * closing_speed(scene, pairs[k]) + margin;
-            meet(PairView(scene, pairs[k]), cache_.axes(k), most, found, batch);
-            return;
-        }
-        std::span<const SpherePair> near = cache_.listed(k);
-        if (state == PairCache::State::stale) {
-            const PairView view(scene, pairs[k]);
-            // the skin is used up: a new list, with a skin that lasts for some steps
-            const Skin skin = skin_of(scene, pairs[k], dt);
-            const double least = find_near(view, margin, skin, work.search, batch.spheres);
-            near = std::span(batch.spheres).subspan(found.sphere);
-            found.spheres = near.size();
-            cache_.renew(k, view, motion, skin, std::min(least - margin, skin.distance));
-            state = cache_.state(k, scene, pairs[k], motion, dt, margin, false);
-            if (state == PairCache::State::separated) return;
-        }
-        const PairView view(scene, pairs[k]);
+        found_[n].batch = &batch;
+        found_[n].sphere = batch.spheres.size();
         const double most = dt * closing_speed(scene, pairs[k]) + margin;
-        // a pair too fast for what can be known in advance is searched afresh
-        if (state == PairCache::State::stale)
-            search_contacts(view, most, work);
+        if (states_[k] == PairCache::State::polygon)
+            meet(PairView(scene, pairs[k]), cache_.axes(k), most, found_[n], batch);
         else
-            measure_known(view, most, near, work);
-        keep_candidates(work.candidates, found, batch);
-        // As find_lost, where the cache cannot rule it out: for seats it also keeps how far the
-        // bodies may move before one can be deep.
-        if (!cache_.may_be_deep(k)) return;
-        if (is_convex_pair(view))
-            return keep_polygon(find_lost_polygon(view, work.candidates, most), found, batch);
-        cache_.set_room(k, view, find_deep_seats(view, work.candidates, work.seats));
-        keep_seats(work.seats, found, batch);
+            find_listed(scene, pairs[k], k, motion, {dt, margin, most}, found_[n], batch);
     });
     // Lists are stored by one thread, in the order of the pairs.
     for (std::size_t n = 0; n < awake_.size(); ++n) {
@@ -228,6 +198,38 @@ void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
                         std::span(found.batch->spheres).subspan(found.sphere, found.spheres));
     }
     emit(scene, pairs, rule, out);
+}
+
+void ContactFinder::find_listed(const Scene& scene, BodyPair pair, std::size_t k,
+                                const MotionBounds& motion, const Within& within, Found& found,
+                                FoundBatch& batch) {
+    thread_local Workspace work;
+    const PairView view(scene, pair);
+    auto state = states_[k];
+    std::span<const SpherePair> near = cache_.listed(k);
+    if (state == PairCache::State::stale) {
+        // the skin is used up: a new list, with a skin that lasts for some steps
+        const Skin skin = skin_of(scene, pair, within.step);
+        const double least = find_near(view, within.margin, skin, work.search, batch.spheres);
+        near = std::span(batch.spheres).subspan(found.sphere);
+        found.spheres = near.size();
+        cache_.renew(k, view, motion, skin, std::min(least - within.margin, skin.distance));
+        state = cache_.state(k, scene, pair, motion, within.step, within.margin, false);
+        if (state == PairCache::State::separated) return;
+    }
+    // a pair too fast for what can be known in advance is searched afresh
+    if (state == PairCache::State::stale)
+        search_contacts(view, within.most, work);
+    else
+        measure_known(view, within.most, near, work);
+    keep_candidates(work.candidates, found, batch);
+    // As find_lost, where the cache cannot rule it out: for seats it also keeps how far the bodies
+    // may move before one can be deep.
+    if (!cache_.may_be_deep(k)) return;
+    if (is_convex_pair(view))
+        return keep_polygon(find_lost_polygon(view, work.candidates, within.most), found, batch);
+    cache_.set_room(k, view, find_deep_seats(view, work.candidates, work.seats));
+    keep_seats(work.seats, found, batch);
 }
 
 void ContactFinder::forget(const std::vector<std::int32_t>& bodies) {

@@ -70,8 +70,15 @@ private:
         std::size_t sphere = 0, spheres = 0;  // newly listed spheres
         std::size_t contact = 0;              // where they begin among all pairs' contacts
     };
+    // Time step [s], margin [m], and the gap up to which a pair's contacts count in the step [m].
+    struct Within {
+        double step, margin, most;
+    };
     static void meet(const PairView& view, const SeparatingAxes& axes, double most, Found& found,
                      FoundBatch& batch);
+    // Contacts of row k from its neighbour list, which is made anew where its skin is used up.
+    void find_listed(const Scene& scene, BodyPair pair, std::size_t k, const MotionBounds& motion,
+                     const Within& within, Found& found, FoundBatch& batch);
     static void keep_polygon(const ContactPolygon* polygon, Found& found, FoundBatch& batch);
     static void keep_seats(const std::vector<DeepSeat>& seats, Found& found, FoundBatch& batch);
     static void keep_candidates(const std::vector<Candidate>& candidates, Found& found,

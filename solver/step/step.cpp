@@ -65,8 +65,7 @@ void step(World& w) {
     w.ship.start_step(w.parameters, w.scene, w.time);
     w.scene.water.follow(bodies.position[kShip], w.scene.ship_velocity);
 
-    // 2 to 4 broad, narrow, release: a floe let go may touch neighbours that did not matter while
-    // it was held
+    // 2 to 4 broad, narrow, release: a floe let go may touch neighbours that were held with it
     do {
         timed(w, Stage::broad, [&] {
             w.motion.update(w.scene, dt);

@@ -43,6 +43,7 @@ set(quarantine
 
 set(max_columns 100)
 set(max_lines 500)
+set(max_function 60)
 set(many_lines 300) # listed, not refused
 
 # Sources under ROOT relative to it, of the given kinds (hpp cpp py sh), without samples and builds.

@@ -96,6 +96,27 @@ TEST_CASE("iceflow refuses with exit code 2 and leaves nothing behind", "[cli][f
     CHECK(disk.code == 1);
 }
 
+namespace {
+
+// What --check says of the case's water. @param flow  the file made for the case's hull
+void check_refused_flows(const Workshop& w, const std::string& flow) {
+    const auto says = [&](const std::string& words, int code, const std::string& what) {
+        const Result r = w.run("icesolve case.cfg --check " + words);
+        CAPTURE(words, r.err);
+        CHECK(r.code == code);
+        CHECK_THAT(r.err, Catch::Contains(what));
+    };
+    says("--set hull.speed=3", 0, "Froude number of 0.31");
+    says("--set flow.model=file", 2, "needs flow.file");
+    says("--set flow.file=" + flow, 2, "only flow.model = \"file\" takes it");
+    says("--set flow.model=file --set flow.file=" + flow + " --set hull.draught=1.2", 2,
+         "is for a draught of 1.44 m");
+    says("--set flow.model=file --set flow.file=floe.h5", 2, "is not a flow");
+    says("--set flow.added_mass=computed --set simulation.dimension=2", 2, "in 3D only");
+}
+
+}  // namespace
+
 TEST_CASE("a case takes the flow around its hull, made once, and warns of waves", "[cli][flow]") {
     const Workshop w;
     REQUIRE(w.run("spherize " ICE_MESHES "/paper-hull-3d.obj -r 0.2 --mode surface -q "
@@ -149,18 +170,5 @@ TEST_CASE("a case takes the flow around its hull, made once, and warns of waves"
     hash("--set flow.added_mass=computed --verify");
     hash("");
     CHECK(read_json_numbers(w / "run" / "summary.json").contains("energy.water_work_J"));
-
-    const auto says = [&](const std::string& words, int code, const std::string& what) {
-        const Result r = w.run("icesolve case.cfg --check " + words);
-        CAPTURE(words, r.err);
-        CHECK(r.code == code);
-        CHECK_THAT(r.err, Catch::Contains(what));
-    };
-    says("--set hull.speed=3", 0, "Froude number of 0.31");
-    says("--set flow.model=file", 2, "needs flow.file");
-    says("--set flow.file=" + *kept, 2, "only flow.model = \"file\" takes it");
-    says("--set flow.model=file --set flow.file=" + *kept + " --set hull.draught=1.2", 2,
-         "is for a draught of 1.44 m");
-    says("--set flow.model=file --set flow.file=floe.h5", 2, "is not a flow");
-    says("--set flow.added_mass=computed --set simulation.dimension=2", 2, "in 3D only");
+    check_refused_flows(w, *kept);
 }

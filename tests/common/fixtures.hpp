@@ -91,11 +91,9 @@ inline HullPanels make_panels(int dimension) {
     return hull;
 }
 
-/// A made-up run: a box hull of 8 x 2 x 1.2 m at 1 m/s among boxes of 1 x 0.8 x 0.2 m that slide
-/// along its bottom, rotating; forces are sines with known means (see the code).
-inline RunData make_run(const RunSize& size = {}) {
-    RunData run;
-    RunHeader& header = run.header;
+/// What does not change during make_run().
+inline RunHeader make_header(const RunSize& size) {
+    RunHeader header;
     header.dimension = size.dimension;
     header.title = "Box among floes <test & \"quotes\">";
     header.created_by = "icesolve 0.1.0";
@@ -123,66 +121,88 @@ inline RunData make_run(const RunSize& size = {}) {
     header.flow_point = {Vec3(8.5, 0.0, -0.125), Vec3(8.0, 1.5, 0.0), Vec3(-1.0, 0.0, -0.5)};
     header.flow_velocity = {Vec3(0.5, 0.0, -0.125), Vec3(0.25, 0.25, 0.0), Vec3(0.25, 0.0, 0.0)};
     if (size.floes > 1) header.tracked = {1, static_cast<std::int32_t>(size.floes)};
-    run.tracks.resize(header.tracked.size());
+    return header;
+}
+
+/// The frame of a number in make_run(): floes in two columns, of which the bow has reached some.
+inline RunFrame make_frame(const RunSize& size, std::size_t number) {
+    RunFrame frame;
+    frame.time = 0.1 * static_cast<double>(number);
+    frame.ship_position = Vec3(frame.time, 0.0, 0.0);
+    for (std::size_t k = 0; k < size.floes; ++k) {
+        const double row = static_cast<double>(k / 2), side = k % 2 ? 1.0 : -1.0;
+        const double x = 8.5 + 1.1 * row;
+        const bool pushed = x - 0.5 < 8.0 + frame.time;  // the bow at x = 8 m + t has reached it
+        const double angle = pushed ? 1.5 * frame.time : 0.0;
+        frame.position.emplace_back(x, size.dimension == 2 ? 0.0 : 0.5 * side,
+                                    pushed ? -0.85 : -0.08);
+        frame.orientation.emplace_back(Eigen::AngleAxisd(angle, Vec3::UnitY()));
+        frame.velocity.emplace_back(0.0, 0.0, pushed ? -0.1 : 0.0);
+        frame.angular_velocity.emplace_back(0.0, pushed ? 1.5 : 0.0, 0.0);
+        frame.contact_force.emplace_back(pushed ? 100.0 : 0.0, 0.0, pushed ? -300.0 : 0.0);
+        frame.state.push_back(pushed ? FloeState::moving : FloeState::held);
+        // on the bottom, 1 m behind the bow; the ship feels the opposite of the floe
+        if (pushed && number > 0)
+            frame.hull_contacts.push_back(
+                {static_cast<std::int32_t>(k + 1), static_cast<std::int32_t>(k % 2),
+                 Vec3(7.0, 0.5 * side, -0.7), Vec3(0.0, 0.0, 300.0), Vec3(-100.0, 0.0, 0.0)});
+    }
+    return frame;
+}
+
+/// The ship's history in make_run() at a time [s]: the force along x has the mean -1000 N.
+inline HistoryRow make_row(double time, double moving_floes) {
+    const double turn = 2 * std::numbers::pi * time;
+    HistoryRow row;
+    row.time = time;
+    row.contact_force = Vec3(-1000.0 + 200.0 * std::sin(turn), 50.0 * std::cos(turn), 400.0);
+    row.friction_force = 0.1 * row.contact_force;
+    row.moment = Vec3(1.0, 2.0, 3.0) * time;
+    row.ship_position = Vec3(time, 0.0, 0.0);
+    row.contacts = 3.0;
+    row.moving_floes = moving_floes;
+    row.max_overlap = 1e-4;
+    row.kinetic_energy = 12.5;
+    return row;
+}
+
+/// The history of a tracked floe in make_run(), at its pose in a frame.
+inline TrackRow make_track(double time, const RunFrame& frame, std::size_t body) {
+    TrackRow track;
+    track.time = time;
+    track.position = frame.position[body];
+    track.orientation = frame.orientation[body];
+    track.velocity = frame.velocity[body];
+    track.angular_velocity = frame.angular_velocity[body];
+    track.contact_force = Vec3(-10.0, 0.0, 30.0 * std::sin(time));
+    track.friction_force = Vec3(-1.0, 0.0, 0.0);
+    track.ice_force = Vec3(0.0, 5.0, 0.0);
+    return track;
+}
+
+/// A made-up run: a box hull of 8 x 2 x 1.2 m at 1 m/s among boxes of 1 x 0.8 x 0.2 m that slide
+/// along its bottom, rotating; forces are sines with known means (see the code).
+inline RunData make_run(const RunSize& size = {}) {
+    RunData run;
+    run.header = make_header(size);
+    run.tracks.resize(run.header.tracked.size());
     run.regions = {{"hull", {}, {}}, {"bottom", {}, {}}};  // a quarter and the rest of all forces
     run.panels = make_panels(size.dimension);
-
-    const double pi = std::numbers::pi;
     for (std::size_t f = 0; f < size.frames; ++f) {
-        RunFrame frame;
-        frame.time = 0.1 * static_cast<double>(f);
-        frame.ship_position = Vec3(frame.time, 0.0, 0.0);
-        for (std::size_t k = 0; k < size.floes; ++k) {
-            const double row = static_cast<double>(k / 2), side = k % 2 ? 1.0 : -1.0;
-            const double x = 8.5 + 1.1 * row;
-            const bool pushed =
-                x - 0.5 < 8.0 + frame.time;  // the bow at x = 8 m + t has reached it
-            const double angle = pushed ? 1.5 * frame.time : 0.0;
-            frame.position.emplace_back(x, size.dimension == 2 ? 0.0 : 0.5 * side,
-                                        pushed ? -0.85 : -0.08);
-            frame.orientation.emplace_back(Eigen::AngleAxisd(angle, Vec3::UnitY()));
-            frame.velocity.emplace_back(0.0, 0.0, pushed ? -0.1 : 0.0);
-            frame.angular_velocity.emplace_back(0.0, pushed ? 1.5 : 0.0, 0.0);
-            frame.contact_force.emplace_back(pushed ? 100.0 : 0.0, 0.0, pushed ? -300.0 : 0.0);
-            frame.state.push_back(pushed ? FloeState::moving : FloeState::held);
-            // on the bottom, 1 m behind the bow; the ship feels the opposite of the floe
-            if (pushed && f > 0)
-                frame.hull_contacts.push_back(
-                    {static_cast<std::int32_t>(k + 1), static_cast<std::int32_t>(k % 2),
-                     Vec3(7.0, 0.5 * side, -0.7), Vec3(0.0, 0.0, 300.0), Vec3(-100.0, 0.0, 0.0)});
-        }
+        const RunFrame frame = make_frame(size, f);
         for (std::size_t s = 0; s < size.samples_per_frame; ++s) {
-            HistoryRow row;
-            row.time = frame.time +
-                       0.1 * static_cast<double>(s) / static_cast<double>(size.samples_per_frame);
-            row.contact_force = Vec3(-1000.0 + 200.0 * std::sin(2 * pi * row.time),
-                                     50.0 * std::cos(2 * pi * row.time), 400.0);
-            row.friction_force = 0.1 * row.contact_force;
-            row.moment = Vec3(1.0, 2.0, 3.0) * row.time;
-            row.ship_position = Vec3(row.time, 0.0, 0.0);
-            row.contacts = 3.0;
-            row.moving_floes = static_cast<double>(f % 7);
-            row.max_overlap = 1e-4;
-            row.kinetic_energy = 12.5;
+            const double time = frame.time + 0.1 * static_cast<double>(s) /
+                                                 static_cast<double>(size.samples_per_frame);
+            const HistoryRow row = make_row(time, static_cast<double>(f % 7));
             run.history.push_back(row);
             for (const float share : {0.25f, 0.75f}) {
                 RegionHistory& region = run.regions[share > 0.5f ? 1 : 0];
                 region.contact.emplace_back(share * row.contact_force.cast<float>());
                 region.friction.emplace_back(share * row.friction_force.cast<float>());
             }
-            for (std::size_t k = 0; k < run.tracks.size(); ++k) {
-                const auto body = static_cast<std::size_t>(header.tracked[k] - 1);
-                TrackRow track;
-                track.time = row.time;
-                track.position = frame.position[body];
-                track.orientation = frame.orientation[body];
-                track.velocity = frame.velocity[body];
-                track.angular_velocity = frame.angular_velocity[body];
-                track.contact_force = Vec3(-10.0, 0.0, 30.0 * std::sin(row.time));
-                track.friction_force = Vec3(-1.0, 0.0, 0.0);
-                track.ice_force = Vec3(0.0, 5.0, 0.0);
-                run.tracks[k].push_back(track);
-            }
+            for (std::size_t k = 0; k < run.tracks.size(); ++k)
+                run.tracks[k].push_back(
+                    make_track(time, frame, static_cast<std::size_t>(run.header.tracked[k] - 1)));
         }
         run.frames.push_back(frame);
     }
