@@ -3,7 +3,7 @@
 """Checks of the resistance that need no measured table: python3 validation/ladder.py
 
 Each row of validation/ladder.csv is a law that the resistance has to follow, with what is expected,
-what the programs give and why. The case is cases/paper-3d-defaults: the seed paper's ship and pieces.
+what the programs give and why. The case is cases/paper-3d-defaults: the paper's ship and pieces.
 """
 import argparse
 import concurrent.futures

@@ -5,7 +5,7 @@ import math
 FORMULAS = [("lindqvist_kN", "Lindqvist"), ("riska_kN", "Riska"), ("jeong_kN", "Jeong"),
             ("keinonen_kN", "Keinonen")]
 
-HEAD = """# Held against measurements
+HEAD = """# Compared with measurements
 
 <!-- written by python3 validation/compare.py page; do not edit -->
 
@@ -19,7 +19,8 @@ python3 validation/compare.py page
 ```
 
 The error is computed minus measured, over measured. The interval is that of the computed mean (95 %); that of the measured mean
-is not published. What fails most stands first.
+is not published. Rows are sorted by error,
+the largest first.
 """
 
 
@@ -150,7 +151,7 @@ def ladder(rows):
     """The checks without a table, those that miss their bound first."""
     head = """## A ladder of checks that need no table
 
-The seed paper's ship and pieces with the project's defaults (`cases/paper-3d-defaults`). `python3 validation/ladder.py` computes
+The paper's ship and pieces with the project's defaults (`cases/paper-3d-defaults`). `python3 validation/ladder.py` computes
 them.
 """
     rows = sorted(rows, key=lambda check: not misses(check))
