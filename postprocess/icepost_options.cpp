@@ -23,7 +23,7 @@ CLI::App* add_folder_command(CLI::App& app, PostOptions& o, const char* name, co
 
 void add_formula_options(CLI::App& sub, PostOptions& o) {
     sub.add_option("--coefficients", o.coefficients,
-                   "a ship's own coefficients of the component formula (icepost fit), for Jeong's");
+                   "coefficients of the component formula (icepost fit), in place of Jeong's");
     sub.add_option(
            "--flexural-strength", o.flexural_strength,
            "flexural strength of level ice, for the formulas (default: the case's, or 500 kPa)")

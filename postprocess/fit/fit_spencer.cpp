@@ -162,13 +162,13 @@ SpencerFit fit_spencer(const std::vector<FitPoint>& points) {
     const Problem problem = take_broken(points);
     if (points.empty())
         throw bad_input("the sweep",
-                        "has no run in 3D that says ship, ice and water (older programs did not)",
+                        "has no run in 3D that states ship, ice and water (older programs did not)",
                         "run its cases again");
     const std::size_t speeds = count_speeds(problem);
     if (speeds < 2)
         throw bad_input("the sweep",
-                        "has fewer than two speeds in broken ice, which give C_B and C_C",
-                        "add runs at other speeds, of them one that creeps");
+                        "has fewer than two speeds in broken ice, from which C_B and C_C follow",
+                        "add runs at other speeds, one of them creeping");
     SpencerFit fit;
     fit.coefficients.own = true;
     fit.broken = problem.scales.size();

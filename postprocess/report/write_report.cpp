@@ -62,8 +62,8 @@ std::string force_section(const Summary& s, const ForceUnit& unit) {
         "forces", "Force of the ice on the ship",
         fmt::format(
             "Means over t \u2265 {} s. \u00b1 is the half width of the 95 % confidence interval "
-            "from the autocorrelation of this run; the model is uncertain by about 10 % beside "
-            "it. Formulas are empirical estimates of the part that they name.",
+            "from the autocorrelation of this run; the uncertainty of the model, about 10 %, is "
+            "not in it. Formulas are empirical estimates of the part that they name.",
             readable(s.average_from)) +
             steadiness(s.resistance, unit),
         force_table(s, unit));
@@ -73,8 +73,9 @@ std::string balance_sections(const Summary& s) {
     std::string out;
     const std::string energy = energy_table(s);
     if (!energy.empty())
-        out += section("energy", "Where the ship's work went",
-                       "Work of the ship + opened overlaps = all that follows them.", energy);
+        out +=
+            section("energy", "Where the ship's work went",
+                    "Work of the ship + opened overlaps = the sum of all other entries.", energy);
     return out + section("numerics", "Contacts and computing time", "", numerics_table(s));
 }
 

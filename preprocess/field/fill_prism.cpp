@@ -70,7 +70,7 @@ SphereSet fill_prism(const Outline& outline, const PrismForm& form, std::int64_t
     SphereSet set = fill_spheres(prism, options, report);
     if (report.blind_corners > 0)
         throw bad_input("--radius",
-                        fmt::format("{} of {} corners have no sphere that knows their three faces",
+                        fmt::format("{} of {} corners have no sphere for their three faces",
                                     report.blind_corners, report.corners),
                         "try another radius or spacing");
     if (corners != nullptr) *corners = report.corners;

@@ -137,7 +137,7 @@ FieldSpec read_once(const std::filesystem::path& file, const std::vector<std::st
     }
     FieldSpec spec;
     if (!unreadable) spec = SpecBuilder(file, std::move(values), mistakes).build();
-    throw_mistakes(mistakes, file, "icefield --explain KEY tells what a key takes");
+    throw_mistakes(mistakes, file, "icefield --explain KEY explains a key");
     spec.text = text;
     return spec;
 }

@@ -284,7 +284,7 @@ Case read_once(const std::filesystem::path& file, const std::vector<std::string>
     }
     Case result;
     if (!unreadable) result = Builder(file, std::move(values), groups, mistakes).build();
-    throw_mistakes(mistakes, file, "icesolve --explain KEY tells what a key takes");
+    throw_mistakes(mistakes, file, "icesolve --explain KEY explains a key");
     return result;
 }
 

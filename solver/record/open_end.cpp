@@ -38,9 +38,9 @@ std::optional<Warning> warn_of_open_end(const Scene& scene, const Case& paramete
     if (count == 0 || farthest < kWithShip * travel) return std::nullopt;
     return Warning{
         fmt::format("the ship pushed {} floe{} out of the channel's open far end at x = {:.4g} m, "
-                    "the farthest by {:.3g} m while it moved {:.3g} m: ice that gives way ahead "
-                    "lowers the resistance, by "
-                    "almost half in a pre-sawn channel; close the end (edges.ahead of the field's "
+                    "the farthest by {:.3g} m while it moved {:.3g} m: ice that moves away "
+                    "ahead of the ship lowers the resistance, in a pre-sawn channel by almost "
+                    "half; close the end (edges.ahead of the field's "
                     "specification), or hold floes \"until-hull-contact\"",
                     count, count == 1 ? "" : "s", end, farthest, travel),
         true};

@@ -228,10 +228,9 @@ std::vector<Warning> check_course(const World& w) {
     // level ice that stays is wide of the hull's way by its making
     if (course.hits_fixed_at < p.duration && !p.has_level_ice())
         warnings.push_back(
-            {fmt::format(
-                 "the ship runs into unbroken ice, which never gives way, after {:.4g} m at "
-                 "{:.4g} s: shorten simulation.duration, or move the ship or the ice",
-                 course.clearance_fixed, course.hits_fixed_at),
+            {fmt::format("the ship runs into unbroken ice, which cannot move, after {:.4g} m at "
+                         "{:.4g} s: shorten simulation.duration, or move the ship or the ice",
+                         course.clearance_fixed, course.hits_fixed_at),
              true,
              std::min((p.duration - course.hits_fixed_at) / (p.duration - p.average_from), 1.0)});
     return warnings;

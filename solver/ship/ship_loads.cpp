@@ -30,8 +30,9 @@ void require_short_steps(const Case& p, const char* what, double swing) {
     if (!(swing > kMostSwing)) return;
     throw bad_input(
         p.file.string() + ": simulation.time_step",
-        fmt::format("{:g} s are too long for the ship in {}: it swings by {:.2g} rad in a step",
-                    p.time_step, what, swing),
+        fmt::format(
+            "{:g} s are too long for the ship in {}: its phase advances {:.2g} rad in a step",
+            p.time_step, what, swing),
         fmt::format("use {:.2g} s or less", p.time_step * kMostSwing / swing));
 }
 
