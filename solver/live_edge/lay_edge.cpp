@@ -153,6 +153,14 @@ void LiveEdge::begin(Scene& scene, Case& p) {
     looked_at_ = laid_at_ = ship_in_ice(scene);
     Plan plan;
     lay_tiles(scene, plan);
+    // in 3D there may be no ice within reach of the ship; a strip always has its tip
+    if (is_strip_ && plan.bodies.empty() && !sheet_.loops().empty())
+        throw bad_input(
+            p.file.string() + ": level_ice.gap",
+            fmt::format("{} m leave no ice: the strip's first {:.3g} m are one body, "
+                        "and half a gap is cut off both of its ends",
+                        gap_, strip_length(strip_tiles(sheet_, extent_.min().x(), radius_)[0])),
+            "make it smaller");
     fill(p, plan);
     put(scene, 0.0, plan);
 }

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "common/base/assert.hpp"
+
 namespace ice {
 
 namespace {
@@ -27,6 +29,7 @@ Box box_of(const Loop& loop) {
 Box strip_extent(double from, double to) { return {Vec2(from, -kHalf), Vec2(to, kHalf)}; }
 
 double tip_of(const IceSheet& strip) {
+    ICE_ASSERT(strip.loops().size() <= 1);
     return strip.loops().empty() ? kInfinity : box_of(strip.loops()[0]).min().x();
 }
 
@@ -57,6 +60,7 @@ std::vector<EdgeWindow> tip_window(const std::vector<EdgeLoad>& loads, double ti
 }
 
 std::vector<Loop> strip_tiles(const IceSheet& strip, double origin, double cell) {
+    ICE_ASSERT(strip.loops().size() <= 1);
     if (strip.loops().empty()) return {};
     const Box box = box_of(strip.loops()[0]);
     const double from = box.min().x();

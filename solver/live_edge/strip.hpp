@@ -13,7 +13,7 @@ namespace ice {
 /// From x = `from` to `to` [m].
 Eigen::AlignedBox2d strip_extent(double from, double to);
 
-/// x of its tip, the smallest [m]; infinite where nothing is left.
+/// x of its tip, the smallest [m]; infinite where nothing is left. @pre in one part
 double tip_of(const IceSheet& strip);
 
 /// A section's outline (hull_outlines) made broader than the strip by `by` [m] on both sides: a

@@ -151,6 +151,14 @@ TEST_CASE("what lies behind the bow of a ship within a strip is astern", "[level
     CHECK(tiles_of(w.edge, w.scene.bodies).size() == 1);
 }
 
+TEST_CASE("a gap as long as a tile of a strip is refused: no ice would be left",
+          "[level_ice][strip][errors]") {
+    Case p = soft_case(1.0, 1e3);
+    p.level_ice.gap = 40.0;
+    CHECK_THROWS_WITH(soft_world(p), Catch::Matchers::Contains("level_ice.gap") &&
+                                         Catch::Matchers::Contains("leave no ice"));
+}
+
 TEST_CASE("the end of a strip breaks off as one piece", "[level_ice][strip][step]") {
     Case p = soft_case(1.0, 1e3);
     p.level_ice.extent[1] = 4.0;
