@@ -19,7 +19,7 @@ double si(const char* text, Dimension dimension) {
 
 }  // namespace
 
-TEST_CASE("2 kn are 1.02888... m/s, 80 mm are 0.08 m, 1.5 MPa are 1.5e6 Pa", "[base]") {
+TEST_CASE("2 kn are 1.02888... m/s, 80 mm are 0.08 m, 1.5 MPa are 1.5e6 Pa", "[base][analytic]") {
     CHECK(si("2 kn", Dimension::speed) == Approx(1.0288888888888889).epsilon(1e-15));
     CHECK(si("80 mm", Dimension::length) == Approx(0.08).epsilon(1e-15));
     CHECK(si("1.5 MPa", Dimension::pressure) == Approx(1.5e6).epsilon(1e-15));
@@ -31,7 +31,8 @@ TEST_CASE("2 kn are 1.02888... m/s, 80 mm are 0.08 m, 1.5 MPa are 1.5e6 Pa", "[b
     CHECK(si("0.9 t/m3", Dimension::density) == Approx(900.0).epsilon(1e-15));
 }
 
-TEST_CASE("every unit is its number of SI units, and none is without a value here", "[base]") {
+TEST_CASE("every unit is its number of SI units, and none is without a value here",
+          "[base][analytic]") {
     // by definition: 1 ft = 0.3048 m, 1 in = 0.0254 m, 1 kn = 1852 m / 3600 s, 180 deg = pi rad
     const double kPi = 3.14159265358979323846;
     const std::map<Dimension, std::map<std::string, double>> all{
@@ -86,7 +87,7 @@ TEST_CASE("a dimensionless number takes no unit", "[base]") {
     CHECK(si_unit(Dimension::none) == "1");
 }
 
-TEST_CASE("a share is a number or per cent", "[base]") {
+TEST_CASE("a share is a number or per cent", "[base][analytic]") {
     CHECK(si("80 %", Dimension::share) == Approx(0.8).epsilon(1e-15));
     CHECK(si("80%", Dimension::share) == si("80 %", Dimension::share));
     CHECK(si("0.8", Dimension::share) == 0.8);

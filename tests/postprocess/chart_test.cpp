@@ -40,7 +40,7 @@ TEST_CASE("short curves stay whole, NaN is left out, all at one time does not di
     CHECK(decimate(std::vector<double>(100, 1.0), std::vector<double>(100, 2.0), 10).size() == 1);
 }
 
-TEST_CASE("a logarithmic axis has whole decades, equally far apart", "[views]") {
+TEST_CASE("a logarithmic axis has whole decades, equally far apart", "[views][property]") {
     Chart chart;
     chart.x_logarithmic = true;
     chart.curves = {{"a", kBlue, {{20.0, 1.0}, {2000.0, 2.0}}, 1.0, "", 1.0}};
@@ -57,7 +57,8 @@ TEST_CASE("a logarithmic axis has whole decades, equally far apart", "[views]") 
     CHECK(places[3] - places[2] == Approx(places[2] - places[1]).margin(0.21));
 }
 
-TEST_CASE("ticks of 0 to 30 are 0, 10, 20, 30, labels have no needless decimals", "[views]") {
+TEST_CASE("ticks of 0 to 30 are 0, 10, 20, 30, labels have no needless decimals",
+          "[views][analytic]") {
     CHECK(choose_ticks(0.0, 30.0, 4) == std::vector<double>{0, 10, 20, 30});
     CHECK(choose_ticks(-0.1, 0.1, 5).size() == 5);
     CHECK(choose_ticks(2.0, 2.0, 5) == std::vector<double>{2.0});

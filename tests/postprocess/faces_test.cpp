@@ -12,7 +12,7 @@ using namespace ice::views;
 using ice::test::make_box;
 
 TEST_CASE("the 12 triangles of a box become 6 faces with 4 corners and outward normals",
-          "[views]") {
+          "[views][analytic]") {
     const auto faces = make_faces(make_box({2.0, 1.0, 0.5}));
     REQUIRE(faces.size() == 6);
     for (const Face& face : faces) {
@@ -22,7 +22,8 @@ TEST_CASE("the 12 triangles of a box become 6 faces with 4 corners and outward n
     }
 }
 
-TEST_CASE("a cylinder of 360 sides keeps its sides: flatness is not passed on", "[views]") {
+TEST_CASE("a cylinder of 360 sides keeps its sides: flatness is not passed on",
+          "[views][analytic]") {
     TriangleMesh mesh;
     const int sides = 360;
     for (int k = 0; k < sides; ++k) {
@@ -39,7 +40,8 @@ TEST_CASE("a cylinder of 360 sides keeps its sides: flatness is not passed on", 
     CHECK(make_faces(mesh).size() == 360);
 }
 
-TEST_CASE("a box cut at the waterline has 5 faces below and 5 above, and a section", "[views]") {
+TEST_CASE("a box cut at the waterline has 5 faces below and 5 above, and a section",
+          "[views][analytic]") {
     const CutMesh cut = cut_mesh(make_box({4.0, 2.0, 1.0}, {0.0, 0.0, 0.1}), 0.0);
     CHECK(make_faces(cut.below).size() == 5);
     CHECK(make_faces(cut.above).size() == 5);
@@ -73,7 +75,7 @@ TEST_CASE("a fine mesh is thinned to the wanted number of triangles, a coarse on
 }
 
 TEST_CASE("the depth map gives the bottom of a box seen from below, and nothing beside it",
-          "[views]") {
+          "[views][analytic]") {
     const Projection below = projection_of(ViewFrom::below);
     const DepthMap map(make_box({4.0, 2.0, 1.0}), below, 200);
     CHECK(map.nearness(0.3, 0.2) == Approx(0.5));

@@ -114,7 +114,7 @@ TEST_CASE("the page's poses, states and loads are those of the run to the promis
         }
 }
 
-TEST_CASE("thinned series keep every peak and their time's ends", "[statistics]") {
+TEST_CASE("thinned series keep every peak and their time's ends", "[statistics][property]") {
     std::vector<double> time(1000), a(1000, 0.0), b(1000, 1.0);
     for (std::size_t k = 0; k < 1000; ++k) time[k] = 0.01 * static_cast<double>(k);
     a[123] = 50.0;

@@ -91,7 +91,7 @@ TEST_CASE("a run of 45 frames exported with every 10th gives 4 files with 5 time
 }
 
 TEST_CASE("exported corners are position + rotation of the mesh, states and forces the frame's",
-          "[paraview]") {
+          "[paraview][analytic]") {
     const TempFolder folder;
     const RunData run = make_run();
     write_paraview(run, folder / "pv", {1});

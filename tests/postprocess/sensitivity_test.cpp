@@ -56,7 +56,7 @@ void write_study(const TempFolder& folder) {
 }  // namespace
 
 TEST_CASE("Welch's interval is the two-sample one for equal scatter, Student's for one-sided",
-          "[sensitivity]") {
+          "[sensitivity][analytic]") {
     const Seeds a = ensemble("", {9.0, 10.0, 11.0}), b = ensemble("", {19.0, 20.0, 21.0});
     // both have s = 1: v = 4, t_{0.975, 4} = 2.77645 (tables)
     CHECK(estimate_difference(a, b).mean == Approx(10.0));
@@ -119,7 +119,7 @@ TEST_CASE("a study's text and page give the interval beside the model uncertaint
 }
 
 TEST_CASE("bars of the tornado are as long as the differences and stay inside the chart",
-          "[sensitivity]") {
+          "[sensitivity][property]") {
     const TempFolder folder;
     write_study(folder);
     const std::string svg = make_tornado(read_study(folder.path()));

@@ -15,7 +15,7 @@ using namespace ice;
 using namespace ice::test;
 using namespace ice::sweep;
 
-TEST_CASE("the mean of 9, 10, 11 is 10 with a half width of 4.303 / sqrt(3)", "[sweep]") {
+TEST_CASE("the mean of 9, 10, 11 is 10 with a half width of 4.303 / sqrt(3)", "[sweep][analytic]") {
     const Estimate three = estimate_mean({9.0, 10.0, 11.0});
     CHECK(three.mean == Approx(10.0));
     // t_{0.975, 2} = 4.30265 (tables), s = 1
@@ -195,7 +195,7 @@ TEST_CASE("members of an ensemble count once, whatever their seeds changed", "[s
     CHECK(read_sweep(folder / "u0.5").runs.size() == 3);
 }
 
-TEST_CASE("the ship's work is shared out per metre of travel", "[sweep]") {
+TEST_CASE("the ship's work is shared out per metre of travel", "[sweep][analytic]") {
     const TempFolder folder;
     write_grid(folder);
     Sweep sweep = read_sweep(folder.path());

@@ -85,7 +85,8 @@ private:
 
 }  // namespace
 
-TEST_CASE("a box of 3 x 2 x 1 m has the textbook moments along its own edges", "[export]") {
+TEST_CASE("a box of 3 x 2 x 1 m has the textbook moments along its own edges",
+          "[export][analytic]") {
     const SphereSet set = test::make_box_set(Vec3(3, 2, 1), 0.25, 0.5);
     const RigidBody body = rigid_body(set.solid, kDensity);
     CHECK(body.mass == Approx(kDensity * 6.0).epsilon(1e-14));

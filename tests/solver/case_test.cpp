@@ -104,7 +104,7 @@ TEST_CASE("pattern file takes a field, and its unbroken ice is a group of its ow
         "make it with icefield"));
 }
 
-TEST_CASE("the ship's speed between, on and beyond the rows of its table", "[case]") {
+TEST_CASE("the ship's speed between, on and beyond the rows of its table", "[case][analytic]") {
     Case p;
     p.speed_table = {{1.0, 2.0}, {2.0, 4.0}, {4.0, 0.0}};
     CHECK(p.ship_speed(0.0) == 2.0);

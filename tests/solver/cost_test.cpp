@@ -11,7 +11,7 @@
 
 using namespace ice;
 
-TEST_CASE("a run's rows, frames and bytes are those of its keys", "[cost]") {
+TEST_CASE("a run's rows, frames and bytes are those of its keys", "[cost][analytic]") {
     Case p;
     p.duration = 1000.0;
     p.time_step = 0.01;
