@@ -102,6 +102,8 @@ TEST_CASE("a second cusp beside the first takes what is left there", "[level_ice
     const auto broken = sheet.break_off(crack_outline({0, 4}, {1, 0}, 4.0));
     REQUIRE(broken.pieces.size() == 1);
     const double lens = 0.5 * (2.0 * 16.0 * std::acos(0.5) - 2.0 * std::sqrt(64.0 - 16.0));
+    // the polygons lie in their circles: a side leaves out R^2 / 2 (a - sin a), a = 10 degrees, 18
+    // times of the half disc and 12 times of the lens, 0.3 % of their difference
     CHECK(area_of(broken.pieces[0]) == Approx(0.5 * kPi * 16.0 - lens).epsilon(0.03));
     CHECK(is_simple(sheet.loops()));
 }

@@ -40,6 +40,7 @@ TEST_CASE("a deep overlap opens at half a radius in a tenth of a second, at any 
     CAPTURE(size, dt);
     // as far as ten sweeps over the contacts of a face settle
     CHECK((apart() - before) / radius == Approx(0.5).epsilon(1e-3));
+    // from half a radius on the rest goes as exp(-t / 0.1 s): what is tolerated is left after 2 s
     while (w.time < 2.0) step(w);
     CHECK(size - apart() == Approx(kToleratedOverlap * radius).epsilon(0.05));
 }

@@ -136,8 +136,8 @@ TEST_CASE("white noise has the classical interval", "[record][analytic]") {
         ratio += m.half_width / classical / 50.0;
         samples += m.effective_samples / 2000.0 / 50.0;
     }
-    CHECK(ratio == Approx(1.0).epsilon(0.03));
-    CHECK(samples == Approx(1.0).epsilon(0.06));
+    CHECK(ratio == Approx(1.0).epsilon(0.03));    // 3 sqrt(1 / (2 * 111 * 50)), 50 series
+    CHECK(samples == Approx(1.0).epsilon(0.06));  // as the width's square: twice that
 }
 
 TEST_CASE("the correlation time of an autoregression is (1 + rho) / (1 - rho)",
@@ -149,7 +149,7 @@ TEST_CASE("the correlation time of an autoregression is (1 + rho) / (1 - rho)",
         double time = 0.0;
         for (int k = 0; k < 50; ++k)
             time += mean_interval(autoregression(random, 8000, rho)).correlation_time / 50.0;
-        // J = 8000 / (30 tau) ordinates each, 50 series: 5 % of scatter at the most
+        // J = 8000 / (30 tau) ordinates each, 50 series: 5 % of scatter at the most, three times
         CHECK(time == Approx(expected).epsilon(0.15));
     }
 }
@@ -248,7 +248,8 @@ TEST_CASE("a long series has the interval of its block means", "[record][propert
     const MeanInterval all = mean_interval(x), of_blocks = mean_interval(blocks);
     CHECK(all.half_width == Approx(of_blocks.half_width).epsilon(1e-9));
     CHECK(all.trend == Approx(of_blocks.trend).epsilon(1e-6));
-    // and it is not far from theory: S = 1 / (1 - rho)^2
+    // and it is not far from theory, S = 1 / (1 - rho)^2: blocks have tau = 19 / 5, so that
+    // J = 8192 / (30 tau) = 72, and 3 sqrt(1 / (2 J)) = 0.25
     CHECK(all.half_width == Approx(1.96 * 10.0 / std::sqrt(5.0 * 8192)).epsilon(0.3));
 }
 

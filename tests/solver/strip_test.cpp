@@ -143,7 +143,7 @@ TEST_CASE("a steep stem crushes a strip and never bends it", "[level_ice][strip]
     const double lean = std::sin(slope) + friction * std::cos(slope);
     const double met = (1.0 - wing) * std::sin(slope) + wing * std::cos(slope);
     CHECK(mean == Approx(1e6 * met * lean).epsilon(2e-3));
-    CHECK(mean == Approx(1e6 / std::sin(slope) * lean).epsilon(0.1));
+    CHECK(mean == Approx(1e6 / std::sin(slope) * lean).epsilon(0.1));  // 9 %: the wing
 }
 
 TEST_CASE("tiles and windows of a strip are its tip's", "[level_ice][strip]") {

@@ -117,6 +117,7 @@ TEST_CASE("a held piece breaks off in the step in which its load is reached",
     // one step's growth, and a row of spheres that comes in at once
     CHECK(now.along == Approx(load * along_share / down_share).epsilon(0.04));
     CHECK(before.along < load * along_share / down_share);
+    // half the product of the two, with the errors of both
     CHECK(work == Approx(0.5 * load * along_share / down_share * depth).epsilon(0.05));
     // all of it is booked as breaking
     CHECK(w.ledger.breaking == Approx(work).epsilon(1e-12));
