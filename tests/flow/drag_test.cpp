@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Drag in moving water: known answers, energy, bits.
 #include <catch2/catch.hpp>
-#include <cstring>
 #include <random>
 
 #include "solver/loads/load_floes.hpp"
@@ -11,9 +10,11 @@
 #include "tests/support/every_instruction_set.hpp"
 #include "tests/support/make_meshes.hpp"
 #include "tests/support/make_worlds.hpp"
+#include "tests/support/same_bits.hpp"
 
 using namespace ice;
 using test::Dice;
+using test::same_bits;
 
 namespace {
 
@@ -65,11 +66,6 @@ World floes_in_flow(const Case& p, std::size_t count, std::size_t forms, Dice& d
         if (k % 3 != 2) b.angular_velocity[i] = dice.vector();
     }
     return w;
-}
-
-bool same_bits(const std::vector<FloeLoad>& a, const std::vector<FloeLoad>& b) {
-    return a.size() == b.size() && std::memcmp(static_cast<const void*>(a.data()), b.data(),
-                                               a.size() * sizeof(FloeLoad)) == 0;
 }
 
 }  // namespace

@@ -12,8 +12,10 @@
 #include "tests/support/every_instruction_set.hpp"
 #include "tests/support/make_meshes.hpp"
 #include "tests/support/make_sphere_sets.hpp"
+#include "tests/support/same_bits.hpp"
 
 using namespace ice;
+using test::same_bits;
 
 namespace {
 
@@ -54,11 +56,6 @@ std::vector<Vec3> points_around(const WettedHull& hull, std::size_t count, unsig
         out.push_back(hull.low + s.cwiseProduct(hull.high - hull.low));
     }
     return out;
-}
-
-bool same_bits(const std::vector<FlowSample>& a, const std::vector<FlowSample>& b) {
-    return a.size() == b.size() && std::memcmp(static_cast<const void*>(a.data()), b.data(),
-                                               a.size() * sizeof(FlowSample)) == 0;
 }
 
 }  // namespace

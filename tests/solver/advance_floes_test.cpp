@@ -3,12 +3,12 @@
 #include "solver/integrate/advance_floes.hpp"
 
 #include <catch2/catch.hpp>
-#include <cstring>
 #include <random>
 
 #include "solver/integrate/rotation.hpp"
 #include "tests/support/dice.hpp"
 #include "tests/support/every_instruction_set.hpp"
+#include "tests/support/same_bits.hpp"
 
 using namespace ice;
 
@@ -60,11 +60,7 @@ struct Floes {
     static constexpr double kStep = 0.01;  // [s]
 };
 
-template <class T>
-bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
-    return a.size() == b.size() &&
-           std::memcmp(static_cast<const void*>(a.data()), b.data(), a.size() * sizeof(T)) == 0;
-}
+using test::same_bits;
 bool same_bits(const Bodies& a, const Bodies& b) {
     return same_bits(a.position, b.position) && same_bits(a.orientation, b.orientation) &&
            same_bits(a.momentum, b.momentum) && same_bits(a.angular_momentum, b.angular_momentum) &&

@@ -3,15 +3,16 @@
 #include "solver/loads/load_floes.hpp"
 
 #include <catch2/catch.hpp>
-#include <cstring>
 #include <random>
 
 #include "tests/support/dice.hpp"
 #include "tests/support/every_instruction_set.hpp"
 #include "tests/support/make_meshes.hpp"
 #include "tests/support/make_worlds.hpp"
+#include "tests/support/same_bits.hpp"
 
 using namespace ice;
+using test::same_bits;
 
 namespace {
 
@@ -40,11 +41,6 @@ World make_floes(const Case& p, std::size_t count, std::size_t forms, Dice& dice
         if (k % 3 != 2) b.angular_velocity[i] = dice.vector();
     }
     return w;
-}
-
-bool same_bits(const std::vector<FloeLoad>& a, const std::vector<FloeLoad>& b) {
-    return a.size() == b.size() && std::memcmp(static_cast<const void*>(a.data()), b.data(),
-                                               a.size() * sizeof(FloeLoad)) == 0;
 }
 
 void check_bits(const World& w, const std::vector<std::int32_t>& floes) {

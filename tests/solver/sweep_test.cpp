@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <numeric>
 #include <random>
@@ -13,18 +12,14 @@
 #include "solver/contact/conjugate_gradient.hpp"
 #include "tests/support/contact_problem.hpp"
 #include "tests/support/every_instruction_set.hpp"
+#include "tests/support/same_bits.hpp"
 
 using namespace ice;
 using test::ContactProblem;
 using test::make_bodies;
+using test::same_bits;
 
 namespace {
-
-template <class T>
-bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
-    return a.size() == b.size() &&
-           (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
-}
 
 std::vector<RowImpulses> impulses_of(const ContactRows& contacts) {
     std::vector<RowImpulses> out;

@@ -2,7 +2,6 @@
 // Sums over wetted surfaces: bits on every instruction set, fill without weight, a slow twin.
 #include <array>
 #include <catch2/catch.hpp>
-#include <cstring>
 #include <random>
 
 #include "solver/water/drag.hpp"
@@ -11,8 +10,10 @@
 #include "tests/support/dice.hpp"
 #include "tests/support/every_instruction_set.hpp"
 #include "tests/support/make_sphere_sets.hpp"
+#include "tests/support/same_bits.hpp"
 
 using namespace ice;
+using test::same_bits;
 
 namespace {
 
@@ -36,10 +37,6 @@ std::vector<Facet> loose_facets(std::size_t count, Dice& dice) {
 template <class T>
 void append(const T& from, std::vector<double>& to) {
     for (int k = 0; k < from.size(); ++k) to.push_back(from[k]);
-}
-
-bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
-    return a.size() == b.size() && std::memcmp(a.data(), b.data(), 8 * a.size()) == 0;
 }
 
 // All that the kernels say of these facets.

@@ -3,7 +3,6 @@
 /// command line.
 #pragma once
 
-#include <bit>
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
@@ -13,6 +12,7 @@
 
 #include "common/formats/hdf5_file.hpp"
 #include "common/formats/summary_file.hpp"
+#include "tests/support/same_bits.hpp"
 
 namespace ice::test {
 
@@ -21,13 +21,6 @@ inline std::string bytes_of(const std::filesystem::path& path) {
     std::stringstream text;
     text << in.rdbuf();
     return text.str();
-}
-
-/// NaN equals NaN and -0 differs from 0: the comparison is of bits.
-inline bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](double x, double y) {
-        return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y);
-    });
 }
 
 /// All growing datasets of run.h5 (run_file.hpp lists them).
@@ -71,7 +64,7 @@ inline void check_same_summary(const std::filesystem::path& expected,
     CHECK(a.size() == b.size());
     for (const auto& [key, value] : a) {
         CAPTURE(key);
-        CHECK(same_bits({value}, {b.at(key)}));
+        CHECK(same_bits<double>({value}, {b.at(key)}));
     }
     const Summary s = read_summary(expected), t = read_summary(actual);
     CHECK(s.state_hash == t.state_hash);
