@@ -35,6 +35,20 @@ float reach_of(const SphereBlocks& others, const SearchRange& range) {
                       others.largest_tangent_extent + range.across);
 }
 
+// Spheres of a body, picked at their places before any crushing, go to their present places.
+void move_crushed(const CrushedIce& crushed, std::int32_t body, const Shape& shape,
+                  const Mat3& turn, const Vec3& shift, NearSpheres& picked) {
+    if (crushed.is_whole(body)) return;
+    for (std::size_t k = 0; k < picked.count; ++k) {
+        const Vec3 move = crushed.displacement_of(body, picked.id[k]);
+        if (move.isZero(0.0)) continue;
+        const Vec3 at = turn * (shape.center[picked.id[k]] + move) + shift;
+        picked.x[k] = static_cast<float>(at.x());
+        picked.y[k] = static_cast<float>(at.y());
+        picked.z[k] = static_cast<float>(at.z());
+    }
+}
+
 }  // namespace
 
 FloatPose to_floats(const Mat3& turn, const Vec3& shift) {
@@ -57,11 +71,11 @@ void PairSearch::pick(const PairView& view, double along, double across,
         few_a ? view.translation_ab : Vec3(-(view.rotation_ab.transpose() * view.translation_ab));
     const Mat3 back = turn.transpose();
 
-    // Floats round with the extent of the numbers, and crushed spheres lie elsewhere than their
-    // groups: both widen the range, so no pair of spheres is missed.
+    // Floats round with the extent of the numbers, and groups hold the places before any crushing:
+    // both widen the range in which spheres are picked, so none is missed.
     const double extent = 2.0 * (few.size + 2.0 * many.size) + shift.norm();
-    const double slack = static_cast<double>(SphereBlocks::kFloatShare) * extent +
-                         view.scene.crushed.deepest_of(view.pair.a) +
+    const double rounding = static_cast<double>(SphereBlocks::kFloatShare) * extent;
+    const double slack = rounding + view.scene.crushed.deepest_of(view.pair.a) +
                          view.scene.crushed.deepest_of(view.pair.b);
     range_ = {static_cast<float>(along + slack), static_cast<float>(across + slack)};
 
@@ -77,6 +91,14 @@ void PairSearch::pick(const PairView& view, double along, double across,
     find_groups(few, many_.box, few.largest_own + reach_few, groups_);
     pick_spheres(few, groups_, to_floats(Mat3::Identity(), Vec3::Zero()), many_.box, reach_few,
                  few_);
+    // Those picked are compared at their present places. One deeply crushed sphere would else list
+    // every sphere of its body with all within that depth.
+    move_crushed(view.scene.crushed, few_a ? view.pair.b : view.pair.a,
+                 few_a ? view.shape_b : view.shape_a, turn, shift, many_);
+    move_crushed(view.scene.crushed, few_a ? view.pair.a : view.pair.b,
+                 few_a ? view.shape_a : view.shape_b, Mat3::Identity(), Vec3::Zero(), few_);
+    range_ = {static_cast<float>(along + rounding), static_cast<float>(across + rounding)};
+    reach_ = reach_of(few, range_);
 }
 
 const NearSpheres& PairSearch::partners_of(std::size_t first, std::size_t last) {

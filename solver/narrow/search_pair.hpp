@@ -15,7 +15,8 @@ FloatPose to_floats(const Mat3& turn, const Vec3& shift);
 ///
 /// Picks the groups, then the spheres of the body with more spheres that are near the other body's
 /// box; of that body the spheres near the picked ones; and compares these all with all. Crushed
-/// spheres are searched at their places before the crushing, in a range wider by its depth.
+/// spheres are picked at their places before the crushing, in a range wider by its depth, and
+/// compared at their present ones.
 class PairSearch {
 public:
     /// Calls visit(i, j) for all spheres i of a and j of b with
@@ -23,7 +24,7 @@ public:
     ///     |c_i - c_j|^2 <= (apex_i + apex_j + along)^2 + (tangent_i + tangent_j + across)^2,
     ///
     /// with apex_distance and tangent_extent of NormalCone, and for some that are farther by
-    /// rounding to floats or by crushing. A sphere of the body with fewer spheres comes with all
+    /// rounding to floats. A sphere of the body with fewer spheres comes with all
     /// its partners at once.
     /// @param blocks  the shapes' spheres; in `balls` apex_distance is the radius, tangent_extent 0
     template <class Visit>
