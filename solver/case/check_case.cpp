@@ -73,14 +73,18 @@ void check_bending(const Case& checked, std::size_t groups, const Complaints& co
     if (checked.has_level_ice()) check("level_ice.thickness", "level_ice.thickness");
 }
 
-void check_level_ice(const Case& checked, const Values& values, const Complaints& complaints) {
+void check_level_ice(const Case& checked, const Complaints& complaints) {
     if (!checked.has_level_ice()) return;
     const auto& [from, to, starboard, port] = checked.level_ice.extent;
-    for (const std::string key : {"level_ice.length_factor", "level_ice.speed_factor"})
-        if (checked.dimension == 2 && values.contains(key))
+    // the defaults stand among the values, so a default that was given is not seen
+    const auto is_given = [&](const std::string& key, double LevelIce::*value) {
+        if (checked.dimension == 2 && checked.level_ice.*value != LevelIce{}.*value)
             complaints.add_at(key, key +
                                        " is for cases of dimension 3; in 2D the length of a piece "
                                        "is that of a beam: leave it out");
+    };
+    is_given("level_ice.length_factor", &LevelIce::length_factor);
+    is_given("level_ice.speed_factor", &LevelIce::speed_factor);
     if (!(from < to) || (checked.dimension == 3 && !(starboard < port)))
         complaints.add_at("level_ice.extent",
                           "level_ice.extent is empty: give smallest and largest x, then smallest "
@@ -102,7 +106,7 @@ void check_case(Case& checked, std::size_t groups, const Values& values,
         check_group(checked.floes[g], g, checked.dimension, values, complaints);
     take_drift(checked, groups, values, complaints);
     check_bending(checked, groups, complaints);
-    check_level_ice(checked, values, complaints);
+    check_level_ice(checked, complaints);
     if (checked.average_from >= checked.duration)
         complaints.add_at("output.average_from",
                           "output.average_from is not before the end (simulation.duration)");

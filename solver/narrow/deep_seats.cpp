@@ -83,9 +83,8 @@ void for_each_seat(const PairView& view, const Side& side, const Visit& visit) {
     const SphereBlocks& blocks = side.of.blocks;
     const Eigen::AlignedBox3d box = box_of_solid(side);
     // The groups' boxes hold centres of spheres, as floats and before any crushing. The reach adds
-    // the sphere's extent, the crushed depth and the rounding.
-    const double reach = static_cast<double>(blocks.largest_normal_extent) +
-                         view.scene.crushed.deepest_of(side.body) +
+    // the radius, at which a seat lies, the crushed depth and the rounding.
+    const double reach = side.of.largest_radius + view.scene.crushed.deepest_of(side.body) +
                          static_cast<double>(SphereBlocks::kFloatShare * blocks.size);
     const bool whole = view.scene.crushed.is_whole(side.body);
     for (std::size_t g = 0; g < blocks.group_count; ++g) {
