@@ -89,7 +89,8 @@ void declare(CLI::App& app, Options& o) {
     app.add_option("--mirror", o.mirror, "y: the file holds one half of the hull")
         ->check(CLI::IsMember({"y"}));
     app.add_option("--draught", o.draught,
-                   "Water over the lowest point, in m or with a unit: judges the ice belt")
+                   "Height of the water over the mesh's lowest point, in m or with a unit; adds a "
+                   "report on the ice belt")
         ->transform(length);
     app.add_option("--ice-thickness", o.ice_thickness,
                    "Ice thickness of that belt, in m or with a unit (a tenth of the draught)")

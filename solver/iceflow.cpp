@@ -47,7 +47,7 @@ void declare(CLI::App& app, Options& o) {
         ->type_name("T")
         ->transform(length("1.44"));
     app.add_option("--panel", o.panel,
-                   "Longest edge of a source panel (default: a 15th of the length; 2D: a 100th)")
+                   "Longest edge of a source panel (default: length / 15; in 2D length / 100)")
         ->type_name("H")
         ->transform(length("0.5"));
     app.add_option("--spacing", o.spacing,

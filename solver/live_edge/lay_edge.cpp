@@ -112,9 +112,10 @@ void LiveEdge::add_slots(Scene& scene, const Case& p) {
     if (std::optional<Shape> shape = shape_of(square, prism_form(p), is_strip_))
         empty_ = std::move(*shape);
     else
-        throw bad_input(p.file.string() + ": level_ice.spacing",
-                        "no contact sphere fits into ice of that thickness",
-                        "leave it out, or make it smaller");
+        throw bad_input(
+            p.file.string() + ": level_ice.spacing",
+            "no contact sphere fits into ice of that thickness",
+            fmt::format("give a spacing of at most half the thickness, {:.3g} m", half));
     const double height = (0.5 - share_) * thickness_;
     first_ = scene.bodies.size();
     slots_.resize(static_cast<std::size_t>(std::ceil(pieces + tiles)));

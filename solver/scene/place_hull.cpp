@@ -55,7 +55,7 @@ Vec3 place_hull(const Case& parameters, const TriangleMesh& hull) {
                    : fmt::format("z = {:.4g} m gives a draught of {:.4g} m", place.z(), draught);
     if (draught >= depth)
         throw bad_input(where, given + ": the hull would lie wholly under water; " + mesh, remedy);
-    throw bad_input(where, given + ": the hull would glide over the ice; " + mesh, remedy);
+    throw bad_input(where, given + ": the hull would lie above the water; " + mesh, remedy);
 }
 
 }  // namespace ice
