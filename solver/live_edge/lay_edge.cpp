@@ -46,7 +46,8 @@ constexpr double kParked = 1000.0;
 // which take memory only; with more, pieces leave the scene early for want of a slot.
 constexpr double kCover = 0.25;
 
-// Length of the parts in which the rest of the sheet is drawn, in radii. Only pictures depend on it.
+// Length of the parts in which the rest of the sheet is drawn, in radii. Only pictures depend on
+// it.
 constexpr double kRestLength = 8.0;
 
 constexpr double kNever = std::numeric_limits<double>::infinity();

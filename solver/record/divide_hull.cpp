@@ -19,8 +19,8 @@ constexpr double kSmall = 0.5;
 // within two sizes. Grid cells side by side have centres one size apart, or 1.4 across a corner.
 constexpr double kSameSide = 0.5, kNeighbours = 2.0;
 
-// Least area of a sphere's share, of a panel: spheres without area have a place, too, and no mean is
-// divided by 0.
+// Least area of a sphere's share, of a panel: spheres without area have a place, too, and no mean
+// is divided by 0.
 constexpr double kLeastShare = 1e-9;
 
 // region; axis that the normal points along most; its sign; cell along the other two axes

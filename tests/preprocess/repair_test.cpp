@@ -212,8 +212,8 @@ TEST_CASE("a missing stem is refused, however little volume it had", "[repair][e
     const TriangleMesh blunt = without(spindle, [](const Vec3& p) { return p.x() > 7.85; });
     CHECK_THROWS_WITH(repair(blunt),
                       Catch::Contains("opening of") && Catch::Contains("too large to guess"));
-    // The same opening amidships is closed, and said. A flat cap loses less than 1.4 x 0.4 x 0.02 m3,
-    // 0.03 % of the spindle's 33.5 m3; 1 % tells it from a cap that bulges or sags.
+    // The same opening amidships is closed, and said. A flat cap loses less than 1.4 x 0.4 x 0.02
+    // m3, 0.03 % of the spindle's 33.5 m3; 1 % tells it from a cap that bulges or sags.
     const TriangleMesh holed =
         without(spindle, [](const Vec3& p) { return p.z() > 0.98 && std::abs(p.x()) < 0.7; });
     CHECK(repair(holed).volume == Approx(measure_mass(spindle).volume).epsilon(0.01));
