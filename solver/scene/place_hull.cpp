@@ -28,6 +28,7 @@ std::pair<double, double> heights_of(const TriangleMesh& mesh) {
 Vec3 hull_place(const Case& parameters, const TriangleMesh& hull) {
     Vec3 place = parameters.hull_position;
     if (!std::isnan(parameters.hull_draught))
+        // The keel comes to z = -draught, wherever the mesh has its origin.
         place.z() = -heights_of(hull).first - parameters.hull_draught;
     return place;
 }
