@@ -31,6 +31,8 @@ namespace {
 
 using Options = ice::PostOptions;
 
+// Own coefficients and a strength, by which formulas are evaluated anew: a run's summary has the
+// values of the program that made it.
 ice::FormulaOptions formula_options(const Options& o) {
     ice::FormulaOptions out;
     if (!o.coefficients.empty()) out.spencer = ice::read_coefficients(o.coefficients);
@@ -47,6 +49,7 @@ ice::sweep::Sweep read_evaluated(const Options& o) {
     return runs;
 }
 
+// In all commands names of outputs are checked first: reading a run takes seconds.
 int report(const Options& o) {
     ice::check_page_name(o.out);
     const auto formulas = formula_options(o);
@@ -81,6 +84,7 @@ int plot(const Options& o) {
     return 0;
 }
 
+// Summaries alone: a table of many runs reads no poses.
 int compare_runs(const Options& o) {
     std::vector<ice::report::NamedSummary> runs;
     for (const std::string& run : o.runs)
@@ -105,6 +109,7 @@ void write_sweep_curves(const Options& o, const ice::sweep::Sweep& runs) {
         ice::say(fmt::format("wrote {}", file.string()));
         drawn = true;
     }
+    // A curve was asked for by name, so its absence is an error; the page says it in a sentence.
     if (!drawn)
         throw ice::bad_input(o.run.string(), "has no curve to draw: " + o.svg.string(),
                              "leave out --svg, or let one or two numbers vary");
@@ -129,6 +134,7 @@ int fit(const Options& o) {
     const auto points =
         ice::fit::fit_points(runs, ice::sweep::make_points(runs), o.flexural_strength);
     auto fitted = ice::fit::fit_spencer(points);
+    // The name appears in the legends of all charts that use the file.
     fitted.coefficients.name = !o.name.empty() ? o.name : runs.title;
     const auto file = o.out.empty() ? o.run / "coefficients.toml" : o.out;
     ice::write_text_file(
@@ -179,6 +185,8 @@ int sensitivity(const Options& o) {
 int paraview(const Options& o) {
     const auto run = ice::read::read_run_folder(o.run);
     const auto folder = o.out.empty() ? run.path / "paraview" : o.out;
+    // The hull's load is a mean over the averaged time; a killed run has no summary and is averaged
+    // whole.
     const double load_from = run.summary ? run.summary->average_from : 0.0;
     const std::size_t count =
         ice::paraview::write_paraview(run.data, folder, {o.every, o.points_only, load_from});
@@ -194,6 +202,7 @@ int check(const Options& o) {
     ice::write_data(ice::check::verdict_table(verdicts));
     if (!o.junit.empty())
         ice::write_text_file(o.junit, ice::check::junit_text(verdicts, o.run.string()));
+    // Exit code 1 for numbers that miss, 2 for a file that cannot be read: scripts tell them apart.
     return ice::check::all_passed(verdicts) ? 0 : static_cast<int>(ice::ExitCode::failed);
 }
 

@@ -73,6 +73,7 @@ std::string report_text(const ice::FieldReport& r, const ice::Field& field,
 }
 
 int run_icefield(const Options& o, const std::string& command_line) {
+    // Questions about keys need no specification and no threads.
     if (!o.explain.empty()) {
         ice::write_data(ice::explain_key(ice::field_schema(), o.explain));
         return 0;
@@ -92,6 +93,8 @@ int run_icefield(const Options& o, const std::string& command_line) {
     const ice::FieldSpec spec = ice::read_field_spec(o.spec, overrides);
     const std::string out =
         o.out.empty() ? std::filesystem::path(o.spec).stem().string() + ".h5" : o.out;
+    // After the specification, which may name a file of polygons that no output may replace, and
+    // before the work, which may take minutes.
     check_outputs(o, spec, out);
 
     const ice::Timer timer;

@@ -51,6 +51,8 @@ struct Options {
 
 // Puts the unit's length in metres in place of its name.
 std::string metres_per_unit(std::string& text) {
+    // The units of lengths are those of all options; km is no unit of meshes, and more likely a
+    // slip.
     const auto unit = ice::parse_quantity("1 " + text, ice::Dimension::length);
     if (!unit || !unit->has_unit || text == "km") return text + " is none of mm, cm, m, ft, in";
     text = fmt::format("{}", unit->value);
@@ -89,7 +91,8 @@ void declare(CLI::App& app, Options& o) {
     app.add_option("--mirror", o.mirror, "y: the file holds one half of the hull")
         ->check(CLI::IsMember({"y"}));
     app.add_option("--draught", o.draught,
-                   "Water over the lowest point, in m or with a unit: judges the ice belt")
+                   "Height of the water over the mesh's lowest point, in m or with a unit; adds a "
+                   "report on the ice belt")
         ->transform(length);
     app.add_option("--ice-thickness", o.ice_thickness,
                    "Ice thickness of that belt, in m or with a unit (a tenth of the draught)")
@@ -115,6 +118,7 @@ void warn_half_hull(const ice::HalfHull& half, ice::SpheresReport& report) {
 }
 
 ice::TriangleMesh read_surface(const Options& o, ice::SpheresReport& report) {
+    // Before the reader, which takes a file that was cut off for a smaller mesh.
     ice::refuse_short_file(o.mesh);
     ice::ReadNotes notes;
     ice::TriangleMesh mesh = ice::read_mesh(o.mesh, o.read, &notes);
@@ -133,9 +137,12 @@ ice::TriangleMesh read_solid(const Options& o, ice::TriangleMesh surface,
     options.mode = o.repair == "strict" ? ice::RepairMode::strict
                    : o.repair == "wrap" ? ice::RepairMode::wrap
                                         : ice::RepairMode::automatic;
+    // Repairs are measured against the radius: what is finer than a sphere changes no contact.
     options.radius = o.fill.radius;
     options.suspect = ice::looks_cut_off(o.mesh);
     if (!options.suspect.empty()) report.warnings.push_back(options.suspect);
+    // Looked at twice: of the surface, which make_solid takes over, in case it is refused, and of
+    // the solid, which may have been mirrored.
     const ice::HalfHull half = ice::looks_like_half_hull(surface);
     ice::TriangleMesh mesh;
     try {
@@ -251,6 +258,8 @@ int run_spherize(Options& o, const std::string& command_line) {
     if (o.check) return report_check(o, report);
     ice::TriangleMesh surface = read_surface(o, report);
     report.seconds["read"] = timer.seconds();
+    // With a wrong unit the mesh is a thousand times too small or too large: seen here, before the
+    // repair, which can take minutes.
     ice::refuse_thin_mesh(o.mesh, surface, o.fill.radius, o.slice.empty() ? 3 : 2);
     tell_progress(o.fill);
     const ice::TriangleMesh mesh = read_solid(o, surface, report);
@@ -266,8 +275,10 @@ int run_spherize(Options& o, const std::string& command_line) {
     set.source_sha256 = ice::file_sha256(source);
     set.created_by = fmt::format("spherize {} ({})", ice::version(), ice::git_commit());
     set.command_line = report.command_line = command_line;
+    // Last of all measures, as it turns them into warnings.
     ice::judge_spheres(set, report);
     const auto export_base = std::filesystem::path(out).replace_extension();
+    // Refused before anything is written, so that no run leaves half of its files.
     ice::check_exports(set, o.exports, export_base);
     const double density = o.density.value_or(kIceDensity);
     if (!o.density && std::any_of(o.exports.begin(), o.exports.end(), ice::has_mass))

@@ -47,7 +47,7 @@ void declare(CLI::App& app, Options& o) {
         ->type_name("T")
         ->transform(length("1.44"));
     app.add_option("--panel", o.panel,
-                   "Longest edge of a source panel (default: a 15th of the length; 2D: a 100th)")
+                   "Longest edge of a source panel (default: length / 15; in 2D length / 100)")
         ->type_name("H")
         ->transform(length("0.5"));
     app.add_option("--spacing", o.spacing,
@@ -85,6 +85,7 @@ void declare(CLI::App& app, Options& o) {
 
 std::filesystem::path output_of(const Options& o) {
     if (!o.out.empty()) return o.out;
+    // hull.spheres.h5 and hull.h5 both give hull.flow.h5.
     std::filesystem::path stem = std::filesystem::path(o.hull).stem();
     if (stem.extension() == ".spheres") stem = stem.stem();
     return stem.string() + ".flow.h5";
@@ -134,6 +135,7 @@ ice::FlowReport report_of(const ice::HullFlow& flow, int dimension) {
 
 void add_added_mass(const Options& o, const ice::SphereSet& hull, double water,
                     ice::FlowReport& r) {
+    // A section has three motions, and masses per metre of breadth.
     if (hull.dimension != 3)
         throw ice::bad_input("--added-mass", "needs a hull in 3D",
                              "give the set of the whole hull");
@@ -151,6 +153,7 @@ void add_added_mass(const Options& o, const ice::SphereSet& hull, double water,
     r.displacement = mass.displacement;
     r.water_density = o.density;
     r.added_mass.emplace();
+    // Order of the six motions: surge, sway, heave, roll, pitch, yaw.
     for (std::size_t i = 0; i < 6; ++i)
         for (std::size_t j = 0; j < 6; ++j)
             (*r.added_mass)[i][j] = mass.matrix(static_cast<int>(i), static_cast<int>(j));
@@ -203,6 +206,7 @@ int run_iceflow(const Options& o, const std::string& command_line) {
     files.add("--json", o.json);
     ice::SphereSet hull = ice::read_spheres(o.hull);
     if (!o.left_out.empty()) hull.mesh = ice::without_regions(hull.mesh, o.left_out);
+    // A check solves the panels alone, unless an export needs the table.
     ice::FlowOptions options{water_of(o, hull), o.panel, o.spacing, 0.0};
     options.table = !o.check || !o.exports.empty();
     ice::HullFlow flow = ice::make_hull_flow(hull.mesh, hull.dimension, options);

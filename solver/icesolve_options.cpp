@@ -15,7 +15,8 @@ namespace {
 void declare_new(CLI::App& app, Options& o) {
     auto* fresh = app.add_option("--new", o.fresh,
                                  "Write a commented case for a hull (mesh or sphere set) and an "
-                                 "ice field (.h5, or specification .toml), and what they lack")
+                                 "ice field (.h5 or .toml); make the sphere set of a mesh and the "
+                                 "field of a specification first")
                       ->type_name("HULL [FIELD]")
                       ->expected(1, 2);
     for (const char* of_run : {"--set", "--out", "--seeds", "--restart"})  // --new runs nothing
@@ -64,8 +65,8 @@ void declare_options(CLI::App& app, Options& o) {
     declare_version(app);
     app.add_option("case", o.case_file, "Case file (TOML)");
     app.add_option("--out", o.out,
-                   "Run folder (default results/<stem of the case file, or its folder where the "
-                   "file is called case.cfg>)");
+                   "Run folder (default results/NAME: the case file's stem, or the name of its "
+                   "folder for case.cfg)");
     app.add_flag("--overwrite", o.overwrite,
                  "Replace a run that the run folder holds; other files in it stay");
     app.add_option("--set", o.overrides, "key=value, replaces a key of the case; repeatable")
@@ -79,9 +80,10 @@ void declare_options(CLI::App& app, Options& o) {
                    "Write checkpoint.h5 in the run folder every T simulated seconds and at the end")
         ->type_name("T")
         ->transform(positive_quantity(Dimension::time, "2.5"));
-    app.add_option("--autosave", o.autosave,
-                   "Without --checkpoint-every: write it after every T of work, 5 min by default, "
-                   "and remove it when the run ends")
+    app.add_option(
+           "--autosave", o.autosave,
+           "Write checkpoint.h5 every T of computing time (default 5 min) and delete it when "
+           "the run completes; not with --checkpoint-every")
         ->type_name("T")
         ->transform(positive_quantity(Dimension::time, "5 min"))
         ->excludes(app.get_option("--checkpoint-every"));

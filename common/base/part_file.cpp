@@ -19,7 +19,9 @@ namespace ice {
 bool bring_to_disk(const std::filesystem::path& path) {
     const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
     if (file < 0) return false;
+    // Some file systems know no fsync (EINVAL): what they take is as safe as it gets.
     const bool good = ::fsync(file) == 0 || errno == EINVAL;
+    // close() may change it.
     const int reason = errno;
     ::close(file);
     errno = reason;

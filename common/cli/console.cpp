@@ -54,11 +54,14 @@ static_assert(std::atomic<std::int64_t>::is_always_lock_free);
 constexpr std::int64_t kOneInterrupt = 500'000'000;  // [ns]
 
 void on_interrupt(int signal) {
+    // A handler interrupts code between a failed call and its look at errno.
     const int before = errno;
     timespec now{};
     clock_gettime(CLOCK_MONOTONIC, &now);
     const std::int64_t time = now.tv_sec * std::int64_t{1'000'000'000} + now.tv_nsec;
     const pid_t child = waited_for;
+    // The first interrupt asks for an end with all files closed; a second one, which is not an echo
+    // of the first, does not wait for it.
     if (interrupt_flag == 0) {
         interrupted_at = time;
         interrupt_flag = 1;
@@ -73,12 +76,14 @@ void on_interrupt(int signal) {
 }  // namespace
 
 bool stderr_is_terminal() {
+    // A redrawn line is a mess in a log: every sign that nobody watches counts.
     const char* kind = std::getenv("TERM");
     return isatty(STDERR_FILENO) == 1 && std::getenv("CI") == nullptr && kind != nullptr &&
            std::strcmp(kind, "dumb") != 0;
 }
 
 int terminal_width() {
+    // The terminal's own word comes first: COLUMNS keeps its old value when a window is resized.
     winsize size{};
     if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) return size.ws_col;
     const char* columns = std::getenv("COLUMNS");
@@ -92,6 +97,7 @@ void start_messages(Colour colour, bool quiet) {
         (colour == Colour::automatic && stderr_is_terminal() && std::getenv("NO_COLOR") == nullptr);
     auto sink = std::make_shared<spdlog::sinks::stderr_color_sink_mt>(
         colourful ? spdlog::color_mode::always : spdlog::color_mode::never);
+    // The level is the sink's, not the logger's: a log file has all messages also with --quiet.
     sink->set_level(quiet ? spdlog::level::err : spdlog::level::info);
     auto logger = std::make_shared<spdlog::logger>("ice", sink);
     logger->set_pattern("%^%v%$");
@@ -103,6 +109,7 @@ void log_to_file(const std::filesystem::path& path, bool append) {
         auto sink = std::make_shared<spdlog::sinks::basic_file_sink_mt>(path.string(), !append);
         sink->set_pattern("%Y-%m-%d %H:%M:%S  %v");
         spdlog::default_logger()->sinks().push_back(sink);
+        // Each line at once: a log is read while the run goes on, and after it was killed.
         spdlog::default_logger()->flush_on(spdlog::level::info);
     } catch (const spdlog::spdlog_ex&) {
         throw run_failed(path.string(), "cannot be written",
@@ -136,6 +143,8 @@ int run_program(const std::string& name, const std::function<int()>& body,
         }
     };
     try {
+        // Buffered data fail as late as here: without this flush a full disk would be no error at
+        // all.
         const int code = body();
         if (!reader_gone && (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)) check_stdout();
         return code;

@@ -21,6 +21,7 @@ const char* const kOutOfMemory =
 
 namespace {
 
+// A plain array: a signal handler may not allocate, and std::string may.
 char program_name[64] = "";
 
 void write_text(const char* text) {
@@ -28,6 +29,8 @@ void write_text(const char* text) {
 }
 
 [[noreturn]] void end(const char* text, ExitCode code) {
+    // write() and _exit() alone: this also runs in a signal handler, or when memory or the heap
+    // itself is at its end, where printf, exit and destructors are not safe.
     write_text(program_name);
     write_text(": error: ");
     write_text(text);
@@ -59,9 +62,13 @@ void install_fault_handlers(const std::string& program) {
     const std::size_t length = std::min(program.size(), sizeof(program_name) - 1);
     program.copy(program_name, length);
     program_name[length] = '\0';
+    // terminate is reached by exceptions that leave a thread or a destructor, which run_program
+    // cannot catch.
     std::set_terminate(on_terminate);
     std::signal(SIGINT, on_signal);
     std::signal(SIGTERM, on_signal);
+    // A file over the limit of ulimit -f, and a pipe without a reader, then are errors of the write
+    // call, which names the file.
     std::signal(SIGXFSZ, SIG_IGN);
     std::signal(SIGPIPE, SIG_IGN);
 }

@@ -30,6 +30,7 @@ struct Flat {
 };
 template <>
 struct Flat<std::uint64_t> {
+    // The file's integers are signed: the bits are kept, not the number.
     using Base = std::int64_t;
     static constexpr std::uint64_t width = 1;
     static void put(std::uint64_t value, Base* out) { *out = std::bit_cast<Base>(value); }
@@ -47,6 +48,7 @@ struct Flat<Eigen::Quaterniond> {
     using Base = double;
     static constexpr std::uint64_t width = 4;
     static void put(const Eigen::Quaterniond& q, Base* out) {
+        // w first, as in all files of the project; Eigen stores it last.
         out[0] = q.w();
         out[1] = q.x();
         out[2] = q.y();
@@ -87,6 +89,7 @@ void CheckpointFile::Parts::create() {
 }
 
 void CheckpointFile::Parts::open() {
+    // The order is from the cheapest test to the most particular: bytes, kind of file, version.
     check_seal(path);
     file = std::make_unique<Hdf5File>(path, Hdf5File::Mode::read);
     if (!file->has_attribute("/", "format") ||
@@ -152,6 +155,8 @@ void CheckpointFile::carry(const std::string& name, std::string& text) {
 
 void CheckpointFile::finish() {
     if (reading()) return;
+    // The seal covers the closed file, and the name is given last: a program that is killed at any
+    // point leaves the old checkpoint or a complete new one.
     parts_->file->close();
     add_seal(parts_->part->path());
     parts_->part->keep();

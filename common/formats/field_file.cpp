@@ -33,6 +33,7 @@ void add_shape(const SphereSet& set, FieldArrays& all) {
     append(all.center, flatten<double>(set.centers));
     append(all.share_volume, set.volumes);
     append(all.share_area, set.areas);
+    // As in a sphere set: single precision is enough for a direction.
     append(all.normal, flatten<float>(set.normals));
     all.spread.insert(all.spread.end(), set.normal_spread.begin(), set.normal_spread.end());
     for (const CreaseNormal& crease : set.creases) {
@@ -52,6 +53,7 @@ void write_rows_of(Hdf5File& file, const std::string& name, const std::vector<T>
 }
 
 void write_field_arrays(Hdf5File& file, const FieldArrays& all) {
+    // The paths of the datasets are the format (field_file.hpp).
     for (const char* group : {"/shape", "/sphere", "/surface", "/crease", "/mesh"})
         file.create_group(group);
     file.write("/shape/spheres", all.spheres);

@@ -15,6 +15,7 @@ namespace {
 
 constexpr const char* kFlowFormat = "icesolve-flow";
 constexpr std::int64_t kFlowVersion = 1;
+// Bounds on what a damaged or hostile file may ask for. Flows of some 300 000 nodes are usual.
 constexpr std::uint64_t kMostTimesFlow = 16;  // memory over file size; arrays are not compressed
 constexpr std::uint64_t kMostAlong = 100000;  // nodes along an axis
 constexpr double kSurface = 1e-6;  // of the spacing: how near to z = 0 the topmost nodes lie
@@ -43,6 +44,7 @@ public:
                   "has too few or too many nodes");
             out.nodes[axis] = static_cast<std::int64_t>(n);
         }
+        // Single precision, in the units of reference_speed: a step interpolates w / U.
         out.velocity = finite("/velocity", 3 * out.size());
         out.potential = finite("/potential", out.size());
         const auto origin = file_.read_number_attribute("/", "origin");
@@ -83,6 +85,7 @@ private:
     }
     void read_rest(FlowTable& out) const {
         out.symmetric = number("symmetric") != 0.0;
+        // Half a flow is mirrored in y = 0 when it is looked up: its nodes must begin there.
         check(!out.symmetric || std::abs(out.origin.y()) <= kSurface * out.spacing, "origin",
               "of a symmetric flow is not at y = 0");
         out.draught = number("draught");
@@ -119,6 +122,7 @@ void write_flow(const std::filesystem::path& path, const FlowTable& table) {
         const auto n = [&](std::size_t axis) {
             return static_cast<std::uint64_t>(table.nodes[axis]);
         };
+        // x runs fastest, as in VTK's images: index ((iz ny + iy) nx + ix).
         file.write("/velocity", table.velocity.data(), {n(2), n(1), n(0), 3});
         file.write("/potential", table.potential.data(), {n(2), n(1), n(0)});
     });

@@ -126,6 +126,8 @@ void Hdf5File::write_rows(const std::string& name, const T* rows,
 }
 
 void Hdf5File::write_strings(const std::string& name, const std::vector<std::string>& texts) {
+    // Fixed width, the longest text's: variable strings lie in a heap of the file, which HDF5 reads
+    // without the bounds that read_strings() checks here.
     std::size_t width = 1;
     for (const std::string& text : texts) width = std::max(width, text.size());
     std::vector<char> packed(width * texts.size(), '\0');
@@ -159,6 +161,7 @@ std::vector<std::uint64_t> Hdf5File::shape(const std::string& name) const {
 template <class T>
 std::vector<T> Hdf5File::read(const std::string& name) const {
     const std::uint64_t count = product(shape(name));
+    // Before the memory is asked for: a few bytes of a compressed file can claim terabytes.
     take_from_limit(name, count, sizeof(T));
     const Handle dataset(open_dataset(name), H5Dclose);
     const Handle type(H5Dget_type(dataset), H5Tclose);
@@ -226,6 +229,8 @@ void Hdf5File::create_appendable(const std::string& name,
                        H5Sclose);
     const Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
     H5Pset_chunk(properties, static_cast<int>(chunk.size()), chunk.data());
+    // Bytes of equal weight side by side: the leading bytes of neighbouring rows are mostly equal,
+    // and compress to little.
     H5Pset_shuffle(properties);
     H5Pset_deflate(properties, 4);
     H5Pset_obj_track_times(properties, false);
@@ -248,6 +253,7 @@ void Hdf5File::append(const std::string& name, const T* rows, std::uint64_t coun
     start[0] = size[0];
     block[0] = count;
     size[0] += count;
+    // The dataset first, then the rows into its new end.
     const bool grown = H5Dset_extent(dataset, size.data()) >= 0;
     const Handle file_space(H5Dget_space(dataset), H5Sclose);
     H5Sselect_hyperslab(file_space, H5S_SELECT_SET, start.data(), nullptr, block.data(), nullptr);

@@ -22,6 +22,8 @@ Json parse_json_file(const std::filesystem::path& path) {
 }
 
 std::string json_text(const Json& json) {
+    // Texts of the user (titles, paths) may hold bytes that are no UTF-8: they are replaced, as a
+    // report with one odd letter is better than no report.
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -7,6 +7,8 @@ namespace ice {
 
 namespace {
 
+// A key that is missing or null leaves the default, which says "not known": files of older programs
+// have fewer keys, and NaN is null in JSON.
 template <class T>
 void take(const Json& json, const char* key, T& value) {
     if (json.contains(key) && !json[key].is_null()) json[key].get_to(value);
@@ -24,6 +26,7 @@ void to_json(Json& json, const ShipParticulars& s) {
             {"parallel_length_m", s.parallel_length},
             {"bow_length_m", s.bow_length},
             {"speed_mean", s.speed_mean}};
+    // The motions that are free decide which keys a ship has; they follow those of the hull.
     for (const auto& [key, value] : s.motion) json[key] = value;
     if (s.stuck) json["stuck"] = *s.stuck;
 }

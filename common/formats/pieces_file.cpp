@@ -72,6 +72,8 @@ public:
         read_column("load", out.pieces, &PieceRow::load);
         read_column("radius", out.pieces, &PieceRow::radius);
         for (const PieceRow& row : out.pieces)
+            // Bodies below first_body are the ship and floes of the case, whose poses nobody may
+            // replace.
             check(row.body >= out.first_body, "/pieces/body", "names a body that is no slot");
         return out;
     }
@@ -121,6 +123,8 @@ private:
 void add_floe(RunHeader& header, const PieceRow& row, std::int32_t group, double born) {
     RunShape shape{row.mesh, {}, {}};
     const auto& names = header.shapes[0].mesh.region_names;
+    // Pieces have the region "ice" of the hull's list if it is there: the list is one for all
+    // shapes of a run.
     const auto ice = std::find(names.begin(), names.end(), "ice");
     shape.mesh.region_names = names;
     shape.mesh.region.assign(
@@ -141,6 +145,8 @@ void add_floe(RunHeader& header, const PieceRow& row, std::int32_t group, double
 struct Floes {
     RunFrame& frame;
 
+    // The floes of the case stay; the slots behind them, whose bodies change from frame to frame,
+    // give way to the pieces, each of which is one body for the whole run.
     void keep(std::size_t count) {
         for (auto* list :
              {&frame.position, &frame.velocity, &frame.angular_velocity, &frame.contact_force})
@@ -190,6 +196,8 @@ void show_in_frame(const PiecesFile& file, std::size_t others, const RunFrame* b
     };
     for (std::size_t k = 0; k < file.pieces.size(); ++k) {
         const PieceRow& row = file.pieces[k];
+        // Three times of a piece: a part of the sheet, a body of its own in a slot, and gone
+        // astern, where it is drawn as it drifts on from its last pose.
         if (frame.time <= row.born)
             add_in_sheet(row, FloeState::held);
         else if (frame.time <= row.gone)
@@ -215,6 +223,7 @@ void show_in_frame(const PiecesFile& file, std::size_t others, const RunFrame* b
         std::erase_if(frame.hull_contacts, [&](const HullContact& c) {
             return static_cast<std::size_t>(c.floe) > others + file.pieces.size();
         });
+    // Numbers have changed, and readers rely on the order by floe and sphere.
     std::stable_sort(frame.hull_contacts.begin(), frame.hull_contacts.end(),
                      [](const HullContact& l, const HullContact& r) {
                          return std::pair(l.floe, l.sphere) < std::pair(r.floe, r.sphere);
@@ -255,6 +264,8 @@ void show_pieces(const PiecesFile& file, RunData& run) {
     for (const PieceRow& row : file.pieces)
         if (file.first_body < 1 || static_cast<std::size_t>(row.body) > slots)
             throw bad_input(kPiecesName, "is of another run than run.h5", "run the case anew");
+    // Shapes and bodies from the first slot on are those of slots at the end of the run: they are
+    // replaced by one shape for each piece.
     const auto shapes = static_cast<std::size_t>(
         others < slots ? header.body_shape[others] : static_cast<int>(header.shapes.size()));
     header.shapes.resize(shapes);

@@ -28,6 +28,8 @@ void write_shapes(Hdf5File& file, const RunHeader& header) {
     std::vector<std::int32_t> triangles, region;
     for (const RunShape& shape : header.shapes) {
         // a shape's own region numbers -> rows of the common list
+        // Shapes come from different files, in which a region of one name may have different
+        // numbers.
         std::vector<std::int32_t> global;
         for (const std::string& name : shape.mesh.region_names) {
             const auto found = std::find(names.begin(), names.end(), name);
@@ -86,6 +88,8 @@ void write_bodies(Hdf5File& file, const RunHeader& header) {
     file.make_scale("/frames/body");
     file.write("/frames/body_shape", header.body_shape);
     file.write("/frames/body_group", header.body_group);
+    // Mass and inertia are written once: they are those of the whole floe, however much of it is
+    // crushed.
     file.write("/frames/mass", header.body_mass);
     file.write("/frames/inertia", flatten<double>(header.body_inertia).data(), {count, 3});
     file.write_attribute("/frames/mass", "units", header.dimension == 2 ? "kg/m" : "kg");
@@ -103,6 +107,7 @@ std::vector<std::string> hull_regions(const RunHeader& header) {
 void write_panels(Hdf5File& file, const HullPanels& hull, int dimension) {
     const std::uint64_t count = hull.panels.size();
     const auto name_of = [](const char* name) { return std::string("/panels/") + name; };
+    // xarray shows units and long_name at each axis of its plots.
     const auto describe = [&](const char* name, const std::string& units, const char* text) {
         file.write_attribute(name_of(name), "units", units);
         file.write_attribute(name_of(name), "long_name", std::string(text));

@@ -15,12 +15,15 @@ namespace ice {
 
 namespace {
 
+// Hexadecimal digits of a hash of 64 bits, behind the data: HDF5 does not read beyond its own end
+// of file, so a sealed file is still one of HDF5.
 constexpr std::uintmax_t kLength = 16;
 
 // Hash of the first `length` bytes, 8 at a time, the last ones padded with zeros.
 std::string hash_of(const std::filesystem::path& path, std::uintmax_t length) {
     std::ifstream in(path, std::ios::binary);
     StateHash hash;
+    // The length first: the padding of the last word cannot be taken for data.
     hash.add(std::uint64_t{length});
     std::array<char, 1 << 16> block;
     while (length > 0 && in) {
@@ -40,6 +43,7 @@ std::string hash_of(const std::filesystem::path& path, std::uintmax_t length) {
 }  // namespace
 
 void add_seal(const std::filesystem::path& path) {
+    // Read back from the disk, not hashed while writing: HDF5 writes in an order of its own.
     const std::string seal = hash_of(path, std::filesystem::file_size(path));
     std::ofstream out(path, std::ios::binary | std::ios::app);
     out << seal;

@@ -48,6 +48,7 @@ std::string solid_fault(const SphereSet& set, const MassProperties& of_mesh) {
     const double volume = of_mesh.volume, area = surface_of(set, of_mesh);
     const double size = std::cbrt(std::abs(volume));
     const MassProperties& solid = set.solid;
+    // Comparisons are written so that NaN is a fault.
     if (!(std::abs(solid.volume - volume) <= kSame * std::abs(volume)))
         return unlike("a volume", solid.volume, "m3", volume);
     if (!(std::abs(solid.area - area) <= kSame * area))
@@ -77,6 +78,8 @@ std::string share_fault(const SphereSet& set) {
 
 std::string centre_fault(const SphereSet& set) {
     const WindingNumber inside(set.mesh);
+    // A sample: the winding number costs as much as the whole mesh, and a set that was made for
+    // another mesh fails at almost any centre.
     const std::size_t step = (set.size() + kMostCentres - 1) / kMostCentres;
     for (std::size_t k = 0; k < set.size(); k += step) {
         const Vec3& c = set.centers[k];

@@ -97,6 +97,8 @@ private:
         check(file_.read_number_attribute("/", "format_version")[0] == kSpheresVersion, "/",
               "has a format_version this program does not know");
         const double dimension = file_.read_number_attribute("/", "dimension")[0];
+        // Each check stands before the first use of what it checks: a number of the file never
+        // sizes or indexes anything unchecked.
         check(dimension == 2.0 || dimension == 3.0, "dimension", "is neither 2 nor 3");
         set.dimension = static_cast<int>(dimension);
         set.radius = file_.read_number_attribute("/", "radius")[0];
@@ -158,6 +160,8 @@ private:
         const auto layers = file_.read<std::uint8_t>("/layer");
         for (std::size_t k = 0; k < n; ++k) {
             check(layers[k] <= 1, "/layer", "holds a layer other than 0 and 1");
+            // Surface spheres first: the solver uses a prefix of the arrays and never asks for the
+            // layer.
             check(k == 0 || layers[k] <= layers[k - 1], "/layer",
                   "does not have the surface spheres first");
             set.surface_count += layers[k];
@@ -180,6 +184,7 @@ private:
             file_.has("/normal_spread") ? finite("/normal_spread") : std::vector<double>(n, 0.0);
         for (const std::size_t size : {set.normals.size(), set.normal_spread.size()})
             check(size == n, "/center", "has another length than the arrays beside it");
+        // Rows of the interior hold the fill value, which costs no room in the file.
         set.normals.resize(s);
         set.areas.resize(s);
         set.regions.resize(s);
@@ -190,6 +195,7 @@ private:
             const double length = set.normals[k].norm();
             check(std::abs(length - 1.0) < 1e-3, "/normal",
                   "holds a normal that is no unit vector");
+            // Stored in single precision: to unit length again in double.
             set.normals[k] /= length;
         }
     }
@@ -253,6 +259,7 @@ void write_spheres_arrays(Hdf5File& file, const SphereSet& set) {
     const std::uint64_t n = set.size(), s = set.surface_count;
     static_assert(sizeof(Vec3) == 3 * sizeof(double));
     file.write("/center", set.centers.data()->data(), {n, 3});
+    // Constant columns take no room: the value is the fill value, and no row is written.
     const bool equal_radii =
         std::all_of(set.radii.begin(), set.radii.end(), [&](double r) { return r == set.radius; });
     const std::uint64_t radii = set.radii.size();

@@ -49,6 +49,8 @@ std::string ice_belt_text(const SpheresReport& r) {
     const IceBelt& b = r.belt;
     std::string out = fmt::format("z {:.4g} to {:.4g} m (draught {:g} m, ice {:g} m): ", b.low,
                                   b.high, b.draught, b.thickness);
+    // The larger of both directions: a part that repairs added lies far from the mesh, one that
+    // they removed lies far from the solid.
     const double moved = std::max(b.to_solid.max, b.to_source.max);
     if (r.source.known)
         out += moved > 0.0
@@ -58,12 +60,14 @@ std::string ice_belt_text(const SpheresReport& r) {
     out +=
         fmt::format("gap to the spheres {:.2g} m at p99, {:.2g} m at most", b.gap_p99, b.gap_max);
     for (const CutBack& cut : r.cut_back)
+        // The keel lies below the ice belt and meets no ice there.
         if (cut.part != "keel") out += "; " + cut_back_text(cut);
     return out;
 }
 
 std::string spheres_report_text(const SpheresReport& r) {
     Json json;
+    // In the order of docs/contract.md. Readers take keys by name; people read the file from above.
     json["schema"] = "spherize/1";
     json["dimension"] = r.dimension;
     json["radius_m"] = r.radius;

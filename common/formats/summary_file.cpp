@@ -19,6 +19,7 @@ Json or_null(const std::optional<T>& value) {
 }
 
 Json force_json(const ForceStatistics& force) {
+    // A number that is not known is NaN here and null in the file (JsonReader turns it back).
     Json out{{"mean_N", force.mean},
              {"contact_mean_N", force.contact_mean},
              {"friction_mean_N", force.friction_mean},
@@ -69,6 +70,7 @@ constexpr std::string_view kPerMetre = "_per_m";
 // In 2D forces, impulses and energies are per metre of breadth, and say so in a twin of each key.
 void add_names_per_metre(Json& json) {
     if (!json.is_structured()) return;
+    // Collected first: an object must not grow while it is walked through.
     std::vector<std::pair<std::string, Json>> twins;
     for (auto& [key, value] : json.items()) {
         const bool newtons = key.ends_with("_N") || key.ends_with("_Ns") || key.ends_with("_J");
@@ -238,6 +240,7 @@ Summary read_summary(const std::filesystem::path& path) {
     s.stage_seconds = in.numbers("stage_seconds");
     s.threads = in.get<int>("threads");
     s.simd = in.get<std::string>("simd");
+    // As hexadecimal text: JSON readers keep 53 bits of a number.
     s.state_hash = std::strtoull(in.get<std::string>("state_hash").c_str(), nullptr, 16);
     s.hull_spheres = in.get<std::int64_t>("spheres.hull");
     s.ice_spheres = in.get<std::int64_t>("spheres.ice");

@@ -73,12 +73,16 @@ SpencerCoefficients read_once(const std::filesystem::path& file) {
 }  // namespace
 
 SpencerCoefficients read_coefficients(const std::filesystem::path& file) {
+    // First in a child process (rehearse.hpp): a strange file may crash the parser or never let it
+    // end.
     rehearse_input(file, [&] { read_once(file); });
     return read_once(file);
 }
 
 std::string coefficients_text(const SpencerCoefficients& c, const CoefficientIntervals& i,
                               const std::string& origin) {
+    // The origin has the user's paths in it: a line break in one would end the comment and leave
+    // text that is no TOML.
     std::string comment = origin;
     for (char& letter : comment)
         if (static_cast<unsigned char>(letter) < 0x20) letter = ' ';

@@ -17,10 +17,13 @@ constexpr const char* kRiska = "Riska 1997";
 constexpr const char* kBroken = "buoyancy + clearing";
 constexpr const char* kTotal = "total";
 
+// A value of the options goes before that of the run; NaN says that there is none.
 double known_or(double value, double otherwise) { return std::isfinite(value) ? value : otherwise; }
 
 }  // namespace
 
+// Ice that is held until it bends is broken by the ship. In all other cases it lies broken from the
+// start, and formulas for the breaking part say nothing of it.
 bool is_level_ice(const IceParticulars& ice) {
     return std::find(ice.hold.begin(), ice.hold.end(), "until-bent") != ice.hold.end();
 }
@@ -35,6 +38,7 @@ std::vector<FormulaValue> evaluate_formulas(const ShipParticulars& ship, const I
                         ship.parallel_length,
                         ship.bow_length};
     const double strength = known_or(options.flexural_strength, ice.flexural_strength);
+    // Formulas know no direction: a ship that backs has the resistance of its speed ahead.
     const IceConditions conditions{ice.thickness,
                                    ice.friction_ship_ice,
                                    ice.density,
@@ -46,6 +50,7 @@ std::vector<FormulaValue> evaluate_formulas(const ShipParticulars& ship, const I
                                    known_or(ice.poisson_ratio, kPoissonRatio)};
     std::vector<FormulaValue> out;
     const auto add = [&](const std::string& name, const char* part, double value, bool verified) {
+        // A formula without one of its inputs gives NaN and no row: most runs have no strength.
         if (std::isfinite(value)) out.push_back({name, part, value, verified});
     };
     const LindqvistParts lindqvist = lindqvist_resistance(hull, conditions);
@@ -53,6 +58,8 @@ std::vector<FormulaValue> evaluate_formulas(const ShipParticulars& ship, const I
     add(kLindqvist, "crushing", lindqvist.crushing, false);
     add(kLindqvist, "bending", lindqvist.bending, false);
     add(kLindqvist, kTotal, lindqvist.total(), false);
+    // Riska's total contains no strength, but it is a formula for level ice: without a strength the
+    // run had none.
     if (std::isfinite(strength)) add(kRiska, kTotal, riska_resistance(hull, conditions), false);
     const SpencerCoefficients& own = options.spencer;
     const SpencerParts spencer = spencer_resistance(hull, conditions, own);
@@ -68,6 +75,8 @@ std::vector<FormulaValue> comparable_formulas(const std::vector<FormulaValue>& f
                                               bool level_ice) {
     std::vector<FormulaValue> out;
     for (const FormulaValue& f : formulas)
+        // Of ice that is broken already, only the parts without breaking can be compared:
+        // Lindqvist's submersion and Jeong's buoyancy and clearing.
         if (level_ice ? f.part == kTotal : f.part == "submersion" || f.part == kBroken)
             out.push_back(f);
     return out;

@@ -20,6 +20,9 @@ constexpr double kBetas[] = {WindingNumber::kBeta, 8.0, 32.0};
 double solid_angle(const Vec3& p, const Vec3& corner_a, const Vec3& corner_b,
                    const Vec3& corner_c) {
     const Vec3 a = corner_a - p, b = corner_b - p, c = corner_c - p;
+    // van Oosterom and Strackee (1983): tan(Omega / 2) = a . (b x c) / (la lb lc + ...). atan2
+    // keeps the right branch where the denominator is negative, for points near the triangle; Omega
+    // / (4 pi) is atan2 / (2 pi).
     const double la = a.norm(), lb = b.norm(), lc = c.norm();
     const double below = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
     return std::atan2(a.dot(b.cross(c)), below) / (2.0 * std::numbers::pi);

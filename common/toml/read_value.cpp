@@ -91,6 +91,7 @@ private:
                      1);
             return false;
         }
+        // Written so that NaN is out of range, too: TOML has nan as a number.
         if (out >= key.low && out <= key.high) return true;
         // The usual slip with shares: 80 is meant as 80 %.
         const bool percent = dimension == Dimension::share && out > 1.0 && 0.01 * out >= key.low &&
@@ -233,6 +234,7 @@ private:
             }
             rows.push_back(pair);
         }
+        // Also reached by a node that is no list: the loop above then had no row.
         if (rows.empty()) {
             complain(
                 node.source(),
@@ -258,6 +260,7 @@ Complaints::Complaints(const std::string& text, std::string name, Mistakes& mist
 void Complaints::add(const toml::source_region& where, const std::string& what, std::size_t width) {
     const auto line = where.begin.line, column = where.begin.column;
     std::vector<std::string> words = printable_characters(what);  // a text may hold an escape
+    // A message quotes the file: a text of a megabyte in it would hide all others.
     if (words.size() > kMostWords) {
         words.resize(kMostWords);
         words.emplace_back("...");

@@ -51,6 +51,7 @@ public:
         Thrust out;
         out.name = fmt::format("thrust {}", number_ + 1);
         if (const Value* name = find("name")) out.name = std::get<std::string>(*name);
+        // The kinds exclude each other: of two the reader would have to guess which one counts.
         const int kinds = (find("constant") ? 1 : 0) + (find("bollard_pull") ? 1 : 0) +
                           (find("power") ? 1 : 0) + (find("table") ? 1 : 0);
         if (kinds != 1) {
@@ -122,6 +123,8 @@ std::vector<Thrust> read_once(const std::filesystem::path& file) {
 
 double Thrust::at(double speed) const {
     if (!table.empty()) {
+        // No row is extended beyond its end: a line through the last two rows may reach a thrust
+        // below 0.
         if (speed <= table.front().first) return table.front().second;
         // linear between rows, constant before and behind them
         for (std::size_t k = 1; k < table.size(); ++k) {
@@ -137,6 +140,8 @@ double Thrust::at(double speed) const {
     return bollard_pull * (1.0 - share / 3.0 - 2.0 / 3.0 * share * share);
 }
 
+// Where a search for the attained speed ends: the thrust is 0 at the open-water speed, and a table
+// says nothing beyond its last row.
 double Thrust::fastest() const {
     if (!table.empty()) return table.back().first;
     return open_water_speed > 0.0 ? open_water_speed : std::numeric_limits<double>::infinity();

@@ -51,6 +51,8 @@ std::string title_of(const HvCurve& curve) {
     return curve.thrust.empty() ? curve.name : curve.thrust + ": " + curve.name;
 }
 
+// RFC 4180: quotes around texts with a comma, a quote or a line break, quotes within doubled. Lines
+// end in CR LF.
 std::string csv_text(const std::string& text) {
     if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
     std::string out = "\"";
@@ -131,6 +133,7 @@ std::string hv_csv(const HvStudy& study) {
 }
 
 std::string draw_hv(const HvStudy& study, double width) {
+    // Formulas are dashed and runs are marked: they differ in prints without colour, too.
     static const std::vector<std::string> kDashes{"2 3", "7 3 2 3", "9 4", "4 2"};
     views::Chart chart;
     chart.title = "Attainable speed";
@@ -143,6 +146,7 @@ std::string draw_hv(const HvStudy& study, double width) {
         for (const HvPoint& p : curve.points) {
             low = std::min(low, p.thickness);
             high = std::max(high, p.thickness);
+            // The scale is that of the runs.
             if (curve.source != Source::formula && std::isfinite(p.attained.speed))
                 fastest = std::max(fastest, p.attained.speed);
         }
@@ -161,6 +165,7 @@ std::string draw_hv(const HvStudy& study, double width) {
         for (const HvPoint& p : curve.points)
             if (std::isfinite(p.attained.speed))
                 line.points.emplace_back(p.thickness, p.attained.speed);
+        // Intervals are curves without a name, so that the legend does not list them.
         chart.curves.push_back(line);
         for (const HvPoint& p : curve.points)
             if (std::isfinite(p.attained.low) && std::isfinite(p.attained.high))
@@ -175,6 +180,7 @@ std::string make_hv_page(const sweep::Sweep& sweep, const HvStudy& study) {
     std::string out = report::open_page(sweep.title) + "<header><div class=\"inner\">\n<h1>" +
                       escape(sweep.title) + "</h1>\n<p>Attainable speed against ice thickness. " +
                       which_resistance(study) + "</p>\n</div></header>\n<main>\n";
+    // Before the chart: a warning here may say that a curve is not what it seems.
     if (!study.warnings.empty()) {
         out += "<section id=\"faults\" class=\"warnings\">\n<ul>\n";
         for (const std::string& text : study.warnings) out += "<li>" + escape(text) + "</li>\n";

@@ -17,6 +17,8 @@ namespace {
 double allowed(const Expectation& e) { return std::max(e.abs, e.rel * std::abs(*e.value)); }
 
 bool passes(const Expectation& e, double actual) {
+    // A number that the run could not measure is null in summary.json. It meets no expectation, and
+    // without this line no comparison with it would fail.
     if (std::isnan(actual)) return false;
     // the last bits of "value + tolerance" are not worth a failure
     const double slack = 1e-12 * std::abs(actual);
@@ -47,6 +49,8 @@ std::vector<Verdict> check_numbers(const std::map<std::string, double>& numbers,
     for (const Expectation& e : expectations) {
         const auto found = numbers.find(e.key);
         if (found == numbers.end()) {
+            // A misspelt key must not pass as a number that is not there: it is an error of the
+            // file, not a miss of the run.
             const std::string near = nearest_name(e.key, names);
             throw bad_input(fmt::format("{}:{}:{}", file.string(), e.line, e.column),
                             fmt::format("the run's summary has no number '{}'", e.key),
@@ -94,6 +98,8 @@ std::string junit_text(const std::vector<Verdict>& verdicts, const std::string& 
         if (!v.passed)
             out += fmt::format(
                 "<failure message=\"{}\">{}</failure>",
+                // CI servers show the message in a list and the text below it: what missed, then
+                // why it is expected.
                 escape(fmt::format("{} is not {}", number_text(v.actual), describe(v.expected))),
                 escape(v.expected.why));
         out += "</testcase>\n";

@@ -27,6 +27,7 @@ public:
         try {
             file = toml::parse_file(path_.string());
         } catch (const toml::parse_error& error) {
+            // The parser reports a missing file as an error of its first line.
             if (!std::filesystem::exists(path_))
                 throw bad_input(path_.string(), "file not found", "check the path");
             throw fault(error.source(), std::string(error.description()), "correct the TOML");
@@ -98,6 +99,8 @@ private:
             throw fault(entry.source(), "an expectation without key",
                         "add key = \"resistance.mean_N\"");
         e.key = *key->value<std::string>();
+        // Kept for check_numbers: that a key is not in the summary is found out later, and has a
+        // place in this file, too.
         e.line = static_cast<int>(key->source().begin.line);
         e.column = static_cast<int>(key->source().begin.column);
         if (const toml::node* why = entry.get("why"))

@@ -34,8 +34,11 @@ std::vector<FitPoint> fit_points(const sweep::Sweep& sweep, const std::vector<sw
     std::vector<FitPoint> out;
     for (const sweep::Point& point : points) {
         const Summary& s = *sweep.runs[point.runs.front()].summary;
+        // The formula contains the breadth, which a section does not have, and its breaking part is
+        // fitted through logarithms of forces, which must be positive.
         if (point.dimension != 3 || !(point.part(sweep::Part::total).mean > 0.0)) continue;
         const HullForm hull{s.ship.length, s.ship.breadth, s.ship.draught, 0.0, 0.0};
+        // The option goes before the case: runs of broken ice have no strength of their own.
         const double strength =
             std::isfinite(flexural_strength) ? flexural_strength : s.ice.flexural_strength;
         FitPoint p;
@@ -81,6 +84,7 @@ std::string fit_text(const SpencerFit& fit, const std::vector<FitPoint>& points)
         out += fmt::format("  C_BR   {}\n  b      {}\n", with_half(c.breaking, i.breaking),
                            with_half(c.breaking_exponent, i.breaking_exponent));
     out += fmt::format("  misses {:.1f} % (rms)\n", 100.0 * fit.residual);
+    // One unit for the whole table, by its largest force.
     double largest = 0.0;
     for (const FitPoint& p : points) largest = std::max(largest, p.resistance);
     const report::ForceUnit unit = report::choose_unit(largest, 3);

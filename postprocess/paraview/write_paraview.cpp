@@ -61,6 +61,8 @@ public:
         std::size_t count = 0;
         const std::size_t step = std::max<std::size_t>(1, options_.every);
         for (std::size_t f = 0; f < run_.frames.size(); f += step) add_frame(f, count++);
+        // Lists last: they name arrays that are complete by then, and a list without arrays would
+        // be an error in ParaView.
         write_shapes();
         arrays_.close();
         write_text_file(folder_ / "run.xdmf", run_file_.text());
@@ -69,6 +71,7 @@ public:
     }
 
 private:
+    // What never changes is stored once and named by the grids of all frames.
     StoredArray still(const char* name, const auto& values, std::uint64_t columns = 1) {
         return arrays_.add(std::string("/still/") + name, values, columns);
     }
@@ -147,6 +150,7 @@ private:
         const bool mapped = !map.mesh.triangles.empty();
         hull_.mesh = mapped ? map.mesh : run_.header.shapes[0].mesh;
         const TriangleMesh& mesh = hull_.mesh;
+        // One part for each region: ParaView shows and hides parts by name.
         for (std::size_t r = 0; r < mesh.region_names.size(); ++r) {
             std::vector<std::int32_t> triangles;
             std::vector<float> load;
@@ -213,6 +217,7 @@ private:
             run_file_.add(part.name, frame.time, {hull, part.triangles, part.values});
         std::vector<float> corners;
         for (std::size_t b = 0; b < frame.position.size(); ++b) {
+            // Corners are stored turned and moved, in world axes: ParaView knows no rigid bodies.
             const std::vector<float> one =
                 posed(mesh_of(b), frame.position[b], frame.orientation[b].toRotationMatrix());
             corners.insert(corners.end(), one.begin(), one.end());

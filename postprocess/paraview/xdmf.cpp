@@ -13,11 +13,14 @@ namespace {
 
 using views::escape;
 
+// XDMF's words for columns of numbers; a matrix may have any number of them.
 const char* kind_of(std::uint64_t columns) {
     return columns == 1 ? "Scalar" : columns == 3 ? "Vector" : "Matrix";
 }
 
 std::string grid_text(const std::string& name, const std::string& time, const Grid& grid) {
+    // A grid is a surface, with values on its triangles, or a set of points, with values on the
+    // points.
     const bool triangles = grid.cells.columns == 3;
     std::string out = fmt::format(
         "<Grid Name=\"{}\" GridType=\"Uniform\">{}\n<Topology TopologyType=\"{}\" "
@@ -40,6 +43,7 @@ ArrayFile::ArrayFile(const std::filesystem::path& path)
       file_(part_.path(), Hdf5File::Mode::create) {}
 
 void ArrayFile::close() {
+    // The name is given when the file is complete: a reader never sees half of the arrays.
     file_.close();
     part_.keep();
 }
@@ -70,6 +74,7 @@ StoredArray ArrayFile::add(const std::string& name, const std::vector<std::int32
 }
 
 XdmfFile::Part& XdmfFile::part(const std::string& name, bool timed) {
+    // Parts stay in the order in which they came first: it is that of ParaView's list of blocks.
     const auto found =
         std::find_if(parts_.begin(), parts_.end(), [&](const Part& p) { return p.name == name; });
     if (found != parts_.end()) return *found;
@@ -88,6 +93,7 @@ void XdmfFile::add(const std::string& name, const Grid& grid) {
 std::string XdmfFile::text() const {
     std::string out = "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\"><Domain>\n";
     for (const Part& p : parts_)
+        // A part that does not move is written once, outside the collection in time.
         out += p.timed ? fmt::format(
                              "<Grid Name=\"{}\" GridType=\"Collection\" "
                              "CollectionType=\"Temporal\">\n{}</Grid>\n",

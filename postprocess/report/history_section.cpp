@@ -24,6 +24,7 @@ std::string draw_coverage(const statistics::BottomCoverage& coverage) {
     chart.y_title = "share [%]";
     Curve curve{"", views::kBlue, {}, 1.8, "", 1.0};
     for (std::size_t k = 0; k < coverage.share.size(); ++k)
+        // Coverage has a value for each frame only: few enough to draw all.
         curve.points.emplace_back(coverage.time[k], 100.0 * coverage.share[k]);
     chart.curves = {curve};
     return draw_chart(chart);
@@ -115,6 +116,7 @@ std::string track_section(const RunData& run, const ForceUnit& unit) {
         const std::string id = std::to_string(run.header.tracked[k]);
         const auto histories = track_histories(run, k, unit);
         if (histories.empty()) {
+            // A floe that the ship never touched would have a chart of zeros: its number is enough.
             untouched += (untouched.empty() ? "" : ", ") + id;
             continue;
         }

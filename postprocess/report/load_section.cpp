@@ -17,6 +17,7 @@ std::string draw_hull_loads(const RunData& run, const statistics::LoadMap& map, 
     const PressureUnit unit = choose_pressure_unit(end);
     const views::HullLoad hull{run.header.shapes[0].mesh, map.mesh, map.load, end,
                                -run.frames.front().ship_position.z()};
+    // A section of 2D shows all of its load from one side.
     const std::vector<ViewFrom> sides =
         run.header.dimension == 2 ? std::vector<ViewFrom>{ViewFrom::side}
                                   : std::vector<ViewFrom>{ViewFrom::below, ViewFrom::front,
@@ -32,6 +33,8 @@ std::string draw_hull_loads(const RunData& run, const statistics::LoadMap& map, 
 std::string load_section(const RunData& run, const RunFigures& figures) {
     const statistics::LoadMap& map = figures.load;
     if (!(map.force > 0.0)) return "";
+    // The colours do not end at the largest value: a single sphere at a corner would leave all else
+    // pale.
     const double end = statistics::scale_end(map);
     const PressureUnit unit = choose_pressure_unit(end);
     double largest = 0.0;

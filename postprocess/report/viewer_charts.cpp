@@ -13,6 +13,8 @@ using nlohmann::json;
 namespace {
 
 json pack_curve(const std::string& chart, const History::Curve& curve, Pack& pack) {
+    // 16 bits for each curve by its own largest value: a step of 1/32000 of it is far below a
+    // pixel, and the page has a quarter of the bytes of doubles.
     double most = 0.0;
     for (const double v : curve.values)
         if (std::isfinite(v)) most = std::max(most, std::abs(v));
@@ -26,6 +28,7 @@ json pack_curve(const std::string& chart, const History::Curve& curve, Pack& pac
             {"array", name},
             {"color", curve.color},
             {"width", curve.average ? 2 : 1},
+            // Samples are pale, because their average is drawn over them.
             {"alpha", curve.average ? 1.0 : 0.35},
             {"scale", unit.step}};
 }
@@ -67,6 +70,7 @@ json pack_charts(const std::vector<History>& histories, const statistics::Bottom
                  double average_from, Pack& pack) {
     json charts = json::array();
     std::vector<float> time;
+    // All histories have the same rows and share one array of times.
     if (!histories.empty()) time.assign(histories[0].time.begin(), histories[0].time.end());
     pack.add("history_time", time);
     for (const History& h : histories) charts.push_back(pack_history(h, average_from, pack));

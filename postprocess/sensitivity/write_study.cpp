@@ -29,6 +29,7 @@ struct Result {
     Estimate base;
     ForceUnit unit;
 
+    // Signed: a share says in which direction the input moves the resistance.
     std::string percent(double force) const {
         return std::isfinite(force) && base.mean != 0.0
                    ? fmt::format("{:+.1f} %", 100.0 * force / std::abs(base.mean))
@@ -38,6 +39,7 @@ struct Result {
 
 private:
     ForceUnit choose(const Study& study) const {
+        // One unit for all charts and tables, by the largest mean of any change.
         double largest = std::abs(base.mean);
         for (const RankedInput& input : inputs)
             for (const Change& change : input.changes)
@@ -120,6 +122,7 @@ std::string table_of_changes(const Result& r) {
     for (const RankedInput& input : r.inputs)
         for (const Change& change : input.changes) {
             auto row = cells(r, input, change);
+            // A star, not a colour: it survives copying and printing.
             if (change.significant()) row.back() += " *";
             rows.push_back(row);
         }

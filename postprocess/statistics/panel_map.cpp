@@ -61,8 +61,10 @@ LoadMap make_panel_map(const RunData& run, const TriangleMesh& mesh) {
     map.mesh = mesh;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         Vec3 at = (mesh.corner(t, 0) + mesh.corner(t, 1) + mesh.corner(t, 2)) / 3.0;
+        // The discs of a section lie in y = 0, its mesh is a metre broad.
         if (run.header.dimension == 2) at.y() = 0.0;
         const auto panel = static_cast<std::size_t>(hull.of_sphere[nearest(at)]);
+        // Largest force of a window over the panel's area: panels differ in size.
         map.load.push_back(hull.panels[panel].max / hull.panels[panel].area);
     }
     return map;

@@ -21,6 +21,8 @@ ThinSeries thin_series(const std::vector<double>& time,
             const auto first = series[s].begin() + static_cast<std::ptrdiff_t>(begin);
             const auto last = series[s].begin() + static_cast<std::ptrdiff_t>(end);
             const auto [low, high] = std::minmax_element(first, last);
+            // Lowest and highest in their order in time: lines between bins then rise and fall as
+            // the series does. All series share the bin's two times, so these are exact to a bin.
             out.values[s].push_back(low < high ? *low : *high);
             out.values[s].push_back(low < high ? *high : *low);
         }
@@ -50,6 +52,8 @@ struct WindowSums {
 
 std::vector<double> moving_average(const std::vector<double>& x, const std::vector<double>& y,
                                    double width, const std::vector<double>& places) {
+    // Hann's window 1 + cos(k (x - p)) within `width` of p: half as high at half the width. Prefix
+    // sums make the cost independent of the width.
     const double k = std::numbers::pi / width;
     WindowSums ones, values;
     for (std::size_t n = 0; n < y.size(); ++n) {

@@ -9,6 +9,7 @@ namespace ice::sweep {
 namespace {
 
 // of the formulas in their order
+// Dash patterns: prints in grey keep the formulas apart.
 constexpr const char* kDashes[] = {"2 3", "7 3 2 3", "9 4", "4 2"};
 
 template <class List>
@@ -21,6 +22,7 @@ bool lists(const List& list, const FormulaValue& f) {
 }  // namespace
 
 std::string author_of(const std::string& name) {
+    // "Lindqvist 1989" is Lindqvist on a chart; the legend of a table has the year.
     const auto space = name.rfind(' ');
     const bool year =
         space != std::string::npos && name.size() == space + 5 &&
@@ -33,6 +35,8 @@ std::vector<FormulaCurve> comparable_curves(const std::vector<Curve>& curves) {
     for (const Curve& curve : curves)
         for (const Point& point : curve.points)
             for (const FormulaValue& f : comparable_formulas(point.formulas, point.level_ice))
+                // A formula has one curve, in the order in which formulas appear, although points
+                // may lack it.
                 if (std::isfinite(f.value) && !lists(out, f))
                     out.push_back({f.name, f.part, author_of(f.name),
                                    kDashes[out.size() % std::size(kDashes)]});
@@ -43,6 +47,8 @@ std::vector<FormulaCurve> component_curves(const Curve& curve) {
     std::vector<FormulaCurve> out;
     const bool level = curve.points.front().level_ice;
     for (const FormulaValue& f : curve.points.front().formulas)
+        // Buoyancy is a part of every formula for broken ice. In level ice the total has curves of
+        // its own, and these show what the ice would cost if it were broken already.
         if (f.part == "buoyancy" ||
             (level && (f.part == "submersion" || f.part == "buoyancy + clearing")))
             out.push_back({f.name, f.part, author_of(f.name) + ", " + f.part, "1 2"});

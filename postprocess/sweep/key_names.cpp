@@ -10,6 +10,7 @@ struct KeyName {
 };
 
 KeyName find_name(const std::string& key) {
+    // Names for the axes of charts. A key that is not here names itself: a sweep may vary any key.
     static const std::map<std::string, KeyName> kNames{
         {kSpeedKey, {"speed", "m/s"}},
         {"simulation.time_step", {"time step", "s"}},
@@ -45,6 +46,8 @@ std::string axis_title(const std::string& key) {
 std::string short_text(const Setting& setting) {
     if (setting.text.empty()) return "-";
     if (setting.number) return setting.text;
+    // Of a path only the file's name: sets of one study mostly lie in one folder. Without a slash
+    // rfind gives npos, and npos + 1 is 0: the whole text.
     return setting.text.substr(setting.text.rfind('/') + 1);
 }
 

@@ -103,6 +103,8 @@ std::map<std::string, Setting> read_settings(const std::filesystem::path& resolv
     try {
         flatten(toml::parse_file(resolved_case.string()), "", out);
     } catch (const toml::parse_error&) {
+        // A resolved case that cannot be read makes a run without settings, not a sweep without a
+        // page.
         return {};
     }
     // title and output change no result

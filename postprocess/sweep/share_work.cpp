@@ -43,12 +43,14 @@ double travel(const SweepRun& run) {
 std::vector<WorkShare> share_work(const Sweep& sweep, const Point& point) {
     std::vector<WorkShare> shares;
     for (const auto& [title, key, sign] : kAccounts) {
-        // energy per way is a force: means over the runs of the point
+        // energy per distance travelled is a force: means over the runs of the point
         double sum = 0.0;
         for (const std::size_t row : point.runs) {
             const SweepRun& run = sweep.runs[row];
             const auto energy = run.summary->energy.find(std::string(key));
             const bool booked = energy != run.summary->energy.end();
+            // Accounts that a case does not have are 0; any other that is missing makes the share
+            // unknown.
             if ((key == kWaterWork || key == kBreaking) && !booked) continue;
             sum += booked ? energy->second / travel(run) : std::numeric_limits<double>::quiet_NaN();
         }

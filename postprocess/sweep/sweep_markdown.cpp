@@ -36,6 +36,8 @@ std::vector<Column> joined(std::vector<Column> columns, const std::vector<Column
     return columns;
 }
 
+// One table of forces and one of work: Markdown has no groups of columns, and a row of both would
+// not fit a page.
 std::string tables(const Sweep& sweep) {
     const auto points = make_points(sweep);
     if (points.empty()) return "";
@@ -59,6 +61,7 @@ std::string tables(const Sweep& sweep) {
 
 std::string sweep_markdown(const Sweep& sweep) {
     std::string out;
+    // Runs in 2D and 3D have different units and are never in one table.
     for (const Sweep& part : split_sweep(sweep)) {
         const std::string text = tables(part);
         out += (out.empty() || text.empty() ? "" : "\n") + text;

@@ -160,6 +160,7 @@ Estimate estimate_mean(const std::vector<double>& values) {
     const double mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
     // One run has no scatter between fields; its own interval is added by the caller.
     if (values.size() == 1 || !std::isfinite(mean)) return {mean, kNaN};
+    // Student's interval: t_{n-1} s / sqrt(n), s^2 = sum (x - mean)^2 / (n - 1).
     double square = 0.0;
     for (const double value : values) square += (value - mean) * (value - mean);
     return {mean, student_quantile(n - 1.0, 0.05) * std::sqrt(square / (n - 1.0) / n)};

@@ -47,6 +47,7 @@ std::vector<double> choose_ticks(double low, double high, int most) {
 std::string tick_label(double value, double step) {
     if (value != 0.0 && std::abs(value) < 1e-9 * step) value = 0.0;
     const double size = std::max(std::abs(value), step);
+    // Large and tiny numbers as powers of ten; else as many decimals as the step has.
     if (size >= 1e6 || step < 1e-4) return fmt::format("{:g}", value);
     const int decimals = std::clamp(static_cast<int>(std::ceil(-std::log10(step) - 1e-6)), 0, 6);
     return fmt::format("{:.{}f}", value == 0.0 ? 0.0 : value, decimals);
@@ -58,6 +59,7 @@ void widen(double& low, double& high) {
         high += 1.0;
         return;
     }
+    // Ends on ticks: the outermost grid lines are the frame.
     const double step = choose_step(high - low, 8);
     low = std::floor(low / step) * step;
     high = std::ceil(high / step) * step;

@@ -68,6 +68,8 @@ SceneView::SceneView(const RunHeader& header, ViewFrom from, const ViewOptions& 
     double floe_size = 0.0;
     for (std::size_t k = 0; k < header.shapes.size(); ++k) {
         const TriangleMesh& mesh = header.shapes[k].mesh;
+        // At most 400 triangles for a floe, which is small in the picture. The hull is drawn once,
+        // with all of its faces.
         s.faces.push_back(k == 0 ? std::vector<Face>{} : make_faces(simplify_mesh(mesh, 400)));
         double radius = 0.0;
         for (const Vec3& v : mesh.vertices) radius = std::max(radius, v.norm());
@@ -87,6 +89,9 @@ SceneView::SceneView(const RunHeader& header, ViewFrom from, const ViewOptions& 
     s.width = across * per_metre;
     s.height = tall * per_metre;
     s.scale = {s.window.left, s.window.top, 0.0, 0.0, per_metre};
+    // What the viewer sees of the hull, in 400 cells along it: floes are sorted before and behind
+    // it by this map, because a hull reaches from before a floe to behind it and has no single
+    // distance.
     s.depth = std::make_unique<DepthMap>(hull, s.projection, 400);
     s.hull = draw_hull(hull, s.projection, s.scale, options.waterline);
 }
@@ -108,6 +113,8 @@ double SceneView::Parts::nearness_to_hull(const Face& face, const Vec3& at,
     for (const Vec3& corner : face.corners) {
         const Vec3 p = projection.apply(at + turn * corner);
         const double hull_nearness = depth->nearness(p.x(), p.y());
+        // A sum over all corners, not the nearest one: a floe that touches the hull lies partly on
+        // both sides.
         if (std::isfinite(hull_nearness)) sum += p.z() - hull_nearness;
     }
     return sum;
@@ -133,6 +140,8 @@ std::vector<Item> SceneView::Parts::sort_floes(const RunFrame& frame) const {
         for (const Face& face : faces[shape]) nearer += nearness_to_hull(face, offset, turn);
         items.push_back({b, p.z(), nearer >= 0.0});
     }
+    // Painter's order by the middles of floes. Floes are small and lie in one layer, so middles
+    // suffice.
     std::stable_sort(items.begin(), items.end(),
                      [](const Item& a, const Item& b) { return a.nearness < b.nearness; });
     return items;
@@ -151,6 +160,7 @@ std::string SceneView::Parts::draw_floe(std::size_t body, const RunFrame& frame,
     std::string out;
     for (const Face& face : faces[shape]) {
         const Vec3 normal = turn * face.normal;
+        // Faces that look away are hidden by the floe itself, which is convex or nearly so.
         if (normal.dot(projection.toward) <= 1e-6) continue;
         std::vector<Vec2> points;
         for (const Vec3& corner : face.corners) points.push_back(place(offset + turn * corner));
@@ -203,6 +213,7 @@ std::string SceneView::Parts::draw_frame_axes(const RunFrame& frame) const {
     Axis x{window.left + x_shift, window.right + x_shift, kLeft, kLeft + width};
     Axis y{window.bottom, window.top, kTop + height, kTop};
     std::string x_title = "x in the world [m]", y_title = "y [m], to port";
+    // From port the bow is on the left: x runs from right to left.
     if (from == ViewFrom::port) {
         x.low = ship.x() - window.left;
         x.high = ship.x() - window.right;
@@ -212,6 +223,7 @@ std::string SceneView::Parts::draw_frame_axes(const RunFrame& frame) const {
         y.high -= options.waterline;
         y_title = "z [m]";
     } else if (from == ViewFrom::below) {
+        // Seen from below port is at the bottom.
         y.low = -(window.bottom) + ship.y();
         y.high = -(window.top) + ship.y();
     } else {

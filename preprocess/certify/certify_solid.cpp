@@ -24,6 +24,7 @@ std::string place(const std::array<double, 3>& at) {
 }
 
 void warn_of(const char* what, const SurfaceDistance& d, double radius, SpheresReport& report) {
+    // What is nearer than a radius changes no contact by more than the spheres do themselves.
     if (d.max <= radius) return;
     report.warnings.push_back(
         fmt::format("{} up to {:.3g} m, {:.2g} radii, at {} ({:.2g} m at the 99th percentile)",
@@ -60,6 +61,7 @@ void judge_distances(const std::string& name, double radius, bool refuse, Sphere
 
 void refuse_thin_mesh(const std::string& name, const TriangleMesh& surface, double radius,
                       int dimension) {
+    // Only a bound, but a cheap one: it catches wrong units before the repair.
     const Vec3 size = bounding_box(surface).sizes();
     // a sphere that fits has at most half of the least extent; in 2D a disc, in x-z
     const double most = 0.5 * (dimension == 3 ? size.minCoeff() : std::min(size.x(), size.z()));

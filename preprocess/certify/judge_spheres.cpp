@@ -35,6 +35,7 @@ void set_ice_belt(const TriangleMesh& solid, std::optional<double> draught,
     IceBelt& belt = report.belt;
     belt.draught = *draught;
     belt.thickness = ice_thickness.value_or(kIceOfDraught * *draught);
+    // The draught counts from the lowest point, whatever the mesh's origin is.
     const double water = box.min().z() + *draught;
     belt.low = water - kBelt * belt.thickness;
     belt.high = water + kBelt * belt.thickness;
@@ -62,12 +63,15 @@ void judge_spheres(const SphereSet& set, SpheresReport& report) {
             report.covering_radius, report.covering_radius / set.spacing, report.covering_at[0],
             report.covering_at[1], report.covering_at[2]));
     for (const CutBack& cut : report.cut_back)
+        // More than a radius, and in the belt alone: elsewhere the hull meets no ice, and below a
+        // radius the spheres' own size is coarser.
         if (report.belt && cut.part != "keel" && cut.by > r)
             out.push_back("in the ice belt " + cut_back_text(cut) +
                           ": use a smaller --radius for loads there");
     if (!report.thin_features.empty())
         out.push_back(fmt::format("parts too thin for a sphere of radius {:g} m: {}", r,
                                   report.thin_features.size()));
+    // A spacing is often exactly the bound, written in decimal digits: rounding is no fault.
     const double widest = kWidestSpacing * r;
     if (set.spacing > widest * (1.0 + kSpacingRounding))
         out.push_back(fmt::format(

@@ -22,10 +22,13 @@ Key sorted(Key key) {
 PlacedVertices::PlacedVertices(const TriangleMesh& mesh, double tolerance) {
     Eigen::AlignedBox3d box;
     for (const Vec3& v : mesh.vertices) box.extend(v);
+    // Twice the tolerance: places on both sides of a grid line are then missed only if they lie
+    // near it. A triangle that is missed so is measured, which costs time and nothing else.
     if (tolerance > 0.0 && !box.isEmpty()) grid_ = 2.0 * tolerance * box.diagonal().norm();
     places_.resize(mesh.vertices.size());
     for (std::size_t v = 0; v < places_.size(); ++v)
         places_[v] = {key(mesh.vertices[v]), static_cast<std::int32_t>(v)};
+    // Sorted places are found by bisection; of equal places the first vertex stands for all.
     std::sort(places_.begin(), places_.end());
 }
 
@@ -56,6 +59,7 @@ std::vector<std::uint8_t> shared_triangles(const TriangleMesh& mesh, const Trian
         for (std::size_t t = 0; t < keys.size(); ++t)
             for (std::size_t k = 0; k < 3; ++k)
                 keys[t][k] = place[static_cast<std::size_t>(m.triangles[t][k])];
+        // Sorted corners: a repair may turn a triangle over or begin it at another corner.
         for (Key& key : keys) key = sorted(key);
         return keys;
     };
@@ -64,6 +68,7 @@ std::vector<std::uint8_t> shared_triangles(const TriangleMesh& mesh, const Trian
     const std::vector<Key> asked = keys_of(mesh);
     std::vector<std::uint8_t> shared(asked.size(), 0);
     parallel_for(asked.size(), 4096, [&](std::size_t t) {
+        // A corner without a place has -1, which is first among the sorted ones.
         shared[t] = asked[t][0] >= 0 && std::binary_search(known.begin(), known.end(), asked[t]);
     });
     return shared;

@@ -4,7 +4,6 @@
 #include <numeric>
 
 #include "common/geometry/edge_table.hpp"
-#include "preprocess/clean/keep_triangles.hpp"
 
 namespace ice {
 
@@ -35,14 +34,6 @@ Parts find_parts(const TriangleMesh& mesh) {
                                    : parts.of_triangle[static_cast<std::size_t>(first)];
     }
     return parts;
-}
-
-TriangleMesh take_part(const TriangleMesh& mesh, const Parts& parts, std::int32_t part) {
-    TriangleMesh out = mesh;
-    std::vector<std::uint8_t> keep(mesh.triangles.size());
-    for (std::size_t t = 0; t < keep.size(); ++t) keep[t] = parts.of_triangle[t] == part;
-    keep_triangles(out, keep);
-    return out;
 }
 
 std::vector<double> part_volumes(const TriangleMesh& mesh, const Parts& parts) {

@@ -17,9 +17,6 @@ struct Parts {
 /// Cost O(T). @pre the mesh is welded
 Parts find_parts(const TriangleMesh& mesh);
 
-/// The triangles of one part as a mesh of its own, in order.
-TriangleMesh take_part(const TriangleMesh& mesh, const Parts& parts, std::int32_t part);
-
 /// Signed volume of each part [m3] about one point of its own; of an open part without meaning.
 std::vector<double> part_volumes(const TriangleMesh& mesh, const Parts& parts);
 

@@ -24,6 +24,8 @@ std::vector<NearEdge> find_near_edges(const std::vector<Vec3>& points,
                                       const std::vector<std::pair<Vec3, Vec3>>& edges,
                                       const std::vector<double>& reach) {
     std::vector<EdgeBox> of_points, of_edges;
+    // Boxes that meet, found in O(n log n): the edges' boxes are wider by the reach, the points' by
+    // nothing, so every near pair is among them.
     for (std::size_t k = 0; k < points.size(); ++k)
         of_points.push_back(box_around(points[k], points[k], 0.0, k));
     for (std::size_t k = 0; k < edges.size(); ++k)
@@ -40,6 +42,7 @@ std::vector<NearEdge> find_near_edges(const std::vector<Vec3>& points,
                                  if (part > 0.0 && part < 1.0 && distance <= reach[edge.info()])
                                      out.push_back({point.info(), edge.info(), part, distance});
                              });
+    // CGAL's order depends on its splitting; sorted, equal meshes give equal repairs.
     std::sort(out.begin(), out.end(), [](const NearEdge& l, const NearEdge& r) {
         return std::tie(l.point, l.distance, l.edge) < std::tie(r.point, r.distance, r.edge);
     });

@@ -60,6 +60,8 @@ void refuse_too_many(const FieldSpec& spec, const std::vector<Outline>& outlines
     for (const Outline& outline : outlines)
         // both faces, and a side around them of some four sizes
         surface += 2.0 * area_of(outline) + 4.0 * size_of(outline) * spec.thickness;
+    // A hexagonal layer of spacing s has 2 / sqrt(3) = 1.155 spheres per s^2. Refused before the
+    // fill, which would run for hours and then out of memory.
     const double count = 1.155 * surface / (spec.spacing * spec.spacing);
     if (count > kMostSpheres)
         throw bad_input(
@@ -115,6 +117,7 @@ void measure_field(const FieldPlan& plan, const Field& field, FieldReport& repor
         report.smallest = std::min(report.smallest, size);
         report.largest = std::max(report.largest, size);
     }
+    // Of the loose floes in the field's area; volume() of a rectangle is its area.
     report.concentration = ice / plan.area.volume();
     report.mean_size = sizes / static_cast<double>(plan.loose.size());
 }
@@ -139,6 +142,7 @@ FieldPlan plan_field(const FieldSpec& spec, std::vector<std::string>& warnings) 
             plan = plan_polygons(spec, warnings);
             break;
     }
+    // Unbroken ice comes last: it lies around whatever area the loose floes take.
     add_edges(spec, plan);
     return plan;
 }

@@ -20,12 +20,15 @@ const Vec2& previous(const Outline& outline, std::size_t k) {
 
 }  // namespace
 
+// Diameter of the disc of equal area: the "size" of floes in reports and specifications.
 double size_of(const Outline& outline) {
     return 2.0 * std::sqrt(area_of(outline) / std::numbers::pi);
 }
 
 bool is_convex(const Outline& outline) {
     for (std::size_t k = 0; k < outline.size(); ++k)
+        // Outlines run counterclockwise: a convex one turns left at each corner, or goes straight
+        // on.
         if (cross(outline[k] - previous(outline, k), next(outline, k) - outline[k]) < 0.0)
             return false;
     return true;
@@ -39,6 +42,7 @@ Outline without_straight_corners(const Outline& outline) {
                    after = next(outline, k) - outline[k];
         const bool straight =
             std::abs(cross(before, after)) <= kStraight * before.norm() * after.norm();
+        // A corner that turns back by 180 degrees has the sine 0, too, but is the tip of a needle.
         if (!straight || before.dot(after) < 0.0) out.push_back(outline[k]);
     }
     return out;
@@ -56,6 +60,7 @@ Outline inset(const Outline& outline, double distance) {
         out.push_back(outline[k] + distance / fold * (n1 + n2));
     }
     for (std::size_t k = 0; k < outline.size(); ++k)
+        // An edge that has turned round has shrunk to nothing: the inset has no such form.
         if ((next(out, k) - out[k]).dot(next(outline, k) - outline[k]) <= 0.0) return {};
     return out;
 }

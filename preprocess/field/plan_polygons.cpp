@@ -28,6 +28,7 @@ Outline cleaned(const FieldSpec& s, const NamedOutline& polygon) {
     if (out.size() >= 3) out = without_straight_corners(out);
     if (out.size() < 3)
         throw bad_input(where, "has fewer than three corners", "complete or remove it");
+    // Before the area's sign is used: of an outline that crosses itself it says nothing.
     if (!is_simple(out)) throw bad_input(where, "crosses itself", "put its corners in order");
     if (area_of(out) < 0.0) std::reverse(out.begin(), out.end());
     return out;
@@ -47,6 +48,7 @@ void refuse_overlap(const FieldSpec& s, const std::vector<NamedOutline>& names,
     for (std::size_t i = 0; i < order.size(); ++i)
         for (std::size_t j = i + 1; j < order.size(); ++j) {
             const std::size_t a = order[i], b = order[j];
+            // Sorted by the left side: all later boxes begin farther to the right.
             if (boxes[b].min().x() > boxes[a].max().x()) break;
             const double depth = overlap_depth(floes[a], floes[b]);
             if (depth > kOverlap * std::min(size_of(floes[a]), size_of(floes[b])))

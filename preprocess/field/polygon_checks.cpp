@@ -33,6 +33,7 @@ double depth_of(const Triangle& a, const Triangle& b) {
     for (const Triangle* t : {&a, &b})
         for (std::size_t k = 0; k < 3; ++k) {
             const Vec2 edge = (*t)[(k + 1) % 3] - (*t)[k];
+            // Outward for a triangle that runs anticlockwise.
             const Vec2 out = Vec2(edge.y(), -edge.x()).normalized();
             const Triangle& other = t == &a ? b : a;
             // how far the other triangle reaches behind this edge's line
@@ -46,6 +47,7 @@ double depth_of(const Triangle& a, const Triangle& b) {
 }  // namespace
 
 bool is_simple(const Outline& outline) {
+    // Exact predicates: whether two edges touch must not depend on rounding.
     using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
     std::vector<Kernel::Point_2> points;
     for (const Vec2& p : outline) points.emplace_back(p.x(), p.y());
@@ -57,6 +59,7 @@ double overlap_depth(const Outline& a, const Outline& b) {
     Rectangle box_a, box_b;
     for (const Vec2& p : a) box_a.extend(p);
     for (const Vec2& p : b) box_b.extend(p);
+    // Triangles, because floes may be concave, and separating axes are for convex forms.
     if (!box_a.intersects(box_b)) return 0.0;
     const std::vector<Triangle> of_b = triangles_of(b);
     double deepest = 0.0;

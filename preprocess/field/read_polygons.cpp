@@ -21,6 +21,9 @@ constexpr std::uintmax_t kLargestPolygons = 64u << 20;  // a million corners fit
 constexpr int kDeepest = 20;                            // collections within collections
 constexpr std::size_t kMostQuoted = 60;                 // characters of a bad row in a message
 
+// GeoJSON nests: a collection of features, each with a geometry, which may be a collection or
+// several polygons. Everything that is no polygon (points, lines, features without a geometry) is
+// passed over, as maps of ice have labels and tracks beside the floes.
 class GeoJsonReader {
 public:
     GeoJsonReader(const std::filesystem::path& file, std::size_t& holes)
@@ -38,6 +41,7 @@ public:
 
 private:
     void add(const Json& node, int depth = 0) {
+        // Recursion on a file that nests without an end would exhaust the stack.
         if (depth > kDeepest)
             throw bad_input(file_.string(), "nests collections too deeply", "flatten them");
         const std::string type = node.is_object() ? node.value("type", "") : "";
@@ -89,13 +93,16 @@ std::vector<NamedOutline> read_csv(const std::filesystem::path& file, const std:
         std::getline(cells, y_text, ',');
         const auto x = parse_quantity(x_text, Dimension::none);
         const auto y = parse_quantity(y_text, Dimension::none);
+        // A first row of two words is a header; a row with one number is a fault, and so is a
+        // second header.
         if (!x && !y && out.empty()) continue;  // the header
         if (!x || !y)
             throw bad_input(fmt::format("{}:{}", file.string(), number),
                             "is no row floe, x, y: '" + line.substr(0, kMostQuoted) +
                                 (line.size() > kMostQuoted ? "...'" : "'"),
                             "write for instance 7, 12.5, -3");
-        // rows of one floe stand together
+        // Rows of one floe stand together: an id that comes again after another one begins another
+        // outline, because one outline of both would jump.
         if (out.empty() || id != last) out.push_back({"floe " + id, {}});
         out.back().corners.emplace_back(x->value, y->value);
         last = id;

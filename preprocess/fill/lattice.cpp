@@ -33,6 +33,7 @@ void find_runs(const LatticeFrame& frame, const LatticeBits& bits, std::int64_t 
         std::int64_t first = -1;
         for (std::int64_t w = 0; w < words; ++w) {
             std::uint64_t ends = row[w] ^ (row[w] << 1 | (first >= 0 ? 1u : 0u));
+            // Of 64 points at a time only the ends of runs are visited; rows of a solid have few.
             for (; ends != 0; ends &= ends - 1) {
                 const std::int64_t at = 64 * w + std::countr_zero(ends);
                 if (first < 0) {
@@ -65,6 +66,7 @@ LatticeFill fill_lattice_rows(const TriangleMesh& mesh, const LatticeOptions& o)
     std::vector<std::vector<LatticeRun>> layers(static_cast<std::size_t>(out.frame.count[2]));
     parallel_for(layers.size(), kSerialLayers, [&](std::size_t k) {
         const auto layer = static_cast<std::int64_t>(k);
+        // Layers are independent: rows of one layer mirror into rows of the same layer.
         if (o.mirror) keep_pairs(out.frame, out.bits, layer);
         find_runs(out.frame, out.bits, layer, layers[k]);
     });

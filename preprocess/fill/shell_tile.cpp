@@ -15,11 +15,18 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-// In units of the spacing.
-constexpr double kHalo = 2.0;         // how far beyond the tile seats matter
+// All in units of the spacing. In a layer of perfect hexagons the neighbours of a seat lie at 1,
+// the next ones at sqrt(3) = 1.73, and the middles of its holes, corners of the Voronoi cells, at 1
+// / sqrt(3) = 0.577 from the nearest seats. The certificate's covering radius is the largest such
+// distance in the layer: it can be no less than 0.577, and kGap and kCovered lie just above. Lower
+// ones ask for seats where the separations below leave no room; higher ones leave larger holes.
+//
+// The separations are below 1, because fronts that meet do not fit: a lower one puts more seats
+// into their seams, a higher one leaves holes there for the next stage.
+constexpr double kHalo = 2.0;         // how far beyond the tile seats matter: over kCellReach
 constexpr double kBeyond = 1.2;       // how far beyond it gaps are closed
 constexpr double kStretch = 1.02;     // of a front's hexagons
-constexpr double kReach = 1.4;        // neighbours that take part in a hexagon
+constexpr double kReach = 1.4;        // neighbours that take part in a hexagon: 1, not 1.73
 constexpr double kSeparation = 0.74;  // a hexagon's seams: nearer than this is not placed
 constexpr double kMirrorGap = 0.37;   // half of it: a sphere and its image
 constexpr double kUnreached = 0.9;    // a seed this far from all seats starts a front
@@ -29,7 +36,7 @@ constexpr double kGapMirror = 0.15;
 constexpr double kCovered = 0.62;         // a seed farther from all seats gets one
 constexpr double kCoverSeparation = 0.4;  // where it had to move into the centre plane
 constexpr double kAlike = 0.25;           // cube of seeds that end alike, of radius and spacing
-constexpr double kCellReach = 1.75;       // neighbours that bound a Voronoi cell
+constexpr double kCellReach = 1.75;       // neighbours that bound a Voronoi cell: 1.73, too
 constexpr double kCellSize = 0.9;         // half the edge of the square a cell starts as
 constexpr double kOutside = 0.02;         // beyond a plane: not settled in a convex solid
 

@@ -27,6 +27,7 @@ Sight look(const SurfaceTree& tree, const SphereSet& set, const SphereFinder& fi
     out.area = sample.area;
     out.triangle = sample.triangle;
     out.point = sample.point.cast<float>();
+    // The centre of the sphere that would touch the surface here.
     const Vec3 seat = sample.point - radius * sample.normal;
     // the sphere of the sample: the nearest one whose normals agree with the surface there
     const auto any = finder.nearest(seat, last);
@@ -36,9 +37,13 @@ Sight look(const SurfaceTree& tree, const SphereSet& set, const SphereFinder& fi
     const Vec3& center = set.centers[static_cast<std::size_t>(near.index)];
     out.gap = static_cast<float>(std::max((sample.point - center).norm() - radius, 0.0));
     // where no sphere fits, nothing can cover
+    // In a wedge or a thin part the sphere at this seat would stick out on the other side. The set
+    // is not to blame for such places: they count as gap, not as cover.
     if (share_only || !tree.is_clear(seat, radius * (1.0 - kReachable))) return out;
     out.cover = static_cast<float>(finder.covering(seat, sample.normal, any).distance);
     const auto k = static_cast<std::size_t>(near.index);
+    // In an edge a sphere has a normal midway between faces, which is right there and wrong on each
+    // of them.
     if (set.normal_spread[k] >= kFaceSpread) return out;
     const Vec3& n = set.normals[k];
     // the angle by its sine too: acos alone has no digits near zero
@@ -55,6 +60,7 @@ SphereFinder::SphereFinder(const SphereSet& set)
       least_(set.surface_count) {
     ICE_ASSERT(set.surface_count <= set.normals.size() &&
                set.surface_count <= set.normal_spread.size());
+    // Cosines once for each sphere: they are compared for millions of samples.
     const double on_face = std::cos(kFaceTurn);
     for (std::size_t k = 0; k < least_.size(); ++k)
         least_[k] = set.normal_spread[k] == 0.0
@@ -79,6 +85,8 @@ template <class Accept>
 PointCells::Nearest SphereFinder::nearest_of(const Vec3& p, const PointCells::Nearest& any,
                                              const Accept& accept) const {
     if (accept(any.index) || any.distance > kFar * set_.spacing) return any;
+    // Of equal distances the smaller index, whatever the order of the cells: the report has the
+    // same numbers on any machine.
     PointCells::Nearest best{-1, any.distance + 2.0 * set_.spacing};
     // others that accept lie at most two spacings farther away than the nearest of all
     cells_.visit(p, best.distance, [&](std::int32_t k, double distance) {
@@ -99,6 +107,8 @@ PointCells::Nearest SphereFinder::covering(const Vec3& p, const Vec3& normal,
 }
 
 double survey_size(const SphereSet& set, bool half) {
+    // A quarter of the spacing sees holes of the layer; for very fine sets the number of samples is
+    // bounded, as the percentiles do not need more.
     const double area = set.solid.area * (half ? 0.5 : 1.0);
     return std::max(std::min(set.spacing, 2.0 * set.radius) / 4.0,
                     set.dimension == 2 ? 0.0 : std::sqrt(area / kMostSamples));

@@ -57,6 +57,7 @@ private:
 
     void choose_units() {
         const double length = bounding_box(mesh_).sizes().maxCoeff();
+        // In this order: what the user says, what the file says, and a guess, which is noted.
         if (options_.scale) {
             frame_.metres = *options_.scale;
         } else if (file_.metres) {
@@ -106,6 +107,7 @@ private:
         if (options_.forward && Direction::from(*options_.forward).axis == 1) return false;
         const Vec3 size = bounding_box(mesh_).sizes();
         if (hull_->prism) return false;
+        // A hull is broader than deep; a mesh that is not is named in a warning, not turned.
         if (size[hull_->breadth] >= size[hull_->vertical]) return true;
         warn(
             fmt::format("the mesh is symmetric across {0} only: if it is a hull with y up, "
@@ -147,6 +149,7 @@ private:
         note("forward", frame_.forward.text() + (ratio < 1.0 / kFiner && ratio > kFiner
                                                      ? ", but which end is the bow cannot be seen"
                                                      : ""));
+        // Only a warning: the axis is right, and sterns of icebreakers are fine, too.
         if (ratio <= kFiner)
             warn(fmt::format("the bow seems to point to -{0}: give --forward -{0} if so",
                              axis_name(hull_->length)));

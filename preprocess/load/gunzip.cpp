@@ -49,6 +49,7 @@ std::vector<char> gunzip(const std::filesystem::path& file, std::uint64_t limit)
     std::vector<char> bytes;
     std::size_t filled = 0;
     for (;;) {
+        // Doubled, so that all copies together cost no more than the last one.
         if (bytes.size() - filled < block) bytes.resize(std::max(2 * bytes.size(), 2 * block));
         const int count = gzread(in.get(), bytes.data() + filled, block);
         int code = Z_OK;

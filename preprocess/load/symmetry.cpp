@@ -35,12 +35,15 @@ Eigen::AlignedBox3d bounding_box(const TriangleMesh& mesh) {
     return box;
 }
 
+// No point is compared with its image: a symmetric hull may be triangulated in different ways on
+// both sides, while integrals over the surface do not depend on the triangles.
 double asymmetry(const TriangleMesh& mesh, int axis) {
     const Eigen::AlignedBox3d box = bounding_box(mesh);
     if (box.isEmpty()) return 0.0;
     const Vec3 centre = box.center();
     Vec3 unit = 0.5 * box.sizes();
     for (int k = 0; k < 3; ++k)
+        // A flat mesh has no extent along one axis.
         if (!(unit[k] > 0.0)) unit[k] = 1.0;
 
     std::array<double, 7> sum{};

@@ -26,6 +26,8 @@ std::vector<std::string> cap_warnings(const ClosedSurface& closed) {
     std::vector<std::string> out;
     std::vector<CapVerdict> large;
     for (const CapVerdict& cap : closed.caps) {
+        // An open deck is said whatever its size: it is the one cap that a user may not have
+        // expected.
         if (cap.kind == CapKind::deck)
             out.push_back(fmt::format("the open deck at {} was closed by a cap of {:.3g} m2",
                                       place(cap.at), cap.area));
@@ -51,6 +53,8 @@ std::vector<std::string> cap_warnings(const ClosedSurface& closed) {
 }
 
 std::string fault_of(const CapVerdict& cap, const ClosedSurface& closed) {
+    // Two faults look alike: many openings whose doubts add up, of which this one is not half, and
+    // one opening that is too large by itself. They have different remedies.
     if (closed.doubt > kMostDoubt && cap.doubt < 0.5 * closed.doubt * closed.volume)
         return fmt::format(
             "closing its {} openings leaves {:.2g} % of the volume in doubt ({:g} % may be), most "
@@ -65,6 +69,8 @@ std::string fault_of(const CapVerdict& cap, const ClosedSurface& closed) {
 std::string fault_of_cracks(const TriangleMesh& open) {
     const WideCracks cracks = find_wide_cracks(open);
     const auto all = static_cast<double>(cracks.vertices);
+    // Vertices along a hole have no other open edge beside them; those along a crack have the other
+    // side of it.
     if (static_cast<double>(cracks.beside_another) <= kCracked * all) return "";
     return fmt::format(
         "of the {} vertices on those left, {} lie beside another open edge, up to {:.2g} m away: "

@@ -36,6 +36,7 @@ SolidDiagnosis diagnose_edges(const TriangleMesh& mesh) {
 SolidDiagnosis diagnose_solid(const TriangleMesh& mesh) {
     SolidDiagnosis out = diagnose_edges(mesh);
     out.parts = find_parts(mesh).count;
+    // Crossings cost most and are searched last: an open surface has other faults to mend first.
     if (!out.closed()) return out;
     const auto pairs = find_self_intersections(mesh);
     out.intersecting_pairs = static_cast<std::int64_t>(pairs.size());
@@ -78,6 +79,7 @@ std::vector<Opening> find_openings(const TriangleMesh& mesh) {
         }
         openings.push_back(opening);
     }
+    // The longest first: it is mostly the one that a user has to close.
     std::stable_sort(openings.begin(), openings.end(),
                      [](const Opening& l, const Opening& r) { return l.perimeter > r.perimeter; });
     return openings;

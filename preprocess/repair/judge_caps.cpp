@@ -14,18 +14,28 @@ namespace ice {
 
 namespace {
 
-constexpr double kDoubt = 0.005;       // of the volume: one cap
-constexpr double kTrifle = 0.0005;     // of the volume: one cap whose kind need not be known
-constexpr double kSuspect = 0.005;     // of the surface: largest cap in a file that seems cut off
-constexpr double kContinued = 0.2;     // of the surface: all continued faces together
-constexpr double kLoose = 0.05;        // of the surface: all small caps together
-constexpr double kSteepest = 0.0872;   // cosine of 85 degrees
-constexpr double kEnd = 0.0005;        // of the surface: largest cap of guessed form at an end
-constexpr std::size_t kFewEdges = 8;   // round a face or two, or round one vertex, that are missing
+// Limits above which caps are refused (judge_caps.hpp). Larger ones accept more meshes and leave
+// more of the volume to a guess; smaller ones refuse meshes whose volume is known well enough.
+constexpr double kDoubt = 0.005;      // of the volume, in doubt by one cap
+constexpr double kSuspect = 0.005;    // of the surface: largest cap in a file that seems cut off
+constexpr double kContinued = 0.2;    // of the surface: all continued faces together
+constexpr double kLoose = 0.05;       // of the surface: all small caps together
+constexpr double kEnd = 0.0005;       // of the surface: largest cap of guessed form at an end
+constexpr std::size_t kFewEdges = 8;  // round a face or two, or round one vertex, that are missing
+
+// In doubt by one cap, of the volume: below it the kind does not matter and is not found out, which
+// saves time only.
+constexpr double kTrifle = 0.0005;
+
+// tan a of the turn at a rim is computed with a cosine of at least this, that of 85 degrees: an
+// upright wall would put an infinite volume in doubt.
+constexpr double kSteepest = 0.0872;
+
+// Lengths and angles that count as none: far above the rounding of coordinates with six digits.
 constexpr double kAtEnd = 1e-3;        // of the length: an opening this near to an end is at it
 constexpr double kStep = 1e-3;         // of the diagonal: a step in the rim of a deck
-constexpr double kJustOutside = 1e-4;  // of the diagonal
-const double kFlat = std::cos(std::numbers::pi / 180.0);  // one degree
+constexpr double kJustOutside = 1e-4;  // of the diagonal: where winding numbers are asked for
+const double kFlat = std::cos(std::numbers::pi / 180.0);  // one degree: faces of one plane
 
 struct Plane {
     Vec3 normal;

@@ -20,6 +20,7 @@ std::size_t corner_of(const TriangleMesh& mesh, std::int32_t triangle, std::int3
     return static_cast<std::size_t>(std::find(t.begin(), t.end(), vertex) - t.begin());
 }
 
+// The edge table has two triangles of an edge only: of edges with more all are collected here.
 std::map<Key, std::vector<std::int32_t>> find_crowded(const TriangleMesh& mesh,
                                                       const std::vector<MeshEdge>& edges) {
     std::map<Key, std::vector<std::int32_t>> crowded;
@@ -44,11 +45,14 @@ Pairing pair_up(const TriangleMesh& mesh, const Parts& parts, const Key& edge,
         double turn;  // 1 - cosine of the angle between the two
         std::int32_t s, t;
     };
+    // Unit vector from the edge into the triangle, at right angles to the edge: the cosine of two
+    // of them is that of the angle between the triangles.
     const auto away = [&](std::int32_t t) {
         const std::size_t k = corner_of(mesh, t, edge.first), l = corner_of(mesh, t, edge.second);
         const Vec3 d = mesh.corner(static_cast<std::size_t>(t), static_cast<int>(3 - k - l)) - a;
         return Vec3((d - axis * axis.dot(d)).normalized());
     };
+    // Neighbours in a surface run through their common edge in opposite directions.
     const auto forwards = [&](std::int32_t t) {
         return (corner_of(mesh, t, edge.first) + 1) % 3 == corner_of(mesh, t, edge.second);
     };
@@ -113,6 +117,8 @@ std::int64_t separate_sheets(TriangleMesh& mesh) {
         corners.join(s, t, edge.second);
     };
     for (const MeshEdge& edge : edges)
+        // Corners across a regular edge are the same two vertices. A vertex at which two sheets
+        // only touch is in two sets then, and becomes two vertices.
         if (edge.count == 2) join({edge.a, edge.b}, edge.triangles[0], edge.triangles[1]);
     for (const auto& [edge, triangles] : crowded)
         for (const auto& [s, t] : pair_up(mesh, parts, edge, triangles)) join(edge, s, t);

@@ -122,6 +122,8 @@ std::pair<double, Vec3> farthest_outside(const TriangleMesh& mesh, const Triangl
     const SurfaceTree tree(solid);
     std::vector<double> outside(mesh.vertices.size(), 0.0);
     parallel_for(outside.size(), 100, [&](std::size_t k) {
+        // Of vertices only: the largest distance of a coarse triangle may lie inside it, which is
+        // accepted.
         const Foot foot = tree.closest(mesh.vertices[k]);
         if (!foot.inside) outside[k] = foot.distance;
     });
@@ -162,6 +164,8 @@ WindingSolid winding_solid(const TriangleMesh& mesh, SolidKind kind, double fine
         }
         return left / length;
     });
+    // The contour has the grid's steps rounded off: its vertices are brought back to the edges of
+    // the source, and its triangles get the source's regions.
     if (out.mesh.triangles.empty()) return out;
     sharpen_contour(out.mesh, tree, grid.step);
     copy_regions(mesh, out.mesh);

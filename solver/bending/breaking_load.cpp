@@ -76,6 +76,7 @@ double breaking_load(const PieceOutline& piece, const Case& parameters) {
 double breaking_load(double angle, double thickness, const Case& parameters) {
     const BendingLaw& law = parameters.bending;
     const IcePlate plate = plate_of(thickness, parameters);
+    // In 2D the piece is a beam: it has no opening angle.
     if (parameters.dimension == 2) return law.factor * beam_breaking_load(plate);
     if (!std::isnan(law.opening_angle)) angle = law.opening_angle;
     return law.factor * (law.model == BendingModel::wedge

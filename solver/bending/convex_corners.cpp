@@ -9,7 +9,7 @@ namespace {
 
 using Vec2 = Eigen::Vector2d;
 
-// Does the way from a over b to c turn left?
+// Does the path from a over b to c turn left? Corners on a straight line do not, and are left out.
 bool turns_left(const Vec2& a, const Vec2& b, const Vec2& c) {
     const Vec2 u = b - a, v = c - b;
     return u.x() * v.y() - u.y() * v.x() > 0.0;

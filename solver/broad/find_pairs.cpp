@@ -144,9 +144,9 @@ bool PairList::is_good(const Scene& scene, const MotionBounds& motion) const {
     // other bodies, or other ones that move: the list lacks their pairs
     if (bodies_ != scene.bodies.size() || moving_ != scene.bodies.moving) return false;
     // not-a-number never passes
-    const auto stays = [&](std::int32_t i, double way) {
+    const auto stays = [&](std::int32_t i, double path) {
         // the path at the end of the coming step, so that the step itself is covered
-        return motion.path_after_step(i) <= way + kSkin;
+        return motion.path_after_step(i) <= path + kSkin;
     };
     if (!stays(kShipId, ship_path_)) return false;
     for (std::size_t k = 0; k < moving_.size(); ++k)
@@ -157,7 +157,7 @@ bool PairList::is_good(const Scene& scene, const MotionBounds& motion) const {
 void PairList::update(const Scene& scene, const MotionBounds& motion, double margin) {
     if (is_good(scene, motion)) return;
     // A pair may come nearer by both bodies' skins before the list is renewed.
-    const double reach = margin + 2.0 * kSkin;  // both bodies of a pair may go as far
+    const double reach = margin + 2.0 * kSkin;  // both bodies of a pair may move as far
     const Eigen::AlignedBox3d box = reach_of_motion(scene, reach);
     drifting_ = fastest_held(scene.bodies);
     // Two levels: the floes in the vicinity change seldom, the pairs among them more often.

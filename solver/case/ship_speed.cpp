@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The prescribed course: speed and way of the ship by its table.
+// The prescribed course: speed and path of the ship by its table.
 #include <algorithm>
 
 #include "common/base/interpolate.hpp"

@@ -32,10 +32,10 @@ double depth_beside(const Scene& scene, std::int32_t body, std::int32_t sphere,
                     const Vec3& inwards) {
     const Shape& shape = scene.shapes[static_cast<std::size_t>(scene.bodies.shape[body])];
     // in body axes: crushing of neighbours counts along this contact's inward direction only
-    const double reach = kNeighbours * shape.patch_radius;
+    const double range = kNeighbours * shape.patch_radius;
     double deepest = 0.0;
     for (std::size_t k = 0; k < shape.center.size(); ++k) {
-        if ((shape.center[k] - shape.center[sphere]).squaredNorm() > reach * reach) continue;
+        if ((shape.center[k] - shape.center[sphere]).squaredNorm() > range * range) continue;
         const auto of = static_cast<std::int32_t>(k);
         deepest = std::max(deepest, scene.crushed.displacement_of(body, of).dot(inwards));
     }
@@ -86,8 +86,8 @@ void Recess::find_moves(const Scene& scene, double dt, const std::vector<Contact
         const double jump = deeper - most_closed(scene, constraints[k], dt);
         if (jump <= 0.0) continue;
         const Vec3 inwards = scene.bodies.rotation[place.body].transpose() * inwards_of(c);
-        const double way = std::min(jump, depth_beside(scene, place.body, place.sphere, inwards));
-        if (way > 0.0) moves_.push_back({place, k, way * inwards});
+        const double depth = std::min(jump, depth_beside(scene, place.body, place.sphere, inwards));
+        if (depth > 0.0) moves_.push_back({place, k, depth * inwards});
     }
     // by sphere: several contacts may ask for the same one's, which moves once
     std::sort(moves_.begin(), moves_.end(), [](const Move& l, const Move& r) {
@@ -125,8 +125,8 @@ void Recess::move_spheres(Scene& scene, const ContactLaw& law, double dt,
             std::lower_bound(moves_.begin(), moves_.end(), place,
                              [](const Move& m, const Place& p) { return m.place < p; });
         if (move == moves_.end() || !(move->place == place)) continue;
-        const Vec3 way = scene.bodies.rotation[place.body] * move->way;
-        const double opened = std::max(0.0, way.dot(inwards_of(contacts[k])));
+        const Vec3 shift = scene.bodies.rotation[place.body] * move->way;
+        const double opened = std::max(0.0, shift.dot(inwards_of(contacts[k])));
         contacts[k].gap += opened;
         constraints[k].gap += opened;
     }

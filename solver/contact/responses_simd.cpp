@@ -68,6 +68,7 @@ HWY_INLINE Lanes LargestTangentResponse(const Matrices& k, Vectors n) {
                        hn::Div(across.z, length)};
     const Vectors t = Cross(n, s), kt = Product(k, t);
     const Lanes ss = Dot(s, Product(k, s)), tt = Dot(t, kt), st = Dot(s, kt);
+    // Of the symmetric 2x2 matrix (ss st; st tt): (ss + tt) / 2 + sqrt(((ss - tt) / 2)^2 + st^2).
     const Lanes apart = hn::Sub(ss, tt);
     return hn::Add(hn::Mul(All(0.5), hn::Add(ss, tt)),
                    hn::Sqrt(hn::Add(hn::Mul(hn::Mul(All(0.25), apart), apart), hn::Mul(st, st))));
@@ -102,6 +103,8 @@ void MeasureResponses(const PairBlock& block, const BlockInverseInertias& invers
                 ResponseMatrix(inverse_mass, inverse_inertia_a, arm_a, inverse_inertia_b, arm_b);
             if (excess != nullptr)
                 for (int i = 0; i < 3; ++i) k.row[i] = Add(k.row[i], of_water.row[i]);
+            // 1 / k(n) with k(n) = n . K n, and 1 / k_t with the larger eigenvalue in the tangent
+            // plane: steps of this length converge for every sliding direction.
             const Lanes effective_mass = hn::Div(one, Dot(n, Product(k, n)));
             const Lanes tangent_effective_mass = hn::Div(one, LargestTangentResponse(k, n));
             put(effective_mass, row.effective_mass);

@@ -14,6 +14,8 @@ HWY_BEFORE_NAMESPACE();
 namespace ice::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
+// |g|^2 = sum k(n) |dJ|^2 of (11): weighted with the inverse effective mass, so that impulses on
+// light floes count as much as on heavy ones.
 double MeasureChange(const std::vector<ContactRow>& rows, const SweepMemory& memory) {
     const Tag d;
     LaneValues sum{};
@@ -33,6 +35,8 @@ double MeasureChange(const std::vector<ContactRow>& rows, const SweepMemory& mem
     return ((s[0] + s[1]) + (s[2] + s[3])) + ((s[4] + s[5]) + (s[6] + s[7]));
 }
 
+// J := J + beta d, then d := beta d + g with g the change in the last sweep. Velocities move along
+// with the impulses, as they are linear in them: nothing is computed from impulses anew.
 HWY_INLINE void MoveOn(double* values, double* before, double* direction, Lanes beta) {
     const Tag d;
     for (std::size_t k = 0; k < kLanes; k += hn::Lanes(d)) {

@@ -68,7 +68,7 @@ HWY_INLINE void Streams<N, kWater>::Solve(Changes& most) {
     const auto values = [&](LaneValues ContactRow::*part) HWY_ATTR {
         return Read([=](const ContactRow& row) -> const LaneValues& { return row.*part; });
     };
-    // normal impulse: what brings v_r . n to its target, between 0 and its bound
+    // (9): the normal impulse that brings v_r . n to its target, between 0 and its bound
     const WideVectors<N> n = vectors(&ContactRow::normal);
     const WideVectors<N> arm_a = vectors(&ContactRow::arm_a), arm_b = vectors(&ContactRow::arm_b);
     const WideVectors<N> v = b.At(arm_b) - a.At(arm_a);
@@ -81,7 +81,7 @@ HWY_INLINE void Streams<N, kWater>::Solve(Changes& most) {
     const Wide<N> change = next - normal;
     Write(next, normal_of);
 
-    // friction against the sliding that is left, cut back to the cone
+    // (10): friction against the sliding that the normal impulse leaves, shortened to the cone
     const WideVectors<N> after = v + change * vectors(&ContactRow::response);
     const WideVectors<N> sliding = after - Dot(n, after) * n;
     const WideVectors<N> before = ReadVectors(

@@ -83,8 +83,8 @@ void place_ship(World& w, Draft& draft) {
     place.x() += ice.min().x() - ship.max().x() - ship.sizes().x();  // a length before it
     const Course course = measure_course(w);
     if (!std::isfinite(course.clearance))
-        throw bad_input("--new", "no ice of the field lies on the ship's way",
-                        "use a field whose thickness reaches the hull, on both sides of its line");
+        throw bad_input("--new", "the ship never meets the field's ice",
+                        "use a field with ice at the hull's height, across its centre line");
     const double gap = 2.0 * w.scene.shapes[0].spacing;
     draft.x = std::floor(100.0 * (place.x() + course.clearance - gap)) / 100.0;
     const double step = rounded(0.01 * ship.sizes().y(), 1);  // no digits nobody means

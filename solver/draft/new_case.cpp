@@ -120,6 +120,7 @@ fs::path write_new_case(const NewCase& wish) {
     const Draft draft = draft_case(hull, field);
     write_text_file(out, draft_text(draft, seen_from(folder, hull), seen_from(folder, field)));
     // a mean over less than a ship length has not seen the ship's whole side pass
+    // A little less than one: the field's ends are not used to the last metre.
     if (draft.averaged_lengths < 0.95)
         say_warning(fmt::format(
             "the field is short: forces are averaged over {:.2f} ship lengths; area.size of {:.3g} "

@@ -88,6 +88,8 @@ int MemberFields::make(const Group& group, std::int64_t seed) {
 }
 
 bool MemberFields::changes_with_seed(const Group& group, std::int64_t first) {
+    // Two seeds are tried out: whether a specification has anything random is known to icefield
+    // alone. The fields are those of the first two members, so nothing is made in vain.
     for (const std::int64_t seed : {first, first + 1}) {
         const int code = make(group, seed);
         if (code == 0) continue;

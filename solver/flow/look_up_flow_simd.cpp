@@ -15,6 +15,8 @@ namespace ice::HWY_NAMESPACE {
 void LookUpFlow(const FlowGrid& grid, std::span<const Vec3> points, std::span<FlowSample> out) {
     for (std::size_t k = 0; k < points.size(); ++k) {
         double value[FlowGrid::kNumbers];
+        // One point at a time: the four numbers of a node fill the lanes. Loads look up eight
+        // points at a time with the same order of sums (flow_near_lanes-inl.hpp).
         LookUp(grid, points[k].x(), points[k].y(), points[k].z(), value);
         out[k].velocity = Vec3(value[0], value[1], value[2]);
         out[k].potential = value[3];

@@ -36,6 +36,8 @@ HWY_INLINE Lanes Log(Lanes x) {
     const auto in_one_to_two =
         hn::Or(hn::And(bits, hn::Set(u, own::kMantissa)), hn::Set(u, own::kOne));
     const Lanes full = hn::BitCast(d, in_one_to_two);
+    // x = 2^e m with m between sqrt(1/2) and sqrt(2), where the series of log m = 2 atanh((m - 1) /
+    // (m + 1)) converges fastest. Own series, because a library's last bit differs between systems.
     const Mask large = hn::Gt(full, All(own::kSqrt2));
     const Lanes m = hn::IfThenElse(large, hn::Mul(All(0.5), full), full);
     const Lanes exponent = hn::IfThenElse(large, hn::Add(whole, All(1.0)), whole);
@@ -84,6 +86,8 @@ HWY_INLINE Flow NearFlow(const SourcePanel& p, Vectors at) {
     Flow out{Zero(), hn::Zero(Tag())};
     for (std::size_t k = 0; k < 3; ++k) {
         const Lanes sum = hn::Add(r[k], r[(k + 1) % 3]), l = All(p.length[k]);
+        // L_k of (22). On the edge itself r_k + r_k+1 = l_k and L_k is infinite: the bound keeps it
+        // a number.
         const Lanes gap = hn::Max(hn::Sub(sum, l), All(kLeastGap * p.length[k]));
         const Lanes log = Log(hn::Div(hn::Add(sum, l), gap));
         const Vectors outward = Set(p.outward[k]);
@@ -96,6 +100,7 @@ HWY_INLINE Flow NearFlow(const SourcePanel& p, Vectors at) {
     const Lanes down =
         hn::Add(hn::Add(hn::Mul(hn::Mul(r[0], r[1]), r[2]), hn::Mul(Dot(a[0], a[1]), r[2])),
                 hn::Add(hn::Mul(Dot(a[1], a[2]), r[0]), hn::Mul(Dot(a[2], a[0]), r[1])));
+    // Omega of (22): its sign is that of -h, h the height of the face over the point.
     const Lanes size = hn::Mul(All(2.0), HalfPlaneAngle(hn::Abs(up), down));
     const Lanes angle = hn::IfThenElse(hn::Gt(height, hn::Zero(Tag())), hn::Neg(size), size);
     out.v = Add(out.v, Scale(angle, normal));
@@ -119,6 +124,8 @@ HWY_INLINE Flow UnitFlow(const SourcePanel& p, Vectors at) {
 
 HWY_INLINE Flow WithImageBelow(const PanelBody& body, const SourcePanel& p, Vectors at) {
     const Flow own = UnitFlow(p, at), image = UnitFlow(p, {at.x, at.y, hn::Neg(at.z)});
+    // The image in z = 0 has the panel's sign for a flat surface (phi_z = 0), the opposite one for
+    // phi = 0. Its flow is that of the panel at the mirrored point, mirrored back.
     const Lanes s = All(body.image);
     return Sum(own, {{hn::Mul(s, image.v.x), hn::Mul(s, image.v.y), hn::Neg(hn::Mul(s, image.v.z))},
                      hn::Mul(s, image.phi)});

@@ -55,6 +55,8 @@ Eigen::MatrixXd influence(const PanelBody& body) {
     return out;
 }
 
+// At other points than those of the solution: there the residual is only that of the iteration, and
+// says nothing of the panels.
 void check_flow(const Vec3& direction, PanelFlow& flow) {
     std::vector<Vec3> points;
     for (const SourcePanel& p : flow.body.panels)
@@ -71,6 +73,7 @@ Eigen::MatrixXd solve_strengths(const PanelBody& body, const Eigen::MatrixXd& wa
     // The integral equation is of the second kind, so the matrix is well conditioned: the iteration
     // needs no preconditioner and far fewer products than an elimination.
     Eigen::BiCGSTAB<Eigen::MatrixXd, Eigen::IdentityPreconditioner> solver(matrix);
+    // Far below the error of the panels themselves, about 1 %.
     solver.setTolerance(1e-10);
     solver.setMaxIterations(kMostIterations);
     Eigen::MatrixXd out(wanted.rows(), wanted.cols());

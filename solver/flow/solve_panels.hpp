@@ -35,7 +35,7 @@ Eigen::MatrixXd solve_strengths(const PanelBody& body, const Eigen::MatrixXd& wa
                                 int* iterations = nullptr);
 
 /// Added mass over that of the displaced water for motion along x, from the sources' dipole moment:
-/// sum of s A x = V (1 + C_a).
+/// sum of s A x = V (1 + C_a). A check of the strengths, for tests; added_mass.hpp has the matrix.
 double added_mass_coefficient(const PanelFlow& flow, double volume);
 
 /// Flow at points, on all threads; the same bits for any number.

@@ -105,16 +105,16 @@ void AdvancePart(Bodies& b, std::span<const std::int32_t> floes, const Advance& 
     const Matrices inverse_inertia = at.Load(b, &Inertia::inverse);
     const Vectors k1 = Scale(dt, Turned(r, inverse_inertia, angular_momentum));
     const Vectors turn = at.Load(step.corrections.turn);
-    const Mask spins = NotZero(k1), nudged = NotZero(turn);
+    const Mask spins = NotZero(k1), corrected = NotZero(turn);
     ExponentialMap map;
     if (!hn::AllFalse(d, spins))
         q = Choose(spins, Turn(q, inverse_inertia, angular_momentum, k1, dt, map), q);
-    if (!hn::AllFalse(d, nudged)) q = Choose(nudged, Normalized(Product(map(turn), q)), q);
+    if (!hn::AllFalse(d, corrected)) q = Choose(corrected, Normalized(Product(map(turn), q)), q);
     // a lane turns by more than the series of the exponential map covers
     if (!hn::AllFalse(d, map.beyond)) return reference::advance_floes(b, floes, step);
 
     // where nothing turns, all that follows from the orientation is there
-    const bool any_turns = !hn::AllFalse(d, hn::Or(spins, nudged));
+    const bool any_turns = !hn::AllFalse(d, hn::Or(spins, corrected));
     if (any_turns) {
         r = RotationOf(q);
         at.Store(q, b.orientation);

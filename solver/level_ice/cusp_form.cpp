@@ -18,7 +18,8 @@ constexpr double kLeast = 0.2;  // of the radius at rest
 }  // namespace
 
 double crack_size(const CrackLaw& law, double length, double normal_speed, std::uint64_t cusp) {
-    // (30); the radius of a fast load is at least a fifth of that at rest
+    // (30). C_v is below 0: a fast load breaks shorter pieces. The bound of a fifth keeps the
+    // radius positive at any speed.
     const double rest = law.length_factor * length;
     return rest * std::max(kLeast, 1.0 + law.speed_factor * normal_speed) *
            (1.0 + law.scatter * random_offset(law.seed, cusp));

@@ -15,6 +15,8 @@ namespace cl = ClipperLib;
 constexpr double kLattice = 0x1p-30;  // [m]
 constexpr double kSheet = 10.0;       // cracked regions: a part as large is a sheet by itself
 
+// Clipper works on whole numbers: a crack cuts the same corners on every machine. A billionth of a
+// metre is far below what any load or area can show.
 cl::Path to_lattice(const Loop& loop) {
     cl::Path out;
     for (const Vec2& p : loop)
@@ -92,6 +94,7 @@ std::vector<Part> opened(Part part) {
     for (const Vec2& p : part.outer) box.extend(p);
     for (const Vec2& p : part.holes[0]) hole.extend(p);
     // two halves, left and right of the hole's middle, each without that hole
+    // The cut goes through the hole, so each half has one hole less: the recursion ends.
     Eigen::AlignedBox2d low = box, high = box;
     low.max().x() = high.min().x() = hole.center().x();
     const std::vector<Loop> loops = all_loops({std::move(part)});
@@ -103,6 +106,7 @@ std::vector<Part> opened(Part part) {
 }
 
 bool is_too_small(const Loop& loop, double smallest) {
+    // Too small by its area, or too narrow: 2 A / perimeter is the mean breadth of a long strip.
     const double area = area_of(loop);
     return area < smallest * smallest || 2.0 * area < 0.25 * smallest * length_of(loop);
 }
@@ -111,6 +115,8 @@ bool is_too_small(const Loop& loop, double smallest) {
 
 IceSheet::IceSheet(const Eigen::AlignedBox2d& extent, double smallest) : smallest_(smallest) {
     const Vec2 &a = extent.min(), &b = extent.max();
+    // Rounded to the lattice at once: the area at the start is that of the polygon that cracks will
+    // cut.
     loops_ = {from_lattice(to_lattice(loop_of({a, b})))};
 }
 

@@ -14,7 +14,8 @@ Loop section_outline(const TriangleMesh& mesh, double z) {
         for (int k = 0; k < 3; ++k) {
             const Vec3& a = mesh.vertices[static_cast<std::size_t>(triangle[k])];
             const Vec3& b = mesh.vertices[static_cast<std::size_t>(triangle[(k + 1) % 3])];
-            // each edge that crosses the height gives a point; the outline is their convex hull
+            // Each edge that crosses the height gives a point; the outline is their convex hull. A
+            // vertex at the height itself counts as above, so nothing is divided by 0.
             if ((a.z() < z) == (b.z() < z)) continue;
             const double share = (z - a.z()) / (b.z() - a.z());
             points.emplace_back(a.x() + share * (b.x() - a.x()), a.y() + share * (b.y() - a.y()));

@@ -10,6 +10,8 @@ namespace ice {
 
 namespace {
 
+// The published ranges stand beside the numbers because they are the quickest check of a case:
+// cracks far outside them mean a wrong strength, modulus or thickness.
 std::string describe_strip(const LiveEdge& edge) {
     const IceAreas areas = edge.areas();
     const auto pieces = edge.pieces();
@@ -53,6 +55,8 @@ std::string describe_edge(const LiveEdge& edge) {
     }
     const auto count = static_cast<double>(pieces.size());
     radius /= count;
+    // All ice that is gone from the channel, over the length along which pieces broke off: the mean
+    // breadth of the channel.
     const double broken = areas.pieces + areas.crushed + areas.brash;
     return out + fmt::format(
                      "\nlevel ice: cracks {:.2g} m from the load, {:.2g} characteristic lengths "

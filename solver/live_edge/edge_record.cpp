@@ -28,6 +28,8 @@ PiecesFile record_edge(const LiveEdge& edge) {
     out.piece_group = edge.piece_group();
     out.rest_group = edge.tile_group();
     for (const IcePiece& piece : edge.pieces()) {
+        // The outline is in the ice's axes, as the crack cut it: the pose in later frames is that
+        // of the piece's body in run.h5.
         PieceRow row = row_of(edge, piece.outline);
         row.number = static_cast<std::int32_t>(piece.number);
         row.body = piece.body;

@@ -26,13 +26,30 @@ namespace {
 
 using Box = Eigen::AlignedBox2d;
 
-constexpr double kRadius = 0.25;     // of the spheres, in thicknesses: icefield's default
-constexpr double kHolds = 0.26;      // thicknesses inwards from its sides, where something is
-constexpr double kAhead = 2.0;       // of the hull, in radii of a crack at rest
-constexpr double kAstern = 0.5;      // in the hull's lengths
-constexpr double kParked = 1000.0;   // from the sheet to slots without ice [m]
-constexpr double kCover = 0.25;      // share of half a disc that a piece has, at least
-constexpr double kRestLength = 8.0;  // of what is drawn of the sheet, in radii
+// Radius of the spheres, in thicknesses: icefield's default. Two of them fill the thickness.
+constexpr double kRadius = 0.25;
+
+// Ice is filled if something is left of its outline this far inwards, in thicknesses: a radius, and
+// a little more, so that the sphere does not just touch.
+constexpr double kHolds = 0.26;
+
+// The box in which there are tiles and pieces: so far ahead of the hull, in radii of a crack at
+// rest, and so far astern, in the hull's lengths. A larger box has more bodies and more slots. With
+// a shorter one ahead, cracks reach ice without tiles; with a shorter one astern, pieces leave the
+// scene that may still touch the hull.
+constexpr double kAhead = 2.0, kAstern = 0.5;
+
+// From the sheet to slots without ice [m]: beyond every neighbour list. Nothing else depends on it.
+constexpr double kParked = 1000.0;
+
+// Share of half a disc that a piece has, at least, when slots are counted. Less makes more slots,
+// which take memory only; with more, pieces leave the scene early for want of a slot.
+constexpr double kCover = 0.25;
+
+// Length of the parts in which the rest of the sheet is drawn, in radii. Only pictures depend on
+// it.
+constexpr double kRestLength = 8.0;
+
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 PrismForm prism_form(const Case& p) {
@@ -112,9 +129,10 @@ void LiveEdge::add_slots(Scene& scene, const Case& p) {
     if (std::optional<Shape> shape = shape_of(square, prism_form(p), is_strip_))
         empty_ = std::move(*shape);
     else
-        throw bad_input(p.file.string() + ": level_ice.spacing",
-                        "no contact sphere fits into ice of that thickness",
-                        "leave it out, or make it smaller");
+        throw bad_input(
+            p.file.string() + ": level_ice.spacing",
+            "no contact sphere fits into ice of that thickness",
+            fmt::format("give a spacing of at most half the thickness, {:.3g} m", half));
     const double height = (0.5 - share_) * thickness_;
     first_ = scene.bodies.size();
     slots_.resize(static_cast<std::size_t>(std::ceil(pieces + tiles)));

@@ -47,6 +47,7 @@ void put_ice(Scene& scene, std::size_t body, Shape shape, const PutIce& as) {
     b.angular_momentum[body].setZero();
     b.held[body] = as.held ? 1 : 0;
     update_derived(b, body);
+    // Moving bodies are listed in ascending order, which is that of all sums over them.
     const auto number = static_cast<std::int32_t>(body);
     const auto place = std::lower_bound(b.moving.begin(), b.moving.end(), number);
     const bool listed = place != b.moving.end() && *place == number;

@@ -27,6 +27,9 @@ struct Buoyancy {
         const Lanes height = floes.height;
         const Mask above_deep = hn::Gt(height, All(-shape.bounding_radius));
         const FloatingWetted wet = IntegrateFloating(floes.heights);
+        // Lanes differ: clear of the water, wholly under it, or cut by it. All sums are computed
+        // for all lanes and chosen afterwards, as the reference returns early for each floe by
+        // itself.
         const Mask whole = hn::Not(hn::Or(floes.Clear(), hn::And(above_deep, wet.any_dry)));
         const Mask part = hn::AndNot(hn::Or(floes.Clear(), whole),
                                      hn::And(wet.any_wet, hn::Gt(wet.volume, hn::Zero(d))));

@@ -135,7 +135,7 @@ CentresFinder::Found CentresFinder::look(std::size_t k, BodyPair pair, const Ste
     const PairView view(scene, pair);
     SphereLists::Row& row = lists_.row(k);
     const double closing = dt * closing_speed(scene, pair), most = closing + margin;
-    const double way = motion.path(pair.a) + motion.path(pair.b);
+    const double path = motion.path(pair.a) + motion.path(pair.b);
     const double crushed = motion.crushed(pair.a) + motion.crushed(pair.b);
     double gone = gone_since(row, view, crushed - row.crushed);
     std::span<const ListedSpheres> listed = lists_.listed(k);
@@ -148,7 +148,7 @@ CentresFinder::Found CentresFinder::look(std::size_t k, BodyPair pair, const Ste
         // used up the distance.
         if (apart > most) {
             lists_.wake(k) =
-                way + (apart - kRounding - margin) / (held ? 1.0 : separation_share(view));
+                path + (apart - kRounding - margin) / (held ? 1.0 : separation_share(view));
             return found;
         }
         // The list reaches as far as the pair closes in some steps, at least as far as in this
@@ -177,7 +177,7 @@ CentresFinder::Found CentresFinder::look(std::size_t k, BodyPair pair, const Ste
     // Two things can end the pair's sleep: the nearest listed spheres come within the margin,
     // or spheres that were not listed, all beyond row.range then, may have done so.
     const double least = batch.touching.least * row.unit;
-    lists_.wake(k) = way + std::min(least - unsure - margin, row.range - margin - gone);
+    lists_.wake(k) = path + std::min(least - unsure - margin, row.range - margin - gone);
     measure(view, batch.touching, most, batch.candidates);
     found.count = batch.candidates.size() - found.first;
     // A sphere represents surface beyond its body's rim, but bodies that are apart have no

@@ -17,6 +17,8 @@ Foot foot_in_b(const PairView& view, const Vec3& p) {
 
 // Midway between the points of the two edges that are nearest to each other, a's axes.
 Vec3 crossing_of(const PairView& view, const Candidate& c) {
+    // A feature is unbounded along its edges: only the meshes tell whether the two edges still are
+    // there where their lines cross.
     const Vec3 a = view.support_a(c.i, c.gap.normal), b = view.support_b(c.j, -c.gap.normal);
     const Vec3 along_a = view.shape_a.cone[c.i].edge(c.gap.edge_a);
     const Vec3 along_b = view.rotation_ab * view.shape_b.cone[c.j].edge(c.gap.edge_b);
@@ -26,11 +28,15 @@ Vec3 crossing_of(const PairView& view, const Candidate& c) {
 
 // Sets the depth to the true one; false where the bodies do not meet there.
 bool hold_to_meshes(const PairView& view, Candidate& c) {
+    // Two edges cross within both solids, or one of them ends before: the depth along the axis is
+    // right where they do, since it is measured between the edges' own lines.
     if (c.gap.crossing) {
         const Vec3 at = crossing_of(view, c);
         return foot_in_a(view, at).inside && foot_in_b(view, at).inside;
     }
     const Vec3& n = c.gap.normal;
+    // The incident support point is a point of its body. Moving it to the nearest point of the
+    // other surface ends this overlap, so no true depth is larger.
     const Foot foot = c.gap.reference_is_a ? foot_in_a(view, view.support_b(c.j, -n))
                                            : foot_in_b(view, view.support_a(c.i, n));
     c.gap.gap = std::max(c.gap.gap, -foot.distance);
@@ -40,6 +46,8 @@ bool hold_to_meshes(const PairView& view, Candidate& c) {
 }  // namespace
 
 void check_depths(const PairView& view, std::vector<Candidate>& candidates) {
+    // In 3D only (docs/method.md, section 3); of two convex solids the separating axis tells the
+    // depth.
     if (view.shape_a.dimension == 2 || is_convex_pair(view)) return;
     const double slack = deep_slack(view);
     std::erase_if(candidates,

@@ -14,8 +14,9 @@ namespace {
 
 constexpr double kDeepShare = 0.1;  // of the ice's radius
 
-// cos 60 degrees: a seat whose way out differs more from the deepest one's leads to another face.
-constexpr double kSameWay = 0.5;
+// cos 60 degrees: a seat whose direction out of the solid differs more from the deepest one's leads
+// to another face.
+constexpr double kSameDirection = 0.5;
 
 // One body's seats, seen from the other's solid.
 struct Side {
@@ -106,11 +107,11 @@ void for_each_seat(const PairView& view, const Side& side, const Visit& visit) {
 // seat; 0 without one [m]. A face's spheres share its contacts: most seats have none of their own.
 // @param seat  a's axes
 double depth_known(const PairView& view, std::span<const Candidate> found, const Vec3& seat) {
-    const double reach = std::max(view.shape_a.patch_radius, view.shape_b.patch_radius);
+    const double radius = std::max(view.shape_a.patch_radius, view.shape_b.patch_radius);
     double depth = 0.0;
     for (const Candidate& c : found)
-        if (-c.gap.gap > depth && ((view.center_a(c.i) - seat).norm() <= reach ||
-                                   (view.center_b(c.j) - seat).norm() <= reach))
+        if (-c.gap.gap > depth && ((view.center_a(c.i) - seat).norm() <= radius ||
+                                   (view.center_b(c.j) - seat).norm() <= radius))
             depth = -c.gap.gap;
     return depth;
 }
@@ -156,15 +157,16 @@ double add_side(const PairView& view, const Side& side, double slack,
     return deepest;
 }
 
-// Leaves the seats that are pushed the same way as the deepest one, to 60 degrees. A seat beside
+// Keeps the seats that are pushed in the direction of the deepest one, to 60 degrees. A seat beside
 // the rim of the other's face may be nearer to the next face than to the one that it came through;
 // the deepest is not.
 void keep_one_direction(std::vector<DeepSeat>& seats) {
     if (seats.empty()) return;
     const auto deepest = std::min_element(
         seats.begin(), seats.end(), [](const auto& l, const auto& r) { return l.gap < r.gap; });
-    const Vec3 way = deepest->normal;
-    std::erase_if(seats, [&](const DeepSeat& s) { return s.normal.dot(way) < kSameWay; });
+    const Vec3 direction = deepest->normal;
+    std::erase_if(seats,
+                  [&](const DeepSeat& s) { return s.normal.dot(direction) < kSameDirection; });
 }
 
 }  // namespace

@@ -40,7 +40,7 @@ Patch patch_of(const Shape& shape, std::int32_t k, const Vec3& outward) {
 }
 
 // The incident sphere's patch. If that is the hull's, the ice still is the body that crushes.
-Patch probe_patch(const PairView& view, const Candidate& c) {
+Patch incident_patch(const PairView& view, const Candidate& c) {
     const Vec3 out_a = c.gap.normal, out_b = view.rotation_ab.transpose() * -c.gap.normal;
     const bool ship = view.pair.a == static_cast<std::int32_t>(kShip);
     Patch patch = c.gap.reference_is_a ? patch_of(view.shape_b, c.j, out_b)
@@ -117,7 +117,7 @@ void make_contacts(const PairView& view, std::span<const Candidate> candidates, 
         fill_contact(view, place, meeting_point(view, c), *contact);
         // Of ship and floe the ice gives way; of two floes the one whose sphere is incident.
         contact->crushes_a = !ship && !c.gap.reference_is_a;
-        contact->patch = probe_patch(view, c);
+        contact->patch = incident_patch(view, c);
         ++contact;
     }
     order_equals(places, out);

@@ -102,10 +102,11 @@ bool is_within_side_planes(const PairView& view, std::int32_t i, std::int32_t j,
 bool is_candidate(const PairView& view, std::int32_t i, std::int32_t j, const Gap& gap) {
     if (!gap.valid) return false;
     const double a = view.shape_a.patch_radius, b = view.shape_b.patch_radius;
-    const double reach = gap.reference_is_a ? a : b, of_incident = gap.reference_is_a ? b : a;
+    const double of_reference = gap.reference_is_a ? a : b,
+                 of_incident = gap.reference_is_a ? b : a;
     // Beyond a patch radius the surface belongs to another sphere, which finds the contact
     // itself.
-    return gap.reference_offset_sq <= reach * reach &&
+    return gap.reference_offset_sq <= of_reference * of_reference &&
            gap.incident_offset_sq <= of_incident * of_incident &&
            is_within_side_planes(view, i, j, gap);
 }

@@ -97,7 +97,8 @@ void PairCache::renew(std::size_t k, const PairView& view, const MotionBounds& m
 void PairCache::set_wakeups(Row& row, BodyPair pair, const MotionBounds& motion, double gone,
                             double turned) {
     const double now = motion.path(pair.a) + motion.path(pair.b);
-    // solids deep in each other have contacts even where no spheres may touch: never asleep
+    // solids deep in each other have contacts even where no spheres may touch: always
+    // measured
     row.path_wake = row.deep ? -std::numeric_limits<double>::infinity()
                              : now + std::min(row.clearance - gone, row.room);
     // Stale where the relative motion may exceed the skin: as the sum of paths bounds the

@@ -125,6 +125,8 @@ HWY_INLINE Crossing CrossEdges(const ConvexPiece& a, Vectors eb, Vectors b1, Vec
                                            hn::Lt(hn::Mul(Dot(a1, eb), a2_eb), zero)),
                                    hn::Lt(hn::Mul(b1_ea, a2_eb), zero));
         if (hn::AllFalse(d, cross)) continue;
+        // The gap along the common perpendicular; `outward` turns it away from a. Parallel edges
+        // divide by nearly 0 and are masked out below.
         const Vectors across = Cross(ea, eb);
         const Lanes square = Dot(across, across);
         const Lanes apart = Dot(across, Sub(pb, Broadcast(a.edge_middle.blocks()[block], at)));
@@ -172,6 +174,9 @@ SeparatingAxes FindAxes(const ConvexPiece& a, const ConvexPiece& b, const Relati
     const Tag d;
     const Pose pose = Broadcast(relative);
     SeparatingAxes out;
+    // From the cheapest test to the dearest: a's planes against b's corners, b's planes against a's
+    // corners, and edges, of which there are pairs. Any gap above `enough` ends the search: the
+    // pair is apart.
     Moved<kMostCorners> moved;
     moved.Place(b.corners, pose);
     const Widest face_a = GapOfPlanes(

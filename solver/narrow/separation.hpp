@@ -9,8 +9,8 @@ namespace ice {
 /// either one's ConvexBounds (separating axes); negative where none parts them, minus infinity
 /// where the bounds of a body are not known. Crushed ice only makes the true distance larger.
 ///
-/// Bodies this far apart have no contact, whatever their spheres say one by one: a sphere stands
-/// for its surface as far as its shape's reach, which near an edge is beyond the body.
+/// Bodies this far apart have no contact, whatever single spheres measure: a sphere represents its
+/// surface within its shape's patch radius, which near an edge ends beyond the body.
 double separation(const PairView& view);
 
 /// The same, or any gap wider than `enough` [m] where there is one: bodies that are apart mostly
@@ -18,7 +18,8 @@ double separation(const PairView& view);
 /// which the gap is, where there are any
 double separation(const PairView& view, double enough, std::size_t& axis);
 
-/// The separation is less by at most this times the way that both bodies go (MotionBounds::path).
+/// The separation shrinks by at most this factor times the sum of both bodies' paths
+/// (MotionBounds::path).
 double separation_share(const PairView& view);
 
 }  // namespace ice

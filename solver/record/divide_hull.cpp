@@ -11,10 +11,17 @@ namespace ice {
 
 namespace {
 
-constexpr double kSmall = 0.5;        // of size^2: such panels join others, or count as that large
-constexpr double kSameSide = 0.5;     // cosine of normals
-constexpr double kNeighbours = 2.0;   // sizes between centres
-constexpr double kLeastShare = 1e-9;  // of a panel: spheres without area have a place, too
+// Panels below this share of size^2 join others, or count as that large where none is near: a
+// line load or pressure on a sliver would be large without meaning.
+constexpr double kSmall = 0.5;
+
+// What a small panel may join: panels whose normals are within 60 degrees (cosine), with centres
+// within two sizes. Grid cells side by side have centres one size apart, or 1.4 across a corner.
+constexpr double kSameSide = 0.5, kNeighbours = 2.0;
+
+// Least area of a sphere's share, of a panel: spheres without area have a place, too, and no mean
+// is divided by 0.
+constexpr double kLeastShare = 1e-9;
 
 // region; axis that the normal points along most; its sign; cell along the other two axes
 using Key = std::tuple<std::int32_t, int, bool, long, long>;

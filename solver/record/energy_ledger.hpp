@@ -33,7 +33,8 @@ namespace ice {
 ///     restitution      -J_n n . V elsewhere: what a plastic or partly elastic impact takes
 ///     breaking         -(J_n n + J_t) . V instead of the three where the ship presses on a floe
 ///                      that is held until it bends: crushing and friction before it breaks off
-///     drag             -(F . v + T . w) dt, v and w the means of start and end, and water_work
+///     drag             -(F . v + T . w) dt, v and w the means of start and end, and the first
+///                      part of water_work
 ///     water_work       dt times the drag's work on the water's own motion, and the work of the
 ///                      flow's pressure: 0 in water at rest
 ///     applied_work     (F . v + T . w) dt of the caller's own loads

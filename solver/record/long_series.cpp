@@ -16,6 +16,7 @@ double LongSeries::joined(double a, double b) const {
 void LongSeries::add(double value) {
     ++count_;
     sum_ += value;
+    // The largest amount, with its sign.
     if (std::abs(value) > std::abs(largest_)) largest_ = value;
     if (length_ > 1) {  // Welford, Technometrics 4, 1962
         const double off = value - middle_;

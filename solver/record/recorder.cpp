@@ -209,6 +209,8 @@ void Recorder::add_ship(const StepView& view) {
 
 void Recorder::add_history(const StepView& view, const StepRecord& record) {
     ++row_steps_;
+    // Forces are means over the row, so that the sum of rows times their time is the impulse of the
+    // run, however rare the rows are.
     row_.contact_force += record.contact_force;
     row_.friction_force += record.friction_force;
     row_.breaking_x += record.breaking_x;

@@ -26,10 +26,12 @@ double dominant_period(const LongSeries& whole, double dt) {
     std::vector<double> series(whole.blocks().begin(), whole.blocks().end());
     const double mean =
         std::accumulate(series.begin(), series.end(), 0.0) / static_cast<double>(series.size());
+    // The mean would be ordinate 0, and leak into the first ones.
     for (double& value : series) value -= mean;
     const std::size_t count = std::min((series.size() - 1) / 2, kMostOrdinates);
     if (count == 0 || standard_deviation(series) == 0.0) return 0.0;
     const std::vector<double> power = low_periodogram(series, count);
+    // Ordinate j has j periods in the series; ordinates are counted from 1.
     const auto most = std::max_element(power.begin(), power.end()) - power.begin() + 1;
     return static_cast<double>(series.size() * whole.block_length()) * dt /
            static_cast<double>(most);
@@ -45,6 +47,7 @@ void ShipStatistics::add(const FreeShip& ship, const Scene& scene, const Case& p
     if (std::abs(speed) >= kSlow) slow_since_ = time;
     stuck_ = stuck_ || time - slow_since_ >= kStuckTime;
     if (time < p.average_from - 1e-9) return;
+    // Speed along the heading, not along x: a ship that yaws still goes ahead.
     speed_.add(speed);
     thrust_.add(ship.loads().thrust);
     tow_.add(ship.loads().tow.force.x());
@@ -131,6 +134,7 @@ void ShipStatistics::fill_means(const ShipRig& rig, const Case& p,
         const std::string name(kNames[k]);
         out[name + "_mean_" + suffix] = unit * mean;
         out[name + "_std_" + suffix] =
+            // Variance as mean of squares less square of the mean: rounding may take it below 0.
             unit * std::sqrt(std::max(0.0, square_[k] / steps - mean * mean));
     }
 }

@@ -16,6 +16,8 @@ namespace {
 // A double's exponent and the first 8 digits of its mantissa: 256 classes between powers of two.
 constexpr int kDropped = 44;
 
+// The bits of positive doubles rise with their values, so the leading ones number classes of equal
+// width on each octave: 2^-8 of the value, 0.2 % from a class' middle. No logarithm is needed.
 std::int64_t class_of(double force) {
     return static_cast<std::int64_t>(std::bit_cast<std::uint64_t>(force) >> kDropped);
 }
@@ -56,6 +58,8 @@ void WindowForces::add(double force) {
     largest_ = std::max(largest_, force);
     if (!classes_.empty()) return count(force);
     if (forces_.size() < kExact) return forces_.push_back(force);
+    // The first force beyond kExact turns the list into classes: memory no longer grows with the
+    // run.
     for (const double one : forces_) count(one);
     count(force);
     forces_ = {};
@@ -80,6 +84,7 @@ double WindowForces::quantile(double share, std::int64_t windows) const {
         return ice::quantile(std::move(forces), share);
     }
     // so many windows have this force or more
+    // Counted from above, where the loads are: windows without a load have no class.
     auto above = windows - static_cast<std::int64_t>(std::max(
                                0.0, std::ceil(share * static_cast<double>(windows)) - 1.0));
     for (auto c = classes_.rbegin(); c != classes_.rend(); ++c) {

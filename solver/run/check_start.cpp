@@ -110,8 +110,8 @@ void warn_of_spacing(const World& w, std::vector<Warning>& warnings) {
     if (in_radii[static_cast<std::size_t>(*widest)] <= limit * (1.0 + kSpacingRounding)) return;
     const Shape& shape = w.scene.shapes[static_cast<std::size_t>(*widest)];
     const std::string text = fmt::format(
-        "the surface spheres of {} are {:.3g} m apart, but bodies may pass between them above "
-        "{:g} radii{}: make its set with a spacing of {:.3g} m",
+        "the surface spheres of {} are {:.3g} m apart; above {:g} radii corners may pass between "
+        "them{}: make its set with a spacing of {:.3g} m",
         name_of(static_cast<std::int32_t>(widest - row.begin())), shape.spacing, limit,
         centres ? " (contact.normal = \"centres\")" : "", limit * smallest_radius(shape));
     warnings.push_back({text});

@@ -101,6 +101,7 @@ std::string distance_text(double distance) {
 
 std::string course_line(const World& w, const ShipParticulars& ship, const Course& course) {
     const Case& p = w.parameters;
+    // The distance of a ship that surges is a result of the run.
     if (p.ship.free[surge])
         return fmt::format(
             "  course     from {:g} m/s as thrust and ice make it, {} steps of {:g} s; averaged "
@@ -119,6 +120,7 @@ std::string course_line(const World& w, const ShipParticulars& ship, const Cours
 
 std::string spheres_line(const World& w) {
     const Shape& hull = w.scene.shapes[0];
+    // The first ice shape stands for all: a field's shapes share radius and spacing.
     std::string out = fmt::format("  spheres    hull {:.3g} m, {:.3g} m apart", hull.largest_radius,
                                   hull.spacing);
     if (w.scene.shapes.size() > 1)

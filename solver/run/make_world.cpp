@@ -55,6 +55,8 @@ std::int32_t group_of(Case& parameters, Hold hold) {
 }  // namespace
 
 World make_world(const Case& parameters, const SphereSet& hull) {
+    // A case file was checked by its reader; a program that fills a Case itself has the same checks
+    // here.
     require_positive("time_step", parameters.time_step);
     require_positive("ice_density", parameters.ice_density);
     require_positive("water_density", parameters.water_density);
@@ -87,6 +89,7 @@ std::size_t add_floe(World& world, std::int32_t shape, const FloeStart& start) {
         throw bad_input("add_floe", fmt::format("no shape has the number {}", shape),
                         "give a number that add_floe_shape() returned");
     FloeStart placed = start;
+    // A quaternion of another length would scale the floe.
     placed.orientation = start.orientation.normalized();
     double& z = placed.position.z();
     // without z: afloat in the given attitude

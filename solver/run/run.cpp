@@ -144,8 +144,9 @@ void go_on(Job& job, const SavedRun& saved) {
     const std::string here = fmt::format("icesolve {} ({})", version(), git_commit());
     if (saved.created_by != here)
         job.progress.warnings.push_back(
-            judged(fmt::format("the run was begun with {} and is resumed with {}: its bits may "
-                               "differ from those of both",
+            judged(fmt::format("the run was begun with {} and is resumed with {}: the "
+                               "result may differ in the last digits from a run of either "
+                               "version alone",
                                saved.created_by, here),
                    averaged_share(job.world)));
 }

@@ -20,6 +20,7 @@ void carry(CheckpointFile& file, World& w) {
     file.carry_each("bodies.angular_momentum", b.angular_momentum);
     file.carry_each("bodies.held", b.held);
 
+    // Sums since the start of the run: no motion depends on them.
     EnergyLedger& ledger = w.ledger;
     file.carry("ledger.ship_work", ledger.ship_work);
     file.carry("ledger.drift_work", ledger.drift_work);
@@ -35,12 +36,15 @@ void carry(CheckpointFile& file, World& w) {
     file.carry("ledger.buoyancy_moment", ledger.buoyancy_moment);
     file.carry("ledger.potential_start", ledger.potential_start);
 
+    // The crushed ice is geometry: without it a resumed run would meet whole floes.
     w.ship.carry(file);
     w.edge.carry(file);
     file.carry("crushed.first", w.scene.crushed.first);
     file.carry("crushed.recess", w.scene.crushed.displacement);
     file.carry("crushed.deepest", w.scene.crushed.deepest);
 
+    // What only the next step needs: impulses to begin with, and the depths that tell a recess from
+    // a motion. Neighbour lists are left out, because they are made anew with the same contacts.
     w.warm_start.carry(file);
     w.recess.carry(file);
 
@@ -51,6 +55,7 @@ void carry(CheckpointFile& file, World& w) {
     file.column("impulses.rest_tangent", w.constraints, &Constraint::rest_tangent);
 }
 
+// Where the files stood: rows behind these belong to steps that a resumed run makes again.
 void carry(CheckpointFile& file, RecordPosition& position) {
     file.carry("files.samples", position.run.samples);
     file.carry("files.frames", position.run.frames);
@@ -63,6 +68,8 @@ void carry(CheckpointFile& file, RunProgress& progress) {
     auto count = static_cast<std::int64_t>(progress.warnings.size());
     file.carry("wall_seconds", progress.wall_seconds);
     file.carry("warnings.count", count);
+    // Reading and writing are one text (checkpoint_file.hpp): the size is set in both, and changes
+    // nothing when writing.
     progress.warnings.resize(static_cast<std::size_t>(count));
     for (std::size_t k = 0; k < progress.warnings.size(); ++k) {
         Warning& w = progress.warnings[k];

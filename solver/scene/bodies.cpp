@@ -9,6 +9,7 @@ namespace ice {
 
 void update_derived(Bodies& bodies, std::size_t i) {
     bodies.rotation[i] = bodies.orientation[i].toRotationMatrix();
+    // The ship's motion is prescribed, or that of FreeShip: it has no momentum in these arrays.
     if (i == kShip) return;
     // Held ice answers no impulse: its inverse mass is zero. Its momentum is kept, since ice may
     // drift at a constant velocity.
@@ -36,6 +37,7 @@ void update_derived(Bodies& bodies, std::size_t i) {
 void release(Bodies& bodies, std::size_t i) {
     bodies.held[i] = 0;
     update_derived(bodies, i);
+    // In ascending order, which is that of all sums over moving floes.
     const auto number = static_cast<std::int32_t>(i);
     const auto place = std::lower_bound(bodies.moving.begin(), bodies.moving.end(), number);
     if (place == bodies.moving.end() || *place != number) bodies.moving.insert(place, number);
@@ -50,6 +52,7 @@ void list_moving(Bodies& bodies) {
 double kinetic_energy(const Bodies& bodies) {
     double energy = 0.0;
     for (const std::int32_t i : bodies.moving)
+        // P . v instead of m v^2 is right with added mass, too.
         energy += 0.5 * (bodies.momentum[i].dot(bodies.velocity[i]) +
                          bodies.angular_momentum[i].dot(bodies.angular_velocity[i]));
     return energy;

@@ -28,6 +28,7 @@ std::pair<double, double> heights_of(const TriangleMesh& mesh) {
 Vec3 hull_place(const Case& parameters, const TriangleMesh& hull) {
     Vec3 place = parameters.hull_position;
     if (!std::isnan(parameters.hull_draught))
+        // The keel comes to z = -draught, wherever the mesh has its origin.
         place.z() = -heights_of(hull).first - parameters.hull_draught;
     return place;
 }
@@ -55,7 +56,7 @@ Vec3 place_hull(const Case& parameters, const TriangleMesh& hull) {
                    : fmt::format("z = {:.4g} m gives a draught of {:.4g} m", place.z(), draught);
     if (draught >= depth)
         throw bad_input(where, given + ": the hull would lie wholly under water; " + mesh, remedy);
-    throw bad_input(where, given + ": the hull would glide over the ice; " + mesh, remedy);
+    throw bad_input(where, given + ": the hull would lie above the water; " + mesh, remedy);
 }
 
 }  // namespace ice

@@ -62,10 +62,9 @@ std::vector<NormalCone> meeting_faces(const SphereSet& set) {
     std::vector<NormalCone> out;
     for (std::size_t k = 0; k < set.surface_count; ++k) {
         NormalCone faces = outermost_faces(normals[k]);
-        // the point along the middle normal that no face's plane leaves outside
+        // the tip along the middle normal lies behind all planes: the plane whose normal is nearest
+        // to it ends it first, at r / cos of the smallest angle
         double nearest = 0.0;
-        // the plane nearest to the centre ends the middle normal first: r / cos of the largest
-        // angle
         for (const Vec3& n : normals[k]) nearest = std::max(nearest, n.dot(set.normals[k]));
         faces.apex_distance =
             faces.count > 0 && nearest > 0.0 ? set.radii[k] / nearest : set.radii[k];

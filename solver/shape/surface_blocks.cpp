@@ -24,6 +24,8 @@ Facet make_facet(const Vec3& a, const Vec3& b, const Vec3& c) {
 }
 
 FacetBlocks::FacetBlocks(std::span<const Facet> facets) : count(facets.size()) {
+    // Rounded up: kernels read whole blocks. An empty surface has no block, and the loop below no
+    // last facet to copy.
     blocks.resize((count + kLanes - 1) / kLanes);
     for (std::size_t k = 0; k < kLanes * blocks.size(); ++k) {
         // copies of the last facet without an area add nothing to a sum

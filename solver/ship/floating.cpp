@@ -56,6 +56,8 @@ public:
         const double weight = body_.mass * case_.gravity;
         return {weight, weight * size_.y() + (size_.y() == 0.0 ? 1.0 : 0.0), weight * size_.x()};
     }
+    // Far from equilibrium the stiffness changes with the attitude: a whole step of Newton's could
+    // turn the hull over, or lift it out of the water, where nothing restores.
     Vec3 limited(Vec3 step) const {
         step[0] = std::clamp(step[0], -kMostSink * size_.z(), kMostSink * size_.z());
         for (int k = 1; k < 3; ++k) step[k] = std::clamp(step[k], -kMostTurn, kMostTurn);
@@ -128,6 +130,8 @@ Equilibrium find_equilibrium(const Case& p, const Scene& scene, const ShipBody& 
         found = (force.cwiseQuotient(balance.scale())).cwiseAbs().maxCoeff() <= kBalanced;
         if (found) break;
         const Mat3 stiffness = on_free(balance.stiffness(at), body);
+        // Newton's method on the free motions: force + (d force / d attitude) step = 0, the
+        // stiffness being minus that derivative.
         const Vec3 step = stiffness.fullPivLu().solve(force);
         if (!step.allFinite() || !(stiffness(0, 0) > 0.0)) break;  // above, or wholly under water
         at += balance.limited(step);
@@ -148,6 +152,7 @@ Equilibrium find_equilibrium(const Case& p, const Scene& scene, const ShipBody& 
     for (int k = 0; k < 3; ++k)
         out.stiffness[static_cast<std::size_t>(heave + k)] = stiffness(k, k);
     const double weight = body.mass * p.gravity;
+    // C44 / (m g) = GM, C55 / (m g) likewise.
     out.gm_transverse = out.stiffness[roll] / weight;
     out.gm_longitudinal = out.stiffness[pitch] / weight;
     if (p.gravity > 0.0) require_stable(p, body, out);

@@ -55,7 +55,8 @@ public:
     /// Books a step, before the poses advance.
     void book(const Scene& scene, const std::vector<Constraint>& constraints,
               const PositionCorrections& corrections, double dt);
-    /// Turns the ship, after its place has advanced with its velocity, and moves it by its nudge.
+    /// Turns the ship, after its place has advanced with its velocity, and moves it by its position
+    /// correction.
     void turn(Scene& scene, const PositionCorrections& corrections, double dt);
 
     const ShipLoads& loads() const { return loads_; }  ///< of the last step

@@ -19,6 +19,8 @@ constexpr double kUsualGravity = 9.81;  // of the answer's time, also where a ca
 
 Vec3 level(const Vec3& v) { return {v.x(), v.y(), 0.0}; }
 
+// The stiffness of each motion by itself: it gives the critical damping, and the period that the
+// time step must resolve.
 SixNumbers restoring(const Case& p, const ShipRig& rig) {
     SixNumbers out = p.mooring.stiffness;
     for (const Freedom k : {heave, roll, pitch}) out[k] += rig.equilibrium.stiffness[k];
@@ -53,6 +55,8 @@ void set_damping(const Case& p, ShipRig& rig) {
             rig.body.water_damping[i];
         if (springs)
             require_short_steps(p, kNames[k], p.time_step * std::sqrt(stiffness[i] / mass));
+        // The tow's damper takes the velocity of the step's start: an explicit damper diverges from
+        // c dt / m = 2 on.
         if (k == surge)
             require_short_steps(p, "surge, with tow.damping", p.time_step * p.tow.damping / mass);
     }
@@ -75,6 +79,7 @@ void add_propulsion(const Case& p, const ShipRig& rig, const ShipState& s, const
     out.propulsion.force = out.thrust * ahead;
     out.losses.force = -open_water_resistance(p.propulsion, through_water) * ahead;
     if (!p.propulsion.hold_heading) return;
+    // The heading is held likewise: omega^2 off + 2 omega r is critically damped.
     const double omega = 1.0 / (4.0 * tau), inertia = rig.body.inertia[2] + rig.body.added[yaw];
     const double off = s.angles[2] - rig.anchor_angles[2];
     out.propulsion.moment.z() = -inertia * omega * (omega * off + 2.0 * s.angular_velocity.z());
@@ -104,6 +109,8 @@ void add_mooring(const Case& p, const ShipRig& rig, const ShipState& s, const Ma
         out.mooring.force[k] = p.mooring.pretension[shift] - p.mooring.stiffness[shift] * off[k];
         along[k] = p.mooring.pretension[turn] - p.mooring.stiffness[turn] * turned[k];
     }
+    // The angles are no components of one rotation. M is the moment whose parts along the three
+    // axes of the angles are the generalised moments, turn^T M = along.
     if (!along.isZero(0.0)) out.mooring.moment = axes.turn.transpose().inverse() * along;
 }
 

@@ -10,6 +10,8 @@ namespace ice {
 
 namespace {
 
+// Still held for the rest of the step, whose impulses were computed with a floe that cannot move;
+// free with the next one.
 constexpr std::uint8_t kBent = 2;  // Bodies::held
 
 }  // namespace
@@ -25,6 +27,7 @@ void BentFloes::add(std::int32_t floe, double up, const Constraint& c) {
     if (load.normal == 0.0) pressed_.push_back(floe);
     load.down -= up;
     load.normal += c.total_normal();
+    // v_n is a closing speed: a contact that opens counts with 0.
     load.closing += c.total_normal() * std::max(-c.approach, 0.0);
 }
 

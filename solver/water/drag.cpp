@@ -11,6 +11,7 @@ namespace ice {
 
 double wetted_share(double z0, double z1, double z2) {
     if (z0 > z1) std::swap(z0, z1);
+    // Sorted, so that the corner that is alone on its side of the water is the first or the last.
     if (z1 > z2) std::swap(z1, z2);
     if (z0 > z1) std::swap(z0, z1);
     if (z2 <= 0.0) return 1.0;

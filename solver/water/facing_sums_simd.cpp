@@ -35,6 +35,7 @@ FacingIntegrals IntegrateFacing(const FacetBlocks& facets, const WaterPlane& wat
         square.Put(sum.square, lane);
         mixed.Put(sum.mixed, lane);
     }
+    // The common denominators of the exact integrals, once for all triangles.
     return {flow.Total() / 3.0, first.Totals() / 12.0, square.Totals() / 60.0,
             mixed.Totals() / 60.0};
 }

@@ -35,11 +35,14 @@ Submerged measure_submerged(const Shape& shape, const Mat3& rotation, double hei
         wet = integrate_wetted(shape.facets, water);
         if (!wet.any_wet) return out;
     }
+    // Wholly under water: the solid's own volume, so that a floe's buoyancy does not change by the
+    // rounding of a sum while it turns.
     if (!wet.any_dry) {
         out.volume = shape.solid.volume;
         out.centre = ordered_product(rotation, shape.solid.centroid);
         return out;
     }
+    // Rounding of a corner that just dips in: no centre can be divided from it.
     if (wet.volume <= 0.0) return out;
     // int z^2 n_z dA = 2 V z_c, and z = up . p + height; by the divergence theorem with the field
     // (0, 0, z) p, whose divergence is p + z up, int p z n_z dA = V p_c + V z_c up
@@ -56,6 +59,7 @@ double floating_height(const Shape& shape, const Mat3& rotation, double fraction
     // bisection: the wetted volume falls as the shape rises
     double wet = -high, dry = -low;  // heights of the origin: all below, all above the water
     const double target = fraction * shape.solid.volume;
+    // As dense as water, or denser: the highest place at which it is wholly wet.
     if (target >= shape.solid.volume) return wet;
     while (dry - wet > 1e-12 * (high - low)) {
         const double middle = 0.5 * (wet + dry);

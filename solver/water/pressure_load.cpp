@@ -18,6 +18,7 @@ struct Part {
     std::array<double, 3> pressure;
 };
 
+// Places and pressures are linear on the triangle: the same shares of the edges give both.
 Part tip_of(const Part& t, const Cut& cut) {
     const std::size_t a = cut.apex, b = (a + 1) % 3, c = (a + 2) % 3;
     const double s = cut.part(1), r = cut.part(2);
@@ -46,6 +47,8 @@ void add_wetted(const Part& t, const std::array<double, 3>& z, Sums& sums) {
     const Cut h(z, {wet(z[0]), wet(z[1]), wet(z[2])});
     if (h.counts_whole()) sums.add(1.0, t);
     if (!h.any) return;
+    // The wetted part is the tip below the plane, or the whole less the tip above it. The tip has
+    // this share of the triangle's area.
     const double size = h.part(1) * h.part(2);
     sums.add(h.tip_is_inside() ? size : -size, tip_of(t, h));
 }
@@ -57,6 +60,8 @@ WaterLoad pressure_load(const Shape& shape, const Mat3& rotation, double height,
     const WaterPlane plane(rotation, height);
     static thread_local std::vector<double> at_vertex;
     at_vertex.clear();
+    // A vertex belongs to some six triangles: its pressure, a look-up in the flow's table, is
+    // computed once.
     for (const Vec3& vertex : shape.mesh.vertices) at_vertex.push_back(pressure(vertex));
     Vector force{}, moment{};
     for (std::size_t n = 0; n < shape.mesh.triangles.size(); ++n) {
@@ -82,6 +87,8 @@ WaterLoad pressure_load(const Shape& shape, const Mat3& rotation, double height,
         for (const auto& [a, b, c] : kQuarters)
             add_wetted({{get(p[a]), get(p[b]), get(p[c])}, {value[a], value[b], value[c]}},
                        {z[a], z[b], z[c]}, sums);
+        // -a (p_1 + p_2 + p_3) / 3, and -(sum p sum r + sum p r) / 12 x a: the pressure pushes
+        // inwards.
         force = force - (sums.force / 3.0) * quarter;
         moment = moment - cross((1.0 / 12.0) * sums.moment, quarter);
     }

@@ -58,7 +58,8 @@ TEST_CASE("a sphere in deep water moves half of its water along, and turns none"
 
 TEST_CASE("half a sphere afloat: half of its water under a lid, and in heave under a free surface",
           "[flow][analytic]") {
-    // the images complete the sphere: a lid for motions along it, a free surface for heave
+    // 1.5 %: panels of this size give spheres and ellipsoids to 1 to 3 % (docs/method.md, section
+    // 6). The images complete the sphere: a lid for motions along it, a free surface for heave
     const TriangleMesh globe = test::make_globe(2.0, 24);
     const ShipAddedMass ship = ship_added_mass(globe, 0.0, Vec3::Zero(), 1025.0, kOwn);
     CHECK(ship.displacement == Approx(1025.0 * measure_mass(globe).volume / 2.0).epsilon(1e-9));

@@ -21,6 +21,28 @@ TEST_CASE("a run is found by its folder or by a file inside it", "[read]") {
     }
 }
 
+TEST_CASE("a run has the poses, forces and times that were written", "[read][analytic]") {
+    // one floe, two frames with two rows of history each; powers of two, exact in any format
+    const TempFolder folder;
+    RunData made = make_run({.floes = 1, .frames = 2, .samples_per_frame = 2});
+    made.frames[1].position[0] = Vec3(12.5, -0.75, -0.125);
+    made.frames[1].ship_position = Vec3(0.25, 0.0, -0.5);
+    made.history[3].contact_force = Vec3(-1024.0, 16.0, 256.0);
+    made.history[3].friction_force = Vec3(-128.0, 0.0, 32.0);
+    write_run(folder / "run.h5", made);
+    const read::RunFolder run = read::read_run_folder(folder / "run.h5");
+    REQUIRE(run.data.frames.size() == 2);
+    REQUIRE(run.data.history.size() == 4);
+    CHECK(run.data.frames[1].position.at(0) == Vec3(12.5, -0.75, -0.125));
+    CHECK(run.data.frames[1].ship_position == Vec3(0.25, 0.0, -0.5));
+    CHECK(run.data.history[3].contact_force == Vec3(-1024.0, 16.0, 256.0));
+    CHECK(run.data.history[3].friction_force == Vec3(-128.0, 0.0, 32.0));
+    // rows lie 0.05 s apart: 0, 0.05, 0.1, 0.15 s
+    CHECK(run.data.history[3].time == Approx(0.15).epsilon(1e-12));
+    CHECK(run.data.header.body_mass.at(0) == 144.0);
+    CHECK_FALSE(run.summary);
+}
+
 TEST_CASE("a killed run is read from run.h5.part and has no summary", "[read]") {
     const TempFolder folder;
     const RunData run = make_run();

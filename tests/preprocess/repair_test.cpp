@@ -212,7 +212,8 @@ TEST_CASE("a missing stem is refused, however little volume it had", "[repair][e
     const TriangleMesh blunt = without(spindle, [](const Vec3& p) { return p.x() > 7.85; });
     CHECK_THROWS_WITH(repair(blunt),
                       Catch::Contains("opening of") && Catch::Contains("too large to guess"));
-    // the same opening amidships is closed, and said
+    // The same opening amidships is closed, and said. A flat cap loses less than 1.4 x 0.4 x 0.02
+    // m3, 0.03 % of the spindle's 33.5 m3; 1 % tells it from a cap that bulges or sags.
     const TriangleMesh holed =
         without(spindle, [](const Vec3& p) { return p.z() > 0.98 && std::abs(p.x()) < 0.7; });
     CHECK(repair(holed).volume == Approx(measure_mass(spindle).volume).epsilon(0.01));
@@ -250,6 +251,8 @@ TEST_CASE("a globe without 2 % of its faces has its volume within 1 %", "[repair
         torn.triangles.erase(torn.triangles.begin() +
                              static_cast<std::ptrdiff_t>(random() % torn.triangles.size()));
     torn.region.resize(torn.triangles.size());
+    // the cap of one missing triangle is that triangle; only where neighbours are missing does it
+    // cut the globe
     CHECK(repair(torn).volume == Approx(measure_mass(globe).volume).epsilon(0.01));
 }
 

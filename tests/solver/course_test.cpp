@@ -80,12 +80,12 @@ TEST_CASE("a draught places the keel that far below the water, wherever the mesh
     CHECK(place_hull(by_z, hull_mesh(keel)) == place);
 }
 
-TEST_CASE("a hull that glides over the ice or lies under water is refused with the numbers",
+TEST_CASE("a hull that lies above or under the water is refused with the numbers",
           "[scene][errors]") {
     Case p;
     p.hull_draught = 0.0;
     CHECK_THAT(complaint_about(p, 0.0), Catch::Contains("case.cfg: hull.draught") &&
-                                            Catch::Contains("glide over the ice") &&
+                                            Catch::Contains("lie above the water") &&
                                             Catch::Contains("3 m deep, from z = 0 to 3 m") &&
                                             Catch::Contains("between 0 and 3 m"));
     p.hull_draught = GENERATE(3.0, 5.0);
@@ -96,7 +96,7 @@ TEST_CASE("a hull that glides over the ice or lies under water is refused with t
                Catch::Contains("case.cfg: hull.position: z = 0 m gives a draught of 0 m") &&
                    Catch::Contains("give hull.draught in its place"));
     q.hull_position.z() = GENERATE(1.0, 1e-9);
-    CHECK_THAT(complaint_about(q, 0.0), Catch::Contains("glide over the ice"));
+    CHECK_THAT(complaint_about(q, 0.0), Catch::Contains("lie above the water"));
     q.hull_position.z() = -3.5;
     CHECK_THAT(complaint_about(q, 0.0), Catch::Contains("wholly under water"));
 }

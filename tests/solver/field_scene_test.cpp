@@ -6,6 +6,7 @@
 
 #include "common/formats/field_file.hpp"
 #include "common/formats/spheres_file.hpp"
+#include "solver/draft/draft_case.hpp"
 #include "solver/scene/build_scene.hpp"
 #include "tests/support/make_sphere_sets.hpp"
 #include "tests/support/temporary_file.hpp"
@@ -91,4 +92,36 @@ TEST_CASE("a field's hold is the case's for loose floes only", "[scene][field]")
     p.floes[0].hold = Hold::never;
     const Scene scene = build_scene(p);
     CHECK(scene.bodies.held == std::vector<std::uint8_t>{0, 0, 0, 1, 1});
+}
+
+TEST_CASE("a drafted case of a box hull has the numbers that follow by hand", "[draft][analytic]") {
+    // a hull of 10 x 2 x 1 m, half of it above z = 0, and 16 floes in a row from x = 0.005 m on
+    const test::TemporaryFile hull(".spheres.h5", ""), file(".h5", "");
+    write_spheres(hull.path(), box_set({10.0, 2.0, 1.0}, 0.2, 0.4));
+    Field field;
+    field.radius = 0.1;
+    field.spacing = 0.2;
+    field.mode = "surface";
+    SphereSet floe = box_set(kSmall, 0.1, 0.2);
+    floe.mesh.region_names = {"ice"};
+    field.shapes.push_back(floe);
+    for (int k = 0; k < 16; ++k)
+        field.floes.push_back({0, {0.505 + 1.25 * k, 0.0}, Eigen::Quaterniond::Identity(), false});
+    write_field(file.path(), field);
+
+    const Draft draft = draft_case(hull.path(), file.path());
+    CHECK(draft.draught_from_mesh);
+    CHECK(draft.draught == 0.5);
+    CHECK(draft.length == Approx(10.0).epsilon(1e-12));
+    CHECK(draft.y == 0.0);
+    // the bow two spacings of 0.4 m before the ice, rounded down to a centimetre
+    CHECK(draft.x == Approx(0.005 - 0.8 - 5.0 - 0.005).epsilon(1e-12));
+    CHECK(draft.clearance == Approx(0.805).epsilon(1e-9));
+    // 0.0657 sqrt(9.81 m/s2 x 10 m) = 0.6507 m/s; a fifth of 0.1 m at 0.65 m/s is 0.031 s
+    CHECK(draft.speed == 0.65);
+    CHECK(draft.time_step == 0.02);
+    // 15 m and the clearance are 1215.8 steps of 0.013 m; the last 10 m take 15.385 s
+    CHECK(draft.duration == Approx(1216 * 0.02).epsilon(1e-12));
+    CHECK(draft.average_from == 8.94);
+    CHECK(draft.lengths == Approx(0.65 * 24.32 / 10.0).epsilon(1e-12));
 }
