@@ -12,7 +12,7 @@ namespace ice {
 
 namespace {
 
-using Key = std::pair<std::int32_t, std::int32_t>;
+using EdgeEnds = std::pair<std::int32_t, std::int32_t>;
 using Pairing = std::vector<std::pair<std::int32_t, std::int32_t>>;  // triangles, two by two
 
 std::size_t corner_of(const TriangleMesh& mesh, std::int32_t triangle, std::int32_t vertex) {
@@ -21,9 +21,9 @@ std::size_t corner_of(const TriangleMesh& mesh, std::int32_t triangle, std::int3
 }
 
 // The edge table has two triangles of an edge only: of edges with more all are collected here.
-std::map<Key, std::vector<std::int32_t>> find_crowded(const TriangleMesh& mesh,
-                                                      const std::vector<MeshEdge>& edges) {
-    std::map<Key, std::vector<std::int32_t>> crowded;
+std::map<EdgeEnds, std::vector<std::int32_t>> find_crowded(const TriangleMesh& mesh,
+                                                           const std::vector<MeshEdge>& edges) {
+    std::map<EdgeEnds, std::vector<std::int32_t>> crowded;
     for (const MeshEdge& edge : edges)
         if (edge.count > 2) crowded[{edge.a, edge.b}];
     if (crowded.empty()) return crowded;
@@ -36,7 +36,7 @@ std::map<Key, std::vector<std::int32_t>> find_crowded(const TriangleMesh& mesh,
     return crowded;
 }
 
-Pairing pair_up(const TriangleMesh& mesh, const Parts& parts, const Key& edge,
+Pairing pair_up(const TriangleMesh& mesh, const Parts& parts, const EdgeEnds& edge,
                 const std::vector<std::int32_t>& triangles) {
     const Vec3 a = mesh.vertices[static_cast<std::size_t>(edge.first)];
     const Vec3 axis = (mesh.vertices[static_cast<std::size_t>(edge.second)] - a).normalized();
@@ -112,7 +112,7 @@ std::int64_t separate_sheets(TriangleMesh& mesh) {
     Corners corners(mesh);
     // Corners of triangles are joined across regular edges, and across crowded ones where two
     // triangles form one sheet. Sets of joined corners then are the vertices.
-    const auto join = [&](const Key& edge, std::int32_t s, std::int32_t t) {
+    const auto join = [&](const EdgeEnds& edge, std::int32_t s, std::int32_t t) {
         corners.join(s, t, edge.first);
         corners.join(s, t, edge.second);
     };
