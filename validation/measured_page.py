@@ -19,8 +19,8 @@ python3 validation/compare.py page
 ```
 
 The error is computed minus measured, over measured. The interval is that of the computed mean (95 %); that of the measured mean
-is not published. Rows are sorted by error,
-the largest first.
+is not published. Rows are sorted by error, the
+largest first.
 """
 
 
@@ -76,8 +76,11 @@ def points(tests, computed):
                          "std / mean, measured", "computed", "max / mean, measured", "computed"], rows)
 
 
-def judgement(found, sheets):
-    found = [(t, c) for t, c in found if not sheets or t["sheet"] in sheets]
+def judgement(found, group):
+    """Of the tests of a group: those of its sheets, those that it names, or all."""
+    sheets, names = group.get("sheets"), group.get("tests")
+    found = [(t, c) for t, c in found
+             if (not sheets or t["sheet"] in sheets) and (not names or t["test"] in names)]
     measured = [number(t, "mean_kN") for t, _ in found]
     rows = [["this program", *summary_of(errors(measured, [number(c, "mean_kN") for _, c in found]))]]
     for column, name in FORMULAS:
@@ -122,7 +125,7 @@ def section(folder, read_set, read_table):
     base = computed.get(data_set["base_test"])
     return "\n".join([
         f"## {data_set['title']}\n", data_set["text"].strip() + "\n", rows,
-        *(f"Mean absolute error and bias, {group['what']}:\n\n{judgement(found, group['sheets'])}"
+        *(f"Mean absolute error and bias, {group['what']}:\n\n{judgement(found, group)}"
           for group in data_set["groups"]),
         "Trends:\n", trends(found, data_set["trends"]),
         f"One input at a time, test {data_set['base_test']}"

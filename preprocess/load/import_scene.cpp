@@ -288,10 +288,8 @@ const aiScene* read_scene(Assimp::Importer& importer, const std::filesystem::pat
     return importer.ReadFile(file.string(), 0);
 }
 
-// All that assimp does with a file.
-// @return the scene, which belongs to the importer
-const aiScene& import_once(Assimp::Importer& importer, const std::filesystem::path& file,
-                           const std::vector<char>& bytes) {
+ImportedMesh import_once(const std::filesystem::path& file, const std::vector<char>& bytes) {
+    Assimp::Importer importer;
     // a file of joints without surfaces would get surfaces for display
     importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
     importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,
@@ -309,7 +307,7 @@ const aiScene& import_once(Assimp::Importer& importer, const std::filesystem::pa
                         fmt::format("cannot be read as a mesh ({})", importer.GetErrorString()),
                         "the file is damaged, or of another format than its name says: export it "
                         "again");
-    return *scene;
+    return {Collector(*scene).collect(), frame_of(*scene)};
 }
 
 }  // namespace
@@ -317,13 +315,8 @@ const aiScene& import_once(Assimp::Importer& importer, const std::filesystem::pa
 ImportedMesh import_scene(const std::filesystem::path& file) {
     const std::vector<char> bytes = is_gzip_name(file) ? gunzip(file) : std::vector<char>();
     const std::uint64_t size = bytes.size() + std::filesystem::file_size(file);
-    rehearse(file, ReadBounds::for_size(size), [&] {
-        Assimp::Importer importer;
-        import_once(importer, file, bytes);
-    });
-    Assimp::Importer importer;
-    const aiScene& scene = import_once(importer, file, bytes);
-    return {Collector(scene).collect(), frame_of(scene)};
+    rehearse(file, ReadBounds::for_size(size), [&] { import_once(file, bytes); });
+    return import_once(file, bytes);
 }
 
 }  // namespace ice

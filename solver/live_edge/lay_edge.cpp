@@ -157,6 +157,13 @@ void LiveEdge::begin(Scene& scene, Case& p) {
         throw bad_input(p.file.string() + ": level_ice",
                         "the hull does not reach the height of the ice",
                         "change hull.draught or level_ice.thickness");
+    // half a gap is cut off both ends of a body: the shortest piece must be left
+    const double longest_gap = radius_ * (1.0 - law_.scatter) - kSmallestPiece * thickness_;
+    if (is_strip_ && gap_ > longest_gap)
+        throw bad_input(p.file.string() + ": level_ice.gap",
+                        fmt::format("{:.3g} m leave no ice of pieces that are {:.3g} m long", gap_,
+                                    radius_ * (1.0 - law_.scatter)),
+                        fmt::format("give at most {:.3g} m", std::max(longest_gap, 0.0)));
     const double least = kSmallestPiece * thickness_;
     sheet_ = IceSheet(extent_, is_strip_ ? std::sqrt(least) : least);  // as long, 1 m broad
     // the hull lies in the sheet from the start: its own place is taken out
@@ -171,14 +178,6 @@ void LiveEdge::begin(Scene& scene, Case& p) {
     looked_at_ = laid_at_ = ship_in_ice(scene);
     Plan plan;
     lay_tiles(scene, plan);
-    // in 3D there may be no ice within reach of the ship; a strip always has its tip
-    if (is_strip_ && plan.bodies.empty() && !sheet_.loops().empty())
-        throw bad_input(
-            p.file.string() + ": level_ice.gap",
-            fmt::format("{} m leave no ice: the strip's first {:.3g} m are one body, "
-                        "and half a gap is cut off both of its ends",
-                        gap_, strip_length(strip_tiles(sheet_, extent_.min().x(), radius_)[0])),
-            "make it smaller");
     fill(p, plan);
     put(scene, 0.0, plan);
 }

@@ -18,8 +18,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace ice::HWY_NAMESPACE {
 
-HWY_INLINE Lanes Length(Vectors v) { return hn::Sqrt(Dot(v, v)); }
-
 // Floes of one form and what the loads ask of them.
 struct Afloat {
     const Shape& shape;
@@ -76,30 +74,27 @@ HWY_INLINE Load PanelDrag(const Afloat& floes, const Case& p, Vectors u) {
     return {Only(drags, Product(turn, force)), Only(drags, Product(turn, moment))};
 }
 
-// No longer than what stops within the step.
-HWY_INLINE Vectors Limited(Vectors load, Lanes stop, Lanes dt) {
-    const Lanes push = hn::Mul(dt, Length(load));
-    const Mask over = hn::Gt(push, stop);
-    if (hn::AllFalse(Tag(), over)) return load;
-    return Choose(over, Scale(hn::Div(stop, push), load), load);
+// limit_drag(): the share of the drag that is left
+HWY_INLINE Lanes LimitOf(const Load& drag, const Afloat& floes, const Matrices& inverse_inertia,
+                         Lanes lost, Lanes dt) {
+    const Lanes turned = Dot(drag.moment, Turned(floes.rotation, inverse_inertia, drag.moment));
+    const Lanes gained =
+        hn::Mul(dt, hn::Add(hn::Div(Dot(drag.force, drag.force), floes.mass), turned));
+    const Lanes left = hn::IfThenElseZero(hn::Gt(lost, hn::Zero(Tag())), hn::Div(lost, gained));
+    return hn::IfThenElse(hn::Gt(gained, lost), left, All(1.0));
 }
 
 // drag_in_current()
 HWY_INLINE Load DragInCurrent(const Afloat& floes, const Case& p, const Vec3& current,
-                              const Matrices& inertia) {
-    const Lanes dt = All(p.time_step);
+                              const Matrices& inverse_inertia) {
     const Vectors u = Sub(floes.velocity, Set(current));
     Load drag{Zero(), Zero()};
     if (p.drag == DragModel::projected) drag = ProjectedDrag(floes, p, u);
     if (p.drag == DragModel::panel) drag = PanelDrag(floes, p, u);
-    const Lanes stop = hn::Mul(floes.mass, Length(u));
-    drag.force = Limited(drag.force, stop, dt);
-    if (p.drag == DragModel::panel) {
-        const Vectors spin = Turned(floes.rotation, inertia, floes.angular_velocity);
-        const Lanes rim = hn::Mul(All(floes.shape.bounding_radius), stop);
-        drag.moment = Limited(drag.moment, hn::Add(Length(spin), rim), dt);
-    }
-    return drag;
+    const Lanes lost =
+        hn::Neg(hn::Add(Dot(drag.force, u), Dot(drag.moment, floes.angular_velocity)));
+    const Lanes left = LimitOf(drag, floes, inverse_inertia, lost, All(p.time_step));
+    return {Scale(left, drag.force), Scale(left, drag.moment)};
 }
 
 }  // namespace ice::HWY_NAMESPACE

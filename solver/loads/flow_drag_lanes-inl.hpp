@@ -28,15 +28,6 @@ public:
         const Vectors water = TransposedProduct(floes_.rotation, WaterOf(water_, near_.At(k)));
         return Sub(Add(v_, Cross(w_, Set(near_.Point(k)))), water);
     }
-    // at a vertex
-    HWY_INLINE Lanes Fastest() const {
-        Lanes square = hn::Zero(Tag());
-        for (std::size_t k = 0; k < floes_.shape.mesh.vertices.size(); ++k) {
-            const Vectors u = At(k);
-            square = hn::Max(square, Dot(u, u));
-        }
-        return hn::Sqrt(square);
-    }
 
 private:
     const Afloat& floes_;
@@ -46,7 +37,7 @@ private:
 };
 
 struct RelativeLoad : Load {
-    Lanes loss, fastest;
+    Lanes loss;
 };
 
 // projected_drag() in moving water: all of it as in the middle of the floe
@@ -54,7 +45,7 @@ HWY_INLINE RelativeLoad ProjectedDragInFlow(const Afloat& floes, const Case& p,
                                             const WaterFlow& water) {
     const Vectors u = Sub(floes.velocity, WaterAt(water, floes.position));
     const Load drag = ProjectedDrag(floes, p, u);
-    return {drag, hn::Neg(Dot(drag.force, u)), Length(u)};
+    return {drag, hn::Neg(Dot(drag.force, u))};
 }
 
 // relative_drag()
@@ -71,25 +62,19 @@ HWY_INLINE RelativeLoad PanelDragInFlow(const Afloat& floes, const Case& p, cons
     const Matrices turn{
         {Scale(factor, r.row[0]), Scale(factor, r.row[1]), Scale(factor, r.row[2])}};
     return {{Product(turn, part(sums.force, 12.0)), Product(turn, part(sums.moment, 60.0))},
-            hn::Mul(hn::Neg(factor), hn::Div(sums.loss, All(60.0))),
-            u.Fastest()};
+            hn::Mul(hn::Neg(factor), hn::Div(sums.loss, All(60.0)))};
 }
 
 // drag_in_flow()
 HWY_INLINE RelativeLoad DragInFlow(const Afloat& floes, const Case& p, const WaterFlow& water,
-                                   const FlowNear& near, const Matrices& inertia) {
-    const Lanes dt = All(p.time_step);
-    RelativeLoad drag{{Zero(), Zero()}, hn::Zero(Tag()), hn::Zero(Tag())};
+                                   const FlowNear& near, const Matrices& inverse_inertia) {
+    RelativeLoad drag{{Zero(), Zero()}, hn::Zero(Tag())};
     if (p.drag == DragModel::projected) drag = ProjectedDragInFlow(floes, p, water);
     if (p.drag == DragModel::panel) drag = PanelDragInFlow(floes, p, water, near);
-    const Lanes stop = hn::Mul(floes.mass, drag.fastest), push = hn::Mul(dt, Length(drag.force));
-    const Mask over = hn::Gt(push, stop);
-    const Lanes part = hn::IfThenElse(over, hn::Div(stop, push), All(1.0));
-    drag.force = Scale(part, drag.force);
-    drag.loss = hn::Mul(drag.loss, part);
-    const Vectors spin = Turned(floes.rotation, inertia, floes.angular_velocity);
-    const Lanes halt = hn::Add(Length(spin), hn::Mul(All(floes.shape.bounding_radius), stop));
-    drag.moment = Limited(drag.moment, halt, dt);
+    const Lanes left = LimitOf(drag, floes, inverse_inertia, drag.loss, All(p.time_step));
+    drag.force = Scale(left, drag.force);
+    drag.moment = Scale(left, drag.moment);
+    drag.loss = hn::Mul(drag.loss, left);
     return drag;
 }
 

@@ -34,21 +34,20 @@ namespace ice::reference {
 
 namespace {
 
-double length(const Vec3& v) { return std::sqrt(ordered_dot(v, v)); }
-
-// Drag slows down, it never turns a motion through the water round: in a step longer than it takes
-// to stop, the force is the one that just stops, m `fastest` / dt. The moment is limited likewise,
-// by I w and by that force at the rim, for drag also turns a floe that does not turn yet.
-// @return what is left of the force, as a share
-double limit_drag(const Bodies& b, std::size_t i, double radius, double fastest, double dt,
-                  WaterLoad& drag) {
-    const double stop = b.mass[i] * fastest, push = dt * length(drag.force);
-    const double left = push > stop ? stop / push : 1.0;
+// Drag slows down, it never turns a motion through the water round. With the impulse J = dt (F, T)
+// of a step the energy of that motion changes by J M^-1 J / 2 - dt `lost`; it is least at the share
+// dt lost / (J M^-1 J) of J, and more than that share is left out. Of a force alone that is m u / dt.
+// At the paper's steps this is never reached.
+// @param lost  power of the drag, -(F . u + T . w) [W]
+// @return the share of the drag that is left
+double limit_drag(const Bodies& b, std::size_t i, double lost, double dt, WaterLoad& drag) {
+    const double turned =
+        ordered_dot(drag.moment, ordered_turned(b.rotation[i], b.inverse_inertia(i), drag.moment));
+    const double gained = dt * (ordered_dot(drag.force, drag.force) / b.mass[i] + turned);
+    if (!(gained > lost)) return 1.0;
+    const double left = lost > 0.0 ? lost / gained : 0.0;
     drag.force *= left;
-    const double turning =
-        length(ordered_turned(b.rotation[i], b.inertia(i), b.angular_velocity[i])) + radius * stop;
-    const double twist = dt * length(drag.moment);
-    if (twist > turning) drag.moment *= turning / twist;
+    drag.moment *= left;
     return left;
 }
 
@@ -73,7 +72,9 @@ WaterLoad drag_in_current(const Scene& scene, const Case& p, std::size_t i) {
         drag = projected_drag(shape, motion, p.drag_coefficient, p.water_density);
     if (p.drag == DragModel::panel)
         drag = panel_drag(shape, motion, p.drag_coefficient, p.water_density);
-    limit_drag(b, i, shape.bounding_radius, length(u), p.time_step, drag);
+    limit_drag(b, i,
+               -(ordered_dot(drag.force, u) + ordered_dot(drag.moment, b.angular_velocity[i])),
+               p.time_step, drag);
     return drag;
 }
 
@@ -87,7 +88,6 @@ RelativeDrag drag_in_flow(const Scene& scene, const Case& p, std::size_t i) {
         const Motion motion{b.rotation[i], b.position[i].z(), u, b.angular_velocity[i]};
         static_cast<WaterLoad&>(drag) =
             projected_drag(shape, motion, p.drag_coefficient, p.water_density);
-        drag.fastest = length(u);
         drag.loss = -ordered_dot(drag.force, u);
     }
     if (p.drag == DragModel::panel) {
@@ -100,7 +100,7 @@ RelativeDrag drag_in_flow(const Scene& scene, const Case& p, std::size_t i) {
         const Motion motion{b.rotation[i], b.position[i].z(), b.velocity[i], b.angular_velocity[i]};
         drag = relative_drag(shape, motion, water, p.drag_coefficient, p.water_density);
     }
-    drag.loss *= limit_drag(b, i, shape.bounding_radius, drag.fastest, p.time_step, drag);
+    drag.loss *= limit_drag(b, i, drag.loss, p.time_step, drag);
     return drag;
 }
 

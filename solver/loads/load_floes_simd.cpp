@@ -57,9 +57,9 @@ struct FlowLoads {
     Load pressure;
 };
 HWY_INLINE FlowLoads LoadsInFlow(const Scene& scene, const Case& p, const Afloat& floes,
-                                 const Matrices& inertia) {
+                                 const Matrices& inverse_inertia) {
     const FlowNear near(floes, scene.water);
-    FlowLoads out{DragInFlow(floes, p, scene.water, near, inertia), {Zero(), Zero()}};
+    FlowLoads out{DragInFlow(floes, p, scene.water, near, inverse_inertia), {Zero(), Zero()}};
     if (!scene.water.presses) return out;
     out.pressure = PressureInFlow(floes, p, scene.water, near);
     if (scene.dimension == 2)
@@ -75,7 +75,7 @@ void LoadPart(const Scene& scene, const Case& p, std::span<const std::int32_t> i
     const BodyLanes at(ids);
     const auto form = static_cast<std::size_t>(b.shape[static_cast<std::size_t>(ids[0])]);
     const Afloat floes(scene.shapes[form], b, at);
-    const Matrices inertia = at.Load(b, &Inertia::body);
+    const Matrices inverse_inertia = at.Load(b, &Inertia::inverse);
 
     const Mask flows = InFlow(scene.water, floes);
     // Lanes in the flow and lanes outside it are computed apart, each kind where a lane has it,
@@ -83,11 +83,11 @@ void LoadPart(const Scene& scene, const Case& p, std::span<const std::int32_t> i
     Load drag{Zero(), Zero()}, pressure{Zero(), Zero()};
     Lanes water_power = hn::Zero(d);
     if (!hn::AllTrue(d, flows)) {
-        drag = DragInCurrent(floes, p, scene.water.current, inertia);
+        drag = DragInCurrent(floes, p, scene.water.current, inverse_inertia);
         water_power = Dot(drag.force, Set(scene.water.current));
     }
     if (!hn::AllFalse(d, flows)) {
-        const FlowLoads in_flow = LoadsInFlow(scene, p, floes, inertia);
+        const FlowLoads in_flow = LoadsInFlow(scene, p, floes, inverse_inertia);
         const RelativeLoad& moved = in_flow.drag;
         pressure = {Only(flows, in_flow.pressure.force), Only(flows, in_flow.pressure.moment)};
         drag = {Choose(flows, moved.force, drag.force), Choose(flows, moved.moment, drag.moment)};

@@ -136,12 +136,7 @@ RelativeDrag relative_drag(const Shape& shape, const Motion& motion,
                             ordered_transposed(motion.rotation, motion.angular_velocity), water);
     static thread_local std::vector<Vector> u;
     u.clear();
-    double square = 0.0;
-    for (const Vec3& vertex : shape.mesh.vertices) {
-        u.push_back(relative.at(vertex));
-        square = std::max(square, dot(u.back(), u.back()));
-    }
-    out.fastest = std::sqrt(square);
+    for (const Vec3& vertex : shape.mesh.vertices) u.push_back(relative.at(vertex));
     const Sums sums = integrate(shape, WaterPlane(motion.rotation, motion.height), relative, u);
     const double factor = -0.5 * water_density * coefficient;
     const Mat3 turn = factor * motion.rotation;

@@ -11,8 +11,7 @@ namespace ice {
 
 /// Force and moment, and what of their work is lost.
 struct RelativeDrag : WaterLoad {
-    double loss = 0.0;     ///< -int u . dF >= 0 [W]: the rest of -(F . v + T . w) goes to the water
-    double fastest = 0.0;  ///< largest |u| at the form's corners, wet or dry [m/s]
+    double loss = 0.0;  ///< -int u . dF >= 0 [W]: the rest of -(F . v + T . w) goes to the water
 };
 
 /// panel_drag() with the velocity relative to water that moves, u = v + w x r - w_water, linear

@@ -160,7 +160,7 @@ TEST_CASE("a flow through the hull or out of its sources is warned of by number 
     flow.net_flux = -0.0123;  // sinks stronger than sources
     warnings = warnings_of(flow);
     REQUIRE(warnings.size() == 1);
-    CHECK_THAT(warnings[0], Catch::Contains("1.23 % of the sources"));
+    CHECK_THAT(warnings[0], Catch::Contains("differ by 1.23 % of all sources"));
 }
 
 TEST_CASE("a section's table lies in its plane and closes around it", "[flow]") {

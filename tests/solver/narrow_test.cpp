@@ -107,9 +107,24 @@ TEST_CASE("a floe face under a flat hull has one contact per floe sphere, all wi
     CHECK(area == Approx(0.8).epsilon(5e-5));
 }
 
+// Moves three of ten spheres of each floe inwards, by up to `most` radii.
+void crush_some(Scene& scene, double most) {
+    std::mt19937 random(11);
+    std::uniform_real_distribution<double> share(0.0, 1.0);
+    for (const std::int32_t i : scene.bodies.moving) {
+        const Shape& shape = scene.shapes[static_cast<std::size_t>(scene.bodies.shape[i])];
+        const auto count = static_cast<std::int32_t>(shape.center.size());
+        for (std::int32_t k = 0; k < count; ++k)
+            if (share(random) < 0.3)
+                scene.crushed.crush(i, k, shape.center.size(),
+                                    -most * share(random) * shape.radius[k] * shape.normal[k]);
+    }
+}
+
 TEST_CASE("the grid finds the contacts that testing every sphere with every other finds",
           "[narrow][equivalence]") {
     World w = test::scattered_world(GENERATE(1u, 2u, 3u), 40);
+    if (const double most = GENERATE(0.0, 1.0, 3.0); most > 0.0) crush_some(w.scene, most);
     const NormalRule rule = GENERATE(NormalRule::centres, NormalRule::surface);
     std::vector<BodyPair> pairs;
     find_pairs(w.scene, 0.01, pairs);

@@ -130,14 +130,14 @@ TEST_CASE("a ship or floe that goes a sphere's diameter in a step is warned of, 
     w.parameters.speed_table = {{0.0, 1.0}, {10.0, -20.0}, {20.0, 49.0}};
     auto warnings = check_start(w, false);
     REQUIRE(warnings.size() == 1);
-    CHECK_THAT(warnings[0].text, Catch::Contains("the ship goes 20 m/s") &&
+    CHECK_THAT(warnings[0].text, Catch::Contains("the ship moves at 20 m/s") &&
                                      Catch::Contains("above 10 m/s") &&
                                      Catch::Contains("simulation.time_step to 0.005 s"));
     w.parameters.speed_table = {{0.0, 1.0}};
     w.scene.bodies.velocity[1] = Vec3(0, 0, 12.0);
     warnings = check_start(w, false);
     REQUIRE(warnings.size() == 1);
-    CHECK_THAT(warnings[0].text, Catch::Contains("floe 1, seen from the ship, goes 12 m/s"));
+    CHECK_THAT(warnings[0].text, Catch::Contains("floe 1, seen from the ship, moves at 12 m/s"));
 }
 
 TEST_CASE("spheres too far apart to keep others out are warned of, with the limit of the rule",
@@ -156,14 +156,16 @@ TEST_CASE("spheres too far apart to keep others out are warned of, with the limi
     REQUIRE(warnings.size() == 1);
     CHECK_THAT(warnings[0].text,
                Catch::Contains("spheres of floe 2 are 0.15 m apart") &&
-                   Catch::Contains("above 2 radii (contact.normal = \"centres\")") &&
+                   Catch::Contains("above 2 radii corners may pass between them") &&
+                   Catch::Contains("contact.normal = \"centres\"") &&
                    Catch::Contains("a spacing of 0.1 m"));
     w.parameters.normal = NormalRule::surface;
     CHECK(check_start(w, false).empty());
     add(kWidestSpacing + 0.1);
     warnings = check_start(w, false);
     REQUIRE(warnings.size() == 1);
-    CHECK_THAT(warnings[0].text, Catch::Contains("spheres of floe 3 are 0.155 m apart") &&
-                                     Catch::Contains("above 3 radii:") &&
-                                     Catch::Contains("a spacing of 0.15 m"));
+    CHECK_THAT(warnings[0].text,
+               Catch::Contains("spheres of floe 3 are 0.155 m apart") &&
+                   Catch::Contains("above 3 radii corners may pass between them:") &&
+                   Catch::Contains("a spacing of 0.15 m"));
 }

@@ -5,6 +5,7 @@
 
 #include "common/base/parallel.hpp"
 #include "solver/bending/breaking_load.hpp"
+#include "solver/live_edge/edge_plan.hpp"
 #include "solver/live_edge/strip.hpp"
 #include "solver/loads/potential_energy.hpp"
 #include "solver/record/recorder.hpp"
@@ -151,10 +152,15 @@ TEST_CASE("what lies behind the bow of a ship within a strip is astern", "[level
     CHECK(tiles_of(w.edge, w.scene.bodies).size() == 1);
 }
 
-TEST_CASE("a gap as long as a tile of a strip is refused: no ice would be left",
+TEST_CASE("a gap that leaves nothing of a strip's shortest piece is refused",
           "[level_ice][strip][errors]") {
     Case p = soft_case(1.0, 1e3);
-    p.level_ice.gap = 40.0;
+    p.level_ice.scatter = 0.2;
+    // a piece is 0.8 breaking lengths long at least, and no shorter than the smallest piece
+    const double shortest = 0.8 * soft_world(p).edge.radius();
+    p.level_ice.gap = shortest - 1.01 * kSmallestPiece * p.level_ice.thickness;
+    CHECK_NOTHROW(soft_world(p));
+    p.level_ice.gap = shortest - 0.99 * kSmallestPiece * p.level_ice.thickness;
     CHECK_THROWS_WITH(soft_world(p), Catch::Matchers::Contains("level_ice.gap") &&
                                          Catch::Matchers::Contains("leave no ice"));
 }

@@ -6,7 +6,7 @@
 
 No sphere fits into a sharp stem: it is cut back by R (1 / sin a - 1), a being half the angle of the
 stem. A Wigley hull (B / L = 0.1) goes through ice of 70 % and L / 200 with spheres of L / 250 to
-L / 1000. Prints a markdown table; exit code 1 where a floe lies deeper in another body than a tenth
+L / 1000. Runs that are already in WORK_DIR are not repeated. Prints a markdown table; exit code 1 where a floe lies deeper in another body than a tenth
 of its thickness, or where the mean of a radius is outside the interval of another one.
 """
 import argparse
@@ -71,10 +71,15 @@ def prepare(options, radius):
     return folder
 
 
+def is_complete(summary):
+    """Is it there, of a run that went to its end?"""
+    return summary.exists() and json.loads(summary.read_text(encoding="utf-8"))["status"] == "completed"
+
+
 def run(options, radius, seed):
     folder = options.work / f"radius-{radius}"
     out = folder / f"seed-{seed}"
-    if not (out / "summary.json").exists():
+    if not is_complete(out / "summary.json"):
         subprocess.run([options.bin / "icesolve", folder / "case.cfg", "--out", out, "--set",
                         f"simulation.seed={seed}", "--threads", "1", "-q", "--no-report", "--overwrite"],
                        check=True)
@@ -104,7 +109,7 @@ def main():
         print(f"| {radius:g} | {seed} | {r['mean_N'] / 1e3:.0f} | {r['ci95_N'] / 1e3:.0f} "
               f"| {1e3 * c['max_overlap_m']:.0f} | {1e3 * c['unseen_overlap_m']:.0f} "
               f"| {s['stage_seconds']['narrow']:.1f} |")
-    deep = any(s["contacts"]["max_overlap_m"] > 0.1 * THICKNESS for s in runs)
+    deep = any(s["contacts"][key] > 0.1 * THICKNESS for s in runs for key in ("max_overlap_m", "unseen_overlap_m"))
     parted = any(abs(a["mean_N"] - b["mean_N"]) > a["ci95_N"] + b["ci95_N"]
                  for a, b in itertools.combinations([s["resistance"] for s in runs], 2))
     return 1 if deep or parted else 0
