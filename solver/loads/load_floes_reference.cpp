@@ -35,8 +35,8 @@ namespace ice::reference {
 namespace {
 
 // Drag slows down, it never turns a motion through the water round. With the impulse J = dt (F, T)
-// of a step the energy of that motion changes by J M^-1 J / 2 - dt `lost`; it is least at the share
-// dt lost / (J M^-1 J) of J, and more than that share is left out. Of a force alone that is m u / dt.
+// of a step the energy of that motion changes by J M^-1 J / 2 - dt `lost`. It is least at the share
+// dt lost / (J M^-1 J) of J; more than that share is left out. Of a force alone that is m u / dt.
 // At the paper's steps this is never reached.
 // @param lost  power of the drag, -(F . u + T . w) [W]
 // @return the share of the drag that is left
