@@ -107,13 +107,16 @@ def row(cells):
 
 
 def try_all(mutants, suites, results, jobs):
-    """Asks the tests of each mutant's folder first; prints a row for each."""
+    """Asks the tests of each mutant's folder first; prints a row for each.
+
+    What a quick run does not notice is not kept: the slow tests may."""
     print(row(["", "file", "kind", "from", "to", "noticed by"]))
     print(row(["---"] * 6), flush=True)
     open_ones = [m for m in mutants if results.get(m) == "not tried"]
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
         for mutant, noticed in zip(open_ones, pool.map(suites.try_on, open_ones)):
-            results.put(mutant, noticed)
+            if noticed or not suites.quick_only:
+                results.put(mutant, noticed)
             place = mutant.places[0]
             print(row([mutant.number, mutant.file, mutant.kind, f"`{place.old[:100]}`",
                        f"`{place.new[:100]}`", noticed or "**no test**"]), flush=True)

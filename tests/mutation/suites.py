@@ -26,6 +26,7 @@ FIRST = {
     "solver/bending": ["solver_tests [bending]"],
     "solver/level_ice": ["solver_tests [level_ice]"],
     "solver/flow": ["flow_tests"],
+    "solver/live_edge": ["solver_tests [edge],[strip]"],
     "preprocess/fill": ["preprocess_tests [equivalence]", "preprocess_tests [analytic]"],
     "preprocess/measure": ["preprocess_tests [analytic]"],
     "postprocess/views": ["postprocess_tests [views]"],

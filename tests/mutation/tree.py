@@ -66,8 +66,9 @@ class Tree:
     def build(self, mutants):
         """Plants and builds; those that do not compile are left out. @return the others"""
         self.copy(mutants)
-        code, text = run(["cmake", "--preset", self.preset, "-DICE_TESTS=ON"], self.source,
-                         env=self.env)
+        code, text = run(["cmake", "--preset", self.preset, "-DICE_TESTS=ON",
+                          "-DICE_UNITED_SOURCES=ON", "-DICE_PRECOMPILED_HEADERS=ON"],
+                         self.source, env=self.env)
         if code != 0:
             raise Failure(f"cmake --preset {self.preset} fails:\n{text}")
         while True:
