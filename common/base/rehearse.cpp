@@ -15,6 +15,7 @@
 #include <cstring>
 #include <fstream>
 #include <new>
+#include <stdexcept>
 
 #include "common/base/error.hpp"
 
@@ -31,8 +32,9 @@ namespace ice {
 
 namespace {
 
-// Exit codes of the child; after kRefused its pipe has the Error's code and text.
-constexpr int kSurvived = 0, kOutOfMemory = 3, kRefused = 4;
+// Exit codes of the child. Its pipe then has the bytes that were read (kSurvived), the Error's code
+// and text (kRefused) or the text of another exception (kFault).
+constexpr int kSurvived = 0, kOutOfMemory = 3, kRefused = 4, kFault = 5;
 
 // A pipe's two ends, closed at the end of the scope.
 class Pipe {
@@ -50,26 +52,41 @@ public:
         if (good_ && ends_[end] >= 0) close(ends_[end]);
         ends_[end] = -1;
     }
+    // The length first: the other side then takes memory once.
     void write(const std::string& text) const {
-        for (std::size_t done = 0; done < text.size();) {
-            const ssize_t count = ::write(ends_[1], text.data() + done, text.size() - done);
-            if (count <= 0) return;
-            done += static_cast<std::size_t>(count);
-        }
+        const std::size_t size = text.size();
+        if (put(&size, sizeof size)) put(text.data(), size);
     }
-    // Until the other side closes its end.
-    std::string read() const {
-        std::string all(4096, '\0');
-        for (std::size_t filled = 0;;) {
-            const ssize_t count = ::read(ends_[0], all.data() + filled, all.size() - filled);
-            if (count < 0 && errno == EINTR) continue;
-            if (count <= 0) return all.substr(0, filled);
-            filled += static_cast<std::size_t>(count);
-            if (filled == all.size()) all.resize(2 * filled);
-        }
+    // Empty where the other side closes its end before all of it.
+    // @param most  [bytes]
+    std::string read(std::uint64_t most) const {
+        std::size_t size = 0;
+        if (!get(&size, sizeof size) || size > most) return {};
+        std::string all(size, '\0');
+        if (!get(all.data(), size)) all.clear();
+        return all;
     }
 
 private:
+    bool put(const void* from, std::size_t size) const {
+        for (std::size_t done = 0; done < size;) {
+            const ssize_t count =
+                ::write(ends_[1], static_cast<const char*>(from) + done, size - done);
+            if (count <= 0) return false;
+            done += static_cast<std::size_t>(count);
+        }
+        return true;
+    }
+    bool get(void* to, std::size_t size) const {
+        for (std::size_t filled = 0; filled < size;) {
+            const ssize_t count = ::read(ends_[0], static_cast<char*>(to) + filled, size - filled);
+            if (count < 0 && errno == EINTR) continue;
+            if (count <= 0) return false;
+            filled += static_cast<std::size_t>(count);
+        }
+        return true;
+    }
+
     std::array<int, 2> ends_{-1, -1};
     bool good_;
 };
@@ -104,7 +121,7 @@ void keep_within(const ReadBounds& bounds) {
 #endif
 }
 
-[[noreturn]] void do_in_child(const ReadBounds& bounds, const std::function<void()>& read,
+[[noreturn]] void do_in_child(const ReadBounds& bounds, const std::function<std::string()>& read,
                               const Pipe& messages) {
     for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGXCPU, SIGINT, SIGTERM})
         std::signal(signal, SIG_DFL);
@@ -114,13 +131,15 @@ void keep_within(const ReadBounds& bounds) {
     keep_within(bounds);
     std::set_new_handler([] { _exit(kOutOfMemory); });  // libraries catch what new throws
     try {
-        read();
+        messages.write(read());
     } catch (const Error& error) {
         messages.write(static_cast<char>(error.code()) + std::string(error.what()));
         _exit(kRefused);
     } catch (const std::bad_alloc&) {
         _exit(kOutOfMemory);
-    } catch (...) {  // a fault of ours: the caller meets it again
+    } catch (const std::exception& fault) {
+        messages.write(fault.what());
+        _exit(kFault);
     }
     _exit(kSurvived);
 }
@@ -148,8 +167,8 @@ ReadBounds ReadBounds::for_size(std::uint64_t size) {
     return bounds;
 }
 
-void rehearse(const std::filesystem::path& file, const ReadBounds& bounds,
-              const std::function<void()>& read) {
+std::string read_in_child(const std::filesystem::path& file, const ReadBounds& bounds,
+                          const std::function<std::string()>& read) {
     Pipe messages;
     // a process of its own: a library that crashes or never ends takes no program with it
     const pid_t child = messages.good() ? fork() : -1;
@@ -160,16 +179,34 @@ void rehearse(const std::filesystem::path& file, const ReadBounds& bounds,
             std::string("cannot be read: no process for it (") + std::strerror(errno) + ")",
             "end other programs, or raise the limits (ulimit -u, -n)");
     messages.close_end(1);
-    // until the child closes its end, by ending
-    const std::string message = messages.read();
+    std::string message = messages.read(bounds.bytes);
+    // a child that has more to say than its bounds allow meets a closed pipe
+    messages.close_end(0);
     int status = 0;
     while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
     }
-    if (WIFEXITED(status) && WEXITSTATUS(status) == kSurvived) return;
-    if (WIFEXITED(status) && WEXITSTATUS(status) == kRefused && !message.empty())
+    const int code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    if (code == kSurvived) return message;
+    if (code == kFault) throw std::runtime_error(message);
+    if (code == kRefused && !message.empty())
         throw Error(static_cast<ExitCode>(message[0]), "", message.substr(1), "");
     throw bad_input(file.string(), what_happened(status, bounds),
                     "the file is damaged or not what its name says: make or export it again");
+}
+
+void rehearse(const std::filesystem::path& file, const ReadBounds& bounds,
+              const std::function<void()>& read) {
+    read_in_child(file, bounds, [&]() -> std::string {
+        try {
+            read();
+        } catch (const Error&) {
+            throw;
+        } catch (const std::bad_alloc&) {
+            throw;
+        } catch (...) {  // a fault of ours: the caller meets it again, where a debugger finds it
+        }
+        return {};
+    });
 }
 
 }  // namespace ice

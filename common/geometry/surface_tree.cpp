@@ -239,8 +239,6 @@ void SurfaceTree::within(const Vec3& p, double range, std::vector<Foot>& out) co
             const double distance = (p - q.point).norm();
             if (distance <= range) out.push_back({q.point, distance, false, t});
         });
-    std::sort(out.begin(), out.end(),
-              [](const Foot& l, const Foot& r) { return l.triangle < r.triangle; });
 }
 
 bool SurfaceTree::is_clear(const Vec3& p, double range) const {

@@ -31,7 +31,8 @@ public:
     ///              answer is the same without it, only later: of equal feet the first triangle's.
     Foot closest(const Vec3& p, std::int32_t hint = -1) const;
 
-    /// Feet on all triangles nearer than `range` to p, in triangle order. `inside` is not set.
+    /// Feet on all triangles nearer than `range` [m] to p, in no particular order, since most callers
+    /// sort by distance and a large range finds 1e5 feet. `inside` is not set.
     void within(const Vec3& p, double range, std::vector<Foot>& out) const;
 
     /// True when no point of the surface is nearer than `range` to p. Much cheaper than closest()

@@ -8,7 +8,7 @@
 #include <algorithm>
 
 #include "common/base/parallel.hpp"
-#include "preprocess/clean/find_equal.hpp"
+#include "common/geometry/find_equal.hpp"
 
 namespace ice {
 

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "common/geometry/edge_table.hpp"
-#include "preprocess/clean/find_equal.hpp"
+#include "common/geometry/find_equal.hpp"
 #include "preprocess/clean/keep_triangles.hpp"
 
 namespace ice {

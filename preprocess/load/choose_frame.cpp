@@ -238,13 +238,13 @@ Mat3 Frame::matrix() const {
 Frame choose_frame(const TriangleMesh& mesh, const FileFrame& file, const ReadOptions& options,
                    ReadNotes& notes) {
     std::int64_t left_out = 0;
-    const TriangleMesh main = main_parts(mesh, left_out);
+    const std::optional<TriangleMesh> main = main_parts(mesh, left_out);
     if (left_out > 0 && !(options.up && options.forward && (options.scale || file.metres)))
         notes.warnings.push_back(fmt::format(
             "units and axes are guessed without {} part{} far from the largest or around it: check "
             "them, or give --units, --up and --forward",
             left_out, left_out == 1 ? "" : "s"));
-    return Chooser(main, file, options, notes).choose();
+    return Chooser(main ? *main : mesh, file, options, notes).choose();
 }
 
 }  // namespace ice

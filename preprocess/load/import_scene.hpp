@@ -25,8 +25,8 @@ struct ImportedMesh {
 ///   - glTF: nothing is applied; metres, y up and front +z by its specification (2.0, section 3.4).
 ///   - OBJ, STL, PLY, OFF: no units, no axes.
 ///
-/// assimp crashes, or never ends, on some damaged files: it reads each file in a child process
-/// first (rehearse()). It opens no file outside the mesh's own folder: a material library elsewhere
+/// assimp crashes, or never ends, on some damaged files: it reads them in a child process, which
+/// hands the mesh over (read_in_child()). It opens no file outside the mesh's own folder: a material library elsewhere
 /// is left out, a glTF buffer elsewhere is an error.
 ///
 /// @throws Error (exit code 2) naming the file, when its name tells no format that is read, when

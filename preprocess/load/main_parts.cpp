@@ -4,7 +4,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <numeric>
-#include <utility>
+
+#include "common/geometry/find_equal.hpp"
 
 namespace ice {
 
@@ -20,8 +21,9 @@ struct Part {
     bool flat() const { return box.sizes().minCoeff() <= kFlat * box.diagonal().norm(); }
 };
 
-// For each vertex the number of its part.
-std::vector<std::int32_t> part_of_vertices(const TriangleMesh& mesh) {
+// For each vertex the number of its part; parts are counted in the order of their first vertices.
+// @param count  becomes the number of parts
+std::vector<std::int32_t> part_of_vertices(const TriangleMesh& mesh, std::size_t& count) {
     std::vector<std::int32_t> parent(mesh.vertices.size());
     std::iota(parent.begin(), parent.end(), 0);
     // Union-find with path halving. The smallest vertex of a part is its root, so the numbers do
@@ -38,33 +40,25 @@ std::vector<std::int32_t> part_of_vertices(const TriangleMesh& mesh) {
         b = root(b);
         parent[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
     };
-    const auto at = [&](std::int32_t v) -> const Vec3& {
-        return mesh.vertices[static_cast<std::size_t>(v)];
-    };
     // Vertices in the same place are one: formats such as STL repeat each corner for each triangle.
-    // x stands beside the number, so that few comparisons read a vertex.
-    std::vector<std::pair<double, std::int32_t>> order(mesh.vertices.size());
-    for (std::size_t v = 0; v < order.size(); ++v)
-        order[v] = {mesh.vertices[v].x(), static_cast<std::int32_t>(v)};
-    std::sort(order.begin(), order.end(), [&](const auto& l, const auto& r) {
-        if (l.first != r.first) return l.first < r.first;
-        const Vec3 &p = at(l.second), &q = at(r.second);
-        return p.y() != q.y() ? p.y() < q.y() : p.z() < q.z();
-    });
-    for (std::size_t k = 1; k < order.size(); ++k)
-        if (at(order[k].second) == at(order[k - 1].second))
-            join(order[k].second, order[k - 1].second);
+    const std::vector<std::int32_t> first = find_equal_vertices(mesh.vertices);
+    for (std::size_t v = 0; v < first.size(); ++v) join(static_cast<std::int32_t>(v), first[v]);
     for (const auto& t : mesh.triangles) {
         join(t[0], t[1]);
         join(t[0], t[2]);
     }
     std::vector<std::int32_t> out(parent.size());
-    for (std::size_t v = 0; v < out.size(); ++v) out[v] = root(static_cast<std::int32_t>(v));
+    count = 0;
+    for (std::size_t v = 0; v < out.size(); ++v) {
+        const auto first_of_part = static_cast<std::size_t>(root(static_cast<std::int32_t>(v)));
+        out[v] = first_of_part == v ? static_cast<std::int32_t>(count++) : out[first_of_part];
+    }
     return out;
 }
 
-std::vector<Part> measure_parts(const TriangleMesh& mesh, const std::vector<std::int32_t>& part) {
-    std::vector<Part> parts(mesh.vertices.size());  // by their first vertex; most stay empty
+std::vector<Part> measure_parts(const TriangleMesh& mesh, const std::vector<std::int32_t>& part,
+                                std::size_t count) {
+    std::vector<Part> parts(count);  // a vertex without a triangle is an empty one
     const auto of = [&](std::size_t t) -> Part& {
         return parts[static_cast<std::size_t>(
             part[static_cast<std::size_t>(mesh.triangles[t][0])])];
@@ -85,14 +79,15 @@ std::vector<Part> measure_parts(const TriangleMesh& mesh, const std::vector<std:
 
 }  // namespace
 
-TriangleMesh main_parts(const TriangleMesh& mesh, std::int64_t& left_out) {
+std::optional<TriangleMesh> main_parts(const TriangleMesh& mesh, std::int64_t& left_out) {
     left_out = 0;
-    const std::vector<std::int32_t> part = part_of_vertices(mesh);
-    const std::vector<Part> parts = measure_parts(mesh, part);
+    std::size_t count = 0;
+    const std::vector<std::int32_t> part = part_of_vertices(mesh, count);
+    const std::vector<Part> parts = measure_parts(mesh, part, count);
     std::vector<std::size_t> present;
     for (std::size_t p = 0; p < parts.size(); ++p)
         if (!parts[p].box.isEmpty()) present.push_back(p);
-    if (present.size() < 2) return mesh;
+    if (present.size() < 2) return std::nullopt;
     // a box around much smaller parts is the domain of a flow computation, no part of the ship
     const auto is_around = [&](std::size_t p) {
         return parts[p].on_box && std::any_of(present.begin(), present.end(), [&](std::size_t q) {
@@ -104,7 +99,7 @@ TriangleMesh main_parts(const TriangleMesh& mesh, std::int64_t& left_out) {
     std::vector<std::size_t> solid;
     for (const std::size_t p : present)
         if (!parts[p].flat() && !is_around(p)) solid.push_back(p);
-    if (solid.empty()) return mesh;
+    if (solid.empty()) return std::nullopt;
     const std::size_t largest = *std::max_element(
         solid.begin(), solid.end(),
         [&](std::size_t l, std::size_t r) { return parts[l].area < parts[r].area; });
@@ -122,7 +117,7 @@ TriangleMesh main_parts(const TriangleMesh& mesh, std::int64_t& left_out) {
         if (parts[p].flat() && wide.contains(parts[p].box)) keep[p] = 1;
         left_out += keep[p] == 0 ? 1 : 0;
     }
-    if (left_out == 0) return mesh;
+    if (left_out == 0) return std::nullopt;
     TriangleMesh out;
     out.vertices = mesh.vertices;
     out.region_names = mesh.region_names;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
+
 #include "common/geometry/triangle_mesh.hpp"
 
 namespace ice {
@@ -12,7 +14,8 @@ namespace ice {
 /// solver's domain) and flat sheets that reach beyond the rest (a sea plane). The largest part is
 /// that with the most surface, boxes and flat sheets apart.
 ///
-/// @param left_out  takes how many parts these are; 0: the mesh is returned as it is
-TriangleMesh main_parts(const TriangleMesh& mesh, std::int64_t& left_out);
+/// @param left_out  takes how many parts these are
+/// @return the mesh without them; nothing where none is left out
+std::optional<TriangleMesh> main_parts(const TriangleMesh& mesh, std::int64_t& left_out);
 
 }  // namespace ice

@@ -32,14 +32,15 @@ std::int32_t region_at(const SurfaceTree& tree, const Vec3& middle, const Vec3& 
     std::vector<Foot> feet;
     tree.within(middle, kStraight * extent, feet);
     double best = -2.0;
-    std::int32_t region = 0;
+    std::int32_t chosen = -1;
     for (const Foot& foot : feet) {
         const double fit = tree.normal(foot.triangle).dot(normal);
-        if (fit <= best) continue;
+        // of equal ones the first triangle
+        if (fit < best || (fit == best && foot.triangle > chosen)) continue;
         best = fit;
-        region = tree.mesh().region[static_cast<std::size_t>(foot.triangle)];
+        chosen = foot.triangle;
     }
-    return region;
+    return chosen < 0 ? 0 : tree.mesh().region[static_cast<std::size_t>(chosen)];
 }
 
 std::vector<SectionEdge> make_loop(const std::vector<Vec3>& points, const SurfaceTree& tree,

@@ -83,6 +83,16 @@ TEST_CASE("an Error of reading comes through as it is, and what reading changes 
     CHECK(refusal([] { throw std::runtime_error("no"); }).empty());
 }
 
+TEST_CASE("a child process hands over what it read, byte for byte", "[base]") {
+    std::string all(300'000, '\0');  // more than a pipe holds
+    for (std::size_t k = 0; k < all.size(); ++k) all[k] = static_cast<char>(k * k >> 4);
+    CHECK(read_in_child("hull.x", {}, [&] { return all; }) == all);
+    CHECK(read_in_child("hull.x", {}, [] { return std::string(); }).empty());
+    // nothing reads again in the caller, so a fault of the program's own comes through
+    CHECK_THROWS_WITH(
+        read_in_child("hull.x", {}, []() -> std::string { throw std::runtime_error("no"); }), "no");
+}
+
 TEST_CASE("memory that a library asks for in vain is refused even where it catches that",
           "[base][errors]") {
     ReadBounds bounds;
