@@ -14,7 +14,11 @@ namespace ice {
 
 namespace {
 
-constexpr std::size_t kMostWords = 360;  // characters of the faulty value
+// Characters of a message that may quote a faulty value: about four rows of a terminal. Fewer cut
+// messages that list all choices of a key.
+constexpr std::size_t kMostWords = 360;
+// Reads one node by the kind of its key. Each reader complains at the node itself and returns
+// false; values are stored in SI.
 
 class ValueReader {
 public:
@@ -161,6 +165,7 @@ private:
                      1);
             return false;
         }
+        // a word twice would count its rule twice, so it is refused, not dropped
         Key one = key;  // each word is a choice
         one.kind = Kind::choice;
         std::vector<std::string> words;
