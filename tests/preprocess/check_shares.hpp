@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "common/formats/sphere_set.hpp"
+#include "tests/support/tolerance.hpp"
 
 namespace ice::test {
 
@@ -21,10 +22,10 @@ inline void check_shares(const SphereSet& set) {
     }
     Vec3 centroid = set.solid.centroid;
     if (set.dimension == 2) centroid.y() = 0.0;
-    CHECK(volume == Approx(set.solid.volume).epsilon(1e-12));
-    CHECK(area == Approx(set.solid.area).epsilon(1e-9));
+    CHECK(volume == Near(set.solid.volume).epsilon(1e-12));
+    CHECK(area == Near(set.solid.area).epsilon(1e-9));
     const double size = std::cbrt(set.solid.volume);
-    CHECK((first / volume - centroid).norm() < 1e-9 * (centroid.norm() + size));
+    CHECK((first / volume - centroid).norm() < tolerance(1e-9) * (centroid.norm() + size));
 }
 
 }  // namespace ice::test

@@ -8,8 +8,10 @@
 #include "common/base/error.hpp"
 #include "solver/water/hydrostatics.hpp"
 #include "tests/support/make_worlds.hpp"
+#include "tests/support/tolerance.hpp"
 
 using namespace ice;
+using ice::test::tolerance;
 
 namespace {
 
@@ -76,7 +78,7 @@ TEST_CASE("floes that float at rest and touch nothing balance from the first ste
         REQUIRE(w.constraints.empty());
         const Imbalance found = require_balance(before, w);
         // the loads are there on both sides: what is left is their own rounding
-        CHECK(found.together < 1e-14);
+        CHECK(found.together < tolerance(1e-14));
     }
 }
 

@@ -8,6 +8,7 @@
 #include "common/formats/widest_spacing.hpp"
 #include "solver/narrow/find_contacts.hpp"
 #include "tests/support/make_worlds.hpp"
+#include "tests/support/tolerance.hpp"
 
 using namespace ice;
 using namespace ice::test;
@@ -36,7 +37,7 @@ TEST_CASE("an upright edge that cuts a plate's side anywhere has a contact as de
             const auto deepest =
                 std::min_element(contacts.begin(), contacts.end(),
                                  [](const Contact& l, const Contact& r) { return l.gap < r.gap; });
-            CHECK(deepest->gap == Approx(-kDepth).margin(1e-12));
-            CHECK(deepest->normal.x() == Approx(1.0).margin(1e-12));
+            CHECK(deepest->gap == Near(-kDepth).margin(1e-12));
+            CHECK(deepest->normal.x() == Near(1.0).margin(1e-12));
         }
 }

@@ -11,10 +11,13 @@
 #include "solver/run/run.hpp"
 #include "tests/support/make_sphere_sets.hpp"
 #include "tests/support/temporary_file.hpp"
+#include "tests/support/tolerance.hpp"
 #include "tests/support/write_text.hpp"
 
 using namespace ice;
 using Catch::Contains;
+using ice::test::Near;
+using ice::test::tolerance;
 
 namespace {
 
@@ -80,9 +83,9 @@ TEST_CASE("a floe without a height floats at rest") {
     const std::size_t floe = add_floe(w, add_floe_shape(w, kFloe), start);
     // 0.9 of the thickness below the water: the centre at -(0.9 - 0.5) 0.3 m, to the bisection's
     // 1e-12 of the height
-    CHECK(w.scene.bodies.position[floe].z() == Approx(-0.12).margin(1e-12));
+    CHECK(w.scene.bodies.position[floe].z() == Near(-0.12).margin(1e-12));
     for (int k = 0; k < 100; ++k) step(w);
-    CHECK(w.scene.bodies.velocity[floe].norm() < 1e-9);
+    CHECK(w.scene.bodies.velocity[floe].norm() < tolerance(1e-9));
 }
 
 TEST_CASE("floes made in code are held and let go as a case's") {

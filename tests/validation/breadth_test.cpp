@@ -9,10 +9,12 @@
 #include <cmath>
 
 #include "tests/support/make_worlds.hpp"
+#include "tests/support/tolerance.hpp"
 #include "tests/validation/paper_case.hpp"
 #include "tests/validation/table.hpp"
 
 using namespace ice;
+using ice::test::tolerance;
 
 namespace {
 
@@ -129,5 +131,6 @@ TEST_CASE("a row of fourteen pieces: 3D one metre broad equals 2D", "[validation
             two.value, three.value, 5.0);
     // the means must be known well enough to say so: standard errors below half the bound
     for (const int axis : {0, 2})
-        CHECK(std::hypot(two.error[axis], three.error[axis]) < 0.025 * std::abs(two.value[axis]));
+        CHECK(std::hypot(two.error[axis], three.error[axis]) <
+              tolerance(0.025) * std::abs(two.value[axis]));
 }
