@@ -62,6 +62,7 @@ void write_picture(const std::filesystem::path& file, const std::string& svg) {
         write_text_file(file, svg);
         return;
     }
+    // Through a file beside the picture: run_child() gives a program no input.
     PartFile part(file);
     const PartFile drawing(file.string() + ".svg");  // never kept: removed at the end
     write_text_file(drawing.path(), svg);

@@ -53,6 +53,8 @@ void begin_anew_with_sleeping_threads() {
 void start_threads() {
     const int others = thread_count() - 1;
     if (others > 0) begin_anew_with_sleeping_threads();
+    // A trial with plain threads, whose failure is an exception: OpenMP would end the program
+    // instead.
     std::vector<std::thread> trial;
     const auto join = [&] {
         for (std::thread& thread : trial) thread.join();

@@ -19,6 +19,8 @@ void append(std::vector<T>& all, const std::vector<T>& part) {
 }
 
 void add_shape(const SphereSet& set, FieldArrays& all) {
+    // Radii and regions are left out: all spheres of a field have one radius, all triangles one
+    // region.
     all.spheres.push_back(static_cast<std::int64_t>(set.size()));
     all.surface.push_back(static_cast<std::int64_t>(set.surface_count));
     all.creases.push_back(static_cast<std::int64_t>(set.creases.size()));

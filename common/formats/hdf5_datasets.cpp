@@ -100,6 +100,8 @@ template <class T>
 void Hdf5File::write_rows(const std::string& name, const T* rows,
                           const std::vector<std::uint64_t>& shape, std::uint64_t count, T rest) {
     if (count == shape[0]) return write(name, rows, shape);
+    // Rows of a chunk, 256 kB for one double each. Smaller chunks cost an entry each in the file's
+    // index; larger ones store more rows of fill values beside the last row written.
     constexpr hsize_t kRowsPerChunk = 1 << 15;
     // chunks, so that rows that were never written take no room: they read as `rest`
     auto dims = to_hsize(shape), chunk = dims, block = dims;
@@ -161,7 +163,7 @@ std::vector<std::uint64_t> Hdf5File::shape(const std::string& name) const {
 template <class T>
 std::vector<T> Hdf5File::read(const std::string& name) const {
     const std::uint64_t count = product(shape(name));
-    // Before the memory is asked for: a few bytes of a compressed file can claim terabytes.
+    // Before any memory is taken: a few bytes of a compressed file can claim terabytes.
     take_from_limit(name, count, sizeof(T));
     const Handle dataset(open_dataset(name), H5Dclose);
     const Handle type(H5Dget_type(dataset), H5Tclose);

@@ -63,6 +63,8 @@ void read_peaks(const Json& region, RegionStatistics& out) {
 }
 
 void add_panels(const PanelSummary& panels, Json& out) {
+    // The file has loads per length and per area, as class rules and measurements have them; the
+    // force in newtons depends on the size of a panel.
     out["panel_rule"] = {{"size_m", panels.size},
                          {"window_s", panels.window},
                          {"panels", panels.count},

@@ -59,6 +59,7 @@ private:
 
     void read_shapes(std::vector<RunShape>& shapes) const {
         const std::uint64_t count = length("/shapes/vertex_offset");
+        // a million: an ice field of so many different floes would not fit into memory
         check(count >= 1 && count < 1000000, "/shapes/vertex_offset", "has no shapes");
         // offsets have one entry more than there are shapes: the end of the last
         shapes.resize(count - 1);
@@ -243,7 +244,7 @@ private:
                                        "/frames/velocity",      "/frames/angular_velocity",
                                        "/frames/contact_force", "/frames/state"};
         if (file().has("/frames/ship_orientation")) names.emplace_back("/frames/ship_orientation");
-        // a run that is still written may have one column longer than another: the rows that all
+        // of a run that is still written one column may be longer than another: the rows that all
         // have
         const std::uint64_t frames = common_rows(names);
         const std::uint64_t n = run.header.body_shape.size();
@@ -353,6 +354,8 @@ const std::vector<std::string>& track_columns() {
 
 RunData read_run(const std::filesystem::path& path) {
     // one that is being created just now is whole a moment later
+    // Half a second in all: the writer creates the datasets within a few milliseconds, and a file
+    // that is torn for good must not be waited for.
     for (int left = is_growing(path) ? 5 : 0;; --left) {
         try {
             std::optional<FileTurn> turn;

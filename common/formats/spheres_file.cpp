@@ -47,7 +47,9 @@ void write_mesh(Hdf5File& file, const TriangleMesh& mesh) {
     file.write("/mesh/region", mesh.region);
 }
 
-// Bytes in memory per byte in the file: 3 where most spheres are inside, without rows of their own
+// Most bytes in memory per byte in the file: 3 are usual where most spheres are inside, without
+// rows of their own. A lower bound refuses sound sets, a higher one lets a damaged file take more
+// memory before it is refused.
 constexpr std::uint64_t kMostTimesSpheres = 16;
 
 // Reads one file, with every complaint naming the file and the dataset.
@@ -97,8 +99,8 @@ private:
         check(file_.read_number_attribute("/", "format_version")[0] == kSpheresVersion, "/",
               "has a format_version this program does not know");
         const double dimension = file_.read_number_attribute("/", "dimension")[0];
-        // Each check stands before the first use of what it checks: a number of the file never
-        // sizes or indexes anything unchecked.
+        // Each number is checked before its first use: no unchecked number of the file is a size or
+        // an index.
         check(dimension == 2.0 || dimension == 3.0, "dimension", "is neither 2 nor 3");
         set.dimension = static_cast<int>(dimension);
         set.radius = file_.read_number_attribute("/", "radius")[0];
@@ -160,8 +162,7 @@ private:
         const auto layers = file_.read<std::uint8_t>("/layer");
         for (std::size_t k = 0; k < n; ++k) {
             check(layers[k] <= 1, "/layer", "holds a layer other than 0 and 1");
-            // Surface spheres first: the solver uses a prefix of the arrays and never asks for the
-            // layer.
+            // Surface spheres first: the solver uses a prefix of the arrays and no layers.
             check(k == 0 || layers[k] <= layers[k - 1], "/layer",
                   "does not have the surface spheres first");
             set.surface_count += layers[k];
@@ -325,7 +326,7 @@ std::string read_ice_belt(const std::filesystem::path& path) {
 }
 
 SphereSet read_spheres(const std::filesystem::path& path) {
-    std::error_code missing;  // is what SpheresReader complains of
+    std::error_code missing;  // SpheresReader complains of it
     const auto size = std::filesystem::file_size(path, missing);
     if (!missing) rehearse(path, ReadBounds::for_size(size), [&] { SpheresReader(path).read(); });
     return SpheresReader(path).read();

@@ -65,6 +65,7 @@ Json warnings_json(const std::vector<Warning>& warnings) {
     return out;
 }
 
+// Ending of a key whose value is per metre of breadth.
 constexpr std::string_view kPerMetre = "_per_m";
 
 // In 2D forces, impulses and energies are per metre of breadth, and say so in a twin of each key.
@@ -74,6 +75,7 @@ void add_names_per_metre(Json& json) {
     std::vector<std::pair<std::string, Json>> twins;
     for (auto& [key, value] : json.items()) {
         const bool newtons = key.ends_with("_N") || key.ends_with("_Ns") || key.ends_with("_J");
+        // a list's items have no names; those inside them may
         if (newtons && json.is_object())
             twins.emplace_back(key + std::string(kPerMetre), value);
         else
@@ -100,7 +102,7 @@ ForceStatistics read_force(const JsonReader& in, const std::string& key) {
     return out;
 }
 
-// what the JSON library finds wrong, as an error that names the file
+// a fault that the JSON library finds, as an error that names the file
 template <class Work>
 void guarded(const JsonReader& in, const std::string& key, const Work& work) {
     try {
