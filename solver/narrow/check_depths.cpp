@@ -31,7 +31,7 @@ Vec3 crossing_of(const PairView& view, const Candidate& c) {
 bool hold_to_meshes(const PairView& view, Candidate& c) {
     // Two edges cross within both solids, or one of them ends before. Where they do, the depth
     // along the axis stays as it is: it is measured between the edges' own lines. A bound by the
-    // distances of the middle point from both meshes was tried, and overlaps became twice as deep
+    // distances of the middle point from both meshes was tried and dropped: overlaps became deeper
     // (docs/design-notes.md).
     if (c.gap.crossing) {
         const Vec3 at = crossing_of(view, c);

@@ -12,7 +12,7 @@ namespace ice {
 
 /// Where piece b is in the axes of piece a: p_a = rotation p_b + translation.
 struct RelativePose {
-    Mat3 rotation;
+    Mat3 rotation;     ///< b's axes to a's
     Vec3 translation;  ///< [m]
 };
 
@@ -33,16 +33,17 @@ struct SeparatingAxes {
     static constexpr double kNone = -std::numeric_limits<double>::infinity();
 
     double face_a = kNone, face_b = kNone, edges = kNone;
-    std::int32_t plane_a = -1, plane_b = -1;  ///< the first of those with the gap
-    std::int32_t edge_a = -1, edge_b = -1;    ///< the first pair, by a's edge, then by b's
+    std::int32_t plane_a = -1, plane_b = -1;  ///< the first of those with the gap; -1: not measured
+    std::int32_t edge_a = -1, edge_b = -1;    ///< the first pair, by a's edge, then b's; -1: none
 
+    /// [m]; minus infinity where nothing was measured.
     double widest() const { return std::max({face_a, face_b, edges}); }
 };
 
 /// Measures the axes. Stops early after a's or b's planes where one of them has a gap of more than
 /// `enough` [m]: then the pieces are that far apart, and the later kinds are left out.
-/// @pre neither piece is empty
 /// Edges whose sine is less than 1e-6 have no axis; a plane's beside it differs by as little.
+/// Cost: planes times corners, then pairs of edges. @pre neither piece is empty
 SeparatingAxes find_axes(const ConvexPiece& a, const ConvexPiece& b, const RelativePose& pose,
                          double enough);
 
