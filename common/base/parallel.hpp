@@ -11,13 +11,14 @@
 
 namespace ice {
 
-/// Threads used by parallel_for from now on; 0 leaves OpenMP's own choice. They stay the same ones:
-/// a thread's results in one region are read in the next.
+/// Number of threads used by parallel_for from now on; 0 leaves OpenMP's own choice. They stay the
+/// same ones: a thread's results in one region are read in the next.
 inline void set_thread_count(int threads) {
     omp_set_dynamic(0);
     if (threads > 0) omp_set_num_threads(threads);
 }
 
+/// Threads of the next parallel region, at least 1.
 inline int thread_count() { return omp_get_max_threads(); }
 
 /// Takes exceptions out of a parallel region, which none may leave by itself: of those thrown the
