@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What icebench measures is the scene it says it is. Sums marked "independent" are those of a
 // second program for the same scenes that shares no code with this one.
+//
+// Tolerances: 1e-12 and 1e-9 are rounding of sums over triangles and spheres.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The paper's 2D observations (its Figures 3 to 6) on the recorded trajectories and forces.
+//
+// Tolerances: 1e-9 is rounding of a sum over the steps; 0.5 % of the work is the bound of the
+// energy ledger's warning.
 #include <catch2/catch.hpp>
 #include <cmath>
 

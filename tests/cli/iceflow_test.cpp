@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // iceflow as a user meets it.
+//
+// Tolerances: 1 % of a volume is the wetted hull cut and simplified; 5 % of a residual and 0.5 % of
+// a flux are where iceflow warns (solver/flow/flow_table.cpp), 1 % is a smooth hull's residual.
 #include "common/formats/flow_file.hpp"
 #include "common/formats/summary_file.hpp"
 #include "tests/cli/workshop.hpp"

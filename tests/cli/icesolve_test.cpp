@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // icesolve as a user meets it: run folders, hashes, messages, interruption.
+//
+// Tolerances: 1e-6 is rounding of sums over the rows, with a reserve; 0.5 % of the work is the
+// bound of the energy ledger's warning; 1e-12 is that of --verify.
 #include <signal.h>
 
 #include <chrono>

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A case of level ice alone: laid, broken, continued.
+//
+// Tolerances: 1e-3 m is a place stored as a float; 20 % is the scatter of the breaking length.
 #include "common/formats/pieces_file.hpp"
 #include "common/formats/summary_file.hpp"
 #include "tests/cli/workshop.hpp"

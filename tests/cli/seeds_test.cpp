@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Ensembles as a user meets them: icesolve CASE --seeds N.
+//
+// Tolerances: 1e-12 is rounding of a mean of three.
 #include <signal.h>
 
 #include <chrono>

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // spherize as a user meets it: exit codes, messages, files left behind.
+//
+// Tolerances: 1e-12 is rounding of sums over a box's triangles; 1e-9 m that of its spheres' places,
+// with a reserve.
 #include <map>
 
 #include "common/formats/spheres_file.hpp"

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the programs make of the words of a command line (common/cli).
+//
+// Tolerances: 1e-15 is rounding of one product.
 #include <catch2/catch.hpp>
 #include <string>
 

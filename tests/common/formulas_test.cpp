@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Empirical formulas against tables worked out by an independent script, published values, limits.
+//
+// Tolerances: 0.6 kN and 1 kN are tables printed without decimals, and constants cut to some
+// digits; 0.01 is a ratio's last printed digit; 1e-3 and 1e-2 N are powers of a speed of 1e-9 m/s;
+// 1e-12 is rounding of a formula.
 #include <catch2/catch.hpp>
 #include <cmath>
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Tolerances: 1e-12 is kRounding over a small difference.
 #include "common/geometry/mass_properties.hpp"
 
 #include <catch2/catch.hpp>

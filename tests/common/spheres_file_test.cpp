@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Tolerances: 1e-7 is a normal stored as floats.
 #include "common/formats/spheres_file.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Tolerances: 1e-15 is rounding of one product.
 #include "common/base/units.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Inside tests that do not need a closed surface.
+//
+// Tolerances: 0.05 is clusters of triangles taken as dipoles; 1e-12 is rounding of a sum of solid
+// angles.
 #include "common/geometry/winding_number.hpp"
 
 #include <catch2/catch.hpp>

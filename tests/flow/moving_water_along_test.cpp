@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Floes that move water along: inertia, impacts, Kirchhoff's equations, books, bits.
+//
+// Tolerances: 1 % and 0.5 % are the step's error, of first order; 1e-12 and 1e-11 are rounding of
+// momenta over the steps.
 #include <catch2/catch.hpp>
 #include <cmath>
 

@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The flow around bodies by source panels: known answers, mirror images, bits.
+//
+// Tolerances: 4e-16 and 1e-15 are one or some last digits; 1e-9 is central differences, step^2 and
+// rounding over step, 1e-5 m; 1e-5 of a sum is many points in place of a panel; 1e-9 m is places of
+// a metre, cut; 1e-12 is rounding of a length.
 #include <catch2/catch.hpp>
 #include <cstring>
 #include <numbers>

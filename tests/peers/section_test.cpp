@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Tolerances: 1e-12 is rounding of a sum over corners; 1e-9 m is kSamePoint, within which corners
+// are one.
 #include "tests/peers/section.hpp"
 
 #include <algorithm>

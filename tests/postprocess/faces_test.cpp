@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Tolerances: 1e-12 is rounding of a rotation of lengths of a metre.
 #include "postprocess/views/faces.hpp"
 
 #include <catch2/catch.hpp>

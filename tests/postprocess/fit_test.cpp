@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Coefficients fitted to resistances that were made from known ones.
+//
+// Tolerances: 1e-9 and 1e-8 are rounding of the sums, amplified by the columns' condition of some
+// 1e3 and by the exponents; 1e-6 of a force is made of them, with a reserve.
 #include <fmt/format.h>
 
 #include <catch2/catch.hpp>

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Attainable speeds against their closed forms.
+//
+// Tolerances: 1e-12 and 1e-10 are rounding of a straight line through two points, and of its
+// inverse; 1e-6 N is that of a difference of forces of 1e5 N; 1e-9 is rounding of a mean.
 #include <fmt/format.h>
 
 #include <algorithm>

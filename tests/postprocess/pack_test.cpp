@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the page holds of a run, decoded again as web/src/data.js does.
+//
+// Tolerances: 1e-9 is rounding of half a step of a code; 0.1 % of a force is a few steps of its
+// root, coded in 8191; 1e-12 is rounding of a weight.
 #include "postprocess/report/pack.hpp"
 
 #include <zlib.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Tolerances: 1e-5 m is a place stored as a float.
 #include <catch2/catch.hpp>
 
 #include "common/formats/hdf5_file.hpp"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Tolerances: 1e-12 is rounding of a time.
 #include <catch2/catch.hpp>
 
 #include "tests/postprocess/make_folder.hpp"

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Load map and bottom coverage: answers known beforehand, then what must hold for any run.
+//
+// Tolerances: 1e-12 and 1e-9 are rounding of sums over faces and contacts; 1 % is the cells along
+// an edge.
 #include <catch2/catch.hpp>
 #include <numeric>
 #include <random>

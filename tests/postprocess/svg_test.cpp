@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Tolerances: 0.051 is half of a pixel's last digit, a tenth.
 #include "postprocess/views/svg.hpp"
 
 #include <catch2/catch.hpp>

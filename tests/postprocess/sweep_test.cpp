@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Tolerances: 1e-6 and 1e-5 are the last digit of t in a table.
 #include <fmt/format.h>
 
 #include <catch2/catch.hpp>

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The certificate against the source, the ice belt, ends cut back, spheres outside.
+//
+// Tolerances: 1e-12 is rounding of a sum over triangles; 1e-9 m that of a distance, with a reserve;
+// 1e-6 of a radius is what spherize settles to.
 #include <catch2/catch.hpp>
 
 #include "common/base/error.hpp"

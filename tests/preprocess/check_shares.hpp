@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Tolerances: shares are set to add up to the solid to 1e-9; 1e-12 is rounding of their sum.
 #pragma once
 
 #include <catch2/catch.hpp>

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Welding and the diagnosis of what is no solid.
+//
+// Tolerances: 1e-14 is rounding of a sum over a box's triangles; 0.5 % and 1 % are facets in place
+// of curved faces, of second order in their edges.
 #include <catch2/catch.hpp>
 
 #include "preprocess/clean/orient_faces.hpp"

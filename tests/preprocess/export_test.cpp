@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Exports for contact codes. tests/interop has the codes themselves read them.
+//
+// Tolerances: 1e-15 and 1e-14 are rounding of one product; 1e-12 is that of an eigensolver.
 #include <unistd.h>
 
 #include <catch2/catch.hpp>

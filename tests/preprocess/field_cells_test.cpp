@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Cells of power diagrams against their definition; Voronoi and power-law fields against what was
 // asked for.
+//
+// Tolerances: 1e-9 and 1e-12 of an area are rounding of sums over cells; 1e-10 and 1e-8 are where
+// the search for weights stops; 0.55 % is a size miss of 0.5 % and rounding.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Grids, bricks, cusps and edges: where floes lie, what they cover, that none overlap.
+//
+// Tolerances: 1e-14 is rounding of places of 10 m; 1e-12 of an area that of a sum over floes.
 #include <catch2/catch.hpp>
 #include <cmath>
 

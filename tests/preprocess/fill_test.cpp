@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Sphere sets: counts, exact integrals, tangency, cover, symmetry, threads, refusals.
+//
+// Tolerances: 1e-13 to 1e-12 are rounding of sums over a box's triangles; 1e-9 that of an inertia
+// at a distance; 1e-6 R is where the fill settles.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <map>

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Units and axes that nobody gave: what is guessed, and what must be left alone.
+//
+// Tolerances: 1e-12 is rounding of sums over triangles.
 #include <catch2/catch.hpp>
 
 #include "preprocess/load/choose_frame.hpp"

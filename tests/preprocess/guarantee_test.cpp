@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The guarantees of docs/spherize.md for sphere sets, on every mesh of the project, in 3D and 2D.
+//
+// Tolerances: 1e-6 R is where the fill settles; 1e-12 is rounding of a sum; 2 % is a disc more or
+// less along a side; 1e-6 degrees is rounding of an angle's inverse cosine near 1.
 #include <algorithm>
 #include <catch2/catch.hpp>
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Half hulls and mirror symmetry.
+//
+// Tolerances: 1e-14 to 1e-10 are rounding of sums over triangles, of first and third moments.
 #include "preprocess/load/half_hull.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The interior fill, point by point: CGAL's answers, the slow twin's, symmetry, threads.
+//
+// Tolerances: 1e-12 is rounding of a distance.
 #include <bit>
 #include <catch2/catch.hpp>
 #include <map>

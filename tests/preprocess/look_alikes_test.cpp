@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The look-alikes have the faults they are made for, and no others.
+//
+// Tolerances: 1e-12 is rounding of a volume.
 #include "tests/preprocess/look_alikes.hpp"
 
 #include <algorithm>

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Distances and inside tests against CGAL.
+//
+// Tolerances: 1e-12 m is rounding of lengths of a metre.
 #include <catch2/catch.hpp>
 #include <random>
 

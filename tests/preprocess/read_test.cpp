@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Reading mesh files.
+//
+// Tolerances: 1e-14 and 1e-13 are rounding of a sum over a cube's triangles, and of a scale.
 #include <catch2/catch.hpp>
 
 #include "common/base/error.hpp"

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Each rung of the repair ladder against volumes known in closed form, and what must be refused.
+//
+// Tolerances: 1e-14 to 1e-9 are rounding of a sum over triangles; 0.2 % and more are cells or caps
+// in place of the surface.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <random>

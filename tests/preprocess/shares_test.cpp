@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a sphere stands for: its normals, its part of the surface, and what stays without any.
+//
+// Tolerances: 1e-6 is a normal stored as a float; 1e-12 is rounding of a sum of areas; 1e-9 of a
+// part's size that of a cut.
 #include <catch2/catch.hpp>
 #include <map>
 

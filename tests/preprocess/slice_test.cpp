@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Sections.
+//
+// Tolerances: 1e-14 to 1e-12 are rounding of sums over the section's edges.
 #include <catch2/catch.hpp>
 
 #include "preprocess/clean/weld.hpp"

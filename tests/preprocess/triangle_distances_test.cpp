@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Distances of many points from a triangle: known answers, bits on every instruction set.
+//
+// Tolerances: 1e-12 is rounding of a square of a distance.
 #include "preprocess/fill/triangle_distances.hpp"
 
 #include <hwy/targets.h>

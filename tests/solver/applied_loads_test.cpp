@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Loads of the caller: motion in closed form, work in the ledger, no change where they are zero.
+//
+// Tolerances: 1e-9 is rounding of the same 200 sums, of a difference of energies.
 #include <catch2/catch.hpp>
 
 #include "solver/run/balance.hpp"

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The check of momentum: it passes what balances and names what does not.
+//
+// Tolerances: 1e-14 is rounding of a few momenta of one size, 1e-16 each.
 #include "solver/run/balance.hpp"
 
 #include <algorithm>

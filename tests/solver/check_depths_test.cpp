@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Contacts of a solid that is not convex, held to the meshes: a hull that is an angle seen from
 // above, a square of 4 m without its quarter x, y > 0, and a box of 1.2 x 1 x 0.4 m as a floe.
+//
+// Tolerances: 1e-6 is a normal or a radius stored as a float, 1e-7 of it.
 #include "solver/narrow/check_depths.hpp"
 
 #include <Eigen/Geometry>

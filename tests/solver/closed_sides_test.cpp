@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Between spheres up to kWidestSpacing apart there is no way into a body.
+//
+// Tolerances: 1e-12 is rounding of a few dozen products of lengths of a metre, 1e-16 m each.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Impulses of single contacts against their closed forms.
+//
+// Tolerances: 1e-15 is rounding of one product.
 #include <algorithm>
 #include <array>
 #include <catch2/catch.hpp>

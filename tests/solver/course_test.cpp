@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Where the hull lies, whether it meets the ice, and which channels give way.
+//
+// Tolerances: 0.02 is twice kCell over the 20 m of the average; 1e-9 m is rounding of places of 10
+// m, with a reserve.
 #include <catch2/catch.hpp>
 
 #include "solver/record/open_end.hpp"

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Members of an ensemble as one summary, and results as lines for a terminal.
+//
+// Tolerances: 1e-6 is the last digit of Student's factor in a table.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>

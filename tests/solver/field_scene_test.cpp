@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Floes from a field file: which shapes, where, how high, and which of them may move.
+//
+// Tolerances: 1e-12 is rounding of a few sums and products; 1e-9 that of a clearance, a difference
+// of places of 10 m.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numeric>

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Members of an ensemble: small random offsets that depend on seed and floe alone.
+//
+// Tolerances: 1e-15 is rounding of a rotation's entries, of the order of one.
 #include "solver/scene/jitter.hpp"
 
 #include <catch2/catch.hpp>

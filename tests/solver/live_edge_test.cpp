@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Level ice whose edge breaks where and when it is loaded: a small icebreaker goes into a sheet.
+//
+// Tolerances: 1e-9 of an area is outlines on whole multiples of 2^-30 m; 1e-6 m2 is 1 nm along a
+// piece's outline; 1e-12 is rounding of one sum.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Loads on floes in lanes: bits on every instruction set, whatever floes lie beside each other.
+//
+// Tolerances: 1e-12 is rounding of sums over the floe's triangles, 1e-16 of the largest term each.
 #include "solver/loads/load_floes.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Whole steps against known motions.
+//
+// Tolerances: 1e-12 is rounding of a hundred equal sums; 1e-6 of p A is an area stored as a float;
+// 1e-14 and 1e-15 are rounding of a few products.
 #include <catch2/catch.hpp>
 #include <cmath>
 

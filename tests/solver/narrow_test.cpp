@@ -4,6 +4,9 @@
 // reference::find_contacts shares measure_gap, check_depths, reduce_manifold and find_deep_seats
 // with the finder: it proves the search. The rule has other oracles: tests/poses (volumes, no
 // common code), contact_polygon_test.cpp, tests/validation/deep_seats_test.cpp.
+//
+// Tolerances: 1e-14 and 1e-15 are rounding of a few products of lengths of 0.1 m, 1e-12 that of a
+// difference or a root of them; 1e-6 of a gap is a normal stored as a float.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>

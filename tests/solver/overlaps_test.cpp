@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Overlaps: how fast they open, and whether solids that lie in each other are seen.
+//
+// Tolerances: 1e-12 m is rounding of lengths of a metre; 1e-6 m is a normal stored as a float, over
+// 0.05 m.
 #include <catch2/catch.hpp>
 
 #include "solver/record/solid_overlap.hpp"

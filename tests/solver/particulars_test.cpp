@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Ship, ice and travel in a few numbers.
+//
+// Tolerances: 1e-12 m is rounding of the bisection for a height.
 #include "solver/record/particulars.hpp"
 
 #include <catch2/catch.hpp>

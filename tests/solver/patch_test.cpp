@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The section that a face cuts from the piece of surface a sphere stands for.
+//
+// Tolerances: kTouch counts a face that far early; 1e-15 and 1e-14 are rounding of a product, 1e-12
+// that of a sum of many parts.
 #include "solver/narrow/patch.hpp"
 
 #include <catch2/catch.hpp>

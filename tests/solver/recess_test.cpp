@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Whole contact spheres in a recess that their crushed neighbours' contacts have left.
+//
+// Tolerances: 1e-15 m is rounding of sums of lengths of 0.01 m.
 #include "solver/contact/recess.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What contacts respond to impulses: by the bodies' own equations, and bits on every instruction
 // set.
+//
+// Tolerances: 1e-15 is rounding of one sum of three terms.
 #include "solver/contact/responses.hpp"
 
 #include <Eigen/Geometry>

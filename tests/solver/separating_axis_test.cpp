@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The separating axes of convex pieces: boxes by hand, random ones against all directions that the
 // meshes have.
+//
+// Tolerances: 1e-15 and 1e-12 m are rounding of products of lengths of a metre; 1e-9 m is that of a
+// normal made of two edges that are almost parallel.
 #include "solver/narrow/separating_axis.hpp"
 
 #include <Eigen/Geometry>

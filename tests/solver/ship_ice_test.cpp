@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A ship that answers the ice: impacts, many floes at once, held ice.
+//
+// Tolerances: 1e-12 and 1e-11 are rounding of sums over the contacts; 1e-10 and 1e-9 are a few
+// hundred of the solver's stops at 1e-12 m/s; 1e-6 is as many at 1e-9 m/s.
 #include <catch2/catch.hpp>
 #include <cmath>
 

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Meshes as planes, corners and edges.
+//
+// Tolerances: 1e-15 is rounding of a unit vector or of a sum of edges, 1e-12 that of a difference
+// of products of lengths of a metre.
 #include "solver/shape/solid.hpp"
 
 #include <Eigen/Geometry>

@@ -3,6 +3,9 @@
 // known. Every kind of series is drawn 200 times; 95 % are to be covered, 90 to 98 % may be: that
 // is 3.2 standard deviations of a share of 0.95 among 200 below, and 1.9 above. A swing that the
 // series holds a few times cannot be told from noise as slow, so there all 200 may be covered.
+//
+// Tolerances: 1e-12 to 1e-9 are rounding of sums of many thousand terms; 1e-6 that of a difference
+// of them, or the last digit of t in a table.
 #include "solver/record/statistics.hpp"
 
 #include <algorithm>

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Level ice in 2D while a ship goes through it: pieces, their sum, memory and restarts.
+//
+// Tolerances: 1e-9 of a length or an area is ends on whole multiples of 2^-30 m; 1e-15 is rounding
+// of a speed; 1e-9 m is a height found by bisection.
 #include <catch2/catch.hpp>
 #include <cmath>
 

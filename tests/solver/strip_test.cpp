@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Level ice in 2D: the load and the length of a strip, against a beam's on water.
+//
+// Tolerances: 0.05 and 0.005 are half of a last printed digit; 1e-3 of a load is the constant 0.680
+// of (28), cut to three digits, or what one step adds; 1e-6 is a normal stored as a float; 1e-9 is
+// ends on whole multiples of 2^-30 m.
 #include "solver/live_edge/strip.hpp"
 
 #include <catch2/catch.hpp>

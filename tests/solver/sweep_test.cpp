@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The solver's sweeps: blocks share no free body, bits on every instruction set.
+//
+// Tolerances: 1e-15 is rounding of one row's impulse, 1e-12 that of a few sweeps over it.
 #include "solver/contact/sweep.hpp"
 
 #include <algorithm>

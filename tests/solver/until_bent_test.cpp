@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Ice that is held until it bends: a leaning plate presses a held piece down until it breaks off.
+//
+// Tolerances: 4 % is a row of spheres, 5 % the product of two such; 1e-12 is rounding of sums over
+// the steps; 0.5 is half of a table's last digit.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <fstream>

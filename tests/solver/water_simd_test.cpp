@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Sums over wetted surfaces: bits on every instruction set, fill without weight, a slow twin.
+//
+// Tolerances: 1e-13 of the largest sum is rounding over some hundred triangles, 1e-16 each.
 #include <array>
 #include <catch2/catch.hpp>
 #include <random>

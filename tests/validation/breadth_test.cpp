@@ -3,6 +3,8 @@
 //
 // The pieces are 1 m broad, the hull 1 m as well, or 1.6 m: then no piece that has drifted a little
 // meets the hull's sharp sides, which 2D does not have.
+//
+// Tolerances: 2.5 % is half of the bound of the comparison.
 #include <fmt/format.h>
 
 #include <catch2/catch.hpp>

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Bodies that are not both convex, however deep they lie in each other.
+//
+// Tolerances: 1e-9 is rounding of a normal or a depth, with a reserve; 1e-6 m is a normal stored as
+// a float.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <catch2/catch.hpp>

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Contacts and the removal of overlap never add energy, in a frame where the ship is at rest.
+//
+// Tolerances: 1e-6 is the error of the free rotation's integration, see motion_test.
 #include <catch2/catch.hpp>
 #include <random>
 
