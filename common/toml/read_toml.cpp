@@ -24,8 +24,8 @@ constexpr std::size_t kMostOfKey = 120;
 // Repeated tables ([[floes]]). A case has a handful; more would be a generated file whose floes
 // belong in a field file. A higher bound costs memory and a slower start.
 constexpr std::size_t kMostTables = 10000;
-// A parsed text and the schema that its keys are held against. It walks the tree of tables once.
 
+// A parsed text and the schema that its keys are held against. It walks the tree of tables once.
 class Document {
 public:
     Document(const std::string& text, std::string name, const Schema& schema, Mistakes& mistakes)

@@ -17,9 +17,9 @@ namespace {
 // Characters of a message that may quote a faulty value: about four rows of a terminal. Fewer cut
 // messages that list all choices of a key.
 constexpr std::size_t kMostWords = 360;
+
 // Reads one node by the kind of its key. Each reader complains at the node itself and returns
 // false; values are stored in SI.
-
 class ValueReader {
 public:
     explicit ValueReader(Complaints& complaints) : complaints_(complaints) {}
