@@ -10,7 +10,7 @@
 
 namespace ice {
 
-/// Two bodies that may touch within the step; a < b, so a hull pair has a = 0.
+/// Two bodies, by number, that may touch within the step; a < b, so a hull pair has a = 0.
 struct BodyPair {
     std::int32_t a, b;
     friend bool operator==(const BodyPair&, const BodyPair&) = default;
@@ -21,7 +21,9 @@ struct BodyPair {
 ///
 /// A uniform grid over the positions of floes near moving ones, so the cost is O(floes). Pairs
 /// of two held floes are left out: neither can move. Sorted by a, then b; the answer does not
-/// depend on thread count. @pre Bodies::moving lists the floes that are not held
+/// depend on thread count. A scene without floes has none; a floe whose position is not a number
+/// has none with other floes. @pre Bodies::moving lists the floes that are not held, ascending
+/// @param out  its old content is dropped
 void find_pairs(const Scene& scene, double margin, std::vector<BodyPair>& out);
 
 namespace reference {
@@ -39,6 +41,7 @@ public:
     /// @param margin  [m] beyond that motion
     void update(const Scene& scene, const MotionBounds& motion, double margin);
 
+    /// Sorted by a, then b; empty before the first update().
     const std::vector<BodyPair>& pairs() const { return pairs_; }
 
 private:

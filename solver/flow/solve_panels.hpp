@@ -15,10 +15,10 @@ struct PanelFlow {
     PanelBody body;
     std::vector<double> strength;     ///< of each panel [m/s]
     int iterations = 0;               ///< of the linear solver
-    double residual = 0.0;            ///< area-rms of |v . n - n_x| at check_points()
-    double worst = 0.0;               ///< its largest
+    double residual = 0.0;            ///< area-rms of |v . n - n_x| at check_points() [m/s]
+    double worst = 0.0;               ///< its largest [m/s]
     Vec3 worst_place = Vec3::Zero();  ///< where that is [m]
-    double net_flux = 0.0;            ///< sum of s A over sum of |s A|: 0 for a closed body
+    double net_flux = 0.0;            ///< sum of s A over sum of |s A| [-]: 0 for a closed body
 };
 
 /// Solves for strengths with which the mean of v . n over each panel is that of direction . n, the
@@ -29,16 +29,18 @@ struct PanelFlow {
 PanelFlow solve_panels(PanelBody body, const Vec3& direction = Vec3::UnitX());
 
 /// Strengths [m/s] with which the mean of v . n over each panel is what is wanted: a column for
-/// each right-hand side. As solve_panels(), which asks for direction . n.
-/// @param wanted  a row for each panel [m/s]
+/// each right-hand side. As solve_panels(), whose right-hand side is direction . n.
+/// @param wanted      a row for each panel [m/s]
+/// @param iterations  of the linear solver for the last column; may be null
 Eigen::MatrixXd solve_strengths(const PanelBody& body, const Eigen::MatrixXd& wanted,
                                 int* iterations = nullptr);
 
 /// Added mass over that of the displaced water for motion along x, from the sources' dipole moment:
-/// sum of s A x = V (1 + C_a). A check of the strengths, for tests; added_mass.hpp has the matrix.
+/// sum of s A x = V (1 + C_a); C_a is dimensionless. A check of the strengths, for tests;
+/// added_mass.hpp has the matrix. @param volume  of the body [m3]
 double added_mass_coefficient(const PanelFlow& flow, double volume);
 
-/// Flow at points, on all threads; the same bits for any number.
+/// Flow at points [m], on all threads; the same bits for any number. None for no points.
 std::vector<FlowSample> flow_at(const PanelFlow& flow, std::span<const Vec3> points);
 
 }  // namespace ice

@@ -26,7 +26,7 @@ struct EdgeWindow {
     double normal_speed;
 };
 
-/// Loads that act on one piece of ice together, the heaviest first.
+/// Loads that act on one piece of ice together, the heaviest first. None for no loads.
 ///
 /// A window holds all loads within `radius` [m] of one of them: of that with the largest sum
 /// downwards, the first of equal ones. Its loads are left out of the next one. Windows that do not

@@ -77,11 +77,11 @@ public:
     void restore(Scene& scene, const Case& parameters) const;
 
     const IceSheet& sheet() const { return sheet_; }
-    double thickness() const { return thickness_; }
+    double thickness() const { return thickness_; }  ///< [m]
     /// Of level ice afloat: its middle's height [m].
     double height() const { return (0.5 - share_) * thickness_; }
-    double density() const { return density_; }
-    double length() const { return length_; }  ///< characteristic length of the plate [m]
+    double density() const { return density_; }  ///< [kg/m3]
+    double length() const { return length_; }    ///< characteristic length of the plate [m]
     /// Side of the cells of its tiles: how far from a load it cracks at rest [m]; in 2D how far
     /// from its tip.
     double radius() const { return radius_; }

@@ -20,7 +20,7 @@ double tip_of(const IceSheet& strip);
 /// section has no sides that could crush ice.
 Loop across_strip(Loop outline, double by);
 
-/// The region that a crack cuts off, `length` [m] from the tip.
+/// The region that a crack cuts off, `length` [m] from the tip at x = `tip` [m].
 Loop strip_crack(double tip, double length);
 
 /// What presses on the strip within `length` [m] of its tip, as one window there; none where that

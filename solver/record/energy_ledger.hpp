@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Where the ship's work goes: every joule given to the ice is booked once.
+/// The energy ledger: every joule that the ship gives to the ice is booked once.
 #pragma once
 
 #include <optional>
@@ -46,7 +46,8 @@ namespace ice {
 ///
 ///     dK = sum J_c . V + ship_work + drift_work + dt sum (F . v + T . w)   in every step.
 ///
-/// A floe at rest under load books nothing. The residual is what weight and buoyancy do by this
+/// (equations (19) and (20)). A floe at rest under load adds nothing to the ledger. The residual is
+/// what weight and buoyancy do by this
 /// sum less what they do by -dU. Their force at the pose between two steps acts on the mean of both
 /// steps' motions, the trapezoidal rule, so the residual is of second order in time_step. With the
 /// means over the impact stage alone instead, as first tried, every impact under load leaves
@@ -58,11 +59,11 @@ struct EnergyLedger {
     double water_work = 0.0, applied_work = 0.0;
     double separation = 0.0;
     double buoyancy_moment = 0.0;
-    std::optional<double> potential_start;  ///< before the first step
+    std::optional<double> potential_start;  ///< before the first step [J]; none before begin()
 
     /// Before each step; the first one takes the potential energy.
     void begin(const Scene& scene, const Case& parameters);
-    /// Energy at the end that the books do not explain, given the potential energy there.
+    /// Energy at the end that the ledger does not explain, given the potential energy there [J].
     double residual(double potential_now) const;
 };
 

@@ -10,7 +10,8 @@ namespace ice {
 
 class LongSeries;
 
-/// Mean, 99th percentile, maximum and peaks of a series of window means.
+/// Mean, 99th percentile, maximum and peaks of a series of window means, in the series' unit; zeros
+/// for an empty one.
 ///
 /// Peaks: the series is cut where it rises from at most its mean to above it; the largest value of
 /// each piece that begins so is a peak, that of an unfinished last piece too. So one push that
@@ -23,7 +24,7 @@ PeakStatistics find_peaks(std::span<const double> series, double window);
 /// exact.
 PeakStatistics find_peaks(const LongSeries& series, double window);
 
-/// Value below which `share` of the series lies: the largest for a share of 1, 0 for no series.
+/// Value below which `share` [-] of the series lies: the largest for a share of 1, 0 for no series.
 double quantile(std::vector<double> series, double share);
 
 }  // namespace ice

@@ -9,11 +9,13 @@
 
 namespace ice {
 
-/// Sokal's window of a series with mean 0: the first lag W >= 5 (1/2 + sum_{k <= W} c_k / c_0).
+/// Sokal's window of a series with mean 0: the first lag W >= 5 (1/2 + sum_{k <= W} c_k / c_0)
+/// [samples].
 /// @return its length when no lag is; @pre not all values are 0
 std::size_t correlation_window(std::span<const double> x);
 
-/// I_j = |sum_t x_t exp(-2 pi i j t / n)|^2 / n for j = 1 ... count.
+/// I_j = |sum_t x_t exp(-2 pi i j t / n)|^2 / n for j = 1 ... count, equation (21), in the square
+/// of the series' unit: entry j - 1 is I_j.
 /// @pre 2 count < n
 std::vector<double> low_periodogram(std::span<const double> x, std::size_t count);
 

@@ -112,7 +112,7 @@ private:
     std::int64_t frames_ = 0, rows_ = 0;
 };
 
-/// Equal states, equal hashes: poses, momenta and the last step's impulses.
+/// Equal states, equal hashes: poses, momenta and the last step's impulses, bit for bit.
 std::uint64_t state_hash(const Scene& scene, const std::vector<Constraint>& constraints);
 
 /// Floes whose centre is aft of the hull's aftmost point.

@@ -20,6 +20,7 @@ namespace ice {
 ///
 /// Each contact is mended alone, so contacts of one floe count its mass several times: the sum is
 /// an upper estimate of the force that the step lacks; the next step brings most of it.
+/// @param dt  time step [s]
 double residual_impulse(const Bodies& bodies, const std::vector<Constraint>& constraints,
                         double dt);
 

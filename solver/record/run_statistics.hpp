@@ -33,7 +33,8 @@ class RunStatistics {
 public:
     explicit RunStatistics(StatisticsOptions options);
 
-    /// @param residual  residual_impulse() of a step of which a solver stage did not converge
+    /// @param time      at the end of the step [s] @param dt  its length [s]
+    /// @param residual  residual_impulse() [N s] of a step of which a solver stage did not converge
     void add(const StepRecord& record, double time, double dt, std::optional<double> residual);
 
     /// What a look at the solids found at the end of a step.

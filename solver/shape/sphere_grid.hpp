@@ -14,8 +14,8 @@ namespace ice {
 
 /// Points sorted into equal cells of a box, for "which spheres are near here?".
 ///
-/// Cells are stored row by row (x fastest) as ranges of
-/// `items`, so a query over neighbouring cells along x reads one run of memory.
+/// Cells are stored row by row (x fastest) as ranges of `items`, so a query over neighbouring cells
+/// along x reads one run of memory.
 class SphereGrid {
 public:
     SphereGrid() = default;
@@ -23,7 +23,7 @@ public:
     /// @param cell    wanted edge of a cell [m], > 0; enlarged where the box would need more than
     ///                four cells per point
     SphereGrid(std::span<const Vec3> points, double cell) { build(points, cell); }
-    /// Makes it anew, in the memory it has where that is enough.
+    /// Makes it anew, in the memory it has where that is enough. Points must be finite.
     void build(std::span<const Vec3> points, double cell);
 
     /// Calls visit(k) for every point k in the cells that the cube of half edge `range` [m] around

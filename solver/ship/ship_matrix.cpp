@@ -12,6 +12,7 @@ namespace ice {
 
 namespace {
 
+// Largest number in a file, in its SI unit: no ship has so much, so more is a mistake.
 constexpr double kMost = 1e18;
 
 const Schema& matrix_schema() {
@@ -78,8 +79,8 @@ private:
                 for (int j = 0; j < 6; ++j) out(i, j) = (*row)[static_cast<std::size_t>(j)];
         if (out.diagonal().minCoeff() < 0.0)
             complain(fmt::format("[{}] has a number below 0 on its diagonal", table));
-        // a radiation program's rounding leaves it not quite symmetric; energy asks for
-        // symmetry
+        // a radiation program's rounding leaves it not quite symmetric; without symmetry the
+        // matrix would have no energy
         return 0.5 * (out + out.transpose());
     }
     void complain(const std::string& what) {
