@@ -13,7 +13,7 @@ namespace ice {
 
 namespace {
 
-// Puts values and defaults together and complains about what does not fit.
+// Puts values and defaults together and complains about keys that do not fit.
 class SpecBuilder {
 public:
     SpecBuilder(const std::filesystem::path& file, Values values, Mistakes& mistakes)
@@ -81,7 +81,7 @@ private:
         }
     }
 
-    // Defaults that follow from other keys, and what keys must be to each other.
+    // Defaults that follow from other keys, and conditions between keys.
     void complete(FieldSpec& s) {
         // a radius of a quarter of the thickness gives two layers of spheres
         if (!given("spheres.radius")) s.radius = 0.25 * s.thickness;

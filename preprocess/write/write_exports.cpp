@@ -148,6 +148,7 @@ std::vector<std::filesystem::path> write_exports(const SphereSet& set,
                                                  const std::vector<std::string>& formats,
                                                  double density,
                                                  const std::filesystem::path& base) {
+    // one body for all formats: they differ in frame and order of numbers only
     const RigidBody body = rigid_body(set.solid, density);
     OutputFiles files(base);
     std::set<std::string> done;

@@ -34,6 +34,7 @@ public:
             "        <DataArray Name=\"{}\" type=\"{}\" NumberOfComponents=\"{}\" "
             "format=\"appended\" offset=\"{}\"/>\n",
             name, type, components, offset_);
+        // each array is preceded by its length in bytes, as header_type="UInt64" says
         const std::uint64_t bytes = count_ * size * static_cast<std::size_t>(components);
         offset_ += sizeof bytes + bytes;
         const std::size_t count = count_;
