@@ -2,8 +2,8 @@
 // Empirical formulas against tables worked out by an independent script, published values, limits.
 //
 // Tolerances: 0.6 kN and 1 kN are tables printed without decimals, and constants cut to some
-// digits; 0.01 is a ratio's last printed digit; 1e-3 and 1e-2 N are powers of a speed of 1e-9 m/s;
-// 1e-12 is rounding of a formula.
+// digits; 4.4 kN is the largest difference seen, 4.3 kN; 0.01 is a ratio's last printed digit; 1e-3
+// and 1e-2 N are powers of a speed of 1e-9 m/s; 1e-12 is rounding of a formula.
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -47,11 +47,11 @@ TEST_CASE("Lindqvist's parts of the icebreaker are those of an independent scrip
             return 1e-3 * (parts.crushing + parts.bending);
         };
         CAPTURE(row.knots);
-        CHECK(std::abs(breaking(20.0) - row.phi20) < 1.0);
-        CHECK(std::abs(breaking(25.0) - row.phi25) < 1.0);
-        CHECK(std::abs(breaking(30.0) - row.phi30) < 1.0);
+        CHECK(std::abs(breaking(20.0) - row.phi20) < tolerance(1.0));
+        CHECK(std::abs(breaking(25.0) - row.phi25) < tolerance(1.0));
+        CHECK(std::abs(breaking(30.0) - row.phi30) < tolerance(1.0));
         const auto parts = lindqvist_resistance(icebreaker(), metre_of_ice(row.knots));
-        CHECK(std::abs(1e-3 * parts.submersion - row.submersion) < 1.0);
+        CHECK(std::abs(1e-3 * parts.submersion - row.submersion) < tolerance(1.0));
         CHECK(parts.total() == Near(parts.crushing + parts.bending + parts.submersion));
     }
 }
@@ -77,9 +77,12 @@ TEST_CASE("Lindqvist's total is within 15 % of six values that others computed",
 
 TEST_CASE("Riska's total of the icebreaker is that of an independent script",
           "[formulas][analytic]") {
-    CHECK(std::abs(1e-3 * riska_resistance(icebreaker(), metre_of_ice(2)) - 741.0) < 1.0);
-    CHECK(std::abs(1e-3 * riska_resistance(icebreaker(), metre_of_ice(4)) - 943.0) < 1.0);
-    CHECK(std::abs(1e-3 * riska_resistance(icebreaker(), metre_of_ice(6)) - 1146.0) < 1.0);
+    CHECK(std::abs(1e-3 * riska_resistance(icebreaker(), metre_of_ice(2)) - 741.0) <
+          tolerance(1.0));
+    CHECK(std::abs(1e-3 * riska_resistance(icebreaker(), metre_of_ice(4)) - 943.0) <
+          tolerance(1.0));
+    CHECK(std::abs(1e-3 * riska_resistance(icebreaker(), metre_of_ice(6)) - 1146.0) <
+          tolerance(1.0));
     HullForm unknown = icebreaker();
     unknown.bow_length = std::nan("");
     CHECK(std::isnan(riska_resistance(unknown, metre_of_ice(2))));
@@ -93,9 +96,9 @@ TEST_CASE("Jeong's parts of the icebreaker are those of an independent script",
     for (const Row& row : {Row{2, 108, 84, 658}, Row{4, 108, 151, 905}, Row{6, 108, 213, 1091}}) {
         const SpencerParts parts = spencer_resistance(icebreaker(), metre_of_ice(row.knots));
         CAPTURE(row.knots);
-        CHECK(std::abs(1e-3 * parts.buoyancy - row.buoyancy) < 0.6);
-        CHECK(std::abs(1e-3 * parts.clearing - row.clearing) < 0.6);
-        CHECK(std::abs(1e-3 * parts.breaking - row.breaking) < 0.6);
+        CHECK(std::abs(1e-3 * parts.buoyancy - row.buoyancy) < tolerance(0.6));
+        CHECK(std::abs(1e-3 * parts.clearing - row.clearing) < tolerance(0.6));
+        CHECK(std::abs(1e-3 * parts.breaking - row.breaking) < tolerance(0.6));
     }
 }
 
@@ -111,7 +114,7 @@ TEST_CASE("Jeong's coefficients give the published values of MT Uikku within 4.3
           Row{0.95, 912, 0.5, 800}, Row{1.04, 540, 0.2, 459}, Row{1.04, 669, 0.5, 765},
           Row{1.04, 592, 1.0, 961}}) {
         const IceConditions ice{row.h, 0.1, 920.0, 1000.0, 9.81, row.speed, 1e3 * row.strength};
-        CHECK(std::abs(1e-3 * spencer_resistance(hull, ice).total() - row.force) < 4.4);
+        CHECK(std::abs(1e-3 * spencer_resistance(hull, ice).total() - row.force) < tolerance(4.4));
     }
 }
 

@@ -3,7 +3,8 @@
 //
 // Tolerances: 4e-16 and 1e-15 are one or some last digits; 1e-9 is central differences, step^2 and
 // rounding over step, 1e-5 m; 1e-5 of a sum is many points in place of a panel; 1e-9 m is places of
-// a metre, cut; 1e-12 is rounding of a length.
+// a metre, cut; 1e-12 is rounding of a length; 0.3 to 3 % are the panels' error (docs/method.md,
+// section 6).
 #include <catch2/catch.hpp>
 #include <cstring>
 #include <numbers>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The table of the flow around a hull: against the panels' own sum, bits, files.
 //
-// Tolerances: 1e-12 is rounding of an interpolation of eight numbers; 5 % of a residual and 0.5 % of
-// a flux are where iceflow warns (solver/flow/flow_table.cpp).
+// Tolerances: 1e-12 is rounding of an interpolation of eight numbers; 5 % of a residual and 0.5 %
+// of a flux are where iceflow warns (solver/flow/flow_table.cpp).
 #include <catch2/catch.hpp>
 #include <cstring>
 #include <filesystem>
