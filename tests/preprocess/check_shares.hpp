@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tolerances: shares are set to add up to the solid to 1e-9; 1e-12 is rounding of their sum.
+// Tolerances: 1e-9 and 1e-12 are rounding of sums over the shares of thousands of spheres, the
+// former with a reserve.
 #pragma once
 
 #include <catch2/catch.hpp>

@@ -2,8 +2,8 @@
 // Cells of power diagrams against their definition; Voronoi and power-law fields against what was
 // asked for.
 //
-// Tolerances: 1e-9 and 1e-12 of an area are rounding of sums over cells; 1e-10 and 1e-8 are where
-// the search for weights stops; 0.55 % is a size miss of 0.5 % and rounding.
+// Tolerances: 1e-9 and 1e-12 of an area are rounding of sums over cells; 1e-10 and 1e-8 are the
+// search's own 1e-12 and 1e-9, with a reserve; 0.55 % is a size miss of 0.5 % and rounding.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // From specification to field: keys, shared shapes, spheres, equal bytes.
 //
-// Tolerances: 1e-12 is rounding of a sum over triangles; 1e-9 that of shares of the solid, which
-// are set to add up so; 1e-6 is a normal stored as a float.
+// Tolerances: 1e-12 is rounding of a sum over triangles; 1e-9 that of sums over shares, with a
+// reserve; 1e-6 is a normal stored as a float.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>

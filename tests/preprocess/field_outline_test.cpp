@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Outlines and the prisms made of them, against exact areas and volumes.
 //
-// Tolerances: 1e-15 and 1e-14 are rounding of a few products; 1e-12 m is that of a search along
-// normals.
+// Tolerances: 1e-15 and 1e-14 are rounding of a few products; 1e-12 m that of a difference of them,
+// with a reserve.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The largest sphere inside a solid, and fills whose radius is large beside the mesh's triangles.
 //
-// Tolerances: 1e-3 of the largest radius is where the search stops, 1e-12 its rounding; 1e-6 R is
-// where the fill settles; 10 % is a row of spheres more or less.
+// Tolerances: 1e-12 is rounding of a radius; 1e-6 R is where the fill settles; 10 % is a row of
+// spheres more or less.
 #include "preprocess/fill/inscribed.hpp"
 
 #include <catch2/catch.hpp>

@@ -3,7 +3,7 @@
 //
 // Tolerances: 1e-12 and 1e-14 J are rounding of sums of energies of 1 to 100 J; 1e-6 is what 600
 // stops of the solver at 1e-9 m/s leave of 0.5 m/s; 1e-9 J is rounding of a difference of energies
-// of 1000 J.
+// of 1000 J, with a reserve.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>

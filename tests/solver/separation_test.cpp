@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Bodies apart, and bodies whose edges cross each other.
 //
-// Tolerances: 1e-12 m is rounding of a few dozen products of lengths of a metre; 1e-9 m that of a
-// gap along a normal with the error of a float squared.
+// Tolerances: 1e-12 m is rounding of a few dozen products of lengths of a metre.
 #include "solver/narrow/separation.hpp"
 
 #include <Eigen/Geometry>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A ship that answers, in the limits where a ship on its course knows the answer.
 //
-// Tolerances: 1e-6 m is a ship of 4e12 kg that the ice moves by 1e-9 m, with a reserve; 1e-9 is
-// rounding of places of metres, over depths of less than a millimetre.
+// Tolerances: 1e-6 m is a mass of 4e12 kg in place of an infinite one; 1e-9 is rounding of places
+// of metres, over depths of less than a millimetre.
 #include <catch2/catch.hpp>
 #include <cmath>
 
