@@ -11,6 +11,7 @@ namespace ice {
 namespace {
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
+// Least value of a number that has to be above 0, in its SI unit: 0 itself is refused.
 constexpr double kTiny = 1e-9;
 
 using namespace stored;

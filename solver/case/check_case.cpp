@@ -12,6 +12,7 @@ namespace ice {
 
 namespace {
 
+// Steps of a run at most [-]: at a millisecond each a day. More is a slip in time_step or duration.
 constexpr double kMostSteps = 1e8;
 
 // 2D is motion in the plane y = 0: nothing may lean or move out of it

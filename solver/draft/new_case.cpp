@@ -20,8 +20,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kSpheres = 12000.0;  // on a hull
-constexpr double kSpacing = 1.4;      // in radii
+// Spheres on a hull, about [-]. More resolve finer ice and take longer to search; the user may make
+// another set.
+constexpr double kSpheres = 12000.0;
+// Their distance in radii [-], as spherize's default: below 2 they leave no gaps.
+constexpr double kSpacing = 1.4;
 
 void refuse_existing(const fs::path& file, const std::string& remedy) {
     if (fs::exists(file)) throw bad_input(file.string(), "exists already", remedy);

@@ -37,7 +37,8 @@ struct FoundBatch {
 namespace {
 
 // A pair takes some microseconds, a look at one a twentieth of that: below this many, waking
-// threads costs more than they save.
+// threads costs more than they save. With 256 one of two threads waited for a fifth of the packed
+// scene's narrow phase. Results do not depend on it.
 constexpr std::size_t kSerialPairs = 64, kSerialLooks = 1024;
 
 // Work memory for the search of a pair; kept between pairs.

@@ -11,8 +11,9 @@ namespace ice {
 
 namespace {
 
-// A residual above this share of the ship's work, or of the losses where they are larger, is worth
-// a warning.
+// A residual above this share [-] of the ship's work, or of the losses where they are larger, is
+// worth a warning: a force that works by so much is far from all others'. Nothing else depends on
+// it.
 constexpr double kWorryingResidual = 0.005;
 
 void book_contact(const Bodies& now, const Constraint& c, const StepStart& start,

@@ -12,9 +12,11 @@ namespace ice {
 
 namespace {
 
-constexpr std::size_t kDenseRanks = 10;  // levels: all of the highest peaks, then every 1.25th rank
+// Levels of exceedance [-]: all of the 10 highest peaks, then every 1.25th rank. On the logarithmic
+// axis of rates the points lie evenly; more of them only lengthen the summary.
+constexpr std::size_t kDenseRanks = 10;
 constexpr double kRankFactor = 1.25;
-constexpr double kHour = 3600.0;
+constexpr double kHour = 3600.0;  // [s]
 
 std::vector<double> peaks_above(std::span<const double> series, double level) {
     std::vector<double> peaks;

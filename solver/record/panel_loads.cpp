@@ -10,9 +10,13 @@ namespace ice {
 
 namespace {
 
-constexpr double kPanelWindow = 0.1;     // [s]
-constexpr std::int64_t kLeastSteps = 5;  // a window of fewer would still be single hits
-constexpr std::size_t kMostPanels = 40;  // in summary.json; run.h5 has all
+// Time of a window whose mean force counts [s]. A shorter one shows single hits, which depend on
+// the step; a longer one averages pushes out of the peaks.
+constexpr double kPanelWindow = 0.1;
+// Steps of a window at least [-]: a window of fewer would still be single hits.
+constexpr std::int64_t kLeastSteps = 5;
+// Panels in summary.json at most [-], beside the hardest of each region; run.h5 has all.
+constexpr std::size_t kMostPanels = 40;
 
 }  // namespace
 

@@ -16,8 +16,8 @@ namespace ice {
 
 namespace {
 
-constexpr double kKilo = 1e4;    // from here on in kN, kJ
-constexpr double kShown = 0.01;  // of the work
+constexpr double kKilo = 1e4;    // from here on in kN [N], kJ [J]
+constexpr double kShown = 0.01;  // share of the work from which an entry is printed [-]
 
 // Numbers in one unit and to one digit.
 struct Format {

@@ -18,8 +18,9 @@ namespace ice {
 
 namespace {
 
-constexpr std::uint64_t kStride = 1 << 16;  // bytes of rows between two looks
-constexpr std::uint64_t kEnd = 1 << 19;     // HDF5's blocks and indices, summary.json, run.log
+// Bytes of rows between two looks. More holds as much more room, less looks at the disk more often.
+constexpr std::uint64_t kStride = 1 << 16;
+constexpr std::uint64_t kEnd = 1 << 19;  // HDF5's blocks and indices, summary.json, run.log
 // of a checkpoint, generous: a run of 5 floes has one of 53 kB
 constexpr std::uint64_t kFields = 1 << 16, kPerBody = 400, kPerContact = 400;
 constexpr std::uint64_t kPerStep = 64;     // statistics remember forces of LongSeries::kMost steps

@@ -37,7 +37,9 @@ StepView view_of(const World& w) {
             w.edge.lives() ? &w.edge : nullptr};
 }
 
-constexpr double kFarAway = 1e7;  // [m]
+// A body farther away than this [m] is a fault: no course is so long, and coordinates have lost
+// their millimetres long before. Larger lets a run that fails go on for longer.
+constexpr double kFarAway = 1e7;
 
 void check_finite(const World& w) {
     const Bodies& b = w.scene.bodies;
@@ -97,7 +99,7 @@ void create_folder(const std::filesystem::path& folder) {
                          "choose another folder");
 }
 
-// A run on its way: what run() and its parts share.
+// A run under way: what run() and its parts share.
 struct Job {
     World& world;
     const RunOptions& options;

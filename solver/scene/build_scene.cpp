@@ -21,6 +21,8 @@ namespace ice {
 
 namespace {
 
+// Floes of a case at most [-]: their state alone takes some 4 GB. A larger number is a slip in
+// floes.count, and would end in a failed allocation without a key's name.
 constexpr double kMostFloes = 1e7;
 
 Shape read_shape(const std::filesystem::path& file, int dimension, bool about_centre_of_mass) {
