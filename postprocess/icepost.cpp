@@ -40,7 +40,7 @@ ice::FormulaOptions formula_options(const Options& o) {
     return out;
 }
 
-// a sweep whose runs have the formulas that the options ask for
+// a sweep whose runs have the formulas with the options' coefficients and strength
 ice::sweep::Sweep read_evaluated(const Options& o) {
     const auto formulas = formula_options(o);
     auto runs = ice::sweep::read_sweep(o.run);
@@ -109,7 +109,7 @@ void write_sweep_curves(const Options& o, const ice::sweep::Sweep& runs) {
         ice::say(fmt::format("wrote {}", file.string()));
         drawn = true;
     }
-    // A curve was asked for by name, so its absence is an error; the page says it in a sentence.
+    // The user named the curve's file, so its absence is an error; the page says it in a sentence.
     if (!drawn)
         throw ice::bad_input(o.run.string(), "has no curve to draw: " + o.svg.string(),
                              "leave out --svg, or let one or two numbers vary");

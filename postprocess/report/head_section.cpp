@@ -55,6 +55,7 @@ Rows ice_rows(const Summary& s) {
     Rows rows;
     add(rows, "Thickness", fixed(ice.thickness, 3, "m"));
     if (std::isfinite(ice.floe_size_mean)) {
+        // half of the last digit shown [m]: a range with equal ends is no range
         const bool alike = ice.floe_size_max - ice.floe_size_min < 0.005;
         add(rows, s.dimension == 2 ? "Lengths of floes" : "Diameters of floes",
             alike ? fixed(ice.floe_size_mean, 2, "m")
@@ -69,6 +70,8 @@ Rows ice_rows(const Summary& s) {
         add(rows, "Friction on ship; ice",
             readable(ice.friction_ship_ice) + "; " + readable(ice.friction_ice_ice));
     if (std::isfinite(ice.density))
+        // A summary without a density is of an older program and does not state the pressure
+        // either; an infinite pressure is rigid ice.
         add(rows, "Crushing pressure",
             std::isfinite(ice.crushing_pressure) ? readable(1e-6 * ice.crushing_pressure) + " MPa"
                                                  : "none: rigid ice");
@@ -100,6 +103,7 @@ std::string column(const std::string& heading, const Rows& rows) {
 }  // namespace
 
 double mean_speed(const RunData& run, double from) {
+    // Way over time, not the mean of samples: exact for any motion between the two rows.
     const HistoryRow* first = nullptr;
     for (const HistoryRow& row : run.history)
         if (row.time >= from - 1e-9) {

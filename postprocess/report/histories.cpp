@@ -14,11 +14,18 @@ namespace ice::report {
 
 namespace {
 
-constexpr std::size_t kBins = 1000;      // of a curve: about two per pixel
-constexpr std::size_t kTrackBins = 120;  // of each floe's curves, which are many
-constexpr double kShown = 0.96;          // of the averages lie inside the axis
-constexpr std::size_t kFew = 20;         // averages: then all are shown
-constexpr std::size_t kMostRegions = 7;  // in one chart: as many as can be told apart
+// Bins of a curve, each with its lowest and highest sample: about two per pixel of a wide chart.
+// The page's size grows in proportion.
+constexpr std::size_t kBins = 1000;
+// Bins of each tracked floe's curves, which are many and small.
+constexpr std::size_t kTrackBins = 120;
+// Share of the averages that lie inside the axis [-]: the start and single jams may leave it. With
+// 1 one jam flattens the rest of the curve.
+constexpr double kShown = 0.96;
+// Fewer averages than this are all shown: 4 % of them would be less than one.
+constexpr std::size_t kFew = 20;
+// Regions in one chart: as many as there are colours that can be told apart.
+constexpr std::size_t kMostRegions = 7;
 constexpr const char* kColours[kMostRegions] = {views::kBlue,   views::kOrange, views::kGreen,
                                                 views::kPurple, views::kBlack,  "#e69f00",
                                                 "#56b4e9"};

@@ -74,6 +74,7 @@ Study read_study(const std::filesystem::path& folder) {
         study.left_out.emplace_back(text_of(entry, "name"), text_of(entry, "why"));
     });
     for_each(table, "run", [&](const toml::table& entry) { add_run(entry, study); });
+    // every difference is against the case itself
     if (study.base.resistance.empty())
         throw bad_input(folder.string(), "no run of the case itself has a result",
                         "let the workflow go on: the same command computes what is missing");

@@ -172,6 +172,7 @@ std::string make_study_page(const Study& study) {
     if (!faults.empty())
         out += "<section id=\"faults\" class=\"warnings\">\n<b>" + escape(faults) +
                "</b>\n</section>\n";
+    // The answer first, then the chart, then all numbers, and last where the ranges come from.
     out += cards(study, r);
     out += report::section(
         "tornado", "What moves the resistance",

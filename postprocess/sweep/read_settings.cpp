@@ -63,6 +63,8 @@ public:
         }
         Plan plan;
         plan.title = table["title"].value_or<std::string>("");
+        // Title and axes may be missing: a plan written by hand has only its runs. A run without a
+        // name has no folder, so it is an error.
         if (const toml::array* axes = table["axes"].as_array())
             for (const toml::node& axis : *axes) plan.axes.push_back(text(axis, "axes"));
         const toml::array* runs = table["run"].as_array();

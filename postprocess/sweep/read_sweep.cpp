@@ -59,7 +59,7 @@ void unite_members(std::vector<SweepRun>& runs) {
     for (SweepRun& run : runs)
         if (is_ensemble(run.folder.parent_path()))
             ensembles[run.folder.parent_path()].push_back(&run);
-    // keys that differ among the members are what the ensemble draws: no settings of the run
+    // keys that differ among the members are drawn by the ensemble: no settings of the run
     for (const auto& [folder, members] : ensembles) {
         const std::map<std::string, Setting> first = members.front()->settings;
         for (const auto& entry : first) {  // no structured binding: clang 14 captures none
@@ -156,6 +156,8 @@ Sweep read_sweep(const fs::path& folder) {
     if (!fs::is_directory(folder)) throw bad_input(folder.string(), "folder not found", kRemedy);
     Sweep sweep;
     sweep.folder = folder;
+    // A plan names its runs, also those that have no folder yet; without one every run below
+    // counts.
     if (fs::exists(folder / "runs.toml")) {
         read_planned(folder / "runs.toml", sweep);
     } else {

@@ -45,6 +45,7 @@ std::string tables(const Sweep& sweep) {
     const auto axes = axis_columns(sweep, points, false);
     Column runs{"runs", {}};
     for (const Point& point : points) runs.cells.push_back(std::to_string(point.runs.size()));
+    // Without intervals of the parts: in text each would double its column. The total has its own.
     const auto forces = force_columns(points, unit,
                                       {{Part::bow_contact, "bow"},
                                        {Part::sides_contact, "sides"},

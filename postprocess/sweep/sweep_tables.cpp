@@ -157,6 +157,8 @@ std::string point_csv(const Sweep& sweep, const std::vector<Point>& points) {
     out += "runs";
     const char* in = force_ending(points.empty() ? 3 : points.front().dimension);
     for (const Part part : kParts) out += fmt::format(",{0}{1},{0}_ci95{1}", part_name(part), in);
+    // Names state the unit, and all columns are always there: scripts find them in any sweep.
+    // Lindqvist's submersion has a column also where no formula was evaluated.
     out += fmt::format(",largest{0},lindqvist_submersion{0}", in);
     const auto formulas = formula_columns(points);
     for (const FormulaValue& f : formulas)
