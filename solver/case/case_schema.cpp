@@ -14,6 +14,7 @@ constexpr double kInf = std::numeric_limits<double>::infinity();
 // Least value of a number that has to be above 0, in its SI unit: 0 itself is refused.
 constexpr double kTiny = 1e-9;
 
+// Words of a choice in the order of their enumerators (stored::choice).
 using namespace stored;
 
 constexpr std::string_view kPatterns = "grid|brick|single|file";

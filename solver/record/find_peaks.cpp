@@ -34,6 +34,7 @@ std::vector<double> peaks_above(std::span<const double> series, double level) {
     return peaks;
 }
 
+// Of no windows no number: peaks_of() then does not look at it.
 double mean_of_windows(std::span<const double> series) {
     return std::accumulate(series.begin(), series.end(), 0.0) / static_cast<double>(series.size());
 }
@@ -65,6 +66,7 @@ PeakStatistics peaks_of(std::span<const double> series, double mean, double wind
 double quantile(std::vector<double> series, double share) {
     if (series.empty()) return 0.0;
     // the smallest value that at least this share of the values does not exceed
+    // By selection, not by sorting: one quantile of a long series is wanted.
     const auto rank = static_cast<std::size_t>(
         std::max(0.0, std::ceil(share * static_cast<double>(series.size())) - 1.0));
     const auto place = series.begin() + static_cast<std::ptrdiff_t>(rank);

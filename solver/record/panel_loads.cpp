@@ -37,6 +37,7 @@ PanelLoads::PanelLoads(HullPanels hull, std::vector<std::string> region_names, d
 
 void PanelLoads::add(const std::vector<Contact>& contacts,
                      const std::vector<Constraint>& constraints, double time) {
+    // the tolerance is that of times that are multiples of dt up to rounding [s]
     if (time < average_from_ - 1e-9) return;
     for (std::size_t k = 0; k < constraints.size(); ++k) {
         const Constraint& c = constraints[k];
@@ -73,6 +74,8 @@ void PanelLoads::close_window() {
     ++windows_;
 }
 
+// Means are over all windows, those without a load included: a panel that is hit seldom has a small
+// mean and a large maximum.
 HullPanels PanelLoads::panels() const {
     HullPanels out = hull_;
     for (std::size_t k = 0; k < forces_.size(); ++k) {
@@ -87,6 +90,7 @@ HullPanels PanelLoads::panels() const {
 }
 
 void PanelLoads::fill(Summary& summary) const {
+    // a run shorter than a window has no peaks: the keys stay out
     if (windows_ == 0) return;
     for (std::size_t r = 0; r < region_names_.size(); ++r) {
         RegionStatistics& out = summary.regions[region_names_[r]];
