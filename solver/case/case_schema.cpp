@@ -56,7 +56,7 @@ std::vector<CaseKey> run_keys() {
          "Gravitational acceleration.", [](Case& c, G&, const Value& v) { c.gravity = number(v); }},
         {"environment.water_density", Kind::number, D::density, "1000.0", kTiny, 2000, 0, "",
          "Density of the water.", [](Case& c, G&, const Value& v) { c.water_density = number(v); }},
-        // z of the position or the draught, and a speed or a table: read_case.cpp asks for one
+        // z of the position or the draught, and a speed or a table: read_case.cpp requires one
         // of each
         {"hull.spheres", Kind::path, D::none, "", 0, 0, 0, "",
          "Sphere set of the hull, made by spherize; relative to the case file.",

@@ -81,6 +81,7 @@ fs::path make_field_file(const fs::path& specification, const fs::path& folder) 
     return out;
 }
 
+// By the hull's box: length and breadth set the size of field and floes.
 fs::path make_specification(const fs::path& hull, const fs::path& folder) {
     fs::path out = folder / "ice.toml";
     refuse_existing(out, "give it behind the hull, or remove it");

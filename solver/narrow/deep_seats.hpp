@@ -32,7 +32,7 @@ double deep_slack(const PairView& view);
 /// contact of a sphere within a patch radius is as deep, less that length.
 ///
 /// Depth and direction are those of the nearest point of the other's mesh: exact for any closed
-/// solid, but the shortest way out is the wrong one for a seat beyond the middle of a body. The
+/// solid, but the shortest path out is the wrong one for a seat beyond the middle of a body. The
 /// order of `out` is by place, mirror images about y = 0 alike.
 ///
 /// @param found  contacts that the spheres gave @param out  its old content is dropped

@@ -139,8 +139,8 @@ void add_field_group(Scene& scene, const Case& parameters, std::size_t g, ShapeR
     }
 }
 
-// The row of a shape's moments of inertia, made where its newest is of another density. Thousands of
-// floes of one form share a row, which the lanes of the loads then load once.
+// The row of a shape's moments of inertia, made where its newest is of another density. Thousands
+// of floes of one form share a row, which the lanes of the loads then load once.
 std::int32_t share_inertia(Scene& scene, std::int32_t shape_row, double density) {
     Bodies& b = scene.bodies;
     b.inertia_of_shape.resize(scene.shapes.size(), -1);
@@ -256,7 +256,6 @@ Scene build_scene(const Case& parameters) {
     // only of a single field the cover of the whole is known
     if (rows.of_set.empty() && rows.of_field.size() == 1)
         scene.concentration = rows.of_field.begin()->second.first.concentration;
-
     apply_jitter(scene, parameters);
     set_breaking_loads(scene, parameters);
     scene.start = find_ice_at_start(scene, parameters);

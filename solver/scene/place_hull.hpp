@@ -7,8 +7,8 @@ namespace ice {
 
 /// World position of the hull's origin at t = 0 [m], from hull.draught or hull.position.
 ///
-/// The draught is measured from the mesh's lowest point, wherever its origin is. hull_position has
-/// no z where the case file gives a draught: ask here, or the scene.
+/// The draught is measured from the mesh's lowest point, wherever its origin is; it wins over the z
+/// of hull_position, which means nothing then: read the height here, or from the scene.
 Vec3 hull_place(const Case& parameters, const TriangleMesh& hull);
 
 /// The same for a ship on water.
