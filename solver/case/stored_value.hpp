@@ -14,7 +14,7 @@
 
 namespace ice::stored {
 
-/// Values by their kind; the schema has checked kind, length and range.
+/// Values by their kind, in SI units; the schema has checked kind, length, unit and range.
 inline double number(const Value& v) { return std::get<double>(v); }
 inline int integer(const Value& v) { return static_cast<int>(std::get<std::int64_t>(v)); }
 inline const std::string& text(const Value& v) { return std::get<std::string>(v); }

@@ -35,6 +35,7 @@ struct Constraint {
 
     /// Of both stages [N s].
     double total_normal() const { return impact_normal + rest_normal; }
+    /// Friction of both stages, across the normal [N s].
     Vec3 total_tangent() const { return impact_tangent + rest_tangent; }
     /// Is the ice crushed here? Never where max_impulse is infinite. The share of 1e-9 is rounding
     /// of the sum of two impulses.
@@ -69,7 +70,7 @@ inline Vec3 relative_velocity(const Bodies& bodies, const Constraint& c) {
 /// Gives impulse j [N s] to b and -j to a: velocities and angular velocities change.
 void apply_impulse(Bodies& bodies, const Constraint& c, const Vec3& j);
 
-/// The ship's part of it, for a ship that answers. @pre c.a is the ship
+/// The ship's part of it, for a ship that answers: -j [N s] at its arm. @pre c.a is the ship
 void push_ship(Bodies& bodies, const Constraint& c, const Vec3& j);
 
 /// d . K d of the ship alone for a unit vector d: its k(d) at a point [1/kg]; 0 for a ship at

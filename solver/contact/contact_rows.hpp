@@ -110,7 +110,8 @@ public:
         }
     }
 
-    /// Gives impulses to the constraints, and their change since begin_stage to the bodies.
+    /// Gives impulses [N s] to the constraints, and their change since begin_stage to the bodies.
+    /// Rows without an impulse before and after change nothing.
     void end_stage(Bodies& bodies, std::vector<Constraint>& constraints, double Constraint::*normal,
                    Vec3 Constraint::*tangent) const;
 

@@ -52,6 +52,7 @@ public:
     /// Ice at its bound is crushed: the overlap that the step leaves at such a contact is taken off
     /// the ice for good. Of several contacts that press on one sphere, each adds what the others do
     /// not already take along its normal. Rigid ice has no bound.
+    /// @param dt  time step [s]
     /// @pre called before the poses advance, after resolve_rest, with the constraints' law and dt
     void crush(Scene& scene, const std::vector<Contact>& contacts,
                const std::vector<Constraint>& constraints, const ContactLaw& law, double dt);

@@ -56,6 +56,7 @@ public:
     /// others, again with them and those it nearly closes. A contact that stays apart carries
     /// nothing, so the conditions of the rest are the same without it. `residual` is the last
     /// solution's; not converged where contacts still close after five.
+    /// @param dt  time step [s], that of build_constraints
     /// @pre impact_normal is the impact stage's; constraints ordered by (a, b); no rest_normal
     /// where nothing can move, no rest_tangent where there is no rest_normal
     SolveReport resolve_rest(Bodies& bodies, std::vector<Constraint>& constraints,

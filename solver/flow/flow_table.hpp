@@ -20,9 +20,9 @@ struct HullFlow {
     FlowTable table;
     double panel = 0.0;               ///< longest edge of the panels [m]
     double length = 0.0;              ///< of the wetted hull [m]
-    double worst = 0.0;               ///< largest normal velocity left on the hull [1]
+    double worst = 0.0;               ///< largest normal velocity left on the hull, ship speeds [-]
     Vec3 worst_place = Vec3::Zero();  ///< where [m]
-    double net_flux = 0.0;            ///< share of the sources that does not vanish in sinks [1]
+    double net_flux = 0.0;            ///< share of the sources that does not vanish in sinks [-]
     double solve_seconds = 0.0, table_seconds = 0.0;  ///< wall time of each [s]
 };
 

@@ -37,7 +37,7 @@ struct FlowGrid {
 void look_up_flow(const FlowGrid& grid, std::span<const Vec3> points, std::span<FlowSample> out);
 
 namespace reference {
-/// The definition: read this first.
+/// The definition: read this first. @param point  in the table's axes [m]
 FlowSample look_up_flow(const FlowGrid& grid, const Vec3& point);
 }  // namespace reference
 

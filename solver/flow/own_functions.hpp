@@ -23,14 +23,14 @@ constexpr double kTwo52AndBias = 4503599627370496.0 + 1023.0;
 // sum where |t| <= 0.199, to which both are reduced. Fewer terms lose digits, more cost time.
 constexpr int kTerms = 11;
 
-/// atanh(t) / t from t^2.
+/// atanh(t) / t from t^2 [-], for |t| <= 0.199; atan(t) / t from -t^2.
 inline double atanh_series(double square) {
     double sum = 1.0 / (2 * kTerms - 1);
     for (int k = kTerms - 2; k >= 0; --k) sum = sum * square + 1.0 / (2 * k + 1);
     return sum;
 }
 
-/// ln x of a normal number x > 0: x = 2^e m with 1/sqrt 2 < m <= sqrt 2, and
+/// ln x [-] of a normal number x > 0: x = 2^e m with 1/sqrt 2 < m <= sqrt 2, and
 /// ln m = 2 atanh((m - 1) / (m + 1)).
 inline double log(double x) {
     const auto bits = std::bit_cast<std::uint64_t>(x);

@@ -25,6 +25,7 @@ struct PanelFlow {
 /// mean taken at flux_points(): no water goes through the hull (Hess and Smith, 1967). Eigen's
 /// BiCGSTAB to 1e-10, 20 iterations or fewer for hulls. Of a symmetric body only motion in the
 /// plane y = 0, and at z = 0 only motion along the water, have such panels' images.
+/// @param direction  of the motion, unit
 /// @throws Error (exit code 1) where the solver does not settle: thin plates, panels that cross
 PanelFlow solve_panels(PanelBody body, const Vec3& direction = Vec3::UnitX());
 

@@ -43,10 +43,10 @@ struct PanelBody {
 constexpr double kOffPanel = 1e-6;
 
 /// The three points whose mean stands for the mean over the panel, exactly for what is quadratic
-/// in place, in barycentric coordinates (2/3, 1/6, 1/6), off the panel by kOffPanel.
+/// in place [m], in barycentric coordinates (2/3, 1/6, 1/6), off the panel by kOffPanel.
 std::array<Vec3, 3> flux_points(const SourcePanel& panel);
 
-/// Where the flow can be checked: three other points, (1/2, 1/4, 1/4).
+/// Where the flow can be checked: three other points [m], (1/2, 1/4, 1/4).
 std::array<Vec3, 3> check_points(const SourcePanel& panel);
 
 }  // namespace ice

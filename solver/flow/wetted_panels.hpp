@@ -41,7 +41,7 @@ WettedHull make_wetted_hull(const TriangleMesh& mesh, double water, const PanelS
 TriangleMesh without_regions(const TriangleMesh& mesh, std::span<const std::string> names);
 
 /// All triangles of a mesh as panels, split until no edge is longer; none where that gives more
-/// than `most`.
+/// than `most`. @param longest_edge  [m], > 0
 std::vector<SourcePanel> split_triangles(const TriangleMesh& mesh, double longest_edge,
                                          std::size_t most);
 

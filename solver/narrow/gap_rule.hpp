@@ -62,6 +62,7 @@ struct Footprint {
     double
         length;  ///< its length [m]; 0 where the apex is over the centre: then the part is a point
 };
+/// On the face with the unit normal n.
 inline Footprint footprint(const Feature& s, const Vec3& n) {
     const Vec3 out = part_across(s.cone.apex_distance * s.normal, n);
     return {out, out.norm()};
@@ -86,6 +87,7 @@ inline bool belongs(const Feature& s, const Vec3& n, double slack = 0.0) {
     return s.normal.dot(n) >= std::min(kLeaning, s.spread_cos) - slack;
 }
 
+/// From the centre to the support point along the outward unit vector n [m].
 inline Vec3 support_offset(const Feature& s, const Vec3& n) {
     return support_offset(s.cone, s.radius, s.normal, n);
 }

@@ -61,7 +61,7 @@ void pick_spheres(const NearSpheres& from, const FloatBox& box, float grow, Near
 ///     |c_f - c_m|^2 <= (n_f + n_m + range.along)^2 + (t_f + t_m + range.across)^2,
 ///
 /// n and t being the normal and tangent extents [m], in the order of `many`. Rows without a partner
-/// have an empty range. @pre first <= last <= few.count
+/// have an empty range.
 void find_near_pairs(const NearSpheres& few, std::size_t first, std::size_t last,
                      const NearSpheres& many, const SearchRange& range, NearPairs& out);
 

@@ -55,7 +55,8 @@ struct PairView {
                 shape_b.spread_cos[j], shape_b.spread_sin[j], shape_b.cone[j].turned(rotation_ab),
                 shape_b.patch_radius};
     }
-    /// support_point of sphere_a(i) and sphere_b(j), whose faces need not be turned for it.
+    /// support_point of sphere_a(i) and sphere_b(j), whose faces need not be turned for it, along
+    /// the unit vector n, outward of that sphere; all in a's axes [m].
     Vec3 support_a(std::int32_t i, const Vec3& n) const {
         return center_a(i) +
                support_offset(shape_a.cone[i], shape_a.radius[i], shape_a.normal[i], n);

@@ -32,7 +32,8 @@ public:
     bool begins_late() const { return begins_late_; }
     /// Writes buffered rows to disk and returns the file's length [bytes].
     std::int64_t flush();
-    /// @param row  a value for each of `columns`
+    /// @param row  a value for each of `columns`, in the unit of its name; the copies per metre are
+    ///             added here
     void add(const std::vector<double>& row);
     /// Writes what is left and renames the file: no add() afterwards.
     void finish();

@@ -74,7 +74,7 @@ void book_step(const Scene& scene, const Case& parameters,
                EnergyLedger& ledger);
 
 /// Fills Summary::energy, and warns where more than 0.5 % of the ship's work, or of the losses
-/// where they are larger, is not explained.
+/// where they are larger, is not explained. @param potential_now  at the end [J]
 void fill_energy(const EnergyLedger& ledger, double potential_now, Summary& summary);
 
 }  // namespace ice

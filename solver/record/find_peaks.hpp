@@ -21,7 +21,7 @@ class LongSeries;
 PeakStatistics find_peaks(std::span<const double> series, double window);
 /// The same of a long series, of whose windows the largest in each block are kept: peaks less than
 /// two blocks apart may be one, and the percentile is that of the blocks. Mean and maximum are
-/// exact.
+/// exact. @param window  time per single value [s]
 PeakStatistics find_peaks(const LongSeries& series, double window);
 
 /// Value below which `share` [-] of the series lies: the largest for a share of 1, 0 for no series.

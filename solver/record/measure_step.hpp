@@ -46,12 +46,14 @@ struct FloeForces {
     Vec3 ice = Vec3::Zero();       ///< of the other floes on this one [N]
 };
 
-/// Sums up a step. @pre the constraints hold the impulses of the step just done.
+/// Sums up a step; zeros for no contacts. @param dt  its length [s], > 0
+/// @pre the constraints hold the impulses of the step just done, one for each contact
 StepRecord measure_step(const Scene& scene, const std::vector<Contact>& contacts,
                         const std::vector<Constraint>& constraints, double dt);
 
 /// Forces on tracked floes, by one pass over the constraints.
-/// @param asked  per body, its entry in `out`; -1 for other floes and the ship
+/// @param dt     length of the step [s]
+/// @param asked  by body, its entry in `out`; -1 for other floes and the ship
 /// @param out    its old content is dropped
 void measure_floe_forces(const std::vector<Constraint>& constraints, double dt,
                          std::span<const std::int32_t> asked, std::span<FloeForces> out);

@@ -21,17 +21,19 @@ std::vector<double> low_periodogram(std::span<const double> x, std::size_t count
 
 /// A band of the periodogram without its lines.
 struct Band {
-    double mean = 0.0;        ///< of the ordinates that stay
+    double mean = 0.0;        ///< of the ordinates that stay, in the square of the series' unit
     std::size_t stay = 0;     ///< how many
     double line_trend = 0.0;  ///< sum of 6 / (pi j)^2 I_j of the lines taken out
 };
 
 /// Drops lines from ordinates first, first + 1, ... of a periodogram by Fisher's test at 1 %; never
-/// j < 5, periods that the series holds so seldom that they move its mean.
+/// j < 5, periods that the series holds so seldom that they move its mean. Four ordinates stay.
+/// @param first  j of the first ordinate
 Band without_lines(std::span<const double> ordinates, std::size_t first = 1);
 
 /// How many of the ordinates, the first ones, form a band that neither rises nor falls: halved
-/// while its halves' means differ by more than two standard deviations of their logarithm.
+/// while its halves' means differ by more than two standard deviations of their logarithm. Fewer
+/// than four are not halved.
 std::size_t flat_band(std::span<const double> ordinates);
 
 }  // namespace ice

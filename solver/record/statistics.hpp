@@ -62,10 +62,11 @@ MeanInterval mean_interval(std::span<const double> series);
 /// The same: mean, count and deviation of all single values, the spectrum of the series' blocks.
 MeanInterval mean_interval(const LongSeries& series);
 
-/// Mean of independent values with Student's 95 % interval; for fewer than two NaN.
+/// Mean of independent values with Student's 95 % interval, in their unit; for fewer than two the
+/// interval is NaN, for none the mean too.
 MeanInterval student_interval(std::span<const double> values);
 
-/// Standard deviation about the mean; 0 for fewer than two samples.
+/// Standard deviation about the mean, in the series' unit; 0 for fewer than two samples.
 double standard_deviation(std::span<const double> series);
 
 }  // namespace ice

@@ -17,7 +17,7 @@ namespace ice {
 void set_added_mass(Scene& scene, const Case& parameters);
 
 /// Adds that of one body's form to its row of inertias, which others may share: once for each row.
-/// Its momenta are not touched.
+/// Its momenta are not touched. @param water_density  [kg/m3]
 void add_water(Scene& scene, std::size_t body, double water_density);
 
 /// Of one form in deep water about its origin, from some 400 panels or as many as its mesh has

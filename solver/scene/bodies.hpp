@@ -78,6 +78,7 @@ struct Bodies {
     ShipResponse ship;  ///< set by solver/ship at the start of a step
 
     std::size_t size() const { return shape.size(); }
+    /// [N], 2D [N/m]; infinite for floes that do not bend.
     double breaking_load_of(std::size_t i) const {
         return breaking_load.empty() ? std::numeric_limits<double>::infinity() : breaking_load[i];
     }

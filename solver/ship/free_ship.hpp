@@ -51,13 +51,13 @@ public:
     /// Beginning of a step: prescribed velocities, and how the ship answers impulses in it.
     /// @param time  at the start of the step [s]
     void start_step(const Case& parameters, Scene& scene, double time);
-    /// Loads change the velocity.
+    /// Loads change the velocity over a time_step. @param time  at the start of the step [s]
     void apply_loads(const Case& parameters, Scene& scene, double time);
-    /// Books a step, before the poses advance.
+    /// Books a step of dt [s], before the poses advance.
     void book(const Scene& scene, const std::vector<Constraint>& constraints,
               const PositionCorrections& corrections, double dt);
     /// Turns the ship, after its place has advanced with its velocity, and moves it by its position
-    /// correction.
+    /// correction. @param dt  [s]
     void turn(Scene& scene, const PositionCorrections& corrections, double dt);
 
     const ShipLoads& loads() const { return loads_; }  ///< of the last step

@@ -11,7 +11,7 @@ struct WaterPlane {
     Vec3 up;        ///< world z in body axes
     double height;  ///< of the body origin [m]
 
-    /// rotation: body to world.
+    /// @param rotation  body to world @param height_of_origin  over the water [m]
     WaterPlane(const Mat3& rotation, double height_of_origin)
         : up(rotation.row(2)), height(height_of_origin) {}
 };
@@ -57,7 +57,7 @@ struct FacingIntegrals {
 FacingIntegrals integrate_facing(const FacetBlocks& facets, const WaterPlane& water, const Vec3& v,
                                  const Vec3& w);
 
-/// int f dA alone, for w = 0 [m3/s].
+/// int f dA alone, for w = 0 [m3/s]. @param v  body axes [m/s]
 double integrate_facing(const FacetBlocks& facets, const WaterPlane& water, const Vec3& v);
 
 /// Least product of two differences of height that a share is divided by, so that a triangle level
