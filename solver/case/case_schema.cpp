@@ -170,6 +170,8 @@ std::vector<CaseKey> contact_keys() {
     };
 }
 
+// Each default is this project's model; the paper's choices are the others (docs/method.md, section
+// 1).
 std::vector<CaseKey> water_keys() {
     return {
         {"buoyancy.model", Kind::choice, D::none, "\"distributed\"", 0, 0, 0, kBuoyancies,

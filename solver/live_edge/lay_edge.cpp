@@ -243,8 +243,8 @@ void LiveEdge::put(Scene& scene, double time, Plan& plan) {
         pieces_.push_back({slot.piece, static_cast<std::int32_t>(i), time, kNever, body.load,
                            body.radius, centre, slot.outline});
     }
-    // slots that were given up and not filled again are parked far away, without contacts, and with
-    // the smallest form: an empty body would be a case of its own in every stage
+    // Slots that were given up and not filled again are parked far away, without contacts, and with
+    // a small form: an empty body would be a case of its own in every stage.
     for (const std::int32_t i : plan.changed) {
         const auto body = static_cast<std::size_t>(i);
         if (slots_[body - first_].use != Use::free) continue;

@@ -18,7 +18,7 @@ constexpr double kSameSpread = 1e-6;
 
 /// Cosine of the angle between a face's normal and the contact's [-], 78 degrees: below it the face
 /// leans so much that its edge is met first. Larger: faces lose contacts that their edges must then
-/// give; smaller: faces nearly along the normal have contacts beside those of their edges.
+/// give; smaller: faces nearly upright to the contact have contacts beside those of their edges.
 constexpr double kLeaning = 0.2;
 
 /// Largest component of a normal along an edge (cosine) [-]: an edge that slants towards a face
@@ -58,9 +58,8 @@ inline Vec3 part_across(const Vec3& v, const Vec3& n) { return v - v.dot(n) * n;
 /// The part of a face that the sphere of an edge or vertex represents: a segment from below its
 /// centre to the apex.
 struct Footprint {
-    Vec3 out;  ///< from the centre to the apex, across the face's normal [m]
-    double
-        length;  ///< its length [m]; 0 where the apex is over the centre: then the part is a point
+    Vec3 out;       ///< from the centre to the apex, across the face's normal [m]
+    double length;  ///< its length [m]; 0 where the apex lies over the centre
 };
 /// On the face with the unit normal n.
 inline Footprint footprint(const Feature& s, const Vec3& n) {

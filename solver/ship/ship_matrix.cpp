@@ -21,6 +21,7 @@ const Schema& matrix_schema() {
                    "-",  -kMost,       kMost,
                    6,    "",           "Of surge, sway, heave, roll, pitch, yaw; SI units."};
     };
+    // both tables as one list of keys: the reader of case files then finds units, lengths and slips
     static const Schema kSchema{{{"about", Kind::vector, Dimension::length, "-", -1e4, 1e4, 3, "",
                                   "The point of the moments, in the axes of the hull's mesh."},
                                  row("added_mass.surge"),
