@@ -23,7 +23,8 @@ namespace fs = std::filesystem;
 // Spheres on a hull, about [-]. More resolve finer ice and take longer to search; the user may make
 // another set.
 constexpr double kSpheres = 12000.0;
-// Their distance in radii [-], as spherize's default: below 2 they leave no gaps.
+// Their distance in radii [-]: below 1.73 they cover the surface without gaps. Larger makes larger
+// spheres, which resolve edges less well.
 constexpr double kSpacing = 1.4;
 
 void refuse_existing(const fs::path& file, const std::string& remedy) {

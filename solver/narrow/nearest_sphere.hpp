@@ -10,7 +10,7 @@ namespace ice {
 
 /// The surface sphere whose centre, before any crushing, is nearest to a point [m] in the shape's
 /// axes; of equals the one that comes first in Shape::mirror_rank, then by number. Every shape has
-/// one. Cost: all its spheres.
+/// one. Cost: the boxes of all groups of 16, and the spheres of those that may be nearer.
 std::int32_t nearest_sphere(const Shape& shape, const Vec3& point);
 
 /// Depth by which the ice around a point [m] of a body's axes has been crushed: that of the nearest

@@ -38,8 +38,8 @@ StepView view_of(const World& w) {
             w.edge.lives() ? &w.edge : nullptr};
 }
 
-// A body farther away than this [m] is a fault: no course is so long, and coordinates have lost
-// their millimetres long before. Larger lets a run that fails go on for longer.
+// A body farther away than this [m] is a fault: no course is so long. Larger lets a run that fails
+// go on for longer.
 constexpr double kFarAway = 1e7;
 
 // A not-a-number spreads to every body that it touches: the run stops in the step that made it, and
