@@ -8,7 +8,8 @@
 namespace ice {
 
 /// Paths: upper bounds of the distance that any point of a body has covered. A neighbour list of
-/// two bodies stays valid until their paths add up to its skin (docs/method.md, section 9).
+/// two bodies stays valid until their paths add up to its skin (Verlet, Physical Review 159, 1967;
+/// docs/method.md, section 9).
 ///
 /// From step to step a path grows by |dx| + theta (R + 0.5 m): no point within 0.5 m of the body
 /// moves farther. So two surfaces near each other have moved relative to each other by at most the

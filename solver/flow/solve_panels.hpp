@@ -22,8 +22,9 @@ struct PanelFlow {
 };
 
 /// Solves for strengths with which the mean of v . n over each panel is that of direction . n, the
-/// mean taken at flux_points(): no water goes through the hull (Hess and Smith, 1967). Eigen's
-/// BiCGSTAB to 1e-10, 20 iterations or fewer for hulls. Of a symmetric body only motion in the
+/// mean taken at flux_points(): no water goes through the hull (Hess and Smith, 1967; equation
+/// (22)). Eigen's BiCGSTAB (van der Vorst, SIAM Journal on Scientific and Statistical Computing
+/// 13(2), 1992) to 1e-10, 20 iterations or fewer for hulls. Of a symmetric body only motion in the
 /// plane y = 0, and at z = 0 only motion along the water, have such panels' images.
 /// @param direction  of the motion, unit
 /// @throws Error (exit code 1) where the solver does not settle: thin plates, panels that cross

@@ -9,8 +9,9 @@ namespace ice {
 /// An even current c, and the flow that the ship makes in it: with U the ship's speed along x
 /// through that water and g the table's flow at the place in the ship's frame,
 ///
-///     w(x, t) = c + U(t) g(x - x_ship(t)).
+///     w(x, t) = c + U(t) g(x - x_ship(t))
 ///
+/// (equation (24)).
 /// The table has no flow of a current athwart the ship: there the water goes through the hull.
 struct WaterFlow {
     FlowGrid grid;

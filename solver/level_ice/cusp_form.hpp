@@ -20,9 +20,8 @@ using Loop = std::vector<Vec2>;
 ///     R = C_l l (1 + C_v v_n) (1 + scatter u),    u uniform in [-1, 1) by seed and cusp
 ///
 /// (equation (30)) with l the characteristic length [m] and v_n the normal speed of hull and ice
-/// [m/s]. Source of form and
-/// constants: Wang 2001 as used by Su, Riska, Moan, Cold Regions Science and Technology, 2010;
-/// unverified: neither was read.
+/// [m/s]. Source of form and constants: Wang 2001 as used by Su, Riska, Moan, Cold Regions Science
+/// and Technology, 2010; unverified: neither was read.
 struct CrackLaw {
     double length_factor = 0.32;   ///< C_l [-]: more gives larger pieces, and fewer
     double speed_factor = -0.144;  ///< C_v [s/m]: below 0, a faster hull breaks smaller pieces

@@ -10,7 +10,7 @@ namespace ice {
 /// What one contact gave the edge of the ice in a step.
 struct EdgeLoad {
     Vec2 at;         ///< where [m]
-    double down;     ///< impulse downwards, friction included [N s]
+    double down;     ///< impulse downwards, friction included, of (26) [N s]
     double normal;   ///< normal impulse [N s]
     double closing;  ///< the same times the closing speed [N m]
     Vec2 push;       ///< normal impulse on the ice, seen from above [N s]

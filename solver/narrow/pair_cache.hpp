@@ -14,7 +14,7 @@
 
 namespace ice {
 
-/// Two spheres that may touch while their bodies move within the skin.
+/// Two spheres, by number, that may touch while their bodies move within the skin.
 struct SpherePair {
     std::int32_t a, b;
 };

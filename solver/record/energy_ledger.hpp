@@ -47,11 +47,11 @@ namespace ice {
 ///     dK = sum J_c . V + ship_work + drift_work + dt sum (F . v + T . w)   in every step.
 ///
 /// (equations (19) and (20)). A floe at rest under load adds nothing to the ledger. The residual is
-/// what weight and buoyancy do by this
-/// sum less what they do by -dU. Their force at the pose between two steps acts on the mean of both
-/// steps' motions, the trapezoidal rule, so the residual is of second order in time_step. With the
-/// means over the impact stage alone instead, as first tried, every impact under load leaves
-/// dt F . (change of v) / 2: 0.8 % of the ship's work in the paper's 2D case at 0.5 m/s.
+/// what weight and buoyancy do by this sum less what they do by -dU. Their force at the pose
+/// between two steps acts on the mean of both steps' motions, the trapezoidal rule, so the residual
+/// is of second order in time_step. With the means over the impact stage alone instead, as first
+/// tried, every impact under load leaves dt F . (change of v) / 2: 0.8 % of the ship's work in the
+/// paper's 2D case at 0.5 m/s.
 struct EnergyLedger {
     double ship_work = 0.0, drift_work = 0.0;
     double kinetic_change = 0.0;  ///< of the floes, over all steps

@@ -15,9 +15,8 @@ double value_at(const SpeedCurve& curve, double speed);
 ///     T_B = K_e (P_D D)^(2/3),   T_B in kN, P_D in kW,
 ///
 /// K_e = 0.78, 0.98, 1.12 for one, two, three screws [kN / (kW m)^(2/3)] (the ice class rules'
-/// bollard pull); 0 where neither is given. The
-/// numbers were read in one open code; another text has 0.728 for one screw, and no rule book was
-/// at hand: give bollard_pull where it is known.
+/// bollard pull); 0 where neither is given. The numbers were read in one open code; another text
+/// has 0.728 for one screw, and no rule book was at hand: give bollard_pull where it is known.
 double bollard_pull(const Propulsion& propulsion);
 
 /// Thrust [N] at speed U through the water [m/s], positive forward; without speed hold. Net thrust
