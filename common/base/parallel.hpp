@@ -51,7 +51,7 @@ private:
 /// body(k) may write only the data of k: then the result has the same bits for any thread
 /// count. Below `serial_below` items it runs on the calling thread, because waking threads costs
 /// more than the work (about 5 us).
-/// @throws what body throws, of several items what the first of them throws; others may have run
+/// @throws the exception of body, of several items that of the first of them; others may have run
 template <class Body>
 void parallel_for(std::size_t count, std::size_t serial_below, const Body& body) {
     if (count < serial_below || omp_get_max_threads() == 1) {

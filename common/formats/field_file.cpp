@@ -100,6 +100,8 @@ void write_floes(Hdf5File& file, const std::vector<FieldFloe>& floes) {
 
 void write_field(const std::filesystem::path& path, const Field& field) {
     FieldArrays all;
+    // All shapes go into one array of each kind, one after the other, with their lengths beside:
+    // HDF5 opens a thousand small data sets far slower than one large one.
     for (const SphereSet& shape : field.shapes) add_shape(shape, all);
     write_sealed(path, [&](Hdf5File& file) {
         file.write_attribute("/", "format", std::string(detail::kFieldFormat));

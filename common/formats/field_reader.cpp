@@ -62,6 +62,8 @@ private:
         return value;
     }
 
+    // Attributes of the whole field. A version that is not known is refused and not guessed: a
+    // wrong guess would build floes of other sizes.
     void read_header(Field& field) const {
         check(file_.has_attribute("/", "format") &&
                   file_.read_text_attribute("/", "format") == detail::kFieldFormat,
@@ -184,6 +186,8 @@ private:
         }
     }
 
+    // Solid and mesh of shape k. The arrays hold all shapes one after the other, so `at_` counts
+    // the rows that are used; corners are checked before anything is indexed with them.
     void take_solid(std::size_t k, SphereSet& set) {
         set.solid.volume = all_.volume[k];
         set.solid.area = all_.area[k];

@@ -9,7 +9,7 @@ namespace {
 constexpr const char* kForce = "N";
 constexpr const char* kLineLoad = "N_per_m";
 
-// text of summary.json's "panel_rule" and of every table of peaks: what the numbers mean
+// text of summary.json's "panel_rule" and of every table of peaks: the meaning of the numbers
 constexpr const char* kPeakRule =
     "largest window mean between two up-crossings of the mean of all windows";
 

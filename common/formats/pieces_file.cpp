@@ -236,6 +236,7 @@ void show_in_frame(const PiecesFile& file, std::size_t others, const RunFrame* b
 }  // namespace
 
 void write_pieces(const std::filesystem::path& path, const PiecesFile& pieces) {
+    // Under another name until it is complete: a reader never sees half of the pieces.
     const std::filesystem::path part = path.string() + ".part";
     {
         Hdf5File file(part, Hdf5File::Mode::create);

@@ -55,6 +55,7 @@ void write_attributes(Hdf5File& file, const RunHeader& header) {
 
 // meanings that the names alone do not give
 void name_history(Hdf5File& file) {
+    // In the file itself, so that it can be read without this project's documents (CF's long_name).
     const auto say = [&](const char* name, const char* text) {
         file.write_attribute(name, "long_name", text);
     };

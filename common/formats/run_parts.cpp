@@ -64,6 +64,7 @@ void write_shapes(Hdf5File& file, const RunHeader& header) {
 void write_flow_arrows(Hdf5File& file, const RunHeader& header) {
     if (header.flow_point.empty()) return;
     file.create_group("/flow");
+    // Arrows have numbers as their scale, since xarray needs a label for each dimension.
     std::vector<std::int32_t> ids(header.flow_point.size());
     std::iota(ids.begin(), ids.end(), 0);
     file.write("/flow/arrow", ids);

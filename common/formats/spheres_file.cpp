@@ -293,6 +293,7 @@ void write_spheres_arrays(Hdf5File& file, const SphereSet& set) {
 }
 
 void write_all(Hdf5File& file, const SphereSet& set, SpheresReport& certificate) {
+    // Attributes first: a reader can tell kind, version and origin without an array.
     file.write_attribute("/", "format", std::string(kSpheresFormat));
     file.write_attribute("/", "format_version", kSpheresVersion);
     file.write_attribute("/", "dimension", std::int64_t{set.dimension});

@@ -25,6 +25,8 @@ public:
     explicit ValueReader(Complaints& complaints) : complaints_(complaints) {}
 
     bool read(const Key& key, const toml::node& node, Value& out) {
+        // No default: a new kind without a reader is a compiler warning. A choice or vector is told
+        // apart by the node, because only one of them is a text.
         switch (key.kind) {
             case Kind::number:
                 return read_number(key, node, out);

@@ -118,7 +118,7 @@ void fit_breaking(const std::vector<FitPoint>& points, SpencerFit& fit) {
     for (const FitPoint& point : points) {
         if (!point.level_ice) continue;
         ++fit.level;
-        // The breaking part is what the fitted parts leave of the level-ice resistance; a power law
+        // The breaking part is the level-ice resistance less the fitted parts; a power law
         // is a line in its logarithm: log((R - R_B - R_C) / (rho_i B h V^2)) over log S. A point
         // where nothing is left has no logarithm and is passed over.
         const double left =

@@ -51,6 +51,8 @@ std::vector<Piece> measure_parts(const TriangleMesh& mesh, const Parts& parts) {
         for (int k = 0; k < 3; ++k) of(t).box.extend(mesh.corner(t, k));
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         Piece& piece = of(t);
+        // A box's every triangle lies in one face of its bounding box; one triangle elsewhere and
+        // the part is something else. Boxes must be known whole, so this is a second pass.
         if (!piece.on_box) continue;
         const double small = kFlat * piece.box.diagonal().norm();
         piece.on_box = false;

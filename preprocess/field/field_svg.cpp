@@ -82,6 +82,7 @@ std::string draw_key(const Page& page, const FieldPlan& plan, double step) {
             "stroke=\"#54738f\"/>\n",
             x, y - 14.0, fill);
         out += svg_text(x + 38.0, y, "start", words);
+        // 11 px per letter at this size, wide rather than narrow: the browser's font is not known
         x += 60.0 + 11.0 * static_cast<double>(words.size());
     };
     add("#eef4f8", fmt::format("{} loose floes", plan.loose.size()));

@@ -61,6 +61,7 @@ private:
     }
 
     void check_pattern() {
+        // Keys of other patterns are refused, not ignored: a size that has no effect would mislead.
         const auto& name = std::get<std::string>(values_["pattern"]);
         const auto& all = pattern_keys();
         const auto mine = std::find_if(all.begin(), all.end(),

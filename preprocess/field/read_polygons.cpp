@@ -17,7 +17,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-// Bounds on a file that is not what its name says; none changes a floe.
+// Bounds that refuse a file of another kind; none changes a floe.
 constexpr std::uintmax_t kLargestPolygons = 64u << 20;  // [bytes]: a million corners fit
 constexpr int kDeepest = 20;             // collections within collections; maps have few
 constexpr std::size_t kMostQuoted = 60;  // characters of a bad row in a message

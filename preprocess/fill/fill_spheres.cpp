@@ -93,6 +93,8 @@ void place_surface(const SurfaceTree& tree, const FillOptions& o, bool mirror, S
     if (o.arrangement == Arrangement::lattice) {
         place_lattice(tree, o, mirror, set);
     } else {
+        // A lattice is the paper's arrangement; the shell follows edges and corners, and each of
+        // its spheres touches the surface.
         set.centers = make_shell(tree, {o.radius, set.spacing, set.dimension, mirror,
                                         o.quick ? kQuickStep : kLineStep, o.sharp, o.edges_by_ends,
                                         [&](double share) { tell(o, "surface layer", share); }});
@@ -150,6 +152,8 @@ std::vector<std::int32_t> set_features(const SurfaceTree& tree, const FillOption
                                        SphereSet& set, SpheresReport& report) {
     std::vector<std::int32_t> twins;
     CornerCount corners;
+    // Twice at most: added spheres change the features of their neighbours, so all are set anew. A
+    // corner that is still empty then is reported, not filled again, since that need not end.
     for (const bool may_add : {true, false}) {
         if (mirror) twins = find_twins(set);
         set_normals(tree, twins, set);

@@ -94,6 +94,8 @@ Vec3 meet(const Condition* const* active, int count) {
         g.row(k) = active[k]->g.transpose();
         need[k] = active[k]->need;
     }
+    // One and two conditions in closed form, as they are by far the most frequent; g is a unit
+    // vector.
     if (count == 1) return need[0] * active[0]->g;
     if (count == 2) {
         const double mixed = active[0]->g.dot(active[1]->g), det = 1.0 - mixed * mixed;
@@ -104,6 +106,7 @@ Vec3 meet(const Condition* const* active, int count) {
     } else if (const double det = g.determinant(); std::abs(det) > 1e-7) {
         return g.inverse() * need;
     }
+    // Nearly parallel walls: an inverse would throw the centre far away.
     return g.completeOrthogonalDecomposition().solve(need);
 }
 
@@ -113,6 +116,7 @@ Vec3 smallest_move(const std::vector<Condition>& conditions) {
     Vec3 move = meet(active, 1);
     for (int count = 1; count < 3;) {
         const Condition* worst = nullptr;
+        // [m]; rounding of lengths of about 1 m: smaller misses count as met
         double lack = 1e-14;
         for (const Condition& c : conditions) {
             const double now = c.need - c.g.dot(move);

@@ -246,6 +246,8 @@ std::vector<Seat> seat_lines(const SurfaceTree& tree, const ShellOptions& option
                            : trace_sharp_edges(tree, options.radius, step, options.sharp);
     LineSeats seats(tree, options);
     std::vector<Seat> corners;
+    // On a mesh finer than the spheres starts lie closer than seats, and most would be settled for
+    // nothing.
     const bool fine = is_fine_for(tree, options.radius);
     for (const Line& all : lines) {
         const Line starts = fine ? drop_near(all, step) : all;
@@ -257,6 +259,7 @@ std::vector<Seat> seat_lines(const SurfaceTree& tree, const ShellOptions& option
             seats.place(line.centers, corners);
         }
     }
+    // Last: a corner is missing only when no line has reached it.
     if (options.dimension == 3) seats.add_missing_corners();
     return seats.take();
 }

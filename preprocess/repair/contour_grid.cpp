@@ -135,7 +135,7 @@ void fill_voids(const Grid& grid, std::vector<std::uint8_t>& inside) {
         open.pop_back();
         const auto at = place(k);
         // The 14 neighbours along the edges and diagonals that the contour's tetrahedra use, so
-        // that flood and contour agree on what is connected.
+        // that flood and contour agree on the cells that are connected.
         for (int direction = 1; direction < 8; ++direction)
             for (const std::int32_t sign : {-1, 1}) {
                 bool within = true;

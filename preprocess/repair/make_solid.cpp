@@ -168,6 +168,9 @@ private:
 
     // A closed surface -> one that crosses itself nowhere, or without effect.
     TriangleMesh untangle(TriangleMesh mesh) {
+        // From the method that changes least to the one that changes most: as it is, cut where it
+        // crosses, crossings without effect left, the contour of the winding number, the wrap. Each
+        // result is proved before it is taken.
         const CrossingPairs pairs = find_self_intersections(mesh);
         if (pairs.empty()) {
             TriangleMesh solid = choose(std::move(mesh));
@@ -226,6 +229,8 @@ private:
     }
 
     void say_resolved(const TriangleMesh& mesh, const CrossingPairs& pairs) {
+        // Parts that overlap are usual in drawings of ships and only noted; a part that crosses
+        // itself in many places is a scan or folded, and the user should know.
         const Parts parts = find_parts(mesh);
         std::set<std::int32_t> united;
         std::set<std::size_t> cut, own;

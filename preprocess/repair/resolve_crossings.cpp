@@ -69,6 +69,8 @@ std::vector<std::int32_t> find_patches(const std::vector<MeshEdge>& edges,
                                        const std::vector<int>& times) {
     std::vector<std::int32_t> patch(times.size());
     std::iota(patch.begin(), patch.end(), 0);
+    // Union with path halving; the smaller number is the root, so the result does not depend on the
+    // order of the edges.
     const auto root = [&](std::int32_t t) {
         while (patch[static_cast<std::size_t>(t)] != t) {
             auto& up = patch[static_cast<std::size_t>(t)];

@@ -70,6 +70,7 @@ void write_yade_spheres(const SphereSet& set, const RigidBody& body, const Sink&
 }
 
 std::string yade_text(const RigidBody& body, double radius, const std::string& spheres_file) {
+    // The numbers of the body as Python constants, then the same functions for every body.
     const Vec3 &c = body.centroid, &m = body.moments;
     const Eigen::Quaterniond& q = body.axes;
     return fmt::format(
