@@ -67,6 +67,7 @@ int view(const Options& o) {
     ice::write_picture(o.out,
                        ice::report::draw_view(run.data, *ice::views::parse_view(o.from), o.time));
     const double first = run.data.frames.front().time, last = run.data.frames.back().time;
+    // A warning, not an error: the picture is useful, but of another time than the user thinks.
     if (o.time < first || o.time > last)
         ice::say_warning(fmt::format(
             "the run has frames from {:g} to {:g} s, none at {:g} s: the nearest was drawn", first,
@@ -208,6 +209,7 @@ int check(const Options& o) {
 
 }  // namespace
 
+// Errors become exit codes and messages in run_command_line(), the same for all programs.
 int main(int argc, char** argv) {
     Options o;
     CLI::App app("Reports, pictures and checks of icesolve's run folders.", "icepost");

@@ -81,6 +81,7 @@ void write_field_arrays(Hdf5File& file, const FieldArrays& all) {
 void write_floes(Hdf5File& file, const std::vector<FieldFloe>& floes) {
     std::vector<std::int32_t> shape;
     std::vector<double> position, orientation;
+    // floes lie in the water's plane: two numbers of a place, but the whole quaternion [F, 4]
     std::vector<std::uint8_t> fixed;
     for (const FieldFloe& floe : floes) {
         shape.push_back(floe.shape);
@@ -100,8 +101,6 @@ void write_floes(Hdf5File& file, const std::vector<FieldFloe>& floes) {
 
 void write_field(const std::filesystem::path& path, const Field& field) {
     FieldArrays all;
-    // All shapes go into one array of each kind, one after the other, with their lengths beside:
-    // HDF5 opens a thousand small data sets far slower than one large one.
     for (const SphereSet& shape : field.shapes) add_shape(shape, all);
     write_sealed(path, [&](Hdf5File& file) {
         file.write_attribute("/", "format", std::string(detail::kFieldFormat));

@@ -26,6 +26,7 @@ Vec3 point(const Json& json, const std::string& key) {
 }
 
 Json peaks_json(const PeakStatistics& peaks, const std::string& unit) {
+    // The unit is part of each key's name, so that a file can be read without its documents.
     Json exceeded = Json::array();
     for (const Exceedance& e : peaks.exceeded)
         exceeded.push_back({{"level_" + unit, e.level}, {"per_hour", e.per_hour}});

@@ -56,6 +56,7 @@ void from_json(const Json& json, ShipParticulars& s) {
 }
 
 void to_json(Json& json, const IceParticulars& i) {
+    // Unknown numbers are NaN in memory and null in the file; from_json() turns them back.
     json = {{"thickness_m", i.thickness},
             {"floes", i.floes},
             {"floe_size_min_m", i.floe_size_min},

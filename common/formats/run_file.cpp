@@ -83,6 +83,7 @@ RunWriter::Buffers::Buffers(const std::filesystem::path& path, const std::filesy
       part_path(part),
       file(part_path, Hdf5File::Mode::create_growing),
       bodies(header.body_shape.size()) {
+    // arrays of floes are indexed together from here on
     if (header.body_group.size() != bodies || header.body_mass.size() != bodies ||
         header.body_inertia.size() != bodies)
         throw run_failed(path.string(), "the floes' shapes, groups, masses differ in number",
@@ -193,6 +194,7 @@ void RunWriter::Buffers::create_frames(const RunHeader& header) {
     create(spin, "angular_velocity", {n, 3}, "rad/s", {"/frames/body", "/xyz"});
     create(floe_force, "contact_force", {n, 3}, header.dimension == 2 ? "N/m" : "N",
            {"/frames/body", "/xyz"});
+    // one byte per floe and frame
     create(state, "state", {n}, "1", {"/frames/body"});
     file.write_attribute("/frames/orientation", "order", "w,x,y,z body to world");
     file.write_attribute("/frames/contact_force", "meaning", "of the ship on the floe");

@@ -106,6 +106,7 @@ std::vector<std::string> hull_regions(const RunHeader& header) {
 }
 
 void write_panels(Hdf5File& file, const HullPanels& hull, int dimension) {
+    // written at the end of a run, when largest and 99 % loads are known
     const std::uint64_t count = hull.panels.size();
     const auto name_of = [](const char* name) { return std::string("/panels/") + name; };
     // xarray shows units and long_name at each axis of its plots.

@@ -65,6 +65,7 @@ public:
         read_header(set);
         refuse_changed(path_, file_, "spherize");
         read_solid(set.solid);
+        // names before the mesh: its regions are checked against their number
         set.mesh.region_names = file_.read_strings("/region_names");
         read_mesh(set.mesh);
         read_arrays(set);
@@ -133,6 +134,7 @@ private:
         const auto shape = file_.shape("/mesh/triangles");
         check(shape.size() == 2 && shape[1] == 3, "/mesh/triangles", "is not of shape [T,3]");
         const auto flat = file_.read<std::int32_t>("/mesh/triangles");
+        // [T, 3] rows of vertices; with one outside later loops would read beyond the array
         const auto vertex_count = static_cast<std::int32_t>(mesh.vertices.size());
         for (const std::int32_t v : flat)
             check(v >= 0 && v < vertex_count, "/mesh/triangles", "points outside the vertices");
@@ -157,6 +159,7 @@ private:
         const std::size_t n = set.centers.size();
         check(n > 0, "/center", "is empty");
         for (const char* name : {"/radius", "/area", "/volume", "/layer", "/region"})
+            // shapes before contents: a damaged length takes no memory
             check(file_.shape(name) == std::vector<std::uint64_t>{n}, name,
                   "has another length than /center");
         const auto layers = file_.read<std::uint8_t>("/layer");
@@ -223,6 +226,8 @@ private:
 namespace {
 
 void write_certificate(Hdf5File& file, SpheresReport& c) {
+    // The report as a whole, for people, and its numbers as attributes, for programs that read no
+    // JSON.
     c.seconds.clear();  // equal calls give equal bytes
     file.write_attribute("/", "certificate", spheres_report_text(c));
     for (const auto& [name, value] : std::initializer_list<std::pair<const char*, double>>{
@@ -275,6 +280,8 @@ void write_spheres_arrays(Hdf5File& file, const SphereSet& set) {
     const std::vector<float> normals = flatten<float>(set.normals);
     const std::vector<float> spread(set.normal_spread.begin(), set.normal_spread.end());
     const std::vector<std::uint8_t> layers(s, 1);
+    // Directions in single precision: 1e-7 is far below the error of any mesh. Areas in double,
+    // since they are summed.
     file.write_rows("/normal", normals.data(), {n, 3}, s, 0.0f);
     file.write_rows("/normal_spread", spread.data(), {n}, s, 0.0f);
     file.write_rows("/area", set.areas.data(), {n}, s, 0.0);

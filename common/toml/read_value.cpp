@@ -65,6 +65,7 @@ private:
             complain(node.source(), fmt::format("{} must be true or false", key.path), 1);
             return false;
         }
+        // 0 or 1: values have no kind of their own for booleans
         out = std::int64_t{*value};
         return true;
     }

@@ -217,6 +217,7 @@ private:
                     if (f.name == formula.name && f.part == formula.part) return f.value;
                 return std::nan("");
             };
+            // a formula without a number at rest cannot tell a ship that is stuck
             if (std::isnan(value(low->thickness, 0.0))) continue;
             HvCurve curve{
                 Source::formula,

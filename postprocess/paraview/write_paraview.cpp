@@ -25,6 +25,7 @@ void add_point(std::vector<float>& list, const Vec3& p) {
     for (int k = 0; k < 3; ++k) list.push_back(static_cast<float>(p[k]));
 }
 
+// [V x 3] corners of a mesh, turned and then moved [m].
 std::vector<float> posed(const TriangleMesh& mesh, const Vec3& shift,
                          const Mat3& turn = Mat3::Identity()) {
     std::vector<float> out;
@@ -200,6 +201,7 @@ private:
             return now((name + of).c_str(), of_bodies(values, per_triangle, columns), columns);
         };
         std::vector<NamedArray> out;
+        // constant columns are stored once; of a frame only state, forces and velocities are new
         const std::vector<StoredArray>& same = per_triangle ? surfaces_ : bodies_;
         for (std::size_t k = 0; k < 3; ++k)
             out.push_back({std::array{"body", "shape", "group"}[k], same[k]});

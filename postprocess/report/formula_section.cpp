@@ -73,6 +73,7 @@ std::string draw_bar(const Bar& bar, double y, double per_newton, const ForceUni
     std::string out = views::text_element(kLeft - 8.0, y + 14.0, bar.name, "end");
     double x = kLeft;
     for (const auto& [part, force] : bar.parts) {
+        // a part below 0 has no bar; its number is in the sum
         const double width = std::max(0.0, force * per_newton);
         out += rectangle(x, y, width, kBar,
                          fmt::format("fill=\"{}\" opacity=\"0.85\"", color_of(part)));
@@ -132,6 +133,7 @@ std::string formula_footnote(const std::vector<FormulaValue>& formulas) {
     std::vector<std::string> names;
     std::map<std::string, std::string> parts;
     for (const FormulaValue& f : formulas) {
+        // only formulas that no published number confirmed are named
         if (f.verified) continue;
         if (!parts.contains(f.name)) names.push_back(f.name);
         parts[f.name] += (parts[f.name].empty() ? "" : ", ") + f.part;

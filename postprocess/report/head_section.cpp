@@ -41,6 +41,7 @@ std::string speed_text(double speed) {
 
 Rows ship_rows(const Summary& s) {
     Rows rows;
+    // A section of 2D has no breadth; angles are those of the waterline and may be unknown.
     add(rows, "Length, L", fixed(s.ship.length, 2, "m"));
     if (s.dimension == 3) add(rows, "Breadth, B", fixed(s.ship.breadth, 2, "m"));
     add(rows, "Draught, T", fixed(s.ship.draught, 2, "m"));
@@ -144,6 +145,7 @@ std::string key_numbers(const Summary& s, const ForceUnit& unit, double speed) {
         out += card(fmt::format("{:.2f} m/s", speed), fmt::format("{:.2f} knots", speed / kKnot));
         // kW from 10 kW on: models have watts, ships megawatts.
         const double power = s.resistance.mean * speed;
+        // two ranges only: a unit that changes with every run makes cards hard to compare
         const bool large = std::abs(power) >= 1e4;
         out += card(fmt::format("{:.{}f} {}{}", large ? 1e-3 * power : power, large ? 1 : 0,
                                 large ? "kW" : "W", s.dimension == 2 ? "/m" : ""),

@@ -33,6 +33,7 @@ Regions pressed_regions(const RunData& run, const Summary& s) {
     if (run.header.shapes.empty()) return out;
     for (const std::string& name : run.header.shapes[0].mesh.region_names) {
         const auto found = s.regions.find(name);
+        // summaries of older programs have regions without peaks
         if (found == s.regions.end() || !found->second.force_peaks) continue;
         if (found->second.force_peaks->max > 0.0) out.emplace_back(name, found->second);
     }
@@ -130,6 +131,8 @@ std::string draw_exceedance(const std::string& title, const std::string& y_title
     chart.title = title;
     chart.x_title = "peaks per hour as large or larger";
     chart.y_title = y_title;
+    // rare peaks are the ones that a designer needs: decades give them as much room as frequent
+    // ones
     chart.x_logarithmic = true;
     for (const auto& [name, region] : regions) {
         if (!(region.*peaks)) continue;

@@ -47,6 +47,7 @@ std::string page_header(const read::RunFolder& run) {
 
 // whether the mean is steady, in a sentence
 std::string steadiness(const ForceStatistics& f, const ForceUnit& unit) {
+    // a series too short for an interval has no trend either
     if (!std::isfinite(f.correlation_time)) return "";
     std::string text = fmt::format(
         " The interval is that of {} independent samples, which the autocorrelation leaves.",
@@ -126,6 +127,7 @@ std::string contents(const std::string& html) {
     for (std::size_t at = html.find(opening); at != std::string::npos;
          at = html.find(opening, at + 1)) {
         const std::size_t id = at + opening.size(), title = html.find(heading, at);
+        // sections without a heading of their own get no link
         if (title == std::string::npos || title > html.find("</section>", at)) continue;
         const std::size_t text = title + heading.size();
         links += "<li><a href=\"#" + html.substr(id, html.find('"', id) - id) + "\">" +

@@ -47,6 +47,7 @@ public:
           base_(base),
           unit_(unit),
           half_(std::isfinite(base.half) ? base.half : 0) {
+        // the rows decide the picture's height
         bottom_ = kTop;
         for (const RankedInput& input : inputs) bottom_ += row_height(input);
         choose_range();
@@ -102,6 +103,7 @@ private:
     }
 
     std::string band(double half, const char* color) const {
+        // without an interval of the case there is no band
         if (!(half > 0.0)) return "";
         return rectangle(place(base_.mean - half), place(base_.mean + half), kTop, bottom_,
                          fmt::format("fill=\"{}\"", color));
@@ -109,6 +111,8 @@ private:
 
     std::string axes() const {
         std::string out;
+        // Two scales: forces below, per cent of the case's mean above. Both come from one axis, so
+        // they cannot disagree.
         const auto ticks = views::choose_ticks(x_.low, x_.high, 8);
         const double step = ticks.size() > 1 ? ticks[1] - ticks[0] : 1.0;
         for (const double v : ticks) {

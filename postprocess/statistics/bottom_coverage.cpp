@@ -29,6 +29,7 @@ struct Plan {
         cell = std::max(box.sizes().x(), box.sizes().y()) / kColumns;
         columns = static_cast<long>(std::ceil(box.sizes().x() / cell));
         rows = static_cast<long>(std::ceil(box.sizes().y() / cell));
+        // the map of the viewer's nearest surface serves as the map of lowest points
         const auto from = views::projection_of(views::ViewFrom::below);
         const views::DepthMap map(hull, from, kColumns);
         for (long r = 0; r < rows; ++r)

@@ -12,6 +12,7 @@ namespace {
 // a table's bar would end the cell
 std::string plain(std::string text) {
     for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2)
+        // two characters on: the bar itself is not found again
         text.insert(at, "\\");
     return text;
 }

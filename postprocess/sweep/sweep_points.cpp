@@ -56,6 +56,7 @@ constexpr PartRow kPartRows[kPartCount]{{"resistance", Part::total, kAll},
 const PartRow& row_of(Part part) { return kPartRows[static_cast<std::size_t>(part)]; }
 
 double part_value(const Summary& s, Part part) {
+    // parts of the whole ship are in the summary itself; places on the hull are sums over regions
     if (part == Part::total) return s.resistance.mean;
     if (part == Part::contact) return s.resistance.contact_mean;
     if (part == Part::friction) return s.resistance.friction_mean;

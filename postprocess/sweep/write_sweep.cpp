@@ -39,6 +39,7 @@ std::size_t count_completed(const Sweep& sweep) {
 }
 
 std::string header(const Sweep& sweep, const std::vector<Sweep>& parts) {
+    // The share of completed runs comes first: a curve of half a sweep looks like a whole one.
     const std::size_t good = count_completed(sweep), all = sweep.runs.size();
     std::set<std::string> axes;
     for (const Sweep& part : parts)
@@ -60,6 +61,7 @@ std::string two_widths(const std::string& kind, const std::string& wide,
 }
 
 std::string download(const std::string& file, const std::string& csv) {
+    // The CSV lies inside the page as an address, so that one file is enough.
     return "<p>All digits: <a download=\"" + file + "\" href=\"data:text/csv;charset=utf-8," +
            encode_address(csv) + "\">" + file + "</a></p>\n";
 }

@@ -48,6 +48,7 @@ std::vector<double> choose_ticks(double low, double high, int most) {
 }
 
 std::string tick_label(double value, double step) {
+    // a value that is 0 but for rounding is 0, not 1e-17
     if (value != 0.0 && std::abs(value) < 1e-9 * step) value = 0.0;
     const double size = std::max(std::abs(value), step);
     // Large and tiny numbers as powers of ten; else as many decimals as the step has.

@@ -20,6 +20,7 @@ std::vector<Vec2> decimate(const std::vector<double>& x, const std::vector<doubl
         const double place = (p.x() - low) / extent * static_cast<double>(bins);
         return std::min(bins - 1, static_cast<std::size_t>(std::max(0.0, place)));
     };
+    // Means of bins would be shorter to compute, but hide each hit of the ice.
     std::vector<Vec2> kept;
     for (std::size_t begin = 0; begin < points.size();) {
         // lowest and highest of each bin, in their order in time: peaks stay to the full height

@@ -33,6 +33,8 @@ const HullColours kBare{{222, 226, 230}, {236, 239, 241}};
 
 // the viewer's ramp (web/src/colours.js)
 std::string load_colour(double x) {
+    // Light to dark and grey to violet: the order is seen in grey prints, and by colour-blind
+    // people.
     static const Eigen::Vector3d stops[] = {
         {214, 219, 224}, {250, 212, 120}, {238, 120, 60}, {176, 42, 90}, {66, 10, 104}};
     const double at = std::clamp(x, 0.0, 1.0) * 4.0;

@@ -190,6 +190,8 @@ void clear_near(const TriangleMesh& mesh, const LatticeFrame& frame, double dist
         const auto whole = [&](std::size_t k) -> const Corners& { return group[k]; };
         clear(n, whole, whole);
     });
+    // Long triangles afterwards and in pieces: the box of a whole one would hold most of the
+    // lattice. Their pieces differ in cost, so each is its own task.
     std::vector<Piece> pieces;
     for (std::size_t t = 0; t < count; ++t)
         if (large[t]) split(corners(t), most, pieces);
