@@ -48,13 +48,13 @@ private:
     bool is_good(const Scene& scene, const MotionBounds& motion) const;
 
     std::vector<BodyPair> pairs_;
-    std::vector<std::int32_t> moving_;  // the floes that moved when the list was made
-    std::vector<double> path_;          // theirs then [m]
-    double ship_path_ = 0.0, drift_path_ = 0.0;
-    std::int32_t drifting_ = -1;       // the held floe that drifts fastest; -1: none does
-    Eigen::AlignedBox3d vicinity_;     // of all moving bodies
-    std::vector<std::int32_t> floes_;  // in it, held ones too
-    std::size_t bodies_ = 0;           // that were looked at for them
+    std::vector<std::int32_t> moving_;           // the floes that moved when the list was made
+    std::vector<double> path_;                   // theirs then [m]
+    double ship_path_ = 0.0, drift_path_ = 0.0;  // those of the ship and of drift then [m]
+    std::int32_t drifting_ = -1;                 // the held floe that drifts fastest; -1: none does
+    Eigen::AlignedBox3d vicinity_;               // of all moving bodies
+    std::vector<std::int32_t> floes_;            // in it, held ones too
+    std::size_t bodies_ = 0;                     // that were looked at for them
 };
 
 }  // namespace ice

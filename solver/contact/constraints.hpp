@@ -100,7 +100,7 @@ private:
     struct Entry {
         std::int32_t a, b;
         std::uint64_t key;
-        double normal;
+        double normal;  // impulses of the last resting stage [N s]
         Vec3 tangent;
     };
     static bool precedes(const Entry& e, const Contact& c);

@@ -157,7 +157,7 @@ private:
     std::vector<std::int32_t> slot_;           // by row of which_: kLanes row + lane, or -1
 
     std::vector<std::int32_t> copies_;  // of a ship that answers, local numbers; else none
-    double copy_inverse_mass_ = 0.0;
+    double copy_inverse_mass_ = 0.0;    // [1/kg]
     Mat3 copy_inverse_inertia_ = Mat3::Zero();
     Mat3 inverse_mass_ = Mat3::Zero();  // of the ship
     BodyMotion parted_{};               // its motion before the sweep

@@ -48,7 +48,8 @@ public:
                        std::vector<Constraint>& constraints);
 
 private:
-    /// Velocities of the touched bodies, by local number, and impulses of which_.
+    /// Velocities of the touched bodies [m/s], [rad/s], by local number, and impulses of which_
+    /// [N s].
     struct State {
         std::vector<Vec3> velocity, angular_velocity, tangent;
         std::vector<double> normal;
@@ -61,7 +62,7 @@ private:
                            const Constraint& c) const;
     void mix_ship(Bodies& bodies, const ContactRows& contacts,
                   const std::vector<Constraint>& constraints) const;
-    // Per island: the gain of energy of impulses J that lead from the beginning to `end`.
+    // Per island: the gain of energy of impulses J that lead from the beginning to `end` [J].
     void measure_gains(const Bodies& bodies, const ContactRows& contacts,
                        const std::vector<Constraint>& constraints, const State& end,
                        std::vector<double>& out) const;

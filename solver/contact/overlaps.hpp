@@ -65,6 +65,7 @@ private:
         double effective_mass;  // 1 / k(n) [kg]
         Vec3 ship_shift;        // by a unit push, of a ship that answers [1/kg]
     };
+    // @param target  move along the normal [m]
     static Push push_of(const Bodies& bodies, const Constraint& c, std::size_t row, double target);
 
     struct CrushEvent {

@@ -52,14 +52,14 @@ public:
     const std::vector<Loop>& loops() const { return loops_; }
     /// Of the ice, holes left out [m2]; 0 once all is gone.
     double area() const;
-    /// Is the point in the ice? Points on the edge may be either.
+    /// Is the point [m] in the ice? Points on the edge may be either.
     bool contains(const Vec2& point) const;
 
     /// Sets the sheet as loops() of another gave it: for a run that is continued.
     void restore(std::vector<Loop> loops) { loops_ = std::move(loops); }
 
 private:
-    double smallest_;
+    double smallest_;  // size below which there is no piece [m]
     std::vector<Loop> loops_;
 };
 

@@ -124,8 +124,8 @@ private:
     };
     // A crack that the last step's loads opened.
     struct Crack {
-        Vec2 at, inwards;
-        double radius, load;
+        Vec2 at, inwards;     // ice's axes: place [m]; unit vector along the push
+        double radius, load;  // [m]; [N], in 2D [N/m]
     };
     struct Plan;  // what one renewal lays
 
@@ -153,8 +153,8 @@ private:
     // from the case and the hull
     bool is_strip_ = false;
     std::size_t first_ = 0;  // body of slots_[0]; 0: there is no sheet
-    double thickness_ = 0.0, gap_ = 0.0, length_ = 0.0, radius_ = 0.0;
-    double density_ = 0.0, share_ = 0.0;
+    double thickness_ = 0.0, gap_ = 0.0, length_ = 0.0, radius_ = 0.0;  // [m]
+    double density_ = 0.0, share_ = 0.0;                                // [kg/m3]; below water [-]
     Vec2 drift_ = Vec2::Zero();
     Eigen::AlignedBox2d extent_;
     CrackLaw law_;

@@ -59,13 +59,14 @@ private:
     // One of these with its sign and the gap along it.
     struct DirectedEdgeAxis {
         const EdgeAxis* axis;
-        double sign, gap;
+        double sign, gap;  // 1 or -1, so that sign normal is from a to b; [m]
     };
     static inline const Gap kNone{Vec3::UnitZ(), 0.0, 0.0, true, false};
 
     void list_faces();
     void list_edge_axes();
     void add_edge_axis(int edge_a, int edge_b);
+    // measure() by its rule: along the only face axis; along all axes; by measure_gap_surface().
     Gap measure_face_axis(const Vec3& center_a, const Vec3& center_b) const;
     Gap measure_all_axes(const Vec3& center_a, const Vec3& center_b) const;
     Gap measure_in_full(const Vec3& center_a, const Vec3& center_b) const;

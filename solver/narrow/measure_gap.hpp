@@ -33,7 +33,7 @@ struct Gap {
     bool crossing = false;  ///< two edges meet across each other, neither on the other's face
     std::int8_t edge_a = -1, edge_b = -1;  ///< which of the spheres' NormalCone::edge these are
     /// Of two edges reference_offset_sq is measured along the reference edge and this along the
-    /// incident one, each from its sphere's apex: a sphere represents its edge half way to the
+    /// incident one [m2], each from its sphere's apex: a sphere represents its edge half way to the
     /// next.
     double incident_offset_sq = 0.0;
 };

@@ -77,14 +77,16 @@ private:
         double clearance = 0.0;  // relative motion before they can touch [m]
         Skin skin{-1.0, -1.0};
         // Sums of both bodies' paths and rotations up to which their poses need not be compared:
-        // the relative motion is at most that sum. Until the pair may touch; until it is stale.
+        // the relative motion is at most that sum. Until the pair may touch [m]; until it is stale
+        // [m], [rad].
         double path_wake = 0.0, path_stale = 0.0, rotation_stale = 0.0;
         double room = 0.0;     // motion before seats can lie deep, when last compared [m]
         std::size_t axis = 0;  // of separation(), when last compared
         SeparatingAxes axes;   // instead of it where the solids meet in a polygon
         std::size_t first = 0, count = 0;  // of listed_
         bool deep = false;
-        // pose of b when its seats were last searched, and the motion allowed since then
+        // pose of b when its seats were last searched, and the motion allowed since then [m];
+        // negative: they must be searched in any case
         Mat3 seat_turn = Mat3::Zero();
         Vec3 seat_shift = Vec3::Zero();
         double seat_room = -1.0;

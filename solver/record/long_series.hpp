@@ -37,6 +37,7 @@ public:
     /// Values in a block: a power of two.
     std::size_t block_length() const { return static_cast<std::size_t>(length_); }
 
+    /// 0 for no values.
     double sum() const { return sum_; }
     /// NaN for no values.
     double mean() const { return sum_ / static_cast<double>(count_); }

@@ -26,7 +26,7 @@ public:
     bool empty() const { return largest_ == 0.0; }
     /// Of all forces added [N]; 0 for none.
     double sum() const { return sum_; }
-    double largest() const { return largest_; }
+    double largest() const { return largest_; }  ///< [N]; 0 for none
     /// The force [N] below which `share` [-] of `windows` windows lie: those added, and zeros.
     /// @pre windows is at least the number of those added
     double quantile(double share, std::int64_t windows) const;
@@ -41,9 +41,9 @@ private:
     };
     void count(double force);
 
-    std::vector<double> forces_;  // until there are classes
-    std::vector<Class> classes_;  // by number
-    double sum_ = 0.0, largest_ = 0.0;
+    std::vector<double> forces_;        // [N], until there are classes
+    std::vector<Class> classes_;        // by number
+    double sum_ = 0.0, largest_ = 0.0;  // [N]
 };
 
 }  // namespace ice

@@ -20,7 +20,7 @@ struct Momenta {
     ShipAngles ship_angles = ShipAngles::Zero();  ///< roll, pitch, yaw [rad]
 };
 
-/// How far a step was from balance, as a share of the magnitudes that should cancel.
+/// How far a step was from balance, as a share of the magnitudes that should cancel [-].
 struct Imbalance {
     double linear = 0.0;    ///< of the worst floe: change of P against loads and contact impulses
     double angular = 0.0;   ///< of the worst floe: change of L likewise
