@@ -40,7 +40,7 @@ ice::FormulaOptions formula_options(const Options& o) {
     return out;
 }
 
-// a sweep whose runs have the formulas that the options ask for
+// a sweep whose runs have the formulas with the options' coefficients and strength
 ice::sweep::Sweep read_evaluated(const Options& o) {
     const auto formulas = formula_options(o);
     auto runs = ice::sweep::read_sweep(o.run);
@@ -67,6 +67,7 @@ int view(const Options& o) {
     ice::write_picture(o.out,
                        ice::report::draw_view(run.data, *ice::views::parse_view(o.from), o.time));
     const double first = run.data.frames.front().time, last = run.data.frames.back().time;
+    // A warning, not an error: the picture is useful, but of another time than the user thinks.
     if (o.time < first || o.time > last)
         ice::say_warning(fmt::format(
             "the run has frames from {:g} to {:g} s, none at {:g} s: the nearest was drawn", first,
@@ -109,7 +110,7 @@ void write_sweep_curves(const Options& o, const ice::sweep::Sweep& runs) {
         ice::say(fmt::format("wrote {}", file.string()));
         drawn = true;
     }
-    // A curve was asked for by name, so its absence is an error; the page says it in a sentence.
+    // The user named the curve's file, so its absence is an error; the page says it in a sentence.
     if (!drawn)
         throw ice::bad_input(o.run.string(), "has no curve to draw: " + o.svg.string(),
                              "leave out --svg, or let one or two numbers vary");
@@ -208,6 +209,7 @@ int check(const Options& o) {
 
 }  // namespace
 
+// Errors become exit codes and messages in run_command_line(), the same for all programs.
 int main(int argc, char** argv) {
     Options o;
     CLI::App app("Reports, pictures and checks of icesolve's run folders.", "icepost");

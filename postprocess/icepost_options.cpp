@@ -31,6 +31,8 @@ void add_formula_options(CLI::App& sub, PostOptions& o) {
 }
 
 void declare_runs(CLI::App& app, PostOptions& o, PostCommands& c) {
+    // All commands share one set of options: only one of them runs, and names mean the same in
+    // each.
     c.report = add_command(app, o, "report", "write RUN/report.html, one file that opens anywhere");
     c.report->add_option("-o,--out", o.out, "another file");
     c.report
@@ -55,6 +57,7 @@ void declare_runs(CLI::App& app, PostOptions& o, PostCommands& c) {
 }
 
 void declare_sweeps(CLI::App& app, PostOptions& o, PostCommands& c) {
+    // Folders of many runs; output goes beside the runs unless -o says otherwise.
     c.sweep =
         add_folder_command(app, o, "sweep", "write DIR/sweep.html, resistance curves of many runs",
                            "folder of run folders");

@@ -15,12 +15,14 @@ namespace ice {
 
 /// The values given; RUN and DIR share `run`.
 struct PostOptions {
+    /// Files and folders as given; empty: not given.
     std::filesystem::path run, out, expected, junit, svg, coefficients, thrust, csv_file;
+    /// Each `every`th frame goes to ParaView; frames of the report's playback at most. Counts.
     std::size_t every = 1, frames = report::kReportFrames;
-    double time = 0.0;
-    double flexural_strength = std::numeric_limits<double>::quiet_NaN();  ///< [Pa]
-    std::string from = "below", name;
-    std::vector<std::string> runs;
+    double time = 0.0;                                                    ///< of the view [s]
+    double flexural_strength = std::numeric_limits<double>::quiet_NaN();  ///< [Pa]; NaN: the case's
+    std::string from = "below", name;  ///< view (parse_view()); the ship's name of a fit
+    std::vector<std::string> runs;     ///< folders to compare
     bool points_only = false, csv = false, markdown = false;
     MessageOptions messages;
 };

@@ -49,6 +49,7 @@ void declare(CLI::App& app, Options& o) {
 
 void check_outputs(const Options& o, const ice::FieldSpec& spec, const std::string& out) {
     ice::OutputFiles files;
+    // No output may replace an input or another output: the name is refused, not the file lost.
     files.protect(o.spec, "the specification");
     if (!spec.file.empty()) files.protect(spec.file, "the polygons");
     files.add("--output", out);

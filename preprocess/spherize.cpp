@@ -34,7 +34,9 @@
 
 namespace {
 
-constexpr double kIceDensity = 900.0;  // [kg/m3]
+// Density of ice [kg/m3] in exports without --density; fresh to sea ice has 850 to 920. It scales
+// mass and inertia there; the sphere set has unit density.
+constexpr double kIceDensity = 900.0;
 
 struct Options {
     std::string mesh, out, arrangement = "conforming", mode = "fill", slice, units, mirror, json;
@@ -137,7 +139,7 @@ ice::TriangleMesh read_solid(const Options& o, ice::TriangleMesh surface,
     options.mode = o.repair == "strict" ? ice::RepairMode::strict
                    : o.repair == "wrap" ? ice::RepairMode::wrap
                                         : ice::RepairMode::automatic;
-    // Repairs are measured against the radius: what is finer than a sphere changes no contact.
+    // Repairs are measured against the radius: details finer than a sphere change no contact.
     options.radius = o.fill.radius;
     options.suspect = ice::looks_cut_off(o.mesh);
     if (!options.suspect.empty()) report.warnings.push_back(options.suspect);
@@ -148,7 +150,7 @@ ice::TriangleMesh read_solid(const Options& o, ice::TriangleMesh surface,
     try {
         mesh =
             ice::make_solid(std::move(surface), o.mesh, options, report.repairs, &report.warnings);
-    } catch (const ice::Error&) {  // what reading noticed may be the reason
+    } catch (const ice::Error&) {  // a warning of the reader may name the reason
         warn_half_hull(half, report);
         for (const std::string& warning : report.warnings) ice::say_warning(warning);
         throw;
@@ -161,8 +163,8 @@ ice::TriangleMesh read_solid(const Options& o, ice::TriangleMesh surface,
     return mesh;
 }
 
-// --check: what the mesh is and what would be done to it, no spheres. What would be refused is
-// still described, on stdout and in the JSON, before the refusal.
+// --check: describes the mesh and its repairs, without spheres. A mesh that is refused is described
+// first, on stdout and in the JSON.
 int report_check(const Options& o, ice::SpheresReport& report) {
     const ice::TriangleMesh surface = read_surface(o, report);
     ice::write_data(fmt::format("{}:\n{}", o.mesh, ice::describe_mesh(surface)));
@@ -229,7 +231,8 @@ ice::SphereSet fill_solid(const Options& o, const ice::TriangleMesh& mesh,
 
 // A line on stderr every few seconds while a step takes long.
 void tell_progress(ice::FillOptions& fill) {
-    constexpr double kEvery = 3.0;  // [s]
+    // [s] between two lines: short runs print none, long ones do not fill a log
+    constexpr double kEvery = 3.0;
     fill.progress = [timer = ice::Timer(), next = kEvery](const std::string& step,
                                                           double share) mutable {
         if (timer.seconds() < next) return;

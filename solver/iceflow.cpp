@@ -23,6 +23,7 @@
 
 namespace {
 
+// Command line of iceflow: lengths [m], density [kg/m3]; 0 and empty mean "not given".
 struct Options {
     std::string hull, out, json, simd = "auto";
     std::vector<std::string> exports, left_out;
@@ -39,6 +40,7 @@ void declare(CLI::App& app, Options& o) {
     const auto length = [](const char* example) {
         return ice::positive_quantity(ice::Dimension::length, example);
     };
+    // lengths with or without a unit, as in case files: 1.44, "144 cm"
     ice::declare_version(app);
     app.add_option("hull", o.hull, "Sphere set of the hull, made by spherize");
     app.add_option("-o,--output", o.out, "Flow file (default <hull stem>.flow.h5)");
@@ -59,6 +61,7 @@ void declare(CLI::App& app, Options& o) {
                    "Region of the hull to leave out, a thin plate such as a rudder (repeatable)")
         ->type_name("REGION")
         ->allow_extra_args(false);
+    // what is computed, then what is written, then how
     app.add_flag("--check", o.check,
                  "Solve the flow and report the panels' residual; write no flow file");
     app.add_flag("--added-mass", o.added_mass,
@@ -91,6 +94,7 @@ std::filesystem::path output_of(const Options& o) {
     return stem.string() + ".flow.h5";
 }
 
+// Beside the flow file, with its name.
 std::filesystem::path export_of(const std::filesystem::path& out) {
     return std::filesystem::path(out).replace_extension(".vti");
 }
@@ -102,6 +106,7 @@ double water_of(const Options& o, const ice::SphereSet& hull) {
         low = std::min(low, v.z());
         high = std::max(high, v.z());
     }
+    // without a draught the mesh's own z = 0, where designers mostly have the waterline
     const double water = o.draught ? low + *o.draught : 0.0;
     if (water <= low || water >= high)
         throw ice::bad_input(
@@ -113,6 +118,7 @@ double water_of(const Options& o, const ice::SphereSet& hull) {
     return water;
 }
 
+// The measures of a flow as JSON and text have them, so that both state the same numbers.
 ice::FlowReport report_of(const ice::HullFlow& flow, int dimension) {
     ice::FlowReport r;
     r.dimension = dimension;
@@ -159,6 +165,7 @@ void add_added_mass(const Options& o, const ice::SphereSet& hull, double water,
             (*r.added_mass)[i][j] = mass.matrix(static_cast<int>(i), static_cast<int>(j));
 }
 
+// Shares and radii instead of the matrix, whose numbers say little to the eye; JSON has all of it.
 std::string added_mass_text(const ice::FlowReport& r) {
     if (!r.added_mass) return "";
     const auto& a = *r.added_mass;
@@ -194,6 +201,7 @@ std::string report_text(const ice::FlowReport& r, const std::string& name) {
 int run_iceflow(const Options& o, const std::string& command_line) {
     if (o.hull.empty())
         throw ice::bad_input("iceflow", "no hull given", "iceflow HULL.spheres.h5 -o HULL.flow.h5");
+    // neither changes a bit of the table
     ice::set_thread_count(o.threads);
     ice::start_threads();
     ice::set_instruction_set(o.simd);

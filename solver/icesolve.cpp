@@ -44,7 +44,9 @@ std::string command_to_go_on(const ice::Options& o, const std::filesystem::path&
     return line + " --restart " + ice::shell_word((folder / ice::kCheckpointName).string());
 }
 
-// `said`: warnings that the user has seen at the start
+// The result, shortest first: the mean with its interval, then how it came about. A run that the
+// disk stopped ends with an error although its files are whole: scripts must not take it for done.
+// @param said  warnings that the user has seen at the start
 int report(const ice::Summary& s, const ice::Options& o, const std::string& folder,
            const std::vector<ice::Warning>& said) {
     if (o.json) ice::write_data(ice::summary_text(s));
@@ -84,6 +86,7 @@ void write_report(const std::filesystem::path& folder) {
                                      ice::shell_word(folder.string())));
 }
 
+// --out wins; a resumed run continues in the folder of its checkpoint.
 std::filesystem::path folder_of_run(const ice::Options& o) {
     if (!o.out.empty()) return o.out;
     if (!o.restart.empty()) {
@@ -143,6 +146,8 @@ int describe(const ice::Options& o, ice::World& world, const std::vector<ice::Wa
     return 0;
 }
 
+// Everything that can be wrong with a case is found before the run folder is claimed, so that a
+// slip in a key neither leaves an empty folder nor removes an older run.
 int run_case(const ice::Options& o, const std::string& command_line) {
     ice::set_thread_count(o.threads);
     ice::start_threads();
@@ -222,6 +227,7 @@ std::string command_of_seeds(const ice::Options& o, const std::filesystem::path&
     return line;
 }
 
+// An ensemble: each member is a program of its own, so that one that fails takes none with it.
 int run_seeds(const ice::Options& o, const std::string& command_line) {
     const auto folder = folder_of_run(o);
     if (o.overwrite) {  // a case that cannot start removes nothing

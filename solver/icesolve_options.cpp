@@ -62,6 +62,8 @@ void declare_messages(CLI::App& app, Options& o) {
 }  // namespace
 
 void declare_options(CLI::App& app, Options& o) {
+    // What runs and where, how, checkpoints, ensembles, looks before a run: the order of --help.
+    // Options that exclude each other say so here, so that the error names both.
     declare_version(app);
     app.add_option("case", o.case_file, "Case file (TOML)");
     app.add_option("--out", o.out,
@@ -80,6 +82,7 @@ void declare_options(CLI::App& app, Options& o) {
                    "Write checkpoint.h5 in the run folder every T simulated seconds and at the end")
         ->type_name("T")
         ->transform(positive_quantity(Dimension::time, "2.5"));
+    // by wall time: a kill then loses minutes of work, whatever a simulated second takes
     app.add_option(
            "--autosave", o.autosave,
            "Write checkpoint.h5 every T of computing time (default 5 min) and delete it when "

@@ -5,6 +5,7 @@ namespace ice {
 
 namespace {
 
+// The remedy has a line of its own, indented: in a terminal the fault and the cure stay apart.
 std::string join(const std::string& where, const std::string& what_happened,
                  const std::string& remedy) {
     std::string text = where.empty() ? what_happened : where + ": " + what_happened;

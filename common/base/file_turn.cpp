@@ -11,6 +11,8 @@ namespace ice {
 
 namespace {
 
+// Between two attempts to take the lock. Short beside the write of a chunk, so that a reader loses
+// little time; a shorter pause would only ask the system more often.
 constexpr auto kPause = std::chrono::milliseconds(1);
 
 }  // namespace
@@ -21,10 +23,12 @@ FileTurn::FileTurn(const std::filesystem::path& file, Kind kind, std::chrono::se
     struct flock whole = {};
     whole.l_type = kind == Kind::read ? F_RDLCK : F_WRLCK;
     whole.l_whence = SEEK_SET;
+    // Asked again and again, not F_OFD_SETLKW: a wait within the system has no time limit.
     const auto end = std::chrono::steady_clock::now() + longest_wait;
     // locks of the open file, not of the process: two threads of one program exclude each
     // other, too
     while (::fcntl(file_, F_OFD_SETLK, &whole) != 0) {
+        // All other faults mean a file system without locks: the file is used without one.
         const bool is_taken = errno == EAGAIN || errno == EACCES;
         if (!is_taken || std::chrono::steady_clock::now() > end) return;
         std::this_thread::sleep_for(kPause);

@@ -15,7 +15,11 @@ namespace ice {
 /// a run of days. Files that are missing and file systems without locks are served without one.
 class FileTurn {
 public:
+    /// Readers share the file, a writer has it alone.
     enum class Kind { read, write };
+    /// Waits for the turn and holds it until the destructor. Throws nothing: without a turn the
+    /// file is used all the same.
+    /// @param longest_wait  [s]; 0: one attempt
     FileTurn(const std::filesystem::path& file, Kind kind,
              std::chrono::seconds longest_wait = std::chrono::seconds(10));
     ~FileTurn();

@@ -11,7 +11,8 @@ namespace ice {
 /// @throws Error (exit code 2) where the machine lacks it, naming the best it has
 void set_instruction_set(std::string_view name);
 
-/// The one in use: one of the four names above.
+/// The one in use: one of the four names above. The first call chooses the best unless
+/// set_instruction_set() did.
 std::string_view instruction_set();
 
 }  // namespace ice

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which of Highway's targets the kernels run on: the best that the machine has, or the one asked
-// for.
+// Which of Highway's targets the kernels run on: the best that the machine has, or the one named.
 #include <hwy/targets.h>
 
 #include <array>
@@ -23,6 +22,8 @@ struct Target {
 constexpr std::array<Target, 4> kTargets{
     {{"avx512", HWY_AVX3}, {"avx2", HWY_AVX2}, {"sse4", HWY_SSE4}, {"scalar", HWY_SCALAR}}};
 
+// Targets for one number at a time. Every machine has them, and Highway reports them only in builds
+// that contain nothing else.
 constexpr std::int64_t kScalarBits = HWY_SCALAR | HWY_EMU128;
 
 // Highway's SupportedTargets() also makes the best of them the chosen one: whoever asks must choose

@@ -9,7 +9,8 @@
 
 namespace ice {
 
-/// Value of a table of (x, y) at x: linear between rows, constant outside.
+/// Value of a table of (x, y) at x, in the unit of y: linear between rows, constant outside. The
+/// unit of x is the table's. Rows with equal x are a step, whose first value counts at x itself.
 /// @pre the table is not empty and its x rise
 inline double interpolate(const std::vector<std::pair<double, double>>& table, double x) {
     ICE_ASSERT(!table.empty() && std::is_sorted(table.begin(), table.end()));

@@ -11,6 +11,7 @@ namespace ice {
 
 LeastSquares solve_least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& b) {
     LeastSquares out;
+    // QR, not the normal equations, which square the condition number of the columns.
     out.x = a.colPivHouseholderQr().solve(b);
     out.chi2 = (a * out.x - b).squaredNorm();
     return out;
@@ -22,6 +23,8 @@ FitSpread spread_of_fit(const Eigen::MatrixXd& a, double chi2, bool weighted) {
     const double scatter = degrees > 0.0 ? chi2 / degrees : 0.0;
     // Weights are believed where the fit is as good as they say, and widened where it is worse.
     const double scale = weighted ? std::max(1.0, scatter) : scatter;
+    // Covariance (a^T a)^-1 times the variance of a point. With known deviations the points follow
+    // the normal distribution; with a variance from the misses they follow Student's.
     return {(a.transpose() * a).ldlt().solve(Eigen::MatrixXd::Identity(n, n)) * scale,
             weighted        ? kNormalHalfWidth
             : degrees > 0.0 ? student_quantile(degrees, 0.05)

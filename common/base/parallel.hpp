@@ -11,13 +11,14 @@
 
 namespace ice {
 
-/// Threads used by parallel_for from now on; 0 leaves OpenMP's own choice. They stay the same ones:
-/// a thread's results in one region are read in the next.
+/// Number of threads used by parallel_for from now on; 0 leaves OpenMP's own choice. They stay the
+/// same ones: a thread's results in one region are read in the next.
 inline void set_thread_count(int threads) {
     omp_set_dynamic(0);
     if (threads > 0) omp_set_num_threads(threads);
 }
 
+/// Threads of the next parallel region, at least 1.
 inline int thread_count() { return omp_get_max_threads(); }
 
 /// Takes exceptions out of a parallel region, which none may leave by itself: of those thrown the
@@ -50,7 +51,7 @@ private:
 /// body(k) may write only the data of k: then the result has the same bits for any thread
 /// count. Below `serial_below` items it runs on the calling thread, because waking threads costs
 /// more than the work (about 5 us).
-/// @throws what body throws, of several items what the first of them throws; others may have run
+/// @throws the exception of body, of several items that of the first of them; others may have run
 template <class Body>
 void parallel_for(std::size_t count, std::size_t serial_below, const Body& body) {
     if (count < serial_below || omp_get_max_threads() == 1) {

@@ -19,9 +19,10 @@ namespace ice {
 bool bring_to_disk(const std::filesystem::path& path) {
     const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
     if (file < 0) return false;
-    // Some file systems know no fsync (EINVAL): what they take is as safe as it gets.
+    // Some file systems have no fsync (EINVAL). Nothing more can be done for a file there, so that
+    // this is no failure.
     const bool good = ::fsync(file) == 0 || errno == EINVAL;
-    // close() may change it.
+    // close() may change errno.
     const int reason = errno;
     ::close(file);
     errno = reason;
@@ -29,7 +30,7 @@ bool bring_to_disk(const std::filesystem::path& path) {
 }
 
 void keep_file(const std::filesystem::path& part, const std::filesystem::path& final_path) {
-    // content first, then the name: a name never stands for half a file
+    // content first, then the name: the final name belongs to a whole file at every moment
     if (!bring_to_disk(part))
         throw run_failed(final_path.string(),
                          std::string("cannot be brought to the disk: ") + std::strerror(errno),
@@ -51,6 +52,8 @@ struct Slot {
     std::atomic<int> state{0};  // 0 free, 1 being named, 2 in use
     char path[PATH_MAX] = "";
 };
+// Files that are written at the same time: a program has three or four. Beyond 16 a file is still
+// written, but an abrupt end leaves its part.
 std::array<Slot, 16> slots;
 
 int take_slot(const std::string& path) {
@@ -59,6 +62,7 @@ int take_slot(const std::string& path) {
         int free = 0;
         if (!slots[k].state.compare_exchange_strong(free, 1)) continue;
         std::memcpy(slots[k].path, path.c_str(), path.size() + 1);
+        // last: a handler that interrupts the copy sees state 1 and leaves the name alone
         slots[k].state = 2;
         return static_cast<int>(k);
     }
@@ -96,6 +100,7 @@ PartFile::~PartFile() {
 void PartFile::keep() {
     keep_file(part_, final_);
     kept_ = true;
+    // the name is free for others
     give_slot(slot_);
     slot_ = -1;
 }

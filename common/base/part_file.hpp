@@ -6,13 +6,13 @@
 
 namespace ice {
 
-/// Asks the system to bring a file's content, or a folder's names, to the disk now (fsync), so that
+/// Brings a file's content, or a folder's names, to the disk now (fsync), so that
 /// a power cut cannot take them away. Some file systems cannot, which is no failure.
 /// @return false with errno when it fails
 bool bring_to_disk(const std::filesystem::path& path);
 
 /// Gives a finished file its final name so that neither a kill nor a power cut leaves less than the
-/// whole file under that name: what `part` holds is brought to the disk before the rename
+/// whole file under that name: the content of `part` is brought to the disk before the rename
 /// (fsync), the rename after it.
 /// @throws Error (exit code 1) naming `final_path` when one of them fails; `part` stays
 void keep_file(const std::filesystem::path& part, const std::filesystem::path& final_path);
@@ -23,13 +23,15 @@ void keep_file(const std::filesystem::path& part, const std::filesystem::path& f
 /// program leaves nothing half-written.
 class PartFile {
 public:
+    /// Makes no file; the caller opens path(). @throws Error (exit code 1) where the final name is
+    /// that of something else than a file
     explicit PartFile(std::filesystem::path final_path);
     ~PartFile();
     PartFile(const PartFile&) = delete;
     PartFile& operator=(const PartFile&) = delete;
 
     const std::filesystem::path& path() const { return part_; }
-    /// keep_file(). @throws Error (exit code 1)
+    /// keep_file(), once, after the caller has closed the file. @throws Error (exit code 1)
     void keep();
 
 private:

@@ -94,6 +94,7 @@ private:
 void limit(int resource, rlim_t soft, rlim_t hard) {
     rlimit both{};
     getrlimit(static_cast<__rlimit_resource>(resource), &both);
+    // Never above the limits in force: only root may raise a hard one.
     both.rlim_max = std::min(both.rlim_max, hard);
     both.rlim_cur = std::min(both.rlim_max, soft);
     setrlimit(static_cast<__rlimit_resource>(resource), &both);
@@ -109,13 +110,15 @@ std::uint64_t address_space() {
 #endif
 
 void keep_within(const ReadBounds& bounds) {
-    // the soft limit's signal (SIGXCPU) says that time was the reason; the hard one ends what
-    // ignores it
+    // the soft limit's signal (SIGXCPU) says that time was the reason; the hard one ends a process
+    // that ignores it
     const auto seconds = static_cast<rlim_t>(std::ceil(bounds.seconds));
     limit(RLIMIT_CPU, seconds, seconds + 1);
+    // A core file per damaged mesh would fill the disk of a batch job.
     limit(RLIMIT_CORE, 0, 0);
     limit(RLIMIT_FSIZE, 0, 0);
 #ifndef ICE_SANITIZED
+    // Beyond the memory in use: the child begins with a copy of all its parent's addresses.
     if (const std::uint64_t used = address_space(); used > 0)
         limit(RLIMIT_AS, used + bounds.bytes, used + bounds.bytes);
 #endif
@@ -123,13 +126,16 @@ void keep_within(const ReadBounds& bounds) {
 
 [[noreturn]] void do_in_child(const ReadBounds& bounds, const std::function<std::string()>& read,
                               const Pipe& messages) {
+    // The parent's handlers print a message and remove its files; the child must end without
+    // either.
     for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGXCPU, SIGINT, SIGTERM})
         std::signal(signal, SIG_DFL);
 #if !defined(ICE_SANITIZED) || defined(ICE_FUZZ)
+    // libraries print their own complaints, for which the user has no use
     if (const int nowhere = open("/dev/null", O_WRONLY); nowhere >= 0) dup2(nowhere, 2);
 #endif
     keep_within(bounds);
-    std::set_new_handler([] { _exit(kOutOfMemory); });  // libraries catch what new throws
+    std::set_new_handler([] { _exit(kOutOfMemory); });  // libraries catch bad_alloc themselves
     try {
         messages.write(read());
     } catch (const Error& error) {
@@ -145,6 +151,8 @@ void keep_within(const ReadBounds& bounds) {
 }
 
 std::string what_happened(int status, const ReadBounds& bounds) {
+    // The cause is told by the way the child ended: its own exit code, a limit's signal, another
+    // one.
     std::string memory =
         fmt::format("takes more than {:.0f} MB of memory to read", 1e-6 * double(bounds.bytes));
     if (WIFEXITED(status) && WEXITSTATUS(status) == kOutOfMemory) return memory;
@@ -179,6 +187,7 @@ std::string read_in_child(const std::filesystem::path& file, const ReadBounds& b
             std::string("cannot be read: no process for it (") + std::strerror(errno) + ")",
             "end other programs, or raise the limits (ulimit -u, -n)");
     messages.close_end(1);
+    // before waitpid: a child with more bytes than the pipe holds would wait for its reader
     std::string message = messages.read(bounds.bytes);
     // a child that has more to say than its bounds allow meets a closed pipe
     messages.close_end(0);
@@ -188,6 +197,7 @@ std::string read_in_child(const std::filesystem::path& file, const ReadBounds& b
     const int code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     if (code == kSurvived) return message;
     if (code == kFault) throw std::runtime_error(message);
+    // the Error of the child, thrown again as if it were the caller's
     if (code == kRefused && !message.empty())
         throw Error(static_cast<ExitCode>(message[0]), "", message.substr(1), "");
     throw bad_input(file.string(), what_happened(status, bounds),

@@ -11,8 +11,8 @@ namespace ice {
 
 /// Limits of memory and time for reading a file; far more than any sound file needs.
 struct ReadBounds {
-    double seconds = 10.0;                         ///< of processor time
-    std::uint64_t bytes = std::uint64_t{1} << 30;  ///< of memory, beyond what is in use already
+    double seconds = 10.0;                         ///< of processor time [s]
+    std::uint64_t bytes = std::uint64_t{1} << 30;  ///< of memory beyond that in use [bytes]
 
     /// 10 s and 5 s per MB; 1 GiB and 64 bytes per byte.
     /// @param size  of the file, unpacked [bytes]

@@ -11,11 +11,13 @@ namespace ice {
 /// FNV-1a over 64-bit words with a final mix; -0.0 and 0.0 differ on purpose.
 class StateHash {
 public:
+    /// The order of calls is part of the hash.
     void add(double value) { add(std::bit_cast<std::uint64_t>(value)); }
     void add(std::uint64_t word) {
         value_ = (value_ ^ word) * 0x100000001b3ull;
         value_ ^= value_ >> 32;
     }
+    /// Of all words so far; the offset basis of FNV without any.
     std::uint64_t value() const { return value_; }
 
 private:

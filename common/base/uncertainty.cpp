@@ -10,6 +10,8 @@ namespace ice {
 
 double student_quantile(double degrees, double chance) {
     ICE_ASSERT(degrees > 0.0 && chance > 0.0 && chance < 1.0);
+    // Both sides together: half the chance lies beyond each end. The complement keeps the digits of
+    // small chances, which 1 - chance would lose.
     return boost::math::quantile(
         boost::math::complement(boost::math::students_t(degrees), 0.5 * chance));
 }

@@ -61,6 +61,7 @@ std::string_view trim(std::string_view text) {
 
 std::optional<Quantity> parse_quantity(std::string_view text, Dimension dimension) {
     text = trim(text);
+    // std::from_chars, not strtod: it takes a decimal point in every locale.
     // from_chars knows no leading plus
     if (text.starts_with('+')) text.remove_prefix(1);
     double number = 0.0;
@@ -70,6 +71,7 @@ std::optional<Quantity> parse_quantity(std::string_view text, Dimension dimensio
     if (name.empty()) return Quantity{number, false};
     for (const Unit& unit : kUnits)
         if (unit.dimension == dimension && unit.name == name)
+            // a unit's name alone is no key: "m" is a length, "min" a time
             return Quantity{number * unit.factor, true};
     return std::nullopt;
 }

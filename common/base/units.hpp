@@ -11,7 +11,7 @@ namespace ice {
 
 inline constexpr double kKnot = 1852.0 / 3600.0;                       ///< [m/s]
 inline constexpr double kDegree = std::numbers::pi / 180.0;            ///< [rad]
-inline constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;  ///< rounded by itself
+inline constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;  ///< [deg/rad], by itself
 
 /// Dimension of a number. `none` is dimensionless and takes no unit, `share` is a part of a whole
 /// and may be given in per cent.
@@ -31,6 +31,7 @@ enum class Dimension {
     power
 };
 
+/// A number with its unit taken into account.
 struct Quantity {
     double value;   ///< in SI
     bool has_unit;  ///< false when the text was a bare number, taken as SI
@@ -39,8 +40,8 @@ struct Quantity {
 /// Reads a number with an optional unit of that dimension, e.g. parse_quantity("80 mm", length).
 ///
 /// "inf" and "nan" are read as such; the caller decides whether they are allowed.
-/// @return nothing when the text is no number, has text after the unit, or a unit of another
-///         dimension
+/// @return the value in SI; nothing when the text is no number, has text after the unit, or a unit
+///         of another dimension
 std::optional<Quantity> parse_quantity(std::string_view text, Dimension dimension);
 
 /// Units accepted for a dimension, for messages: "m, km, cm, mm, ft, in"; "" for none.

@@ -20,6 +20,8 @@ void declare_version(CLI::App& app) {
 }
 
 void keep_pages() {
+    // 1 GiB: larger than any array of a usual run. Below the threshold free memory stays with the
+    // program, so that its peak use does not fall; above it the kernel clears each page again.
     mallopt(M_MMAP_THRESHOLD, 1 << 30);
     mallopt(M_TRIM_THRESHOLD, 1 << 30);
 }
@@ -58,6 +60,8 @@ std::string join_words(const std::vector<std::string>& words) {
 
 // CLI11's complaint in the form of the project's other errors: the fault, then the remedy
 Error usage_error(const CLI::App& app, const CLI::ParseError& error) {
+    // In this order: a wrong command hides all else, a word that nobody took hides its value, and
+    // the remaining complaints of CLI11 are reworded.
     const std::string help = full_name(app) + " --help lists what it takes";
     const std::vector<std::string> left = app.remaining(true);
     const std::vector<std::string> commands = command_names(app);
@@ -103,6 +107,7 @@ int run_command_line(CLI::App& app, int argc, const char* const* argv,
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) return app.exit(error);  // help and version
+        // the options that choose colour and silence were not read
         start_messages(Colour::automatic, false);
         return run_program(app.get_name(), [&]() -> int { throw usage_error(app, error); });
     }

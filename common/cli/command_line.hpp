@@ -24,7 +24,7 @@ void declare_version(CLI::App& app);
 /// each time. To be called first in main.
 void keep_pages();
 
-/// Parses the command line and runs the program's body; what a main function returns.
+/// Parses the command line and runs the program's body. @return the exit code of the program
 ///
 /// A bad command line ends with exit code 2 and the probable correction, --help and --version with
 /// 0, exceptions as run_program() says.

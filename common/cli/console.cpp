@@ -49,9 +49,10 @@ std::atomic<std::int64_t> interrupted_at = 0;  // [ns]
 static_assert(std::atomic<int>::is_always_lock_free);  // as a signal handler needs it
 static_assert(std::atomic<std::int64_t>::is_always_lock_free);
 
-// A terminal and `timeout` signal a whole group of programs, of which one may pass the signal on to
-// the other: what comes within this time is the same interrupt.
-constexpr std::int64_t kOneInterrupt = 500'000'000;  // [ns]
+// A terminal and `timeout` signal a whole group of programs, and one of them may pass the signal on
+// to another: a second signal within this time is the same interrupt. Longer delays the end by a
+// second Ctrl-C, shorter takes an echo for one. Half a second [ns].
+constexpr std::int64_t kOneInterrupt = 500'000'000;
 
 void on_interrupt(int signal) {
     // A handler interrupts code between a failed call and its look at errno.
@@ -60,8 +61,8 @@ void on_interrupt(int signal) {
     clock_gettime(CLOCK_MONOTONIC, &now);
     const std::int64_t time = now.tv_sec * std::int64_t{1'000'000'000} + now.tv_nsec;
     const pid_t child = waited_for;
-    // The first interrupt asks for an end with all files closed; a second one, which is not an echo
-    // of the first, does not wait for it.
+    // The first interrupt ends the program with all files closed; a second one, which is not an
+    // echo of the first, does not wait for it.
     if (interrupt_flag == 0) {
         interrupted_at = time;
         interrupt_flag = 1;
@@ -153,6 +154,9 @@ int run_program(const std::string& name, const std::function<int()>& body,
         return static_cast<int>(error.code());
     } catch (const std::bad_alloc&) {
         out_of_memory();
+        // From here on in the order of their remedies: less memory, another path, a fault of the
+        // program. bad_alloc is not Error, and filesystem_error is a system_error, so it must come
+        // first.
     } catch (const std::length_error&) {  // more elements than any memory could hold
         out_of_memory();
     } catch (const std::filesystem::filesystem_error& error) {
@@ -187,6 +191,8 @@ std::string typed_program() { return shell_word(program_word); }
 void set_typed_program(const std::string& word) { program_word = word; }
 
 std::string shell_word(const std::string& word) {
+    // Single quotes keep everything but a single quote, which leaves them, is escaped and begins
+    // anew.
     const bool plain = word.find_first_of(" '\"$*?[]{}()<>|&;\\") == std::string::npos;
     if (plain && !word.empty()) return word;
     std::string quoted = "'";

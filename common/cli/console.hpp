@@ -38,6 +38,7 @@ int run_program(const std::string& name, const std::function<int()>& body,
 /// From now on Ctrl-C and SIGTERM only set a flag; a second one, half a second later or more, ends
 /// the program at once (130).
 void catch_interrupts();
+/// True from the first caught signal on.
 bool interrupted();
 /// A caught interrupt goes on to this process as well, one that ends the program kills it.
 /// @param program  that this one waits for; 0: none
@@ -47,6 +48,7 @@ void pass_interrupts_to(int program);
 std::string command_line(int argc, const char* const* argv);
 /// The program as the user typed it, for commands to copy; run_command_line() sets it.
 std::string typed_program();
+/// To be called once, before typed_program().
 void set_typed_program(const std::string& word);
 /// A word of a command line, quoted where a shell needs it.
 std::string shell_word(const std::string& word);

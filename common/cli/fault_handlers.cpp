@@ -15,6 +15,7 @@
 
 namespace ice {
 
+// One text for all programs, whole in advance: nothing can be formatted when memory is out.
 const char* const kOutOfMemory =
     "out of memory\n  use a larger radius or spacing, a smaller case or fewer --threads, or give "
     "the program more memory (ulimit -v, the batch system's limit)";
@@ -41,6 +42,7 @@ void write_text(const char* text) {
 
 [[noreturn]] void on_terminate() {
     try {
+        // the exception in flight, if there is one: terminate is also called without
         if (std::current_exception()) std::rethrow_exception(std::current_exception());
     } catch (const std::bad_alloc&) {
         end(kOutOfMemory, ExitCode::failed);

@@ -8,6 +8,7 @@ namespace ice {
 namespace fs = std::filesystem;
 
 void OutputFiles::protect(const fs::path& input, const std::string& what) {
+    // Canonical: "a.h5" and "./a.h5" are one file. Weakly: an output need not exist yet.
     taken_.emplace(fs::weakly_canonical(input), what);
 }
 

@@ -7,7 +7,7 @@
 
 namespace ice {
 
-/// The files that a command line asks for, checked before the work begins.
+/// The output files of a command line, checked before the work begins.
 class OutputFiles {
 public:
     /// A file that no output may replace.

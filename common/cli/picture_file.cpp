@@ -34,6 +34,7 @@ bool is_picture(const std::string& format) {
 
 bool is_on_path(const std::string& program) {
     const char* path = std::getenv("PATH");
+    // Without PATH the shell's usual folders; an empty entry is the working folder, as in POSIX.
     std::istringstream folders(path != nullptr ? path : "/usr/bin:/bin");
     for (std::string folder; std::getline(folders, folder, ':');)
         if (access(((folder.empty() ? "." : folder) + "/" + program).c_str(), X_OK) == 0)
@@ -48,6 +49,7 @@ void check_picture_name(const std::filesystem::path& file) {
     if (!is_picture(format))
         throw bad_input(file.string(), "pictures are written as .svg, .png or .pdf",
                         "give the file one of these suffixes");
+    // Asked before the work: a report of minutes must not fail at its last file.
     if (format != "svg" && !is_on_path(kConverter))
         throw bad_input(
             file.string(),
@@ -62,10 +64,13 @@ void write_picture(const std::filesystem::path& file, const std::string& svg) {
         write_text_file(file, svg);
         return;
     }
+    // Through a file beside the picture: run_child() gives a program no input.
     PartFile part(file);
     const PartFile drawing(file.string() + ".svg");  // never kept: removed at the end
     write_text_file(drawing.path(), svg);
     std::vector<std::string> words{"--format=" + format, "--output=" + part.path().string()};
+    // twice the pixels, for screens of high density and prints; white, as most programs show no
+    // background
     if (format == "png") words.insert(words.end(), {"--zoom=2", "--background-color=white"});
     words.push_back(drawing.path().string());
     if (run_child(kConverter, words) != 0)

@@ -20,8 +20,10 @@ std::string time_left(double fraction, double elapsed) {
     return left < 0.5 ? "" : fmt::format(", {:.0f} s left", left);
 }
 
-// On one line of the terminal: the bar gets what the words leave, the words lose their end.
+// On one line of the terminal: the bar gets the columns beside the words, the words lose their end.
 std::string bar_line(const std::string& label, double fraction, const std::string& words) {
+    // Columns of the bar: at most 30, so that a step of it is about 3 %; below 5 it says nothing,
+    // and the words alone are shown.
     constexpr int kBar = 30, kShortestBar = 5;
     const int width = std::max(terminal_width() - 1, 1);  // in the last column some terminals wrap
     const int taken = static_cast<int>(label.size() + words.size()) + 4;  // blanks and brackets
@@ -49,12 +51,14 @@ void Progress::update(double fraction, const std::string& note) {
     const double now = timer_.seconds();
     const std::string left = time_left(fraction, now);
     if (!terminal_) {
+        // 1e-9: a sum of steps may end just below the tenth
         const int tenth = static_cast<int>(fraction * 10.0 + 1e-9);
         if (tenth == last_tenth_) return;
         last_tenth_ = tenth;
         show(fmt::format("{} {:3d} %{}, {}\n", label_, tenth * 10, left, note));
         return;
     }
+    // ten times a second: a terminal over a network is no slower for it
     if (last_drawn_ >= 0.0 && now - last_drawn_ < 0.1 && fraction < 1.0) return;
     last_drawn_ = now;
     const std::string words = fmt::format("{:3.0f} %{}, {}", 100.0 * fraction, left, note);

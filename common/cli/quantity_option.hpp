@@ -14,6 +14,7 @@ namespace ice {
 /// A bare number is SI. Refused are texts that parse_quantity() does not read, and numbers that are
 /// not finite (or not above 0): CLI11's own checks let NaN pass and answer with 308 digits.
 /// @param example  for the message: "2.5"
+/// @param dimension  whose units are accepted
 CLI::Validator positive_quantity(Dimension dimension, const std::string& example);
 CLI::Validator finite_quantity(Dimension dimension, const std::string& example);
 

@@ -14,6 +14,7 @@
 namespace ice {
 
 std::optional<int> run_child(const std::string& program, const std::vector<std::string>& words) {
+    // posix_spawn, not system(): no shell takes the words apart.
     std::vector<std::string> texts{program};
     texts.insert(texts.end(), words.begin(), words.end());
     std::vector<char*> argv;

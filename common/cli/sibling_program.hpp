@@ -9,7 +9,7 @@ namespace ice {
 
 /// Runs another of the project's programs, the one that lies beside this one's file, and waits.
 ///
-/// The programs know each other by their command lines only: what one of them does for another goes
+/// The programs know each other by their command lines only: the work of one for another goes
 /// the way that its user would go, and a fault in one does not end the other.
 /// @param name e.g. "icepost"; @param words of the command line behind it
 /// @return its exit code, 128 + the signal that ended it; nothing when there is no such program

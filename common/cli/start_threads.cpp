@@ -3,13 +3,13 @@
 //
 // By default GCC's OpenMP lets a thread that waits spin for some hundred thousand turns before it
 // sleeps. A step of the solver has a dozen short parallel loops. Where the cores are not free (a
-// second run, another user) the thread that has work is then kept from its core by those that spin,
+// second run, another user) the thread that has work is then kept from its core by spinning ones,
 // and a run took 3 to 6 times as long as with one thread. Asleep, nobody is kept from anything, and
 // waking costs some microseconds a loop (tests/bench/README.md, threads.py).
 //
 // OpenMP has no function for this: the library reads its environment when it is loaded, before
-// main(). So the program sets the variable and begins anew, once. What the user has set wins, and
-// programs that use the project as a library set it themselves (docs/library.md).
+// main(). So the program sets the variable and begins anew, once. A value that the user has set
+// wins, and programs that use the project as a library set it themselves (docs/library.md).
 #include "common/cli/start_threads.hpp"
 
 #include <unistd.h>
@@ -53,6 +53,8 @@ void begin_anew_with_sleeping_threads() {
 void start_threads() {
     const int others = thread_count() - 1;
     if (others > 0) begin_anew_with_sleeping_threads();
+    // A trial with plain threads, whose failure is an exception: OpenMP would end the program
+    // instead.
     std::vector<std::thread> trial;
     const auto join = [&] {
         for (std::thread& thread : trial) thread.join();

@@ -135,6 +135,8 @@ void CheckpointFile::carry(const std::string& name, std::vector<T>& values) {
         file.write(name, flat.data(), shape);
         return;
     }
+    // A field that is missing is never a default: the run would go on with other numbers than
+    // before.
     if (!file.has(name))
         throw bad_input(parts_->path.string(),
                         fmt::format("has no field {}: it was written by {}", name, created_by()),

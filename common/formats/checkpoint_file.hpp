@@ -36,6 +36,7 @@ public:
     ~CheckpointFile();
     CheckpointFile(CheckpointFile&&) noexcept;
 
+    /// The direction: carry() sets its arguments.
     bool reading() const;
     /// The program that wrote the file, with version and commit.
     const std::string& created_by() const;

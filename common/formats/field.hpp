@@ -26,12 +26,13 @@ struct Field {
     double radius = 0.0, spacing = 0.0;  ///< of the spheres [m]
     std::string mode;                    ///< "fill" or "surface"
     std::array<double, 4> area{};        ///< x, y of the least and the greatest corner [m]
-    double concentration = 0.0;          ///< area of the loose floes over `area`'s
+    double concentration = 0.0;          ///< area of the loose floes over `area`'s [-]
     std::string specification;           ///< the TOML it was made from, verbatim
     std::int64_t seed = 0;
     std::string created_by, command_line;
 
-    std::vector<SphereSet> shapes;  ///< body axes: z = 0 halfway up, origin at the centroid
+    std::vector<SphereSet> shapes;  ///< [K] body axes: z = 0 halfway up, origin at the centroid
+    /// [F] loose floes first, then unbroken ice; as the specification numbers them
     std::vector<FieldFloe> floes;
 };
 

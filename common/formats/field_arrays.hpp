@@ -6,6 +6,7 @@
 
 namespace ice::detail {
 
+/// Name and version of the format: a reader refuses other ones.
 constexpr const char* kFieldFormat = "icesolve-field";
 constexpr std::int64_t kFieldVersion = 1;
 

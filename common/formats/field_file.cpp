@@ -19,6 +19,8 @@ void append(std::vector<T>& all, const std::vector<T>& part) {
 }
 
 void add_shape(const SphereSet& set, FieldArrays& all) {
+    // Radii and regions are left out: all spheres of a field have one radius, all triangles one
+    // region.
     all.spheres.push_back(static_cast<std::int64_t>(set.size()));
     all.surface.push_back(static_cast<std::int64_t>(set.surface_count));
     all.creases.push_back(static_cast<std::int64_t>(set.creases.size()));
@@ -79,6 +81,7 @@ void write_field_arrays(Hdf5File& file, const FieldArrays& all) {
 void write_floes(Hdf5File& file, const std::vector<FieldFloe>& floes) {
     std::vector<std::int32_t> shape;
     std::vector<double> position, orientation;
+    // floes lie in the water's plane: two numbers of a place, but the whole quaternion [F, 4]
     std::vector<std::uint8_t> fixed;
     for (const FieldFloe& floe : floes) {
         shape.push_back(floe.shape);

@@ -12,7 +12,7 @@ namespace ice {
 ///
 /// Attributes of "/": format "icesolve-field", format_version 1, units "SI", radius, spacing, mode,
 /// area [4], concentration, specification, seed, created_by, command_line. F floes and K shapes;
-/// what belongs to shapes stands one shape after the other, N spheres and S surface spheres in all:
+/// arrays of shapes have one shape after the other, N spheres and S surface spheres in all:
 ///
 ///     /floe/shape             i32 [F]     row of /shape/...
 ///     /floe/position          f64 [F,2]   x, y of the centre of mass [m]
@@ -27,7 +27,7 @@ namespace ice {
 ///     /mesh/vertices          f64 [V,3]   body axes [m]
 ///     /mesh/triangles         i32 [T,3]   vertices counted within their shape
 ///
-/// The columns mean what they mean in a sphere set (spheres_file.hpp).
+/// The columns have the meanings of a sphere set's (spheres_file.hpp).
 /// @throws Error (exit code 1) when the file cannot be written; nothing half-written stays behind.
 void write_field(const std::filesystem::path& path, const Field& field);
 

@@ -19,7 +19,9 @@ namespace {
 
 constexpr const char* kRegion = "ice";
 
-// Bytes in memory per byte in the file: 3 where most spheres are inside, without rows of their own
+// Most bytes in memory per byte in the file: 3 are usual where most spheres are inside, without
+// rows of their own. A lower bound refuses sound fields, a higher one lets a damaged file take more
+// memory before it is refused.
 constexpr std::uint64_t kMostTimesField = 16;
 
 // Reads one file, with every complaint naming the file and the dataset.
@@ -60,6 +62,8 @@ private:
         return value;
     }
 
+    // Attributes of the whole field. A version that is not known is refused and not guessed: a
+    // wrong guess would build floes of other sizes.
     void read_header(Field& field) const {
         check(file_.has_attribute("/", "format") &&
                   file_.read_text_attribute("/", "format") == detail::kFieldFormat,
@@ -92,6 +96,8 @@ private:
     // rows of each shape in an array, and their sum
     std::size_t read_counts(const std::string& name, std::int64_t least,
                             std::vector<std::int64_t>& counts) const {
+        // Rows of a shape: indices into them are 32 bits wide. It also keeps the sum from
+        // overflowing.
         constexpr std::int64_t kMost = std::int64_t{1} << 31;
         counts = file_.read<std::int64_t>(name);
         std::int64_t sum = 0;
@@ -103,6 +109,8 @@ private:
     }
 
     void read_all() {
+        // A shape has a sphere, and a solid at least the four vertices and triangles of a
+        // tetrahedron.
         const std::size_t n = read_counts("/shape/spheres", 1, all_.spheres);
         const std::size_t s = read_counts("/shape/surface_spheres", 1, all_.surface);
         const std::size_t c = read_counts("/shape/creases", 0, all_.creases);
@@ -151,6 +159,7 @@ private:
         set.radii.assign(n, field.radius);
         for (std::size_t i = 0; i < set.surface_count; ++i, ++at_.surface) {
             const Vec3 normal = row(all_.normal, at_.surface);
+            // 1e-3: wide for single precision, narrow for a normal that was never normalised
             check(std::abs(normal.norm() - 1.0) < 1e-3, "/surface/normal",
                   "holds a normal that is no unit vector");
             set.normals.push_back(normal.normalized());
@@ -177,6 +186,8 @@ private:
         }
     }
 
+    // Solid and mesh of shape k. The arrays hold all shapes one after the other, so `at_` counts
+    // the rows that are used; corners are checked before anything is indexed with them.
     void take_solid(std::size_t k, SphereSet& set) {
         set.solid.volume = all_.volume[k];
         set.solid.area = all_.area[k];
@@ -215,6 +226,7 @@ private:
             floe.position = {position[2 * i], position[2 * i + 1]};
             const double* q = &orientation[4 * i];
             floe.orientation = Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
+            // 1e-6: stored in double precision, possibly written by another program in single
             check(std::abs(floe.orientation.norm() - 1.0) < 1e-6, "/floe/orientation",
                   "holds a quaternion that is not of unit length");
             floe.fixed = fixed[i] != 0;
@@ -231,7 +243,7 @@ private:
 }  // namespace
 
 Field read_field(const std::filesystem::path& path) {
-    std::error_code missing;  // is what FieldReader complains of
+    std::error_code missing;  // FieldReader complains of it
     const auto size = std::filesystem::file_size(path, missing);
     if (!missing) rehearse(path, ReadBounds::for_size(size), [&] { FieldReader(path).read(); });
     return FieldReader(path).read();

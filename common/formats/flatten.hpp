@@ -7,7 +7,7 @@
 
 namespace ice {
 
-/// Points as rows of an [N,3] array of T.
+/// Points as rows of an [N,3] array of T, in their unit; empty for none.
 template <class T>
 std::vector<T> flatten(const std::vector<Vec3>& points) {
     std::vector<T> flat;

@@ -15,10 +15,15 @@ namespace {
 
 constexpr const char* kFlowFormat = "icesolve-flow";
 constexpr std::int64_t kFlowVersion = 1;
-// Bounds on what a damaged or hostile file may ask for. Flows of some 300 000 nodes are usual.
-constexpr std::uint64_t kMostTimesFlow = 16;  // memory over file size; arrays are not compressed
-constexpr std::uint64_t kMostAlong = 100000;  // nodes along an axis
-constexpr double kSurface = 1e-6;  // of the spacing: how near to z = 0 the topmost nodes lie
+// Bounds on the memory for a damaged or hostile file. Flows of some 300 000 nodes are usual.
+// Most memory over the file's size. Arrays are not compressed, so that 1 would be enough for a
+// sound file; 16 leaves room for files packed by other tools.
+constexpr std::uint64_t kMostTimesFlow = 16;
+// Most nodes along an axis; the product of three of them fits into 64 bits.
+constexpr std::uint64_t kMostAlong = 100000;
+// Largest distance of the topmost nodes from z = 0, as a share of the spacing: rounding of origin
+// and spacing. Larger would pass a table whose surface is elsewhere.
+constexpr double kSurface = 1e-6;
 
 class FlowReader {
 public:
@@ -35,7 +40,7 @@ public:
               "has a format_version this program does not know");
         refuse_changed(path_, file_, "iceflow");
         FlowTable out;
-        // sizes are bounded before anything is read: a damaged file must not ask for all memory
+        // sizes are bounded before anything is read: a damaged file must not take all memory
         const auto shape = file_.shape("/velocity");
         check(shape.size() == 4 && shape[3] == 3, "/velocity", "is not [nz, ny, nx, 3]");
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -129,7 +134,7 @@ void write_flow(const std::filesystem::path& path, const FlowTable& table) {
 }
 
 FlowTable read_flow(const std::filesystem::path& path) {
-    std::error_code missing;  // is what FlowReader complains of
+    std::error_code missing;  // FlowReader complains of it
     const auto size = std::filesystem::file_size(path, missing);
     if (!missing) rehearse(path, ReadBounds::for_size(size), [&] { FlowReader(path).read(); });
     return FlowReader(path).read();

@@ -17,11 +17,11 @@ namespace ice {
 /// Axes are the hull mesh's with z = 0 in the water's surface; the topmost nodes lie there. A
 /// symmetric table has y >= 0 only. A section (2D) has one row of nodes, at y = 0.
 struct FlowTable {
-    std::array<std::int64_t, 3> nodes{0, 0, 0};  ///< nx, ny, nz
+    std::array<std::int64_t, 3> nodes{0, 0, 0};  ///< counts nx, ny, nz
     Vec3 origin = Vec3::Zero();                  ///< of the first node [m]
     double spacing = 0.0;                        ///< between nodes, along all axes [m]
-    std::vector<float> velocity;                 ///< 3 per node, x fastest, then y [1]
-    std::vector<float> potential;                ///< 1 per node, whose gradient it is [m]
+    std::vector<float> velocity;                 ///< [nz,ny,nx,3], over the ship's speed [-]
+    std::vector<float> potential;  ///< [nz,ny,nx], over the speed [m]; velocity is its gradient
 
     bool symmetric = false;        ///< in y
     double draught = 0.0;          ///< from the hull's lowest point to the water [m]
@@ -31,6 +31,7 @@ struct FlowTable {
     std::string source_sha256;     ///< of the hull's mesh file
     std::string created_by, command_line;
 
+    /// Count of nodes.
     std::size_t size() const {
         return static_cast<std::size_t>(nodes[0]) * static_cast<std::size_t>(nodes[1]) *
                static_cast<std::size_t>(nodes[2]);

@@ -100,6 +100,8 @@ template <class T>
 void Hdf5File::write_rows(const std::string& name, const T* rows,
                           const std::vector<std::uint64_t>& shape, std::uint64_t count, T rest) {
     if (count == shape[0]) return write(name, rows, shape);
+    // Rows of a chunk, 256 kB for one double each. Smaller chunks cost an entry each in the file's
+    // index; larger ones store more rows of fill values beside the last row written.
     constexpr hsize_t kRowsPerChunk = 1 << 15;
     // chunks, so that rows that were never written take no room: they read as `rest`
     auto dims = to_hsize(shape), chunk = dims, block = dims;
@@ -161,7 +163,7 @@ std::vector<std::uint64_t> Hdf5File::shape(const std::string& name) const {
 template <class T>
 std::vector<T> Hdf5File::read(const std::string& name) const {
     const std::uint64_t count = product(shape(name));
-    // Before the memory is asked for: a few bytes of a compressed file can claim terabytes.
+    // Before any memory is taken: a few bytes of a compressed file can claim terabytes.
     take_from_limit(name, count, sizeof(T));
     const Handle dataset(open_dataset(name), H5Dclose);
     const Handle type(H5Dget_type(dataset), H5Tclose);
@@ -177,6 +179,8 @@ std::vector<T> Hdf5File::read(const std::string& name) const {
 template <class T>
 std::vector<T> Hdf5File::read_rows(const std::string& name, std::uint64_t first,
                                    std::uint64_t count) const {
+    // Only the rows that are needed come into memory: a long run's histories may not fit.
+    // Their size counts against the file's limit before it is reserved.
     std::vector<hsize_t> block = to_hsize(shape(name)), start(block.size(), 0);
     ICE_ASSERT(first + count <= block.at(0));
     start.at(0) = first;
@@ -200,6 +204,8 @@ std::vector<std::string> Hdf5File::read_strings(const std::string& name) const {
     const Handle dataset(open_dataset(name), H5Dclose);
     const Handle type(H5Dget_type(dataset), H5Tclose);
     const std::size_t width = H5Tget_size(type);
+    // Texts of fixed width alone, as the project's programs write them: their size is known before
+    // memory is taken for them.
     const auto fail = [&] { return bad_input(describe(name), "is not a list of texts", kRemake); };
     if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) > 0 || width == 0 ||
         count > 100000 || width > 10000)
@@ -210,6 +216,7 @@ std::vector<std::string> Hdf5File::read_strings(const std::string& name) const {
     std::vector<std::string> texts(count);
     for (std::size_t k = 0; k < count; ++k) {
         const auto begin = packed.begin() + static_cast<std::ptrdiff_t>(k * width);
+        // a text ends at its first zero, or fills its width
         texts[k].assign(begin, std::find(begin, begin + static_cast<std::ptrdiff_t>(width), '\0'));
     }
     return texts;

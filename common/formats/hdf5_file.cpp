@@ -18,8 +18,8 @@ std::string Hdf5File::describe(const std::string& object) const {
 
 namespace {
 
-// HDF5 tidies up when the program ends, and crashes where the disk was full: it tries to write what
-// it could not write before. All files are closed by then, so that there is nothing to tidy up.
+// HDF5 tidies up when the program ends, and crashes where the disk was full: it tries to write the
+// same data again. All files are closed by then, so that there is nothing to tidy up.
 void leave_no_tidying() {
     static const herr_t done = H5dont_atexit();  // before anything else is asked of the library
     (void)done;
@@ -31,8 +31,9 @@ Hdf5File::Hdf5File(const std::filesystem::path& path, Mode mode) : path_(path) {
     leave_no_tidying();
     detail::require_memory();
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // our messages name the remedy, HDF5's do not
-    H5PLset_loading_state(0);                     // a file may not ask for code to be loaded
+    H5PLset_loading_state(0);                     // no file may load code
     const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+
     H5Pset_libver_bounds(access, H5F_LIBVER_EARLIEST, H5F_LIBVER_V110);
     // without locks a running run can be read, and file systems without locks work
     H5Pset_file_locking(access, false, true);
@@ -138,6 +139,8 @@ std::string Hdf5File::read_text_attribute(const std::string& object,
         H5free_memory(text);
         return result;
     }
+    // [bytes]: the longest text of a sound file is a case or a certificate, some hundred kilobytes.
+    // It bounds the memory that a damaged width takes.
     constexpr std::size_t kLongestText = 16u << 20;
     const std::size_t width = H5Tget_size(type);
     if (width > kLongestText) throw fail();
@@ -157,6 +160,7 @@ std::vector<double> Hdf5File::read_number_attribute(const std::string& object,
         H5Aopen_by_name(id_, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
     const Handle space(H5Aget_space(attribute), H5Sclose);
     const hssize_t count = H5Sget_simple_extent_npoints(space);
+    // the longest attribute has nine numbers; 1000 bounds the memory for a damaged one
     if (count < 1 || count > 1000) throw fail();
     std::vector<double> values(static_cast<std::size_t>(count));
     if (H5Aread(attribute, H5T_NATIVE_DOUBLE, values.data()) < 0) throw fail();
@@ -186,7 +190,8 @@ bool Hdf5File::has(const std::string& name) const {
 }
 
 void Hdf5File::limit_reading(std::uint64_t times) const {
-    // small files may unpack to much more than their size: some room is free
+    // [bytes]: small files may unpack to much more than their size, so 128 MiB are free for each.
+    // Every machine that runs the programs has these; more would let a hostile file take it.
     constexpr std::uint64_t kFree = 128u << 20;
     left_ = kFree + times * std::filesystem::file_size(path_);
 }

@@ -21,6 +21,7 @@ public:
     /// create_growing: for rows that are appended while a program runs, which may be killed; up to
     /// 256 kB larger.
     enum class Mode { read, create, create_growing };
+    /// @throws Error (exit code 2): missing or no HDF5 file; (1): it cannot be created
     Hdf5File(const std::filesystem::path& path, Mode mode);
     ~Hdf5File();
     Hdf5File(const Hdf5File&) = delete;
@@ -79,8 +80,9 @@ public:
     /// Closes now and reports failure (the destructor cannot).
     void close();
 
-    /// From now on no more is read than 128 MiB and `times` the file's size; what claims more is
-    /// refused before memory is taken for it. 2000 unless set: twice what compression can do.
+    /// From now on no more is read than 128 MiB and `times` the file's size [-]; a dataset that
+    /// claims more is refused before memory is taken for it. 2000 unless set: twice the best that
+    /// compression can do.
     void limit_reading(std::uint64_t times) const;
 
 private:

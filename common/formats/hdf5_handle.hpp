@@ -10,9 +10,11 @@
 
 namespace ice::detail {
 
-/// HDF5 does not survive that memory runs out: it writes beyond what it got. So there must be some,
-/// enough for a file's caches, before it is asked for much. @throws std::bad_alloc
+/// HDF5 does not survive that memory runs out: it writes beyond the memory it got. So the memory
+/// for a file's caches must be there before large calls. @throws std::bad_alloc
 inline void require_memory() {
+    // [bytes] six MiB: the library's caches of chunks and metadata for a few datasets. Less lets
+    // HDF5 crash where memory is nearly out; more refuses small machines.
     constexpr std::size_t kEnough = 6 << 20;
     ::operator delete(::operator new(kEnough));
 }
@@ -28,7 +30,7 @@ public:
     Handle& operator=(const Handle&) = delete;
     operator hid_t() const { return id_; }
 
-    /// Closes now: did all that was waiting for it go well?
+    /// Closes now. @return whether the data that waited for it were written
     bool close() {
         const hid_t id = id_;
         id_ = -1;

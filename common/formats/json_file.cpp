@@ -51,6 +51,7 @@ const Json& JsonReader::child(const Json& parent, const std::string& name,
 }
 
 double JsonReader::number_if_there(const std::string& parent, const std::string& name) const {
+    // The parent must be there: only a name that later versions added may be missing.
     const Json& object = at(parent);
     return object.contains(name) ? value_or_nan(object[name], parent + "." + name)
                                  : std::numeric_limits<double>::quiet_NaN();

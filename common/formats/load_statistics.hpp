@@ -18,14 +18,14 @@ namespace ice {
 /// How often a level is exceeded.
 struct Exceedance {
     double level = 0.0;     ///< [N], or [N/m] of a line load
-    double per_hour = 0.0;  ///< peaks as large or larger, per hour of simulated time
+    double per_hour = 0.0;  ///< peaks as large or larger [1/h of simulated time]
 };
 
 /// Peaks of a series: of the means between two up-crossings of their mean, the largest.
 struct PeakStatistics {
     std::int64_t count = 0;
     double mean = 0.0, p99 = 0.0, max = 0.0;  ///< of the series [N], or [N/m] of a line load
-    std::vector<Exceedance> exceeded;         ///< levels falling, rates rising
+    std::vector<Exceedance> exceeded;         ///< levels falling, rates rising; empty without peaks
 };
 
 /// A patch of the hull. Its line load is force / length, its mean pressure force / area.
@@ -41,7 +41,7 @@ struct PanelLoad {
 struct HullPanels {
     double size = 0.0;                    ///< edge of a whole panel [m]
     double window = 0.0;                  ///< [s]
-    std::vector<std::int32_t> of_sphere;  ///< row of `panels` per surface sphere of the hull
+    std::vector<std::int32_t> of_sphere;  ///< [S] row of `panels` per surface sphere
     std::vector<PanelLoad> panels;
 };
 

@@ -9,7 +9,7 @@ namespace {
 constexpr const char* kForce = "N";
 constexpr const char* kLineLoad = "N_per_m";
 
-// text of summary.json's "panel_rule" and of every table of peaks: what the numbers mean
+// text of summary.json's "panel_rule" and of every table of peaks: the meaning of the numbers
 constexpr const char* kPeakRule =
     "largest window mean between two up-crossings of the mean of all windows";
 
@@ -26,6 +26,7 @@ Vec3 point(const Json& json, const std::string& key) {
 }
 
 Json peaks_json(const PeakStatistics& peaks, const std::string& unit) {
+    // The unit is part of each key's name, so that a file can be read without its documents.
     Json exceeded = Json::array();
     for (const Exceedance& e : peaks.exceeded)
         exceeded.push_back({{"level_" + unit, e.level}, {"per_hour", e.per_hour}});
@@ -63,6 +64,8 @@ void read_peaks(const Json& region, RegionStatistics& out) {
 }
 
 void add_panels(const PanelSummary& panels, Json& out) {
+    // The file has loads per length and per area, as class rules and measurements have them; the
+    // force in newtons depends on the size of a panel.
     out["panel_rule"] = {{"size_m", panels.size},
                          {"window_s", panels.window},
                          {"panels", panels.count},

@@ -11,7 +11,9 @@ std::string release_rule(const IceParticulars& ice) {
 }
 
 bool is_short(double averaged_lengths) {
-    constexpr double kOne = 0.995;  // shown as 1.00
+    // Ship lengths: the least number that two decimals show as 1.00. A text "1.00, less than one"
+    // would contradict itself.
+    constexpr double kOne = 0.995;
     return averaged_lengths < kOne;
 }
 

@@ -19,8 +19,8 @@ struct ShipParticulars {
     double length = kUnknown, breadth = kUnknown;  ///< of the waterline [m]; 2D: length only
     double draught = kUnknown;                     ///< [m]
     double displacement = kUnknown;                ///< [kg]; unknown in 2D
-    double stem_angle_deg = kUnknown;      ///< of the stem from the horizontal; unknown in 2D
-    double entrance_angle_deg = kUnknown;  ///< half angle of the waterline at the bow; likewise
+    double stem_angle_deg = kUnknown;      ///< of the stem from the horizontal [deg]; unknown in 2D
+    double entrance_angle_deg = kUnknown;  ///< half, of the waterline at the bow [deg]; 3D
     double speed_mean = kUnknown;          ///< over the averaged time [m/s]
     double parallel_length = kUnknown;     ///< of the waterline's full breadth [m]; 3D
     double bow_length = kUnknown;          ///< of the waterline before it [m]; likewise
@@ -32,17 +32,17 @@ struct ShipParticulars {
 /// Sizes of the floes that may move, and the case's values for all ice.
 struct IceParticulars {
     double thickness = kUnknown;  ///< of the first floe as it lies [m]
-    std::int64_t floes = 0;       ///< without unbroken ice, which never moves
+    std::int64_t floes = 0;       ///< count, without unbroken ice, which never moves
     /// Diameters of the circles with the floes' plan areas [m]; 2D: lengths along x.
     double floe_size_min = kUnknown, floe_size_mean = kUnknown, floe_size_max = kUnknown;
-    double concentration = kUnknown;  ///< of the field file that all floes come from, else unknown
+    double concentration = kUnknown;  ///< of the field file of all floes [-], else unknown
     double density = kUnknown;        ///< [kg/m3]
-    double friction_ship_ice = kUnknown, friction_ice_ice = kUnknown;
+    double friction_ship_ice = kUnknown, friction_ice_ice = kUnknown;  ///< coefficients [-]
     /// [Pa]; infinite for rigid ice, which is null in JSON as well
     double crushing_pressure = std::numeric_limits<double>::infinity();
     std::vector<std::string> hold;  ///< release rules in use, as a case file names them
     double water_density = kUnknown, gravity = kUnknown;  ///< [kg/m3], [m/s2]
-    /// [Pa], [Pa], 1: of level ice that breaks; unknown in other cases
+    /// [Pa], [Pa], [-]: of level ice that breaks; unknown in other cases
     double flexural_strength = kUnknown, elastic_modulus = kUnknown, poisson_ratio = kUnknown;
 };
 
@@ -53,8 +53,8 @@ std::string release_rule(const IceParticulars& ice);
 /// How far the ship goes.
 struct TravelParticulars {
     double distance = kUnknown;          ///< [m]
-    double lengths = kUnknown;           ///< the same in lengths of the waterline
-    double averaged_lengths = kUnknown;  ///< of it while forces are averaged
+    double lengths = kUnknown;           ///< the same in lengths of the waterline [-]
+    double averaged_lengths = kUnknown;  ///< part of it while forces are averaged [-]
 };
 
 /// Whether averages are of less than the length that floes need to pass along the hull; false where

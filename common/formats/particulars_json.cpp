@@ -41,6 +41,7 @@ void from_json(const Json& json, ShipParticulars& s) {
     take(json, "parallel_length_m", s.parallel_length);
     take(json, "bow_length_m", s.bow_length);
     take(json, "speed_mean", s.speed_mean);
+    // the keys above: all of them, or a hull's number would appear among the motions
     const std::set<std::string> of_hull{
         "length_m",        "breadth_m",         "draught_m",
         "displacement_kg", "stem_angle_deg",    "entrance_angle_deg",
@@ -55,6 +56,7 @@ void from_json(const Json& json, ShipParticulars& s) {
 }
 
 void to_json(Json& json, const IceParticulars& i) {
+    // Unknown numbers are NaN in memory and null in the file; from_json() turns them back.
     json = {{"thickness_m", i.thickness},
             {"floes", i.floes},
             {"floe_size_min_m", i.floe_size_min},

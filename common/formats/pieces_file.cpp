@@ -48,6 +48,7 @@ void write_piece_column(Hdf5File& file, const std::string& name, const std::vect
     file.write("/pieces/" + name, values);
 }
 
+// Reads pieces.h5; each array is checked against the number of pieces before it is used.
 class PiecesReader : RunArrays {
 public:
     explicit PiecesReader(const std::filesystem::path& path) : RunArrays(path) {}
@@ -145,8 +146,8 @@ void add_floe(RunHeader& header, const PieceRow& row, std::int32_t group, double
 struct Floes {
     RunFrame& frame;
 
-    // The floes of the case stay; the slots behind them, whose bodies change from frame to frame,
-    // give way to the pieces, each of which is one body for the whole run.
+    // The floes of the case stay. The slots behind them, whose bodies change from frame to frame,
+    // are replaced by the pieces: each piece is one body for the whole run.
     void keep(std::size_t count) {
         for (auto* list :
              {&frame.position, &frame.velocity, &frame.angular_velocity, &frame.contact_force})
@@ -190,12 +191,14 @@ void show_in_frame(const PiecesFile& file, std::size_t others, const RunFrame* b
     RunFrame slots = frame;
     Floes floes{frame};
     floes.keep(others);
+    // the sheet drifts as a whole, without turning
     const auto add_in_sheet = [&](const PieceRow& row, FloeState state) {
         floes.add_drifting(row.at + frame.time * file.drift, Eigen::Quaterniond::Identity(), state,
                            file.drift);
     };
     for (std::size_t k = 0; k < file.pieces.size(); ++k) {
         const PieceRow& row = file.pieces[k];
+        // The order of the file: a piece's index in the frame is the same at all times.
         // Three times of a piece: a part of the sheet, a body of its own in a slot, and gone
         // astern, where it is drawn as it drifts on from its last pose.
         if (frame.time <= row.born)
@@ -233,6 +236,7 @@ void show_in_frame(const PiecesFile& file, std::size_t others, const RunFrame* b
 }  // namespace
 
 void write_pieces(const std::filesystem::path& path, const PiecesFile& pieces) {
+    // Under another name until it is complete: a reader never sees half of the pieces.
     const std::filesystem::path part = path.string() + ".part";
     {
         Hdf5File file(part, Hdf5File::Mode::create);
@@ -259,6 +263,7 @@ PiecesFile read_pieces(const std::filesystem::path& path) { return PiecesReader(
 
 void show_pieces(const PiecesFile& file, RunData& run) {
     RunHeader& header = run.header;
+    // floes of the case; ids begin with 1
     const auto others = static_cast<std::size_t>(file.first_body) - 1;
     const auto slots = header.body_shape.size();
     for (const PieceRow& row : file.pieces)
@@ -273,6 +278,7 @@ void show_pieces(const PiecesFile& file, RunData& run) {
     header.body_group.resize(others);
     header.body_mass.resize(others);
     header.body_inertia.resize(others);
+    // time [s] at which a floe of the case, or the rest of the sheet, breaks off
     constexpr double kNever = std::numeric_limits<double>::infinity();
     header.body_born.assign(others, kNever);
     header.body_breaking_load.assign(others, 0.0);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// `pieces.h5`: the pieces into which level ice broke during a run, beside run.h5.
 ///
-/// The bodies of run.h5 are slots then: one after the other stands for several pieces. Layout (K
-/// rows of a group; /pieces: floes by number, /rest: the remaining sheet at the end):
+/// The bodies of run.h5 are slots then: each represents several pieces, one after the other. Layout
+/// (K rows of a group; /pieces: floes by number, /rest: the remaining sheet at the end):
 ///
 ///     / format, format_version, first_body, piece_group, rest_group
-///     /drift [3] m/s            of all the ice: what lies in it is at `at` + drift times time
+///     /drift [3] m/s            of all the ice: a piece in the sheet is at `at` + drift times time
 ///     /pieces/number, body [K]  born, gone [K] s (gone: inf while it is there)
 ///     /pieces/load [K] N, radius [K] m   that broke it off, of its crack
 ///     and in both groups: at [K,3] m  centre of mass as it lay   mass [K] kg
@@ -24,14 +24,15 @@ constexpr const char* kPiecesName = "pieces.h5";
 /// A piece of level ice. Of the rest only the first three members count.
 struct PieceRow {
     TriangleMesh mesh;  ///< about the centre of mass, axes of the world as it lay [m]
-    Vec3 at;            ///< centre of mass as it lay, less what the ice had drifted [m]
+    Vec3 at;            ///< centre of mass as it lay, less the drift until then [m]
     double mass;        ///< [kg]
-    std::int32_t number = 0, body = 0;
-    double born = 0.0, gone = 0.0;  ///< [s]
-    double load = 0.0;              ///< downwards, that broke it off [N]
-    double radius = 0.0;            ///< of its crack [m]
+    std::int32_t number = 0, body = 0;  ///< floe's number; id of the slot, from 1
+    double born = 0.0, gone = 0.0;      ///< [s]
+    double load = 0.0;                  ///< downwards, that broke it off [N]
+    double radius = 0.0;                ///< of its crack [m]
 };
 
+/// All pieces of a run, by number.
 struct PiecesFile {
     std::int32_t first_body = 0;                   ///< id of the first slot
     std::int32_t piece_group = 0, rest_group = 0;  ///< rows of the case's groups
@@ -47,7 +48,7 @@ PiecesFile read_pieces(const std::filesystem::path& path);
 
 /// Puts pieces and rest in the place of the slots, as floes of the run: before it breaks off, a
 /// piece lies held in the sheet; after it was taken out of the scene, it drifts on from where it
-/// was last seen, behind. The header gets what broke it off, and when. Hull contacts with the
+/// was last seen, behind. The header gets time and load of the break. Hull contacts with the
 /// sheet's edge go to the first row of the rest.
 void show_pieces(const PiecesFile& file, RunData& run);
 

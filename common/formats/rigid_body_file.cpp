@@ -7,6 +7,7 @@ namespace ice {
 
 std::string rigid_body_text(const RigidBody& body, const std::string& spheres_file,
                             const std::string& frame, std::size_t count) {
+    // Keys carry their unit, quaternions their order: programs disagree on both.
     const Eigen::Quaterniond& q = body.axes;
     const Mat3& inertia = body.inertia;
     nlohmann::ordered_json json;

@@ -46,13 +46,13 @@ public:
     /// An array of shape [.., 3] as points.
     std::vector<Vec3> points(const std::string& name, std::vector<std::uint64_t> shape) const;
 
-    /// Rows of an array that is no single value.
+    /// Count of rows of an array that is no single value.
     std::uint64_t rows_of(const std::string& name) const;
 
     /// Rows of the first array; of a growing file the rows that all have.
     std::uint64_t common_rows(const std::vector<std::string>& names) const;
 
-    /// Length of a list.
+    /// Count of the entries of a list.
     std::uint64_t length(const std::string& name) const;
 
     /// Where each of @p shapes shapes begins in an array of @p rows rows: 0 <= o[0] <= o[1] ... =

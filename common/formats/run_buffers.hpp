@@ -12,9 +12,11 @@ namespace ice {
 
 namespace run_parts {
 // Rows per chunk. Chunks are compressed, so that one written again with more rows has another
-// length and place; a kill in between leaves a file of which the last chunk cannot be read (1 of 6
+// length and place; a kill in between leaves a file whose last chunk cannot be read (1 of 6
 // kills of a run that flushes ten times a second). Hence only whole chunks are written while the
 // run continues.
+//
+// Larger chunks compress better and lose more rows to a kill; smaller ones make the file larger.
 constexpr std::uint64_t kMostFrames = 20;
 constexpr std::uint64_t kHistoryChunk = 64;
 constexpr std::uint64_t kContactChunk = 64;

@@ -14,7 +14,8 @@
 
 namespace ice::run_parts {
 
-constexpr std::uint64_t kValuesPerCopy = 1 << 22;  // at a time
+// Values that copy() holds at a time, 32 MiB of doubles: it bounds the memory, not the result.
+constexpr std::uint64_t kValuesPerCopy = 1 << 22;
 
 /// A dataset that grows and the rows of it that are not on disk yet.
 template <class T>

@@ -14,14 +14,14 @@ namespace ice {
 
 /// A body's form, shared by all floes made from one sphere file.
 struct RunShape {
-    TriangleMesh mesh;          ///< in body axes; floes: about the centre of mass, hull: ship frame
-    std::vector<Vec3> centers;  ///< contact spheres, same axes [m]
-    std::vector<double> radii;  ///< [m]
+    TriangleMesh mesh;  ///< body axes [m]; floes: about the centre of mass, hull: ship frame
+    std::vector<Vec3> centers;  ///< [N] contact spheres, same axes [m]
+    std::vector<double> radii;  ///< [N] [m]
 };
 
 /// Data that do not change during the run. Shape 0 is the hull.
 struct RunHeader {
-    int dimension = 3;
+    int dimension = 3;  ///< 3 or 2
     std::string title, created_by, git_commit, command_line;
     std::string case_toml;  ///< the resolved case, verbatim
     /// Start of the statistics [s]; NaN in files of versions that did not store it.
@@ -49,11 +49,11 @@ struct HistoryRow {
     Vec3 friction_force = Vec3::Zero();  ///< tangential parts [N]
     Vec3 moment = Vec3::Zero();          ///< about the mesh origin of the hull [N m]
     Vec3 ship_position = Vec3::Zero();   ///< of the hull's mesh origin [m]
-    double contacts = 0.0;               ///< contacts that carried an impulse (mean of the steps)
-    double moving_floes = 0.0;
-    double max_overlap = 0.0;     ///< deepest overlap of the steps [m]
-    double kinetic_energy = 0.0;  ///< of the floes [J]
-    double breaking_x = 0.0;      ///< force along x of ice held until it bends [N]; not in run.h5
+    double contacts = 0.0;               ///< count of contacts with an impulse, mean of the steps
+    double moving_floes = 0.0;           ///< count, at the end of the row
+    double max_overlap = 0.0;            ///< deepest overlap of the steps [m]
+    double kinetic_energy = 0.0;         ///< of the floes [J] (2D: J per metre)
+    double breaking_x = 0.0;  ///< force along x of ice held until it bends [N]; not in run.h5
 
     // of a ship that answers, at the end of the row; forces are means
     Eigen::Quaterniond ship_orientation = Eigen::Quaterniond::Identity();  ///< ship to world
@@ -71,7 +71,7 @@ struct RegionForce {
 /// Forces on one region of the hull, one row per history sample [N] (2D: N per metre).
 struct RegionHistory {
     std::string name;
-    std::vector<Eigen::Vector3f> contact, friction;
+    std::vector<Eigen::Vector3f> contact, friction;  ///< [S] each
 };
 
 /// One history sample of a tracked floe.
@@ -105,8 +105,8 @@ struct RunFrame {
     std::vector<Vec3> position;                    ///< centres of mass [m]
     std::vector<Eigen::Quaterniond> orientation;   ///< body to world, sign continuous in time
     std::vector<Vec3> velocity, angular_velocity;  ///< [m/s], [rad/s]
-    std::vector<Vec3> contact_force;  ///< of the ship on the floe, mean since last frame [N]
-    std::vector<FloeState> state;
+    std::vector<Vec3> contact_force;         ///< of the ship on the floe, mean since last frame [N]
+    std::vector<FloeState> state;            ///< in body_shape's order, as the others
     std::vector<HullContact> hull_contacts;  ///< sorted by floe, sphere; as many as there were
     Eigen::Quaterniond ship_orientation = Eigen::Quaterniond::Identity();  ///< ship to world
 };

@@ -15,7 +15,10 @@ namespace ice {
 
 namespace {
 
-constexpr std::uint64_t kHistoryPerFlush = 16384;  // runs that store few frames lose no more rows
+// Rows of history that may wait in memory: of a run that stores few frames a kill loses no more.
+// About 3 MB, and more with regions and tracked floes; fewer rows mean more waits for readers
+// (FileTurn).
+constexpr std::uint64_t kHistoryPerFlush = 16384;
 
 using run_parts::Column;
 using run_parts::frames_per_chunk;
@@ -50,8 +53,9 @@ void write_attributes(Hdf5File& file, const RunHeader& header) {
     file.write_attribute("/", "average_from", {header.average_from}, {});
 }
 
-// what the names alone do not say
+// meanings that the names alone do not give
 void name_history(Hdf5File& file) {
+    // In the file itself, so that it can be read without this project's documents (CF's long_name).
     const auto say = [&](const char* name, const char* text) {
         file.write_attribute(name, "long_name", text);
     };
@@ -79,6 +83,7 @@ RunWriter::Buffers::Buffers(const std::filesystem::path& path, const std::filesy
       part_path(part),
       file(part_path, Hdf5File::Mode::create_growing),
       bodies(header.body_shape.size()) {
+    // arrays of floes are indexed together from here on
     if (header.body_group.size() != bodies || header.body_mass.size() != bodies ||
         header.body_inertia.size() != bodies)
         throw run_failed(path.string(), "the floes' shapes, groups, masses differ in number",
@@ -189,6 +194,7 @@ void RunWriter::Buffers::create_frames(const RunHeader& header) {
     create(spin, "angular_velocity", {n, 3}, "rad/s", {"/frames/body", "/xyz"});
     create(floe_force, "contact_force", {n, 3}, header.dimension == 2 ? "N/m" : "N",
            {"/frames/body", "/xyz"});
+    // one byte per floe and frame
     create(state, "state", {n}, "1", {"/frames/body"});
     file.write_attribute("/frames/orientation", "order", "w,x,y,z body to world");
     file.write_attribute("/frames/contact_force", "meaning", "of the ship on the floe");
@@ -237,6 +243,7 @@ void RunWriter::Buffers::write_rows(bool all) {
         on_disk += static_cast<std::int64_t>(count);
         return count;
     };
+    // append_to() needs the number of rows before take() changed it
     const std::uint64_t old_samples = samples, old_frames = frames, old_contacts = contact_rows;
     const std::uint64_t s = take(samples, written.samples, kHistoryChunk);
     const std::uint64_t f = take(frames, written.frames, frames_per_chunk(bodies));
@@ -345,7 +352,7 @@ bool RunWriter::is_about_to_write() const {
 
 void RunWriter::finish(const HullPanels& panels) {
     Buffers& b = *buffers_;
-    // what is left in the buffers; then the file gets its name, and is whole whenever it has it
+    // the rest of the buffers; then the file gets its name, and is whole whenever it has it
     b.write_all();
     const FileTurn turn(b.part_path, FileTurn::Kind::write);
     if (!panels.panels.empty()) run_parts::write_panels(b.file, panels, b.dimension);

@@ -45,7 +45,7 @@ struct RunPosition {
 ///
 /// Rows are buffered and flushed to disk with every 20th frame, so that a killed run can be read up
 /// to there (without frames, with every 16384th sample), its histories and contacts up to the last
-/// whole 64 rows: what is compressed cannot safely be written again with more rows. FileTurn keeps
+/// whole 64 rows: a compressed chunk cannot safely be written again with more rows. FileTurn keeps
 /// read_run() out while rows are written, and a flush waits until it has read. Quaternions are
 /// stored with the sign nearer to the frame before.
 ///
@@ -76,7 +76,7 @@ public:
     RunPosition write_rows();
     /// Bytes of the rows that are not in the file yet, uncompressed.
     std::uint64_t waiting_bytes() const;
-    /// Will the next sample or frame make it write to the disk?
+    /// True where the next sample or frame makes it write to the disk.
     bool is_about_to_write() const;
     /// Writes buffered rows, closes and renames. Nothing may be added afterwards.
     void finish(const HullPanels& panels = {});

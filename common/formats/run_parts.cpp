@@ -27,15 +27,15 @@ void write_shapes(Hdf5File& file, const RunHeader& header) {
     std::vector<float> vertices, spheres;
     std::vector<std::int32_t> triangles, region;
     for (const RunShape& shape : header.shapes) {
-        // a shape's own region numbers -> rows of the common list
-        // Shapes come from different files, in which a region of one name may have different
-        // numbers.
+        // A shape's own region numbers -> rows of the common list: shapes come from different
+        // files, in which a region of one name may have different numbers.
         std::vector<std::int32_t> global;
         for (const std::string& name : shape.mesh.region_names) {
             const auto found = std::find(names.begin(), names.end(), name);
             global.push_back(static_cast<std::int32_t>(found - names.begin()));
             if (found == names.end()) names.push_back(name);
         }
+        // single precision: 1e-7 of a ship's length is far below a contact sphere
         const auto flat = flatten<float>(shape.mesh.vertices);
         vertices.insert(vertices.end(), flat.begin(), flat.end());
         for (const auto& t : shape.mesh.triangles)
@@ -64,6 +64,7 @@ void write_shapes(Hdf5File& file, const RunHeader& header) {
 void write_flow_arrows(Hdf5File& file, const RunHeader& header) {
     if (header.flow_point.empty()) return;
     file.create_group("/flow");
+    // Arrows have numbers as their scale, since xarray needs a label for each dimension.
     std::vector<std::int32_t> ids(header.flow_point.size());
     std::iota(ids.begin(), ids.end(), 0);
     file.write("/flow/arrow", ids);
@@ -105,6 +106,7 @@ std::vector<std::string> hull_regions(const RunHeader& header) {
 }
 
 void write_panels(Hdf5File& file, const HullPanels& hull, int dimension) {
+    // written at the end of a run, when largest and 99 % loads are known
     const std::uint64_t count = hull.panels.size();
     const auto name_of = [](const char* name) { return std::string("/panels/") + name; };
     // xarray shows units and long_name at each axis of its plots.

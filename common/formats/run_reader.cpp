@@ -40,6 +40,8 @@ public:
 
 private:
     void read_header(RunHeader& header) const {
+        // The format before all else: another HDF5 file is named as such, not by its first missing
+        // array.
         check(file().has_attribute("/", "format") &&
                   file().read_text_attribute("/", "format") == "icesolve-result",
               "/", "is not the result of a run (no attribute format = \"icesolve-result\")");
@@ -59,6 +61,7 @@ private:
 
     void read_shapes(std::vector<RunShape>& shapes) const {
         const std::uint64_t count = length("/shapes/vertex_offset");
+        // a million: an ice field of so many different floes would not fit into memory
         check(count >= 1 && count < 1000000, "/shapes/vertex_offset", "has no shapes");
         // offsets have one entry more than there are shapes: the end of the last
         shapes.resize(count - 1);
@@ -70,6 +73,8 @@ private:
     }
 
     void read_vertices(std::vector<RunShape>& shapes) const {
+        // All shapes' vertices stand in one array [rows x 3]; shape s has rows offset[s] to
+        // offset[s + 1].
         const std::uint64_t rows = rows_of("/shapes/vertices");
         const auto all = points("/shapes/vertices", {rows});
         const auto offset = offsets("/shapes/vertex_offset", shapes.size(), rows);
@@ -79,6 +84,8 @@ private:
 
     void read_triangles(std::vector<RunShape>& shapes, std::size_t regions) const {
         const std::uint64_t rows = rows_of("/shapes/triangles");
+        // Corners count from the shape's own first vertex, so that a shape can be moved in the
+        // array.
         const auto corners = read_as<std::int32_t>("/shapes/triangles", {rows, 3});
         const auto region = read_as<std::int32_t>("/shapes/region", {rows});
         const auto offset = offsets("/shapes/triangle_offset", shapes.size(), rows);
@@ -102,6 +109,7 @@ private:
 
     void read_spheres(std::vector<RunShape>& shapes) const {
         const std::uint64_t rows = rows_of("/shapes/spheres");
+        // [rows x 4]: centre and radius [m]
         const auto flat = read_as<double>("/shapes/spheres", {rows, 4});
         const auto offset = offsets("/shapes/sphere_offset", shapes.size(), rows);
         for (std::size_t s = 0; s < shapes.size(); ++s)
@@ -128,6 +136,7 @@ private:
     }
 
     void read_flow_arrows(RunHeader& header) const {
+        // only runs with [flow] have arrows
         if (!file().has("/flow/point")) return;
         const std::uint64_t rows = rows_of("/flow/point");
         header.flow_point = points("/flow/point", {rows});
@@ -215,6 +224,7 @@ private:
     }
 
     void read_tracks(RunData& run) const {
+        // [rows x 22] per floe, in the rows of the history
         const std::uint64_t columns = track_columns().size();
         for (const std::int32_t id : run.header.tracked) {
             const auto flat =
@@ -243,7 +253,7 @@ private:
                                        "/frames/velocity",      "/frames/angular_velocity",
                                        "/frames/contact_force", "/frames/state"};
         if (file().has("/frames/ship_orientation")) names.emplace_back("/frames/ship_orientation");
-        // a run that is still written may have one column longer than another: the rows that all
+        // of a run that is still written one column may be longer than another: the rows that all
         // have
         const std::uint64_t frames = common_rows(names);
         const std::uint64_t n = run.header.body_shape.size();
@@ -300,6 +310,7 @@ private:
         const auto floes = static_cast<std::int32_t>(run.header.body_shape.size());
         for (std::size_t k = 0; k < n; ++k) {
             // contacts of a frame that is not yet written whole
+            // In a file that is complete the same is damage, which the check below reports.
             if (growing() && static_cast<std::size_t>(frame[k]) >= run.frames.size()) break;
             check(frame[k] >= 0 && static_cast<std::size_t>(frame[k]) < run.frames.size(),
                   "/contacts/frame", "points outside the frames");
@@ -315,6 +326,8 @@ private:
         HullPanels& hull = run.panels;
         hull.size = file().read_number_attribute("/panels", "size")[0];
         hull.window = file().read_number_attribute("/panels", "window")[0];
+        // One row per panel [P]; the spheres of the hull name their panel, so a map needs no
+        // geometry.
         const auto region = file().read<std::int32_t>("/panels/region");
         const std::uint64_t n = region.size();
         const auto center = points("/panels/center", {n}), normal = points("/panels/normal", {n});
@@ -353,6 +366,8 @@ const std::vector<std::string>& track_columns() {
 
 RunData read_run(const std::filesystem::path& path) {
     // one that is being created just now is whole a moment later
+    // Half a second in all: the writer creates the datasets within a few milliseconds, and a file
+    // that is torn for good must not be waited for.
     for (int left = is_growing(path) ? 5 : 0;; --left) {
         try {
             std::optional<FileTurn> turn;

@@ -68,6 +68,7 @@ void RunWriter::Buffers::copy_saved_rows(const std::filesystem::path& folder,
 }
 
 void RunWriter::Buffers::save_rows() {
+    // nothing new since the last checkpoint: the chain ends there already
     if (saved.samples == written.samples && saved.frames == written.frames) return;
     PartFile part(saved_rows(final_path.parent_path(), saved.samples, saved.frames));
     Hdf5File to(part.path(), Hdf5File::Mode::create);
@@ -88,6 +89,8 @@ void RunWriter::Buffers::save_rows() {
 
 RunWriter::RunWriter(const std::filesystem::path& path, const RunHeader& header,
                      const std::filesystem::path& earlier, const RunPosition& position) {
+    // Three sources in turn, the most certain first: saved rows were complete before they had a
+    // name, run.h5 of a finished run, and the .part file of a killed one, which may be torn.
     // under a name of its own until it is complete: the earlier file may be the .part file
     PartFile next(path.string() + ".part");
     const auto try_with = [&](const auto& fill) {
@@ -112,6 +115,7 @@ RunWriter::RunWriter(const std::filesystem::path& path, const RunHeader& header,
     buffers_->written.last_orientation = position.last_orientation;
     buffers_->file.flush();
 
+    // the chain of saved rows is already there; in another folder it begins anew with one file
     if (from_saved && same_folder(earlier, path.parent_path())) {
         buffers_->saved = buffers_->written;
     } else {

@@ -10,7 +10,8 @@ namespace ice {
 /// Seals a complete file. @throws Error (exit code 1) when it cannot be written
 void add_seal(const std::filesystem::path& path);
 
-/// Does the file end in the hash of the bytes before? Not where it is missing or too short.
+/// True where the file ends in the hash of the bytes before; false where it is missing or too
+/// short.
 bool has_right_seal(const std::filesystem::path& path);
 
 }  // namespace ice

@@ -12,6 +12,8 @@ constexpr const char* kSealed = "sealed";
 }  // namespace
 
 void write_sealed(const std::filesystem::path& path, const std::function<void(Hdf5File&)>& fill) {
+    // The attribute first, inside the hashed bytes: a file whose seal was cut off is still known as
+    // one that must have a seal.
     PartFile part(path);
     Hdf5File file(part.path(), Hdf5File::Mode::create);
     file.write_attribute("/", kSealed, std::int64_t{1});

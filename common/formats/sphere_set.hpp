@@ -11,8 +11,8 @@ namespace ice {
 
 /// One of the surface normals that meet at a sphere in an edge or corner.
 struct CreaseNormal {
-    std::int32_t sphere;
-    Vec3 normal;  ///< outward, unit
+    std::int32_t sphere;  ///< row of SphereSet::centers
+    Vec3 normal;          ///< outward, unit
 };
 
 /// A solid as contact spheres: made by spherize, read by icesolve (docs/contract.md, section 3).
@@ -47,7 +47,7 @@ struct SphereSet {
 
     std::size_t size() const { return centers.size(); }
 
-    // of any sphere; what the interior has no row for is 0
+    // of any sphere; 0 where the interior has no row
     bool on_surface(std::size_t k) const { return k < surface_count; }
     Vec3 normal(std::size_t k) const { return on_surface(k) ? normals[k] : Vec3(Vec3::Zero()); }
     double area(std::size_t k) const { return on_surface(k) ? areas[k] : 0.0; }

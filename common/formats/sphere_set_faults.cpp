@@ -14,10 +14,13 @@ namespace ice {
 
 namespace {
 
-// Integrals over the same mesh in another order of its triangles differ by 1e-12 at most.
+// Largest relative difference of the set's integrals from its mesh's. Integrals over the same mesh
+// in another order of its triangles differ by 1e-12 at most; 1e-6 also passes sets of programs that
+// compute in single precision. A larger value passes a set of another mesh.
 constexpr double kSame = 1e-6;
 
-// So many spheres' centres are looked for in the mesh.
+// Spheres whose centres must lie in the mesh. More find a smaller share of wrong spheres and take
+// as much more time: each costs O(log T).
 constexpr std::size_t kMostCentres = 32;
 
 // The mesh of a 2D set is the prism over one metre of breadth, with two sides that are no surface.
@@ -27,6 +30,8 @@ double surface_of(const SphereSet& set, const MassProperties& of_mesh) {
     for (std::size_t t = 0; t < set.mesh.triangles.size(); ++t) {
         const Vec3 across = (set.mesh.corner(t, 1) - set.mesh.corner(t, 0))
                                 .cross(set.mesh.corner(t, 2) - set.mesh.corner(t, 0));
+        // sides of the prism have the normal +-y, its surface none along y: any bound between
+        // separates
         if (std::abs(across.y()) > 0.5 * across.norm()) sides += 0.5 * across.norm();
     }
     return of_mesh.area - sides;
@@ -78,8 +83,8 @@ std::string share_fault(const SphereSet& set) {
 
 std::string centre_fault(const SphereSet& set) {
     const WindingNumber inside(set.mesh);
-    // A sample: the winding number costs as much as the whole mesh, and a set that was made for
-    // another mesh fails at almost any centre.
+    // A sample, because each test walks through the mesh's tree. A set that was made for another
+    // mesh fails at almost any centre.
     const std::size_t step = (set.size() + kMostCentres - 1) / kMostCentres;
     for (std::size_t k = 0; k < set.size(); k += step) {
         const Vec3& c = set.centers[k];

@@ -47,7 +47,9 @@ void write_mesh(Hdf5File& file, const TriangleMesh& mesh) {
     file.write("/mesh/region", mesh.region);
 }
 
-// Bytes in memory per byte in the file: 3 where most spheres are inside, without rows of their own
+// Most bytes in memory per byte in the file: 3 are usual where most spheres are inside, without
+// rows of their own. A lower bound refuses sound sets, a higher one lets a damaged file take more
+// memory before it is refused.
 constexpr std::uint64_t kMostTimesSpheres = 16;
 
 // Reads one file, with every complaint naming the file and the dataset.
@@ -63,6 +65,7 @@ public:
         read_header(set);
         refuse_changed(path_, file_, "spherize");
         read_solid(set.solid);
+        // names before the mesh: its regions are checked against their number
         set.mesh.region_names = file_.read_strings("/region_names");
         read_mesh(set.mesh);
         read_arrays(set);
@@ -97,8 +100,8 @@ private:
         check(file_.read_number_attribute("/", "format_version")[0] == kSpheresVersion, "/",
               "has a format_version this program does not know");
         const double dimension = file_.read_number_attribute("/", "dimension")[0];
-        // Each check stands before the first use of what it checks: a number of the file never
-        // sizes or indexes anything unchecked.
+        // Each number is checked before its first use: no unchecked number of the file is a size or
+        // an index.
         check(dimension == 2.0 || dimension == 3.0, "dimension", "is neither 2 nor 3");
         set.dimension = static_cast<int>(dimension);
         set.radius = file_.read_number_attribute("/", "radius")[0];
@@ -131,6 +134,7 @@ private:
         const auto shape = file_.shape("/mesh/triangles");
         check(shape.size() == 2 && shape[1] == 3, "/mesh/triangles", "is not of shape [T,3]");
         const auto flat = file_.read<std::int32_t>("/mesh/triangles");
+        // [T, 3] rows of vertices; with one outside later loops would read beyond the array
         const auto vertex_count = static_cast<std::int32_t>(mesh.vertices.size());
         for (const std::int32_t v : flat)
             check(v >= 0 && v < vertex_count, "/mesh/triangles", "points outside the vertices");
@@ -155,13 +159,13 @@ private:
         const std::size_t n = set.centers.size();
         check(n > 0, "/center", "is empty");
         for (const char* name : {"/radius", "/area", "/volume", "/layer", "/region"})
+            // shapes before contents: a damaged length takes no memory
             check(file_.shape(name) == std::vector<std::uint64_t>{n}, name,
                   "has another length than /center");
         const auto layers = file_.read<std::uint8_t>("/layer");
         for (std::size_t k = 0; k < n; ++k) {
             check(layers[k] <= 1, "/layer", "holds a layer other than 0 and 1");
-            // Surface spheres first: the solver uses a prefix of the arrays and never asks for the
-            // layer.
+            // Surface spheres first: the solver uses a prefix of the arrays and no layers.
             check(k == 0 || layers[k] <= layers[k - 1], "/layer",
                   "does not have the surface spheres first");
             set.surface_count += layers[k];
@@ -222,6 +226,8 @@ private:
 namespace {
 
 void write_certificate(Hdf5File& file, SpheresReport& c) {
+    // The report as a whole, for people, and its numbers as attributes, for programs that read no
+    // JSON.
     c.seconds.clear();  // equal calls give equal bytes
     file.write_attribute("/", "certificate", spheres_report_text(c));
     for (const auto& [name, value] : std::initializer_list<std::pair<const char*, double>>{
@@ -274,6 +280,8 @@ void write_spheres_arrays(Hdf5File& file, const SphereSet& set) {
     const std::vector<float> normals = flatten<float>(set.normals);
     const std::vector<float> spread(set.normal_spread.begin(), set.normal_spread.end());
     const std::vector<std::uint8_t> layers(s, 1);
+    // Directions in single precision: 1e-7 is far below the error of any mesh. Areas in double,
+    // since they are summed.
     file.write_rows("/normal", normals.data(), {n, 3}, s, 0.0f);
     file.write_rows("/normal_spread", spread.data(), {n}, s, 0.0f);
     file.write_rows("/area", set.areas.data(), {n}, s, 0.0);
@@ -292,6 +300,7 @@ void write_spheres_arrays(Hdf5File& file, const SphereSet& set) {
 }
 
 void write_all(Hdf5File& file, const SphereSet& set, SpheresReport& certificate) {
+    // Attributes first: a reader can tell kind, version and origin without an array.
     file.write_attribute("/", "format", std::string(kSpheresFormat));
     file.write_attribute("/", "format_version", kSpheresVersion);
     file.write_attribute("/", "dimension", std::int64_t{set.dimension});
@@ -325,7 +334,7 @@ std::string read_ice_belt(const std::filesystem::path& path) {
 }
 
 SphereSet read_spheres(const std::filesystem::path& path) {
-    std::error_code missing;  // is what SpheresReader complains of
+    std::error_code missing;  // SpheresReader complains of it
     const auto size = std::filesystem::file_size(path, missing);
     if (!missing) rehearse(path, ReadBounds::for_size(size), [&] { SpheresReader(path).read(); });
     return SpheresReader(path).read();

@@ -87,6 +87,7 @@ std::string spheres_report_text(const SpheresReport& r) {
     json["gap_max_m"] = r.gap_max;
     json["normal_error_mean_deg"] = r.normal_error_mean_deg;
     json["normal_error_p99_deg"] = r.normal_error_p99_deg;
+    // an empty list, not a missing key, where nothing is thin
     json["thin_features"] = Json::array();
     for (const ThinFeature& thin : r.thin_features)
         json["thin_features"].push_back({{"at_m", thin.at}, {"size_m", thin.size}});

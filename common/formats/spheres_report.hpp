@@ -17,7 +17,7 @@ struct ThinFeature {
     double size = 0.0;           ///< extent of the unfilled surface there [m]
 };
 
-/// How far one surface lies from another, by share of its area.
+/// Distance of one surface from another, as quantiles by share of its area.
 struct SurfaceDistance {
     double p50 = 0.0, p99 = 0.0, max = 0.0;  ///< [m]
     std::array<double, 3> at{};              ///< where it is most [m]
@@ -58,20 +58,20 @@ struct CutBack {
 /// [m2], volume [m3], inertia at 1 kg/m3 [kg m2]; in 2D the last three per metre of breadth.
 struct SpheresReport {
     int dimension = 3;
-    double radius = 0.0, spacing = 0.0;
-    std::int64_t spheres = 0, surface_spheres = 0;
-    double volume = 0.0, area = 0.0;
-    std::array<double, 3> centroid{};
-    std::array<double, 6> inertia_unit_density{};  ///< xx, yy, zz, xy, xz, yz
-    double protrusion_max = 0.0, covering_radius = 0.0;
+    double radius = 0.0, spacing = 0.0;                  ///< [m]
+    std::int64_t spheres = 0, surface_spheres = 0;       ///< counts; all, and those of the surface
+    double volume = 0.0, area = 0.0;                     ///< [m3], [m2]
+    std::array<double, 3> centroid{};                    ///< [m]
+    std::array<double, 6> inertia_unit_density{};        ///< xx, yy, zz, xy, xz, yz [kg m2]
+    double protrusion_max = 0.0, covering_radius = 0.0;  ///< [m]
     std::array<double, 3> covering_at{};  ///< on the surface, where the covering radius is [m]
-    double gap_p50 = 0.0, gap_p99 = 0.0, gap_max = 0.0;
-    double normal_error_mean_deg = 0.0, normal_error_p99_deg = 0.0;
-    std::vector<ThinFeature> thin_features;
-    double unfitted_share = 0.0;       ///< of the wetted surface: no sphere can touch it, and the
-                                       ///< nearest is more than half a radius away
-    std::int64_t corners = 0;          ///< where a sphere can touch three faces at once
-    std::int64_t blind_corners = 0;    ///< those without a sphere that knows the three
+    double gap_p50 = 0.0, gap_p99 = 0.0, gap_max = 0.0;              ///< surface to spheres [m]
+    double normal_error_mean_deg = 0.0, normal_error_p99_deg = 0.0;  ///< [deg]
+    std::vector<ThinFeature> thin_features;                          ///< the largest first
+    double unfitted_share = 0.0;     ///< of the wetted surface [-]: no sphere can touch it, and the
+                                     ///< nearest is more than half a radius away
+    std::int64_t corners = 0;        ///< where a sphere can touch three faces at once
+    std::int64_t blind_corners = 0;  ///< of these without a sphere that has the three normals
     std::int64_t outside_dropped = 0;  ///< spheres on the wrong side of the surface
     SourceCheck source;
     IceBelt belt;
@@ -79,14 +79,14 @@ struct SpheresReport {
     std::vector<std::pair<std::string, std::int64_t>> repairs;  ///< step, count
     std::map<std::string, std::string> guessed;
     std::vector<std::string> warnings;
-    std::map<std::string, double> seconds;  ///< wall time per stage
+    std::map<std::string, double> seconds;  ///< wall time per stage [s]
     std::string source_mesh, command_line;
 };
 
-/// Size of the interior's spheres in the file; --mode surface leaves them out.
+/// Size of the interior's spheres in the file [bytes]; --mode surface leaves them out.
 std::int64_t interior_bytes(const SpheresReport& report);
 
-/// "z -0.5 to 1.5 m (draught 7.5 m, ice 0.5 m): ...": what the certificate says of the ice belt;
+/// "z -0.5 to 1.5 m (draught 7.5 m, ice 0.5 m): ...": the certificate's line on the ice belt;
 /// empty where no draught was given.
 std::string ice_belt_text(const SpheresReport& report);
 

@@ -38,6 +38,7 @@ Json force_json(const ForceStatistics& force) {
 Json regions_json(const std::map<std::string, RegionStatistics>& regions) {
     Json out = Json::object();
     for (const auto& [name, region] : regions) {
+        // a key per region: names are those of the mesh and may be any text
         out[name] = {{"hits", region.hits},
                      {"max_impulse_Ns", region.max_impulse},
                      {"mean_N", region.mean},
@@ -65,6 +66,7 @@ Json warnings_json(const std::vector<Warning>& warnings) {
     return out;
 }
 
+// Ending of a key whose value is per metre of breadth.
 constexpr std::string_view kPerMetre = "_per_m";
 
 // In 2D forces, impulses and energies are per metre of breadth, and say so in a twin of each key.
@@ -74,6 +76,7 @@ void add_names_per_metre(Json& json) {
     std::vector<std::pair<std::string, Json>> twins;
     for (auto& [key, value] : json.items()) {
         const bool newtons = key.ends_with("_N") || key.ends_with("_Ns") || key.ends_with("_J");
+        // a list's items have no names; those inside them may
         if (newtons && json.is_object())
             twins.emplace_back(key + std::string(kPerMetre), value);
         else
@@ -83,6 +86,7 @@ void add_names_per_metre(Json& json) {
 }
 
 ForceStatistics read_force(const JsonReader& in, const std::string& key) {
+    // These six were in the first version of the file and are required.
     ForceStatistics out{in.number(key + ".mean_N"),          in.number(key + ".contact_mean_N"),
                         in.number(key + ".friction_mean_N"), in.number(key + ".std_N"),
                         in.number(key + ".max_N"),           in.number(key + ".ci95_N")};
@@ -100,7 +104,7 @@ ForceStatistics read_force(const JsonReader& in, const std::string& key) {
     return out;
 }
 
-// what the JSON library finds wrong, as an error that names the file
+// a fault that the JSON library finds, as an error that names the file
 template <class Work>
 void guarded(const JsonReader& in, const std::string& key, const Work& work) {
     try {
@@ -129,6 +133,7 @@ std::map<std::string, RegionStatistics> read_regions(const JsonReader& in) {
 
 // energies without their twins per metre
 std::map<std::string, double> read_energy(const JsonReader& in) {
+    // Twins repeat the same numbers in 2D and would count an entry twice.
     auto energy = in.numbers("energy");
     std::erase_if(energy, [](const auto& entry) { return entry.first.ends_with(kPerMetre); });
     return energy;
@@ -161,6 +166,7 @@ std::optional<Ensemble> read_ensemble(const JsonReader& in) {
 }
 
 void collect_numbers(const Json& json, const std::string& key, std::map<std::string, double>& out) {
+    // null is NaN and not left out: a check can then tell "unknown" from a misspelt key
     if (json.is_number()) out[key] = json.get<double>();
     if (json.is_null()) out[key] = std::numeric_limits<double>::quiet_NaN();
     if (!json.is_structured()) return;
@@ -224,6 +230,7 @@ std::string summary_text(const Summary& s) {
 Summary read_summary(const std::filesystem::path& path) {
     const JsonReader in(path, "run the case again with icesolve");
     Summary s;
+    // before any other key: the summary of another program is named as such
     if (in.get<std::string>("schema") != kSummarySchema)
         throw in.fault("schema", std::string("is not ") + kSummarySchema);
     s.status = in.get<std::string>("status");

@@ -26,7 +26,7 @@ struct ForceStatistics {
     /// Integrated autocorrelation time [s]: the averaged time holds as many independent samples as
     /// it is longer than this. NaN where it is too short to tell.
     double correlation_time = std::numeric_limits<double>::quiet_NaN();
-    double effective_samples = std::numeric_limits<double>::quiet_NaN();  ///< the number of them
+    double effective_samples = std::numeric_limits<double>::quiet_NaN();  ///< their number [-]
     double trend = std::numeric_limits<double>::quiet_NaN();  ///< change over the averaged time of
                                                               ///< the straight line through it [N]
     /// Resistance of a case with floes held until they bend: the force before they break off, and
@@ -38,7 +38,7 @@ struct ForceStatistics {
 
 /// Loads on one region of the hull.
 struct RegionStatistics {
-    std::int64_t hits = 0;                  ///< times a floe began to touch the region
+    std::int64_t hits = 0;                  ///< count: times a floe began to touch the region
     double max_impulse = 0.0;               ///< largest impulse of one floe in one step [N s]
     std::array<double, 3> mean{};           ///< mean force of the ice on the region, world axes [N]
     std::array<double, 3> contact_mean{};   ///< of it normal forces; NaN in files without them
@@ -50,7 +50,7 @@ struct RegionStatistics {
 /// Loads on the hull's panels.
 struct PanelSummary {
     double size = 0.0, window = 0.0;      ///< [m], [s]; 0 in files without panels
-    std::int64_t count = 0, touched = 0;  ///< of the hull; with a load
+    std::int64_t count = 0, touched = 0;  ///< counts: of the hull; with a load
     std::vector<std::pair<std::string, PanelLoad>> hardest;  ///< region's name, panel
 };
 
@@ -58,23 +58,23 @@ struct PanelSummary {
 struct Ensemble {
     double mean = 0.0;          ///< of the members' mean resistances [N], in 2D [N/m]
     double ci95 = 0.0;          ///< half width of Student's 95 % interval of it; NaN for one member
-    std::vector<double> means;  ///< mean resistance of each member
-    std::vector<std::int64_t> seeds;  ///< of each member
+    std::vector<double> means;  ///< [M] mean resistance of each member [N], in 2D [N/m]
+    std::vector<std::int64_t> seeds;  ///< [M] of each member
 };
 
 /// The flow around the hull that a run took its water's motion from.
 struct FlowSummary {
     std::string model;        ///< "double-body" or "file"
     std::int64_t panels = 0;  ///< 0: from elsewhere
-    double residual = 0.0;    ///< area-rms of the normal velocity left on the hull, over the speed
+    double residual = 0.0;    ///< area-rms of the normal velocity left, over the speed [-]
 };
 
 /// Content of summary.json (schema icesolve-summary/1, docs/contract.md, section 5).
 struct Summary {
     std::string status = "completed";  ///< completed | interrupted | failed
     std::string title, simd = "scalar";
-    std::int64_t steps = 0;
-    double simulated_s = 0.0, wall_s = 0.0;
+    std::int64_t steps = 0;                  ///< count
+    double simulated_s = 0.0, wall_s = 0.0;  ///< [s]
     int threads = 1, dimension = 3;
     std::uint64_t state_hash = 0;
     std::int64_t hull_spheres = 0, ice_spheres = 0;
@@ -86,18 +86,19 @@ struct Summary {
     ForceStatistics resistance, lateral, vertical;
     std::map<std::string, RegionStatistics> regions;
     PanelSummary panels;
-    double contacts_mean = 0.0, contacts_max = 0.0;  ///< contacts per step
+    double contacts_mean = 0.0, contacts_max = 0.0;  ///< counts of contacts per step
     double max_overlap = 0.0;                        ///< deepest of a contact [m]
     /// Deepest overlap of two solids less that of their contacts [m]; NaN: not measured.
     double unseen_overlap = std::numeric_limits<double>::quiet_NaN();
     std::int64_t unconverged_steps = 0;
-    /// Impulses that unconverged steps owe, as a share of all in the averaged time; NaN: unknown.
+    /// Impulses that unconverged steps lack, as a share of all in the averaged time [-]; NaN:
+    /// unknown.
     double residual_share = std::numeric_limits<double>::quiet_NaN();
     std::map<std::string, double> energy;     ///< [J], keys end in _J; residual_share [-]
     std::map<std::string, double> imbalance;  ///< worst step's, per kind; empty without --verify
-    std::map<std::string, double> stage_seconds;  ///< wall time per stage of the step
+    std::map<std::string, double> stage_seconds;  ///< wall time per stage of the step [s]
     std::optional<double> lindqvist_submersion;   ///< [N]; none where the hull has no waterline
-    std::vector<FormulaValue> formulas;           ///< of the same ship and ice
+    std::vector<FormulaValue> formulas;           ///< of the same ship and ice [N]
     std::optional<FlowSummary> flow;              ///< none: no flow around the hull
     std::optional<Ensemble> ensemble;             ///< of an ensemble's folder
     std::vector<Warning> warnings;

@@ -18,6 +18,8 @@ std::string with_verdict(const Warning& w) {
     const std::string about = !w.share         ? std::string()
                               : percent < 9.95 ? fmt::format(": about {:.2g} % of it", percent)
                                                : fmt::format(": about {:.0f} % of it", percent);
+    // "hardly" with a number that was measured and is small, "does not" where nothing can reach the
+    // mean
     const char* verb = *w.affects_mean ? "affects" : w.share ? "hardly affects" : "does not affect";
     return fmt::format("{} ({} the mean resistance{})", w.text, verb, about);
 }

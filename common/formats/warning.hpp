@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// What a run warns of, and what that does to its answer.
+/// The warnings of a run and their effect on its answer.
 #pragma once
 
 #include <optional>
@@ -9,17 +9,18 @@ namespace ice {
 
 /// A warning with its verdict on the mean resistance, the answer of a run.
 struct Warning {
-    std::string text;  ///< what was seen and what to do; begins small, no full stop
+    std::string text;  ///< observation and remedy; begins small, no full stop
     std::optional<bool> affects_mean = std::nullopt;  ///< none: unknown, nothing was measured
-    /// At most about this share of the mean: what the doubtful steps bring in; of a trend half of
-    /// its change, as the mean of its end is that far off. None: not measured.
+    /// At most about this share of the mean [-]: the part from the doubtful steps; of a trend half
+    /// of its change, as the mean of its end is that far off. None: not measured.
     std::optional<double> share = std::nullopt;
 
     bool operator==(const Warning&) const = default;
 };
 
-/// From this share on the mean counts as affected: a fifth of the 10 % by which another model of
-/// contact differs from this one, and no more than the interval of a usual run.
+/// From this share [-] on the mean counts as affected: a fifth of the 10 % by which another model
+/// of contact differs from this one, and no more than the interval of a usual run. A smaller bound
+/// marks more warnings; no number changes.
 constexpr double kMatters = 0.02;
 
 /// A warning whose share of the mean was measured, or is unknown; kMatters decides.

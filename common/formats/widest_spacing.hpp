@@ -6,6 +6,7 @@ namespace ice {
 /// Surface spheres farther apart than this, in radii, leave holes that other bodies' corners pass:
 /// along an edge the solver takes a sphere for two radii either way, a corner's for one.
 constexpr double kWidestSpacing = 3.0;
-constexpr double kSpacingRounding = 1e-9;  ///< spacings that differ by this share are equal
+/// Spacings that differ by this share [-] are equal: rounding of a product of radius and factor.
+constexpr double kSpacingRounding = 1e-9;
 
 }  // namespace ice

@@ -13,7 +13,9 @@ namespace ice {
 
 namespace {
 
-constexpr double kMost = 1e3;  // of a coefficient: larger ones are forces in other units
+// Largest size of a coefficient [-]; Jeong's are 0.5 to 2.7. Larger ones are forces in other
+// units. It moves only the range that a file is refused by.
+constexpr double kMost = 1e3;
 
 Key number_key(std::string_view path, std::string_view default_text, double low, double high,
                std::string_view doc) {
@@ -25,6 +27,7 @@ const Schema& coefficients_schema() {
         {{"spencer.name", Kind::text, Dimension::none, "-", 0, 0, 0, "", "Of the ship."},
          number_key("spencer.c_b", "", -kMost, kMost, "C_B, of buoyancy."),
          number_key("spencer.c_c", "", -kMost, kMost, "C_C, of clearing."),
+         // below 2: at rest Fr^-a V^2 must vanish (spencer.cpp)
          number_key("spencer.exponent", "", -kMost, 2.0, "a, of the Froude number."),
          number_key("spencer.c_br", "-", -kMost, kMost, "C_BR, of breaking."),
          number_key("spencer.breaking_exponent", "-", -kMost, 2.0, "b, of the strength number."),
@@ -91,6 +94,8 @@ std::string coefficients_text(const SpencerCoefficients& c, const CoefficientInt
         "# Component formula, R_B = c_b (rho_w - rho_i) g h B T, R_C = c_c Fr_h^-exponent rho_i B "
         "h V^2.\n# {}\n[spencer]\nname = {}\nc_b = {}\nc_c = {}\nexponent = {}\n",
         comment, toml_text(Value(c.name), name), c.buoyancy, c.clearing, c.clearing_exponent);
+    // Without level ice the fit has no breaking part: Jeong's default is not written as the ship's
+    // own.
     if (c.own && std::isfinite(i.breaking))
         out += fmt::format("c_br = {}\nbreaking_exponent = {}\n", c.breaking, c.breaking_exponent);
     out += "\n[uncertainty]              # half widths of 95 % intervals\n";

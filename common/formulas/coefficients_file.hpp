@@ -9,13 +9,14 @@
 
 namespace ice {
 
-/// Half widths of 95 % intervals; NaN: not fitted, or unknown.
+/// Half widths of 95 % intervals of the coefficients of SpencerCoefficients, all [-]; NaN: not
+/// fitted, or unknown.
 struct CoefficientIntervals {
-    double buoyancy = std::numeric_limits<double>::quiet_NaN();
-    double clearing = std::numeric_limits<double>::quiet_NaN();
-    double clearing_exponent = std::numeric_limits<double>::quiet_NaN();
-    double breaking = std::numeric_limits<double>::quiet_NaN();
-    double breaking_exponent = std::numeric_limits<double>::quiet_NaN();
+    double buoyancy = std::numeric_limits<double>::quiet_NaN();           ///< of C_B [-]
+    double clearing = std::numeric_limits<double>::quiet_NaN();           ///< of C_C [-]
+    double clearing_exponent = std::numeric_limits<double>::quiet_NaN();  ///< of a [-]
+    double breaking = std::numeric_limits<double>::quiet_NaN();           ///< of C_BR [-]
+    double breaking_exponent = std::numeric_limits<double>::quiet_NaN();  ///< of b [-]
 };
 
 /// Reads

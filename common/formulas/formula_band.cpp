@@ -17,13 +17,13 @@ constexpr const char* kRiska = "Riska 1997";
 constexpr const char* kBroken = "buoyancy + clearing";
 constexpr const char* kTotal = "total";
 
-// A value of the options goes before that of the run; NaN says that there is none.
+// The value of the options if it is finite, else that of the run. NaN marks an unknown value.
 double known_or(double value, double otherwise) { return std::isfinite(value) ? value : otherwise; }
 
 }  // namespace
 
-// Ice that is held until it bends is broken by the ship. In all other cases it lies broken from the
-// start, and formulas for the breaking part say nothing of it.
+// The ship breaks ice that is held until it bends. In all other cases the ice is broken from the
+// start, and the breaking part of a formula does not apply.
 bool is_level_ice(const IceParticulars& ice) {
     return std::find(ice.hold.begin(), ice.hold.end(), "until-bent") != ice.hold.end();
 }
@@ -66,6 +66,7 @@ std::vector<FormulaValue> evaluate_formulas(const ShipParticulars& ship, const I
     add(own.name, "buoyancy", spencer.buoyancy, own.own);
     add(own.name, "clearing", spencer.clearing, own.own);
     add(own.name, kBroken, spencer.broken_ice(), own.own);
+    // published values check Jeong's breaking and total, not its other parts (method, section 11)
     add(own.name, "breaking", spencer.breaking, true);
     add(own.name, kTotal, spencer.total(), true);
     return out;

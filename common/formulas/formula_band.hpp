@@ -10,11 +10,14 @@
 
 namespace ice {
 
-/// The ice where a case does not say: contract values, stated wherever they are used.
+/// Properties of ice that a case does not state: contract values, stated wherever they are used.
+/// Lindqvist's crushing part is proportional to the strength, his bending part to the strength over
+/// the root of the modulus.
 inline constexpr double kFlexuralStrength = 5e5;  ///< [Pa]
 inline constexpr double kElasticModulus = 5e9;    ///< [Pa]
-inline constexpr double kPoissonRatio = 0.3;
+inline constexpr double kPoissonRatio = 0.3;      ///< [-]
 
+/// Inputs of the formulas that the user may give.
 struct FormulaOptions {
     SpencerCoefficients spencer;
     /// [Pa], in place of the case's; NaN: the case's, and where that has none no level ice
@@ -30,6 +33,7 @@ bool is_level_ice(const IceParticulars& ice);
 /// Jeong 2010, or the user's coefficients: buoyancy, clearing, "buoyancy + clearing"; with a
 /// strength breaking, total. A part with an unknown input is left out.
 /// @param speed  of the ship [m/s]; its size counts
+/// @return values in [N]; empty where no formula has all inputs, as in 2D
 std::vector<FormulaValue> evaluate_formulas(const ShipParticulars& ship, const IceParticulars& ice,
                                             double speed, const FormulaOptions& options = {});
 
@@ -38,7 +42,7 @@ std::vector<FormulaValue> evaluate_formulas(const ShipParticulars& ship, const I
 std::vector<FormulaValue> comparable_formulas(const std::vector<FormulaValue>& formulas,
                                               bool level_ice);
 
-/// Least and largest of the values; none without values.
+/// Least and largest of the values [N]; none without values.
 struct FormulaBand {
     double low = 0.0, high = 0.0;
 };

@@ -13,7 +13,7 @@ struct HullForm {
     double draught = 0.0;         ///< T [m]
     double stem_angle = 0.0;      ///< phi, of the bow's centre line from the horizontal [rad]
     double entrance_angle = 0.0;  ///< alpha, half angle of the waterline at the bow [rad]
-                                  ///< both NaN where the bow has no point
+                                  ///< both angles NaN where the bow has no point
     /// Lengths of the waterline [m]: L_par of full breadth, L_bow before it; NaN where unknown
     double parallel_length = std::numeric_limits<double>::quiet_NaN();
     double bow_length = std::numeric_limits<double>::quiet_NaN();
@@ -22,12 +22,12 @@ struct HullForm {
 /// The ice, the water, and the ship's way through both.
 struct IceConditions {
     double thickness;      ///< h [m]
-    double friction;       ///< mu, hull on ice
+    double friction;       ///< mu, hull on ice [-]
     double ice_density;    ///< rho_i [kg/m3]
     double water_density;  ///< rho_w [kg/m3]
     double gravity;        ///< g [m/s2]
     double speed;          ///< V >= 0 [m/s]
-    /// sigma_f [Pa], E [Pa] and nu of level ice; NaN: broken ice
+    /// sigma_f [Pa], E [Pa] and nu [-] of level ice; NaN: broken ice
     double flexural_strength = std::numeric_limits<double>::quiet_NaN();
     double elastic_modulus = std::numeric_limits<double>::quiet_NaN();
     double poisson_ratio = std::numeric_limits<double>::quiet_NaN();

@@ -9,6 +9,8 @@ double lindqvist_submersion(const HullForm& hull, const IceConditions& ice) {
     const double sin_phi = std::sin(hull.stem_angle), cos_phi = std::cos(hull.stem_angle);
     const double tan_phi = std::tan(hull.stem_angle), tan_alpha = std::tan(hull.entrance_angle);
     const double psi = std::atan(tan_phi / std::sin(hull.entrance_angle));
+    // (F1), the submersion part: the weight of the submerged ice on the ship, and the friction of
+    // the ice that covers bottom and sides
     const double b = hull.breadth, t = hull.draught;
     const double covered = 0.7 * hull.length - t / tan_phi - b / (4.0 * tan_alpha) +
                            t * cos_phi * std::cos(psi) *
@@ -25,6 +27,8 @@ LindqvistParts lindqvist_resistance(const HullForm& hull, const IceConditions& i
     const double psi = std::atan(tan_phi / sin_alpha), cos_psi = std::cos(psi);
     const double h = ice.thickness, sigma = ice.flexural_strength, mu = ice.friction;
     const double nu = ice.poisson_ratio;
+    // Denominator of the crushing part: at 0 friction at the stem balances the force that pushes
+    // the ice down, and the ice is neither crushed nor bent.
     const double grip = 1.0 - mu * sin_phi / cos_psi;
     const double faster = 1.0 + 1.4 * ice.speed / std::sqrt(ice.gravity * h);
     LindqvistParts out;

@@ -6,6 +6,8 @@
 namespace ice {
 
 SpencerScales spencer_scales(const HullForm& hull, const IceConditions& ice) {
+    // The dimensionless numbers divide speeds: Fr_h by that of a wave in water as deep as the ice,
+    // S by that of the inertia against the strength. NaN strength gives NaN S alone.
     const double h = ice.thickness, v = ice.speed, b = hull.breadth;
     return {(ice.water_density - ice.ice_density) * ice.gravity * h * b * hull.draught,
             ice.ice_density * b * h * v * v, v / std::sqrt(ice.gravity * h),

@@ -14,11 +14,11 @@ namespace ice {
 /// and C_B only as a product with density difference and draught.
 struct SpencerCoefficients {
     std::string name = "Jeong 2010";
-    double buoyancy = 0.5;             ///< C_B
-    double clearing = 1.11;            ///< C_C
-    double clearing_exponent = 1.157;  ///< a
-    double breaking = 2.73;            ///< C_BR
-    double breaking_exponent = 1.54;   ///< b
+    double buoyancy = 0.5;             ///< C_B [-]
+    double clearing = 1.11;            ///< C_C [-]
+    double clearing_exponent = 1.157;  ///< a [-], below 2
+    double breaking = 2.73;            ///< C_BR [-]
+    double breaking_exponent = 1.54;   ///< b [-], below 2
     bool own = false;                  ///< of the user's own ship
 };
 
@@ -40,9 +40,10 @@ struct SpencerParts {
 SpencerParts spencer_resistance(const HullForm& hull, const IceConditions& ice,
                                 const SpencerCoefficients& coefficients = {});
 
-/// rho_i B h V^2 [N], Fr_h and S of the formula: the variables of a fit of its coefficients.
+/// The variables of the formula, by which a fit finds its coefficients.
 struct SpencerScales {
     double weight = 0.0;  ///< (rho_w - rho_i) g h B T [N]
+    /// rho_i B h V^2 [N], Fr_h [-], S [-]; S is NaN without strength
     double inertia = 0.0, froude = 0.0, strength = 0.0;
 };
 SpencerScales spencer_scales(const HullForm& hull, const IceConditions& ice);

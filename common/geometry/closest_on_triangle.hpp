@@ -13,7 +13,8 @@ struct TrianglePoint {
 
 /// Nearest point of the triangle a, b, c to p, by its Voronoi regions, corner by corner and edge by
 /// edge (Ericson, Real-Time Collision Detection, section 5.1.5). A triangle without area is treated
-/// as the segment or point it is.
+/// as the segment or point it is. Lengths [m]; of equally near features the corner counts first,
+/// then the edge.
 inline TrianglePoint closest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b,
                                          const Vec3& c) {
     const Vec3 ab = b - a, ac = c - a, ap = p - a;

@@ -21,6 +21,7 @@ std::vector<Side> file_sides(const TriangleMesh& mesh, std::vector<std::size_t>&
     for (const auto& t : mesh.triangles)
         for (std::size_t k = 0; k < 3; ++k)
             ++first[static_cast<std::size_t>(std::min(t[k], t[(k + 1) % 3])) + 1];
+    // counts to places: a running sum
     for (std::size_t v = 1; v < first.size(); ++v) first[v] += first[v - 1];
     std::vector<std::size_t> next(first.begin(), first.end() - 1);
     std::vector<Side> sides(3 * mesh.triangles.size());
@@ -53,6 +54,8 @@ std::vector<MeshEdge> edge_table(const TriangleMesh& mesh) {
             if (side == begin || side->b != (side - 1)->b)
                 edges.push_back({static_cast<std::int32_t>(v), side->b});
             MeshEdge& edge = edges.back();
+            // only the first two: an edge with more is crowded, and its caller needs the count
+            // alone
             if (edge.count < 2)
                 edge.triangles[static_cast<std::size_t>(edge.count)] = side->triangle;
             ++edge.count;

@@ -13,14 +13,15 @@ namespace ice {
 struct MeshEdge {
     std::int32_t a, b;                              ///< vertices, a < b
     std::int32_t count = 0;                         ///< triangles along it
-    std::int32_t forwards = 0;                      ///< of those, how many run from a to b
+    std::int32_t forwards = 0;                      ///< triangles among them that run from a to b
     std::array<std::int32_t, 2> triangles{-1, -1};  ///< the first two, in triangle order
 
     /// Two triangles that face the same side.
     bool regular() const { return count == 2 && forwards == 1; }
 };
 
-/// All edges, ordered by (a, b). Cost O(T log T).
+/// All edges, ordered by (a, b); none of an empty mesh. A triangle with two equal corners has an
+/// edge a = b. Cost O(T log T).
 std::vector<MeshEdge> edge_table(const TriangleMesh& mesh);
 
 }  // namespace ice

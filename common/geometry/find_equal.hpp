@@ -11,7 +11,7 @@
 
 namespace ice {
 
-/// Three words that identify a point, a cell or a triangle.
+/// Three words of 64 bits that identify a point, a cell or a triangle.
 using Key = std::array<std::uint64_t, 3>;
 
 /// Mixes all bits of a key.

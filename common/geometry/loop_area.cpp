@@ -26,6 +26,8 @@ Vec2 centroid_of(const std::vector<Vec2>& loop) {
     double twice = 0.0;
     for (std::size_t k = 1; k + 1 < loop.size(); ++k) {
         const Vec2 a = loop[k] - loop[0], b = loop[k + 1] - loop[0];
+        // the centroid of a triangle with one corner at 0 is (a + b) / 3, its weight the signed
+        // area
         sum += cross(a, b) * (a + b);
         twice += cross(a, b);
     }

@@ -34,6 +34,7 @@ MassProperties measure_mass(const TriangleMesh& mesh) {
         second += volume / 20.0 *
                   (a * a.transpose() + b * b.transpose() + c * c.transpose() + s * s.transpose());
     }
+    // a flat or empty mesh has no centroid
     if (out.volume == 0.0) return out;
 
     const Vec3 mean = first / out.volume;
@@ -46,7 +47,9 @@ MassProperties measure_mass(const TriangleMesh& mesh) {
 }
 
 std::string fault_of(const MassProperties& solid) {
-    constexpr double kRounding = 1e-9;  // of the trace
+    // Of the largest entry, and of the trace: rounding of the sums over a fine mesh is below 1e-12.
+    // A smaller value refuses plates, a larger one passes tensors with a wrong digit.
+    constexpr double kRounding = 1e-9;
     const auto positive = [](double x) { return x > 0.0 && std::isfinite(x); };
     if (!positive(solid.volume)) return fmt::format("a volume of {:g} m3", solid.volume);
     if (!positive(solid.area)) return fmt::format("a surface of {:g} m2", solid.area);

@@ -31,6 +31,7 @@ MassProperties measure_mass(const TriangleMesh& mesh);
 /// A property that no solid can have, in words, or nothing: a volume, area or moment of inertia
 /// that is not positive or no number, an inertia that is not symmetric, or one principal moment
 /// above the sum of the other two (I_1 + I_2 - I_3 = 2 int x_3^2 dV >= 0).
+/// @return "" for a solid without fault, else the first fault with its value
 std::string fault_of(const MassProperties& solid);
 
 }  // namespace ice

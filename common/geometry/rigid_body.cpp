@@ -26,12 +26,14 @@ RigidBody rigid_body(const MassProperties& solid, double density) {
     body.volume = solid.volume;
     body.mass = density * solid.volume;
     body.centroid = solid.centroid;
+    // exactly symmetric: the sums of both triangles of the matrix round differently
     body.inertia = 0.5 * density * (solid.inertia + solid.inertia.transpose());
 
     // products of inertia that are rounding alone would turn the axes of a symmetric body
     Mat3 clean = body.inertia;
     for (int r = 0; r < 3; ++r)
         for (int c = 0; c < 3; ++c)
+            // 1e-14 of the trace: some dozens of units in the last place
             if (r != c && std::abs(clean(r, c)) < 1e-14 * clean.trace()) clean(r, c) = 0.0;
     const Eigen::SelfAdjointEigenSolver<Mat3> solver(clean);  // ascending eigenvalues
     body.moments = solver.eigenvalues();

@@ -12,6 +12,8 @@ namespace ice {
 
 namespace {
 
+// Triangles of a leaf. A node has four lanes for boxes, and a box around one triangle costs as much
+// as the plane test of that triangle. The answers do not depend on it, only the time.
 constexpr std::int32_t kLeafTriangles = 4;
 
 double corner_angle(const Vec3& at, const Vec3& b, const Vec3& c) {
@@ -71,6 +73,7 @@ void SurfaceTree::set_box(Node& node, int k, std::int32_t first, std::int32_t co
             box.extend(
                 mesh_.corner(static_cast<std::size_t>(order_[static_cast<std::size_t>(t)]), c));
     for (int d = 0; d < 3; ++d) {
+        // outwards by the grain: the cast to float may round either way
         node.low[d][k] = static_cast<float>(box.min()[d] - middle_[d] - grain_);
         node.high[d][k] = static_cast<float>(box.max()[d] - middle_[d] + grain_);
     }
@@ -78,6 +81,7 @@ void SurfaceTree::set_box(Node& node, int k, std::int32_t first, std::int32_t co
 
 std::int32_t SurfaceTree::build(std::int32_t first, std::int32_t count) {
     const auto index = static_cast<std::int32_t>(nodes_.size());
+    // its place first, its content last: the children follow it in nodes_, and the vector may move
     nodes_.emplace_back();
     std::array<std::pair<std::int32_t, std::int32_t>, 4> part{};
     int parts = 0;
@@ -104,6 +108,7 @@ std::int32_t SurfaceTree::build(std::int32_t first, std::int32_t count) {
             node.low[d][k] = node.high[d][k] = std::numeric_limits<float>::infinity();
     }
     for (int k = 0; k < parts; ++k)
+        // a part that is still too large becomes a node of its own: count 0, child its index
         if (node.count[k] > kLeafTriangles) {
             node.child[k] = build(node.child[k], node.count[k]);
             node.count[k] = 0;
@@ -140,6 +145,7 @@ void SurfaceTree::build_normals() {
             if (t < 0) continue;
             const auto& corner = mesh_.triangles[static_cast<std::size_t>(t)];
             for (std::size_t k = 0; k < 3; ++k) {
+                // found by its two vertices: the triangle may run along the edge either way
                 const auto [a, b] = std::minmax({corner[k], corner[(k + 1) % 3]});
                 if (a == edge.a && b == edge.b) edge_normals_[static_cast<std::size_t>(t)][k] = sum;
             }
@@ -154,6 +160,8 @@ bool SurfaceTree::is_inside(const Vec3& p, const Foot& foot, int feature) const 
                              ? corner_normals_[static_cast<std::size_t>(mesh_.triangles[t][k])]
                          : feature < 6 ? edge_normals_[t][k - 3]
                                        : normals_[t];
+    // On the surface the product is 0: outside. The normal of one face alone would give a wrong
+    // sign near an edge, whose points both faces share.
     return (p - foot.point).dot(normal) < 0.0;
 }
 
@@ -168,6 +176,8 @@ void SurfaceTree::visit_leaves(const Vec3& p, const Skip& skip, const Visit& vis
     const Vec3 from = p - middle_;
     const float x = static_cast<float>(from.x()), y = static_cast<float>(from.y()),
                 z = static_cast<float>(from.z());
+    // A tree of T triangles is log4(T) deep and leaves at most three entries per level: 96 are
+    // enough for 4^32 triangles.
     Entry stack[96];
     int depth = 0;
     stack[depth++] = {0.0, 0, 0};
@@ -184,7 +194,7 @@ void SurfaceTree::visit_leaves(const Vec3& p, const Skip& skip, const Visit& vis
         const Eigen::Array4f sq = dx * dx + dy * dy + dz * dz;
         const int bottom = depth;
         for (int k = 0; k < 4; ++k) {
-            // less by what the sum of squares may have been rounded up
+            // less by the most that the sum of squares may have been rounded up
             const double distance_sq = static_cast<double>(sq[k]) * (1.0 - 1e-6);
             if (node.count[k] < 0 || skip(distance_sq)) continue;
             // insertion by distance: the nearest child ends on top of the stack
@@ -209,6 +219,7 @@ Foot SurfaceTree::closest(const Vec3& p, std::int32_t hint) const {
     double best_sq = std::numeric_limits<double>::infinity();
     int feature = 6;
     const auto look = [&](std::int32_t t, const Corners& corner) {
+        // the plane's distance is a lower bound of the triangle's
         if (beyond_plane(p, t, corner, best_sq)) return;
         const TrianglePoint q = closest_on_triangle(p, corner[0], corner[1], corner[2]);
         const double sq = (p - q.point).squaredNorm();
@@ -244,6 +255,7 @@ void SurfaceTree::within(const Vec3& p, double range, std::vector<Foot>& out) co
 bool SurfaceTree::is_clear(const Vec3& p, double range) const {
     bool clear = true;
     visit_leaves(
+        // one near triangle decides: nothing more is visited
         p, [&](double sq) { return !clear || sq >= range * range; },
         [&](std::int32_t t, const Corners& corner) {
             if (beyond_plane(p, t, corner, range * range)) return;

@@ -11,10 +11,10 @@ namespace ice {
 
 /// The point of a mesh nearest to some point.
 struct Foot {
-    Vec3 point = Vec3::Zero();  ///< on the surface [m]
-    double distance = 0.0;      ///< [m], >= 0
-    bool inside = false;        ///< the point lies in the solid
-    std::int32_t triangle = -1;
+    Vec3 point = Vec3::Zero();   ///< on the surface [m]
+    double distance = 0.0;       ///< [m], >= 0
+    bool inside = false;         ///< the point lies in the solid
+    std::int32_t triangle = -1;  ///< row of the mesh's triangles
 };
 
 /// Closest-point and range queries by a tree of boxes over the triangles.
@@ -24,24 +24,27 @@ struct Foot {
 /// mesh. A point on the surface counts as outside. Thread-safe once built.
 class SurfaceTree {
 public:
-    /// @pre mesh is closed and outward oriented; it must outlive the tree
+    /// @pre mesh is closed, outward oriented and not empty; it must outlive the tree. Cost O(T log
+    /// T)
     explicit SurfaceTree(const TriangleMesh& mesh);
 
     /// @param hint  a triangle thought to be near p (that of the last query, say); -1 for none. The
     ///              answer is the same without it, only later: of equal feet the first triangle's.
+    /// @param p     [m]
     Foot closest(const Vec3& p, std::int32_t hint = -1) const;
 
-    /// Feet on all triangles nearer than `range` [m] to p, in no particular order, since most callers
-    /// sort by distance and a large range finds 1e5 feet. `inside` is not set.
+    /// Feet on all triangles within `range` [m] of p; replaces `out`. In no particular order: most
+    /// callers sort by distance, and a large range finds 1e5 feet. `inside` is not set.
     void within(const Vec3& p, double range, std::vector<Foot>& out) const;
 
-    /// True when no point of the surface is nearer than `range` to p. Much cheaper than closest()
-    /// where the range is small, because it never looks farther.
+    /// True when no point of the surface is nearer than `range` [m] to p. Much cheaper than
+    /// closest() where the range is small, because it never looks farther.
     bool is_clear(const Vec3& p, double range) const;
 
     const TriangleMesh& mesh() const { return mesh_; }
-    /// Root of the mean area of the triangles [m].
+    /// Root of the mean area of the triangles [m]; 0 without triangles.
     double mean_edge() const { return mean_edge_; }
+    /// Outward unit normal [-]; zero for a triangle without area.
     const Vec3& normal(std::int32_t triangle) const {
         return normals_[static_cast<std::size_t>(triangle)];
     }

@@ -21,10 +21,11 @@ struct TriangleMesh {
     std::vector<std::int32_t> region;                    ///< T rows of region_names
     std::vector<std::string> region_names{"hull"};       ///< row 0 is for unnamed parts
 
+    /// Corner k of 0, 1, 2 [m]. @pre indices in range
     Vec3 corner(std::size_t triangle, int k) const {
         return vertices[static_cast<std::size_t>(triangles[triangle][static_cast<std::size_t>(k)])];
     }
-    /// Normal times area [m2]: half the cross product of two edges.
+    /// Normal times area [m2]: half the cross product of two edges; zero for a degenerate triangle.
     Vec3 area_vector(std::size_t triangle) const {
         const Vec3 a = corner(triangle, 0);
         return 0.5 * (corner(triangle, 1) - a).cross(corner(triangle, 2) - a);

@@ -7,8 +7,9 @@
 
 namespace ice {
 
-/// Signed solid angle of a triangle seen from p, of the whole sphere: -0.5 to 0.5, positive from
-/// behind (van Oosterom and Strackee, IEEE Trans. Biomed. Eng. 30(2), 1983).
+/// Signed solid angle of a triangle seen from p, as a share of the whole sphere [-]: -0.5 to 0.5,
+/// positive from behind (van Oosterom and Strackee, IEEE Trans. Biomed. Eng. 30(2), 1983). Places
+/// in [m].
 double solid_angle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
 
 /// Generalised winding number of any set of triangles: the solid angle they cover seen from a
@@ -20,15 +21,19 @@ double solid_angle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
 /// without area counts nothing. Thread-safe once built. Build O(T log T).
 class WindingNumber {
 public:
-    static constexpr double kBeta = 2.0;  ///< errors of up to 0.04
+    /// Distance over reach [-] from which a node acts as a dipole: errors of up to 0.04. Larger is
+    /// more accurate and slower.
+    static constexpr double kBeta = 2.0;
 
     /// Copies the needed data of the mesh.
     explicit WindingNumber(const TriangleMesh& mesh);
 
     /// @param beta  accuracy: errors of up to 0.16 / beta^2; infinity adds up all solid angles
+    /// Winding number [-] at p [m]; 0 for an empty mesh.
     double at(const Vec3& p, double beta = kBeta) const;
 
-    /// Whether |at(p)| > 0.5, as the exact sum says: beta grows while 0.5 is within the error.
+    /// Whether |at(p)| > 0.5 by the exact sum: beta grows while 0.5 is within the error. On the
+    /// surface either answer is possible.
     bool contains(const Vec3& p) const;
 
 private:

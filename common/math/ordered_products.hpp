@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Products whose sums have a fixed order, so that scalar code and kernels give the same bits.
+/// Results have the product of the arguments' units.
 ///
 /// Eigen's order depends on the vectors that it was compiled for. This is its order on SSE2, with
 /// which all results were made: the first two rows of a product with a matrix as (a + b) + c, the
@@ -13,6 +14,7 @@
 
 namespace ice {
 
+/// a . b
 inline double ordered_dot(const Vec3& a, const Vec3& b) {
     return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2];
 }
@@ -51,7 +53,7 @@ inline Vec3 ordered_turned(const Mat3& r, const Mat3& t, const Vec3& x) {
     return ordered_product(r, ordered_product(t, ordered_transposed(r, x)));
 }
 
-/// a after b
+/// The rotation a after b (Hamilton's product); not normalised.
 inline Eigen::Quaterniond ordered_product(const Eigen::Quaterniond& a,
                                           const Eigen::Quaterniond& b) {
     return {(a.w() * b.w() - a.y() * b.y()) - (a.z() * b.z() + a.x() * b.x()),
@@ -60,7 +62,7 @@ inline Eigen::Quaterniond ordered_product(const Eigen::Quaterniond& a,
             (a.w() * b.z() - a.y() * b.x()) + (a.z() * b.w() + a.x() * b.y())};
 }
 
-/// Of length 1; zero stays zero.
+/// q / |q|; zero stays zero.
 inline Eigen::Quaterniond ordered_normalized(const Eigen::Quaterniond& q) {
     const double square = (q.x() * q.x() + q.z() * q.z()) + (q.y() * q.y() + q.w() * q.w());
     if (!(square > 0.0)) return q;

@@ -23,8 +23,10 @@ using Tag = hn::CappedTag<double, 8>;
 using Lanes = hn::Vec<Tag>;
 using Mask = hn::Mask<Tag>;
 
+// Lanes of the widest build: the size of arrays on the stack. 8 doubles fill an AVX-512 register.
 constexpr std::size_t kMostLanes = hn::MaxLanes(Tag());
 
+// One vector per lane, in the unit of the caller.
 struct Vectors {
     Lanes x, y, z;
 };

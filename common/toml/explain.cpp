@@ -12,7 +12,7 @@ namespace ice {
 namespace {
 
 std::string kind_text(const Key& key) {
-    // in the words of a message: what the user has to write
+    // in the words of a message: the form that the user has to write
     switch (key.kind) {
         case Kind::number:
             return "number";
@@ -47,7 +47,7 @@ std::string kind_text(const Key& key) {
 
 std::string default_note(const Key& key) {
     if (key.default_text.empty()) return "required";
-    // "-": left out, the program chooses; the description says what
+    // "-": left out, the program chooses, by the rule in the description
     if (key.default_text == "-") return "optional";
     return "default " + std::string(key.default_text);
 }
@@ -68,7 +68,7 @@ std::string explain_key(const Schema& schema, const std::string& path) {
     const Key* key = schema.find(path);
     if (key == nullptr) {
         // the name of a table explains all of its keys
-        std::string table;  // of which all keys are explained
+        std::string table;  // explanations of all its keys
         for (const Key& inner : schema.keys)
             if (inner.path.starts_with(path + "."))
                 table += explain_key(schema, std::string(inner.path));
@@ -78,6 +78,7 @@ std::string explain_key(const Schema& schema, const std::string& path) {
                         near.empty() ? schema.program + " --print-defaults lists all keys"
                                      : "did you mean '" + near + "'?");
     }
+    // sentence, form, default, then the range and the units, where the key has them
     std::string out =
         fmt::format("{}\n  {}\n  {}, {}", key->path, key->doc, kind_text(*key), default_note(*key));
     if (has_range(*key)) out += fmt::format(", from {:g} to {:g}", key->low, key->high);
@@ -97,6 +98,7 @@ std::string default_text(const Schema& schema) {
         "#:schema {0}\n# for editors, made by: {1} --print-schema > {0}\n", name, schema.program);
     std::string table;
     for (const Key& key : schema.keys) {
+        // keys are in the order of their tables: a new name begins a new table
         if (const std::string now = table_of(key); now != table) {
             out += now == schema.repeated_table ? fmt::format("\n[[{}]]\n", now)
                                                 : fmt::format("\n[{}]\n", now);

@@ -36,7 +36,7 @@ std::string read_input_text(const std::filesystem::path& file, const std::string
 }
 
 void rehearse_input(const std::filesystem::path& file, const std::function<void()>& read) {
-    std::error_code missing;  // is what reading it complains of
+    std::error_code missing;  // reading complains of it
     const std::uintmax_t size = std::filesystem::file_size(file, missing);
     if (!missing && size <= kLargestInput) rehearse(file, ReadBounds::for_size(size), read);
 }

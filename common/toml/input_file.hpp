@@ -11,7 +11,8 @@
 
 namespace ice {
 
-/// The largest case file or specification [bytes]; a speed_table of a million rows fits.
+/// The largest case file or specification [bytes], 64 MiB: a speed_table of a million rows fits. A
+/// larger bound lets a wrong file fill the memory.
 inline constexpr std::uintmax_t kLargestInput = 64u << 20;
 
 /// Text of a whole input file.

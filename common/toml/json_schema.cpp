@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The schema table as JSON schema: what editors complete, explain and underline.
+// The schema table as JSON schema: editors complete, explain and underline by it.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -120,6 +120,7 @@ Json key_schema(const Key& key, const Schema& schema) {
     if (has_unit(key.dimension)) {
         text += fmt::format(" In {}, or a text with a unit: {}.", si_unit(key.dimension),
                             unit_names(key.dimension));
+        // no keyword of JSON schema: the tables of the documents are made from it
         out["x-unit"] = si_unit(key.dimension);
     }
     if (key.default_text.empty()) {
@@ -145,6 +146,7 @@ Json table_schema() {
 std::string json_schema(const Schema& schema) {
     Json root = {{"$schema", "http://json-schema.org/draft-04/schema#"}, {"title", schema.title}};
     root.update(table_schema());
+    // A key's path is its table's name and its own; the tables are made as their first key comes.
     for (const Key& key : schema.keys) {
         const auto dot = key.path.rfind('.');
         Json* table = &root;
@@ -165,7 +167,7 @@ std::string json_schema(const Schema& schema) {
         (*table)["properties"][name] = key_schema(key, schema);
         if (key.default_text.empty()) (*table)["required"].push_back(name);
     }
-    // keys of which one must be given: the editor underlines a table that has none or both
+    // exactly one of these keys must be given: the editor underlines a table that has none or both
     for (const auto& choice : schema.one_of) {
         const std::string table = choice.front().substr(0, choice.front().rfind('.'));
         Json& entry = root["properties"][table];

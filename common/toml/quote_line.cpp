@@ -11,7 +11,10 @@ namespace ice {
 
 namespace {
 
-constexpr std::size_t kMostOfLine = 120;  // characters of a line
+// Characters of a line that a message shows: one or two rows of a terminal. Fewer hide the context
+// of a mistake, more let a generated file's line fill the screen.
+constexpr std::size_t kMostOfLine = 120;
+// U+FFFD, the character that takes the place of an unreadable one, as UTF-8.
 const char* const kReplacement = "\xEF\xBF\xBD";
 
 bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
@@ -20,6 +23,7 @@ bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0
 // length of the UTF-8 sequence at the front of a text, 0 when there is none
 std::size_t sequence_length(std::string_view text) {
     const auto first = static_cast<unsigned char>(text.front());
+    // by the first byte's leading bits; C0, C1 and F5 to FF begin no valid sequence
     const std::size_t length = first < 0x80                    ? 1
                                : first >= 0xC2 && first < 0xE0 ? 2
                                : first >= 0xE0 && first < 0xF0 ? 3
@@ -40,7 +44,7 @@ std::string_view trim(std::string_view text) {
     return text;
 }
 
-// what follows the number at the front of a text; all of it where there is none
+// the text behind the number at its front; all of it where there is none
 std::string_view behind_number(std::string_view text) {
     double number = 0.0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
@@ -93,6 +97,7 @@ std::string explain_value(std::string_view line) {
     const std::string_view value = trim(line.substr(equals + 1, line.find('#') - equals - 1));
     if (value.empty()) return "";
     if (has_decimal_comma(value)) return "; the decimal point is '.', not ','";
+    // a word behind a number is a unit without quotes, a word alone a text without quotes
     const std::string_view unit = trim(behind_number(value));
     if (unit.empty() || !(is_letter(unit.front()) || unit.front() == '%')) return "";
     const std::string shown = fmt::format("{}", fmt::join(printable_characters(value), ""));

@@ -13,8 +13,9 @@ namespace ice {
 /// control characters become U+FFFD, a tab one space.
 std::vector<std::string> printable_characters(std::string_view text);
 
-/// Two lines: "   12 | the line" and carets under `width` of its characters, from the character
-/// `at` (from 0) on. Of a long line only the text around them.
+/// Two lines: "   12 | the line" and carets under `width` of its characters (at least one), from
+/// the character `at` (from 0) on. Of a long line only the text around them.
+/// @param number  of the line, from 1
 std::string quote_line(std::string_view line, std::size_t number, std::size_t at,
                        std::size_t width);
 

@@ -18,9 +18,14 @@ namespace ice {
 
 namespace {
 
-constexpr std::size_t kMostOfKey = 120;     // characters of a key in a message
-constexpr std::size_t kMostTables = 10000;  // [[floes]]
+// Characters of an unknown key up to which a near name is searched for: the search takes the
+// product of both lengths, and no real key has a third of this.
+constexpr std::size_t kMostOfKey = 120;
+// Repeated tables ([[floes]]). A case has a handful; more would be a generated file whose floes
+// belong in a field file. A higher bound costs memory and a slower start.
+constexpr std::size_t kMostTables = 10000;
 
+// A parsed text and the schema that its keys are held against. It walks the tree of tables once.
 class Document {
 public:
     Document(const std::string& text, std::string name, const Schema& schema, Mistakes& mistakes)
@@ -50,7 +55,7 @@ private:
     }
 
     void complain_of_syntax(const toml::parse_error& error) {
-        // the parser's own words, and what people usually did
+        // the parser's own words, then the probable cause
         const std::string what(error.description());
         const std::string hint = what.find("utf-8") != std::string::npos
                                      ? "; save the file as UTF-8"
@@ -58,7 +63,7 @@ private:
         complain(error.source(), what + hint, 1);
     }
 
-    // A case given to icefield would get a dozen errors, none of which names the cause.
+    // A case given to icefield would get a dozen errors, and none would name the cause.
     bool is_another_kind(const toml::table& root) {
         std::vector<std::string> names;
         for (auto&& [key, node] : root) names.emplace_back(key.str());
@@ -92,6 +97,8 @@ private:
                 else
                     walk(*node.as_table(), path, label + "." + std::to_string(group - 1), values,
                          groups);
+                // the order matters: [[floes]], then a table that the schema knows, then one that
+                // it does not
             } else if (const auto* rows = node.as_array(); rows && is_repeated(full)) {
                 walk_repeated(*rows, values, groups);
             } else if (const auto* inner = node.as_table(); inner && is_table(full)) {
@@ -117,6 +124,7 @@ private:
     // neither unknown nor missing.
     void read_unknown_table(const toml::key& name, const toml::node& node, const std::string& path,
                             Values& values, std::size_t& groups) {
+        // only tables are candidates: a key of the same name is another mistake (read_key)
         const std::string near = is_table(path)        ? path
                                  : worth_a_guess(path) ? nearest_name(path, schema_.tables())
                                                        : "";
@@ -131,6 +139,7 @@ private:
                  near == path ? fmt::format("there is one table of this name: write [{}]", path)
                               : fmt::format("unknown table '{}'; did you mean '{}'?", path, near),
                  name.str().size());
+        // four cases: rows or one table in the file, repeated or single in the schema
         if (const auto* rows = node.as_array(); rows && is_repeated(near))
             walk_repeated(*rows, values, groups);
         else if (const auto* rows_of_one = node.as_array())
@@ -147,6 +156,8 @@ private:
     }
 
     void walk_repeated(const toml::array& rows, Values& values, std::size_t& groups) {
+        // Rows of a repeated table become keys with a number, "floes.0.gap": so every other part of
+        // the program knows one kind of key only.
         const std::string& name = schema_.repeated_table;
         for (const toml::node& row : rows) {
             if (groups >= kMostTables) {

@@ -14,6 +14,7 @@ namespace ice {
 /// Mistakes found so far, each "file:line:column: error: ..." with the line and a caret under it.
 /// Of a file full of them the first are kept, the others counted.
 struct Mistakes {
+    /// Mistakes with a text of their own: a screen full. The others are counted.
     static constexpr std::size_t kMost = 20;
 
     std::vector<std::string> texts;
@@ -37,7 +38,7 @@ using Values = std::map<std::string, Value>;
 
 /// Parses TOML and checks it. Mistakes are collected, never thrown.
 /// @param name   of the text in messages: the file, or "--set"
-/// @param groups  the number of repeated tables, counted on
+/// @param groups  the number of repeated tables so far, increased by those of the text
 Values read_toml(const std::string& text, const std::string& name, const Schema& schema,
                  Mistakes& mistakes, std::size_t& groups);
 
@@ -46,7 +47,7 @@ Values read_toml(const std::string& text, const std::string& name, const Schema&
 Values read_override(const std::string& text, const Schema& schema, std::size_t groups,
                      Mistakes& mistakes);
 
-/// The value of a key's default_text. @pre it has one
+/// The value of a key's default_text, in SI. @pre it has one
 Value default_value(const Key& key, const Schema& schema);
 
 }  // namespace ice

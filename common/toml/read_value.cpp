@@ -14,13 +14,19 @@ namespace ice {
 
 namespace {
 
-constexpr std::size_t kMostWords = 360;  // characters of the faulty value
+// Characters of a message that may quote a faulty value: about four rows of a terminal. Fewer cut
+// messages that list all choices of a key.
+constexpr std::size_t kMostWords = 360;
 
+// Reads one node by the kind of its key. Each reader complains at the node itself and returns
+// false; values are stored in SI.
 class ValueReader {
 public:
     explicit ValueReader(Complaints& complaints) : complaints_(complaints) {}
 
     bool read(const Key& key, const toml::node& node, Value& out) {
+        // No default: a new kind without a reader is a compiler warning. A choice or vector is told
+        // apart by the node, because only one of them is a text.
         switch (key.kind) {
             case Kind::number:
                 return read_number(key, node, out);
@@ -59,6 +65,7 @@ private:
             complain(node.source(), fmt::format("{} must be true or false", key.path), 1);
             return false;
         }
+        // 0 or 1: values have no kind of their own for booleans
         out = std::int64_t{*value};
         return true;
     }
@@ -161,6 +168,7 @@ private:
                      1);
             return false;
         }
+        // a word twice would count its rule twice, so it is refused, not dropped
         Key one = key;  // each word is a choice
         one.kind = Kind::choice;
         std::vector<std::string> words;

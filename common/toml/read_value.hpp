@@ -33,6 +33,7 @@ private:
 
 /// Reads a node as the value of a key: type, unit, range, length. Of one that does not fit it
 /// complains and returns false.
+/// @param out  in SI; unchanged where false
 bool read_value(const Key& key, const toml::node& node, Complaints& complaints, Value& out);
 
 }  // namespace ice

@@ -51,7 +51,8 @@ constexpr std::array kFormats{
     Format{"", "an HDF5 file", "give a text file; icepost reads the run folder of a run.h5"},
 };
 
-constexpr std::size_t kMostNames = 5;  // of files in a folder
+// File names that a message lists: more hide the advice among names.
+constexpr std::size_t kMostNames = 5;
 
 std::string with_name(std::string_view remedy, const std::filesystem::path& file) {
     std::string text(remedy);
@@ -75,6 +76,7 @@ std::optional<Recognised> recognise_file(const std::filesystem::path& file, std:
         for (const Format& format : kFormats)
             if (text.find(format.name) != std::string_view::npos)
                 return Recognised{std::string(format.what), with_name(format.remedy, file)};
+    // by the name alone: a mesh's content has no mark that all formats share
     if (std::count(std::begin(kMeshes), std::end(kMeshes), lower_extension(file)) > 0)
         return Recognised{"a mesh", with_name("make a sphere set of it: spherize FILE; a case "
                                               "names that, and icesolve runs the case",
@@ -93,6 +95,7 @@ std::optional<Recognised> recognise_tables(const std::filesystem::path& file,
             return std::find(names.begin(), names.end(), sign) != names.end();
         });
     };
+    // the first kind that shows a sign, unless the wanted kind shows one, too
     const FileKind* found = nullptr;
     for (const FileKind& kind : kKinds) {
         if (!shows(kind)) continue;

@@ -17,6 +17,7 @@ struct Recognised {
 
 /// A mesh (by its name), an HDF5 file of the project (by the format it states), or text in UTF-16.
 /// @param text  of the whole file, also where it is none
+/// @return nothing for a file that may be the right one
 std::optional<Recognised> recognise_file(const std::filesystem::path& file, std::string_view text);
 
 /// A TOML file of another kind than `wanted`, which has none of the wanted kind's own tables.

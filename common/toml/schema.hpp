@@ -14,6 +14,7 @@
 
 namespace ice {
 
+/// The form of a key's value.
 enum class Kind {
     number,
     integer,
@@ -31,6 +32,7 @@ enum class Kind {
     choice_or_vector  ///< one of the choices, or `length` numbers
 };
 
+/// Numbers are in SI; pairs are (time [s], value) or (speed [m/s], value).
 using Value = std::variant<double, std::int64_t, std::string, std::vector<double>,
                            std::vector<std::pair<double, double>>, std::vector<std::string>>;
 
@@ -42,8 +44,8 @@ struct Key {
     std::string_view
         default_text;          ///< TOML literal; "" when the key is required, "-" when optional
     double low, high;          ///< inclusive range of each number, SI
-    std::size_t length;        ///< of a vector
-    std::string_view choices;  ///< "grid|brick|single|file"
+    std::size_t length;        ///< of a vector: count of its numbers; 0 for others
+    std::string_view choices;  ///< "grid|brick|single|file"; "" for none
     std::string_view doc;      ///< one sentence
 };
 
@@ -54,7 +56,7 @@ struct Schema {
     std::string program;         ///< whose --print-defaults lists the keys
     std::string title;           ///< "icesolve case"
     std::vector<std::vector<std::string>> one_of;  ///< keys of a table that exclude each other
-    std::string in_its_place = {};  ///< a table that may stand in place of repeated_table; "" none
+    std::string in_its_place = {};  ///< a table that may replace repeated_table; "" none
 
     /// The key of that path, or null.
     const Key* find(std::string_view path) const;

@@ -6,6 +6,8 @@
 namespace ice {
 
 std::string toml_text(const Value& value, const Key& key) {
+    // One overload for each alternative of Value. The key decides between whole numbers and floats,
+    // and between true and 1, because Value stores them alike.
     struct Writer {
         const Key& key;
         std::string operator()(double v) const {

@@ -12,12 +12,16 @@ namespace ice::attain {
 
 namespace {
 
-constexpr double kMostSpeed = 50.0;  // of a ship [m/s], for thrusts that never end
+// Largest speed at which a root is sought [m/s], for thrusts without an end: about 97 kn, above any
+// ship.
+constexpr double kMostSpeed = 50.0;
+// Steps of the search from rest to that speed, 0.025 m/s each, and halvings of the step with the
+// root. Two roots within one step are missed; 60 halvings reach the last digit of a double.
 constexpr int kSteps = 2000, kHalvings = 60;
 
 struct Trial {
     ResistanceFit fit;
-    double misses = 0.0;  // chi^2 per degree of freedom; 0 without any
+    double misses = 0.0;  // chi^2 per degree of freedom [-]; 0 without any
 };
 
 Trial try_degree(const std::vector<SpeedPoint>& points, Eigen::Index degree, bool weighted) {
@@ -85,9 +89,12 @@ ResistanceFit fit_resistance(const std::vector<SpeedPoint>& points) {
     const bool weighted =
         std::all_of(points.begin(), points.end(), [](const SpeedPoint& p) { return p.half > 0.0; });
     Trial best = try_degree(points, 1, weighted);
+    // A parabola through three points has no deviation left to judge it by; four leave one degree
+    // of freedom. Higher degrees swing between the points and are not tried.
     if (points.size() >= 4) {
         const Trial curved = try_degree(points, 2, weighted);
-        // by chance a parabola misses by less, too: half is no chance, and 1 is what intervals say
+        // A parabola misses by less by chance, too: it must halve the line's chi^2 per degree of
+        // freedom. A line at 1 or below already lies within the points' intervals.
         const bool straight = weighted && best.misses <= 1.0;
         if (!straight && curved.misses < 0.5 * best.misses) best = curved;
     }

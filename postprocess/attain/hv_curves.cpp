@@ -19,11 +19,15 @@ using sweep::Part;
 using sweep::Point;
 using sweep::Sweep;
 
-constexpr double kStuckSpeed = 0.1;  // [m/s]: a free ship slower than this is held by the ice
+// A free ship slower than this is held by the ice [m/s]: 60 m in ten minutes. With a larger bound a
+// ship that creeps through would count as stuck.
+constexpr double kStuckSpeed = 0.1;
 constexpr const char* kFreedom = "ship.free";  // tells free ships from others, which are apart
-constexpr int kFormulaSteps = 24;              // of a formula's curve over the thicknesses
+// Steps of a formula's curve over the thicknesses: it is smooth, and 24 steps show no corners. Each
+// costs a search for a root.
+constexpr int kFormulaSteps = 24;
 
-// Thicknesses that differ by less come from one specification [m].
+// Thickness in steps of 0.1 mm: measured thicknesses of one specification differ by less.
 long rounded(double thickness) { return std::lround(1e4 * thickness); }
 
 struct Row {
@@ -162,6 +166,8 @@ private:
                 const sweep::Estimate r = row.point->part(Part::total);
                 speeds.push_back({std::abs(row.summary->ship.speed_mean), r.mean, r.half});
             }
+            // a fit through one speed has no slope, and its root would be the extrapolation of a
+            // guess
             const bool one = std::all_of(speeds.begin(), speeds.end(), [&](const SpeedPoint& p) {
                 return std::abs(p.speed - speeds.front().speed) < 1e-6;
             });
@@ -211,6 +217,7 @@ private:
                     if (f.name == formula.name && f.part == formula.part) return f.value;
                 return std::nan("");
             };
+            // a formula without a number at rest cannot tell a ship that is stuck
             if (std::isnan(value(low->thickness, 0.0))) continue;
             HvCurve curve{
                 Source::formula,

@@ -16,10 +16,14 @@ namespace ice::attain {
 
 namespace {
 
+// Bounds of the file's numbers [N, W, m, m/s], far beyond any ship: they only refuse signs and
+// powers of ten that are surely wrong.
 constexpr double kMost = 1e12;
 constexpr double kLeast = 1e-9;
 
 const Schema& thrust_schema() {
+    // Forces and powers are plain numbers in SI; only speeds and lengths may have a unit in the
+    // file.
     const auto number = [](std::string_view path, Dimension dimension, std::string_view doc) {
         return Key{path, Kind::number, dimension, "-", kLeast, kMost, 0, "", doc};
     };
@@ -149,7 +153,8 @@ double Thrust::fastest() const {
 
 double bollard_pull(double power, double diameter, int propellers) {
     ICE_ASSERT(propellers >= 1 && propellers <= 3);
-    // T_B = K (P D)^(2/3) in kN, kW, m: 0.78, 0.98, 1.12 for one, two, three screws
+    // T_B = K (P D)^(2/3) in kN, kW, m: K = 0.78, 0.98, 1.12 for one, two, three screws (text below
+    // (S2) of docs/method.md). K comes from an open program; another text has 0.728 for one screw.
     constexpr std::array<double, 3> kFactor{0.78, 0.98, 1.12};
     const double factor = kFactor[static_cast<std::size_t>(propellers - 1)];
     return 1e3 * factor * std::pow(1e-3 * power * diameter, 2.0 / 3.0);

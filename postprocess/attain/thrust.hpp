@@ -11,7 +11,7 @@ namespace ice::attain {
 
 /// A curve of net thrust.
 struct Thrust {
-    std::string name;
+    std::string name;               ///< of the curve, in legends
     double bollard_pull = 0.0;      ///< T_B [N]; the constant thrust where open_water_speed is 0
     double open_water_speed = 0.0;  ///< U_ow [m/s]; 0: the thrust is constant
     std::vector<std::pair<double, double>> table;  ///< (U [m/s], T [N]), U rising; before all else
@@ -31,8 +31,9 @@ struct Thrust {
 ///
 ///     T_B = K_e (P_D D)^(2/3),   kN, kW and m;   K_e = 0.78, 0.98, 1.12 for 1, 2, 3 propellers
 ///
-/// The K_e are recalled; one publication prints 0.728 for a single screw.
-/// @param power  delivered, of all propellers [W]; @param diameter [m]; @pre 1 to 3 propellers
+/// Numbers K_e [-] are recalled; one publication prints 0.728 for a single screw.
+/// @param power  delivered, of all propellers [W]; @param diameter  of one propeller [m]
+/// @pre 1 to 3 propellers; another number ends the program with an assertion
 double bollard_pull(double power, double diameter, int propellers);
 
 /// Reads thrust curves:
@@ -43,7 +44,7 @@ double bollard_pull(double power, double diameter, int propellers);
 ///     open_water_speed = "16 kn"
 ///
 /// or constant = N, or power = W, propeller_diameter = m, propellers = 2 with open_water_speed, or
-/// table = [[U, N], ...].
+/// table = [[U, N], ...], U in m/s and rising. Exactly one of these kinds per [[thrust]].
 /// @throws Error (exit code 2) with all mistakes: file, line, key
 std::vector<Thrust> read_thrusts(const std::filesystem::path& file);
 

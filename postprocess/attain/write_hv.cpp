@@ -19,7 +19,8 @@ namespace {
 using views::escape;
 using views::Vec2;
 
-constexpr double kWide = 860.0, kPhone = 400.0;  // of charts [px]
+// Widths of the chart [px]: the page's text, and a phone held upright.
+constexpr double kWide = 860.0, kPhone = 400.0;
 
 const char* name_of(Source source) {
     switch (source) {
@@ -172,6 +173,7 @@ std::string draw_hv(const HvStudy& study, double width) {
                 chart.curves.push_back(interval(p, cap, color));
     }
     // Formulas do not set the scale: some go to infinity in thin ice.
+    // 40 % above the fastest run leave room for bars and for formulas that are near the runs
     if (fastest > 0.0) chart.y_range = {0.0, 1.4 * fastest};
     return draw_chart(chart);
 }
@@ -180,7 +182,7 @@ std::string make_hv_page(const sweep::Sweep& sweep, const HvStudy& study) {
     std::string out = report::open_page(sweep.title) + "<header><div class=\"inner\">\n<h1>" +
                       escape(sweep.title) + "</h1>\n<p>Attainable speed against ice thickness. " +
                       which_resistance(study) + "</p>\n</div></header>\n<main>\n";
-    // Before the chart: a warning here may say that a curve is not what it seems.
+    // Before the chart: a warning may say that a part of a curve is extrapolated.
     if (!study.warnings.empty()) {
         out += "<section id=\"faults\" class=\"warnings\">\n<ul>\n";
         for (const std::string& text : study.warnings) out += "<li>" + escape(text) + "</li>\n";

@@ -98,8 +98,8 @@ std::string junit_text(const std::vector<Verdict>& verdicts, const std::string& 
         if (!v.passed)
             out += fmt::format(
                 "<failure message=\"{}\">{}</failure>",
-                // CI servers show the message in a list and the text below it: what missed, then
-                // why it is expected.
+                // CI servers show the message in a list and the text below it: the number and its
+                // bound, then the reason.
                 escape(fmt::format("{} is not {}", number_text(v.actual), describe(v.expected))),
                 escape(v.expected.why));
         out += "</testcase>\n";

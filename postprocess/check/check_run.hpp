@@ -13,11 +13,12 @@ namespace ice::check {
 /// One expectation and the run's value.
 struct Verdict {
     Expectation expected;
-    double actual = 0.0;  ///< NaN where the summary has null: never passes
+    double actual = 0.0;  ///< in the key's unit; NaN for null: never passes
     bool passed = false;
 };
 
-/// Compares numbers (read_json_numbers) with expectations, in their order.
+/// Compares numbers (read_json_numbers) with expectations, in their order; none gives none. Bounds
+/// are inclusive; a tolerance is exceeded by up to 1e-12 of the number, for rounding.
 ///
 /// @param file name of the expectations' file, for messages
 /// @throws Error (exit code 2) with line and column for a key that is not among the numbers, naming
@@ -26,6 +27,7 @@ std::vector<Verdict> check_numbers(const std::map<std::string, double>& numbers,
                                    const std::vector<Expectation>& expectations,
                                    const std::filesystem::path& file);
 
+/// True also for an empty list.
 bool all_passed(const std::vector<Verdict>& verdicts);
 
 /// A table for people: verdict, key, actual number, expectation and why.

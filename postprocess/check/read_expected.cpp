@@ -75,6 +75,7 @@ private:
         const toml::node* node = entry.get(name);
         if (node == nullptr) return std::nullopt;
         const auto value = node->value<double>();
+        // TOML has nan as a number; no comparison with it would ever fail or pass as meant
         if (!node->is_number() || !value || std::isnan(*value))
             throw fault(node->source(), fmt::format("{} is not a number", name),
                         fmt::format("write {} = 1.0", name));
@@ -108,6 +109,7 @@ private:
         e.value = number(entry, "value");
         e.min = number(entry, "min");
         e.max = number(entry, "max");
+        // both tolerances may be given: the larger one counts (Expectation)
         e.abs = tolerance(entry, "abs");
         e.rel = tolerance(entry, "rel");
         // a value needs a tolerance, a bound has none of its own: anything else is ambiguous

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// `expected.toml`: which numbers of a run's summary should be how large, and why.
+/// `expected.toml`: expected sizes of numbers of a run's summary, with reasons.
 ///
 ///     [[expect]]
 ///     key = "resistance.mean_N"   # dotted key of summary.json
@@ -17,16 +17,17 @@ namespace ice::check {
 
 /// One [[expect]] entry. Either `value`, or `min` and/or `max`.
 struct Expectation {
-    std::string key, why;
-    std::optional<double> value, min, max;
-    double abs = 0.0, rel = 0.0;  ///< allowed |difference| <= max(abs, rel * |value|)
-    int line = 0, column = 0;     ///< of the key in the file, from 1
+    std::string key, why;                   ///< dotted key of summary.json; reason, may be ""
+    std::optional<double> value, min, max;  ///< in the unit of the key's number
+    double abs = 0.0, rel = 0.0;            ///< |difference| <= max(abs, rel * |value|); rel [-]
+    int line = 0, column = 0;               ///< of the key in the file, from 1
 };
 
 /// Reads and checks the file.
 ///
 /// @throws Error (exit code 2) with file:line:column for TOML errors, unknown names (with the
-///         nearest known one), wrong types, negative tolerances, entries without a bound.
+///         nearest known one), wrong types, negative tolerances, entries without a bound, min above
+///         max, a file without entries or of another kind.
 std::vector<Expectation> read_expected(const std::filesystem::path& path);
 
 }  // namespace ice::check

@@ -12,8 +12,14 @@ namespace ice::fit {
 
 namespace {
 
+// Exponents a of (F3) that are tried before Newton's steps [-]: Jeong's is 1.157, and above 2
+// clearing would fall with the speed. Coarser steps may begin in the valley of another minimum;
+// finer ones only take time.
 constexpr double kLeastExponent = -1.0, kMostExponent = 1.95, kExponentStep = 0.05;
-constexpr double kSame = 1e-3;  // Froude numbers this near are one speed
+// Froude numbers that differ by less are one speed, and logarithms of strength numbers that do not
+// reach farther apart fix no exponent [-]. Rounding of speeds in cases is far below it.
+constexpr double kSame = 1e-3;
+// Newton's steps at most; the scan begins near the minimum, so a few suffice.
 constexpr int kMostSteps = 50;
 
 struct Problem {
@@ -27,7 +33,7 @@ double clearing(const SpencerScales& s, double exponent) {
     return s.froude > 0.0 ? s.inertia * std::pow(s.froude, -exponent) : 0.0;
 }
 
-// Columns: d R / d C_B, d C_C and, times C_C, d a.
+// Slopes of (F3), weighted, [points x columns]: dR / dC_B, dR / dC_C and, times C_C, dR / da [N].
 Eigen::MatrixXd slopes(const Problem& p, double a, double c_c, int columns) {
     Eigen::MatrixXd out(p.resistance.size(), columns);
     for (Eigen::Index i = 0; i < out.rows(); ++i) {
@@ -41,8 +47,7 @@ Eigen::MatrixXd slopes(const Problem& p, double a, double c_c, int columns) {
     return out;
 }
 
-// C_B and C_C with the exponent a.
-// for a given exponent the resistance is linear in both coefficients
+// C_B and C_C with the exponent a: for a given exponent the resistance is linear in both.
 LeastSquares solve_at(const Problem& p, double a) {
     return solve_least_squares(slopes(p, a, 1.0, 2), p.weight.cwiseProduct(p.resistance));
 }
@@ -70,7 +75,7 @@ double find_exponent(const Problem& p) {
     return a;
 }
 
-// Half widths of 95 % intervals of what the columns belong to.
+// Half widths of the 95 % intervals of the columns' coefficients, from the linearised problem.
 Eigen::VectorXd half_widths(const Eigen::MatrixXd& j, double chi2, bool weighted) {
     const FitSpread spread = spread_of_fit(j, chi2, weighted);
     return spread.t * spread.covariance.diagonal().cwiseSqrt();
@@ -105,15 +110,17 @@ Problem take_broken(const std::vector<FitPoint>& points) {
     return p;
 }
 
-// A line through log of what level ice takes beside buoyancy and clearing.
+// C_BR and b of (F3): a line through the logarithm of level-ice resistance less buoyancy and
+// clearing.
 void fit_breaking(const std::vector<FitPoint>& points, SpencerFit& fit) {
     std::vector<double> x, y, weight;
     bool weighted = true;
     for (const FitPoint& point : points) {
         if (!point.level_ice) continue;
         ++fit.level;
-        // The breaking part is what the fitted parts leave of the level-ice resistance; a power law
-        // is a line in its logarithm. A point without any left has no logarithm and is passed over.
+        // The breaking part is the level-ice resistance less the fitted parts; a power law
+        // is a line in its logarithm: log((R - R_B - R_C) / (rho_i B h V^2)) over log S. A point
+        // where nothing is left has no logarithm and is passed over.
         const double left =
             point.resistance - fit.coefficients.buoyancy * point.scales.weight -
             fit.coefficients.clearing * clearing(point.scales, fit.coefficients.clearing_exponent);
@@ -164,6 +171,7 @@ SpencerFit fit_spencer(const std::vector<FitPoint>& points) {
         throw bad_input("the sweep",
                         "has no run in 3D that states ship, ice and water (older programs did not)",
                         "run its cases again");
+    // One speed gives a sum of both parts only, and they grow differently with the speed.
     const std::size_t speeds = count_speeds(problem);
     if (speeds < 2)
         throw bad_input("the sweep",
@@ -186,6 +194,7 @@ SpencerFit fit_spencer(const std::vector<FitPoint>& points) {
     if (fit.exponent_fitted) fit.intervals.clearing_exponent = half[2];
     // After the parts of broken ice, which it subtracts.
     fit_breaking(points, fit);
+    // root mean square of the relative deviations: slow and fast points count alike
     double squares = 0.0, count = 0.0;
     for (const FitPoint& point : points) {
         if (point.level_ice && !fit.breaking_fitted) continue;

@@ -9,9 +9,9 @@
 
 namespace ice::fit {
 
-/// The points of a sweep as the fit takes them: runs in 3D whose summaries say what the formula
-/// needs, at a speed of the ship that is known.
-/// @param flexural_strength [Pa] of level ice where the runs do not say; NaN: none
+/// The points of a sweep as the fit takes them: runs in 3D with a resistance > 0 whose summaries
+/// have the formula's inputs and the ship's mean speed. Others are passed over; none may be left.
+/// @param flexural_strength [Pa] of level ice, in place of the runs' own; NaN: theirs
 std::vector<FitPoint> fit_points(const sweep::Sweep& sweep, const std::vector<sweep::Point>& points,
                                  double flexural_strength);
 

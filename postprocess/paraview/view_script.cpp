@@ -108,6 +108,7 @@ if len(sys.argv) > 1 and sys.argv[-1].endswith(".png"):
 std::string python_text(const std::string& text) {
     std::string out = "\"";
     for (const char c : text) {
+        // a folder's name may hold quotes and backslashes
         if (c == '"' || c == '\\') out += '\\';
         out += c;
     }

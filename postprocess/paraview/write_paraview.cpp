@@ -18,12 +18,14 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kFiles[] = {"run.xdmf", "shapes.xdmf", "arrays.h5", "view.py"};
-constexpr double kRoom = 2.0;  // of the water's plane about ice and ship [m]
+// The water's plane reaches this far beyond ice and ship [m]: enough to see that it goes on.
+constexpr double kRoom = 2.0;
 
 void add_point(std::vector<float>& list, const Vec3& p) {
     for (int k = 0; k < 3; ++k) list.push_back(static_cast<float>(p[k]));
 }
 
+// [V x 3] corners of a mesh, turned and then moved [m].
 std::vector<float> posed(const TriangleMesh& mesh, const Vec3& shift,
                          const Mat3& turn = Mat3::Identity()) {
     std::vector<float> out;
@@ -71,7 +73,7 @@ public:
     }
 
 private:
-    // What never changes is stored once and named by the grids of all frames.
+    // Constant data are stored once and named by the grids of all frames.
     StoredArray still(const char* name, const auto& values, std::uint64_t columns = 1) {
         return arrays_.add(std::string("/still/") + name, values, columns);
     }
@@ -199,6 +201,7 @@ private:
             return now((name + of).c_str(), of_bodies(values, per_triangle, columns), columns);
         };
         std::vector<NamedArray> out;
+        // constant columns are stored once; of a frame only state, forces and velocities are new
         const std::vector<StoredArray>& same = per_triangle ? surfaces_ : bodies_;
         for (std::size_t k = 0; k < 3; ++k)
             out.push_back({std::array{"body", "shape", "group"}[k], same[k]});
@@ -241,10 +244,12 @@ private:
     }
 
     void add_contacts(const RunFrame& frame) {
+        // a grid without points would be an error in ParaView: a frame without contacts has none
         if (frame.hull_contacts.empty()) return;
         std::vector<std::int32_t> floe, sphere;
         std::vector<float> places, push, rub;
         for (const HullContact& c : frame.hull_contacts) {
+            // points are recorded in the ship's axes, forces in those of the world
             add_point(places, frame.ship_position + frame.ship_orientation * c.point);
             floe.push_back(c.floe);
             sphere.push_back(c.sphere);

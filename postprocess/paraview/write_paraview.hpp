@@ -9,9 +9,9 @@ namespace ice::paraview {
 
 /// Options of the files.
 struct ParaviewOptions {
-    std::size_t every = 1;     ///< keep each `every`th frame, >= 1
+    std::size_t every = 1;     ///< keep each `every`th frame, a count; 0 counts as 1
     bool points_only = false;  ///< no surfaces per frame: for long runs of many floes
-    double load_from = 0.0;    ///< the load map averages from here on [s]
+    double load_from = 0.0;    ///< the load map averages from here on [s]; after the end: 0 Pa
 };
 
 /// Writes a run for ParaView, four files whatever its length:
@@ -38,6 +38,8 @@ struct ParaviewOptions {
 /// With points_only there are bodies, contacts and water alone. In 2D forces are per metre of
 /// breadth, and their names end in _N_per_m.
 /// XDMF, because ParaView before 5.12 does not read VTKHDF files with several steps.
+/// @param folder is made where it is missing; files of the same names are replaced, and after an
+///        error none of them is left
 /// @return number of frames written
 /// @throws Error (exit code 1) naming the file that cannot be written; (2) for a run without frames
 std::size_t write_paraview(const RunData& run, const std::filesystem::path& folder,

@@ -51,6 +51,7 @@ void ArrayFile::close() {
 template <class T>
 StoredArray ArrayFile::store(const std::string& name, const std::vector<T>& values,
                              std::uint64_t columns, const char* type) {
+    // one chunk as long as the array: it is written once and read as a whole
     const std::uint64_t rows = values.size() / columns;
     file_.create_appendable<T>(
         name, columns == 1 ? std::vector<std::uint64_t>{} : std::vector<std::uint64_t>{columns},

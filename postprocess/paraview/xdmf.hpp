@@ -14,9 +14,9 @@ namespace ice::paraview {
 
 /// An array of the HDF5 file, as XDMF names it.
 struct StoredArray {
-    std::string item;  ///< the DataItem element
-    std::uint64_t rows = 0;
-    std::uint64_t columns = 1;
+    std::string item;           ///< the DataItem element
+    std::uint64_t rows = 0;     ///< count; 0: no data
+    std::uint64_t columns = 1;  ///< numbers in a row
 };
 
 /// The HDF5 file; arrays are written once and may serve many grids. Without close() it leaves
@@ -27,6 +27,8 @@ public:
     explicit ArrayFile(const std::filesystem::path& path);
 
     void begin_group(const std::string& name) { file_.create_group(name); }
+    /// Stores an array [values / columns x columns] in the file's own types, 4 bytes a number. The
+    /// group of its path must exist (begin_group()). Empty values are an array of 0 rows.
     /// @param name  its path in the file @param columns  numbers in a row
     StoredArray add(const std::string& name, const std::vector<float>& values,
                     std::uint64_t columns = 1);
@@ -45,6 +47,7 @@ private:
     Hdf5File file_;
 };
 
+/// Values with the name under which ParaView lists them; a unit is part of the name.
 struct NamedArray {
     std::string name;
     StoredArray values;
@@ -60,7 +63,8 @@ struct Grid {
 /// Parts of a scene, each a grid at some of the times. A part's name is its block's in ParaView.
 class XdmfFile {
 public:
-    /// A grid without cells is left out: readers refuse it. The part is not there at that time.
+    /// Adds a grid at a time [s], times rising for each part. A grid without cells is left out:
+    /// readers refuse it. The part is not there at that time.
     void add(const std::string& name, double time, const Grid& grid);
     /// The same without times.
     void add(const std::string& name, const Grid& grid);

@@ -17,12 +17,14 @@ std::vector<std::string> columns_of(int dimension) {
     std::vector<std::string> names{"run"};
     for (const char* force : {"mean", "ci95", "contact", "friction", "std", "max", "lindqvist"})
         names.push_back(std::string(force) + (dimension == 2 ? "_N_per_m" : "_N"));
+    // beside forces the numbers by which a run is trusted
     names.insert(names.end(), {"floes_moved", "unconverged_%", "hold", "status"});
     return names;
 }
 
 // the columns' values between the first and the last two, which are texts
 std::vector<double> numbers_of(const Summary& s) {
+    // a run that ended before its first step has a share of 0, not a division by 0
     const double steps = std::max<double>(1.0, static_cast<double>(s.steps));
     return {s.resistance.mean,
             s.resistance.ci95,

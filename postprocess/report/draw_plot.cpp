@@ -14,6 +14,7 @@ namespace ice::report {
 
 namespace {
 
+// Charts side by side: with two, a picture on A4 still has readable text.
 constexpr int kColumns = 2;
 
 // paths of the tracked floes, x to the right and another axis up
@@ -48,6 +49,7 @@ std::string draw_plot(const read::RunFolder& run) {
     if (coverage.share.size() > 1) charts.push_back(draw_coverage(coverage));
     const auto trails = make_trails(run.data);
     if (!trails.empty()) {
+        // in a section all paths have y = 0
         if (run.data.header.dimension == 3) charts.push_back(draw_paths(trails, 1));
         charts.push_back(draw_paths(trails, 2));
     }

@@ -11,6 +11,8 @@ void evaluate_run(Summary& s, const FormulaOptions& options) {
         std::isfinite(options.flexural_strength) || std::isfinite(s.ice.flexural_strength);
     // level ice without a stated strength gets the usual one: formulas for it need a number
     if (is_level_ice(s.ice) && !stated) chosen.flexural_strength = kFlexuralStrength;
+    // A summary of an older program states too little of ship or ice: it keeps the values that it
+    // has.
     auto formulas = evaluate_formulas(s.ship, s.ice, s.ship.speed_mean, chosen);
     if (formulas.empty() || !std::isfinite(s.ice.water_density)) return;
     if (std::isfinite(chosen.flexural_strength)) s.ice.flexural_strength = chosen.flexural_strength;

@@ -8,8 +8,8 @@ namespace ice::report {
 
 /// Evaluates the formulas of a run again, with the options given: a ship's own coefficients, or a
 /// flexural strength, which adds the parts of level ice. Level ice whose strength nobody states has
-/// kFlexuralStrength. Nothing happens to a summary of an older
-/// program, which does not say what the formulas need, and in 2D.
+/// kFlexuralStrength. A summary of an older program, which lacks inputs of the formulas, and one of
+/// a 2D run stay as they are.
 void evaluate_run(Summary& summary, const FormulaOptions& options);
 
 }  // namespace ice::report

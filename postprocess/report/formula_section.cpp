@@ -16,13 +16,15 @@ namespace ice::report {
 
 namespace {
 
-constexpr double kLeft = 150.0, kRight = 110.0, kTop = 46.0, kRow = 34.0, kBar = 18.0;  // [px]
+// Room for the names, for the number behind the longest bar, and for title and legend; distance of
+// bars and their height [px]. A name longer than kLeft is cut at the picture's edge.
+constexpr double kLeft = 150.0, kRight = 110.0, kTop = 46.0, kRow = 34.0, kBar = 18.0;
 
-// A bar: its parts from the left, each a force and a name.
+// A bar: its parts from the left, each a name and a force [N], in 2D [N/m].
 struct Bar {
     std::string name;
     std::vector<std::pair<std::string, double>> parts;
-    double half = 0.0;  // of its interval
+    double half = 0.0;  // half width of its interval, 95 % [N]
 
     double length() const {
         double sum = 0.0;
@@ -40,14 +42,15 @@ const char* color_of(const std::string& part) {
     return found == kColors.end() ? "#8a949c" : found->second;
 }
 
-// The parts that make up what can be compared with the run; a sum where its parts are unknown.
+// Bars of the run and of the formulas that compare with it, by parts; one sum where parts are
+// unknown.
 std::vector<Bar> make_bars(const Summary& s) {
     std::vector<Bar> bars{{"this run", {{"this run", s.resistance.mean}}, s.resistance.ci95}};
     const auto formulas = formulas_of(s);
     const bool level = is_level_ice(s.ice);
     for (const FormulaValue& sum : comparable_formulas(formulas, level)) {
         Bar bar{sum.name, {}};
-        // what breaking takes compares with runs in level ice only
+        // the force of breaking compares with runs in level ice only
         for (const FormulaValue& f : formulas) {
             const bool breaks = f.part == "crushing" || f.part == "bending" || f.part == "breaking";
             const bool part = f.part == "submersion" || f.part == "buoyancy" ||
@@ -70,6 +73,7 @@ std::string draw_bar(const Bar& bar, double y, double per_newton, const ForceUni
     std::string out = views::text_element(kLeft - 8.0, y + 14.0, bar.name, "end");
     double x = kLeft;
     for (const auto& [part, force] : bar.parts) {
+        // a part below 0 has no bar; its number is in the sum
         const double width = std::max(0.0, force * per_newton);
         out += rectangle(x, y, width, kBar,
                          fmt::format("fill=\"{}\" opacity=\"0.85\"", color_of(part)));
@@ -84,6 +88,7 @@ std::string draw_bar(const Bar& bar, double y, double per_newton, const ForceUni
     return out + views::text_element(x + 8.0, y + 14.0, unit.text(bar.length()), "start");
 }
 
+// Each part once, in the order in which the bars have them.
 std::string draw_legend(const std::vector<Bar>& bars) {
     std::string out;
     double x = kLeft;
@@ -112,9 +117,9 @@ std::string draw_formulas(const Summary& s, const ForceUnit& unit, double width)
     const double height = kTop + kRow * static_cast<double>(bars.size()) + 6.0;
     const std::string title = "Resistance and formulas [" + unit.name + "]";
     std::string out = views::svg_open(width, height, title) +
-                      // the band of the comparable formulas, behind the bars
                       views::text_element(8.0, 16.0, title, "start", "font-weight=\"600\"");
     const auto band = band_of(comparable_formulas(formulas_of(s), is_level_ice(s.ice)));
+    // the band of the comparable formulas, behind the bars
     if (band && band->high > band->low)
         out += rectangle(kLeft + band->low * per_newton, kTop - 4.0,
                          (band->high - band->low) * per_newton, height - kTop,
@@ -128,6 +133,7 @@ std::string formula_footnote(const std::vector<FormulaValue>& formulas) {
     std::vector<std::string> names;
     std::map<std::string, std::string> parts;
     for (const FormulaValue& f : formulas) {
+        // only formulas that no published number confirmed are named
         if (f.verified) continue;
         if (!parts.contains(f.name)) names.push_back(f.name);
         parts[f.name] += (parts[f.name].empty() ? "" : ", ") + f.part;

@@ -13,7 +13,8 @@ namespace ice::report {
 /// comparable ones span, a table of all parts, and which of them are recalled. "" without formulas.
 std::string formula_section(const Summary& summary, const ForceUnit& unit);
 
-/// The bars as a drawing of this width [px]: only values comparable with the run.
+/// The bars as a drawing of this width [px]: only values comparable with the run. "" without any,
+/// or where nothing is above 0.
 std::string draw_formulas(const Summary& summary, const ForceUnit& unit, double width);
 
 /// "Recalled, compared with no published number: ..."; "" where all are verified.

@@ -41,6 +41,7 @@ std::string speed_text(double speed) {
 
 Rows ship_rows(const Summary& s) {
     Rows rows;
+    // A section of 2D has no breadth; angles are those of the waterline and may be unknown.
     add(rows, "Length, L", fixed(s.ship.length, 2, "m"));
     if (s.dimension == 3) add(rows, "Breadth, B", fixed(s.ship.breadth, 2, "m"));
     add(rows, "Draught, T", fixed(s.ship.draught, 2, "m"));
@@ -55,6 +56,7 @@ Rows ice_rows(const Summary& s) {
     Rows rows;
     add(rows, "Thickness", fixed(ice.thickness, 3, "m"));
     if (std::isfinite(ice.floe_size_mean)) {
+        // half of the last digit shown [m]: a range with equal ends is no range
         const bool alike = ice.floe_size_max - ice.floe_size_min < 0.005;
         add(rows, s.dimension == 2 ? "Lengths of floes" : "Diameters of floes",
             alike ? fixed(ice.floe_size_mean, 2, "m")
@@ -69,6 +71,8 @@ Rows ice_rows(const Summary& s) {
         add(rows, "Friction on ship; ice",
             readable(ice.friction_ship_ice) + "; " + readable(ice.friction_ice_ice));
     if (std::isfinite(ice.density))
+        // A summary without a density is of an older program and does not state the pressure
+        // either; an infinite pressure is rigid ice.
         add(rows, "Crushing pressure",
             std::isfinite(ice.crushing_pressure) ? readable(1e-6 * ice.crushing_pressure) + " MPa"
                                                  : "none: rigid ice");
@@ -100,6 +104,7 @@ std::string column(const std::string& heading, const Rows& rows) {
 }  // namespace
 
 double mean_speed(const RunData& run, double from) {
+    // Way over time, not the mean of samples: exact for any motion between the two rows.
     const HistoryRow* first = nullptr;
     for (const HistoryRow& row : run.history)
         if (row.time >= from - 1e-9) {
@@ -140,6 +145,7 @@ std::string key_numbers(const Summary& s, const ForceUnit& unit, double speed) {
         out += card(fmt::format("{:.2f} m/s", speed), fmt::format("{:.2f} knots", speed / kKnot));
         // kW from 10 kW on: models have watts, ships megawatts.
         const double power = s.resistance.mean * speed;
+        // two ranges only: a unit that changes with every run makes cards hard to compare
         const bool large = std::abs(power) >= 1e4;
         out += card(fmt::format("{:.{}f} {}{}", large ? 1e-3 * power : power, large ? 1 : 0,
                                 large ? "kW" : "W", s.dimension == 2 ? "/m" : ""),

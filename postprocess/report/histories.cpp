@@ -14,11 +14,18 @@ namespace ice::report {
 
 namespace {
 
-constexpr std::size_t kBins = 1000;      // of a curve: about two per pixel
-constexpr std::size_t kTrackBins = 120;  // of each floe's curves, which are many
-constexpr double kShown = 0.96;          // of the averages lie inside the axis
-constexpr std::size_t kFew = 20;         // averages: then all are shown
-constexpr std::size_t kMostRegions = 7;  // in one chart: as many as can be told apart
+// Bins of a curve, each with its lowest and highest sample: about two per pixel of a wide chart.
+// The page's size grows in proportion.
+constexpr std::size_t kBins = 1000;
+// Bins of each tracked floe's curves, which are many and small.
+constexpr std::size_t kTrackBins = 120;
+// Share of the averages that lie inside the axis [-]: the start and single jams may leave it. With
+// 1 one jam flattens the rest of the curve.
+constexpr double kShown = 0.96;
+// Fewer averages than this are all shown: 4 % of them would be less than one.
+constexpr std::size_t kFew = 20;
+// Regions in one chart: as many as there are colours that can be told apart.
+constexpr std::size_t kMostRegions = 7;
 constexpr const char* kColours[kMostRegions] = {views::kBlue,   views::kOrange, views::kGreen,
                                                 views::kPurple, views::kBlack,  "#e69f00",
                                                 "#56b4e9"};
@@ -117,6 +124,7 @@ std::vector<std::size_t> choose_regions(const RunData& run) {
     for (std::size_t r = 0; r < run.regions.size(); ++r) {
         Eigen::Vector3d sum = Eigen::Vector3d::Zero();
         for (const Eigen::Vector3f& f : run.regions[r].contact)
+            // rows without forces on regions are not numbers
             if (f.allFinite()) sum += f.cast<double>();
         if (sum.squaredNorm() > 0.0) by_size.emplace_back(-sum.norm(), r);
     }
@@ -152,6 +160,7 @@ std::vector<History> force_histories(const RunData& run, double average_from, do
             contact[static_cast<std::size_t>(axis)].push_back(row.contact_force[axis]);
             friction[static_cast<std::size_t>(axis)].push_back(row.friction_force[axis]);
         }
+        // resistance is positive against the way: -f_x
         resistance[0].push_back(-(row.contact_force.x() + row.friction_force.x()));
         resistance[1].push_back(-row.friction_force.x());
     }
@@ -196,6 +205,7 @@ std::vector<History> region_histories(const RunData& run, double average_from,
             series.force.emplace_back();
             const auto d = static_cast<Eigen::Index>(axis);
             for (std::size_t k = 0; k < time.size(); ++k) {
+                // the share of the resistance is -f_x, as of the ship's
                 const double f = double{region.contact[k][d]} + double{region.friction[k][d]};
                 series.force.back().push_back(axis == 0 ? -f : f);
             }
@@ -215,6 +225,7 @@ std::vector<History> moment_histories(const RunData& run, double average_from,
                                              "yaw, to port"};
     static constexpr const char* kMomentColours[] = {views::kGreen, views::kBlue, views::kOrange};
     for (int axis = 0; axis < 3; ++axis) {
+        // in a plane only the moment about y exists
         if (run.header.dimension == 2 && axis != 1) continue;
         series.names.emplace_back(kNames[axis]);
         series.colors.push_back(kMomentColours[axis]);
@@ -232,6 +243,7 @@ std::vector<History> motion_histories(const RunData& run, double average_from,
     std::vector<History> out;
     if (!run.header.ship_answers || run.history.size() < 2) return out;
     const std::vector<double> time = times_of(run);
+    // one degree [rad]: the file has radians, charts have degrees
     const double degree = std::acos(-1.0) / 180.0;
     const auto add = [&](const char* id, const char* title, const ForceUnit& in, Series series) {
         Style style{average_window(run.history), in, average_from};

@@ -15,15 +15,15 @@ namespace ice::report {
 struct History {
     struct Curve {
         std::string name;
-        const char* color;
+        const char* color;           ///< "#rrggbb"
         std::vector<double> values;  ///< in `unit`
         bool average = false;        ///< a moving average, not the samples themselves
     };
     std::string id;  ///< for links; unique
     std::string title, y_title;
     ForceUnit unit;
-    std::vector<double> time;  ///< [s]
-    std::vector<Curve> curves;
+    std::vector<double> time;      ///< [s], rising; at least 2
+    std::vector<Curve> curves;     ///< each with as many values as times
     double low = 0.0, high = 0.0;  ///< range of the axis, in `unit`
     double peak = 0.0;             ///< largest magnitude of the samples, in `unit`
     std::optional<double> mean;    ///< a line across, in `unit`
@@ -33,8 +33,8 @@ struct History {
 /// (2D: x and z) as samples and moving averages.
 ///
 /// A one-step peak is an impulse divided by the time step and leaves nothing else to see where it
-/// is shown whole. So the axes show what 96 % of the averages from `average_from` on lie in, and
-/// `peak` has the values beyond. Samples are thinned with every peak kept.
+/// is shown whole. So the axes cover the middle 96 % of the averages from `average_from` [s] on,
+/// and `peak` has the values beyond. Samples are thinned with every peak kept.
 /// @param mean of the resistance [N], NaN if unknown; @param unit of all charts
 /// A run with fewer than 2 samples gives none.
 std::vector<History> force_histories(const RunData& run, double average_from, double mean,
@@ -47,12 +47,13 @@ std::vector<History> region_histories(const RunData& run, double average_from,
                                       const ForceUnit& unit);
 
 /// Moving averages of the moments of the ice on the ship about the hull mesh's origin, heel, trim
-/// and yaw (2D: trim), in `unit` times metre.
+/// and yaw (2D: trim), in `unit` times metre. None for fewer than 2 samples.
 std::vector<History> moment_histories(const RunData& run, double average_from,
                                       const ForceUnit& unit);
 
 /// Motions of a ship that answers: speed, thrust and tow, height, angles, where they change. None
-/// for a prescribed course.
+/// for a prescribed course, or for fewer than 2 samples. @param unit of thrust and tow; speed
+/// [m/s], height [m] and angles [degrees] have their own
 std::vector<History> motion_histories(const RunData& run, double average_from,
                                       const ForceUnit& unit);
 
@@ -61,7 +62,7 @@ std::vector<History> motion_histories(const RunData& run, double average_from,
 std::vector<History> track_histories(const RunData& run, std::size_t track, const ForceUnit& unit);
 
 /// Window of all moving averages [s]: a thirtieth of the run, cut to one digit, but at least 5
-/// samples.
+/// samples; 1 s for fewer than 2 samples.
 double average_window(const std::vector<HistoryRow>& history);
 
 }  // namespace ice::report

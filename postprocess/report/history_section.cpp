@@ -14,7 +14,9 @@ using views::Curve;
 
 namespace {
 
-constexpr std::size_t kDrawnBins = 250;  // of a curve: one in two pixels
+// Bins of a drawn curve: one in two pixels of a chart of 480 px. The viewer has kBins of
+// histories.cpp; with as many here the charts would take the room of the drawings.
+constexpr std::size_t kDrawnBins = 250;
 
 }  // namespace
 
@@ -93,6 +95,8 @@ std::string history_section(const RunData& run, const RunFigures& figures) {
         charts.push_back(chart_holder(h.id, draw_history(h)));
     if (figures.coverage.share.size() > 1)
         charts.push_back(chart_holder("coverage", draw_coverage(figures.coverage)));
+    // hidden until the page's script shows it: without script there is no chart that it could
+    // change
     const std::string toggle =
         "<p class=\"peaks\"><label hidden=\"hidden\"><input type=\"checkbox\" name=\"peaks\" /> "
         "show single peaks to their full height</label></p>\n";

@@ -19,19 +19,21 @@ using views::readable;
 
 namespace {
 
-constexpr std::size_t kMostRows = 10;  // of the panels' table; summary.json and run.h5 have more
+// Rows of the panels' table: the hardest ones. summary.json and run.h5 have more.
+constexpr std::size_t kMostRows = 10;
 constexpr const char* kCurveColours[] = {views::kBlue,   views::kOrange, views::kGreen,
                                          views::kPurple, views::kBlack,  "#e69f00",
                                          "#56b4e9"};
 
 using Regions = std::vector<std::pair<std::string, RegionStatistics>>;
 
-// those with a force, in the hull's order: that of the charts of forces on regions
+// Regions with a force, in the hull's order: that of the charts of forces on regions.
 Regions pressed_regions(const RunData& run, const Summary& s) {
     Regions out;
     if (run.header.shapes.empty()) return out;
     for (const std::string& name : run.header.shapes[0].mesh.region_names) {
         const auto found = s.regions.find(name);
+        // summaries of older programs have regions without peaks
         if (found == s.regions.end() || !found->second.force_peaks) continue;
         if (found->second.force_peaks->max > 0.0) out.emplace_back(name, found->second);
     }
@@ -49,7 +51,7 @@ struct Units {
     }
 };
 
-// that show three digits of the largest number of a quantity
+// Decimals that show three digits of the largest number of a quantity.
 int three_digits(double largest) {
     if (!(largest > 0.0)) return 0;
     return std::clamp(2 - static_cast<int>(std::floor(std::log10(largest))), 0, 4);
@@ -72,6 +74,7 @@ Units units_of(const RunData& run, const ForceUnit& force) {
 
 std::string peak_table(const Regions& regions, const Summary& s, const Units& units,
                        double lengths) {
+    // Peaks are counted over the averaged time, so both rates are independent of the run's length.
     // rates per hour of averaged time, and per ship length of way where that is known
     const double hours = (s.simulated_s - s.average_from) / 3600.0;
     double most = 0.0;
@@ -102,6 +105,7 @@ std::string panel_table(const Summary& s, const Units& units, int dimension) {
     std::vector<std::vector<std::string>> rows;
     for (const auto& [region, p] : s.panels.hardest) {
         if (rows.size() == kMostRows) break;
+        // the list is in order of the largest line load already
         const std::string at =
             dimension == 2
                 ? fmt::format("{:.2f}, {:.2f}", p.center.x(), p.center.z())
@@ -127,6 +131,8 @@ std::string draw_exceedance(const std::string& title, const std::string& y_title
     chart.title = title;
     chart.x_title = "peaks per hour as large or larger";
     chart.y_title = y_title;
+    // rare peaks are the ones that a designer needs: decades give them as much room as frequent
+    // ones
     chart.x_logarithmic = true;
     for (const auto& [name, region] : regions) {
         if (!(region.*peaks)) continue;
@@ -170,6 +176,8 @@ std::string local_load_section(const read::RunFolder& run, const RunFigures& fig
     const int dimension = run.data.header.dimension;
     const Units units = units_of(run.data, figures.unit);
     const PanelSummary& panels = s.panels;
+    // From coarse to fine: rates and sizes by region, how often a level is exceeded, then single
+    // panels.
     std::string body = peak_table(regions, s, units, lengths);
     body += report::figures(
         {draw_exceedance("Peaks of the force on a region", "force [" + units.force.name + "]",

@@ -12,7 +12,9 @@ namespace ice::report {
 
 namespace {
 
-constexpr int kDecimals = 2;  // of a place [m]
+// Decimals of a place in metres: a centimetre is below the distance of the hull's spheres. More
+// would show digits without meaning.
+constexpr int kDecimals = 2;
 
 std::string place(const Vec3& p, int dimension) {
     // in 2D without y, which has no meaning

@@ -81,8 +81,9 @@ std::int16_t Quantiser::code(double value) const {
 }
 
 Quantiser make_quantiser(double low, double high, double finest) {
-    // all values equal or unknown: any step will do
+    // without a finite range any step will do
     if (!(high >= low) || !std::isfinite(high - low)) return {finest > 0.0 ? finest : 1.0, 0.0};
+    // 65 000 of the 65 536 steps of 16 bits: rounding at the ends cannot overflow
     const double step = std::max((high - low) / 65000.0, finest);
     return {step > 0.0 ? step : 1.0, 0.5 * (low + high)};
 }

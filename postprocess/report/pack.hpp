@@ -9,7 +9,8 @@
 
 namespace ice::report {
 
-/// Collects named arrays in one buffer, each beginning at a multiple of 4 bytes, little-endian.
+/// Collects named arrays in one buffer, each beginning at a multiple of 4 bytes, little-endian. A
+/// name given twice names the later array.
 class Pack {
 public:
     void add(const std::string& name, const std::vector<float>& values);
@@ -21,7 +22,8 @@ public:
     ///
     /// Each channel is differenced `order` times (modulo 65536; 2 leaves nothing of an even
     /// motion), then all low bytes and all high bytes are stored apart.
-    /// @param values channel after channel, `rows` values each
+    /// @param values [channels x rows], channel after channel; @param rows >= 1, a divisor of their
+    ///        number; @param order 0, 1 or 2
     void add_series(const std::string& name, std::vector<std::int16_t> values, std::size_t rows,
                     int order);
 
@@ -38,10 +40,10 @@ private:
     nlohmann::json table_ = nlohmann::json::object();
 };
 
-/// Numbers of one unit as 16-bit integers: value = integer * step + offset.
+/// Numbers of one unit as 16-bit integers: value = integer * step + offset, both in that unit.
 struct Quantiser {
     double step = 1.0, offset = 0.0;
-    std::int16_t code(double value) const;
+    std::int16_t code(double value) const;  ///< nearest integer, cut to 16 bits; NaN: 0
 };
 
 /// @param finest no smaller steps than this; @return steps that reach over [low, high] with 65000

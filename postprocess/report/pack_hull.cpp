@@ -16,6 +16,8 @@ using nlohmann::json;
 
 namespace {
 
+// Largest number that 16 bits hold: hulls of more vertices have 32 bits for each corner, twice the
+// bytes.
 constexpr std::size_t kLargest16 = 0xffff;
 
 // 16 bits over each axis' own range, in half the bytes of floats.
@@ -58,6 +60,7 @@ void pack_triangles(const TriangleMesh& mesh, Pack& pack) {
 void pack_loads(const statistics::LoadMap& hull, double end, Pack& pack) {
     std::vector<std::uint16_t> load;
     for (const double p : hull.load)
+        // Loads beyond the end of the scale have one colour and need no value of their own.
         load.push_back(static_cast<std::uint16_t>(
             end > 0.0 ? std::lround(65535.0 * std::min(1.0, p / end)) : 0));
     pack.add("hull_load", load);
@@ -86,6 +89,7 @@ json pack_hull(const statistics::LoadMap& hull, Pack& pack) {
         scale.push_back(axis.step);
         offset.push_back(axis.offset);
     }
+    // the viewer finds the arrays by name, so their order is free
     pack_vertices(hull.mesh, axes, pack);
     pack_triangles(hull.mesh, pack);
     const double end = statistics::scale_end(hull);

@@ -73,6 +73,7 @@ std::string section(const std::string& id, const std::string& heading, const std
 
 std::string table(const std::vector<std::string>& header,
                   const std::vector<std::vector<std::string>>& rows) {
+    // wide tables scroll inside their own box, not with the page
     std::string out = "<div class=\"wide\"><table>\n<thead><tr>";
     for (const std::string& cell : header) out += "<th scope=\"col\">" + escape(cell) + "</th>";
     out += "</tr></thead>\n<tbody>\n";

@@ -26,7 +26,8 @@ std::string open_page(const std::string& title);
 /// Its end from </main> on: origin, and the script of the buttons that save charts and tables.
 std::string close_page();
 
-/// <section> with a heading. @param id for links; @param intro plain text, may be empty
+/// <section> with a heading. @param id for links, unique on the page; @param intro plain text, may
+/// be empty; @param body HTML
 std::string section(const std::string& id, const std::string& heading, const std::string& intro,
                     const std::string& body);
 
@@ -34,7 +35,7 @@ std::string section(const std::string& id, const std::string& heading, const std
 std::string table(const std::vector<std::string>& header,
                   const std::vector<std::vector<std::string>>& rows);
 
-/// Two columns of names and values.
+/// Two columns of names and values, plain text; no rows give an empty table.
 std::string facts(const std::vector<std::pair<std::string, std::string>>& rows);
 
 /// A drawing that the page's script replaces by its chart of the same id.

@@ -22,14 +22,15 @@ std::string particulars_section(const Summary& summary, double speed);
 
 /// Views of hull and ice at several instants spread over the run: in 3D from below, above,
 /// starboard and ahead; in 2D from the side. "" for a run without frames.
-/// @param budget bytes; when a field is so large that the views need more, the least telling ones
-///        are left out and the section says so
+/// @param budget [bytes]; when a field is so large that the views need more, the last ones in this
+///        order are left out and the section says so
 std::string scene_section(const RunData& run, std::size_t budget);
 
-/// One chart of histories: averages bold, samples thin and cut where they leave the axis.
+/// One chart of histories, 480 x 240 px: averages bold, samples thin and cut where they leave the
+/// axis.
 std::string draw_history(const History& history);
 
-/// Coverage of the bottom against time.
+/// Coverage of the bottom [%] against time [s]; "no data" without frames.
 std::string draw_coverage(const statistics::BottomCoverage& coverage);
 
 /// Histories of the ship: resistance, each force component, coverage of the bottom.
@@ -46,7 +47,7 @@ std::string motion_section(const RunData& run, const RunFigures& figures);
 
 /// Peaks of the force on regions, line load and pressure on hull panels, with the hardest-loaded
 /// panels drawn; "" for a run without them.
-/// @param lengths that the ship travelled in the averaged time, NaN if unknown
+/// @param lengths that the ship travelled in the averaged time [ship lengths], NaN if unknown
 std::string local_load_section(const read::RunFolder& run, const RunFigures& figures,
                                double lengths);
 
@@ -61,14 +62,17 @@ std::string load_section(const RunData& run, const RunFigures& figures);
 /// Force histories of the tracked floes, folded, those never touched by name only; "" without any.
 std::string track_section(const RunData& run, const ForceUnit& unit);
 
-/// One picture by itself, with legend: the frame nearest to `time`.
+/// One picture by itself, with legend: the frame nearest to `time` [s], the first or the last
+/// beyond the run.
 /// @throws Error (exit code 2) for a run without frames.
 std::string draw_view(const RunData& run, views::ViewFrom from, double time);
 
-/// Options that suit every view of the run: breadth of the field, height of the water.
+/// Options that suit every view of the run: breadth of the field, height of the water. The defaults
+/// for a run without frames.
 views::ViewOptions view_options(const RunData& run);
 
-/// Paths of the tracked floes as the ship sees them.
+/// Paths of the tracked floes as the ship sees them, up to about 1000 points each; none without
+/// any.
 std::vector<views::Trail> make_trails(const RunData& run);
 
 }  // namespace ice::report

@@ -74,6 +74,8 @@ views::ViewOptions view_options(const RunData& run) {
         field_half = std::max(field_half,
                               std::abs(first.position[b].y() - first.ship_position.y()) + radius);
     }
+    // At least 30 % more than the hull, at most 0.4 of its length: a broader field would make the
+    // ship small.
     options.half_breadth = std::max(1.3 * hull_half, std::min(field_half, 0.4 * length));
     options.waterline = -first.ship_position.z();
     return options;
@@ -110,7 +112,7 @@ std::string draw_view(const RunData& run, ViewFrom from, double time) {
 
 namespace {
 
-// Ship and ice at an angle, at the middle instant; nothing where it takes too much of the page.
+// Ship and ice at an angle, at the middle instant; "" where the picture has more than `most` bytes.
 std::string draw_opening(const RunData& run, const std::vector<std::size_t>& instants,
                          const std::vector<views::Trail>& trails, std::size_t most) {
     views::ViewOptions options = view_options(run);
@@ -136,6 +138,7 @@ Pictures draw_instants(const RunData& run, const std::vector<SceneView>& views,
     for (const std::size_t k : middle_first(instants.size()))
         for (const SceneView& view : views) {
             std::string picture = view.draw(run.frames[instants[k]], trails);
+            // a smaller picture may still fit, so the search goes on
             if (used + picture.size() > budget) {
                 ++out.dropped;
                 continue;
@@ -169,11 +172,13 @@ std::string scene_section(const RunData& run, std::size_t budget) {
     const bool flat = run.header.dimension == 2;
     const auto instants = choose_frames(run, flat ? 6 : 4);
     const auto trails = make_trails(run);
-    // the most telling views first: they are the last to be dropped
+    // from below first: it shows ice under the bottom, which no other view does, and is dropped
+    // last
     const std::vector<ViewFrom> sides =
         flat ? std::vector<ViewFrom>{ViewFrom::side}
              : std::vector<ViewFrom>{ViewFrom::below, ViewFrom::top, ViewFrom::side,
                                      ViewFrom::front};
+    // a third of the room at most, so that the plain views, which can be measured, keep the rest
     const std::string opening = flat ? "" : draw_opening(run, instants, trails, budget / 3);
     // each view defines the hull once and its pictures refer to it, which keeps the page small
     std::vector<SceneView> views;

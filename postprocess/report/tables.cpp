@@ -42,7 +42,7 @@ std::string spelled(std::string key) {
 std::string ForceUnit::text(double force) const {
     if (!std::isfinite(force)) return "n/a";
     const std::string number = fmt::format("{:.{}f}", force / newtons, decimals);
-    // what rounds to zero has no sign
+    // a number that rounds to zero has no sign
     return number.find_first_of("123456789") == std::string::npos && number[0] == '-'
                ? number.substr(1)
                : number;
@@ -80,6 +80,8 @@ int decimals_for(double mean, double interval, double newtons) {
 double recorded_resistance(const RunData& run) {
     double sum = 0.0, count = 0.0;
     for (const HistoryRow& row : run.history) {
+        // Without a summary there is no stated start of the averages. The second half is past the
+        // start of most runs; the number only chooses the unit.
         if (row.time < 0.5 * run.history.back().time) continue;
         sum -= row.contact_force.x() + row.friction_force.x();
         ++count;
@@ -129,6 +131,7 @@ std::string force_table(const Summary& s, const ForceUnit& unit) {
                                         unit.text(f.std),
                                         unit.text(f.max)};
     };
+    // Parts and formulas stand below the resistance that they are part of or compare with.
     std::vector<std::vector<std::string>> rows{row("Resistance (\u2212x)", s.resistance)};
     for (const auto& [name, part] : parts_of(s))
         rows.push_back({"  of it " + name, unit.text(part), "", "", "", ""});
@@ -156,6 +159,8 @@ std::string region_table(const Summary& s, const ForceUnit& unit) {
     const std::vector<std::string> impulses = column(impulse);
     std::vector<std::vector<std::string>> rows;
     for (const auto& [name, r] : s.regions) {
+        // All regions, also those without a hit: that the ice never touched a region is a result.
+        // In 2D forces have no y.
         rows.push_back({name, std::to_string(r.hits), impulses[rows.size()], unit.text(r.mean[0]),
                         unit.text(r.friction_mean[0])});
         if (!flat) rows.back().push_back(unit.text(r.mean[1]));
@@ -190,6 +195,8 @@ std::string energy_table(const Summary& s) {
         names.emplace_back(name);
         values.push_back(found->second);
     }
+    // One unit for all entries, by the largest: the reader adds them up. Its name is that of a
+    // force with J in place of N.
     ForceUnit unit =
         choose_unit(*std::max_element(values.begin(), values.end(),
                                       [](double l, double r) { return size_of(l) < size_of(r); }),
@@ -197,6 +204,8 @@ std::string energy_table(const Summary& s) {
     unit.name[unit.name.find('N')] = 'J';
     std::vector<std::vector<std::string>> rows;
     for (std::size_t k = 0; k < names.size(); ++k) {
+        // Shares of the ship's work, which the residual is judged by. They may exceed 100 % where
+        // water or opened overlaps put energy in.
         const double percent = 100.0 * values[k] / work->second;
         const double share = std::round(100.0 * percent) / 100.0 + 0.0;  // no -0
         rows.push_back({names[k], unit.text(values[k]),

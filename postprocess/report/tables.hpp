@@ -9,10 +9,11 @@ namespace ice::report {
 
 /// Unit in which a group of forces reads best.
 struct ForceUnit {
-    std::string name;                      ///< "N", "kN", "MN"; in 2D "N/m", ...
-    double newtons = 1.0;                  ///< one unit in newtons
-    int decimals = 0;                      ///< that give the largest number 4 digits
-    std::string text(double force) const;  ///< number in this unit, without the unit's name
+    std::string name;      ///< "N", "kN", "MN"; in 2D "N/m", ...
+    double newtons = 1.0;  ///< one unit [N]; in 2D [N/m]
+    int decimals = 0;      ///< digits behind the point, so that the largest has 4
+    /// A force [N] in this unit, without the unit's name; "n/a" where it is not finite.
+    std::string text(double force) const;
 };
 
 /// The unit of all forces of a page: that in which the mean resistance reads best, with the
@@ -24,19 +25,22 @@ ForceUnit page_unit(const read::RunFolder& run);
 ForceUnit moment_unit(const ForceUnit& force);
 
 /// @param largest magnitude the unit is chosen for [N]; NaN counts as 0
+/// @param dimension 2 gives units per metre, else whole forces
 ForceUnit choose_unit(double largest, int dimension);
 
 /// Unit in which loads per area read best.
 struct PressureUnit {
     std::string name;      ///< "Pa", "kPa", "MPa"
-    double pascals = 1.0;  ///< one unit in pascals
+    double pascals = 1.0;  ///< one unit [Pa]
 };
+/// @param largest magnitude [Pa]; NaN counts as 0
 PressureUnit choose_pressure_unit(double largest);
 
 /// Mean with the half width of its interval, "1107 \u00b1 12".
 std::string mean_and_interval(const ForceUnit& unit, const ForceStatistics& force);
 
-/// What empirical formulas say of the same ship and ice; older summaries have Lindqvist's alone.
+/// Values of empirical formulas for the same ship and ice [N]; older summaries have Lindqvist's
+/// alone.
 std::vector<FormulaValue> formulas_of(const Summary& summary);
 
 /// Breaking and submersion of a run with floes held until they bend, which add up to its
@@ -48,7 +52,8 @@ std::vector<std::pair<std::string, double>> parts_of(const Summary& summary);
 std::string force_table(const Summary& summary, const ForceUnit& unit);
 /// One row per region of the hull; "" when there are none.
 std::string region_table(const Summary& summary, const ForceUnit& unit);
-/// Where the ship's work went, in joules and as shares of it; "" for a run without a ledger.
+/// Where the ship's work went, in joules and as shares of it; "" for a run without an energy
+/// balance.
 std::string energy_table(const Summary& summary);
 /// Contacts, overlap, computing time: whether the numbers can be trusted.
 std::string numerics_table(const Summary& summary);

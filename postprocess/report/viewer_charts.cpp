@@ -23,6 +23,8 @@ json pack_curve(const std::string& chart, const History::Curve& curve, Pack& pac
     for (const double v : curve.values) codes.push_back(unit.code(v));
     const std::string name = chart + " " + curve.name;
     const std::size_t length = codes.size();
+    // averages are smooth and are stored as differences; differences of samples are as large as
+    // samples
     pack.add_series(name, std::move(codes), length, curve.average ? 1 : 0);
     return {{"label", curve.name},
             {"array", name},

@@ -18,9 +18,14 @@ using nlohmann::json;
 
 namespace {
 
-constexpr double kTurns = 8191.0;            // integers per quaternion component
-constexpr double kLoads = 8191.0;            // 13 bits; two more hold the floe's state
-constexpr std::size_t kFloeTriangles = 400;  // of one shape
+// Steps of a quaternion component from 0 to 1 [-]: 0.01 degrees, far below a pixel. More bits would
+// not be seen and compress worse.
+constexpr double kTurns = 8191.0;
+// Steps of a load from 0 to the largest [-]: 13 bits; two more of the 16 hold the floe's state.
+constexpr double kLoads = 8191.0;
+// Triangles of one floe shape in the viewer: a floe is small in the picture. All floes of a shape
+// share them, so the number bounds the browser's work rather than the page's size.
+constexpr std::size_t kFloeTriangles = 400;
 
 // 1, 2 or 5 times a power of ten: ends of a scale that can be read
 double round_up(double value) {
@@ -85,6 +90,8 @@ private:
 
     void add_ship() {
         std::vector<float> time, ship, turn;
+        // Empty arrays tell the viewer that there is no playback; missing ones would be an error
+        // there.
         // without a hull there is nothing to play back
         if (!figures_.load.mesh.triangles.empty())
             for (const std::size_t f : chosen_) {
@@ -137,7 +144,7 @@ private:
                     low = std::min(low, p[d]);
                     high = std::max(high, p[d]);
                 }
-            // no finer than a thousandth of a floe, which nobody sees and which would not compress
+            // no finer than a thousandth of a floe: nobody sees less, and noise does not compress
             const Quantiser axis = make_quantiser(low, high, 1e-3 * floe_size_);
             scale.push_back(axis.step);
             offset.push_back(axis.offset);
@@ -203,7 +210,8 @@ private:
         pack_.add_series("load", std::move(codes), rows(), 0);
     }
 
-    // of level ice: when each floe broke off [s], < 0: never, and by what share of the scale's end
+    // Of level ice: the time at which each floe broke off [s], < 0: never, and the load that broke
+    // it as a share of the scale's end [-].
     void add_pieces() {
         std::vector<float> born, load;
         // colours by age and by the load that broke each piece, relative to the ends of their

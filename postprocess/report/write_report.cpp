@@ -22,11 +22,17 @@ using views::readable;
 
 namespace {
 
-constexpr std::size_t kPageSize = 1950000;     // bytes: drawn views take what is left of them,
-constexpr std::size_t kLeastBudget = 150000;   // but at least this much
-constexpr std::size_t kMostBudget = 500000;    // and at most this much
-constexpr std::size_t kMostTracked = 12;       // floes with charts of their own
-constexpr std::size_t kMostCaseText = 200000;  // bytes of the case shown
+// Size of the page that drawn views may fill up [bytes]: the page stays below 2 MB and can be
+// mailed.
+constexpr std::size_t kPageSize = 1950000;
+// Least and most that the drawn views take [bytes]: about one view in a page that is full already,
+// and no more than a reader looks at. A page of much data exceeds 2 MB by the least.
+constexpr std::size_t kLeastBudget = 150000;
+constexpr std::size_t kMostBudget = 500000;
+// Tracked floes with charts of their own; each takes some 20 kB. run.h5 has all of them.
+constexpr std::size_t kMostTracked = 12;
+// Part of the case that is shown [bytes]: a case with many [[floes]] may be longer than the report.
+constexpr std::size_t kMostCaseText = 200000;
 
 std::string page_header(const read::RunFolder& run) {
     const std::string status = run.summary ? run.summary->status : "interrupted";
@@ -41,6 +47,7 @@ std::string page_header(const read::RunFolder& run) {
 
 // whether the mean is steady, in a sentence
 std::string steadiness(const ForceStatistics& f, const ForceUnit& unit) {
+    // a series too short for an interval has no trend either
     if (!std::isfinite(f.correlation_time)) return "";
     std::string text = fmt::format(
         " The interval is that of {} independent samples, which the autocorrelation leaves.",
@@ -93,6 +100,7 @@ std::string origin(const read::RunFolder& run) {
                         run.summary->steps, run.summary->threads,
                         run.summary->threads == 1 ? "" : "s", run.summary->simd));
     }
+    // The case that was run, not the file that is there now: the file may have changed since.
     std::string text = header.case_toml.substr(0, kMostCaseText);
     if (text.size() < header.case_toml.size()) text += "\n# ... see case.resolved.cfg\n";
     return section("origin", "Case and origin",
@@ -119,6 +127,7 @@ std::string contents(const std::string& html) {
     for (std::size_t at = html.find(opening); at != std::string::npos;
          at = html.find(opening, at + 1)) {
         const std::size_t id = at + opening.size(), title = html.find(heading, at);
+        // sections without a heading of their own get no link
         if (title == std::string::npos || title > html.find("</section>", at)) continue;
         const std::size_t text = title + heading.size();
         links += "<li><a href=\"#" + html.substr(id, html.find('"', id) - id) + "\">" +

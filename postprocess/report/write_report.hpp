@@ -8,7 +8,8 @@
 
 namespace ice::report {
 
-/// Frames of the 3D playback: with 200 floes the page stays below 2 MB.
+/// Frames of the 3D playback [-], at most: with 200 floes the page stays below 2 MB. More frames
+/// play more smoothly, and the page grows in proportion.
 constexpr std::size_t kReportFrames = 400;
 
 /// The report of a run as one HTML page: 3D playback, histories, numbers, load map, pictures, case,
@@ -16,7 +17,7 @@ constexpr std::size_t kReportFrames = 400;
 ///
 /// It needs no network, and without script or WebGL it keeps tables and drawings. The report of a
 /// killed run has no tables of statistics.
-/// @param frames of the playback at most, evenly chosen
+/// @param frames of the playback at most, evenly chosen; below 2 counts as 2
 std::string make_report(const read::RunFolder& run, std::size_t frames = kReportFrames);
 
 /// Writes make_report() to a file. @throws Error (exit code 1) when it cannot be written.

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-// s^2 / n about the mean
+// s^2 / n, the squared standard error of the mean [N^2]; NaN for one value
 double square_error(const std::vector<double>& values, double mean) {
     const auto n = static_cast<double>(values.size());
     double square = 0.0;
@@ -38,7 +38,8 @@ Estimate estimate_difference(const Seeds& a, const Seeds& b) {
     if (!std::isfinite(qa + qb)) return {mean, kNaN};
     // runs that are equal to the last digit, as for an input without effect
     if (qa + qb == 0.0) return {mean, 0.0};
-    // degrees of freedom by Welch and Satterthwaite: both ensembles may scatter differently
+    // Degrees of freedom by Welch and Satterthwaite: both ensembles may scatter differently. A
+    // pooled variance would let a quiet base hide the scatter of a changed run.
     const double freedom = (qa + qb) * (qa + qb) /
                            (qa * qa / static_cast<double>(a.resistance.size() - 1) +
                             qb * qb / static_cast<double>(b.resistance.size() - 1));

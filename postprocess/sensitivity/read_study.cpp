@@ -62,6 +62,7 @@ Study read_study(const std::filesystem::path& folder) {
     Study study;
     study.runs = sweep::read_sweep(folder);  // complains about anything but TOML
     study.title = study.runs.title;
+    // Parsed a second time, for the tables that a sweep does not know.
     const toml::table table = toml::parse_file(plan.string());
     for_each(table, "input", [&](const toml::table& entry) {
         study.inputs.push_back(
@@ -74,6 +75,7 @@ Study read_study(const std::filesystem::path& folder) {
         study.left_out.emplace_back(text_of(entry, "name"), text_of(entry, "why"));
     });
     for_each(table, "run", [&](const toml::table& entry) { add_run(entry, study); });
+    // every difference is against the case itself
     if (study.base.resistance.empty())
         throw bad_input(folder.string(), "no run of the case itself has a result",
                         "let the workflow go on: the same command computes what is missing");

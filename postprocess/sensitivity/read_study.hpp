@@ -27,18 +27,20 @@ namespace ice::sensitivity {
 struct Seeds {
     std::string label;               ///< the input's value; "" for the case itself
     std::vector<double> resistance;  ///< of the completed runs [N; 2D: N/m]
-    std::vector<double> half;        ///< their own 95 % half widths, NaN where unknown
+    std::vector<double> half;        ///< their own 95 % half widths [N; 2D: N/m]; NaN: unknown
 };
 
+/// One input of the study.
 struct Input {
-    std::string name, base, source;
-    std::vector<Seeds> values;  ///< in the plan's order
+    std::string name, base, source;  ///< its value in the case; source of its range
+    std::vector<Seeds> values;       ///< in the plan's order
 };
 
+/// All runs of a study, by input and value.
 struct Study {
     std::string title;
-    int dimension = 3;
-    Seeds base;  ///< the case itself
+    int dimension = 3;  ///< 2 or 3
+    Seeds base;         ///< the case itself
     std::vector<Input> inputs;
     std::vector<std::pair<std::string, std::string>> left_out;  ///< input, why
     sweep::Sweep runs;                                          ///< all of them, for their faults

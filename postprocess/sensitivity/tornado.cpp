@@ -18,10 +18,13 @@ using views::text_element;
 
 namespace {
 
-// [px]
+// Width of the chart and ends of its axis [px]: names of inputs stand left of kLeft.
 constexpr double kWidth = 860.0, kLeft = 236.0, kRight = 846.0;
+// Top of the plot, height of a bar, distance between inputs, room for axis and legend below [px].
 constexpr double kTop = 66.0, kBar = 20.0, kBetween = 12.0, kFoot = 76.0;
-constexpr double kLetter = 7.2;  // of the common font, on average
+// Mean width of a letter of the common font at 13 px [px]: labels beside the bars get room by it.
+// Too small a value lets long labels leave the chart.
+constexpr double kLetter = 7.2;
 constexpr const char* kSmall = "font-size=\"11.5\" fill=\"#555\"";
 constexpr const char* kModelColor = "#e4e7ea";
 constexpr const char* kIntervalColor = "#b9d6ea";
@@ -44,6 +47,7 @@ public:
           base_(base),
           unit_(unit),
           half_(std::isfinite(base.half) ? base.half : 0) {
+        // the rows decide the picture's height
         bottom_ = kTop;
         for (const RankedInput& input : inputs) bottom_ += row_height(input);
         choose_range();
@@ -99,6 +103,7 @@ private:
     }
 
     std::string band(double half, const char* color) const {
+        // without an interval of the case there is no band
         if (!(half > 0.0)) return "";
         return rectangle(place(base_.mean - half), place(base_.mean + half), kTop, bottom_,
                          fmt::format("fill=\"{}\"", color));
@@ -106,6 +111,8 @@ private:
 
     std::string axes() const {
         std::string out;
+        // Two scales: forces below, per cent of the case's mean above. Both come from one axis, so
+        // they cannot disagree.
         const auto ticks = views::choose_ticks(x_.low, x_.high, 8);
         const double step = ticks.size() > 1 ? ticks[1] - ticks[0] : 1.0;
         for (const double v : ticks) {
@@ -149,6 +156,7 @@ private:
             return text_element(place(base_.mean) + 6.0, top + 14.0, change.label + ": no result",
                                 "start", kSmall);
         const double end = place(change.resistance.mean), middle = top + 0.5 * kBar;
+        // Colour says in which direction; pale says that the difference may be chance.
         const bool rises = change.difference.mean >= 0.0;
         std::string out = rectangle(
             place(base_.mean), end, top + 3.0, top + kBar - 3.0,

@@ -31,6 +31,7 @@ struct Result {
 
     // Signed: a share says in which direction the input moves the resistance.
     std::string percent(double force) const {
+        // a mean of 0 has no shares
         return std::isfinite(force) && base.mean != 0.0
                    ? fmt::format("{:+.1f} %", 100.0 * force / std::abs(base.mean))
                    : "n/a";
@@ -49,6 +50,8 @@ private:
     }
 };
 
+// With one run there is no scatter between seeds: the sentence says on which error the intervals
+// rest.
 std::string sentence_on_seeds(const Study& study) {
     const std::size_t n = study.base.resistance.size();
     return n == 1 ? "one run, its own interval" : fmt::format("{} seeds", n);
@@ -67,6 +70,8 @@ std::size_t letters(const std::string& text) {
 }
 
 std::string aligned(const std::vector<std::vector<std::string>>& rows) {
+    // Two passes: a column is as wide as its longest cell. Rows may have different numbers of
+    // cells, as only significant ones end in a star.
     std::vector<std::size_t> widths;
     for (const auto& row : rows)
         for (std::size_t k = 0; k < row.size(); ++k) {
@@ -111,6 +116,7 @@ std::string cards(const Study& study, const Result& r) {
     out +=
         card("\u00b1 " + r.unit.text(kModelUncertainty * std::abs(r.base.mean)) + " " + r.unit.name,
              model_words());
+    // inputs are in order of their effect, so the first has the largest
     if (!r.inputs.empty() && r.inputs.front().largest() > 0.0)
         out += card("\u00b1 " + r.unit.text(r.inputs.front().largest()) + " " + r.unit.name,
                     "at most, by " + r.inputs.front().name + " within its range");
@@ -172,6 +178,7 @@ std::string make_study_page(const Study& study) {
     if (!faults.empty())
         out += "<section id=\"faults\" class=\"warnings\">\n<b>" + escape(faults) +
                "</b>\n</section>\n";
+    // The answer first, then the chart, then all numbers, and last where the ranges come from.
     out += cards(study, r);
     out += report::section(
         "tornado", "What moves the resistance",

@@ -12,7 +12,7 @@ std::string make_tornado(const Study& study);
 
 /// Text for a terminal: the case's resistance with its interval, the model uncertainty beside it,
 /// a line per value with the difference, its 95 % interval and its share of the resistance,
-/// "*" where the interval leaves out zero; then what was left out and why.
+/// "*" where the interval leaves out zero; then inputs that were left out, with reasons.
 std::string study_text(const Study& study);
 
 /// The same as a page, with the chart and the source of each range. One file without script that

@@ -12,7 +12,9 @@ namespace ice::statistics {
 
 namespace {
 
-constexpr int kColumns = 300;  // cells along the hull: the share's steps are far below 1 %
+// Cells along the hull: a hull of usual proportions then has some 10 000 wet cells, so steps of the
+// share are 0.01 %. Twice as many take four times as long.
+constexpr int kColumns = 300;
 
 // Heights of the wetted hull on a grid over its plan, ship frame.
 struct Plan {
@@ -27,6 +29,7 @@ struct Plan {
         cell = std::max(box.sizes().x(), box.sizes().y()) / kColumns;
         columns = static_cast<long>(std::ceil(box.sizes().x() / cell));
         rows = static_cast<long>(std::ceil(box.sizes().y() / cell));
+        // the map of the viewer's nearest surface serves as the map of lowest points
         const auto from = views::projection_of(views::ViewFrom::below);
         const views::DepthMap map(hull, from, kColumns);
         for (long r = 0; r < rows; ++r)
@@ -60,6 +63,8 @@ void cover(const Plan& plan, const Vec3 corner[3], std::vector<char>& covered) {
         return std::pair(Plan::first(low - origin, plan.cell, count),
                          Plan::first(high - origin, plan.cell, count));
     };
+    // Only cells whose centres can lie in the triangle are tested. Centres, not areas: the sum over
+    // cells has no bias, and neighbouring triangles count no cell twice.
     const auto [c0, c1] = range(0, plan.box.min().x(), plan.columns);
     const auto [r0, r1] = range(1, plan.box.min().y(), plan.rows);
     for (long row = r0; row < r1; ++row)

@@ -10,6 +10,7 @@ std::optional<Vec3> center_of_load(const RunData& run, double from) {
     Vec3 sum = Vec3::Zero();
     for (std::size_t f = 1; f < run.frames.size(); ++f) {
         const double begin = run.frames[f - 1].time;
+        // 1e-9 s: times are sums of steps, and their rounding must not drop the first frame
         // forces of a frame are means since the one before: with that time they are impulses
         if (begin < from - 1e-9) continue;
         for (const HullContact& c : run.frames[f].hull_contacts) {
@@ -39,6 +40,7 @@ LineOfAction find_line_of_action(const RunData& run, double from) {
     if (count == 0.0) return out;
     out.force /= count;
     out.moment /= count;
+    // Central axis of the mean load (Poinsot):
     // A force system is a force along its central axis and a couple about it. From the moment M_c
     // about c the axis passes through c + F x M_c / |F|^2, and the couple is M_c . F / |F|.
     const double size = out.force.squaredNorm();

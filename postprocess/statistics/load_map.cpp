@@ -13,11 +13,14 @@ namespace ice::statistics {
 
 namespace {
 
-constexpr std::size_t kMostTriangles =
-    12000;  // a picture shows no more, and the report stays small
+// Triangles of the load map; the refined mesh may have twice as many. A picture shows no more, and
+// the report stays small: each triangle adds about 10 bytes before compression.
+constexpr std::size_t kMostTriangles = 12000;
 
 using Edge = std::pair<std::int32_t, std::int32_t>;
 
+// (1 - x^2)^2 within the radius, x being the distance over the radius [-]: smooth at its end, so no
+// edge of a contact's circle shows on the map.
 double squared_kernel(double x_sq) { return x_sq < 1.0 ? (1.0 - x_sq) * (1.0 - x_sq) : 0.0; }
 
 double surface_area(const TriangleMesh& mesh) {
@@ -182,6 +185,9 @@ LoadMap make_load_map(const RunData& run, double from) {
     const double area = surface_area(hull.mesh);
     Eigen::AlignedBox3d box;
     for (const Vec3& v : hull.mesh.vertices) box.extend(v);
+    // Radius [m]: 1.5 times the spheres' distance, or 1 % of the ship's length where spheres are
+    // finer. A larger one blurs the map, a smaller one shows single spheres; the integral stays the
+    // same.
     // A force acts on a sphere: spread over less than the spheres' distance the map would show the
     // spheres.
     map.radius = std::max(1.5 * sphere_spacing(hull, area), 0.01 * box.sizes().x());

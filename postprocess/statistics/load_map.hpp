@@ -10,11 +10,11 @@ namespace ice::statistics {
 
 /// Mean normal load on the hull over a part of the run.
 struct LoadMap {
-    TriangleMesh mesh;            ///< the hull in small triangles, ship frame
+    TriangleMesh mesh;            ///< the hull in T small triangles, ship frame [m]
     std::vector<double> load;     ///< [T] per triangle [Pa]
     double radius = 0.0;          ///< each contact is spread over this distance [m]
     double from = 0.0, to = 0.0;  ///< averaged time [s]
-    double force = 0.0;  ///< sum of load times area: mean of all normal forces' magnitudes [N]
+    double force = 0.0;           ///< sum of load times area: mean of all |normal forces| [N]
 };
 
 /// Spreads the hull contacts of the frames with t > `from` over the hull's surface.
@@ -32,14 +32,16 @@ struct LoadMap {
 ///
 /// In 2D distances are those in the x-z plane and the force is that on the mesh's breadth.
 /// A run without contacts after `from`, or without a hull, gives zeros and an empty mesh.
+/// @param from [s]
 LoadMap make_load_map(const RunData& run, double from);
 
 /// Divides triangles at the middle of every edge longer than `longest` until none is left; the
-/// surface and its closedness stay. Gives up (coarser) before it makes more than `most` triangles.
+/// surface and its closedness stay. Stops, coarser, before it makes more than `most` triangles (a
+/// count). @param longest [m], > 0
 TriangleMesh refine_mesh(const TriangleMesh& mesh, double longest, std::size_t most);
 
-/// The load that 99 % of the loaded area stays below [Pa]; 0 without load. Scales end there: a
-/// single spot would leave all others dark.
+/// The load that 99 % of the loaded area stays below, rounded up to two digits [Pa]; 0 without
+/// load. Scales end there: a single spot would leave all others dark.
 double scale_end(const LoadMap& map);
 
 }  // namespace ice::statistics

@@ -14,6 +14,7 @@ ThinSeries thin_series(const std::vector<double>& time,
     ThinSeries out;
     out.values.resize(series.size());
     for (std::size_t bin = 0; bin < bins; ++bin) {
+        // bins of equal numbers of rows, not of equal times: output rows are evenly spaced
         const std::size_t begin = bin * count / bins, end = (bin + 1) * count / bins;
         out.time.push_back(time[begin]);
         out.time.push_back(time[end - 1]);
@@ -69,7 +70,8 @@ std::vector<double> moving_average(const std::vector<double>& x, const std::vect
             static_cast<std::size_t>(std::upper_bound(x.begin(), x.end(), at + width) - x.begin());
         const double c = std::cos(k * at), s = std::sin(k * at);
         const double weight = ones.over(first, last, c, s);
-        // a window with samples at its very ends alone weighs nothing but rounding
+        // Weights are between 0 and 2. A window with samples at its very ends alone has nothing but
+        // rounding.
         out.push_back(weight > 1e-6 ? values.over(first, last, c, s) / weight : 0.0);
     }
     return out;

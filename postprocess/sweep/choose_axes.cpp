@@ -64,6 +64,8 @@ bool is_tied(const Sweep& sweep, const std::string& key, const std::string& x) {
 
 void choose_axes(Sweep& sweep, const std::vector<std::string>& planned) {
     sweep.axes = planned.empty() ? varying_keys(sweep) : planned;
+    // Seeds are repetitions, no axis; a planned axis with one value run so far draws
+    // no curve.
     std::erase_if(sweep.axes, [&](const std::string& key) {
         return is_seed(key) || values_of(sweep, key).size() < 2;
     });

@@ -8,8 +8,8 @@ namespace ice::sweep {
 
 namespace {
 
-// of the formulas in their order
-// Dash patterns: prints in grey keep the formulas apart.
+// Dash patterns of the formulas in their order: prints in grey keep them apart. A fifth formula has
+// the first pattern again.
 constexpr const char* kDashes[] = {"2 3", "7 3 2 3", "9 4", "4 2"};
 
 template <class List>
@@ -48,7 +48,7 @@ std::vector<FormulaCurve> component_curves(const Curve& curve) {
     const bool level = curve.points.front().level_ice;
     for (const FormulaValue& f : curve.points.front().formulas)
         // Buoyancy is a part of every formula for broken ice. In level ice the total has curves of
-        // its own, and these show what the ice would cost if it were broken already.
+        // its own, and these show the resistance if the ice were broken already.
         if (f.part == "buoyancy" ||
             (level && (f.part == "submersion" || f.part == "buoyancy + clearing")))
             out.push_back({f.name, f.part, author_of(f.name) + ", " + f.part, "1 2"});

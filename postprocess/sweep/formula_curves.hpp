@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Which formulas are drawn beside the points of a sweep.
+/// The formulas that are drawn beside the points of a sweep.
 #pragma once
 
 #include <optional>
@@ -18,14 +18,15 @@ struct FormulaCurve {
     std::string dash;        ///< SVG dash pattern
 };
 
-/// What can be compared with the points' resistance (comparable_formulas()), in the formulas'
-/// order.
+/// Formulas that can be compared with the points' resistance (comparable_formulas()), in the
+/// formulas' order; none without points.
 std::vector<FormulaCurve> comparable_curves(const std::vector<Curve>& curves);
 
-/// Components below these: buoyancy, and in level ice what broken ice would take.
+/// Components below these: buoyancy, and in level ice the resistance of broken ice.
+/// @pre the curve has a point
 std::vector<FormulaCurve> component_curves(const Curve& curve);
 
-/// The band of the comparable formulas at a point; none without any.
+/// The band of the comparable formulas at a point [N; 2D: N/m]; none without any.
 std::optional<FormulaBand> formula_band(const Point& point);
 
 /// "Lindqvist" for "Lindqvist 1989"; a name without a year as it is.

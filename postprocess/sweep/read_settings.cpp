@@ -16,6 +16,7 @@ namespace {
 // Numbers as "0.1", not with all digits, also in lists; 1 and 1.0 agree.
 std::string text_of(const toml::node& node) {
     if (const auto text = node.value_exact<std::string>()) return *text;
+    // the shortest digits that give the number again: no two numbers share a text
     if (const auto number = node.value<double>(); node.is_number() && number)
         return fmt::format("{}", *number);
     if (const toml::array* list = node.as_array()) {
@@ -63,6 +64,8 @@ public:
         }
         Plan plan;
         plan.title = table["title"].value_or<std::string>("");
+        // Title and axes may be missing: a plan written by hand has only its runs. A run without a
+        // name has no folder, so it is an error.
         if (const toml::array* axes = table["axes"].as_array())
             for (const toml::node& axis : *axes) plan.axes.push_back(text(axis, "axes"));
         const toml::array* runs = table["run"].as_array();

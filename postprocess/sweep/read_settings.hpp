@@ -8,12 +8,12 @@ namespace ice::sweep {
 /// The plan of a sweep as the workflow leaves it (runs.toml).
 struct Plan {
     struct Run {
-        std::string name;
-        std::map<std::string, Setting> values;
+        std::string name;                       ///< of its folder in runs/
+        std::map<std::string, Setting> values;  ///< by dotted key
     };
     std::string title;
-    std::vector<std::string> axes;
-    std::vector<Run> runs;
+    std::vector<std::string> axes;  ///< dotted keys; may be empty
+    std::vector<Run> runs;          ///< at least one
 };
 
 /// @throws Error (exit code 2) naming file, line and key.

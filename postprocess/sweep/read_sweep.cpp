@@ -59,7 +59,7 @@ void unite_members(std::vector<SweepRun>& runs) {
     for (SweepRun& run : runs)
         if (is_ensemble(run.folder.parent_path()))
             ensembles[run.folder.parent_path()].push_back(&run);
-    // keys that differ among the members are what the ensemble draws: no settings of the run
+    // keys that differ among the members are drawn by the ensemble: no settings of the run
     for (const auto& [folder, members] : ensembles) {
         const std::map<std::string, Setting> first = members.front()->settings;
         for (const auto& entry : first) {  // no structured binding: clang 14 captures none
@@ -104,6 +104,7 @@ void read_outcome(const fs::path& log, SweepRun& run) {
         if (run.status == "completed") {
             run.summary = std::move(summary);
         } else {
+            // the last warning of a failed run is the reason of its end
             const bool said = run.status == "failed" && !summary.warnings.empty();
             run.fault = said ? summary.warnings.back().text
                              : fmt::format("ended at {:g} s", summary.simulated_s);
@@ -121,6 +122,7 @@ void read_planned(const fs::path& file, Sweep& sweep) {
     sweep.title = plan.title;
     std::set<fs::path> planned;
     for (const auto& [name, values] : plan.runs) {
+        // runs that failed keep their planned values, so that the table says where a sweep has gaps
         SweepRun run{name, sweep.folder / "runs" / name, {}, "", "", std::nullopt};
         run.settings = read_settings(run.folder / "case.resolved.cfg");
         // the case has numbers in SI where the plan may have "2 kn"; the plan has mesh and field
@@ -156,6 +158,8 @@ Sweep read_sweep(const fs::path& folder) {
     if (!fs::is_directory(folder)) throw bad_input(folder.string(), "folder not found", kRemedy);
     Sweep sweep;
     sweep.folder = folder;
+    // A plan names its runs, also those that have no folder yet; without one every run below
+    // counts.
     if (fs::exists(folder / "runs.toml")) {
         read_planned(folder / "runs.toml", sweep);
     } else {
@@ -173,6 +177,7 @@ Sweep read_sweep(const fs::path& folder) {
         if (sweep.runs.empty()) throw bad_input(folder.string(), "holds no runs", kRemedy);
         choose_axes(sweep, {});
     }
+    // The folder's name at least tells pages of several sweeps apart.
     if (sweep.title.empty())
         sweep.title = "Sweep " + fs::weakly_canonical(folder).filename().string();
     return sweep;

@@ -30,6 +30,7 @@ inline constexpr const char* kSeedKey = "simulation.seed";
 inline constexpr const char* kFieldSeedKey = "field.seed";
 bool is_seed(const std::string& key);
 
+/// Key of the ship's speed [m/s]: x of every sweep in which it varies.
 inline constexpr const char* kSpeedKey = "hull.speed";
 
 /// Value of one setting: as text, and as a number where it is one (SI).
@@ -70,9 +71,9 @@ struct Sweep {
 ///
 /// With runs.toml its runs and axes count, and other run folders are left out with a warning;
 /// without, every folder that holds a summary.json or case.resolved.cfg is a run, and its resolved
-/// case says what varies. x is hull.speed where that varies, else the number with most values.
-/// An ensemble's folder (summary.json with `ensemble`) is no run: its members are, and what differs
-/// between them, such as the field that a seed made, counts as the seed.
+/// case names the settings that vary. x is hull.speed where that varies, else the number with most
+/// values. An ensemble's folder (summary.json with `ensemble`) is no run: its members are, and keys
+/// that differ between them, such as the field that a seed made, count as the seed.
 /// A run that cannot be read becomes a row with its fault, never an error.
 /// @throws Error (exit code 2) when there is no folder, no run, or runs.toml is faulty.
 Sweep read_sweep(const std::filesystem::path& folder);

@@ -7,18 +7,18 @@
 
 namespace ice::sweep {
 
-/// One account of the energy books as a force.
+/// One entry of the energy balance as a force.
 struct WorkShare {
     const char* title;
     double force;  ///< energy per metre of the ship's travel [N; 2D: N/m], or NaN
 };
 
-/// Uses of the ship's work, mean over a point's runs: first the work itself, then the
-/// accounts that it went to, which add up to it but for the residual (docs/energy.md). What opened
-/// overlaps and moving water put in counts negative. Work per metre is the mean force over the
-/// whole run, start-up included, while the resistance is that from output.average_from on.
+/// Uses of the ship's work, mean over a point's runs: first the work itself, then its uses, which
+/// add up to it but for the residual (docs/energy.md). Energy put in by opened overlaps and moving
+/// water counts negative. Work per metre is the mean force over the whole run, start-up included,
+/// while the resistance is that from output.average_from on.
 ///
-/// NaN where the runs have no constant speed, or did not book energy.
+/// NaN where the runs have no constant speed, or no energy balance.
 std::vector<WorkShare> share_work(const Sweep& sweep, const Point& point);
 
 }  // namespace ice::sweep

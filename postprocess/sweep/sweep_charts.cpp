@@ -19,6 +19,8 @@ namespace {
 
 const std::vector<std::string> kColors{views::kBlue, views::kOrange, views::kGreen, views::kPurple,
                                        views::kBlack};
+// One mark per colour, so that curves differ in prints without colour, too. More curves than
+// colours have no overview: they could not be told apart.
 constexpr char kMarks[] = {'o', 's', '^', 'd', 'v'};
 constexpr const char* kFormulaDash = "2 3";
 constexpr const char* kTwoRunsDash = "3 2";
@@ -40,7 +42,8 @@ public:
                 low = std::min(low, point.x(sweep));
                 high = std::max(high, point.x(sweep));
             }
-        // half a cap: 0.8 % of the axis, which a single place does not have
+        // half a cap: 0.8 % of the axis; a single place has no axis and takes 0.8 % of its own
+        // value
         cap_ = high > low ? 0.008 * (high - low) : 0.008 * std::max(std::abs(high), 1.0);
         ends_ = {low, high};
         // an axis that would hold nothing in its first half does not begin at 0
@@ -58,7 +61,7 @@ public:
         chart.curves.push_back(ends);
     }
 
-    // what the bars of two runs mean, where there are any
+    // a line of the legend that explains the dashed bars of two runs, where there are any
     void add_note(views::Chart& chart) const {
         if (two_runs_)
             chart.curves.push_back({"two runs: t = 12.7", "#777777", {}, 1.2, kTwoRunsDash, 1.0});
@@ -74,6 +77,8 @@ public:
             if (!std::isfinite(estimate.mean)) continue;
             const double x = point.x(sweep_), y = estimate.mean / unit_.newtons;
             line.points.emplace_back(x, y);
+            // Two runs have an interval of t = 12.7 standard errors, which says little: its bar is
+            // dashed.
             if (!std::isfinite(estimate.half)) continue;
             marks.push_back(interval(x, y, estimate.half / unit_.newtons, style.color));
             if (point.runs.size() != 2) continue;
@@ -85,7 +90,7 @@ public:
         chart.curves.insert(chart.curves.end(), marks.begin(), marks.end());
     }
 
-    // what the formulas span, where there are two or more
+    // the band between the lowest and the highest formula, where there are two or more
     void add_band(views::Chart& chart, const Curve& curve, const std::string& name) const {
         views::Curve area{name, "#b8c4cc", {}, 0.0, "", 0.45};
         area.filled = true;
@@ -96,6 +101,7 @@ public:
             area.points.emplace_back(point.x(sweep_), band->high / unit_.newtons);
             back.emplace_back(point.x(sweep_), band->low / unit_.newtons);
         }
+        // upper edge forwards, lower edge back: one closed area
         if (area.points.size() < 2) return;
         area.points.insert(area.points.end(), back.rbegin(), back.rend());
         chart.curves.insert(chart.curves.begin(), area);
@@ -175,6 +181,8 @@ std::string other_axis(const Sweep& sweep) {
 // the values of the only other axis, whose name goes into the title, or letters.
 std::vector<std::string> name_curves(const Sweep& sweep, const std::vector<Curve>& curves,
                                      bool& valued) {
+    // Letters of a legend that fit one row of a chart 860 px wide, names with their samples. Longer
+    // names would take a row for each curve and shrink the plot.
     constexpr std::size_t kMostLetters = 75;
     std::vector<std::string> names;
     std::size_t length = 0;
@@ -255,6 +263,7 @@ std::string draw_peaks(const Sweep& sweep, const std::vector<Curve>& curves, dou
     chart.y_title = "resistance [" + unit.name + "]";
     chart.width = width;
     chart.height = 340.0;
+    // 5 % above the largest value, for its mark
     chart.y_range = {0.0, 1.05 * largest / unit.newtons};
     bool valued = false;
     const std::vector<std::string> names = name_curves(sweep, curves, valued);
@@ -310,6 +319,8 @@ std::vector<std::string> draw_parts(const Sweep& sweep, const std::vector<Curve>
             if (has_force(curve, part))
                 plotter.add(chart, curve, style,
                             [part = part](const Point& p) { return p.part(part); });
+        // Parts without a force have no curve. The formulas' totals compare with the resistance,
+        // their components with single parts, so the band is of the totals alone.
         plotter.add_band(chart, curve, "formulas");
         for (const FormulaCurve& f : comparable_curves({curve}))
             plotter.add(chart, curve, {f.legend, views::kBlack, f.dash, 1.8}, value_of(f));

@@ -6,7 +6,8 @@
 
 namespace ice::sweep {
 
-/// Unit that all charts and tables of a sweep share.
+/// Unit that all charts and tables of a sweep share, by the largest mean resistance; newtons
+/// without points.
 report::ForceUnit choose_sweep_unit(const std::vector<Point>& points);
 
 /// Resistance against x with intervals, a curve for each combination of the other axes' values,
@@ -18,11 +19,12 @@ std::string draw_overview(const Sweep& sweep, const std::vector<Curve>& curves,
                           const report::ForceUnit& unit, double width);
 
 /// The largest resistance in one step, of all runs of a point and in the mean over them, beside the
-/// mean resistance; "" as above.
+/// mean resistance; "" as above, or where no peak is known. @param width of the picture [px]
 std::string draw_peaks(const Sweep& sweep, const std::vector<Curve>& curves, double width);
 
 /// One chart per curve, all on the same axes: resistance with intervals, normal forces on bow,
-/// sides, bottom and the rest, and friction in all, which add up to it, Lindqvist's formula.
+/// sides, bottom and the rest, and friction in all, which add up to it, Lindqvist's formula. None
+/// without x. @param width of each picture [px]
 std::vector<std::string> draw_parts(const Sweep& sweep, const std::vector<Curve>& curves,
                                     const report::ForceUnit& unit, double width);
 

@@ -43,6 +43,7 @@ std::vector<Column> axis_columns(const Sweep& sweep, const std::vector<Point>& p
         columns.push_back({axis_title(axis), {}});
         for (const Point& point : points)
             columns.back().cells.push_back(short_text(point.at.at(axis)));
+        // speeds of ships are known in knots, those of models in metres per second
         if (!knots || axis != kSpeedKey) continue;
         columns.push_back({"speed [kn]", {}});
         for (const Point& point : points) {
@@ -57,6 +58,8 @@ std::vector<Column> force_columns(const std::vector<Point>& points, const report
                                   std::vector<std::pair<Part, std::string>> parts, bool intervals) {
     const std::string in = " [" + unit.name + "]";
     parts.insert(parts.end(), {{Part::breaking, "breaking"}, {Part::submersion, "submersion"}});
+    // Order of the columns: resistance, its parts, largest, formulas, release rule. Cells are
+    // filled by number, so names and cells must keep that order.
     std::vector<Column> columns{{"resistance" + in, {}}};
     for (const auto& [part, title] : parts) columns.push_back({title + in, {}});
     columns.push_back({"largest" + in, {}});
@@ -94,6 +97,7 @@ std::vector<Column> work_columns(const Sweep& sweep, const std::vector<Point>& p
         for (const auto& [title, force] : share_work(sweep, point))
             columns[k++].cells.push_back(unit.text(force));
     }
+    // entries of the balance that no run of the sweep has
     drop_empty(columns, 0);
     return columns;
 }

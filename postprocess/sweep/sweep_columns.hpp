@@ -17,6 +17,7 @@ struct Column {
 
 /// "1284 \u00b1 83" in the unit, without the interval where there is none. Of two runs the interval
 /// is Student's with t = 12.7, which the text says: "1284 \u00b1 830 (n = 2, t = 12.7)".
+/// @param estimate [N; 2D: N/m]; @param runs number of runs behind it; 0: not stated
 std::string with_interval(const report::ForceUnit& unit, const Estimate& estimate,
                           std::size_t runs = 0);
 
@@ -30,7 +31,8 @@ std::vector<Column> axis_columns(const Sweep& sweep, const std::vector<Point>& p
 std::vector<Column> force_columns(const std::vector<Point>& points, const report::ForceUnit& unit,
                                   std::vector<std::pair<Part, std::string>> parts, bool intervals);
 
-/// Uses of the ship's work, per metre of travel (share_work.hpp), without empty columns.
+/// Uses of the ship's work, per metre of travel (share_work.hpp) [N; 2D: N/m] in the unit, without
+/// empty columns. @pre there are points
 std::vector<Column> work_columns(const Sweep& sweep, const std::vector<Point>& points,
                                  const report::ForceUnit& unit);
 

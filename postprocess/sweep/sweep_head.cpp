@@ -36,6 +36,7 @@ private:
     static std::string from_to(const std::string& low, const std::string& high) {
         return low == high ? low : low + " to " + high;
     }
+    // a set: in order, and equal runs count once
     std::set<double> values_;
 };
 
@@ -43,6 +44,7 @@ class Facts {
 public:
     explicit Facts(const Sweep& sweep) {
         for (const SweepRun& run : sweep.runs) {
+            // runs without a summary say nothing about ship and ice
             if (!run.summary) continue;
             const auto speed = run.settings.find(kSpeedKey);
             if (speed != run.settings.end() && speed->second.number)
@@ -65,6 +67,7 @@ public:
     }
 
 private:
+    // Keys that no summary has leave no gap in the text.
     std::string ship() {
         std::string text;
         append(text, "L ", "ship.length_m", " m");

@@ -8,8 +8,8 @@
 namespace ice::sweep {
 
 /// HTML: ship, ice and speeds of the runs in a line each, from their summaries' `ship`, `ice` and
-/// settings; what differs between runs is given as a range, unknown values are left out. Runs from
-/// before summaries had these give the speeds alone. "" where nothing is known.
+/// settings; values that differ between runs are given as a range, unknown ones are left out. Runs
+/// from before summaries had these give the speeds alone. "" where nothing is known.
 std::string head_facts(const Sweep& sweep);
 
 }  // namespace ice::sweep

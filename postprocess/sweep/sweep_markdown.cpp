@@ -12,6 +12,7 @@ namespace {
 // a table's bar would end the cell
 std::string plain(std::string text) {
     for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2)
+        // two characters on: the bar itself is not found again
         text.insert(at, "\\");
     return text;
 }
@@ -45,6 +46,7 @@ std::string tables(const Sweep& sweep) {
     const auto axes = axis_columns(sweep, points, false);
     Column runs{"runs", {}};
     for (const Point& point : points) runs.cells.push_back(std::to_string(point.runs.size()));
+    // Without intervals of the parts: in text each would double its column. The total has its own.
     const auto forces = force_columns(points, unit,
                                       {{Part::bow_contact, "bow"},
                                        {Part::sides_contact, "sides"},

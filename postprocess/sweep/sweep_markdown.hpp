@@ -8,9 +8,9 @@
 namespace ice::sweep {
 
 /// Two tables in Markdown, a row per point each: resistance with interval, normal forces on the
-/// parts of the hull and friction, which add up to it, and Lindqvist's formula; and what became of
-/// the ship's work; runs in 3D and in 2D have tables of their own. Columns without a known
-/// value, or with zeros only, are left out. "" without points.
+/// parts of the hull and friction, which add up to it, and Lindqvist's formula; and the uses of the
+/// ship's work; runs in 3D and in 2D have tables of their own. Columns without a known value, or
+/// with zeros only, are left out. "" without points.
 std::string sweep_markdown(const Sweep& sweep);
 
 }  // namespace ice::sweep

@@ -23,7 +23,8 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 using Share = std::array<double, 3> RegionStatistics::*;
 
-// Where on the hull a part acts and what of the force there it is; Part::total is everywhere.
+// The place on the hull where a part acts and its share of the force there; Part::total is
+// everywhere.
 struct PartRow {
     const char* name;
     Part place;
@@ -55,6 +56,7 @@ constexpr PartRow kPartRows[kPartCount]{{"resistance", Part::total, kAll},
 const PartRow& row_of(Part part) { return kPartRows[static_cast<std::size_t>(part)]; }
 
 double part_value(const Summary& s, Part part) {
+    // parts of the whole ship are in the summary itself; places on the hull are sums over regions
     if (part == Part::total) return s.resistance.mean;
     if (part == Part::contact) return s.resistance.contact_mean;
     if (part == Part::friction) return s.resistance.friction_mean;
@@ -72,6 +74,8 @@ std::vector<FormulaValue> mean_formulas(const Sweep& sweep, const std::vector<st
     std::vector<std::vector<double>> values;
     for (const std::size_t row : rows)
         for (const FormulaValue& f : report::formulas_of(*sweep.runs[row].summary)) {
+            // Runs of a point have the same formulas, but a formula without a value in one run is
+            // missing there: the mean is over the runs that have it.
             const auto found = std::find_if(out.begin(), out.end(), [&](const FormulaValue& known) {
                 return known.name == f.name && known.part == f.part;
             });

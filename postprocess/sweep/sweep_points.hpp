@@ -31,6 +31,7 @@ enum class Part {
     breaking,
     submersion
 };
+/// Number of parts: that of the names above, by which arrays of parts are indexed.
 inline constexpr std::size_t kPartCount = 17;
 /// "resistance", "bow", "sides", ..., "bow_contact", ...
 const char* part_name(Part part);
@@ -55,14 +56,14 @@ Estimate estimate_mean(const std::vector<double>& values);
 /// All completed runs of one combination of the axes' values.
 struct Point {
     std::map<std::string, Setting> at;       ///< value of each axis
-    std::array<Estimate, kPartCount> parts;  ///< by Part
-    double lindqvist;  ///< mean of the runs' submersion resistance [N], or NaN
-    Estimate peak;     ///< of the runs' largest resistance in one step [N]
-    double largest;    ///< the largest of them [N], or NaN
-    int dimension;
+    std::array<Estimate, kPartCount> parts;  ///< by Part [N; 2D: N/m]
+    double lindqvist;               ///< mean of the runs' submersion resistance [N], or NaN
+    Estimate peak;                  ///< of the runs' largest resistance in a step [N; 2D: N/m]
+    double largest;                 ///< the largest of them [N], or NaN
+    int dimension;                  ///< 2 or 3
     std::vector<std::size_t> runs;  ///< rows of Sweep::runs
     std::string hold = {};          ///< release rules of the runs, "; " between different ones
-    std::vector<FormulaValue> formulas = {};  ///< means over the runs, in their order
+    std::vector<FormulaValue> formulas = {};  ///< means over the runs
     bool level_ice = false;                   ///< its runs break level ice
 
     const Estimate& part(Part p) const { return parts[static_cast<std::size_t>(p)]; }
@@ -75,8 +76,8 @@ struct Point {
 /// Points in the order of the axes' values, the first axis slowest.
 ///
 /// Over several seeds intervals are Student's; of one run the resistance has the run's own interval
-/// from its autocorrelation, its parts have none. Runs from before summary.json split regions into
-/// contact and friction have NaN for these parts.
+/// from its autocorrelation, its parts have none. No completed run gives no points. Runs from
+/// before summary.json split regions into contact and friction have NaN for these parts.
 std::vector<Point> make_points(const Sweep& sweep);
 
 /// Points that differ along x only, x rising: a curve. Label: values of the other axes.

@@ -50,6 +50,7 @@ std::string link(const SweepRun& run, const std::string& text, const std::filesy
     namespace fs = std::filesystem;
     const fs::path report = run.folder / "report.html";
     const fs::path target = fs::exists(report) ? report : run.folder;
+    // a run that never began has no folder
     if (!fs::exists(target)) return escape(text);
     std::error_code error;
     // relative to the page, so that a folder may be moved as a whole
@@ -122,6 +123,7 @@ std::string work_table(const Sweep& sweep, const std::vector<Point>& points,
                        const report::ForceUnit& unit) {
     ICE_ASSERT(!points.empty());
     const auto axes = axis_columns(sweep, points, true), work = work_columns(sweep, points, unit);
+    // runs of older programs have no energy balance
     if (work.empty()) return "";
     std::vector<std::string> names = titles(axes);
     for (const Column& column : work) names.push_back(column.title);
@@ -157,6 +159,8 @@ std::string point_csv(const Sweep& sweep, const std::vector<Point>& points) {
     out += "runs";
     const char* in = force_ending(points.empty() ? 3 : points.front().dimension);
     for (const Part part : kParts) out += fmt::format(",{0}{1},{0}_ci95{1}", part_name(part), in);
+    // Names state the unit, and all columns are always there: scripts find them in any sweep.
+    // Lindqvist's submersion has a column also where no formula was evaluated.
     out += fmt::format(",largest{0},lindqvist_submersion{0}", in);
     const auto formulas = formula_columns(points);
     for (const FormulaValue& f : formulas)
@@ -184,6 +188,7 @@ std::string run_csv(const Sweep& sweep) {
         "unconverged_steps,wall_s,hold,remark\r\n",
         kSeedKey, force_ending(dimension_of(sweep)));
     for (const SweepRun& run : sweep.runs) {
+        // The row of a failed run has its settings, so that a script can run it again.
         out += csv_text(run.name) + "," + run.status;
         for (const std::string& axis : sweep.axes) out += "," + csv_text(run.text(axis));
         out += "," + csv_text(run.text(kSeedKey));

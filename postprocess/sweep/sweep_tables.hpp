@@ -19,7 +19,7 @@ std::string point_table(const Sweep& sweep, const std::vector<Point>& points,
 std::string work_table(const Sweep& sweep, const std::vector<Point>& points,
                        const report::ForceUnit& unit);
 
-/// HTML: a row per run with its status; runs without numbers say why.
+/// HTML: a row per run with its status; runs without numbers have their fault in place of numbers.
 std::string run_table(const Sweep& sweep, const report::ForceUnit& unit,
                       const std::filesystem::path& page);
 
@@ -27,7 +27,8 @@ std::string run_table(const Sweep& sweep, const report::ForceUnit& unit,
 /// half widths; unknown values are empty.
 std::string point_csv(const Sweep& sweep, const std::vector<Point>& points);
 
-/// CSV: runs, also those that failed.
+/// CSV: all runs, failed ones with empty numbers and their fault; forces in newtons (2D: per
+/// metre).
 std::string run_csv(const Sweep& sweep);
 
 /// Everything but letters, digits and -._~/ as %XX: a text as part of an address.

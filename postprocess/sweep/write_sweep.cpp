@@ -24,9 +24,14 @@ using views::escape;
 
 namespace {
 
-constexpr std::size_t kMostNamed = 12;                          // runs without numbers in a message
-constexpr std::size_t kMostPanels = 200;                        // small multiples drawn
-constexpr double kWide = 860.0, kHalf = 600.0, kPhone = 400.0;  // of charts [px]
+// Runs without numbers that a message names: more do not fit a terminal or the head of a page.
+constexpr std::size_t kMostNamed = 12;
+// Small charts drawn at most, one per combination; each adds to the page's size. The table has all
+// points.
+constexpr std::size_t kMostPanels = 200;
+// Widths of charts [px]: the page's text, about two thirds of it for the small charts, and a phone
+// held upright.
+constexpr double kWide = 860.0, kHalf = 600.0, kPhone = 400.0;
 
 std::size_t count_completed(const Sweep& sweep) {
     return static_cast<std::size_t>(std::count_if(sweep.runs.begin(), sweep.runs.end(),
@@ -34,6 +39,7 @@ std::size_t count_completed(const Sweep& sweep) {
 }
 
 std::string header(const Sweep& sweep, const std::vector<Sweep>& parts) {
+    // The share of completed runs comes first: a curve of half a sweep looks like a whole one.
     const std::size_t good = count_completed(sweep), all = sweep.runs.size();
     std::set<std::string> axes;
     for (const Sweep& part : parts)
@@ -55,6 +61,7 @@ std::string two_widths(const std::string& kind, const std::string& wide,
 }
 
 std::string download(const std::string& file, const std::string& csv) {
+    // The CSV lies inside the page as an address, so that one file is enough.
     return "<p>All digits: <a download=\"" + file + "\" href=\"data:text/csv;charset=utf-8," +
            encode_address(csv) + "\">" + file + "</a></p>\n";
 }
@@ -75,6 +82,8 @@ std::string region_note(const Sweep& sweep) {
 
 std::string parts_section(const Sweep& sweep, const std::vector<Curve>& curves,
                           const report::ForceUnit& unit, const std::string& ending) {
+    // Drawn up to a bound, listed without one: a sweep over many axes has thousands of
+    // combinations.
     std::vector<Curve> drawn = curves;
     if (drawn.size() > kMostPanels) drawn.resize(kMostPanels);
     std::string intro =
@@ -126,6 +135,7 @@ std::string curve_sections(const Sweep& sweep, const std::vector<Point>& points,
             section("curve" + ending,
                     "Resistance [" + unit.name + "] against " + axis_title(sweep.x), what + tied,
                     two_widths("opening ", overview, draw_overview(sweep, curves, unit, kPhone)));
+    // Peaks have a chart of their own: beside means their height would flatten all other curves.
     const std::string peaks = draw_peaks(sweep, curves, kWide);
     if (!peaks.empty())
         out +=

@@ -12,6 +12,7 @@ namespace {
 
 constexpr const char* kGrid = "stroke=\"#dde3e8\" stroke-width=\"1\"";
 
+// Distance of ticks for at most `most` of them over `extent`, in the extent's unit.
 double choose_step(double extent, int most) {
     // the next of 1, 2, 5 times a power of ten
     const double raw = extent / std::max(1, most);
@@ -21,7 +22,8 @@ double choose_step(double extent, int most) {
     return 10.0 * power;
 }
 
-// values and labels, about one per 34 pixels
+// Values and labels, about one per 34 px: two lines of text. A smaller distance lets labels
+// collide.
 std::vector<std::pair<double, std::string>> upright_ticks(const Axis& y) {
     const auto values = choose_ticks(std::min(y.low, y.high), std::max(y.low, y.high),
                                      static_cast<int>((y.from - y.to) / 34.0) + 1);
@@ -38,6 +40,7 @@ std::vector<double> choose_ticks(double low, double high, int most) {
     const double step = choose_step(high - low, most);
     std::vector<double> ticks;
     // counted in whole steps: adding steps up would drift
+    // a millionth of a step: rounding does not lose a tick that lies on the end of the range
     const double slack = 1e-6;
     for (double k = std::ceil(low / step - slack); k <= high / step + slack; k += 1.0)
         ticks.push_back(k * step);
@@ -45,6 +48,7 @@ std::vector<double> choose_ticks(double low, double high, int most) {
 }
 
 std::string tick_label(double value, double step) {
+    // a value that is 0 but for rounding is 0, not 1e-17
     if (value != 0.0 && std::abs(value) < 1e-9 * step) value = 0.0;
     const double size = std::max(std::abs(value), step);
     // Large and tiny numbers as powers of ten; else as many decimals as the step has.
@@ -59,6 +63,8 @@ void widen(double& low, double& high) {
         high += 1.0;
         return;
     }
+    // 8 ticks at most: with fewer the rounded ends leave more of the chart empty, with more the
+    // axis no longer begins at a number that is easy to read.
     // Ends on ticks: the outermost grid lines are the frame.
     const double step = choose_step(high - low, 8);
     low = std::floor(low / step) * step;
@@ -75,7 +81,7 @@ double label_width(const Axis& y) {
 std::string draw_axes(const Axis& x, const Axis& y, const std::string& x_title,
                       const std::string& y_title) {
     std::string out;
-    // about one label per 70 pixels across
+    // about one label per 70 px: the width of seven digits with a gap
     const auto xs = choose_ticks(std::min(x.low, x.high), std::max(x.low, x.high),
                                  static_cast<int>((x.to - x.from) / 70.0) + 1);
     const auto step = [](const std::vector<double>& ticks) {

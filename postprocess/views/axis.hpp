@@ -10,19 +10,20 @@ namespace ice::views {
 
 /// A straight scale: value `low` at pixel `from`, value `high` at pixel `to`; low > high turns it.
 struct Axis {
-    double low = 0.0, high = 1.0, from = 0.0, to = 1.0;
+    double low = 0.0, high = 1.0, from = 0.0, to = 1.0;  ///< in the axis' unit; [px]
     bool logarithmic = false;  ///< values are exponents: ticks at whole ones, as powers of ten
+    /// Place of a value [px]. @pre low and high differ
     double pixel(double value) const { return from + (value - low) / (high - low) * (to - from); }
 };
 
 /// Round values (1, 2, 5 times a power of ten) inside [low, high], at most about `most` of them.
-/// A range without extent gives one tick.
+/// A range without extent, or not finite, gives one tick, `low`. @param most a count, >= 1
 std::vector<double> choose_ticks(double low, double high, int most);
 
 /// A tick's label with no more decimals than the step between the ticks needs.
 std::string tick_label(double value, double step);
 
-/// Widens a range to round values; one without extent becomes [value - 1, value + 1].
+/// Widens a range to round values; one without extent becomes [value - 1, value + 1], in its unit.
 void widen(double& low, double& high);
 
 /// Width of the widest tick label that draw_axes() puts beside an upright axis [px].

@@ -21,8 +21,12 @@ struct Range {
     }
 };
 
-constexpr double kLegendLeft = 12.0, kRow = 18.0;  // [px]
-constexpr double kBorder = 5.0;                    // half a mark and a little more [px]
+// Left end of the legend and height of its rows [px]: a line of 13 px text and a gap. Higher rows
+// take the plot's room.
+constexpr double kLegendLeft = 12.0, kRow = 18.0;
+// The plot area is cut this much outside its frame [px]: half a mark of 4.2 px and a little more.
+// With less a mark on the frame is cut, with more curves beyond the range show outside it.
+constexpr double kBorder = 5.0;
 
 std::string dash_attribute(const std::string& dash) {
     return dash.empty() ? "" : fmt::format(" stroke-dasharray=\"{}\"", dash);
@@ -67,8 +71,7 @@ std::vector<Key> list_keys(const Chart& chart) {
 
 double key_width(const Key& key) { return 29.0 + text_width(key.name) + 14.0; }
 
-// a row takes keys as long as they fit
-// names with samples in rows that are full
+// Rows of the legend: a row takes keys as long as they fit, in the order of the curves.
 std::vector<std::vector<Key>> fill_rows(const std::vector<Key>& keys, double width) {
     std::vector<std::vector<Key>> rows;
     double left = 0.0;
@@ -125,6 +128,7 @@ std::string draw_curve(const Curve& curve, const Axis& x, const Axis& y) {
     std::string marks;
     if (curve.mark != 0)
         for (const Vec2& p : points) marks += draw_mark(curve.mark, p, curve.color);
+    // a width of 0 is a curve of marks alone, as for formulas at single points
     const std::string data = path_data(points, false);
     if (data.empty() || !(curve.width > 0.0)) return marks;
     return marks + fmt::format(
@@ -156,6 +160,7 @@ std::pair<Range, Range> find_ranges(const Chart& chart) {
     if (chart.level) ys.add(*chart.level);
     widen(ys.low, ys.high);
     if (!(xs.high > xs.low)) xs.high = xs.low + 1.0;
+    // 2 %: a step is below 2 % of any run that is worth a chart
     // a history begins one step after 0: the axis begins at 0
     if (xs.low > 0.0 && xs.low < 0.02 * xs.high) xs.low = 0.0;
     if (chart.x_from_zero) xs.add(0.0);
@@ -196,7 +201,8 @@ std::string draw_chart(const Chart& given) {
     if (chart.top_scale)
         out += draw_top_scale(x, y.to, chart.top_scale->first, chart.top_scale->second);
     out += line_element(x.from, y.pixel(0.0), x.to, y.pixel(0.0), "stroke=\"#8a949c\"");
-    // the inner svg cuts off what reaches out of the plot area, but not marks on its border
+    // The inner svg cuts off curves that leave the plot area, but not marks on its border. Cutting
+    // the curves here instead would need new points at the border.
     const bool marks = std::any_of(chart.curves.begin(), chart.curves.end(),
                                    [](const Curve& curve) { return curve.mark != 0; });
     const double border = marks ? kBorder : 0.0;

@@ -13,10 +13,10 @@ namespace ice::views {
 /// One curve of a chart, already thinned (decimate.hpp).
 struct Curve {
     std::string name, color;
-    std::vector<Vec2> points;
-    double width = 1.2;  ///< of the line [px]; 0: no line
-    std::string dash;    ///< SVG dash pattern, e.g. "6 3": tells curves apart without colour
-    double opacity = 1.0;
+    std::vector<Vec2> points;  ///< (x, y) in the units of the axes
+    double width = 1.2;        ///< of the line [px]; 0: no line
+    std::string dash;          ///< SVG dash pattern, e.g. "6 3": tells curves apart without colour
+    double opacity = 1.0;      ///< [-], 0 to 1
     /// Sign at each point: 'o' circle, 's' square, '^' triangle, 'd' diamond, 'v' triangle down,
     /// 'x' cross; 0: none. It, too, tells curves apart without colour.
     char mark = 0;
@@ -30,10 +30,10 @@ struct Chart {
     std::optional<std::pair<double, double>> y_range;   ///< shown; else all; curves are cut there
     std::optional<double> level;                        ///< dashed line across, e.g. the mean
     std::string level_name;                             ///< its name in the legend
-    std::optional<std::pair<double, double>> averaged;  ///< x range shaded as averaging window
+    std::optional<std::pair<double, double>> averaged;  ///< x range shaded, the averaged time
     double width = 480.0, height = 240.0;               ///< [px]
     bool x_from_zero = false;                           ///< the x axis includes 0
-    /// A second scale above the chart: x times this, with this title, e.g. knots.
+    /// A second scale above the chart: x times this factor, > 0, with this title, e.g. knots.
     std::optional<std::pair<double, std::string>> top_scale;
     bool x_logarithmic = false;  ///< decades; points need x > 0
 };

@@ -10,6 +10,8 @@ namespace ice::views {
 
 namespace {
 
+// Nearness of a cell in which the viewer sees nothing [m]: below that of any triangle, so the first
+// one replaces it.
 constexpr double kNothing = -std::numeric_limits<double>::infinity();
 
 }  // namespace
@@ -22,6 +24,7 @@ DepthMap::DepthMap(const TriangleMesh& mesh, const Projection& projection, int c
     if (!(cell_ > 0.0)) return;
     right0_ = box.min().x();
     up0_ = box.min().y();
+    // one more column and row: the far border lies in a cell, too
     columns_ = static_cast<int>(box.sizes().x() / cell_) + 1;
     rows_ = static_cast<int>(box.sizes().y() / cell_) + 1;
     nearest_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), kNothing);
@@ -32,6 +35,8 @@ DepthMap::DepthMap(const TriangleMesh& mesh, const Projection& projection, int c
 }
 
 void DepthMap::draw(std::size_t triangle, const Vec3& a, const Vec3& b, const Vec3& c) {
+    // Twice the area on the page, signed. A triangle seen from its edge has none and covers no
+    // cell.
     const double area = (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
     if (area == 0.0) return;
     const auto column = [&](double right) { return static_cast<int>((right - right0_) / cell_); };

@@ -15,13 +15,14 @@ namespace ice::views {
 /// hull at its own place does not.
 class DepthMap {
 public:
-    /// Rasters the mesh with `columns` cells along the longer side of its projected box; an empty
-    /// mesh covers nothing.
+    /// Rasters the mesh [m] with `columns` cells along the longer side of its projected box; an
+    /// empty mesh covers nothing.
     DepthMap(const TriangleMesh& mesh, const Projection& projection, int columns);
 
-    /// Nearness of the surface at a place on the page [m]; -infinity where the body is not.
+    /// Nearness of the surface [m] at a place on the page [m]: larger is nearer to the viewer;
+    /// -infinity where the body is not.
     double nearness(double right, double up) const;
-    /// The triangle that is seen at a place on the page; none where the body is not.
+    /// Row of the triangle that is seen at a place on the page [m]; none where the body is not.
     std::optional<std::size_t> triangle(double right, double up) const;
 
 private:

@@ -14,7 +14,10 @@ namespace {
 
 using Edge = std::pair<std::int32_t, std::int32_t>;
 
-constexpr double kFlat = 0.99996;  // cosine of 0.5 degrees
+// Triangles whose normals differ by less belong to one face [-]: the cosine of 0.5 degrees, far
+// above the rounding of mesh files and below the angle of facets on a curved bow. Nearer to 1,
+// faces of rounded files stay divided; smaller, curved surfaces lose their shading.
+constexpr double kFlat = 0.99996;
 
 // Union of triangles into groups, with path halving.
 class Groups {
@@ -67,6 +70,8 @@ std::vector<Vec3> corners_of(const TriangleMesh& mesh, const std::vector<std::in
     };
     for (std::size_t k = 0; k < n; ++k) {
         const Vec3 in = at(k) - at(k + n - 1), out = at(k + 1) - at(k);
+        // 1e-6 is the sine of the angle below which an edge goes straight on; an edge that turns
+        // back is a corner, too
         if (in.cross(out).norm() > 1e-6 * in.norm() * out.norm() || in.dot(out) < 0.0)
             corners.push_back(at(k));
     }
@@ -176,6 +181,9 @@ TriangleMesh simplify_mesh(const TriangleMesh& mesh, std::size_t most) {
     std::vector<unsigned> corners, kept;
     for (const auto& t : mesh.triangles) corners.insert(corners.end(), t.begin(), t.end());
     kept.resize(corners.size());
+    // Error that the simplification may make, relative to the mesh's size [-]: without a bound,
+    // since the number of triangles alone decides. A real bound would leave more of them than the
+    // page has room for.
     constexpr float kAnyError = 1e6f;
     std::size_t count =
         meshopt_simplify(kept.data(), corners.data(), corners.size(), points.data(),

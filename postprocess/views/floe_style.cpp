@@ -15,6 +15,8 @@ const FloeStyle& floe_style(FloeState state) {
 }
 
 TrailStyle trail_style(std::size_t k) {
+    // Ten colours and three dash patterns have no common factor: 30 floes look different before a
+    // pair of colour and dash comes again.
     static constexpr const char* kColors[]{"#332288", "#cc6677", "#117733", "#222222", "#3a9fc4",
                                            "#882255", "#8a8a1c", "#d55e00", "#aa4499", "#2a9d8f"};
     static constexpr const char* kDashes[]{"", "7 3", "2 2.5"};
@@ -33,6 +35,8 @@ std::string draw_legend(double width) {
             "stroke=\"{}\" stroke-width=\"1.3\"/>",
             pixels(x), fill, stroke);
         out += text_element(x + 21.0, 14.0, text, "start");
+        // 6.4 px is the mean width of a letter at this size; the browser's own font may differ a
+        // little
         x += 21.0 + 6.4 * static_cast<double>(std::string(text).size()) + 12.0;
     };
     for (const FloeState state : {FloeState::held, FloeState::moving, FloeState::behind})

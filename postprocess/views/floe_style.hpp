@@ -14,15 +14,16 @@ struct FloeStyle {
 };
 const FloeStyle& floe_style(FloeState state);
 
-/// How the path of the k-th tracked floe looks: ten colours that colour-blind people can tell apart
-/// on white (after Tol's "muted" palette, 2021) and three dashes that change with each floe.
+/// How the path of the k-th tracked floe looks, k from 0: ten colours that colour-blind people can
+/// tell apart on white (after Tol's "muted" palette, 2021) and three dashes that change with each
+/// floe.
 struct TrailStyle {
     const char* color;
     const char* dash;  ///< SVG dash pattern, "" for a whole line
 };
 TrailStyle trail_style(std::size_t k);
 
-/// Colours of the floes' states with their meaning, as SVG of the given width, 22 px high.
+/// Colours of the floes' states with their meaning, as SVG of the given width [px], 22 px high.
 std::string draw_legend(double width);
 
 }  // namespace ice::views

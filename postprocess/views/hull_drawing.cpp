@@ -14,8 +14,12 @@ namespace ice::views {
 
 namespace {
 
-constexpr std::size_t kMostTriangles = 3000;  // a picture of 560 px shows no more
-constexpr std::size_t kEdgesShown = 400;      // beyond, edges of the faces would only blacken
+// Triangles of the hull drawn in one picture: a picture of 560 px shows no more. Each is about 30
+// bytes of the page, so twice as many would take the room of a view.
+constexpr std::size_t kMostTriangles = 3000;
+// Up to this number of visible faces their edges are drawn; of more, edges would only blacken the
+// hull.
+constexpr std::size_t kEdgesShown = 400;
 
 struct Painted {
     const Face* face;
@@ -67,7 +71,11 @@ std::vector<std::pair<Vec3, Vec3>> turning_edges(const TriangleMesh& mesh,
 // each piece of an edge counts only where the hull is on one of its sides.
 std::string silhouette(const TriangleMesh& mesh, const Projection& projection,
                        const PageScale& scale) {
-    constexpr double kPiece = 4.0, kBeside = 2.5;  // [px]
+    // Length of the pieces of an edge that are tested, and distance of the test points from the
+    // edge [px]. Longer pieces cut corners of the outline; points nearer than a cell of the depth
+    // map would find the hull itself on both sides.
+    constexpr double kPiece = 4.0, kBeside = 2.5;
+    // 600 cells along the hull: about one per pixel of the picture
     const DepthMap seen(mesh, projection, 600);
     std::string data;
     for (const auto& [a, b] : turning_edges(mesh, projection)) {
@@ -101,8 +109,8 @@ std::string silhouette(const TriangleMesh& mesh, const Projection& projection,
 }  // namespace
 
 double brightness(const Vec3& normal, const Projection& projection) {
-    // light from ahead of the viewer, a little from the left and from above; rounded to few
-    // shades
+    // Light from the viewer's side, a little from the left and from above. Rounded to 40 shades:
+    // faces of equal shade share an SVG element.
     const Vec3 light =
         (projection.toward - 0.45 * projection.right + 0.5 * projection.up).normalized();
     const double value = 0.68 + 0.38 * std::max(0.0, normal.dot(light));

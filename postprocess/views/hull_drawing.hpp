@@ -14,6 +14,7 @@ struct PageScale {
     double left = 0.0, top = 0.0;  ///< metres at pixel (x0, y0)
     double x0 = 0.0, y0 = 0.0;     ///< [px]
     double per_metre = 1.0;        ///< [px/m]
+    /// Pixel of a place on the page [m].
     Vec2 pixel(double right, double up) const {
         return {x0 + (right - left) * per_metre, y0 + (top - up) * per_metre};
     }
@@ -30,15 +31,16 @@ struct HullColours {
 std::string draw_hull(const TriangleMesh& mesh, const Projection& projection,
                       const PageScale& scale, double waterline, const HullColours& colours = {});
 
-/// The two halves of it: the ice between them hides faces, but no outline.
+/// The two halves of draw_hull(): ice drawn between them hides faces, but no outline. Arguments as
+/// above.
 std::string draw_hull_faces(const TriangleMesh& mesh, const Projection& projection,
                             const PageScale& scale, double waterline,
                             const HullColours& colours = {});
 std::string draw_hull_lines(const TriangleMesh& mesh, const Projection& projection,
                             const PageScale& scale, double waterline);
 
-/// Brightness of a face in [0.68, 1.06], in steps that the eye does not see: light comes from the
-/// viewer's upper left.
+/// Brightness of a face in [0.68, 1.06] [-], in steps that the eye does not see: light comes from
+/// the viewer's upper left.
 double brightness(const Vec3& normal, const Projection& projection);
 
 }  // namespace ice::views

@@ -17,15 +17,24 @@ namespace ice::views {
 
 namespace {
 
+// Steps of the colour scale from 0 to its end: more steps cannot be told apart by eye and add paths
+// to the page.
 constexpr int kSteps = 20;
-constexpr double kEdgeOn = 0.05;  // cosine between a face's normal and the way to the viewer
-constexpr double kCell = 3.0;     // [px]
+// Least cosine between a face's normal and the way to the viewer [-]: faces that are turned away by
+// more than 87 degrees are left bare. Smaller, they fleck the outline; larger, the ship's sides
+// lose their loads.
+constexpr double kEdgeOn = 0.05;
+// Cells of the picture that have one colour [px]. Halving them makes four times as many to test and
+// about twice the bytes; larger ones show as steps along the outline.
+constexpr double kCell = 3.0;
 constexpr double kMapLeft = 52.0, kMapRight = 10.0, kMapTop = 26.0,
                  kMapBottom = 40.0;  // margins [px]
 const HullColours kBare{{222, 226, 230}, {236, 239, 241}};
 
 // the viewer's ramp (web/src/colours.js)
 std::string load_colour(double x) {
+    // Light to dark and grey to violet: the order is seen in grey prints, and by colour-blind
+    // people.
     static const Eigen::Vector3d stops[] = {
         {214, 219, 224}, {250, 212, 120}, {238, 120, 60}, {176, 42, 90}, {66, 10, 104}};
     const double at = std::clamp(x, 0.0, 1.0) * 4.0;
@@ -54,6 +63,8 @@ std::string draw_loads(const HullLoad& hull, const Projection& projection, const
         const double up = page.max().y() - (row + 0.5) * cell;
         const auto step_at = [&](int column) {
             const auto t = seen.triangle(page.min().x() + (column + 0.5) * cell, up);
+            // The load of the face that the viewer sees in this cell. A path per triangle would be
+            // exact, but is far longer.
             // a face seen nearly edge-on would show as flecks along the outline
             if (!t || hull.mesh.area_vector(*t).normalized().dot(projection.toward) < kEdgeOn)
                 return 0;
@@ -98,7 +109,8 @@ std::string draw_load_view(const HullLoad& hull, ViewFrom from, double width) {
     const Projection projection = projection_of(from);
     Eigen::AlignedBox3d page;
     for (const Vec3& v : hull.mesh.vertices) page.extend(projection.apply(v));
-    // the same scale along both axes: the picture keeps the hull's proportions
+    // 3 % of room on all sides, and one scale along both axes: the picture keeps the hull's
+    // proportions
     const double room = 0.03 * std::max(page.sizes().x(), page.sizes().y());
     const double left = page.min().x() - room, right = page.max().x() + room;
     const double low = page.min().y() - room, high = page.max().y() + room;

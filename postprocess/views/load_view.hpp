@@ -12,14 +12,14 @@ namespace ice::views {
 struct HullLoad {
     const TriangleMesh& hull;         ///< as it is, ship frame: drawn bare below the colours
     const TriangleMesh& mesh;         ///< the same in small triangles
-    const std::vector<double>& load;  ///< [T] per triangle
-    double scale_end = 0.0;           ///< load of the darkest colour
+    const std::vector<double>& load;  ///< [T] per triangle of `mesh` [Pa]
+    double scale_end = 0.0;           ///< load of the darkest colour [Pa]; 0: none is drawn
     double waterline = 0.0;           ///< height of the water in the ship frame [m]
 };
 
 /// The hull from one side with its loaded triangles coloured, as one SVG element with axes in the
 /// ship frame, in cells of 3 px. Colours have 20 steps and are linear in the load.
-/// @param width of the picture [px]
+/// @param width of the picture [px]; its height follows, at most about 0.55 of it and the margins
 std::string draw_load_view(const HullLoad& hull, ViewFrom from, double width);
 
 /// The colours with their loads.

@@ -6,6 +6,8 @@
 namespace ice::views {
 
 Projection projection_of(ViewFrom from) {
+    // Page to the right, page up, and the way to the viewer: right x up = toward in all of them, so
+    // no view is a mirror image.
     const Vec3 x = Vec3::UnitX(), y = Vec3::UnitY(), z = Vec3::UnitZ();
     switch (from) {
         case ViewFrom::below:

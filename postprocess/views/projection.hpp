@@ -16,7 +16,7 @@ enum class ViewFrom { below, top, side, port, front, quarter };
 struct Projection {
     Vec3 right, up;  ///< unit vectors on the page
     Vec3 toward;     ///< unit vector to the viewer
-    /// (right, up, nearness) of a point [m]
+    /// (right, up, nearness) of a point [m]; larger nearness is nearer to the viewer
     Vec3 apply(const Vec3& p) const { return {right.dot(p), up.dot(p), toward.dot(p)}; }
 };
 

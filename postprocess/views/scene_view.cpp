@@ -17,7 +17,9 @@ namespace ice::views {
 
 namespace {
 
-constexpr double kLeft = 52.0, kRight = 10.0, kTop = 26.0, kBottom = 40.0;  // margins [px]
+// Margins of the plot area [px]: numbers and name of the y axis, half a label, the title, numbers
+// and name of the x axis. Smaller ones cut these texts.
+constexpr double kLeft = 52.0, kRight = 10.0, kTop = 26.0, kBottom = 40.0;
 
 bool from_a_side(ViewFrom from) { return from == ViewFrom::side || from == ViewFrom::port; }
 
@@ -89,7 +91,7 @@ SceneView::SceneView(const RunHeader& header, ViewFrom from, const ViewOptions& 
     s.width = across * per_metre;
     s.height = tall * per_metre;
     s.scale = {s.window.left, s.window.top, 0.0, 0.0, per_metre};
-    // What the viewer sees of the hull, in 400 cells along it: floes are sorted before and behind
+    // Nearness of the visible hull in 400 cells along it: floes are sorted before and behind
     // it by this map, because a hull reaches from before a floe to behind it and has no single
     // distance.
     s.depth = std::make_unique<DepthMap>(hull, s.projection, 400);
@@ -189,7 +191,7 @@ std::string SceneView::Parts::draw_floes(const RunFrame& frame,
     std::string ship = options.hull_id.empty()
                            ? hull
                            : fmt::format("<use href=\"#{}\"/>\n", escape(options.hull_id));
-    // seen from above the hull would hide what happens under it
+    // seen from above the hull would hide the floes under it
     if (from == ViewFrom::top) ship = "<g opacity=\"0.62\">" + ship + "</g>\n";
     return open + behind + "</g>\n" + ship + open + before + "</g>\n";
 }
@@ -246,7 +248,7 @@ std::string SceneView::draw(const RunFrame& frame, const std::vector<Trail>& tra
     std::string out = svg_open(total_width, total_height, title);
     out += text_element(kLeft, 17.0, title, "start", "font-weight=\"600\"");
     if (!oblique) out += s.draw_frame_axes(frame);
-    // the inner svg cuts off what reaches out of the plot area
+    // the inner svg cuts off floes and paths at the border of the plot area
     out += fmt::format("<svg x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\">\n", pixels(kLeft),
                        pixels(kTop), pixels(s.width), pixels(s.height));
     // back to front: SVG paints later elements over earlier ones

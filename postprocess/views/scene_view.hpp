@@ -36,6 +36,7 @@ public:
     /// Invisible SVG that defines the hull under options.hull_id; put it once into the page.
     std::string define_hull() const;
     /// @param trails drawn up to the frame's time; their floes are numbered and outlined
+    /// The picture of a frame, for a run without floes the hull alone.
     std::string draw(const RunFrame& frame, const std::vector<Trail>& trails) const;
 
 private:

@@ -35,11 +35,15 @@ std::string tenths(long value) {
 
 long to_tenths(double value) {
     if (!std::isfinite(value)) return 0;
+    // Tenths of a pixel: finer numbers only make files longer. A million pixels either way is
+    // beyond any page, and keeps the number within a long.
     return std::lround(std::clamp(value, -1e6, 1e6) * 10.0);
 }
 
 }  // namespace
 
+// Names come from case files and may hold any byte. XML 1.0 has no control characters, and one
+// broken UTF-8 sequence makes a browser refuse the whole picture: both become question marks.
 std::string escape(const std::string& text) {
     std::string out;
     for (std::size_t k = 0; k < text.size();) {
@@ -96,6 +100,8 @@ double text_width(const std::string& text) {
     const auto letters = std::count_if(text.begin(), text.end(), [](char c) {
         return (static_cast<unsigned char>(c) & 0xc0) != 0x80;  // bytes that go on are none
     });
+    // 8 px per letter at 13 px: wide rather than narrow, since the browser's font is not known and
+    // labels must not collide
     return 8.0 * static_cast<double>(letters);
 }
 

@@ -10,7 +10,9 @@ namespace ice::views {
 
 namespace {
 
-constexpr double kLine = 14.0;  // from one number to the next above it [px]
+// Height of a line of floe numbers [px], a little above the 13 px text. Less lets numbers of
+// neighbouring floes overlap, more moves them farther from their floes.
+constexpr double kLine = 14.0;
 
 std::string draw_path(const Trail& trail, double until, const Place& place) {
     std::vector<Vec2> points;
@@ -36,6 +38,8 @@ Eigen::AlignedBox2d box_around(const Vec2& middle, const std::string& text) {
 // the place nearest to `at`, above or below it, where the text meets no other
 Vec2 free_place(const Vec2& at, const std::string& text,
                 const std::vector<Eigen::AlignedBox2d>& taken) {
+    // 40 places, up to five lines away: beyond, the number is no longer seen to belong to its floe
+    // and may overlap
     for (int step = 0; step < 40; ++step) {
         // alternately above and below, a quarter of a line farther each time
         const int away = (step + 1) / 2;
@@ -87,6 +91,7 @@ TrailLegend draw_trail_legend(const std::vector<Trail>& trails, double width) {
     x = first;
     for (const Trail& trail : trails) {
         const std::string text = std::to_string(trail.floe);
+        // sample, number and gap; a key that does not fit begins a new row below the first key
         const double wide = 30.0 + text_width(text) + 12.0;
         if (x + wide > width && x > first) {
             x = first;

@@ -28,11 +28,11 @@ using Place = std::function<Vec2(const Vec3&)>;
 std::string draw_trails(const RunFrame& frame, const std::vector<Trail>& trails, const Place& place,
                         const Vec2& size);
 
-/// Which line belongs to which floe, in rows of the given width; each row is 18 px high.
+/// Lines and their floes, in rows of the given width [px]; each row is 18 px high.
 /// No trails: "", no rows.
 struct TrailLegend {
     std::string svg;  ///< elements, the first row's text at y = 13
-    int rows = 0;
+    int rows = 0;     ///< count
 };
 TrailLegend draw_trail_legend(const std::vector<Trail>& trails, double width);
 

@@ -7,6 +7,8 @@ namespace ice::views {
 
 Window choose_window(const Eigen::AlignedBox3d& hull, ViewFrom from, double floe_size,
                      double half_breadth, double waterline) {
+    // Shares of the hull's length that show its wake, the ice ahead, and floes under the bottom;
+    // 1e-3 m keeps a window for a mesh without length.
     const double length = std::max(hull.sizes().x(), 1e-3);
     const double side = half_breadth > 0.0 ? half_breadth : 0.45 * length;
     const double aft = hull.min().x() - 0.25 * length, ahead = hull.max().x() + 0.3 * length;
@@ -25,6 +27,7 @@ Window choose_window(const Eigen::AlignedBox3d& hull, ViewFrom from, double floe
         case ViewFrom::quarter:
             break;
     }
+    // An oblique view has no edges along axes: it shows all eight corners of a box about the hull.
     const Projection p = projection_of(from);
     const Eigen::AlignedBox3d shown(
         Vec3(hull.min().x() - 0.1 * length, -0.8 * side, hull.min().z()),

@@ -9,10 +9,11 @@ namespace ice::views {
 
 /// The window of a view, in metres on the page, relative to the ship.
 struct Window {
-    double left, right, bottom, top;
+    double left, right, bottom, top;  ///< [m], left < right, bottom < top
 };
 
-/// Some water ahead, aft and below the hull; the same for every frame of a run.
+/// Some water ahead, aft and below the hull; the same for every frame of a run. A hull without
+/// length counts as 1 mm long.
 ///
 /// @param hull its box in the ship frame [m]; @param floe_size largest radius of a floe [m]
 /// @param half_breadth shown to each side [m], 0 for 0.45 ship lengths

@@ -15,16 +15,20 @@ namespace ice {
 
 namespace {
 
-constexpr double kFlat = 1e-9;         // of the length: what coordinates are rounded to
-constexpr double kRepaired = 1.01;     // of the mesh's size: a solid of it, wrapped
-constexpr double kWorthSaying = 1e-3;  // of the surface: parts left out
+// Least extent over the length [-] up to which a mesh is flat: rounding of its coordinates.
+constexpr double kFlat = 1e-9;
+// Size of a repaired solid over the mesh's [-], at most: a shrink wrap lies outside. It keeps the
+// early refusal from a radius that the wrap has room for.
+constexpr double kRepaired = 1.01;
+// Share of the surface [-] in parts that were left out that is worth a warning.
+constexpr double kWorthSaying = 1e-3;
 
 std::string place(const std::array<double, 3>& at) {
     return fmt::format("({:.4g}, {:.4g}, {:.4g})", at[0], at[1], at[2]);
 }
 
 void warn_of(const char* what, const SurfaceDistance& d, double radius, SpheresReport& report) {
-    // What is nearer than a radius changes no contact by more than the spheres do themselves.
+    // A distance below a radius changes no contact by more than the spheres do themselves.
     if (d.max <= radius) return;
     report.warnings.push_back(
         fmt::format("{} up to {:.3g} m, {:.2g} radii, at {} ({:.2g} m at the 99th percentile)",
@@ -90,7 +94,7 @@ bool was_mirrored(const SpheresReport& report) {
 void certify_solid(const std::string& name, TriangleMesh surface, const TriangleMesh& solid,
                    double radius, bool wrapped, SpheresReport& report) {
     const Timer timer;
-    // what was read is the half: its image makes it comparable with the whole solid
+    // the mesh as read is the half: its image makes it comparable with the whole solid
     if (was_mirrored(report)) add_mirror_image(surface);
     compare_with_source(surface, solid, radius, report);
     judge_distances(name, radius, !wrapped, report);

@@ -17,10 +17,15 @@ namespace ice {
 
 namespace {
 
+// Samples beyond one per triangle at most: the 99th percentile needs no more. More find a larger
+// maximum on coarse triangles and take longer.
 constexpr double kMostSamples = 4e5;
-constexpr double kOnSurface = 1e-6;  // of the size: vertices that weld() merges
-constexpr double kRounding = 1e-12;  // of the size: where coordinates were computed
-constexpr double kMostlyAway = 0.5;  // of a part's area
+// Distance over the size [-] up to which a vertex is on the surface: weld() merges such vertices.
+constexpr double kOnSurface = 1e-6;
+// Distance over the size [-] that counts as zero: coordinates that were computed.
+constexpr double kRounding = 1e-12;
+// Share of a part's area [-] away from the solid from which the part bounds nothing of it.
+constexpr double kMostlyAway = 0.5;
 
 // A piece of one surface and how far the other is.
 struct Probe {
@@ -134,7 +139,7 @@ public:
             if (v < 0) continue;
             part[k] = vertex_part[static_cast<std::size_t>(v)];
             if (part[k] < 0) continue;
-            // what lies off the solid by more than a radius, and what lies on it
+            // area off the solid by more than a radius, and area on it
             auto& sum = probes[k].distance > radius ? away : here;
             sum[static_cast<std::size_t>(part[k])] += probes[k].area;
         }
@@ -227,6 +232,8 @@ void compare_with_source(const TriangleMesh& source, const TriangleMesh& solid, 
     check.known = true;
     for (std::size_t t = 0; t < source.triangles.size(); ++t)
         check.area += source.area_vector(t).norm();
+    // Both directions: a part that repairs removed is far from the solid but leaves the solid near
+    // the source; one that they added is seen from the solid only.
     // equal triangles have equal bits: only the others need be measured
     const PlacedVertices in_solid(solid, 0.0), in_source(source, 0.0);
     const double size = std::max(sample_size(source, radius), sample_size(solid, radius));

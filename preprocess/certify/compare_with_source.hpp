@@ -11,12 +11,12 @@ namespace ice {
 ///
 /// Triangles that both have, corner for corner and bit for bit, are at distance zero; all others
 /// are cut into samples and the nearest point of the other surface is looked for. Of the source
-/// only its outside counts: what lies more than a radius inside the solid bounds nothing of it (a
+/// only its outside counts: a place more than a radius inside the solid bounds nothing of it (a
 /// deck below, a second skin). Of the solid a triangle between vertices of the source that lies
 /// over none of its faces is a cap: it closes an opening, and its area is told apart.
 ///
 /// Parts of the source that were left out on purpose do not count, and their area is told: open
-/// sheets away from the solid (a sea plane, a stray triangle), and what is around it (the box of a
+/// sheets away from the solid (a sea plane, a stray triangle), and parts around it (the box of a
 /// flow solver's domain). Distances are looked for to a part at most as far as it is away.
 ///
 /// Cost O(T log T); a sample for each triangle that was changed, and four hundred thousand more at

@@ -9,9 +9,13 @@ namespace ice {
 
 namespace {
 
-constexpr double kDepthWorthSaying = 0.5;  // radii
-constexpr double kStep = 0.25;             // radii between levels, at least
+// Cut [radii] that is worth a line of the report: a right-angled edge loses 0.41.
+constexpr double kDepthWorthSaying = 0.5;
+// Distance of levels [radii], at least: several in each sphere, so that no dip is missed.
+constexpr double kStep = 0.25;
+// Levels at most, which bounds the time on a fine set of a large hull: every triangle meets many.
 constexpr int kMostLevels = 2000;
+// Extent of a section that nothing reaches.
 constexpr double kNone = std::numeric_limits<double>::infinity();
 
 // Equally spaced values of a coordinate.

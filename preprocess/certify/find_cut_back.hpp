@@ -17,6 +17,8 @@ namespace ice {
 /// but a radius at both ends. A section that no sphere reaches is cut back by its whole extent. Of
 /// the levels within half a spacing the least cut counts, so that a dip between neighbouring
 /// spheres is none.
+/// @pre set.mesh, centers, radii and surface_count are set. A 2D set gets no line.
+/// Cost O(levels x T).
 void find_cut_back(const SphereSet& set, SpheresReport& report);
 
 }  // namespace ice

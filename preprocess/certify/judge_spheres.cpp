@@ -10,10 +10,14 @@ namespace ice {
 
 namespace {
 
-constexpr double kIceOfDraught = 0.1;     // default thickness of the ice
-constexpr double kBelt = 2.0;             // ice thicknesses either side of the waterline
-constexpr double kMostProtrusion = 0.01;  // radii
-constexpr double kMostCover = 0.75;       // spacings: a layer's own is 0.61 to 0.66
+// Thickness of the ice over the draught [-] where none is given: 0.8 m for 8 m.
+constexpr double kIceOfDraught = 0.1;
+// Half height of the ice belt [ice thicknesses]. A higher belt judges more of the hull strictly.
+constexpr double kBelt = 2.0;
+// Protrusion [radii] worth a warning: rounding has 1e-9, a sphere on the wrong side 2.
+constexpr double kMostProtrusion = 0.01;
+// Covering radius [spacings] worth a warning: a layer's own is 0.61 to 0.66.
+constexpr double kMostCover = 0.75;
 
 }  // namespace
 

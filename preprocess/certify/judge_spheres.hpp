@@ -8,7 +8,8 @@
 
 namespace ice {
 
-/// Sets report.belt for a draught, from the lowest point of the solid up to the water.
+/// Sets report.belt for a draught [m], from the lowest point of the solid up to the water; without
+/// one the belt stays empty.
 /// @param ice_thickness  [m]; by default a tenth of the draught
 /// @throws Error (exit code 2) where the solid is not as deep as the draught, or an ice thickness
 ///         comes without a draught
@@ -18,6 +19,7 @@ void set_ice_belt(const TriangleMesh& solid, std::optional<double> draught,
 /// Warnings of the certificate, with their numbers: spheres that reach out by more than
 /// a hundredth of a radius or were dropped as outside; places without one within 0.75 spacings; a
 /// stem or stern cut back by more than a radius in the ice belt; thin parts; wide spacings.
+/// To be called last: it reads all measures of the report.
 void judge_spheres(const SphereSet& set, SpheresReport& report);
 
 }  // namespace ice

@@ -28,7 +28,7 @@ PlacedVertices::PlacedVertices(const TriangleMesh& mesh, double tolerance) {
     places_.resize(mesh.vertices.size());
     for (std::size_t v = 0; v < places_.size(); ++v)
         places_[v] = {key(mesh.vertices[v]), static_cast<std::int32_t>(v)};
-    // Sorted places are found by bisection; of equal places the first vertex stands for all.
+    // Sorted places are found by bisection; of equal places the first vertex counts.
     std::sort(places_.begin(), places_.end());
 }
 

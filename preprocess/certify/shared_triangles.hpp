@@ -10,8 +10,8 @@ namespace ice {
 /// Vertices of a mesh by their place.
 class PlacedVertices {
 public:
-    /// @param tolerance  of the diagonal: places that near are one, but for those that a grid of
-    ///                   twice that width happens to part; 0: equal coordinates, bit for bit
+    /// @param tolerance  over the diagonal [-]: places that near are one, except where a grid of
+    ///                   twice that width parts them; 0: equal coordinates, bit for bit
     PlacedVertices(const TriangleMesh& mesh, double tolerance);
 
     /// The first vertex at a place; -1 where there is none.
@@ -25,7 +25,7 @@ private:
 };
 
 /// For each triangle of a mesh 1 where another mesh has a triangle with the same three corners, in
-/// whatever order.
+/// whatever order; [T] one entry per triangle of `mesh`.
 /// @param places  of the vertices of `other`, by equal coordinates
 std::vector<std::uint8_t> shared_triangles(const TriangleMesh& mesh, const TriangleMesh& other,
                                            const PlacedVertices& places);

@@ -21,6 +21,8 @@ Triple sorted(Triple t) {
 // Triangles by their corners, for those on an edge of more than two only: nobody else can repeat.
 std::map<Triple, std::vector<std::size_t>> group_by_corners(const TriangleMesh& mesh,
                                                             const std::vector<MeshEdge>& edges) {
+    // Copies share all three edges, so that these have three triangles or more, or two that do not
+    // agree, or two that are copies of each other (a closed surface of two sides).
     std::vector<std::uint8_t> crowded(mesh.vertices.size(), 0);
     for (const MeshEdge& edge : edges)
         if (edge.count > 2 || (edge.count == 2 && !edge.regular()))

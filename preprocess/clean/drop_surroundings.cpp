@@ -13,10 +13,17 @@ namespace ice {
 
 namespace {
 
-constexpr double kFlat = 1e-6;           // of a part's diagonal
-constexpr double kBoxBeyond = 1.5;       // times the parts within, in two directions at least
-constexpr double kBoxBeyondBoxes = 3.0;  // times boxes within, in all directions
-constexpr double kFlatBeyond = 1.2;      // times the parts beside it, in both directions
+// Extent over a part's diagonal [-] that counts as none.
+constexpr double kFlat = 1e-6;
+// Extent over that of the parts within [-], in two directions at least, from which a box is a flow
+// solver's domain: usual ones are several times as large. A casing around all parts has about 1.
+constexpr double kBoxBeyond = 1.5;
+// The same over boxes within, in all directions: a barge is a box with boxes (tanks) inside, so
+// that more is demanded.
+constexpr double kBoxBeyondBoxes = 3.0;
+// The same of a flat sheet over the parts beside it, in both directions: a deck has 1. Lower values
+// would drop decks that overhang, higher ones keep small sea planes.
+constexpr double kFlatBeyond = 1.2;
 
 using Box = Eigen::AlignedBox3d;
 
@@ -44,6 +51,8 @@ std::vector<Piece> measure_parts(const TriangleMesh& mesh, const Parts& parts) {
         for (int k = 0; k < 3; ++k) of(t).box.extend(mesh.corner(t, k));
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         Piece& piece = of(t);
+        // A box's every triangle lies in one face of its bounding box; one triangle elsewhere and
+        // the part is something else. Boxes must be known whole, so this is a second pass.
         if (!piece.on_box) continue;
         const double small = kFlat * piece.box.diagonal().norm();
         piece.on_box = false;
@@ -97,6 +106,7 @@ std::vector<std::string> drop_surroundings(TriangleMesh& mesh) {
     std::vector<std::string> dropped;
     // Files of flow computations have the tank and the sea plane in them. A sheet or box is one of
     // these if it reaches around all that is neither.
+    // of boxes alone it is not known which is the ship
     if (rest.isEmpty()) rest = boxes_within(pieces);
     if (rest.isEmpty()) return dropped;
     for (Piece& piece : pieces) {

@@ -12,7 +12,7 @@ namespace ice {
 /// all else, at least half as large again in two directions, and flat parts along the axes that
 /// reach beyond all else by a fifth in both of their directions (a sea plane, a wall). A box around
 /// nothing but boxes must be three times as large as those in each direction: a barge has tanks.
-/// @return one text for each part left out: its kind and size
+/// @return one text for each part left out: its kind and size [m]; empty where none is
 /// @pre the mesh is welded. Cost O(T)
 std::vector<std::string> drop_surroundings(TriangleMesh& mesh);
 

@@ -28,6 +28,7 @@ Parts find_parts(const TriangleMesh& mesh) {
     Parts parts;
     parts.of_triangle.resize(parent.size());
     for (std::size_t t = 0; t < parent.size(); ++t) {
+        // the root is the smallest number of its part, so that it has its number already
         const std::int32_t first = root(static_cast<std::int32_t>(t));
         parts.of_triangle[t] = first == static_cast<std::int32_t>(t)
                                    ? parts.count++

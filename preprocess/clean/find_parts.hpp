@@ -11,13 +11,14 @@ namespace ice {
 /// together; edges of three and more triangles join nothing.
 struct Parts {
     std::vector<std::int32_t> of_triangle;  ///< T part numbers, in the order of first triangles
-    std::int32_t count = 0;
+    std::int32_t count = 0;                 ///< of the parts
 };
 
 /// Cost O(T). @pre the mesh is welded
 Parts find_parts(const TriangleMesh& mesh);
 
-/// Signed volume of each part [m3] about one point of its own; of an open part without meaning.
+/// [count] signed volume of each part [m3] about one point of its own; of an open part without
+/// meaning.
 std::vector<double> part_volumes(const TriangleMesh& mesh, const Parts& parts);
 
 }  // namespace ice

@@ -6,6 +6,7 @@ namespace ice {
 void keep_triangles(TriangleMesh& mesh, const std::vector<std::uint8_t>& keep) {
     TriangleMesh out;
     out.region_names = mesh.region_names;
+    // In the order of first use: the result depends on the kept triangles alone.
     std::vector<std::int32_t> renumbered(mesh.vertices.size(), -1);
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         if (!keep[t]) continue;

@@ -17,6 +17,7 @@ struct Neighbour {
 std::vector<std::array<Neighbour, 3>> find_neighbours(const TriangleMesh& mesh,
                                                       const std::vector<MeshEdge>& edges) {
     std::vector<std::array<Neighbour, 3>> out(mesh.triangles.size());
+    // a triangle has at most three such neighbours, one per edge, so that a free place is found
     const auto attach = [&](std::int32_t t, std::int32_t other, bool opposed) {
         for (Neighbour& slot : out[static_cast<std::size_t>(t)])
             if (slot.triangle < 0) {

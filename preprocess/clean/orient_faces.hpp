@@ -11,7 +11,7 @@ namespace ice {
 /// @return triangles turned. Cost O(T). @pre the mesh is welded
 std::int64_t orient_faces(TriangleMesh& mesh);
 
-/// Turns all triangles over.
+/// Turns all triangles over: the volume changes its sign.
 void flip(TriangleMesh& mesh);
 
 }  // namespace ice

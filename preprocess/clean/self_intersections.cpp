@@ -45,6 +45,7 @@ bool fold_on_edge(const Soup& soup, const Triple& a, const Triple& b) {
     const auto in = [](const Triple& t, std::int32_t v) {
         return std::find(t.begin(), t.end(), v) != t.end();
     };
+    // the corner of each triangle that is not on the common edge
     std::size_t own = 0, other = 0;
     while (in(b, a[own])) ++own;
     while (in(a, b[other])) ++other;

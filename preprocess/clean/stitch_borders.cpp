@@ -14,9 +14,17 @@ namespace ice {
 
 namespace {
 
-constexpr double kStitchTolerances[] = {3e-4, 1e-3};  // of the diagonal
-constexpr double kOfEdge = 1.0 / 3.0;  // of an open edge: a crack beside it is not wider
-constexpr double kBeside = 0.9;        // of an open edge: nearer, another border runs beside it
+// Widths of cracks that are stitched, over the diagonal [-]: 3 cm and 10 cm on a ship of 100 m, as
+// coarse tessellations of curved patches leave them. Wider ones would close real gaps.
+constexpr double kStitchTolerances[] = {3e-4, 1e-3};
+// Width of a crack over the length of an open edge beside it [-], at most. Of more an edge could
+// collapse when its ends move.
+constexpr double kOfEdge = 1.0 / 3.0;
+// Distance over an open edge's length [-] within which another border runs beside it: of a hole the
+// next edge that is not a vertex's own begins a whole length away.
+constexpr double kBeside = 0.9;
+// Rounds of splitting and merging at most: each stitch makes room for the next one, and a round
+// without a split ends them.
 constexpr int kRounds = 4;
 
 using Triple = std::array<std::int32_t, 3>;
@@ -49,7 +57,7 @@ Borders find_borders(const TriangleMesh& mesh, double tolerance, double of_edge 
     return out;
 }
 
-// Where the vertices lie that become the corners from one end of an open edge to the other.
+// For each open edge the vertices that go into it: their place along it and their number.
 using Inserted =
     std::map<std::pair<std::int32_t, std::int32_t>, std::vector<std::pair<double, std::int32_t>>>;
 
@@ -127,7 +135,7 @@ StitchCounts stitch_borders(TriangleMesh& mesh) {
     StitchCounts counts;
     Eigen::AlignedBox3d box;
     for (const Vec3& v : mesh.vertices) box.extend(v);
-    // narrow cracks first: what is closed then is no border for the wide tolerance
+    // narrow cracks first: once closed they are no borders for the wide tolerance
     for (const double of_diagonal : kStitchTolerances) {
         const double tolerance = of_diagonal * box.diagonal().norm();
         const auto merge_ends = [&] {

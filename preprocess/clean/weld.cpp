@@ -16,7 +16,8 @@ namespace ice {
 namespace {
 
 // Of the diagonal: rounding of single-precision files; cracks between parts that were exported one
-// by one. Half a millimetre on a 50 m ship, far below what a contact sphere resolves.
+// by one. Half a millimetre on a 50 m ship, far below a contact sphere's radius. Larger tolerances
+// would merge vertices of fine details; wider cracks are stitched (stitch_borders()).
 constexpr double kTolerances[] = {1e-6, 1e-5};
 
 // For each vertex the first that is within both ones' reach; itself where it has none.
@@ -65,8 +66,8 @@ std::vector<std::int32_t> find_near(const std::vector<Vec3>& vertices,
     return representative;
 }
 
-// Gives corners their representatives, drops what collapses or repeats. Returns the vertices
-// merged.
+// Gives corners their representatives, drops triangles that collapse or repeat. Returns the count
+// of vertices merged.
 std::int64_t merge(TriangleMesh& mesh, const std::vector<std::int32_t>& representative,
                    WeldCounts& counts) {
     std::vector<std::uint8_t> keep(mesh.triangles.size(), 1);

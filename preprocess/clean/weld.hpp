@@ -22,7 +22,7 @@ struct WeldCounts {
 WeldCounts weld(TriangleMesh& mesh);
 
 /// Merges vertices near each other, and drops triangles that collapse or repeat.
-/// @param reach  per vertex [m]; 0: it stays   @return vertices merged
+/// @param reach  [V] per vertex [m]; 0: it stays   @return count of vertices merged
 std::int64_t merge_near(TriangleMesh& mesh, const std::vector<double>& reach, WeldCounts& counts);
 
 }  // namespace ice

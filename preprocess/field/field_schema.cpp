@@ -7,6 +7,7 @@ namespace ice {
 
 namespace {
 
+// Bounds of lengths [m] in a specification: a micrometre and 1000 km. Beyond them a unit is wrong.
 constexpr double kTiny = 1e-6;
 constexpr double kFar = 1e6;
 
@@ -17,6 +18,7 @@ std::array<double, 2> pair(const Value& v) {
     return {x[0], x[1]};
 }
 
+// In the order of FieldPattern: the number of bars before a name is its value.
 constexpr std::string_view kPatterns = "grid|brick|cusps|voronoi|power-law|polygons";
 
 using D = Dimension;

@@ -24,16 +24,16 @@ struct FieldSpec {
     double radius = 0.0, spacing = 0.0;     ///< of the spheres [m]
     bool surface_only = false;
 
-    std::array<double, 2> origin{0, 0};  ///< x of the field's leading edge, y of its centre line
+    std::array<double, 2> origin{0, 0};  ///< x of its leading edge, y of its centre line [m]
     std::array<double, 2> extent{0, 0};  ///< of the field along x, y [m]
 
     std::array<double, 2> floe_size{0, 0};  ///< grid, brick: along x, y [m]
-    std::array<int, 2> count{1, 1};         ///< grid, brick: along x, y
+    std::array<int, 2> count{1, 1};         ///< grid, brick: counts along x, y
     std::array<double, 2> gap{0, 0};        ///< grid, brick, cusps: along x, y [m]
 
-    double concentration = 0.0;            ///< voronoi, power-law: ice over area
+    double concentration = 0.0;            ///< voronoi, power-law: ice over area [-]
     double mean_size = 0.0;                ///< voronoi [m]
-    double exponent = 0.0;                 ///< power-law: of the number of floes larger than a size
+    double exponent = 0.0;                 ///< power-law: a in N(> d) ~ d^-a [-]
     double smallest = 0.0, largest = 0.0;  ///< power-law [m]
     int relaxations = 0;                   ///< voronoi, power-law: rounds of Lloyd's method
 
@@ -41,7 +41,7 @@ struct FieldSpec {
     double breaking_width = 0.0;   ///< cusps: chord [m]
     double breaking_depth = 0.0;   ///< cusps: how far the arc goes beyond its chord [m]
     double entrance_angle = 0.0;   ///< cusps: between a row and the centre line [rad]
-    double jitter = 0.0;           ///< cusps: of the cusps' ends, in half breaking widths
+    double jitter = 0.0;           ///< cusps: of the cusps' ends, in half breaking widths [-]
 
     std::filesystem::path file;  ///< polygons
     double scale = 1.0;          ///< polygons: metres per unit of the file

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The field from above as a drawing: floes and unbroken ice on water, axes in metres, and what the
-// colours mean.
+// The field from above as a drawing: floes and unbroken ice on water, axes in metres, and a key to
+// the colours.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,9 +12,9 @@ namespace ice {
 
 namespace {
 
-constexpr double kLongSide = 1600.0;  // pixels of the longer side of the field
+constexpr double kLongSide = 1600.0;  // [px] of the longer side of the field
 constexpr double kLeft = 90.0, kRight = 30.0, kTop = 60.0, kBottom = 130.0;  // margins [px]
-constexpr int kTicks = 14;                                                   // about, along x
+constexpr int kTicks = 14;  // count, about, along the longer side
 
 // The field's rectangle on the page: x to the right, y to port up.
 struct Page {
@@ -71,7 +71,7 @@ std::string draw_axes(const Page& page, double step) {
                      middle);
 }
 
-// what the colours mean, and a bar as long as a step between ticks
+// the key to the colours, and a bar as long as a step between ticks
 std::string draw_key(const Page& page, const FieldPlan& plan, double step) {
     const double y = page.bottom() + 90.0;
     double x = kLeft;
@@ -82,6 +82,7 @@ std::string draw_key(const Page& page, const FieldPlan& plan, double step) {
             "stroke=\"#54738f\"/>\n",
             x, y - 14.0, fill);
         out += svg_text(x + 38.0, y, "start", words);
+        // 11 px per letter at this size, wide rather than narrow: the browser's font is not known
         x += 60.0 + 11.0 * static_cast<double>(words.size());
     };
     add("#eef4f8", fmt::format("{} loose floes", plan.loose.size()));

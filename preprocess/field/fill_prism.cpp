@@ -13,7 +13,8 @@ namespace ice {
 
 namespace {
 
-constexpr double kEqual = 1e-6;  // [m]
+// Places that differ by less are equal [m]: a micrometre, far below any floe's edge.
+constexpr double kEqual = 1e-6;
 // Cosine of 6.3 degrees: the sides of an arc meet in edges and corners, too. Without them no sphere
 // has the normals between two sides, and another piece's edge goes in there.
 constexpr double kSharp = 0.994;

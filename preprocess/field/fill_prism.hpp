@@ -20,7 +20,7 @@ struct PrismForm {
 ///
 /// The solver cuts pieces from level ice with it while it runs: no file, no CGAL in its headers.
 ///
-/// @param corners  where given, becomes the number of corners, each with a sphere of its own
+/// @param corners  where given, becomes the count of corners, each with a sphere of its own
 /// @throws Error (exit code 2) when no sphere fits, or a corner gets none
 SphereSet fill_prism(const Outline& outline, const PrismForm& form,
                      std::int64_t* corners = nullptr);

@@ -9,6 +9,8 @@ namespace ice {
 
 namespace {
 
+// Newton steps at most, and the shortest share of a step that is tried [-]. Near the solution full
+// steps square the error; where 60 do not reach it, the cells stay as near as they came.
 constexpr int kMostSteps = 60;
 constexpr double kSmallestStep = 1e-4;
 
@@ -80,6 +82,8 @@ std::vector<PowerCell> fit_cells(const std::vector<Vec2>& sites, const std::vect
     // back.
     const double floor = 0.5 * std::min(least, now.smallest);
     for (int step = 0; step < kMostSteps && sites.size() > 1; ++step) {
+        // relative to the smallest wanted area: a small floe's error must not hide behind a large
+        // one's
         const double error = now.lack.cwiseAbs().maxCoeff();
         if (error <= tolerance * least) break;
         const Eigen::VectorXd change = newton_step(sites, now);

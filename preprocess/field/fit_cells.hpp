@@ -16,7 +16,7 @@ namespace ice {
 ///
 /// @param areas    [m2], one per site, their sum the rectangle's
 /// @param weights  in: a start (zeros if its cells are empty anywhere); out: the solution [m2]
-/// @param tolerance  largest error of an area over the smallest wanted area
+/// @param tolerance  largest error of an area over the smallest wanted area [-]
 /// @return the cells; their areas are met but for the tolerance, or as near as 60 steps came
 std::vector<PowerCell> fit_cells(const std::vector<Vec2>& sites, const std::vector<double>& areas,
                                  const Rectangle& rectangle, double tolerance,

@@ -20,8 +20,11 @@ namespace ice {
 
 namespace {
 
-constexpr double kEqual = 1e-6;       // [m]
-constexpr double kMostSpheres = 2e8;  // of all shapes together; 100 bytes each in the file
+// Corners that differ by less are equal [m], a micrometre: floes then share a shape. A larger value
+// would move corners by as much.
+constexpr double kEqual = 1e-6;
+// Spheres of all shapes together at most: 100 bytes each in the file, 20 GB.
+constexpr double kMostSpheres = 2e8;
 
 // Outlines about their centroids, each form once, and which of them every floe has.
 struct Forms {
@@ -88,7 +91,7 @@ std::vector<SphereSet> fill_forms(const FieldSpec& spec, const std::vector<Outli
     });
     for (std::size_t k = 0; k < outlines.size(); ++k) {
         if (!errors[k]) continue;
-        // what fill_spheres says about its own option stands behind "--radius: "
+        // the message of fill_spheres begins with its own option, "--radius: ", which is cut off
         const std::string what = errors[k]->what();
         throw bad_input("spheres.radius",
                         fmt::format("a floe of size {:.4g} m cannot be filled: {}",

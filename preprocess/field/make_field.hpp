@@ -6,18 +6,18 @@
 
 namespace ice {
 
-/// Measures of the field, for people and other programs. Sizes are those of the loose floes.
+/// Measures of the field, for people and other programs: counts, and sizes of the loose floes.
 struct FieldReport {
     std::size_t floes = 0, fixed = 0, shapes = 0;  ///< loose floes, pieces of unbroken ice
     std::size_t spheres = 0, surface_spheres = 0;  ///< of all floes together
     std::int64_t corners = 0;    ///< of the shapes, each with a sphere that knows its three faces
-    double concentration = 0.0;  ///< area of loose floes over the field's
+    double concentration = 0.0;  ///< area of loose floes over the field's [-]
     double mean_size = 0.0, smallest = 0.0, largest = 0.0;  ///< [m]
-    double plan_seconds = 0.0, fill_seconds = 0.0;
+    double plan_seconds = 0.0, fill_seconds = 0.0;          ///< wall time [s]
     std::vector<std::string> warnings;
 };
 
-/// The outlines that a specification asks for.
+/// The outlines of a specification. @throws Error (exit code 2) as the patterns do (plan_floes.hpp)
 FieldPlan plan_field(const FieldSpec& spec, std::vector<std::string>& warnings);
 
 /// Turns outlines into prisms and fills them with spheres, loose floes first. Outlines that are

@@ -35,7 +35,8 @@ bool is_convex(const Outline& outline) {
 }
 
 Outline without_straight_corners(const Outline& outline) {
-    constexpr double kStraight = 1e-9;  // sine of the turn
+    // Sine of the turn up to which a corner goes straight on: rounding of its coordinates.
+    constexpr double kStraight = 1e-9;
     Outline out;
     for (std::size_t k = 0; k < outline.size(); ++k) {
         const Vec2 before = outline[k] - previous(outline, k),

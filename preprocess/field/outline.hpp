@@ -14,7 +14,7 @@ using Rectangle = Eigen::AlignedBox2d;
 /// A floe seen from above: corners in order, anticlockwise, without repeating the first [m].
 using Outline = std::vector<Vec2>;
 
-/// More floes than this are a wrong unit more often than a wish.
+/// More floes than this (a count) are a wrong unit more often than a wish.
 constexpr double kMostFloes = 1e6;
 
 /// All floes of a field before they become solids.
@@ -24,12 +24,12 @@ struct FieldPlan {
     std::vector<Outline> fixed;  ///< unbroken ice
 };
 
-/// The rectangle from (x, y) to (x + length, y + breadth).
+/// The rectangle from (x, y) to (x + length, y + breadth), all in [m].
 inline Outline rectangle(double x, double y, double length, double breadth) {
     return {{x, y}, {x + length, y}, {x + length, y + breadth}, {x, y + breadth}};
 }
 
-/// Diameter of the circle with that area [m]: what "size" of a floe means in the whole program.
+/// Diameter of the circle with that area [m]: the "size" of a floe in the whole program.
 double size_of(const Outline& outline);
 
 /// True when every corner turns left or goes straight.
@@ -38,7 +38,7 @@ bool is_convex(const Outline& outline);
 /// The outline without the corners at which it goes straight on.
 Outline without_straight_corners(const Outline& outline);
 
-/// The outline moved inward by `distance`, corner by corner along the bisectors (mitred).
+/// The outline moved inward by `distance` [m], corner by corner along the bisectors (mitred).
 /// @return an empty outline when an edge would vanish or turn round
 Outline inset(const Outline& outline, double distance);
 

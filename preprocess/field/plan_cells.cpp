@@ -15,11 +15,18 @@ namespace ice {
 
 namespace {
 
-constexpr double kDensest = 0.975;   // floes over area: shrunk() needs some water
-constexpr double kShortEdge = 0.02;  // of a cell's size: shorter edges end in one corner
-constexpr double kSizeMiss = 0.005;  // of the mean size: tried again beyond
-constexpr double kRoughFit = 0.1;    // of the smallest area, while sites still move
-constexpr double kFit = 1e-6;        // of the smallest area
+// Area of the floes over the field's at most [-]: shrunk() drops short edges, which needs some
+// water.
+constexpr double kDensest = 0.975;
+// Length over a cell's size [-] up to which an edge ends in one corner: spheres have no room on
+// shorter ones.
+constexpr double kShortEdge = 0.02;
+// Miss of the mean size [-] beyond which the count of floes is corrected, once.
+constexpr double kSizeMiss = 0.005;
+// Error of an area over the smallest area [-]: while sites still move, and of the final cells.
+// Smaller ones take more Newton steps.
+constexpr double kRoughFit = 0.1;
+constexpr double kFit = 1e-6;
 
 // Streams of random numbers: no two uses share one.
 constexpr std::uint64_t kPlaces = 0, kSizes = std::uint64_t{1} << 40;
@@ -149,7 +156,7 @@ std::vector<Outline> plan_power_law(const FieldSpec& s, const Rectangle& area) {
     cells = fit_cells(sites, wanted, area, kFit, weights);
     std::vector<Outline> out;
     for (std::size_t k = 0; k < floes.size(); ++k) {
-        // fit_cells returns what it has after its last step, met or not
+        // fit_cells returns the cells of its last step, whether their areas are met or not
         const double got = cells[k].corners.empty() ? 0.0 : area_of(cells[k].corners);
         if (std::abs(got - wanted[k]) > 1e-3 * wanted[k])
             throw run_failed("floes", "no cells of these sizes were found",

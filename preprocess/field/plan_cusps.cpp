@@ -11,8 +11,12 @@ namespace ice {
 
 namespace {
 
-constexpr int kPieces = 8;      // straight pieces of an arc over a whole breaking width
-constexpr double kSnap = 0.02;  // of the width: a cusp's end this near to a knot is moved there
+// Straight pieces of an arc over a whole breaking width: each turns by a few degrees. More give
+// smoother cusps with more corners, hence more spheres.
+constexpr int kPieces = 8;
+// Distance over the width [-] up to which a cusp's end is moved to a knot: edges shorter than that
+// have no room for spheres.
+constexpr double kSnap = 0.02;
 
 // The edge of the ice behind a row: x over y, straight between knots.
 class Front {

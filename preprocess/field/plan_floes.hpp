@@ -38,7 +38,7 @@ FieldPlan plan_cells(const FieldSpec& spec);
 ///
 /// @param warnings  parts left out: holes
 /// @throws Error (exit code 2) naming the floe: fewer than three corners, crossing itself, or lying
-///         over another one by more than a thousandth of its size; and what is no such file
+///         over another one by more than a thousandth of its size; or a file that is none of these
 FieldPlan plan_polygons(const FieldSpec& spec, std::vector<std::string>& warnings);
 
 /// Unbroken ice: equal rectangles along both sides of the field, the side at low y first, and then

@@ -14,7 +14,9 @@ namespace ice {
 
 namespace {
 
-constexpr double kOverlap = 1e-3;  // of the smaller floe's size: digitised neighbours share edges
+// Depth of an overlap over the smaller floe's size [-] that is accepted: digitised neighbours share
+// edges only nearly. The solver takes a deeper one as an initial overlap of two bodies.
+constexpr double kOverlap = 1e-3;
 
 // Scaled and moved, without repeated or straight corners, anticlockwise.
 Outline cleaned(const FieldSpec& s, const NamedOutline& polygon) {
@@ -28,7 +30,7 @@ Outline cleaned(const FieldSpec& s, const NamedOutline& polygon) {
     if (out.size() >= 3) out = without_straight_corners(out);
     if (out.size() < 3)
         throw bad_input(where, "has fewer than three corners", "complete or remove it");
-    // Before the area's sign is used: of an outline that crosses itself it says nothing.
+    // Before the area's sign is used: it has no meaning for an outline that crosses itself.
     if (!is_simple(out)) throw bad_input(where, "crosses itself", "put its corners in order");
     if (area_of(out) < 0.0) std::reverse(out.begin(), out.end());
     return out;

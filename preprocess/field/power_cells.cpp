@@ -22,8 +22,11 @@ using Regular = CGAL::Regular_triangulation_2<
     Kernel, CGAL::Triangulation_data_structure_2<VertexBase,
                                                  CGAL::Regular_triangulation_face_base_2<Kernel>>>;
 
-constexpr double kMargin = 6.0;    // mean site distances: sites nearer to a side have images
-constexpr double kOutside = 1e-6;  // of the rectangle's size
+// Distance from a side [mean site distances] within which sites have images. Fewer images make the
+// first try fail more often, more cost time; the cells are the same.
+constexpr double kMargin = 6.0;
+// Distance beyond the rectangle over its size [-] that is rounding.
+constexpr double kOutside = 1e-6;
 
 // The sites, and images of those within `margin` of a side.
 Regular triangulate_sites(const std::vector<Vec2>& sites, const std::vector<double>& weights,

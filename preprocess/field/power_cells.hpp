@@ -8,7 +8,7 @@
 
 namespace ice {
 
-/// The part of a rectangle where one site is nearest, by distance squared minus weight.
+/// The part of a rectangle where one site is nearest, by distance squared minus weight [m2].
 struct PowerCell {
     Outline corners;  ///< convex; empty where other sites' weights leave nothing
     std::vector<std::int32_t> neighbours;  ///< across the edge from corner k to k + 1: a site, or

@@ -7,7 +7,8 @@
 namespace ice {
 
 /// A floe as a closed solid: the outline from z = -thickness / 2 to +thickness / 2, its upper and
-/// lower edges cut off at 45 degrees over `chamfer` (0 for sharp ones). One region, "ice".
+/// lower edges cut off at 45 degrees over `chamfer` (0 for sharp ones), all in [m]. One region,
+/// "ice".
 ///
 /// @pre the outline is simple and anticlockwise; 0 <= chamfer < thickness / 2
 /// @throws Error (exit code 2) naming chamfer when it leaves nothing of an edge

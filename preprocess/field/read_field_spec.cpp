@@ -13,7 +13,7 @@ namespace ice {
 
 namespace {
 
-// Puts values and defaults together and complains about what does not fit.
+// Puts values and defaults together and complains about keys that do not fit.
 class SpecBuilder {
 public:
     SpecBuilder(const std::filesystem::path& file, Values values, Mistakes& mistakes)
@@ -61,6 +61,7 @@ private:
     }
 
     void check_pattern() {
+        // Keys of other patterns are refused, not ignored: a size that has no effect would mislead.
         const auto& name = std::get<std::string>(values_["pattern"]);
         const auto& all = pattern_keys();
         const auto mine = std::find_if(all.begin(), all.end(),
@@ -81,7 +82,7 @@ private:
         }
     }
 
-    // Defaults that follow from other keys, and what keys must be to each other.
+    // Defaults that follow from other keys, and conditions between keys.
     void complete(FieldSpec& s) {
         // a radius of a quarter of the thickness gives two layers of spheres
         if (!given("spheres.radius")) s.radius = 0.25 * s.thickness;

@@ -17,9 +17,10 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::uintmax_t kLargestPolygons = 64u << 20;  // a million corners fit
-constexpr int kDeepest = 20;                            // collections within collections
-constexpr std::size_t kMostQuoted = 60;                 // characters of a bad row in a message
+// Bounds that refuse a file of another kind; none changes a floe.
+constexpr std::uintmax_t kLargestPolygons = 64u << 20;  // [bytes]: a million corners fit
+constexpr int kDeepest = 20;             // collections within collections; maps have few
+constexpr std::size_t kMostQuoted = 60;  // characters of a bad row in a message
 
 // GeoJSON nests: a collection of features, each with a geometry, which may be a collection or
 // several polygons. Everything that is no polygon (points, lines, features without a geometry) is

@@ -18,7 +18,7 @@ struct NamedOutline {
 /// Reads GeoJSON (Polygon, MultiPolygon, features and collections of them; other geometries are
 /// passed over) or CSV (rows floe, x, y; neighbouring rows of one floe are its corners).
 ///
-/// @param holes  counted: holes of polygons, which are left out
+/// @param holes  increased by the count of holes of polygons, which are left out
 /// @throws Error (exit code 2) naming file and place
 std::vector<NamedOutline> read_polygons(const std::filesystem::path& file, std::size_t& holes);
 

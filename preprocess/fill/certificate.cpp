@@ -17,10 +17,14 @@ namespace ice {
 
 namespace {
 
-constexpr double kThinGap =
-    2.5;  // radii; sharp convex edges of 60 degrees lose 1, of 40 degrees 1.9
-constexpr double kAside = 0.65;       // spacings: the layer's covering radius
-constexpr std::size_t kClimbs = 512;  // places whose cover is measured exactly
+// Gap [radii] from which a place is thin: sharp convex edges of 60 degrees lose 1, of 40 degrees
+// 1.9, so that ordinary edges are none. A smaller value reports edges as thin parts.
+constexpr double kThinGap = 2.5;
+// Distance [spacings] by which the nearest sphere may stand aside: the layer's covering radius.
+constexpr double kAside = 0.65;
+// Places whose cover is measured by a climb: the worst samples. More may find a worse place and
+// take as much longer.
+constexpr std::size_t kClimbs = 512;
 
 // Values up to `most` by weight, in bins of most / 65536: a percentile needs no sorting.
 class Histogram {
@@ -41,6 +45,7 @@ public:
     }
 
 private:
+    // a percentile is within 1 / 65536 of the largest value; the memory is half a megabyte
     static constexpr std::size_t kBins = 1 << 16;
     double most_, total_ = 0.0;
     std::vector<double> weight_;
@@ -212,6 +217,7 @@ void certify(const SurfaceTree& tree, const SphereFinder& finder, const std::vec
              bool half, const SphereSet& set, SpheresReport& report) {
     report.protrusion_max = measure_protrusion(tree, set, half);
     measure_cover(tree, set, finder, sights, survey_size(set, half), report);
+    // the histograms need their ends first
     double gap_max = 0.0, error_max = 0.0;
     for (const Sight& sight : sights) {
         gap_max = std::max(gap_max, static_cast<double>(sight.gap));

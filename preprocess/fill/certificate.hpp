@@ -25,7 +25,7 @@ namespace ice {
 ///   can touch and the gap exceeds half a radius;
 /// - gaps in the ice belt, where report.belt is given.
 ///
-/// @param sights  of survey_surface; @param half  as there
+/// @param sights  of survey_surface, one per sample; @param half  as there
 void certify(const SurfaceTree& tree, const SphereFinder& finder, const std::vector<Sight>& sights,
              bool half, const SphereSet& set, SpheresReport& report);
 

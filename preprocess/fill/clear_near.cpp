@@ -12,10 +12,11 @@ namespace ice {
 
 namespace {
 
-constexpr std::size_t kSerialClearing = 1000;  // below, waking threads costs more than it saves
+// None of these numbers changes a bit of the result; they set the time alone.
+constexpr std::size_t kSerialClearing = 1000;  // triangles: of fewer, waking threads costs more
 constexpr std::size_t kGroup = 16;             // triangles worked at together
 constexpr double kPiece = 32.0;                // pitches: longer triangles visit in pieces
-constexpr double kMostPieces = 1000.0;         // along the box
+constexpr double kMostPieces = 1000.0;         // along the box: of a coarse mesh in a fine lattice
 using detail::Corners;
 using detail::Range;
 using Near = detail::NearTriangle;
@@ -189,6 +190,8 @@ void clear_near(const TriangleMesh& mesh, const LatticeFrame& frame, double dist
         const auto whole = [&](std::size_t k) -> const Corners& { return group[k]; };
         clear(n, whole, whole);
     });
+    // Long triangles afterwards and in pieces: the box of a whole one would hold most of the
+    // lattice. Their pieces differ in cost, so each is its own task.
     std::vector<Piece> pieces;
     for (std::size_t t = 0; t < count; ++t)
         if (large[t]) split(corners(t), most, pieces);

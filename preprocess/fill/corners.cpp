@@ -13,13 +13,16 @@ namespace ice {
 
 namespace {
 
-constexpr double kEdgeReach = 1.01;  // spacings: an edge has a sphere in every one of them
+// Length of an edge [spacings] that is searched from a sphere: an edge has a sphere in every
+// spacing, and a hundredth is for rounding.
+constexpr double kEdgeReach = 1.01;
 
 // How far a settled sphere may go along a unit vector until it touches one more face [m]; `most`
 // where there is none before.
 double way_to_next(const SurfaceTree& tree, const Vec3& center, const Vec3& along, double radius,
                    double most) {
-    constexpr double kLeastRise = 0.1;  // sine between the way and the face
+    // Sine between the way and the face [-]: a flatter face is one that the sphere slides along.
+    constexpr double kLeastRise = 0.1;
     thread_local std::vector<Foot> feet;
     // The distance to a face shrinks by the cosine of the angle between the way and the face's
     // direction: the face is touched after (distance - radius) / cosine.
@@ -142,7 +145,7 @@ CornerCount count_corners(const SurfaceTree& tree, const SphereSet& set, bool ha
                 continue;
             counted.add(corner.center);
             all.push_back(corner);
-            // Of half a solid each corner off the plane of symmetry stands for two.
+            // Of half a solid each corner off the plane of symmetry counts twice.
             const bool has_image = half && corner.center.y() > kSameCorner * set.spacing;
             out.all += has_image ? 2 : 1;
             if (creased.know(corner)) continue;

@@ -10,15 +10,15 @@
 
 namespace ice {
 
-/// Corners nearer than this [spacings] that have the same faces are one: both ends of a short edge
-/// stay.
+/// Corners nearer than this [spacings] that have the same faces are one. The ends of a short edge
+/// have other faces: both stay.
 constexpr double kSameCorner = 1e-3;
 
-/// Does a settled sphere touch three faces whose normals span a volume of at least 0.1? Less is an
-/// edge: sides that turn by 6 degrees, with a top, have 0.1.
+/// True where a settled sphere touches three faces whose normals span a volume of at least 0.1 [-].
+/// Less is an edge: sides that turn by 6 degrees, with a top, have 0.1.
 bool is_corner(const Seat& seat);
 
-/// Do two settled spheres touch the same faces? Three at most.
+/// True where two settled spheres touch the same faces, three at most, to 0.01 rad.
 bool touch_the_same(const Seat& one, const Seat& other);
 
 /// A seat on an edge moved along it, not farther than `most` [m], until it touches a third face.
@@ -35,7 +35,7 @@ void find_corners_beside(const SurfaceTree& tree, double radius, const Seat& sea
 /// Corners of a solid in which a sphere of the set's radius has room, and those among them that no
 /// sphere of the set sits in: contacts there are found late or not at all.
 struct CornerCount {
-    std::int64_t all = 0;
+    std::int64_t all = 0;     ///< count
     std::vector<Vec3> blind;  ///< centres of the spheres that are missing, with their images [m]
 };
 

@@ -15,7 +15,9 @@ namespace ice {
 
 namespace {
 
-constexpr double kOverlap = 2.0 * (1.0 - 1e-6);  // radii between centres whose balls overlap
+// Distance between centres [radii] within which their balls overlap. A millionth less than 2: balls
+// that touch may have the surface between them.
+constexpr double kOverlap = 2.0 * (1.0 - 1e-6);
 
 // Heaps of overlapping spheres, made of cubes: for each cube the first of its heap.
 class Heaps {
@@ -114,6 +116,8 @@ private:
 
 // Steps to the cubes within reach, half of all, the shortest first.
 std::vector<Step> steps_within_reach() {
+    // The other half is the same pairs seen from the other cube. Two cubes each way: their edge is
+    // 0.58 of the range.
     std::vector<Step> steps;
     for (int x = 0; x <= 2; ++x)
         for (int y = -2; y <= 2; ++y)

@@ -11,7 +11,9 @@ namespace ice {
 
 namespace {
 
-constexpr double kStraightCos = 0.94;  // settled polylines turn less than 20 degrees at a vertex
+// Cosine of the turn at a vertex of a settled polyline, 20 degrees, above which it goes straight
+// on. Lower values would lose corners, higher ones put a sphere into each knuckle of a curved edge.
+constexpr double kStraightCos = 0.94;
 
 struct SharpEdge {
     std::int32_t a, b;  // vertices, a < b

@@ -24,12 +24,20 @@ namespace ice {
 
 namespace {
 
-// Volume shares whose centroid is off by more than this many radii are worth a warning.
+// Distance of the volume shares' centroid from the solid's [radii] that is worth a warning: above
+// rounding, far below any effect on a moment.
 constexpr double kCentroidMiss = 1e-6;
-constexpr double kLineStep = 0.2;   // of the spacing: between the points that edges are followed by
-constexpr double kQuickStep = 0.5;  // where they are straight
-constexpr double kSettled = 1e-6;   // of the radius: how nearly a sphere that just fits must
-constexpr double kMostSpheres = 3e7;  // 250 bytes each while they are made
+// Between the points that edges are followed by [spacings]. Curved edges need several per sphere;
+// more take longer.
+constexpr double kLineStep = 0.2;
+// The same for floes by the thousand (FillOptions::quick), whose edges are straight.
+constexpr double kQuickStep = 0.5;
+// Share of the radius [-] by which the largest sphere inside may be smaller: a sphere that just
+// fits is found to rounding only.
+constexpr double kSettled = 1e-6;
+// Spheres of a set at most: 250 bytes each while they are made, 7.5 GB. More is a wrong unit more
+// often than a wish.
+constexpr double kMostSpheres = 3e7;
 
 void tell(const FillOptions& o, const char* step, double share = 0.0) {
     if (o.progress) o.progress(step, share);
@@ -85,6 +93,8 @@ void place_surface(const SurfaceTree& tree, const FillOptions& o, bool mirror, S
     if (o.arrangement == Arrangement::lattice) {
         place_lattice(tree, o, mirror, set);
     } else {
+        // A lattice is the paper's arrangement; the shell follows edges and corners, and each of
+        // its spheres touches the surface.
         set.centers = make_shell(tree, {o.radius, set.spacing, set.dimension, mirror,
                                         o.quick ? kQuickStep : kLineStep, o.sharp, o.edges_by_ends,
                                         [&](double share) { tell(o, "surface layer", share); }});
@@ -136,12 +146,14 @@ void fill_report(const SphereSet& set, SpheresReport& report) {
 }
 
 // Normals of the surface spheres, and a sphere in each corner that the layer left empty; once more
-// for these. A lattice's spheres touch what they happen to touch.
+// for these. A lattice's spheres touch a feature by chance only, so that none is added.
 // @return the twins
 std::vector<std::int32_t> set_features(const SurfaceTree& tree, const FillOptions& o, bool mirror,
                                        SphereSet& set, SpheresReport& report) {
     std::vector<std::int32_t> twins;
     CornerCount corners;
+    // Twice at most: added spheres change the features of their neighbours, so all are set anew. A
+    // corner that is still empty then is reported, not filled again, since that need not end.
     for (const bool may_add : {true, false}) {
         if (mirror) twins = find_twins(set);
         set_normals(tree, twins, set);
@@ -162,7 +174,7 @@ std::vector<std::int32_t> set_features(const SurfaceTree& tree, const FillOption
     return twins;
 }
 
-// `space` is what spheres are placed in: the solid, or in 2D the section widened along y.
+// `space` is the body that spheres are placed in: the solid, or in 2D the section widened along y.
 SphereSet fill(const TriangleMesh& solid, const TriangleMesh& space, int dimension,
                const FillOptions& o, SpheresReport& report) {
     SphereSet set;

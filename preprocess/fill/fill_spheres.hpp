@@ -10,8 +10,11 @@
 
 namespace ice {
 
+/// Arrangement of the spheres: a layer that touches the surface and a packing inside, or one
+/// lattice.
 enum class Arrangement { conforming, lattice };
 
+/// How a solid is filled.
 struct FillOptions {
     double radius = 0.1;   ///< [m]
     double spacing = 0.0;  ///< of the surface layer [m]; 0: the radius (lattice: 2 R always)
@@ -22,6 +25,8 @@ struct FillOptions {
     bool quick = false;
     /// Cosine of the least turn between faces that meet in an edge: 20 degrees, for hulls made of
     /// many facets.
+    ///
+    /// Nearer to 1 also smooth knuckles get lines of spheres.
     double sharp = 0.94;
     bool edges_by_ends = false;  ///< settle two points at each end of a straight edge, none between
     /// Where given, called now and then with the present stage and the finished share of it.
@@ -35,8 +40,8 @@ struct FillOptions {
 /// Lattice: a cubic one alone (fill/lattice.hpp). Shares, normals and the certificate are filled
 /// in; names and provenance are the caller's.
 ///
-/// The largest sphere inside is looked for first. The time falls as the radius grows: what takes
-/// time are places on the surface some part of the radius apart, not the mesh's triangles.
+/// The largest sphere inside is looked for first. The time falls as the radius grows: it is spent
+/// on places of the surface that are a part of the radius apart, not on the mesh's triangles.
 ///
 /// @throws Error (exit code 2) when no sphere fits, naming the largest radius that does
 SphereSet fill_spheres(const TriangleMesh& solid, const FillOptions& options,

@@ -10,9 +10,13 @@ namespace ice {
 
 namespace {
 
-constexpr double kMostCells = 4096.0;  // to begin with
+// Cells at the beginning, at most. More split a slender box finer and cost a query each.
+constexpr double kMostCells = 4096.0;
+// Closest-point queries at most. Beyond them bound and radius stay apart: a flat plate's deepest
+// points fill a plane.
 constexpr std::size_t kMostQuestions = 1000000;
-constexpr double kKnown = 0.01;  // of the largest radius
+// Relative accuracy of the largest radius [-]: messages state three digits.
+constexpr double kKnown = 0.01;
 
 struct Cell {
     Vec3 center;

@@ -10,9 +10,12 @@ namespace ice {
 
 namespace {
 
-constexpr double kRounding = 1e-9;         // of the clearance: nearer by less counts as inside
-constexpr std::size_t kSerialLayers = 16;  // rows along y: below, threads cost more
-constexpr std::size_t kSerialRuns = 1000;  // runs of some hundred spheres each
+// Share of the clearance [-] by which a point may be nearer: spheres then may touch flat faces.
+constexpr double kRounding = 1e-9;
+// Layers along z, and runs of some hundred spheres each, below which waking threads costs more than
+// it saves. They change the time alone.
+constexpr std::size_t kSerialLayers = 16;
+constexpr std::size_t kSerialRuns = 1000;
 
 // A point stays only with its mirror image: rounding could let one of the two in.
 void keep_pairs(const LatticeFrame& frame, LatticeBits& bits, std::int64_t k) {

@@ -16,16 +16,20 @@ namespace ice {
 
 namespace {
 
-constexpr double kMultiple = 1e-9;   // of the pitch: by how much an extent may miss a multiple
-constexpr double kNoRest = 1e-6;     // of the pitch: a rest this small leaves both ends tangent
-constexpr double kSquare = 1e-6;     // sine of the tilt below which a face is square to an axis
-constexpr double kMostPoints = 1e9;  // lattice points of the box: one bit each
+// Share of the pitch [-] by which an extent may miss a multiple of it: rounding of decimal sizes.
+constexpr double kMultiple = 1e-9;
+// Rest over the pitch [-] up to which both ends count as tangent.
+constexpr double kNoRest = 1e-6;
+// Sine of the tilt below which a face is square to an axis: single-precision files have 1e-7.
+constexpr double kSquare = 1e-6;
+// Lattice points of the box at most: one bit each, 125 MB.
+constexpr double kMostPoints = 1e9;
 
 // The flat faces square to an axis that lie at one height of it, together.
 struct FlatFace {
     double at = 0.0;    // [m]
     double area = 0.0;  // [m2]
-    double up = 0.0;    // of it what faces along the axis, less what faces against it [m2]
+    double up = 0.0;    // of it the part along the axis less the part against it [m2]
 };
 using FlatFaces = std::map<std::int64_t, FlatFace>;  // by height, in grains above the box's low end
 
@@ -52,6 +56,8 @@ void add_flat_faces(const TriangleMesh& mesh, std::size_t from, std::size_t to, 
 
 // Faces square to x, y, z, heights nearer than the grain taken for one.
 std::array<FlatFaces, 3> flat_faces(const TriangleMesh& mesh, const Vec3& low, double grain) {
+    // triangles summed together, in a fixed order: another size changes the last digits of the
+    // areas
     constexpr std::size_t kChunk = 1024;
     std::vector<std::array<FlatFaces, 3>> chunks((mesh.triangles.size() + kChunk - 1) / kChunk);
     parallel_for(chunks.size(), 16, [&](std::size_t k) {

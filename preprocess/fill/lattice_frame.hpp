@@ -24,7 +24,7 @@ struct LatticeFrame {
     std::array<std::int64_t, 3> count{0, 0, 0};  ///< points along a row, rows along y, along z
     Vec3 first = Vec3::Zero();                   ///< of row 0, 0; its y at j = middle [m]
     Vec3 step = Vec3::Zero();                    ///< between points, along y, along z [m]
-    double middle = 0.0;                         ///< j of y = 0 where the lattice is symmetric
+    double middle = 0.0;                         ///< j of y = 0 where the lattice is symmetric [-]
 
     /// Rows of equal parity of j share their heights: 1 such family, or 2.
     int families() const { return kind == LatticeKind::hexagonal ? 2 : 1; }

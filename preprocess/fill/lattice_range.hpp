@@ -6,8 +6,8 @@
 
 namespace ice::detail {
 
-/// Of a distance or pitch: by how much ranges are widened, so that rounding leaves nothing out; an
-/// exact comparison follows.
+/// Share of a distance or pitch [-] by which ranges are widened, so that rounding leaves nothing
+/// out; an exact comparison follows. A larger value costs a few comparisons more.
 inline constexpr double kSlack = 1e-6;
 
 /// Numbers of the rows, or points of a row, that may lie between two reals, both in steps from

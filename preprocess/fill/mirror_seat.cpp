@@ -7,6 +7,7 @@ namespace ice {
 
 namespace {
 
+// Newton steps at most. Where more are needed, faces alternate and no sphere fits in the plane.
 constexpr int kMostMirrorSteps = 40;
 
 // Newton on the distance, along its gradient within the centre plane.

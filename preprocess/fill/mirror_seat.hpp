@@ -12,7 +12,8 @@ namespace ice {
 /// that plane. Nothing where it must move there but cannot: the surface lies along the plane.
 std::optional<Seat> mirror_seat(const SurfaceTree& tree, Seat seat, double radius, double gap);
 
-/// The mirror image of a seat across y = 0. Its triangle is that of the original.
+/// The mirror image of a seat across y = 0. Its triangle is that of the original, its touches are
+/// unknown.
 Seat image_of(const Seat& seat);
 
 }  // namespace ice

@@ -8,10 +8,16 @@ namespace ice {
 
 namespace {
 
+// Cosines that differ by less are equal [-]: of equally narrow cones the first counts, so that the
+// result does not depend on rounding.
 constexpr double kTie = 1e-12;
-constexpr std::size_t kMostTriples = 24;  // beyond that many directions pairs alone are tried
-constexpr std::size_t kMostPairs = 200;   // beyond that many not even they
-constexpr int kTurns = 300;               // instead: the angle is then within about 1 % of itself
+// Directions up to which all triples are tried, 2024 of them: the time grows with the fourth
+// power of their number.
+constexpr std::size_t kMostTriples = 24;
+// Directions up to which all pairs are tried.
+constexpr std::size_t kMostPairs = 200;
+// Turns of the iteration beyond: the angle is then within about 1 % of itself.
+constexpr int kTurns = 300;
 
 double least_cosine(const Vec3& axis, std::span<const Vec3> directions) {
     double least = 1.0;

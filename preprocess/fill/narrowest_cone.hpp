@@ -7,6 +7,7 @@
 
 namespace ice {
 
+/// A cone about an axis through the origin.
 struct Cone {
     Vec3 axis;          ///< unit
     double half_angle;  ///< [rad]

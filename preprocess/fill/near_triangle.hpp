@@ -11,8 +11,12 @@
 
 namespace ice::detail {
 
-inline constexpr double kDoubt = 1e-5;  // of the squared distance: what quick answers must leave
-inline constexpr double kSteep = 1e-3;  // |n_x| from which a plane cuts a row within reach
+// Share of the squared distance [-] within which a quick answer is not trusted: far above the
+// rounding of measure_distances(). A larger value decides more points again, one by one.
+inline constexpr double kDoubt = 1e-5;
+// |n_x| of a unit normal [-] from which a plane cuts a row within reach; flatter planes would
+// divide by almost nothing.
+inline constexpr double kSteep = 1e-3;
 inline constexpr double kRounding =
     1e-15;  // of a cross product's factors: a few units in the last place
 

@@ -13,16 +13,29 @@ namespace ice {
 
 namespace {
 
+// Newton steps at most. Where more are needed, faces alternate and no sphere fits.
 constexpr int kMostSteps = 40;
-constexpr double kTouch = 1e-5;       // of the radius: a face this near is touched
-constexpr double kNearCrease = 0.02;  // of the radius
-constexpr int kSmoothSteps = 3;       // along the foot's direction, before creases are thought of
-constexpr double kExact = 1e-10;      // of the radius: when a distance counts as reached
-constexpr double kRounding = 8.0 * std::numeric_limits<double>::epsilon();  // of the coordinates
-constexpr std::size_t kMostConditions = 200;  // the worst of them decide
-constexpr double kFine = 8.0;                 // edges of the mesh that are short beside the radius
-constexpr std::size_t kMostDirections = 500;  // of a sphere that fits a round solid exactly
-constexpr double kSameDirection = 0.9999995;  // cosine of 1e-3 rad: conditions that are one
+// Distance beyond the radius, over the radius [-], within which a face is touched. Far above
+// kExact, so that all faces of a settled crease count; a larger value adds faces that only pass
+// near.
+constexpr double kTouch = 1e-5;
+// The same for a start in a crease, whose point is known to 2 % of the radius only.
+constexpr double kNearCrease = 0.02;
+// Steps along the foot's direction, before creases are thought of: enough on smooth surfaces.
+constexpr int kSmoothSteps = 3;
+// Difference from the radius, over the radius [-], at which a distance counts as reached.
+constexpr double kExact = 1e-10;
+// The same over the coordinates [-], some units in the last place: far from the origin no step can
+// do better.
+constexpr double kRounding = 8.0 * std::numeric_limits<double>::epsilon();
+// Conditions that are compared: the worst of them decide, and in a fine mesh thousands are near.
+constexpr std::size_t kMostConditions = 200;
+// Radius over the mesh's mean edge [-] from which the mesh is fine beside the radius.
+constexpr double kFine = 8.0;
+// Directions kept of a sphere that fits a round solid exactly and touches it everywhere.
+constexpr std::size_t kMostDirections = 500;
+// Cosine of 1e-3 rad: conditions with nearer directions are one, as those of one face's triangles.
+constexpr double kSameDirection = 0.9999995;
 
 // g . move >= need
 struct Condition {
@@ -81,6 +94,8 @@ Vec3 meet(const Condition* const* active, int count) {
         g.row(k) = active[k]->g.transpose();
         need[k] = active[k]->need;
     }
+    // One and two conditions in closed form, as they are by far the most frequent; g is a unit
+    // vector.
     if (count == 1) return need[0] * active[0]->g;
     if (count == 2) {
         const double mixed = active[0]->g.dot(active[1]->g), det = 1.0 - mixed * mixed;
@@ -91,6 +106,7 @@ Vec3 meet(const Condition* const* active, int count) {
     } else if (const double det = g.determinant(); std::abs(det) > 1e-7) {
         return g.inverse() * need;
     }
+    // Nearly parallel walls: an inverse would throw the centre far away.
     return g.completeOrthogonalDecomposition().solve(need);
 }
 
@@ -100,6 +116,7 @@ Vec3 smallest_move(const std::vector<Condition>& conditions) {
     Vec3 move = meet(active, 1);
     for (int count = 1; count < 3;) {
         const Condition* worst = nullptr;
+        // [m]; rounding of lengths of about 1 m: smaller misses count as met
         double lack = 1e-14;
         for (const Condition& c : conditions) {
             const double now = c.need - c.g.dot(move);

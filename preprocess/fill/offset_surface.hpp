@@ -12,12 +12,13 @@
 namespace ice {
 
 /// Normals that differ by less than this [rad], 65 degrees, count as those of one face: spheres of
-/// opposite faces may stand in the same place without standing for each other.
+/// opposite faces may be in the same place without representing each other's face. Beyond 90
+/// degrees they would; far below, curved sides would need more spheres.
 constexpr double kFaceTurn = 1.134;
 
 /// Centre of a sphere that touches the surface from inside.
 struct Seat {
-    Vec3 center;
+    Vec3 center;             ///< [m]
     Vec3 normal;             ///< outward, from the centre to the touch; unit
     std::int32_t triangle;   ///< that it touches there
     bool in_crease = false;  ///< it touches several faces; `normal` is the axis of the cone round
@@ -26,7 +27,7 @@ struct Seat {
     int touches = 0;         ///< in a crease: how many of `touch` are known; 0: they are not
     std::array<Vec3, 3> touch{};  ///< touch_directions(), not to be looked for at every question
 
-    /// Does the seat represent a surface with this normal?
+    /// True where the seat represents a surface with this normal.
     bool agrees(const Vec3& surface_normal) const { return normal.dot(surface_normal) >= agree; }
     bool agrees(std::span<const Vec3> surface_normals) const {
         return std::all_of(surface_normals.begin(), surface_normals.end(),
@@ -34,7 +35,7 @@ struct Seat {
     }
 };
 
-/// Thousands of triangles touch a sphere's surroundings: the mesh is fine beside the radius.
+/// True where the mesh is fine beside the radius [m]: thousands of triangles are near a sphere.
 bool is_fine_for(const SurfaceTree& tree, double radius);
 
 /// The distance from `radius` [m] at which a centre counts as settled: 1e-10 of the radius, or far

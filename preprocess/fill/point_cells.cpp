@@ -7,7 +7,9 @@ namespace ice {
 
 namespace {
 
-constexpr double kMostCubes = 2.0;  // of the points: where there are more, they are hashed
+// Cubes over points [-] up to which cubes are numbered; where there are more, they are hashed. A
+// higher bound takes more memory for empty cubes; the answers are the same.
+constexpr double kMostCubes = 2.0;
 
 }  // namespace
 

@@ -14,9 +14,9 @@
 
 namespace ice {
 
-/// "Which point is nearest?" for points that no longer change (PointGrid is for growing ones):
-/// points sorted into cubes, cubes found by their number where they fill their box, as those of a
-/// floe do, and by hashing elsewhere. Thread-safe once built.
+/// The point nearest to a place, among points that no longer change (PointGrid is for growing
+/// ones): points sorted into cubes, cubes found by their number where they fill their box, as those
+/// of a floe do, and by hashing elsewhere. Thread-safe once built.
 class PointCells {
 public:
     /// @param points  copied; not empty
@@ -36,7 +36,8 @@ public:
     /// The same when one point and its distance are known already: only nearer ones are looked for.
     Nearest nearest(const Vec3& p, Nearest known) const;
 
-    /// Calls visit(index, distance) for all points within `range` of p, in no particular order.
+    /// Calls visit(index, distance [m]) for all points within `range` [m] of p, in no particular
+    /// order.
     template <class Visit>
     void visit(const Vec3& p, double range, const Visit& visit) const;
 
@@ -59,6 +60,8 @@ private:
         std::size_t first, last;
     };
 
+    // Points of a block, and rings of cubes that are searched before blocks are: they set the time,
+    // not the answers.
     static constexpr std::size_t kBlock = 64;
     static constexpr double kFar = std::numeric_limits<double>::infinity();
     static constexpr int kMostRings = 12;  ///< farther away, blocks are searched

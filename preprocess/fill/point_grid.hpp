@@ -14,6 +14,7 @@ namespace ice {
 /// Points hashed into cubes, growing one by one; answers "is one near?".
 class PointGrid {
 public:
+    /// @param cell  edge of a cube [m], about the ranges that are asked
     explicit PointGrid(double cell) : cell_(cell) {}
 
     void add(const Vec3& p) {
@@ -21,7 +22,8 @@ public:
         points_.push_back(p);
     }
 
-    /// True where a point within `range` of p has accept(index).
+    /// True where a point within `range` [m] of p has accept(index); the index counts add() calls
+    /// from 0.
     template <class Accept>
     bool any_within(const Vec3& p, double range, const Accept& accept) const {
         const Cell from = cell_of(p - Vec3::Constant(range));

@@ -13,8 +13,10 @@ namespace {
 
 using detail::Range;
 
-constexpr std::size_t kChunk = 256;             // triangles that share a list of crossings
-constexpr std::size_t kSerialTriangles = 4000;  // below, waking threads costs more than it saves
+// Triangles that share a list of crossings, and triangles below which waking threads costs more
+// than it saves. They change the time alone.
+constexpr std::size_t kChunk = 256;
+constexpr std::size_t kSerialTriangles = 4000;
 
 // The surface crosses a row; the winding number changes by `sign` on the way along x.
 struct Crossing {

@@ -41,8 +41,8 @@ public:
 
     const std::vector<Seat>& seats() const { return seats_; }
 
-    /// Calls visit(index, squared distance) for the seats within `range` of p until it returns
-    /// true, in no order that matters: callers sort or take minima.
+    /// Calls visit(index, squared distance [m2]) for the seats within `range` [m] of p until it
+    /// returns true, in no order that matters: callers sort or take minima.
     template <class Visit>
     void visit(const Vec3& p, double range, const Visit& visit) const {
         int from[3], to[3];

@@ -15,8 +15,12 @@ namespace ice {
 
 namespace {
 
-constexpr int kMostPasses = 50;      // of the moments; two where no share comes near zero
-constexpr double kLeastRest = 0.02;  // of the volume: what interior cells leave to the surface
+// Passes of the moments at most: two where no share comes near zero. Where 50 are not enough, no
+// positive shares have the centroid.
+constexpr int kMostPasses = 50;
+// Least share of the volume [-] that interior cells leave to the surface spheres: their shares must
+// be positive.
+constexpr double kLeastRest = 0.02;
 
 // The directions in which a sphere touches; never empty.
 std::vector<Vec3> directions_of(const SurfaceTree& tree, const SphereSet& set, std::size_t k,
@@ -42,6 +46,7 @@ std::vector<Vec3> directions_of(const SurfaceTree& tree, const SphereSet& set, s
 // Sum of value(k) over [from, to), by blocks: the same bits for any number of threads.
 template <class Sum, class Value>
 Sum sum_of(std::size_t from, std::size_t to, Sum zero, const Value& value) {
+    // shares added up in one go: another size changes the last digits of the sum
     constexpr std::size_t kBlock = 1 << 16;
     std::vector<Sum> parts((to - from + kBlock - 1) / kBlock, zero);
     parallel_tasks(parts.size(), true, [&](std::size_t b) {
@@ -68,8 +73,8 @@ Vec3 moment_of(const SphereSet& set, std::size_t from, std::size_t to) {
 void match_moments(std::size_t count, const Eigen::Vector4d& others, bool mirror, SphereSet& set) {
     Eigen::Vector4d target = -others;
     target[0] += set.solid.volume;
+    // a share that would become negative is held at a thousandth of the mean share
     const double least = 1e-3 * target[0] / static_cast<double>(count);
-    // a share that would become negative is held above zero: the least that counts as positive
     const std::vector<double> before(set.volumes.begin(),
                                      set.volumes.begin() + static_cast<std::ptrdiff_t>(count));
     for (int pass = 0; pass < kMostPasses; ++pass) {

@@ -26,7 +26,7 @@ void set_normals(const SurfaceTree& tree, const std::vector<std::int32_t>& twins
 void share_surface(const SurfaceTree& tree, const std::vector<Sight>& sights,
                    const std::vector<std::int32_t>& twins, SphereSet& set);
 
-/// Shares the volume: an interior sphere represents its lattice cell, a surface sphere for its part
+/// Shares the volume: an interior sphere represents its lattice cell, a surface sphere its part
 /// of the rest, by area. Then the surface shares (those of a lattice: all) are multiplied by
 /// 1 + a + b . (x - mean), with the four numbers that make all shares sum to the volume and their
 /// first moments to the centroid. Where the centres lie in a plane or on a line that misses the

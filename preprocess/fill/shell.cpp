@@ -17,13 +17,13 @@ namespace ice {
 
 namespace {
 
-// In units of the spacing.
-constexpr double kTile = 32.0;            // a tile's edge
-constexpr double kSeedSize = 0.7;         // between the samples that fronts may start from
-constexpr double kLineSize = 0.1;         // the same in 2D, where samples alone close the gaps
-constexpr double kCoveredInPlane = 0.62;  // in 2D a sample that has no seat this near gets one
-constexpr double kDeep = 0.75;            // radii that a seed of use is from the surface
-constexpr std::size_t kManySeeds = 20000;
+// In units of the spacing. Seats depend on all of them but the last.
+constexpr double kTile = 32.0;             // a tile's edge: a thousand seats of a flat face
+constexpr double kSeedSize = 0.7;          // between the samples that fronts may start from
+constexpr double kLineSize = 0.1;          // the same in 2D, where samples alone close the gaps
+constexpr double kCoveredInPlane = 0.62;   // in 2D a sample that has no seat this near gets one
+constexpr double kDeep = 0.75;             // radii that a seed of use is from the surface
+constexpr std::size_t kManySeeds = 20000;  // count: of fewer seeds one thread is faster
 
 struct Tile {
     std::array<int, 3> at;

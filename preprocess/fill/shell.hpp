@@ -8,10 +8,11 @@
 
 namespace ice {
 
+/// How the layer is made.
 struct ShellOptions {
-    double radius = 0.1;   ///< [m]
-    double spacing = 0.1;  ///< wanted distance of neighbours [m]
-    int dimension = 3;
+    double radius = 0.1;     ///< [m]
+    double spacing = 0.1;    ///< wanted distance of neighbours [m]
+    int dimension = 3;       ///< 3, or 2: along the section's outline
     bool mirror = false;     ///< the solid is symmetric about y = 0: make the layer so, bit for bit
     double line_step = 0.2;  ///< between the points that edges are followed by [spacings]
     double sharp = 0.94;     ///< cosine of the turn between faces that meet in an edge: 20 degrees

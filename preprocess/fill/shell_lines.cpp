@@ -18,7 +18,7 @@ namespace {
 
 // In units of the spacing.
 constexpr double kEdgeSeparation = 0.5;  // between spheres of different edges
-constexpr double kEdgeRounding = 1e-6;
+constexpr double kEdgeRounding = 1e-6;   // by which the separation may be missed
 constexpr double kEdgeMirrorGap = 0.25;  // half of it: a sphere and its image
 
 using Line = std::vector<Vec3>;
@@ -41,8 +41,8 @@ Seats settle_starts(const SurfaceTree& tree, const ShellOptions& o, const Line& 
     return seats;
 }
 
-// The starts without those that have two neighbours on either side on one straight line: what lies
-// between two settled places of a straight edge is settled, too. Two are kept at each end, because
+// Drops the starts that have two neighbours on either side on one straight line: a place between
+// two settled places of a straight edge is settled, too. Two are kept at each end, because
 // the first may lie beyond the next face.
 Line drop_between(const Line& starts) {
     const auto straight = [&](std::size_t k) {
@@ -72,7 +72,7 @@ struct SettledLine {
     Line centers, ways;
 };
 
-// Those of a line of starts, cut where the edge is too sharp for a sphere.
+// The settled centres of a line of starts, cut where the edge is too sharp for a sphere.
 std::vector<SettledLine> settle_line(const SurfaceTree& tree, const ShellOptions& o,
                                      const Line& starts) {
     const Seats seats = settle_starts(tree, o, starts);
@@ -100,7 +100,7 @@ std::vector<SettledLine> settle_line(const SurfaceTree& tree, const ShellOptions
 
 // Do two of the faces that a seat touches meet in an edge that goes one way or the other?
 bool is_in_edge(const Seat& seat, const Vec3& way) {
-    constexpr double kSameWay = 0.94;  // cosine of 20 degrees
+    constexpr double kSameWay = 0.94;  // cosine of 20 degrees: knuckles of one edge
     for (std::size_t i = 0; i + 1 < static_cast<std::size_t>(seat.touches); ++i)
         for (std::size_t j = i + 1; j < static_cast<std::size_t>(seat.touches); ++j) {
             const Vec3 along = seat.touch[i].cross(seat.touch[j]);
@@ -192,7 +192,7 @@ public:
             for (const Seat& corner : corners) place(corner);
         }
     }
-    /// All but the spheres placed beside a corner before it was: it stands for their faces.
+    /// All but the spheres placed beside a corner before it was: the corner represents their faces.
     std::vector<Seat> take() {
         std::vector<Seat> out;
         for (const Seat& seat : seats_) {
@@ -215,7 +215,7 @@ private:
         return mirror_seat(tree_, seat, o_.radius, kEdgeMirrorGap * o_.spacing);
     }
 
-    // Unless there is one near that stands for the same faces, or in a corner touches them.
+    // Unless there is one near that represents the same faces, or in a corner touches them.
     void place(const Seat& found) {
         const auto seat = in_half(found);
         if (!seat) return;
@@ -246,6 +246,8 @@ std::vector<Seat> seat_lines(const SurfaceTree& tree, const ShellOptions& option
                            : trace_sharp_edges(tree, options.radius, step, options.sharp);
     LineSeats seats(tree, options);
     std::vector<Seat> corners;
+    // On a mesh finer than the spheres starts lie closer than seats, and most would be settled for
+    // nothing.
     const bool fine = is_fine_for(tree, options.radius);
     for (const Line& all : lines) {
         const Line starts = fine ? drop_near(all, step) : all;
@@ -257,6 +259,7 @@ std::vector<Seat> seat_lines(const SurfaceTree& tree, const ShellOptions& option
             seats.place(line.centers, corners);
         }
     }
+    // Last: a corner is missing only when no line has reached it.
     if (options.dimension == 3) seats.add_missing_corners();
     return seats.take();
 }

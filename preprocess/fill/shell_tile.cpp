@@ -19,20 +19,20 @@ constexpr double kPi = std::numbers::pi;
 // the next ones at sqrt(3) = 1.73, and the middles of its holes, corners of the Voronoi cells, at 1
 // / sqrt(3) = 0.577 from the nearest seats. The certificate's covering radius is the largest such
 // distance in the layer: it can be no less than 0.577, and kGap and kCovered lie just above. Lower
-// ones ask for seats where the separations below leave no room; higher ones leave larger holes.
+// ones need seats where the separations below leave no room; higher ones leave larger holes.
 //
 // The separations are below 1, because fronts that meet do not fit: a lower one puts more seats
 // into their seams, a higher one leaves holes there for the next stage.
-constexpr double kHalo = 2.0;         // how far beyond the tile seats matter: over kCellReach
-constexpr double kBeyond = 1.2;       // how far beyond it gaps are closed
-constexpr double kStretch = 1.02;     // of a front's hexagons
-constexpr double kReach = 1.4;        // neighbours that take part in a hexagon: 1, not 1.73
-constexpr double kSeparation = 0.74;  // a hexagon's seams: nearer than this is not placed
-constexpr double kMirrorGap = 0.37;   // half of it: a sphere and its image
-constexpr double kUnreached = 0.9;    // a seed this far from all seats starts a front
-constexpr double kGap = 0.635;        // corners of Voronoi cells farther away are gaps
-constexpr double kGapSeparation = 0.61;
-constexpr double kGapMirror = 0.15;
+constexpr double kHalo = 2.0;             // how far beyond the tile seats matter: over kCellReach
+constexpr double kBeyond = 1.2;           // how far beyond it gaps are closed
+constexpr double kStretch = 1.02;         // of a front's hexagons
+constexpr double kReach = 1.4;            // neighbours that take part in a hexagon: 1, not 1.73
+constexpr double kSeparation = 0.74;      // a hexagon's seams: nearer than this is not placed
+constexpr double kMirrorGap = 0.37;       // half of it: a sphere and its image
+constexpr double kUnreached = 0.9;        // a seed this far from all seats starts a front
+constexpr double kGap = 0.635;            // corners of Voronoi cells farther away are gaps
+constexpr double kGapSeparation = 0.61;   // a gap's seat: nearer than this is not placed
+constexpr double kGapMirror = 0.15;       // from a gap's seat to the centre plane, at least
 constexpr double kCovered = 0.62;         // a seed farther from all seats gets one
 constexpr double kCoverSeparation = 0.4;  // where it had to move into the centre plane
 constexpr double kAlike = 0.25;           // cube of seeds that end alike, of radius and spacing
@@ -41,8 +41,8 @@ constexpr double kCellSize = 0.9;         // half the edge of the square a cell 
 constexpr double kOutside = 0.02;         // beyond a plane: not settled in a convex solid
 
 constexpr std::size_t kFewFine = 16;  // seats of a fine mesh that one thread settles alone
-constexpr std::size_t kMostConvexTests = 10000;
-constexpr double kFlat = 1e-9;  // of the largest extent: faces of one plane
+constexpr std::size_t kMostConvexTests = 10000;  // faces times vertices: floes, not hulls
+constexpr double kFlat = 1e-9;                   // of the largest extent: faces of one plane
 
 Eigen::AlignedBox3d around(const Eigen::AlignedBox3d& box, double halo) {
     return {box.min() - Vec3::Constant(halo), box.max() + Vec3::Constant(halo)};

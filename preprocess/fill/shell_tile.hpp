@@ -47,8 +47,8 @@ public:
     /// the surface, that are farther away than 0.635 spacings.
     void close_gaps();
 
-    /// Places a sphere at every seed that has none within 0.62 spacings: what neither fronts nor
-    /// Voronoi cells reached.
+    /// Places a sphere at every seed that has none within 0.62 spacings: places that neither fronts
+    /// nor Voronoi cells reached.
     void cover(const std::vector<Seed>& seeds);
 
     /// Spheres placed since the tile was made.
@@ -58,7 +58,7 @@ private:
     struct Neighbour {
         double u, v;      // in the tangent plane [m]
         double distance;  // in space [m]
-        double angle;     // in the plane; set where a front asks for it
+        double angle;     // in the plane [rad]; set where a front needs it
     };
     struct Plane {
         Vec3 centre, normal, e1, e2;

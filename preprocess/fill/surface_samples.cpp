@@ -62,6 +62,7 @@ void SurfaceSampler::add_section(std::size_t t, std::vector<SurfaceSample>& out)
     if (count != 2) return;
     const Vec3 a(low[0].x(), 0.0, low[0].z()), b(low[1].x(), 0.0, low[1].z());
     const double length = (b - a).norm();
+    // per metre of breadth the area of a piece is its length
     const int k = pieces(length, size_);
     const Vec3 normal = mesh_.area_vector(t).normalized();
     for (int i = 0; i < k; ++i)

@@ -19,7 +19,7 @@ struct SurfaceSample {
 /// samples of a large surface never are in memory together.
 ///
 /// A triangle is cut into strips along its longest edge and each strip into equal pieces: slender
-/// triangles get no more pieces than their area asks for. In 2D the flat ends of the prism (normal
+/// triangles get no more pieces than their area needs. In 2D the flat ends of the prism (normal
 /// along y) have no samples and the pieces are strips across the breadth, centres in y = 0.
 class SurfaceSampler {
 public:

@@ -13,11 +13,17 @@ namespace ice {
 
 namespace {
 
+// Samples of a survey, about, at most: 60 MB. Percentiles need no more.
 constexpr double kMostSamples = 1.5e6;
-constexpr double kShareSize = 1.0 / 3.0;  // spacings, where only shares are needed
-constexpr double kReachable = 1e-6;       // radii by which the other side may be nearer
-constexpr double kFar = 8.0;              // spacings: a part without spheres, represented by none
-constexpr double kFaceSpread = 0.087;     // 5 degrees: beyond, a sphere is in an edge
+// Size of a sample [spacings] where only shares are needed: about nine samples for each sphere.
+constexpr double kShareSize = 1.0 / 3.0;
+// Share of the radius [-] by which the other side may be nearer: rounding of settled seats.
+constexpr double kReachable = 1e-6;
+// Distance to the nearest sphere [spacings] from which a part has no spheres and is represented by
+// none. Larger values only make the search longer there.
+constexpr double kFar = 8.0;
+// Spread [rad], 5 degrees, beyond which a sphere is in an edge and has no normal of a face.
+constexpr double kFaceSpread = 0.087;
 
 // `last` is the sphere that the sample before was near to: likely a neighbour.
 Sight look(const SurfaceTree& tree, const SphereSet& set, const SphereFinder& finder,
@@ -36,9 +42,8 @@ Sight look(const SurfaceTree& tree, const SphereSet& set, const SphereFinder& fi
     out.owner = near.index;
     const Vec3& center = set.centers[static_cast<std::size_t>(near.index)];
     out.gap = static_cast<float>(std::max((sample.point - center).norm() - radius, 0.0));
-    // where no sphere fits, nothing can cover
-    // In a wedge or a thin part the sphere at this seat would stick out on the other side. The set
-    // is not to blame for such places: they count as gap, not as cover.
+    // Where no sphere fits, nothing can cover: in a wedge or a thin part the sphere at this seat
+    // would stick out on the other side. Such places count as gap, not as cover.
     if (share_only || !tree.is_clear(seat, radius * (1.0 - kReachable))) return out;
     out.cover = static_cast<float>(finder.covering(seat, sample.normal, any).distance);
     const auto k = static_cast<std::size_t>(near.index);
@@ -75,6 +80,8 @@ PointCells::Nearest SphereFinder::nearest(const Vec3& p, std::int32_t known) con
 }
 
 bool SphereFinder::covers(std::int32_t sphere, const Vec3& normal) const {
+    // [rad] a right angle and a little: the faces of a box cover each other's edges despite
+    // rounding
     constexpr double kRightAngle = 0.5 * std::numbers::pi + 0.01;
     const auto k = static_cast<std::size_t>(sphere);
     const double most = std::min(set_.normal_spread[k] + kRightAngle, std::numbers::pi);

@@ -61,8 +61,8 @@ private:
 };
 
 /// Looks at the set from samples all over the surface, in triangle order. A sample belongs to the
-/// sphere nearest to where a touching sphere would sit (point - R normal), among those that stand
-/// for its face, so that the spheres of one face take no area of another round an edge.
+/// sphere nearest to where a touching sphere would sit (point - R normal), among the spheres that
+/// represent its face, so that the spheres of one face take no area of another round an edge.
 ///
 /// @param half  sample only y >= 0 (solid and set are their own mirror images)
 /// @param shares_only  from fewer samples, which tell area, owner, gap and place only

@@ -13,6 +13,7 @@ void measure_distances(const TriangleSides& t, const PointBatch& points, double*
         return v.x() * x + v.y() * y + v.z() * z;
     };
     for (std::size_t k = 0; k < points.count; ++k) {
+        // least: of the point's heights over the three sides, negative where it is beyond one
         double least = std::numeric_limits<double>::infinity(), rim = least, height = 0.0;
         for (std::size_t e = 0; e < 3; ++e) {
             const Vec3 &from = t.corner[e], &edge = t.edge[e];
@@ -20,6 +21,7 @@ void measure_distances(const TriangleSides& t, const PointBatch& points, double*
                          z = points.z[k] - from.z();
             if (e == 0) height = dot(t.normal, x, y, z);
             least = std::min(least, dot(t.inward[e], x, y, z));
+            // the nearest point of the edge: its foot, or the end beyond which it lies
             const double along = dot(edge, x, y, z) * t.per_edge_sq[e];
             const double part = std::min(std::max(along, 0.0), 1.0);
             const double dx = x - part * edge.x(), dy = y - part * edge.y(),

@@ -51,6 +51,7 @@ void MeasureDistances(const TriangleSides& t, const PointBatch& points, double* 
             least = e == 0 ? over : hn::Min(least, over);
             rim = e == 0 ? square : hn::Min(rim, square);
         }
+        // both answers cost less than a branch: neighbouring points fall on both sides
         const auto face = hn::Mul(hn::Mul(height, height), hn::Set(d, t.per_area_sq));
         hn::StoreU(hn::IfThenElse(hn::Ge(least, zero), face, rim), d, out + k);
     }

@@ -15,10 +15,18 @@ namespace ice {
 
 namespace {
 
-constexpr double kShortest = 0.05, kLongest = 600.0;  // of ships and floes [m]
-constexpr double kModelInMillimetres = 100.0;         // file units: models are longer
-constexpr double kLong = 1.5;                         // times the extent along forward
-constexpr double kFiner = 0.8;                        // a bow's sections to a stern's, at most
+// Lengths of ships and floes [m]: a model floe and the longest ships (458 m). Lengths outside get a
+// warning, and 1000 to 600 000 file units are read as millimetres.
+constexpr double kShortest = 0.05, kLongest = 600.0;
+// Length [file units] from which a mesh in metres may as well be a model in millimetres: the report
+// then states both. It changes no number.
+constexpr double kModelInMillimetres = 100.0;
+// Longest extent over that along forward [-], from which the axes are doubted in a warning. Hulls
+// are 1.5 times as long as broad and more (half_hull.hpp); lower values would doubt floes.
+constexpr double kLong = 1.5;
+// Breadth of the finer end's sections over that of the other end [-] up to which the finer end
+// counts as the bow. Nearer to 1 a stern with fine lines would be taken for a bow.
+constexpr double kFiner = 0.8;
 
 std::string axis_name(int axis) { return std::string(1, static_cast<char>('x' + axis)); }
 
@@ -33,6 +41,7 @@ std::string unit_name(double metres) {
     return fmt::format("{:g} m", metres);
 }
 
+// Decides units, then up, then forward: each later guess uses the ones before.
 class Chooser {
 public:
     Chooser(const TriangleMesh& mesh, const FileFrame& file, const ReadOptions& options,
@@ -57,7 +66,7 @@ private:
 
     void choose_units() {
         const double length = bounding_box(mesh_).sizes().maxCoeff();
-        // In this order: what the user says, what the file says, and a guess, which is noted.
+        // In this order: the user's option, the file's statement, and a guess, which is noted.
         if (options_.scale) {
             frame_.metres = *options_.scale;
         } else if (file_.metres) {

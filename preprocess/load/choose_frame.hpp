@@ -33,8 +33,8 @@ struct FileFrame {
     bool left_handed = false;
 };
 
-/// How a file's numbers become metres in the ship frame (x forward, y to port, z up). What is not
-/// given is taken from the file or guessed.
+/// How a file's numbers become metres in the ship frame (x forward, y to port, z up). Values that
+/// are not given are taken from the file or guessed.
 struct ReadOptions {
     std::optional<double> scale;         ///< metres per file unit
     std::optional<std::string> up;       ///< file axis that points up: "y" or "z"
@@ -45,7 +45,7 @@ struct ReadOptions {
 /// Values that reading took from the file or guessed, and its changes to the mesh.
 struct ReadNotes {
     /// "units", "up", "forward": value and reason, such as "mm, because the solid would be 9000 m
-    /// long in metres". No entry for what an option gave.
+    /// long in metres". No entry where an option gave the value.
     std::map<std::string, std::string> guessed;
     std::vector<std::string> warnings;
     std::int64_t centre_plane_dropped = 0;  ///< triangles in y = 0 that went before mirroring

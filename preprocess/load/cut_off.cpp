@@ -56,6 +56,7 @@ std::string check_last_line(std::ifstream& in) {
     std::string line;
     for (int k = 0; k < 2 && std::getline(in, line); ++k)
         if (line.find("binary") != std::string::npos) return {};
+    // the loop above may have reached the end of a short file
     in.clear();
     in.seekg(-1, std::ios::end);
     return in.get() == '\n' ? std::string() : cut_off("its last line does not end");

@@ -15,16 +15,17 @@ struct HullAxes {
     bool prism = false;  ///< every face lies along the breadth or square to it
 };
 
-/// Every face, but for 1 % of the surface, lies along an axis or square to it (to 1 degree).
+/// True where every face, but for 1 % of the surface, lies along an axis or square to it (to 1
+/// degree).
 bool is_prism(const TriangleMesh& mesh, int axis);
 
 /// Nothing when the longest extent is less than 1.5 times the next, when no plane along it is one
 /// of symmetry, both are, or one may be (kSymmetric, kLopsided). Cost O(T).
 std::optional<HullAxes> find_hull_axes(const TriangleMesh& mesh);
 
-/// Breadth of the sections near the lower end of the length over that near the upper end: the mean
-/// over stations at 2, 5, 8, 11 and 14 % of the length from each. Below 1 the lower end is finer.
-/// 1 where nothing is cut.
+/// Breadth of the sections near the lower end of the length over that near the upper end [-]: the
+/// mean over stations at 2, 5, 8, 11 and 14 % of the length from each. Below 1 the lower end is
+/// finer. 1 where nothing is cut.
 double fineness_ratio(const TriangleMesh& mesh, const HullAxes& axes);
 
 }  // namespace ice

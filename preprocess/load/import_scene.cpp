@@ -36,12 +36,14 @@ constexpr std::array<std::string_view, 8> kFormats{"obj", "stl",  "ply", "off",
 constexpr const char* kRemedy =
     "formats are OBJ, STL, PLY, OFF, DAE, glTF, FBX, each also with .gz";
 
+// Walks the tree of nodes, since each may turn, scale or mirror the parts below it. assimp's own
+// flattening would apply the root's unit and axes as well, which the command line may replace.
 class Collector {
 public:
     explicit Collector(const aiScene& scene) : scene_(scene), format_(format_of(scene)) {}
 
     TriangleMesh collect() {
-        // the root of these two is assimp's own and holds what frame_of() reads
+        // the root of these two is assimp's own and holds the values that frame_of() reads
         const bool skip_root = format_ == "Collada" || format_ == "FBX";
         const Mat4 root =
             skip_root ? Mat4::Identity() : to_matrix(scene_.mRootNode->mTransformation);
@@ -67,7 +69,7 @@ private:
 
     std::int32_t region_of(const aiMesh& mesh, const aiNode& node) {
         const std::string name = part_name(mesh, node);
-        // names that stand for none
+        // names that exporters write where the user gave none
         if (name.empty() || name == "default" || name == "defaultobject") return 0;
         const auto known = std::find(out_.region_names.begin(), out_.region_names.end(), name);
         if (known == out_.region_names.end()) {
@@ -166,6 +168,7 @@ private:
 };
 
 std::string first_bytes(const std::filesystem::path& file) {
+    // a header of a megabyte: real ones have some hundred bytes
     std::string head(1 << 20, '\0');
     std::ifstream in(file, std::ios::binary);
     in.read(head.data(), static_cast<std::streamsize>(head.size()));
@@ -212,6 +215,7 @@ ImportedMesh import_once(const std::filesystem::path& file, const std::vector<ch
     importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
     importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,
                                 aiPrimitiveType_POINT | aiPrimitiveType_LINE);
+    // First without post-processing: triangulation of a damaged face would abort the program.
     const aiScene* scene = read_scene(importer, file, bytes);
     if (scene != nullptr) {
         check_faces(file, *scene);

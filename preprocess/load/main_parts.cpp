@@ -11,9 +11,14 @@ namespace ice {
 
 namespace {
 
-constexpr double kFlat = 1e-6;    // of a part's diagonal: its least extent
-constexpr double kBeyond = 0.05;  // of the diagonal: by which a sheet may reach beyond the rest
+// Least extent of a part over its diagonal [-] up to which it is a flat sheet: far above rounding,
+// far below the thickness of a plate.
+constexpr double kFlat = 1e-6;
+// Share of the diagonal [-] by which a sheet may reach beyond the rest: a deck with a rail does, a
+// sea plane reaches many times farther.
+constexpr double kBeyond = 0.05;
 
+// A part of the mesh, by its measures.
 struct Part {
     Eigen::AlignedBox3d box;
     double area = 0.0;

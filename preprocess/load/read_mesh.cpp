@@ -41,7 +41,10 @@ bool lies_on_both_sides(const TriangleMesh& mesh) {
 // assimp keeps coordinates as floats: far from the origin, in map coordinates say, they are too
 // coarse for the shape.
 void check_distance(const TriangleMesh& mesh, const std::filesystem::path& file, ReadNotes& notes) {
-    constexpr double kFloat = 6e-8, kWorthSaying = 1e-6, kTooCoarse = 1e-4;  // of the size
+    // Shares [-]: the rounding of a float; the rounding over the mesh's size from which on it is
+    // told (weld() merges vertices within as much), and from which on the mesh is refused (a step
+    // of 1 cm on a ship of 100 m). Larger bounds accept meshes with steps in their surface.
+    constexpr double kFloat = 6e-8, kWorthSaying = 1e-6, kTooCoarse = 1e-4;
     Eigen::AlignedBox3d box;
     for (const Vec3& v : mesh.vertices) box.extend(v);
     const double size = box.diagonal().norm();
@@ -59,6 +62,8 @@ void check_distance(const TriangleMesh& mesh, const std::filesystem::path& file,
 
 TriangleMesh read_mesh(const std::filesystem::path& file, const ReadOptions& options,
                        ReadNotes* notes) {
+    // In the order of certainty: the file, its numbers, its area, then the guesses, which need all
+    // three.
     std::error_code error;
     if (!std::filesystem::is_regular_file(file, error))
         throw bad_input(file.string(), "mesh file not found", "check the path");

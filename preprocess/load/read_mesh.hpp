@@ -13,8 +13,8 @@ namespace ice {
 /// Reads OBJ, STL, PLY, OFF, DAE, glTF, GLB and FBX, with the parts' names, also compressed
 /// (hull.stl.gz).
 ///
-/// assimp keeps coordinates as floats; the shortest decimal of the float is taken, which is what
-/// the file said where it said it in seven digits or fewer.
+/// assimp keeps coordinates as floats; the shortest decimal of the float is taken, which is the
+/// file's number where that has seven digits or fewer.
 ///
 /// Polygons are split into triangles; points and lines are dropped. Every node's transformation is
 /// applied in double precision; a reflecting one turns its triangles over. A group, object or node

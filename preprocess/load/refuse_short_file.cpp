@@ -30,7 +30,9 @@ struct Element {
     long count = 0;
     std::vector<Property> properties;
 };
-constexpr long kMostRows = 1L << 48;  // of an element: their sum must not overflow
+// Rows of an element that are believed: no file has as many, and the sum over some thousand
+// elements still fits into 64 bits.
+constexpr long kMostRows = 1L << 48;
 struct PlyHeader {
     bool text = false, swapped = false;
     std::vector<Element> elements;

@@ -16,6 +16,8 @@ struct WeightedPoint {
 
 // Exact for polynomials up to degree 3: corners 1/20, middles of the sides 2/15, centre 9/20.
 std::array<WeightedPoint, 7> cubature(const Vec3& a, const Vec3& b, const Vec3& c) {
+    // Shares of the triangle's area [-], which add up to 1. Degree 3, because the highest moment
+    // below has that degree; a rule of lower degree would depend on the triangles.
     constexpr double corner = 1.0 / 20.0, side = 2.0 / 15.0, centre = 9.0 / 20.0;
     return {{{a, corner},
              {b, corner},

@@ -25,7 +25,7 @@ Eigen::AlignedBox3d bounding_box(const TriangleMesh& mesh);
 /// Cost O(T).
 double asymmetry(const TriangleMesh& mesh, int axis);
 
-/// asymmetry() below the first is symmetric, above the second is not, between them is doubt.
+/// asymmetry() [-] below the first is symmetric, above the second is not, between them is doubt.
 /// Measured: the two sides of a Wigley hull meshed with 24 and 48 stations 9e-4, with 16 and 32
 /// 2e-3; hulls from deck to keel (the paper's two, a Wigley hull, a 100 m icebreaker) 0.16 to 0.31.
 inline constexpr double kSymmetric = 0.01, kLopsided = 0.05;

@@ -22,6 +22,8 @@ double side_of(const Vec3& a, const Vec3& b, double pu, double pv, int u, int v)
     const bool swapped = std::pair(b[u], b[v]) < std::pair(a[u], a[v]);
     const Vec3 &lo = swapped ? b : a, &hi = swapped ? a : b;
     const double area = (hi[u] - lo[u]) * (pv - lo[v]) - (hi[v] - lo[v]) * (pu - lo[u]);
+    // A row through an edge or corner is decided to one side. Both triangles of the edge compute
+    // the same bits, so that exactly one of them is met.
     const double decided = area == 0.0 ? 1e-300 : area;
     return swapped ? -decided : decided;
 }

@@ -13,8 +13,8 @@ RowVolume integrate(const std::vector<RowCrossing>& crossings, double area) {
         int winding = 0, count = 0;
         const std::int32_t row = crossings[k].row;
         for (; k < crossings.size() && crossings[k].row == row; ++k, ++count) {
-            // from the crossing before to this one, over the row's cell: three opinions on what
-            // lies there
+            // from the crossing before to this one, over the row's cell: three readings, which
+            // differ where the surface crosses itself
             const double behind =
                 count == 0 ? 0.0 : area * (crossings[k].depth - crossings[k - 1].depth);
             out.by_sign += winding * behind;

@@ -12,6 +12,7 @@
 namespace ice {
 
 TriangleMesh alpha_wrap(const TriangleMesh& mesh, double alpha, double offset) {
+    // exact predicates decide sides; coordinates of the wrap may round
     using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
     using Surface = CGAL::Surface_mesh<Kernel::Point_3>;
     std::vector<Kernel::Point_3> points;

@@ -16,7 +16,9 @@ namespace {
 using Key = std::pair<std::int32_t, std::int32_t>;
 using Triple = std::array<std::int32_t, 3>;
 
-constexpr std::size_t kDeckCorners = 8;  // holes of fewer are not worth a second triangulation
+// Corners of a hole from which the triangulation in plan is tried, too: a deck has dozens. Smaller
+// holes give the same patch by both, and the second would cost time only.
+constexpr std::size_t kDeckCorners = 8;
 
 Key edge_key(std::int32_t a, std::int32_t b) { return std::minmax(a, b); }
 
@@ -78,6 +80,7 @@ std::vector<Triple> patch_of(TriangleMesh& mesh, const BorderLoop& loop,
         points.push_back(mesh.vertices[static_cast<std::size_t>(v)]);
     auto local = fill_loop(points, points_across(mesh, loop));
     if (points.size() >= kDeckCorners) {
+        // Of both patches the smaller one: a deck is plated across, from side to side.
         // the smoothest surface over a sheer line is a dome from stem to stern
         auto plan = fill_loop_in_plan(points);
         if (!plan.empty() && (local.empty() || area_of(points, plan) < area_of(points, local)))

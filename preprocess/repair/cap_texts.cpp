@@ -11,10 +11,16 @@ namespace ice {
 
 namespace {
 
-constexpr double kWorthWarning = 0.002;       // of the surface: one cap
-constexpr double kDoubtWorthWarning = 0.005;  // of the volume: all caps together
-constexpr std::size_t kMostNamed = 5;         // openings
-constexpr double kCracked = 0.25;             // of the open edges' vertices: of a hole it is none
+// Area of one cap over the surface [-] that is worth a warning. These bounds choose texts alone; no
+// mesh is changed or refused by them.
+constexpr double kWorthWarning = 0.002;
+// Volume in doubt over the whole [-], by all caps together, that is worth a warning.
+constexpr double kDoubtWorthWarning = 0.005;
+// Openings named one by one; the others are counted.
+constexpr std::size_t kMostNamed = 5;
+// Share of the open edges' vertices that lie beside another border [-], from which on the openings
+// are told as cracks. Of a hole none do.
+constexpr double kCracked = 0.25;
 
 }  // namespace
 
@@ -53,8 +59,8 @@ std::vector<std::string> cap_warnings(const ClosedSurface& closed) {
 }
 
 std::string fault_of(const CapVerdict& cap, const ClosedSurface& closed) {
-    // Two faults look alike: many openings whose doubts add up, of which this one is not half, and
-    // one opening that is too large by itself. They have different remedies.
+    // Two faults look alike: many openings whose doubts add up, so that this one has less than
+    // half, and one opening that is too large by itself. They have different remedies.
     if (closed.doubt > kMostDoubt && cap.doubt < 0.5 * closed.doubt * closed.volume)
         return fmt::format(
             "closing its {} openings leaves {:.2g} % of the volume in doubt ({:g} % may be), most "

@@ -16,7 +16,8 @@ std::string place(const Vec3& at);
 /// doubt where that is over 0.5 %.
 std::vector<std::string> cap_warnings(const ClosedSurface& closed);
 
-/// Why a cap that is a guess is refused: what all openings leave in doubt together, or its size.
+/// Why a cap that is a guess is refused: the volume that all openings leave in doubt together, or
+/// its size.
 std::string fault_of(const CapVerdict& cap, const ClosedSurface& closed);
 
 /// That many openings are cracks between patches which stitch_borders() left; "" where not.

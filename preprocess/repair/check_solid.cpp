@@ -34,6 +34,7 @@ SolidDiagnosis diagnose_edges(const TriangleMesh& mesh) {
 }
 
 SolidDiagnosis diagnose_solid(const TriangleMesh& mesh) {
+    // from cheap to costly
     SolidDiagnosis out = diagnose_edges(mesh);
     out.parts = find_parts(mesh).count;
     // Crossings cost most and are searched last: an open surface has other faults to mend first.

@@ -12,7 +12,7 @@ namespace ice {
 struct Opening {
     Vec3 at = Vec3::Zero();  ///< mean of its corners [m]
     double perimeter = 0.0;  ///< [m]
-    std::int64_t edges = 0;
+    std::int64_t edges = 0;  ///< count
 };
 
 /// Faults that keep a triangle mesh from being the surface of a solid.

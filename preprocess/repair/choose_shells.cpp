@@ -12,7 +12,8 @@ namespace ice {
 
 namespace {
 
-// Volume of a shell that counts as none, of its area to the power of 3/2 (a sphere has 0.094).
+// Volume of a shell that counts as none, over its area to the power of 3/2 [-] (a sphere has
+// 0.094). Rounding of a doubled sheet is below it; a larger value would drop thin plates.
 constexpr double kFlat = 1e-9;
 
 struct Shell {
@@ -79,6 +80,7 @@ ShellCounts choose_shells(TriangleMesh& mesh, SolidKind kind) {
         int outside = 0;
         bool enclosed = false;
         for (const Shell& other : shells) {
+            // a shell whose box does not hold this one's cannot be around it
             if (&other == &shell || is_flat(other) || !other.box.contains(shell.box)) continue;
             const int around = winding(mesh, other, shell.sample);
             outside += around;

@@ -16,8 +16,9 @@ namespace ice {
 
 namespace {
 
-// Volume of a part that needed caps and counts as none, of its area to the power of 3/2: a plate
-// a thousandth as thick as wide.
+// Volume of a part that needed caps and counts as none, over its area to the power of 3/2 [-]: a
+// plate a thousandth as thick as wide. Larger values drop fins that were left open, smaller ones
+// keep loose triangles as solids.
 constexpr double kScrap = 1e-3;
 
 void mirror(TriangleMesh& mesh, Repairs& repairs) {

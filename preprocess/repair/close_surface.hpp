@@ -18,7 +18,7 @@ struct ClosedSurface {
     double surface = 0.0;          ///< area without caps [m2]
     double widest = 0.0;           ///< of caps that are a guess: 4 area / perimeter [m]
     double volume = 0.0;           ///< of all parts [m3]
-    double doubt = 0.0;            ///< volume that depends on the caps, of the whole
+    double doubt = 0.0;            ///< volume that depends on the caps, over the whole [-]
 };
 
 /// Welded triangles -> a surface without boundary: copies and walls without thickness dropped, an

@@ -21,6 +21,8 @@ std::size_t offset_of(const Grid& grid, int corner) {
            static_cast<std::size_t>(corner >> 2 & 1) * nx * ny;
 }
 
+// Marching tetrahedra, not cubes: a cube has ambiguous cases that can leave holes or edges of four
+// triangles, a tetrahedron has none, at the price of more triangles.
 class Contour {
 public:
     Contour(const Grid& grid, const std::vector<std::uint8_t>& inside)
@@ -87,6 +89,7 @@ private:
     std::int32_t vertex(std::size_t base, Cut e) {
         const std::size_t in = base + offset_[e.first], out = base + offset_[e.second];
         // the lower end and which of the seven directions
+        // an edge of the grid has one vertex, whichever of its tetrahedra comes first
         const std::size_t key =
             std::min(in, out) * 8 + static_cast<std::size_t>(e.first ^ e.second);
         const auto [at, fresh] = known_.try_emplace(key, static_cast<std::int32_t>(edges_.size()));
@@ -132,7 +135,7 @@ void fill_voids(const Grid& grid, std::vector<std::uint8_t>& inside) {
         open.pop_back();
         const auto at = place(k);
         // The 14 neighbours along the edges and diagonals that the contour's tetrahedra use, so
-        // that flood and contour agree on what is connected.
+        // that flood and contour agree on the cells that are connected.
         for (int direction = 1; direction < 8; ++direction)
             for (const std::int32_t sign : {-1, 1}) {
                 bool within = true;

@@ -14,6 +14,7 @@ struct Grid {
     double step = 1.0;           ///< [m]
     std::array<std::int32_t, 3> nodes{};
 
+    /// Count of nodes.
     std::size_t size() const {
         return static_cast<std::size_t>(nodes[0]) * static_cast<std::size_t>(nodes[1]) *
                static_cast<std::size_t>(nodes[2]);
@@ -33,8 +34,9 @@ void fill_voids(const Grid& grid, std::vector<std::uint8_t>& inside);
 /// Surface between the nodes inside and those outside: marching tetrahedra, each cube cut into the
 /// six around its diagonal (Kuhn), so that it is a closed manifold whatever the nodes say, faces
 /// outwards and crosses itself nowhere. `inside` has one entry per node, 0 on the grid's border.
-/// @param cut  share of the way from the inner to the outer end of an edge, asked once per crossed
-///             edge from several threads; kept within 0.02 and 0.98 so that no triangle vanishes
+/// @param cut  share of the way from the inner to the outer end of an edge [-], called once per
+///             crossed edge from several threads; kept within 0.02 and 0.98 so that no triangle
+///             vanishes
 TriangleMesh contour_grid(const Grid& grid, const std::vector<std::uint8_t>& inside,
                           const std::function<double(const Vec3& in, const Vec3& out)>& cut);
 

@@ -16,6 +16,8 @@ namespace ice {
 
 namespace {
 
+// Exact constructions: a rounded intersection point would leave the plane of both triangles, and
+// the pieces of neighbours would not fit.
 using Kernel = CGAL::Epeck;
 using Point = Kernel::Point_3;
 using Flat = Kernel::Point_2;
@@ -32,6 +34,8 @@ using Place = std::array<double, 3>;
 
 Point exact(const Vec3& v) { return Point(v.x(), v.y(), v.z()); }
 
+// The common part of two triangles as a walk over its points: a point, a segment or, where they lie
+// in one plane, a closed polygon.
 struct Walk {
     std::vector<Point> operator()(const Point& p) const { return {p}; }
     std::vector<Point> operator()(const Kernel::Segment_3& s) const {

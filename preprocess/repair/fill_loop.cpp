@@ -16,7 +16,9 @@ namespace {
 using LoopKernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Triple = std::array<std::int32_t, 3>;
 
-constexpr std::size_t kCubic = 400;  // corners: up to here CGAL's cubic search takes below a second
+// Corners of a loop up to which CGAL's complete search is used: it is cubic and takes below a
+// second for 400. More would find smoother caps of long loops in minutes.
+constexpr std::size_t kCubic = 400;
 
 // Triangles that run along the loop, not against it.
 void align_with_loop(std::vector<Triple>& patch) {
@@ -75,7 +77,7 @@ std::vector<std::array<std::int32_t, 3>> fill_loop_in_plan(const std::vector<Vec
     } catch (const Delaunay::Intersection_of_constraints_exception&) {
         return {};
     }
-    // outside is what the outer face reaches without crossing the loop
+    // outside are the faces that the outer one reaches without crossing the loop
     std::set<Delaunay::Face_handle> outside{plan.infinite_face()};
     std::vector<Delaunay::Face_handle> open{plan.infinite_face()};
     while (!open.empty()) {

@@ -16,12 +16,14 @@ namespace {
 
 // Limits above which caps are refused (judge_caps.hpp). Larger ones accept more meshes and leave
 // more of the volume to a guess; smaller ones refuse meshes whose volume is known well enough.
-constexpr double kDoubt = 0.005;      // of the volume, in doubt by one cap
-constexpr double kSuspect = 0.005;    // of the surface: largest cap in a file that seems cut off
-constexpr double kContinued = 0.2;    // of the surface: all continued faces together
-constexpr double kLoose = 0.05;       // of the surface: all small caps together
-constexpr double kEnd = 0.0005;       // of the surface: largest cap of guessed form at an end
-constexpr std::size_t kFewEdges = 8;  // round a face or two, or round one vertex, that are missing
+// All are shares [-].
+constexpr double kDoubt = 0.005;    // of the volume, in doubt by one cap
+constexpr double kSuspect = 0.005;  // of the surface: largest cap in a file that seems cut off
+constexpr double kContinued = 0.2;  // of the surface: all continued faces together
+constexpr double kLoose = 0.05;     // of the surface: all small caps together
+constexpr double kEnd = 0.0005;     // of the surface: largest cap of guessed form at an end
+// Edges round a face or two, or round one vertex, that are missing: such a hole has a known form.
+constexpr std::size_t kFewEdges = 8;
 
 // In doubt by one cap, of the volume: below it the kind does not matter and is not found out, which
 // saves time only.
@@ -34,7 +36,7 @@ constexpr double kSteepest = 0.0872;
 // Lengths and angles that count as none: far above the rounding of coordinates with six digits.
 constexpr double kAtEnd = 1e-3;        // of the length: an opening this near to an end is at it
 constexpr double kStep = 1e-3;         // of the diagonal: a step in the rim of a deck
-constexpr double kJustOutside = 1e-4;  // of the diagonal: where winding numbers are asked for
+constexpr double kJustOutside = 1e-4;  // of the diagonal: from a cap to the point of evaluation
 const double kFlat = std::cos(std::numbers::pi / 180.0);  // one degree: faces of one plane
 
 struct Plane {
@@ -42,6 +44,7 @@ struct Plane {
     double offset;
 };
 
+// Measures one cap after the other against the whole surface and volume, which are summed once.
 class Judge {
 public:
     Judge(const TriangleMesh& mesh, const std::vector<Cap>& caps)
@@ -160,6 +163,7 @@ private:
                 return p.normal.dot(n) > kFlat && std::abs(p.offset - offset) < 1e-4 * size_;
             });
             if (!known) planes.push_back({n, offset});
+            // bounds the time: a rim of curved faces has hundreds of planes
             if (planes.size() == 32) break;
         }
         return planes;

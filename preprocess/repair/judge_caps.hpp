@@ -5,7 +5,8 @@
 
 namespace ice {
 
-/// Volume that may depend on how openings are closed, of the whole: all caps together.
+/// Volume that may depend on how openings are closed, over the whole [-]: all caps together. Larger
+/// accepts solids of uncertain mass, smaller refuses hulls with many small holes.
 inline constexpr double kMostDoubt = 0.02;
 
 /// Kinds of caps.

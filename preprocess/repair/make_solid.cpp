@@ -29,6 +29,8 @@ namespace ice {
 
 namespace {
 
+// Bounds between the rungs. Lower ones refuse meshes that are good enough, or climb to a rung that
+// changes more of the mesh; higher ones accept a wrong volume. Shares are [-].
 constexpr double kWindingDiffers = 0.02;  // of the volume: caps against the open surface
 // Over a sheer line the surface where the winding number is a half sags between the ends: 3.7 % of
 // the volume at a sheer of a quarter of the depth.
@@ -37,10 +39,10 @@ constexpr double kCapsMatter = 0.005;      // of the surface: below, caps need n
 constexpr double kNoisy = 0.05;            // of the triangles: they cross their own part
 constexpr std::size_t kNoisyCount = 100;   // at least: of a few large triangles all may cross
 constexpr double kContourError = 0.01;     // of the volume
-constexpr double kVoid = 0.005;            // of the volume: what parts enclose together
-constexpr double kWrapOffset = 1000.0;     // diagonals per offset
-constexpr std::size_t kMostPairs = 50000;  // each costs about 0.2 ms
-constexpr int kRounds = 3;                 // rounding may let cut pieces cross again
+constexpr double kVoid = 0.005;            // of the volume: voids that parts enclose together
+constexpr double kWrapOffset = 1000.0;     // diagonal over the offset of the wrap
+constexpr std::size_t kMostPairs = 50000;  // pairs that are cut: 0.2 ms each, 10 s in all
+constexpr int kRounds = 3;                 // of cutting: rounding may let cut pieces cross again
 constexpr double kCollapsed = 0.5;         // of the volume the winding number gives
 
 const char* const kRemedy =
@@ -48,6 +50,8 @@ const char* const kRemedy =
 
 using CrossingPairs = std::vector<std::pair<std::size_t, std::size_t>>;
 
+// The rungs, from the one that changes least to the one that changes all. Each is tried on a copy
+// and left where its result does not verify.
 class Ladder {
 public:
     Ladder(const std::string& name, const SolidOptions& options, Repairs& repairs,
@@ -65,8 +69,8 @@ public:
         open_edges_ = diagnose_edges(mesh).open_edges;
         if (open_edges_ > 0) stitch(mesh);
         if (options_.mode == RepairMode::wrap) return wrap(mesh);
-        // parts that touch in edges, then holes, then crossings: each step needs what the one
-        // before made
+        // parts that touch in edges, then holes, then crossings: each step needs the result of the
+        // one before
         if (auto solid = unite_touching(mesh)) return flood(std::move(*solid));
         if (!diagnose_edges(mesh).closed()) mesh = close(std::move(mesh));
         return flood(untangle(std::move(mesh)));
@@ -164,6 +168,9 @@ private:
 
     // A closed surface -> one that crosses itself nowhere, or without effect.
     TriangleMesh untangle(TriangleMesh mesh) {
+        // From the method that changes least to the one that changes most: as it is, cut where it
+        // crosses, crossings without effect left, the contour of the winding number, the wrap. Each
+        // result is proved before it is taken.
         const CrossingPairs pairs = find_self_intersections(mesh);
         if (pairs.empty()) {
             TriangleMesh solid = choose(std::move(mesh));
@@ -222,6 +229,8 @@ private:
     }
 
     void say_resolved(const TriangleMesh& mesh, const CrossingPairs& pairs) {
+        // Parts that overlap are usual in drawings of ships and only noted; a part that crosses
+        // itself in many places is a scan or folded, and the user should know.
         const Parts parts = find_parts(mesh);
         std::set<std::int32_t> united;
         std::set<std::size_t> cut, own;

@@ -16,6 +16,7 @@ enum class RepairMode {
     wrap,       ///< shrink-wrap, whatever the mesh is
 };
 
+/// How make_solid() repairs.
 struct SolidOptions {
     SolidKind kind = SolidKind::envelope;
     RepairMode mode = RepairMode::automatic;
@@ -40,7 +41,7 @@ using Repairs = std::vector<std::pair<std::string, std::int64_t>>;
 ///                 vertices becoming one
 /// @param warnings where given, receives doubtful places, with place and size
 /// @throws Error (exit code 2) naming every fault with its count and the place of the first, or the
-///         opening that is too large to guess; and what to do
+///         opening that is too large to guess; and the remedy
 TriangleMesh make_solid(TriangleMesh mesh, const std::string& name, const SolidOptions& options,
                         Repairs& repairs, std::vector<std::string>* warnings = nullptr);
 

@@ -69,6 +69,8 @@ std::vector<std::int32_t> find_patches(const std::vector<MeshEdge>& edges,
                                        const std::vector<int>& times) {
     std::vector<std::int32_t> patch(times.size());
     std::iota(patch.begin(), patch.end(), 0);
+    // Union with path halving; the smaller number is the root, so the result does not depend on the
+    // order of the edges.
     const auto root = [&](std::int32_t t) {
         while (patch[static_cast<std::size_t>(t)] != t) {
             auto& up = patch[static_cast<std::size_t>(t)];
@@ -108,7 +110,7 @@ Role role_of(const TriangleMesh& mesh, const WindingNumber& all, std::size_t t, 
     return behind == before ? Role::inner : behind ? Role::boundary : Role::turned;
 }
 
-// Keeps what bounds the places of positive winding number, facing away from them.
+// Keeps the triangles that bound the places of positive winding number, facing away from them.
 void keep_boundary(TriangleMesh& mesh, const std::vector<int>& times) {
     TriangleMesh counted = mesh;
     for (std::size_t t = 0; t < times.size(); ++t)
@@ -143,7 +145,7 @@ void keep_boundary(TriangleMesh& mesh, const std::vector<int>& times) {
 }  // namespace
 
 std::optional<TriangleMesh> resolve_crossings(
-    // cut all faces where they cross, merge equal places and copies, keep what bounds the solid
+    // cut all faces where they cross, merge equal places and copies, keep the solid's boundary
     const TriangleMesh& mesh, const std::vector<std::pair<std::size_t, std::size_t>>& pairs) {
     auto cut = cut_faces(mesh, pairs);
     if (!cut) return std::nullopt;

@@ -73,6 +73,7 @@ Pairing pair_up(const TriangleMesh& mesh, const Parts& parts, const EdgeEnds& ed
     const auto taken = [&](std::int32_t t) {
         return std::find(used.begin(), used.end(), t) != used.end();
     };
+    // greedily, from the best pair on
     for (const Choice& c : choices) {
         if (taken(c.s) || taken(c.t)) continue;
         out.emplace_back(c.s, c.t);

@@ -13,13 +13,24 @@ namespace ice {
 
 namespace {
 
-constexpr double kCosine = 0.866;    // of the angle from which on two faces make a crease
-constexpr double kOnSurface = 0.05;  // of a cell
-constexpr double kFlatPart = 0.05;   // of the largest eigenvalue: planes that say nothing new
-constexpr double kSliver = 0.02;     // of a cell squared: twice the area of the least triangle
-constexpr double kLongest = 1.5;     // cells: the longest edge of a contour has 1.7
-constexpr int kPasses = 2;           // an edge that was turned makes room for further moves
-constexpr int kMostTakenBack = 4;    // of taking moves back, then all are
+// Cosine of the angle between two faces from which on they make a crease, 30 degrees. Lower angles
+// would move vertices of smooth bilges, higher ones leave chines cut off.
+constexpr double kCosine = 0.866;
+// Distance over a cell [-] within which a place is on the source.
+constexpr double kOnSurface = 0.05;
+// Eigenvalue of the planes' normals over the largest [-] below which a direction is not determined
+// by them: the vertex then keeps its place along it.
+constexpr double kFlatPart = 0.05;
+// Twice the area of the least triangle, over a cell's area [-]. Smaller ones have no reliable
+// normal.
+constexpr double kSliver = 0.02;
+// Longest move [cells]; the longest edge of a contour has 1.7, so that a vertex stays beside its
+// cell.
+constexpr double kLongest = 1.5;
+// Passes over the creases: an edge that was turned makes room for further moves.
+constexpr int kPasses = 2;
+// Rounds of taking bad moves back; where they do not end, all moves are taken back.
+constexpr int kMostTakenBack = 4;
 
 // The plane of the source at a vertex of the contour.
 struct TangentPlane {
@@ -96,6 +107,8 @@ private:
             products += p.normal * p.normal.transpose();
             right += p.normal * p.normal.dot(p.point - from);
         }
+        // Least squares over the planes; directions with small eigenvalues are left out, so that
+        // two planes give the nearest point of their line and one plane the foot on it.
         const Eigen::SelfAdjointEigenSolver<Mat3> solver(products);
         Vec3 step = Vec3::Zero();
         for (int k = 0; k < 3; ++k)

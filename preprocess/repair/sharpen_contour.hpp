@@ -16,7 +16,7 @@ namespace ice {
 /// 1.5 cells, ends off the surface, or leaves a triangle that is folded or crosses another.
 /// @param source  the surface; the contour's vertices lie on it but where voids were filled
 /// @param cell    edge of the contour's cubes [m]
-/// @returns       the number of vertices moved; 0 and the contour as it was if too many are bad
+/// @return        the count of vertices moved; 0 and the contour as it was if too many are bad
 std::int64_t sharpen_contour(TriangleMesh& contour, const SurfaceTree& source, double cell);
 
 }  // namespace ice

@@ -16,9 +16,12 @@ namespace ice {
 
 namespace {
 
-// Volumes that differ by no more than this share agree.
+// Largest relative difference of volumes that agree [-]. At 100 rows the sampling error is about
+// 0.1 % on a ship, so that a sound solid passes at once; a larger value passes solids with a part
+// missing.
 constexpr double kRowError = 0.005;
-// Rows per side, tried in turn until they agree.
+// Rows per side of the box, tried in turn until they agree. The last takes a hundred times as long
+// as the first and is reached by slender solids alone.
 constexpr int kRows[] = {100, 300, 1000};
 
 // Van der Corput sequence in a base: with bases 2, 3, 5 it fills the box evenly (Halton).
@@ -74,7 +77,7 @@ SolidProof verify_solid(const TriangleMesh& mesh, double overlap_allowed) {
 
 WindingComparison compare_windings(const TriangleMesh& open, const TriangleMesh& closed) {
     // Places of a Halton sequence: their error falls faster than that of random ones, and they are
-    // the same in every run.
+    // the same in every run. 20 000 places give a volume within about 1 %; more take longer.
     constexpr std::size_t kPlaces = 20000;
     const WindingNumber first(open), second(closed);
     Eigen::AlignedBox3d box;

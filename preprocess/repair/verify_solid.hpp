@@ -12,8 +12,8 @@ struct SolidProof {
     bool good = false;
     std::string fault;       ///< the failed test; empty where good
     double volume = 0.0;     ///< exact integral over the surface [m3]
-    double row_error = 0.0;  ///< worst of three axes: row volume against the exact one, relative
-    double overlap = 0.0;    ///< worst of three axes: winding and parity against signs, relative
+    double row_error = 0.0;  ///< worst of three axes: row volume against the exact one [-]
+    double overlap = 0.0;    ///< worst of three axes: winding and parity against signs [-]
 };
 
 /// Every edge has two triangles that face the same side; the volume is positive; rows along x,
@@ -24,8 +24,8 @@ SolidProof verify_solid(const TriangleMesh& mesh, double overlap_allowed = 1e-4)
 
 /// The winding numbers of two surfaces at the same 20 000 places of the box, compared.
 struct WindingComparison {
-    double differs = 0.0;  ///< volume where one says inside and the other outside, of the second's
-    double unclear = 0.0;  ///< volume where the first lies between 0.2 and 0.8, of the second's
+    double differs = 0.0;  ///< volume inside one alone, over the second's [-]
+    double unclear = 0.0;  ///< volume where the first is between 0.2 and 0.8, over the second's [-]
     double first_volume = 0.0, second_volume = 0.0;  ///< [m3], within about 1 %
 };
 

@@ -14,13 +14,23 @@ namespace ice {
 
 namespace {
 
-constexpr double kCells = 200.0;        // along the longest side
-constexpr double kNodes = 2.0e6;        // at most, or cells grow
-constexpr double kFinestNodes = 8.0e6;  // at most, for the finer cells of a caller
-constexpr double kCoarse = 100.0;       // cells along the longest side, to look for voids
-constexpr double kSealed = 0.6;         // of a cell: a gap this near to a surface is no way out
-constexpr int kSteps = 16;              // towards the surface, at most
-constexpr double kReached = 1.0 / 256;  // of a cell
+// Cells along the longest side: half a metre on a ship of 100 m. More keep finer parts and take
+// time and memory with their cube.
+constexpr double kCells = 200.0;
+// Most nodes of the grid, else cells grow: about a second.
+constexpr double kNodes = 2.0e6;
+// Most nodes for the finer cells of a caller, which are no larger than the spheres' radius.
+constexpr double kFinestNodes = 8.0e6;
+// Cells along the longest side in the search for voids. It sets the widest gap that counts as
+// closed, a hundredth of the length.
+constexpr double kCoarse = 100.0;
+// Distance to the surface over a cell [-] within which a node is no way out: a passage must be
+// wider than 1.2 cells.
+constexpr double kSealed = 0.6;
+// Steps towards the surface at most; each is as long as the distance left.
+constexpr int kSteps = 16;
+// Distance over a cell [-] at which the surface counts as reached.
+constexpr double kReached = 1.0 / 256;
 
 Grid make_grid(const TriangleMesh& mesh, double cells, double finest) {
     Eigen::AlignedBox3d box;
@@ -34,7 +44,8 @@ Grid make_grid(const TriangleMesh& mesh, double cells, double finest) {
     };
     grid.step = coarsen(size.maxCoeff() / cells, kNodes);
     if (finest > 0.0 && finest < grid.step) grid.step = coarsen(finest, kFinestNodes);
-    // off the faces of the model, which lie at round numbers
+    // Off the faces of the model, which lie at round numbers: a row along a face would cross it
+    // nowhere or everywhere. Three irrational shares of a cell, so that no two axes agree.
     const Vec3 shift(0.3819660113, 0.4142135624, 0.4472135955);
     grid.origin = box.min() - grid.step * (Vec3::Ones() + shift);
     for (int d = 0; d < 3; ++d)
@@ -90,7 +101,7 @@ std::vector<std::size_t> find_voids(const Grid& grid, const std::vector<std::uin
     std::vector<std::size_t> voids;
     for (std::size_t k = 0; k < filled.size(); ++k)
         if (filled[k] && !shut[k]) voids.push_back(k);
-    // what lies between them and the surface belongs to them
+    // the nodes between them and the surface belong to them
     const auto nx = static_cast<std::size_t>(grid.nodes[0]);
     const auto nxy = nx * static_cast<std::size_t>(grid.nodes[1]);
     std::vector<std::uint8_t> known(inside);

@@ -12,7 +12,7 @@ namespace ice {
 struct WindingSolid {
     TriangleMesh mesh;     ///< closed, outward; region of the nearest triangle of the source
     double cell = 0.0;     ///< edge of the grid's cubes [m]: nothing smaller is kept
-    double unclear = 0.0;  ///< share of the rows that leave through a hole
+    double unclear = 0.0;  ///< share of the rows that leave through a hole [-]
 };
 
 /// Solid where the winding number of the surface is positive: whatever crosses, overlaps or repeats
@@ -35,7 +35,7 @@ struct EnclosedVoids {
 };
 
 /// Floods the outside of a closed surface on a grid of about 100 cells along the longest side and
-/// asks what it does not reach.
+/// measures the part that it does not reach.
 EnclosedVoids enclosed_voids(const TriangleMesh& mesh);
 
 /// Gives each triangle of `mesh` the region of the nearest triangle of `source`, and its names.

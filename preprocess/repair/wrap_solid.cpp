@@ -10,7 +10,8 @@ namespace ice {
 
 namespace {
 
-// Not all the way: on a sharp edge vertices of both sides would meet in one point.
+// Share of the way back to the surface [-]. Not all the way: on a sharp edge vertices of both sides
+// would meet in one point. Less leaves more of the offset in the volume.
 constexpr double kBack = 0.9;
 
 }  // namespace

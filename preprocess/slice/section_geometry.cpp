@@ -15,8 +15,8 @@ namespace ice {
 
 namespace {
 
-// Exact predicates: on which side of a line a corner lies decides what is a hole, and must not
-// depend on rounding. New points are rounded; they decide nothing.
+// Exact predicates: the side of a line on which a corner lies decides between hole and solid, and
+// must not depend on rounding. New points are rounded; they decide nothing.
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Polygon = CGAL::Polygon_2<Kernel>;
 

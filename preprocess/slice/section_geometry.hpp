@@ -9,8 +9,8 @@
 
 namespace ice {
 
-/// Closed polylines in which the plane y = `offset` cuts the mesh, y set to 0; the last point is
-/// not repeated. Vertices and edges in the plane are decided exactly.
+/// Closed polylines [m] in which the plane y = `offset` [m] cuts the mesh, y set to 0; the last
+/// point is not repeated. Vertices and edges in the plane are decided exactly.
 std::vector<std::vector<Vec3>> cut_by_plane(const TriangleMesh& mesh, double offset);
 
 /// Turns loops so that outer ones run anticlockwise in x-z and loops inside an odd number of others

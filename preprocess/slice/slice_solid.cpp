@@ -13,10 +13,11 @@ namespace ice {
 
 namespace {
 
-// Points closer than this share of the loop's extent are one.
+// Points closer than this share of the loop's extent [-] are one: rounding of the cut.
 constexpr double kSame = 1e-9;
 
-// Sine of the angle below which two edges count as one straight line.
+// Sine of the angle below which two edges count as one straight line. Larger values join facets of
+// a bilge, smaller ones leave the cuts of coplanar triangles apart.
 constexpr double kStraight = 1e-6;
 
 Vec3 outward_normal(const Vec3& a, const Vec3& b) {
@@ -54,7 +55,7 @@ std::vector<SectionEdge> make_loop(const std::vector<Vec3>& points, const Surfac
         const Vec3 middle = 0.5 * (a + b) + offset * Vec3::UnitY();
         edges.push_back({a, b, normal, region_at(tree, middle, normal, extent)});
     }
-    // joins what the triangles' diagonals cut apart
+    // joins edges that the diagonals of flat faces cut apart
     std::vector<SectionEdge> joined;
     for (const SectionEdge& edge : edges) {
         if (!joined.empty() && joined.back().region == edge.region &&

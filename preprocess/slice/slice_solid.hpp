@@ -22,7 +22,7 @@ struct Section {
     std::vector<std::vector<SectionEdge>> loops;
 };
 
-/// Cuts a closed mesh by the plane y = `offset`. Collinear neighbours of one region are joined.
+/// Cuts a closed mesh by the plane y = `offset` [m]. Collinear neighbours of one region are joined.
 /// @throws Error (exit code 2) when the plane misses the solid
 Section slice_solid(const TriangleMesh& mesh, double offset);
 

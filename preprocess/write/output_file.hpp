@@ -14,7 +14,7 @@ class OutputFile {
 public:
     explicit OutputFile(const std::filesystem::path& path);
 
-    void write(std::string_view bytes);
+    void write(std::string_view bytes);  ///< faults show in close()
     /// @throws Error (exit code 1) naming the file when not everything reached the disk.
     void close();
     /// After close(): renames to the final name.

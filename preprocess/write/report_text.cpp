@@ -30,6 +30,7 @@ std::string report_text(const SpheresReport& r, const std::string& output) {
                                    "saves {:.2g} MB",
                                    r.spheres - r.surface_spheres,
                                    1e-6 * static_cast<double>(interior_bytes(r))));
+    // Nine digits: readers compare volume and area with their mesh's; distances need two or three.
     line("volume", fmt::format("{:.9g} {}", r.volume, flat ? "m3 per metre of breadth" : "m3"));
     line("area", fmt::format("{:.9g} {}", r.area, flat ? "m2 per metre of breadth" : "m2"));
     line("centroid",
@@ -46,6 +47,7 @@ std::string report_text(const SpheresReport& r, const std::string& output) {
     if (r.unfitted_share > 0.0)
         line("no sphere fits", fmt::format("{:.2g} % of the {}surface", 100.0 * r.unfitted_share,
                                            r.belt ? "wetted " : ""));
+    // Below here lines appear only where there is something to say.
     for (const CutBack& cut : r.cut_back) line("cut back", cut_back_text(cut));
     if (r.belt) line("ice belt", ice_belt_text(r));
     for (const auto& [step, count] : r.repairs)

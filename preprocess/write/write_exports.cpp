@@ -79,6 +79,8 @@ std::string fix_id(const std::string& name) {
 
 void add_format(OutputFiles& files, const std::string& format, const SphereSet& set,
                 const RigidBody& body) {
+    // Codes other than csv and vtp need a second file: their sphere lists have no place for mass
+    // and inertia.
     const std::vector<std::string>& ending = endings_of(format);
     if (format == "csv") files.add(ending[0], [&](const Sink& sink) { write_csv(set, sink); });
     if (format == "vtp") files.add(ending[0], [&](const Sink& sink) { write_vtp(set, sink); });
@@ -122,6 +124,7 @@ bool has_mass(const std::string& format) { return format != "csv" && format != "
 
 void check_exports(const SphereSet& set, const std::vector<std::string>& formats,
                    const std::filesystem::path& base) {
+    // All formats are checked before one is written: a refusal leaves no file behind.
     const std::string name = base.filename().string();
     const bool plain = std::none_of(name.begin(), name.end(), [](char c) {
         return c == '"' || c == '\\' || static_cast<unsigned char>(c) < ' ';
@@ -148,6 +151,7 @@ std::vector<std::filesystem::path> write_exports(const SphereSet& set,
                                                  const std::vector<std::string>& formats,
                                                  double density,
                                                  const std::filesystem::path& base) {
+    // one body for all formats: they differ in frame and order of numbers only
     const RigidBody body = rigid_body(set.solid, density);
     OutputFiles files(base);
     std::set<std::string> done;

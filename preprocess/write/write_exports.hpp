@@ -19,14 +19,14 @@ namespace ice {
 /// | liggghts | .liggghts.txt, .in | centre of mass, mesh axes                          |
 /// | chrono   | .chrono.csv, .json | centre of mass and principal axes; pose in .json   |
 ///
-/// All spheres of the set are written; `--mode surface` is what leaves out the interior.
+/// All spheres of the set are written; `--mode surface` leaves out the interior.
 std::vector<std::string> export_formats();
 
 /// The files that write_exports() makes of these formats.
 std::vector<std::filesystem::path> export_files(const std::vector<std::string>& formats,
                                                 const std::filesystem::path& base);
 
-/// Whether a format carries a mass, and so needs a density.
+/// True where a format carries a mass, and so needs a density.
 bool has_mass(const std::string& format);
 
 /// Refuses sets that a format cannot hold: a 2D set (per metre of breadth) as a rigid body in 3D,

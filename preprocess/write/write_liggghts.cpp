@@ -16,6 +16,8 @@ void write_liggghts_spheres(const SphereSet& set, const RigidBody& body, const S
 
 std::string liggghts_text(const RigidBody& body, std::size_t count, const std::string& id,
                           const std::string& spheres_file) {
+    // Mass and inertia are stated: LIGGGHTS would estimate them from the spheres, which may be a
+    // hollow layer.
     const Mat3& inertia = body.inertia;
     return fmt::format(
         "# {4} spheres as one rigid particle, made by spherize; SI units.\n"

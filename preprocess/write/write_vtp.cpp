@@ -34,6 +34,7 @@ public:
             "        <DataArray Name=\"{}\" type=\"{}\" NumberOfComponents=\"{}\" "
             "format=\"appended\" offset=\"{}\"/>\n",
             name, type, components, offset_);
+        // each array is preceded by its length in bytes, as header_type="UInt64" says
         const std::uint64_t bytes = count_ * size * static_cast<std::size_t>(components);
         offset_ += sizeof bytes + bytes;
         const std::size_t count = count_;
@@ -74,6 +75,7 @@ std::string point_data(const SphereSet& set, AppendedArrays& arrays) {
 }  // namespace
 
 void write_vtp(const SphereSet& set, const Sink& sink) {
+    // Raw bytes behind the header: text would be three times as long, and base64 a third longer.
     AppendedArrays arrays(set.size());
     sink(
         fmt::format("<?xml version=\"1.0\"?>\n"

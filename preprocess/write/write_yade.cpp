@@ -60,8 +60,8 @@ void write_yade_spheres(const SphereSet& set, const RigidBody& body, const Sink&
     // YADE integrates a clump in its principal axes about its centre of mass
     const Mat3 to_principal = body.axes.toRotationMatrix().transpose();
     sink("#format x_y_z_r_clumpId\n");
-    // The shortest digits that read back as the same number; the last column is the clump's number,
-    // of which there is one.
+    // The shortest digits that read back as the same number; the last column is the clump's number:
+    // there is one clump.
     write_rows(sink, set.size(), [&](fmt::memory_buffer& out, std::size_t k) {
         const Vec3 c = to_principal * (set.centers[k] - body.centroid);
         fmt::format_to(std::back_inserter(out), FMT_COMPILE("{}\t{}\t{}\t{}\t0\n"), c.x(), c.y(),
@@ -70,6 +70,7 @@ void write_yade_spheres(const SphereSet& set, const RigidBody& body, const Sink&
 }
 
 std::string yade_text(const RigidBody& body, double radius, const std::string& spheres_file) {
+    // The numbers of the body as Python constants, then the same functions for every body.
     const Vec3 &c = body.centroid, &m = body.moments;
     const Eigen::Quaterniond& q = body.axes;
     return fmt::format(

@@ -19,14 +19,17 @@ class CaseError(ValueError):
 def write_case(path: str | Path, case: Mapping) -> Path:
     """Writes a case (docs/case-keys.md) as TOML after the program's own schema has passed it.
 
-    @param case  tables as dictionaries, [[floes]] as a list of them; paths may be Path
-    @raises CaseError naming the key
+    @param path  the file; one of the same name is replaced, and none is written after an error
+    @param case  tables as dictionaries, [[floes]] as a list of them; numbers in SI, or texts with
+        a unit; paths may be Path
+    @return the path
+    @raises CaseError naming all keys at fault; ProgramError, FileNotFoundError without the program
     """
     return _write(path, case, "icesolve")
 
 
 def write_specification(path: str | Path, specification: Mapping) -> Path:
-    """Writes a specification for icefield in the same way."""
+    """Writes a specification for icefield (docs/icefield.md) as write_case() does a case."""
     return _write(path, specification, "icefield")
 
 
@@ -44,7 +47,8 @@ def _write(path: str | Path, content: Mapping, program: str) -> Path:
 
 
 def _plain(value):
-    """The same in the types of TOML: paths as text, numpy's numbers as Python's."""
+    """The same in the types of TOML: paths as text, numpy's numbers as Python's. A value of another
+    type stays, and the schema refuses it."""
     if isinstance(value, Mapping):
         return {str(key): _plain(part) for key, part in value.items()}
     if isinstance(value, (list, tuple)):

@@ -16,7 +16,11 @@ from .runs import Run
 
 
 def plot_resistance(sweep: xarray.Dataset, file: str | Path | None = None) -> Axes:
-    """Resistance against speed with 95 % intervals, and Lindqvist's submersion part."""
+    """Resistance against speed with 95 % intervals, and Lindqvist's submersion part where known.
+
+    @param sweep  of open_sweep(), at least one run
+    @param file  also written; the ending chooses its kind, such as .png or .pdf
+    """
     axes = _axes("speed [m/s]", f"resistance [{sweep.resistance.units}]")
     axes.errorbar(sweep.speed, sweep.resistance, yerr=sweep.ci95, fmt="o-", capsize=3,
                   label="icesolve, 95 % interval")
@@ -30,7 +34,10 @@ def plot_resistance(sweep: xarray.Dataset, file: str | Path | None = None) -> Ax
 
 def plot_history(run: Run, file: str | Path | None = None, window: float | None = None) -> Axes:
     """Resistance against time, its mean over `window` [s] (a twentieth of the run unless given)
-    and the mean with its interval, from where the averages begin."""
+    and the mean with its interval, from where the averages begin.
+
+    The window is cut to whole rows, one at least. @pre at least two rows of history
+    """
     time = run.history.time.values
     force = -run.history.force.sel(xyz="x").values
     axes = _axes("time [s]", f"resistance [{run.unit}]")
@@ -52,7 +59,7 @@ def plot_history(run: Run, file: str | Path | None = None, window: float | None 
 
 def plot_floes(run: Run, time: float, file: str | Path | None = None) -> Axes:
     """The floes from above at the frame nearest to a time [s], as the convex outlines of their
-    meshes, coloured by their centre's depth."""
+    meshes, coloured by their centre's depth [m]. @pre a run in 3D with frames"""
     frame = run.frames.sel(frame_time=time, method="nearest")
     axes = _axes("x [m]", "y [m]")
     outlines, depth = [], []

@@ -18,7 +18,8 @@ _PROGRESS = re.compile(r"^icesolve +(\d+) %")
 
 
 class ProgramError(RuntimeError):
-    """A program refused its input or failed: its own words, and its exit code in `code`."""
+    """A program refused its input or failed: its own words, and its exit code in `code`: 1 failed,
+    2 bad input, as in docs/contract.md."""
 
     def __init__(self, words: str, code: int):
         super().__init__(words)
@@ -44,8 +45,8 @@ def call(name: str, words: list[str], progress: Callable[[float], None] | None =
     """Runs a program to its end.
 
     Ctrl-C reaches it as it does in a terminal: icesolve writes a checkpoint and its summary.
-    @param progress  is called with the share that is done, 0 to 1
-    @return what it printed on standard output
+    @param progress  is called with the share that is done [-], 0 to 1, from icesolve alone
+    @return its standard output
     @raises ProgramError with the program's error text
     """
     # its answer goes to a file: a pipe that nobody empties would stop it
@@ -72,7 +73,10 @@ def spherize(mesh: str | Path, radius: float, out: str | Path | None = None, **o
 
     @param radius  of the spheres [m]
     @param out  the sphere set, <mesh stem>.spheres.h5 in the working folder unless given
-    @param options  of the program, `spacing=0.1` for --spacing 0.1, `check=True` for --check
+    @param options  of the program, `spacing=0.1` for --spacing 0.1, `check=True` for --check;
+        numbers in SI
+    @return the sphere set's path
+    @raises ProgramError with the program's words, e.g. for a surface that cannot be made closed
     """
     out = Path(out) if out else Path(Path(mesh).stem + ".spheres.h5")
     call("spherize", [str(mesh), "-r", repr(radius), "-o", str(out), "-q", *_words(options)])
@@ -80,7 +84,13 @@ def spherize(mesh: str | Path, radius: float, out: str | Path | None = None, **o
 
 
 def make_field(specification: str | Path, out: str | Path, **options) -> Path:
-    """Makes an ice field of a specification (docs/icefield.md)."""
+    """Makes an ice field of a specification (docs/icefield.md).
+
+    @param out  the field's file, HDF5
+    @param options  of the program, as in spherize()
+    @return the field's path
+    @raises ProgramError with the program's words
+    """
     call("icefield", [str(specification), "-o", str(out), "-q", *_words(options)])
     return Path(out)
 
@@ -91,11 +101,14 @@ def run(case: str | Path, out: str | Path | None = None, *, seeds: int | None = 
         progress: Callable[[float], None] | None = None) -> Run:
     """Runs a case, or with `seeds` an ensemble of so many members.
 
+    @param threads  a count; the case's own unless given
+
     @param out  the run folder, results/<case> unless given; refused where it exists, unless
         `overwrite`
     @param settings  keys of the case to override, {"hull.speed": 0.8}
-    @param progress  is called with the share that is done, 0 to 1
+    @param progress  is called with the share that is done [-], 0 to 1
     @return the run; of an ensemble its first member, whose `ensemble` has mean and interval of all
+    @raises ProgramError where icesolve refuses the case or fails
     Warnings of the run become Python's.
     """
     folder = Path(out) if out else Path("results") / Path(case).stem

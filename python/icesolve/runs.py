@@ -14,7 +14,8 @@ import xarray
 
 @dataclass(frozen=True)
 class Estimate:
-    """A mean with the half width of its 95 % interval; nan where that is not known."""
+    """A mean with the half width of its 95 % interval, both in `unit`; nan: the half width is not
+    known."""
 
     mean: float
     ci95: float
@@ -25,7 +26,7 @@ class Estimate:
 
 
 class Run:
-    """A run folder. Datasets are read when they are first asked for.
+    """A run folder. Datasets are read at their first use.
 
     `summary` is summary.json as a dictionary, `ensemble` the one of all members, or None.
     """
@@ -65,26 +66,27 @@ class Run:
     @cached_property
     def history(self) -> xarray.Dataset:
         """Of the ship against `time` [s]: `force`, `contact_force`, `friction_force` [N] and
-        `moment` [N m] on it (time, xyz), `pose` (time, 7), `contacts`, `moving_floes`,
-        `max_overlap` [m], `kinetic_energy` [J] (time)."""
+        `moment` [N m] on it (time, xyz), `pose` (time, 7): position [m] and quaternion, counts of
+        `contacts` and `moving_floes`, `max_overlap` [m], `kinetic_energy` [J] (time). In 2D
+        forces, moments and energies are per metre of breadth."""
         return self._group("ship")
 
     @cached_property
     def regions(self) -> xarray.Dataset:
-        """`contact_force`, `friction_force` [N] (time, hull_regions, xyz)."""
+        """`contact_force`, `friction_force` [N; 2D: N/m] (time, hull_regions, xyz)."""
         return self._group("regions")
 
     @cached_property
     def frames(self) -> xarray.Dataset:
         """Of each floe against `frame_time` [s]: `position` [m], `orientation` (w, x, y, z),
-        `velocity` [m/s], `angular_velocity` [rad/s], `contact_force` [N], `state` (0 held, 1
-        moving, 2 behind the hull); (frame_time, body, ...)."""
+        `velocity` [m/s], `angular_velocity` [rad/s], `contact_force` [N; 2D: N/m], `state` (0
+        held, 1 moving, 2 behind the hull); (frame_time, body, ...)."""
         return self._group("frames")
 
     @cached_property
     def contacts(self) -> xarray.Dataset:
-        """Touches of hull and floes: `contact_time` [s], `floe`, `point` [m, ship axes],
-        `normal_force`, `friction_force` [N]."""
+        """Touches of hull and floes, one row each: `contact_time` [s], `floe`, from 1, `point`
+        (3,) [m], ship axes, `normal_force`, `friction_force` (3,) [N; 2D: N/m]."""
         return self._group("contacts")
 
     @property
@@ -94,13 +96,14 @@ class Run:
         return self.history.isel(time=late)
 
     def mean(self, name: str = "force", axis: str = "x") -> float:
-        """Mean of a force of `averaged`, in world axes: the bits of summary.json where each row is
-        a step, because the sum goes in the same order. The resistance is -mean()."""
+        """Mean of a force of `averaged` [N; 2D: N/m], in world axes: the bits of summary.json where
+        each row is a step, because the sum goes in the same order. The resistance is -mean(). nan
+        without a row."""
         series = self.averaged[name].sel(xyz=axis).values
         return float(np.cumsum(series)[-1] / len(series)) if len(series) else float("nan")
 
     def outline(self, floe: int) -> np.ndarray:
-        """Vertices of a floe's mesh in its own axes [m] (V, 3)."""
+        """Vertices of a floe's mesh in its own axes (V, 3) [m]. @param floe  its row, from 0"""
         with h5py.File(self.file) as file:
             shape = int(file["frames/body_shape"][floe])
             first, last = file["shapes/vertex_offset"][shape:shape + 2]

@@ -24,15 +24,15 @@ class Scene:
         print(scene.time, scene.force, scene.position[3])
 
     Arrays have one row per body, row 0 the ship, row k floe k. They are views of the solver's own
-    memory: always of the present, never copied; take `.copy()` of what is to be kept. In 2D y, and
-    rotations about x and z, are zero, and forces are per metre of breadth.
+    memory: always of the present, never copied; take `.copy()` of values to be kept. In 2D y, and
+    rotations about x and z, are zero, and forces and moments are per metre of breadth.
 
     | array | shape | content |
     |---|---|---|
     | `position` | (N, 3) | centre of mass, of the ship the mesh's origin [m] |
     | `orientation_xyzw` | (N, 4) | unit quaternion, body to world, in the order of scipy's Rotation |
     | `velocity`, `angular_velocity` | (N, 3) | [m/s], [rad/s], world axes |
-    | `mass` | (N,) | [kg], 2D per metre; 0 for the ship |
+    | `mass` | (N,) | [kg], in 2D [kg/m]; 0 for the ship |
     | `held` | (N,) | 1: part of the unbroken ice until it is released; 2: bent, is released next |
     | `applied_force`, `applied_moment` | (N, 3) | to be written: [N], [N m] about the centre of mass |
 
@@ -53,11 +53,12 @@ class Scene:
             setattr(self, name, getattr(self._world, name))
 
     def step(self, count: int = 1, loads: Callable[[Scene], None] | None = None) -> None:
-        """Goes `count` steps of `time_step`.
+        """Goes `count` steps of `time_step`; 0 or less goes none.
 
-        @param loads  called before each step with the scene; what it leaves in `applied_force` and
-            `applied_moment` acts through the step. What is written there without it stays, too.
-            Loads on the ship and on held floes are not taken.
+        @param loads  called before each step with the scene; the values that it leaves in
+            `applied_force` and `applied_moment` act through the step. Nothing resets them: they act
+            in later steps, too, as do values written there without it. Loads on the ship and on
+            held floes have no effect.
         @raises ValueError where a load is not a finite number, or in 2D not of the plane
         """
         for _ in range(count):
@@ -68,17 +69,17 @@ class Scene:
 
     @property
     def time(self) -> float:
-        """[s]"""
+        """Simulated time [s]; 0 before the first step."""
         return self._world.time
 
     @property
     def steps(self) -> int:
-        """Steps done."""
+        """Steps done since the start, a count."""
         return self._world.steps
 
     @property
     def time_step(self) -> float:
-        """[s]"""
+        """Of the case [s], constant."""
         return self._world.time_step
 
     @property
@@ -88,36 +89,38 @@ class Scene:
 
     @property
     def force(self) -> np.ndarray:
-        """Of the ice on the ship in the last step (3,) [N], world axes; the resistance is
-        -force[0]. As force.sum of `contact_force` and `friction_force`."""
+        """Of the ice on the ship in the last step (3,) [N; 2D: N/m], world axes: the sum of
+        `contact_force` and `friction_force`. The resistance is -force[0]. Zero before the first
+        step."""
         return self.contact_force + self.friction_force
 
     @property
     def contact_force(self) -> np.ndarray:
-        """The normal parts of `force` (3,) [N]."""
+        """The normal parts of `force` (3,) [N; 2D: N/m]."""
         return self._world.forces()["contact"]
 
     @property
     def friction_force(self) -> np.ndarray:
-        """The tangential parts of `force` (3,) [N]."""
+        """The tangential parts of `force` (3,) [N; 2D: N/m]."""
         return self._world.forces()["friction"]
 
     @property
     def moment(self) -> np.ndarray:
-        """Of the ice on the ship about its mesh's origin (3,) [N m]."""
+        """Of the ice on the ship about its mesh's origin (3,) [N m; 2D: N], world axes."""
         return self._world.forces()["moment"]
 
     @property
     def contacts(self) -> np.ndarray:
-        """Contacts of the last step, a structured array (a copy): bodies `a` < `b`, `point` [m],
-        `normal` from a to b, `gap` [m] at the step's start, `normal_impulse` and
-        `friction_impulse` on b [N s]."""
+        """Contacts of the last step, a structured array (C,), a copy; C = 0 without any: bodies
+        `a` < `b`, `point` (3,) [m], `normal` (3,) from a to b, a unit vector, `gap` [m] at the
+        step's start, < 0 in an overlap, `normal_impulse` and `friction_impulse` (3,) on b [N s;
+        2D: N s/m]."""
         return self._world.contacts()
 
     @property
     def energy(self) -> dict[str, float]:
-        """Work of the ship and of the applied loads since the start, and what the ledger does not
-        explain [J]."""
+        """Work of the ship and of the applied loads since the start, and the residual of the
+        energy balance [J; 2D: J/m]."""
         return {"ship_work": self._world.ship_work, "applied_work": self._world.applied_work,
                 "residual": self._world.energy_residual()}
 

@@ -15,8 +15,9 @@ def open_sweep(folder: str | Path) -> xarray.Dataset:
     """All runs and ensembles below a folder, ordered by speed.
 
     Along `run` (names of the folders): `resistance` and `ci95` [N, in 2D N/m], `speed` [m/s],
-    `thickness` [m], `lindqvist` [N] and `status`. Members of an ensemble are no runs of their own.
-    @raises FileNotFoundError where there is none
+    `thickness` [m], `lindqvist` [N] and `status`, each (run,); unknown numbers are nan. Members of
+    an ensemble are no runs of their own.
+    @raises FileNotFoundError where there is no run; ValueError for runs in 2D and in 3D
     """
     rows = []
     for found in _folders(Path(folder)):

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The solver's scene as a Python class; icesolve/scene.py is what users see of it.
+// The solver's scene as a Python class; users see it through icesolve/scene.py. Numbers in SI.
 #include <pybind11/eigen.h>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
@@ -20,6 +20,7 @@ namespace {
 
 ice::World* open_world(const std::string& file, const std::vector<std::string>& overrides,
                        int threads) {
+    // The same checks as icesolve's: a scene that it would refuse never reaches Python.
     ice::set_thread_count(threads);
     auto world = std::make_unique<ice::World>(ice::build_world(ice::read_case(file, overrides)));
     ice::check_start(*world, false);
@@ -30,6 +31,7 @@ ice::World* open_world(const std::string& file, const std::vector<std::string>& 
 // One row per body of `width` numbers that lie `stride` bytes apart, in the world's own memory.
 py::array rows(py::object owner, double* first, std::size_t count, std::size_t width,
                std::size_t stride, bool writable) {
+    // A view, not a copy: `owner` keeps the world alive as long as an array of it is.
     const std::vector<py::ssize_t> shape{static_cast<py::ssize_t>(count),
                                          static_cast<py::ssize_t>(width)};
     const std::vector<py::ssize_t> strides{static_cast<py::ssize_t>(stride), sizeof(double)};
@@ -65,6 +67,7 @@ auto applied(Member member) {
     };
 }
 
+// One contact: bodies, place [m], normal, gap [m] at the step's start, impulses on b [N s].
 struct TouchRow {
     std::int32_t a, b;
     double point[3], normal[3], gap, normal_impulse, friction_impulse[3];
@@ -75,6 +78,7 @@ void copy(const ice::Vec3& from, double (&to)[3]) {
 }
 
 py::array_t<TouchRow> contacts(const ice::World& world) {
+    // Before the first step there are contacts without constraints, or neither.
     const std::size_t count = std::min(world.contacts.size(), world.constraints.size());
     py::array_t<TouchRow> out(static_cast<py::ssize_t>(count));
     for (std::size_t k = 0; k < count; ++k) {

@@ -40,7 +40,8 @@ PieceOutline measure_outline(const TriangleMesh& mesh, const Mat3& rotation) {
         // above.
         area += std::max(0.5 * cross(corner(1) - corner(0), corner(2) - corner(0)), 0.0);
     }
-    // The longest distance of two points is one of two corners of the convex hull.
+    // The longest distance of two points is one of two corners of the convex hull. All pairs of
+    // them are tried: outlines have some tens of corners.
     const std::vector<Vec2> corners = convex_corners(std::move(points));
     Vec2 chord = Vec2::Zero();
     for (std::size_t i = 0; i < corners.size(); ++i)

@@ -8,7 +8,7 @@
 
 namespace ice {
 
-/// A case's ice as a plate of that thickness [m].
+/// A case's ice as a plate of that thickness [m], > 0.
 IcePlate plate_of(double thickness, const Case& parameters);
 
 /// A piece as it lies, seen from above.
@@ -18,7 +18,8 @@ struct PieceOutline {
     double thickness;  ///< extent along z [m]
 };
 
-/// Measures a piece in the attitude `rotation`, body to world. @pre the mesh is closed
+/// Measures a piece in the attitude `rotation`, body to world. Overhangs count twice in its area.
+/// @pre the mesh is closed
 PieceOutline measure_outline(const TriangleMesh& mesh, const Mat3& rotation);
 
 /// Angle of the sector that has the piece's area and its depth as radius [rad]: 2 area / depth^2,
@@ -27,15 +28,15 @@ PieceOutline measure_outline(const TriangleMesh& mesh, const Mat3& rotation);
 double opening_angle(const PieceOutline& piece);
 
 /// Downward load that breaks the piece off [N], with bending.factor but not its table; in 2D the
-/// beam's [N/m].
+/// beam's [N/m]. Equations (28) and (29). bending.opening_angle wins over the piece's own angle.
 double breaking_load(const PieceOutline& piece, const Case& parameters);
 
 /// The same of a piece with the opening angle `angle` [rad], unless the case gives an angle; in 2D
 /// the beam's [N/m], whatever the angle.
 double breaking_load(double angle, double thickness, const Case& parameters);
 
-/// bending.factor_table at a normal speed [m/s], linear between its rows and constant outside; 1
-/// without a table.
+/// bending.factor_table at a normal speed [m/s], f(v_n) [-]: linear between its rows and constant
+/// outside; 1 without a table.
 double speed_factor(const BendingLaw& law, double normal_speed);
 
 }  // namespace ice

@@ -10,7 +10,8 @@ namespace ice {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-// A straight edge breaks into wedges of 36 degrees.
+// A straight edge breaks into wedges of 36 degrees: five [-] (Nevel, as later papers print it).
+// More wedges are narrower and carry less in all: n tan(pi / (2 n)) falls from 1.62 towards 1.57.
 constexpr double kWedgesOnStraightEdge = 5.0;
 
 // Of a beam on water, per length [1/m].

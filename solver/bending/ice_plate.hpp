@@ -10,7 +10,7 @@ struct IcePlate {
     double thickness;          ///< h [m]
     double flexural_strength;  ///< sigma_f, largest bending stress [Pa]
     double elastic_modulus;    ///< E [Pa]
-    double poisson_ratio;      ///< nu
+    double poisson_ratio;      ///< nu [-], < 0.5
     double water_weight;       ///< rho_w g: weight of water per volume [N/m3]
 };
 
@@ -37,6 +37,7 @@ double beam_breaking_length(const IcePlate& plate);
 ///
 ///     1.05 + 2.0 ratio + 0.50 ratio^3
 ///
+/// [-], at a ratio b / l [-], >= 0. The three numbers are those of the source, fitted to the wedge.
 /// Within 1 % of the wedge as a beam of growing breadth up to ratio 0.7, 4 % below it at 1.
 /// Source: Nevel, The ultimate failure of a floating ice sheet, IAHR Ice Symposium, 1972; taken
 /// from later papers that print it, and compared with a beam's solution in tests/solver.

@@ -10,7 +10,7 @@
 
 namespace ice {
 
-/// Two bodies that may touch within the step; a < b, so a hull pair has a = 0.
+/// Two bodies, by number, that may touch within the step; a < b, so a hull pair has a = 0.
 struct BodyPair {
     std::int32_t a, b;
     friend bool operator==(const BodyPair&, const BodyPair&) = default;
@@ -21,7 +21,9 @@ struct BodyPair {
 ///
 /// A uniform grid over the positions of floes near moving ones, so the cost is O(floes). Pairs
 /// of two held floes are left out: neither can move. Sorted by a, then b; the answer does not
-/// depend on thread count. @pre Bodies::moving lists the floes that are not held
+/// depend on thread count. A scene without floes has none; a floe whose position is not a number
+/// has none with other floes. @pre Bodies::moving lists the floes that are not held, ascending
+/// @param out  its old content is dropped
 void find_pairs(const Scene& scene, double margin, std::vector<BodyPair>& out);
 
 namespace reference {
@@ -39,19 +41,20 @@ public:
     /// @param margin  [m] beyond that motion
     void update(const Scene& scene, const MotionBounds& motion, double margin);
 
+    /// Sorted by a, then b; empty before the first update().
     const std::vector<BodyPair>& pairs() const { return pairs_; }
 
 private:
     bool is_good(const Scene& scene, const MotionBounds& motion) const;
 
     std::vector<BodyPair> pairs_;
-    std::vector<std::int32_t> moving_;  // the floes that moved when the list was made
-    std::vector<double> path_;          // theirs then [m]
-    double ship_path_ = 0.0, drift_path_ = 0.0;
-    std::int32_t drifting_ = -1;       // the held floe that drifts fastest; -1: none does
-    Eigen::AlignedBox3d vicinity_;     // of all moving bodies
-    std::vector<std::int32_t> floes_;  // in it, held ones too
-    std::size_t bodies_ = 0;           // that were looked at for them
+    std::vector<std::int32_t> moving_;           // the floes that moved when the list was made
+    std::vector<double> path_;                   // theirs then [m]
+    double ship_path_ = 0.0, drift_path_ = 0.0;  // those of the ship and of drift then [m]
+    std::int32_t drifting_ = -1;                 // the held floe that drifts fastest; -1: none does
+    Eigen::AlignedBox3d vicinity_;               // of all moving bodies
+    std::vector<std::int32_t> floes_;            // in it, held ones too
+    std::size_t bodies_ = 0;                     // that were looked at for them
 };
 
 }  // namespace ice

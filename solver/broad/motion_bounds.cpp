@@ -8,13 +8,16 @@ namespace ice {
 
 namespace {
 
-// A turn by more than this between two looks [rad] counts as any.
+// A turn by more than this between two looks [rad] counts as any: beyond it the chord of two
+// quaternions is no close bound of the angle. Smaller drops neighbour lists of floes that spin
+// fast; a step turns a floe by far less.
 constexpr double kLargeTurn = 0.5;
 
-// Further than any two bodies are apart [m].
+// Farther than any two bodies are apart [m]: a path of that length makes every list stale.
 constexpr double kAnywhere = 1e9;
 
-// Angle of the turn from p to q, at least: |q - p| is 2 sin(angle / 4) for the nearer of +-p.
+// An upper bound of the angle of the turn from p to q [rad]: |q - p| is 2 sin(angle / 4) for the
+// nearer of +-p, so the angle is 2 |q - p| for small turns and at most 1 % more below kLargeTurn.
 double turn_between(const Quaternion& p, const Quaternion& q) {
     const double apart =
         std::min((q.coeffs() - p.coeffs()).norm(), (q.coeffs() + p.coeffs()).norm());

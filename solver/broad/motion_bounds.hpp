@@ -8,7 +8,8 @@
 namespace ice {
 
 /// Paths: upper bounds of the distance that any point of a body has covered. A neighbour list of
-/// two bodies stays valid until their paths add up to its skin (docs/method.md, section 9).
+/// two bodies stays valid until their paths add up to its skin (Verlet, Physical Review 159, 1967;
+/// docs/method.md, section 9).
 ///
 /// From step to step a path grows by |dx| + theta (R + 0.5 m): no point within 0.5 m of the body
 /// moves farther. So two surfaces near each other have moved relative to each other by at most the
@@ -16,14 +17,16 @@ namespace ice {
 /// of held floes that drift, too. The depth by which the last step crushed a body is added.
 class MotionBounds {
 public:
-    /// Adds the motion since the last call. @param dt  [s] the coming step, for path_after_step
+    /// Adds the motion since the last call; bodies that are new begin with a path of 0.
+    /// @param dt  [s] the coming step, for path_after_step
     void update(const Scene& scene, double dt);
 
-    /// Bodies that have another form and place now begin anew: their jump is no path.
+    /// Bodies that have another form and place now begin anew with a path of 0: their jump is no
+    /// path.
     /// @pre all that was kept of their paths is dropped, too
     void forget(const Scene& scene, const std::vector<std::int32_t>& bodies);
 
-    /// Path of a body since the first call [m].
+    /// Path of a body since the first call, or since forget() [m]; never falls.
     double path(std::int32_t body) const { return path_[static_cast<std::size_t>(body)]; }
     /// Its path at the end of the coming step, if it keeps its velocity [m].
     double path_after_step(std::int32_t body) const {
@@ -33,6 +36,7 @@ public:
     double rotation(std::int32_t body) const { return rotation_[static_cast<std::size_t>(body)]; }
     /// Depth by which it has been crushed since then, part of its path [m].
     double crushed(std::int32_t body) const { return crushed_[static_cast<std::size_t>(body)]; }
+    /// Bodies that are known.
     std::size_t size() const { return path_.size(); }
 
     /// R + 0.5 m of a shape: path per angle of rotation [m].

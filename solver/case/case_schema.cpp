@@ -11,8 +11,10 @@ namespace ice {
 namespace {
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
+// Least value of a number that has to be above 0, in its SI unit: 0 itself is refused.
 constexpr double kTiny = 1e-9;
 
+// Words of a choice in the order of their enumerators (stored::choice).
 using namespace stored;
 
 constexpr std::string_view kPatterns = "grid|brick|single|file";
@@ -54,7 +56,7 @@ std::vector<CaseKey> run_keys() {
          "Gravitational acceleration.", [](Case& c, G&, const Value& v) { c.gravity = number(v); }},
         {"environment.water_density", Kind::number, D::density, "1000.0", kTiny, 2000, 0, "",
          "Density of the water.", [](Case& c, G&, const Value& v) { c.water_density = number(v); }},
-        // z of the position or the draught, and a speed or a table: read_case.cpp asks for one
+        // z of the position or the draught, and a speed or a table: read_case.cpp requires one
         // of each
         {"hull.spheres", Kind::path, D::none, "", 0, 0, 0, "",
          "Sphere set of the hull, made by spherize; relative to the case file.",
@@ -168,6 +170,8 @@ std::vector<CaseKey> contact_keys() {
     };
 }
 
+// Each default is this project's model; the paper's choices are the others (docs/method.md, section
+// 1).
 std::vector<CaseKey> water_keys() {
     return {
         {"buoyancy.model", Kind::choice, D::none, "\"distributed\"", 0, 0, 0, kBuoyancies,

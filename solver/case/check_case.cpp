@@ -12,6 +12,7 @@ namespace ice {
 
 namespace {
 
+// Steps of a run at most [-]: at a millisecond each a day. More is a slip in time_step or duration.
 constexpr double kMostSteps = 1e8;
 
 // 2D is motion in the plane y = 0: nothing may lean or move out of it
@@ -26,6 +27,7 @@ void check_plane(const FloeGroup& group, const Wrong& wrong) {
         wrong("angular_velocity", out);
 }
 
+// Keys of one [[floes]] table against each other. @param g  from 0; texts count from 1
 void check_group(FloeGroup& group, std::size_t g, int dimension, const Values& values,
                  const Complaints& complaints) {
     const auto label = [&](const char* key) { return fmt::format("floes.{}.{}", g, key); };
@@ -73,6 +75,7 @@ void check_bending(const Case& checked, std::size_t groups, const Complaints& co
     if (checked.has_level_ice()) check("level_ice.thickness", "level_ice.thickness");
 }
 
+// A sheet has to float and to have an area; in 2D pieces follow from the beam, (30a).
 void check_level_ice(const Case& checked, const Complaints& complaints) {
     if (!checked.has_level_ice()) return;
     const auto& [from, to, starboard, port] = checked.level_ice.extent;
@@ -100,7 +103,7 @@ void check_level_ice(const Case& checked, const Complaints& complaints) {
 
 void check_case(Case& checked, std::size_t groups, const Values& values,
                 const Complaints& complaints) {
-    // the order of the complaints is that of the tables in a case
+    // All complaints at once, in the order of the tables in a case: a user mends a case in one go.
     check_ship(checked, values, complaints);
     for (std::size_t g = 0; g < groups; ++g)
         check_group(checked.floes[g], g, checked.dimension, values, complaints);

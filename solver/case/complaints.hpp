@@ -19,7 +19,7 @@ struct Complaints {
     void add_at(const std::string& label, const std::string& text) const;
 };
 
-/// "floes.0.gap" as people count: floes.1.gap. Other labels stay as they are.
+/// "floes.0.gap" counted from 1, as in the case file: floes.1.gap. Other labels stay as they are.
 std::string counted_from_one(const std::string& label);
 
 }  // namespace ice

@@ -25,10 +25,10 @@ struct ShipKeys {
     double mass = std::numeric_limits<double>::quiet_NaN();  ///< [kg], 2D per metre of breadth
     Vec3 centre_of_gravity = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());  ///< [m]
     Vec3 gyration = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());           ///< [m]
-    std::array<double, kFreedoms> added_mass{};  ///< share of mass and of moments of inertia
+    std::array<double, kFreedoms> added_mass{};  ///< share of mass and of moments of inertia [-]
     bool computes_added_mass = false;            ///< from the hull, in place of those shares
     std::filesystem::path matrix;  ///< added mass and damping of another program; empty: none
-    /// Share of critical damping where something restores, else N s/m or N m s.
+    /// Share of critical damping [-] where something restores, else [N s/m], [N m s].
     std::array<double, kFreedoms> damping{};
 
     bool any_free() const {
@@ -40,13 +40,13 @@ struct ShipKeys {
 /// [propulsion]: one of thrust, table, net thrust, speed hold; NaN and empty: not given.
 struct Propulsion {
     double thrust = std::numeric_limits<double>::quiet_NaN();              ///< [N]
-    SpeedCurve thrust_table;                                               ///< [N]
+    SpeedCurve thrust_table;                                               ///< at speed U [N]
     double bollard_pull = std::numeric_limits<double>::quiet_NaN();        ///< [N]
     double power = std::numeric_limits<double>::quiet_NaN();               ///< delivered [W]
     double propeller_diameter = std::numeric_limits<double>::quiet_NaN();  ///< [m]
-    int screws = 1;
-    double open_water_speed = std::numeric_limits<double>::quiet_NaN();  ///< [m/s]
-    double hold_speed = std::numeric_limits<double>::quiet_NaN();        ///< [m/s]
+    int screws = 1;                                                        ///< 1 to 3
+    double open_water_speed = std::numeric_limits<double>::quiet_NaN();    ///< [m/s]
+    double hold_speed = std::numeric_limits<double>::quiet_NaN();          ///< [m/s]
     bool hold_heading = false;
     SpeedCurve resistance_table;  ///< in open water [N], where the thrust is not net
 };

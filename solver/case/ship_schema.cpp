@@ -15,6 +15,8 @@ using G = FloeGroup;
 constexpr std::string_view kFreedomNames = "surge|sway|heave|roll|pitch|yaw";
 constexpr std::string_view kAddedMasses = "none|computed";
 constexpr std::string_view kHeadings = "free|hold";
+// Largest mass, force, stiffness or damping, in its SI unit: no ship has as much, so that a larger
+// number is a lost unit.
 constexpr double kHuge = 1e15;
 
 std::vector<CaseKey> body_keys() {
@@ -64,7 +66,7 @@ std::vector<CaseKey> body_keys() {
 
 std::vector<CaseKey> propulsion_keys() {
     return {
-        // Five ways to say the thrust, of which a case has one (check_ship.cpp); net thrust is
+        // Five forms of the thrust, of which a case has one (check_ship.cpp); net thrust is
         // less the open-water resistance already, the other kinds are gross and may take a
         // resistance_table.
         {"propulsion.thrust", Kind::number, D::force, "-", -kHuge, kHuge, 0, "",

@@ -14,6 +14,7 @@
 
 namespace ice::stored {
 
+/// Values by their kind, in SI units; the schema has checked kind, length, unit and range.
 inline double number(const Value& v) { return std::get<double>(v); }
 inline int integer(const Value& v) { return static_cast<int>(std::get<std::int64_t>(v)); }
 inline const std::string& text(const Value& v) { return std::get<std::string>(v); }
@@ -36,7 +37,7 @@ inline std::array<double, 6> vector6(const Value& v) {
     std::copy_n(x.begin(), out.size(), out.begin());
     return out;
 }
-/// Place of a word in its "a|b|c" list.
+/// Place of a word in its "a|b|c" list, from 0; the number of words where it is not there.
 inline int place_in(const std::string& word, std::string_view choices) {
     int index = 0;
     for (std::size_t begin = 0; begin <= choices.size(); ++index) {

@@ -10,7 +10,8 @@ namespace {
 // Ratios |g|^2 / |g_last|^2 above which the direction is dropped. For a squeezed floe every sweep
 // adds the same impulse, so beta = 1 to rounding. Where impulses are bounded (crushing), the steps
 // must go on until the bound is met: restart only where |g|^2 grows by 10 %. Without a bound they
-// would diverge: restart at 0.8.
+// would diverge: restart at 0.8. Lower limits [-] restart more often and approach plain sweeps;
+// higher ones go round the answer.
 constexpr double kRestartBounded = 1.1, kRestartRigid = 0.8;
 
 }  // namespace

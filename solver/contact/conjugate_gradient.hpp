@@ -14,16 +14,19 @@ namespace ice {
 ///
 ///     beta = |g|^2 / |g_last|^2,   impulses += beta d,   d = beta d + g,
 ///
-/// restarted with beta = 0 where |g|^2 grows (Silcowitz-Hansen, Niebe, Erleben, The Visual Computer
-/// 26, 2010: a nonsmooth nonlinear conjugate gradient method). |g|^2 is sum g^2 k(n), an energy.
+/// equation (11), with beta at most 1, and restarted with beta = 0 where the ratio exceeds a limit:
+/// 1.1 where impulses are bounded, 0.8 for rigid ice (Silcowitz-Hansen, Niebe, Erleben, The Visual
+/// Computer 26, 2010: a nonsmooth nonlinear conjugate gradient method). |g|^2 is sum g^2 k(n), an
+/// energy [J].
 /// Bodies' velocities move along with the impulses, so momentum stays balanced to rounding; bounds
 /// and cones are restored by the next sweep, which therefore always comes last.
 class ConjugateGradient {
 public:
-    /// Before the first sweep of a stage.
-    /// @param bounded  impulses have a bound that they may grow to
+    /// Before the first sweep of a solution: forgets the direction of the one before.
+    /// @param bounded  impulses have a bound that they may grow to (a finite crushing pressure)
     void begin(const ContactRows& contacts, bool bounded);
-    /// Between two sweeps: takes the change by the last one and advances the impulses.
+    /// Between two sweeps: takes the change by the last one and advances impulses and velocities.
+    /// The first call after begin() has no direction yet and leaves them as they are.
     void advance(ContactRows& contacts);
 
 private:

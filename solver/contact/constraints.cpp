@@ -23,8 +23,9 @@ Mat3 crossed_twice(const Vec3& r, const Mat3& m) {
     return twice;
 }
 
-// A ship moves in a few directions only: one that an impulse turns or shifts by less than this
-// share of a wholly free ship's response is one in which it cannot give way.
+// A ship moves in a few directions only: one in which an impulse turns or shifts it by less than
+// this share [-] of its largest response is one in which it cannot move, and the ice is crushed.
+// Larger takes slow motions for none; smaller takes rounding for a motion, with huge impulses.
 constexpr double kGivesWay = 1e-9;
 
 bool gives_way(const ShipResponse& ship, const Vec3& arm, const Vec3& normal) {
@@ -33,7 +34,8 @@ bool gives_way(const ShipResponse& ship, const Vec3& arm, const Vec3& normal) {
     return ship_response(ship, arm, normal) > kGivesWay * most;
 }
 
-// Largest normal impulse: crushing pressure on the section cut half way through the step.
+// Largest normal impulse [N s], (13): crushing pressure on the section cut half way through the
+// step. At the start of the step instead, the bound would lag behind by half a step.
 double max_impulse(const Contact& contact, double approach, const ContactLaw& law, double dt) {
     if (law.is_rigid()) return std::numeric_limits<double>::infinity();
     // half a step of closing speed: the section of (13) at mid-step; opening does not reduce it

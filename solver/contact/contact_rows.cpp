@@ -14,7 +14,8 @@ namespace ice {
 
 namespace {
 
-// Colours that pairs share; a pair for whose bodies none is left gets one of its own.
+// Colours that pairs share [-]: the bits of a word for each body. A pair for whose bodies none is
+// left gets one of its own and is swept alone, which is slow; a floe has far fewer neighbours.
 constexpr int kColours = 64;
 
 void put(LaneVectors& to, std::size_t lane, const Vec3& from) {

@@ -13,11 +13,12 @@
 namespace ice {
 
 /// Body pairs in a block; fixed, so that the arithmetic's order depends on no instruction set.
+/// Eight doubles are the widest vector in use; another number gives other last digits.
 constexpr std::size_t kLanes = 8;
 
 /// One number for each pair of a block.
 struct alignas(64) LaneValues {
-    double v[kLanes];
+    double v[kLanes];  ///< by lane
 };
 using LaneVectors = std::array<LaneValues, 3>;  ///< x, y, z
 
@@ -29,30 +30,31 @@ inline Vec3 get(const LaneVectors& from, std::size_t lane) {
 /// Impulses of a row: what a sweep changes.
 struct RowImpulses {
     LaneValues normal;    ///< accumulated in the stage, >= 0 [N s]
-    LaneVectors tangent;  ///< [N s]
+    LaneVectors tangent;  ///< friction, across the normal, world axes [N s]
 };
 
 /// One contact of each pair of a block; where a pair has no more contacts all is zero.
 struct ContactRow {
-    LaneVectors normal, arm_a, arm_b;           ///< as in Constraint
+    LaneVectors normal, arm_a, arm_b;           ///< as in Constraint; arms [m]
     LaneVectors response;                       ///< change of v_r by a unit normal impulse [1/kg]
     LaneValues inverse_effective_mass;          ///< k(n) [1/kg]
     LaneValues tangent_inverse_effective_mass;  ///< largest k(t) [1/kg]
     LaneValues effective_mass, tangent_effective_mass;  ///< 1 / the responses [kg]
-    LaneValues friction;                                ///< Coulomb's coefficient
+    LaneValues friction;                                ///< Coulomb's coefficient [-]
     // of the stage
-    LaneValues target_velocity;  ///< least v_r . n [m/s]
+    LaneValues target_velocity;  ///< v* of (6): least v_r . n [m/s]
     LaneValues max_impulse;      ///< largest normal impulse, >= 0 [N s]
     RowImpulses impulse;
 };
 
 /// Eight body pairs without a common free body, so that they may be solved at once.
 struct PairBlock {
-    std::int32_t first_row = 0, rows = 0;
+    std::int32_t first_row = 0, rows = 0;  ///< of ContactRows::rows
     std::int32_t colour = 0;  ///< neither do blocks of one colour; later ones have no more rows
-    std::array<std::int32_t, kLanes> a{}, b{};  ///< local bodies; lanes without a pair: -1
-    LaneValues inverse_mass_a{}, inverse_mass_b{};
-    std::array<LaneValues, 6> inverse_inertia_a{}, inverse_inertia_b{};  ///< xx yy zz xy xz yz
+    std::array<std::int32_t, kLanes> a{}, b{};      ///< local bodies; lanes without a pair: -1
+    LaneValues inverse_mass_a{}, inverse_mass_b{};  ///< [1/kg]; 0 for immovable bodies
+    /// World axes: xx yy zz xy xz yz [1/(kg m2)].
+    std::array<LaneValues, 6> inverse_inertia_a{}, inverse_inertia_b{};
 };
 
 /// inverse_mass_excess of a block's bodies, where they have added mass [1/kg].
@@ -60,7 +62,8 @@ struct PairExcess {
     std::array<LaneValues, 6> a{}, b{};  ///< xx yy zz xy xz yz
 };
 
-/// Velocity and angular velocity of a body: v x y z, w x y z; two are not used.
+/// Velocity [m/s] and angular velocity [rad/s] of a body, world axes: v x y z, w x y z; two are not
+/// used.
 struct alignas(64) BodyMotion {
     double v[8];
 };
@@ -85,13 +88,16 @@ public:
     void build(const Bodies& bodies, const std::vector<Constraint>& constraints,
                const std::vector<std::int32_t>& which);
 
-    /// What a stage asks of a contact.
+    /// Right-hand side and bound of a contact in a stage.
     struct Target {
         double target_velocity;  ///< least v_r . n [m/s]
         double max_impulse;      ///< largest normal impulse [N s]; negative counts as 0
     };
 
     /// Takes velocities from the bodies, impulses and targets from the constraints.
+    /// @param normal, tangent  members of Constraint with the impulses of this stage
+    /// @param target_of        Constraint -> Target
+    /// @pre build(), with the same constraints
     template <class TargetOf>
     void begin_stage(const Bodies& bodies, const std::vector<Constraint>& constraints,
                      double Constraint::*normal, Vec3 Constraint::*tangent,
@@ -104,7 +110,8 @@ public:
         }
     }
 
-    /// Gives impulses to the constraints, and their change since begin_stage to the bodies.
+    /// Gives impulses [N s] to the constraints, and their change since begin_stage to the bodies.
+    /// Rows without an impulse before and after change nothing.
     void end_stage(Bodies& bodies, std::vector<Constraint>& constraints, double Constraint::*normal,
                    Vec3 Constraint::*tangent) const;
 
@@ -121,10 +128,10 @@ public:
         return local_[static_cast<std::size_t>(body)];
     }
 
-    std::vector<PairBlock> blocks;   ///< by colour
+    std::vector<PairBlock> blocks;   ///< by colour; empty where nothing can move
     std::vector<ContactRow> rows;    ///< by block
     std::vector<PairExcess> excess;  ///< by block; empty where no body has added mass
-    std::vector<BodyMotion> motion;  ///< of the bodies that take part
+    std::vector<BodyMotion> motion;  ///< by local number, of the bodies that take part
 
 private:
     struct Pair {
@@ -149,8 +156,8 @@ private:
     std::vector<std::uint64_t> used_colours_;  // by local number
     std::vector<std::int32_t> slot_;           // by row of which_: kLanes row + lane, or -1
 
-    std::vector<std::int32_t> copies_;  // of the ship, local numbers; none where it is captive
-    double copy_inverse_mass_ = 0.0;
+    std::vector<std::int32_t> copies_;  // of a ship that answers, local numbers; else none
+    double copy_inverse_mass_ = 0.0;    // [1/kg]
     Mat3 copy_inverse_inertia_ = Mat3::Zero();
     Mat3 inverse_mass_ = Mat3::Zero();  // of the ship
     BodyMotion parted_{};               // its motion before the sweep

@@ -9,7 +9,8 @@
 
 namespace ice {
 
-/// Looks after the energy of the impact stage; keeps its memory between steps.
+/// Bounds the energy of the impact stage, equation (8); keeps its memory between steps. Calls in
+/// this order: begin(), energy_gain(); where that is above 0, set_aside(), limit_rebound().
 class ImpactEnergyLimiter {
 public:
     /// Before the impacts. @param which  constraints that take part; the others have no impulse
@@ -18,7 +19,8 @@ public:
                const std::vector<Constraint>& constraints, const std::vector<std::int32_t>& which);
 
     /// Energy [J] that the impacts put into the floes beyond the ship's work, largest of all
-    /// islands (floes connected by such contacts); at most 0 for impacts that only lose energy.
+    /// islands (floes connected by such contacts); at most 0 for impacts that only lose energy, 0
+    /// for no contacts.
     ///
     /// With v_r at the constraints at the beginning and now, the sum of
     /// J . (v_r before + v_r now) / 2 over an island's constraints.
@@ -46,7 +48,8 @@ public:
                        std::vector<Constraint>& constraints);
 
 private:
-    /// Velocities of the touched bodies, by local number, and impulses of which_.
+    /// Velocities of the touched bodies [m/s], [rad/s], by local number, and impulses of which_
+    /// [N s].
     struct State {
         std::vector<Vec3> velocity, angular_velocity, tangent;
         std::vector<double> normal;
@@ -59,7 +62,7 @@ private:
                            const Constraint& c) const;
     void mix_ship(Bodies& bodies, const ContactRows& contacts,
                   const std::vector<Constraint>& constraints) const;
-    // Per island: the gain of energy of impulses J that lead from the beginning to `end`.
+    // Per island: the gain of energy of impulses J that lead from the beginning to `end` [J].
     void measure_gains(const Bodies& bodies, const ContactRows& contacts,
                        const std::vector<Constraint>& constraints, const State& end,
                        std::vector<double>& out) const;

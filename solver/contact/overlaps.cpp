@@ -14,17 +14,21 @@ namespace ice {
 namespace {
 
 // Time in which a shallow overlap would open at its first rate [s]: a fifth of it in a step of
-// 0.02 s, as is usual in split-impulse solvers.
+// 0.02 s, as is usual in split-impulse solvers. Shorter opens overlaps sooner and puts in more
+// energy (the ledger's separation); longer leaves jams deeper.
 constexpr double kOpeningTime = 0.1;
 
-// Most of an overlap that counts, in radii: a deep one opens at half a radius in kOpeningTime,
-// which is slow beside a floe and yet ends what the pair is in within a second.
+// Most of an overlap that counts, in radii [-]: a deep one opens at half a radius in kOpeningTime,
+// which is slow beside a floe and yet opens it within a second. Larger throws bodies apart that a
+// fault of the contact search let in; smaller keeps them in each other for longer.
 constexpr double kMostOpened = 0.5;
 
-// Most of an overlap that one step opens. All of it would overshoot where contacts share a body.
+// Most of an overlap that one step opens [-], which steps above 0.02 s reach. All of it would
+// overshoot where contacts share a body; less opens slowly at long steps.
 constexpr double kMostInStep = 0.2;
 
-// Sweeps over the moves of a step; overlap that they leave opens in the next steps.
+// Sweeps over the moves of a step [-]; overlap that they leave opens in the next steps, since a
+// step opens a fifth at most. More cost time, fewer leave more to the next steps.
 constexpr int kSeparationIterations = 10;
 
 // The smaller one of the bodies' spheres [m]: lengths of a contact count in it.
@@ -87,7 +91,7 @@ void Overlaps::correct_positions(const Scene& scene, const std::vector<Constrain
         const Constraint& c = constraints[k];
         const double radius = radius_of(scene, c);
         const double overlap = -gap_after(bodies, c, dt) - kToleratedOverlap * radius;
-        // a captive ship and held ice keep theirs
+        // a ship at prescribed speed and held ice keep theirs
         if (overlap <= 0.0 || c.is_at_bound() || !c.can_move) continue;
         pushes_.push_back(push_of(bodies, c, k, share * std::min(overlap, kMostOpened * radius)));
     }
@@ -137,7 +141,7 @@ void Overlaps::crush(Scene& scene, const std::vector<Contact>& contacts,
               });
     for (std::size_t k = 0; k < crush_events_.size();) {
         const std::int32_t body = crush_events_[k].body, sphere = crush_events_[k].sphere;
-        // several hull spheres may press on one of the ice's: it gives way once
+        // several hull spheres may press on one of the ice's: it is displaced once
         Vec3 move = Vec3::Zero();
         for (; k < crush_events_.size() && crush_events_[k].body == body &&
                crush_events_[k].sphere == sphere;

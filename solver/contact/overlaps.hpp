@@ -13,13 +13,14 @@ namespace ice {
 /// Overlap that is left alone, as a share of the smaller contact sphere's radius: contacts that
 /// just touch stay contacts, and a case may begin with it. It is what places rounded to a
 /// millimetre and normals rounded to floats make of floes that touch, and what a gap changes by
-/// where another sphere becomes the nearest one.
+/// where another sphere becomes the nearest one. Dimensionless. More leaves bodies deeper in each
+/// other; with less, position correction moves floes that only touch.
 constexpr double kToleratedOverlap = 0.02;
 
 /// Small moves that shrink overlaps; they change poses, never velocities or reported forces.
 struct PositionCorrections {
-    std::vector<Vec3> shift;  ///< per body [m]
-    std::vector<Vec3> turn;   ///< per body, rotation vector [rad]
+    std::vector<Vec3> shift;  ///< by body, world axes [m]
+    std::vector<Vec3> turn;   ///< by body, rotation vector in world axes [rad]
 };
 
 /// Extends a move by what it lacks of `length` [m] along a unit direction: of several pushes on one
@@ -31,19 +32,27 @@ inline void add_along(double length, const Vec3& direction, Vec3& move) {
 /// Takes care of overlaps; keeps its memory between steps, and nothing else.
 class Overlaps {
 public:
-    /// Moves overlapping bodies apart by a part of the overlap that this step's velocities leave:
-    /// the overlap, at most half a radius of it, in 0.1 s. So a deep pair opens at five
-    /// radii a second, at any scale and time step.
+    /// Moves overlapping bodies apart by a part of the overlap that this step's velocities leave
+    /// (equation (12)):
     ///
-    /// The same inequality solver on displacements instead of velocities: n . (d_b - d_a) >= push.
+    ///     n . (d_b - d_a) >= min(dt / 0.1 s, 1/5) min(overlap - R / 50, R / 2)
+    ///
+    /// solved as the velocities are, by Gauss-Seidel on displacements d. With steps up to 0.02 s a
+    /// deep pair thus opens at five radii R a second; with longer ones a tenth of a radius in each
+    /// step, which is slower.
+    ///
     /// Contacts at their bound are left alone: that ice is gone. A ship that answers moves by its
-    /// share, of its mass and the water's that moves along; where it is captive floes move alone.
-    /// @param dt  time step [s]
+    /// share, of its mass and the water's that moves along; one at prescribed speed does not move.
+    /// @param dt   time step [s]
+    /// @param out  resized to all bodies; zero for bodies without overlap. It is that of the last
+    ///             step, or empty: only the ship and moving bodies are cleared
     void correct_positions(const Scene& scene, const std::vector<Constraint>& constraints,
                            double dt, PositionCorrections& out);
 
-    /// Ice at its bound gives way: the overlap that the step leaves at such a contact is taken off
-    /// the ice for good; rigid ice has no bound.
+    /// Ice at its bound is crushed: the overlap that the step leaves at such a contact is taken off
+    /// the ice for good. Of several contacts that press on one sphere, each adds what the others do
+    /// not already take along its normal. Rigid ice has no bound.
+    /// @param dt  time step [s]
     /// @pre called before the poses advance, after resolve_rest, with the constraints' law and dt
     void crush(Scene& scene, const std::vector<Contact>& contacts,
                const std::vector<Constraint>& constraints, const ContactLaw& law, double dt);
@@ -56,6 +65,7 @@ private:
         double effective_mass;  // 1 / k(n) [kg]
         Vec3 ship_shift;        // by a unit push, of a ship that answers [1/kg]
     };
+    // @param target  move along the normal [m]
     static Push push_of(const Bodies& bodies, const Constraint& c, std::size_t row, double target);
 
     struct CrushEvent {

@@ -12,7 +12,9 @@ namespace ice {
 
 namespace {
 
-// Spheres whose centres are this near [patch radii] are neighbours: one and a half spacings.
+// Spheres whose centres are this near [patch radii] are neighbours: one and a half spacings. More
+// lets single deep spheres take whole ice far away, and contacts are lost; less finds no crushed
+// neighbour of a sphere beside a notch, which is then crushed a second time.
 constexpr double kNeighbours = 2.0;
 
 // By how much a contact may have become deeper within the last step [m]: bodies came to their poses
@@ -89,7 +91,7 @@ void Recess::find_moves(const Scene& scene, double dt, const std::vector<Contact
         const double depth = std::min(jump, depth_beside(scene, place.body, place.sphere, inwards));
         if (depth > 0.0) moves_.push_back({place, k, depth * inwards});
     }
-    // by sphere: several contacts may ask for the same one's, which moves once
+    // by sphere: several contacts may need the shift of one sphere, which moves once
     std::sort(moves_.begin(), moves_.end(), [](const Move& l, const Move& r) {
         return std::tie(l.place.body, l.place.sphere, l.contact) <
                std::tie(r.place.body, r.place.sphere, r.contact);

@@ -17,20 +17,26 @@ class CheckpointFile;
 /// own shape. As the bodies slide or turn, their contact passes from a crushed sphere to a whole
 /// neighbour in the same recess, which then seems to overlap by the depth of the recess at once.
 ///
-/// A contact may be deeper than the deepest one of its pair in the last step only by the way that
-/// the two bodies came closer there within the step. Any further depth is ice that was crushed
-/// before: its sphere moves by as much, without force or work, but not deeper than its deepest
-/// neighbour was before the step. Several contacts of one sphere move it once.
+/// A contact may be deeper than the deepest one of its pair in the last step only by the distance
+/// that the two bodies came closer there within the step. Any further depth is ice that was crushed
+/// before: its sphere moves by as much (equation (13a)), without force or work, but not deeper than
+/// its deepest neighbour was before the step. Several contacts of one sphere move it once.
+///
+/// Rejected: the deepest crushed sphere of the whole body in place of the neighbours. With it more
+/// pairs shared room unseen (docs/design-notes.md).
 class Recess {
 public:
-    /// Moves such spheres, and takes their way out of the contacts' overlaps. Its first call only
+    /// Moves such spheres, and takes their shift out of the contacts' overlaps. Its first call only
     /// remembers the pairs' depths. Rigid ice has no recess.
+    /// @param dt           time step [s]
+    /// @param constraints  of the contacts, one each; their gaps grow as the contacts' do
     /// @pre contacts ordered by (a, b), as ContactFinder gives them; MotionBounds has seen
     /// scene.crushed.recent, which is begun anew here
     void move_spheres(Scene& scene, const ContactLaw& law, double dt,
                       std::vector<Contact>& contacts, std::vector<Constraint>& constraints);
 
-    /// These bodies have another form now: contacts with them have no past in the coming step.
+    /// These bodies have another form now: contacts with them have no past in the coming step, so
+    /// that none of their spheres moves.
     /// @pre sorted
     void forget(const std::vector<std::int32_t>& bodies);
 
@@ -49,14 +55,15 @@ private:
     };
     struct Move {
         Place place;
-        std::size_t contact;  // that asked for it
-        Vec3 way;             // body axes [m]
+        std::size_t contact;  // that needs it
+        Vec3 way;             // shift of the sphere, body axes [m]
     };
     static Place place_of(const Contact& c);
     bool has_past(const Contact& c) const;
     // One move for each sphere, sorted; from the depths before any of them.
     void find_moves(const Scene& scene, double dt, const std::vector<Contact>& contacts,
                     const std::vector<Constraint>& constraints);
+    // Of the contact's pair in the last step [m]; `at` is an entry at which to begin.
     double last_depth(const Contact& c, std::size_t& at) const;
     void remember(const std::vector<Contact>& contacts);
 

@@ -20,6 +20,9 @@ struct BlockInverseInertias {
 ///
 ///     k(n) = n . K n,   largest k(t) = greater eigenvalue of K in the tangent plane
 ///
+/// (equations (5) and (10)). With the smaller eigenvalue friction steps would be too long along the
+/// other direction.
+///
 /// @param rows    of the block; where a lane has no contact (normal zero) all becomes zero
 /// @param excess  of the block's bodies, added to K; null where they have no added mass
 void measure_responses(const PairBlock& block, const BlockInverseInertias& inverse_inertias,

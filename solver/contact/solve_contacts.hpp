@@ -15,9 +15,9 @@ namespace ice {
 
 /// How an iterative stage ended.
 struct SolveReport {
-    int iterations = 0;     ///< of all solutions that the stage took
+    int iterations = 0;     ///< sweeps of all solutions that the stage took
     double residual = 0.0;  ///< largest change of a contact velocity in a last iteration [m/s]
-    bool converged = true;  ///< residual <= tolerance
+    bool converged = true;  ///< residual <= tolerance; of the rest: nor does a contact still close
 };
 
 /// The two stages of a step's contacts; keeps its memory between steps, and nothing else.
@@ -28,8 +28,11 @@ public:
     ///
     /// For every contact with gap + dt min(v_r0 . n, 0) <= 0, accumulated impulses J_n, J_t with
     ///
-    ///     0 <= J_n <= max_impulse,   v_r . n >= -e v_r0 . n  with equality where J_n > 0,
-    ///     |J_t| <= mu J_n, opposite to the sliding.
+    ///     0 <= J_n <= max_impulse,   u = v_r . n + e v_r0 . n:   u >= 0 where J_n = 0,
+    ///     u = 0 where 0 < J_n < max_impulse,   u <= 0 where J_n = max_impulse,
+    ///     |J_t| <= mu J_n, opposite to the sliding where it is mu J_n
+    ///
+    /// (equations (6) and (7)).
     ///
     /// A contact that reaches its bound does not rebound (e = 0 for it): with a finite crushing
     /// pressure the stage first solves with e = 0 for all, then with e for contacts that held.
@@ -37,8 +40,10 @@ public:
     /// Bridson, Fedkiw, ACM TOG 22(3), 2003, section 5).
     ///
     /// Where this would add energy (friction at e near 1) the rebound is weakened: limit_rebound().
-    /// Between the ship and a held floe nothing can give way: with a finite crushing pressure the
-    /// contact carries its bound and friction, without one nothing (a jam, see measure_step).
+    /// Between a ship at prescribed speed and a held floe no impulse moves anything: with a finite
+    /// crushing pressure an approaching contact carries its bound and friction, without one nothing
+    /// (a jam, see measure_step). Where no contact approaches, the stage does nothing. It starts
+    /// from the impulses that the constraints have, zero after build_constraints.
     /// @param dt  time step [s], that of build_constraints
     SolveReport resolve_impacts(Bodies& bodies, std::vector<Constraint>& constraints,
                                 const ContactLaw& law, double dt);
@@ -51,6 +56,7 @@ public:
     /// others, again with them and those it nearly closes. A contact that stays apart carries
     /// nothing, so the conditions of the rest are the same without it. `residual` is the last
     /// solution's; not converged where contacts still close after five.
+    /// @param dt  time step [s], that of build_constraints
     /// @pre impact_normal is the impact stage's; constraints ordered by (a, b); no rest_normal
     /// where nothing can move, no rest_tangent where there is no rest_normal
     SolveReport resolve_rest(Bodies& bodies, std::vector<Constraint>& constraints,

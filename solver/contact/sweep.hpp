@@ -18,7 +18,8 @@ namespace ice {
 ///     v_r'  = v_r + (J_n' - J_n) K n
 ///     J_t'  = J_t - (v_r' - (v_r' . n) n) / k_t, shortened to mu J_n' where longer
 ///
-/// and the bodies' velocities change by the change of impulse.
+/// (equations (9) and (10)) and the bodies' velocities change by the change of impulse. No blocks
+/// give 0. The order of blocks and rows decides the result of a single sweep, so it is fixed.
 /// @param excess  of the blocks' bodies (ContactRows::excess); empty where none has added mass
 /// @return largest change of a contact's velocity [m/s]: |dJ_n| k(n) or |dJ_t| k_t
 double sweep(const std::vector<PairBlock>& blocks, std::vector<ContactRow>& rows,

@@ -9,8 +9,8 @@ namespace ice {
 
 /// State before a sweep and the direction of the conjugate gradients, beside rows and motions.
 struct SweepMemory {
-    std::vector<RowImpulses> before, direction;
-    std::vector<BodyMotion> motion_before, motion_direction;
+    std::vector<RowImpulses> before, direction;               ///< by row [N s]
+    std::vector<BodyMotion> motion_before, motion_direction;  ///< by local body [m/s], [rad/s]
 };
 
 /// |g|^2 = sum of k(n) (dJ_n^2 + dJ_t^2) for the changes since `memory` [J]: k J^2 is twice the
@@ -19,7 +19,8 @@ struct SweepMemory {
 double measure_change(const std::vector<ContactRow>& rows, const SweepMemory& memory);
 
 /// With g the change since `before` and d the direction: values += beta d, d = beta d + g,
-/// before = values; for impulses and velocities.
+/// before = values; for impulses and velocities (equation (11)). With beta = 0 values stay as they
+/// are, and the direction begins anew with g. @param beta  [-], 0 to 1
 void move_on(std::vector<ContactRow>& rows, std::vector<BodyMotion>& motion, double beta,
              SweepMemory& memory);
 

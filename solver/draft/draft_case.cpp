@@ -18,13 +18,15 @@ namespace ice {
 
 namespace {
 
+// Guesses that a drafted case begins with; the user changes them in its text, so that each affects
+// the draft alone.
 constexpr double kWaterDensity = 1025.0;  // sea water [kg/m3]
-constexpr double kDraughtShare = 0.6;     // of the depth
-constexpr double kFroude = 0.0657;        // 4 kn at 100 m: V / sqrt(g L)
-constexpr double kLengths = 1.5;          // of travel
-constexpr double kStepShare = 0.2;        // of a sphere's radius
-constexpr double kFieldShare = 0.95;      // of the way through the field
-constexpr double kFewest = 0.1;           // lengths of travel that make a run
+constexpr double kDraughtShare = 0.6;     // of the depth [-]
+constexpr double kFroude = 0.0657;        // 4 kn at 100 m: V / sqrt(g L) [-]
+constexpr double kLengths = 1.5;          // of travel, in ship's lengths [-]; longer: better means
+constexpr double kStepShare = 0.2;        // of a sphere's radius, travelled in a step [-]
+constexpr double kFieldShare = 0.95;      // of the path through the field [-]
+constexpr double kFewest = 0.1;           // lengths of travel that make a run [-]
 
 // The number rounded to a count of digits.
 double rounded(double x, int digits) { return std::stod(fmt::format("{:.{}g}", x, digits)); }

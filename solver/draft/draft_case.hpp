@@ -7,15 +7,16 @@
 
 namespace ice {
 
-/// Numbers of a drafted case that its files do not contain: lengths [m], speed [m/s], times [s].
+/// Numbers of a drafted case that its files do not contain: lengths and places [m], speed [m/s],
+/// times [s]; shares as marked.
 struct Draft {
     double draught = 0.0;
     bool draught_from_mesh = false;  ///< the mesh crosses z = 0, which is taken for its water line
     double x = 0.0, y = 0.0;         ///< of the mesh's origin
     double speed = 0.0, duration = 0.0, time_step = 0.0, average_from = 0.0;
     double length = 0.0;                         ///< of the waterline
-    double lengths = 0.0;                        ///< travelled, in lengths of the waterline [1]
-    double averaged_lengths = 0.0;               ///< of them averaged [1]
+    double lengths = 0.0;                        ///< travelled, in lengths of the waterline [-]
+    double averaged_lengths = 0.0;               ///< of them averaged [-]
     double clearance = 0.0;                      ///< between the bow and the first ice
     double thickness = 0.0;                      ///< of the first floe
     double ice_from = 0.0, ice_to = 0.0;         ///< along x, of a sheet in the field's place
@@ -41,6 +42,7 @@ std::string draft_text(const Draft& draft, const std::string& hull, const std::s
 
 /// Specification of a field for a ship where the user has none: floes of a twelfth of its length in
 /// a channel three times as broad as it, 80 % cover, a hundredth of the length thick.
+/// @param length, breadth  of the ship [m]
 std::string draft_field(double length, double breadth);
 
 }  // namespace ice

@@ -20,8 +20,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kSpheres = 12000.0;  // on a hull
-constexpr double kSpacing = 1.4;      // in radii
+// Spheres on a hull, about [-]. More resolve finer ice and take longer to search; the user may make
+// another set.
+constexpr double kSpheres = 12000.0;
+// Their distance in radii [-]: below 1.73 they cover the surface without gaps. Larger makes larger
+// spheres, which resolve edges less well.
+constexpr double kSpacing = 1.4;
 
 void refuse_existing(const fs::path& file, const std::string& remedy) {
     if (fs::exists(file)) throw bad_input(file.string(), "exists already", remedy);
@@ -78,6 +82,7 @@ fs::path make_field_file(const fs::path& specification, const fs::path& folder) 
     return out;
 }
 
+// By the hull's box: length and breadth set the size of field and floes.
 fs::path make_specification(const fs::path& hull, const fs::path& folder) {
     fs::path out = folder / "ice.toml";
     refuse_existing(out, "give it behind the hull, or remove it");

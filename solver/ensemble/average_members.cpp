@@ -90,6 +90,7 @@ std::map<std::string, RegionStatistics> average_regions(const Members& members) 
     return out;
 }
 
+// @param share  1 / n for means, 1 for sums
 std::map<std::string, double> average_numbers(const Members& members,
                                               std::map<std::string, double> Summary::*numbers,
                                               double share) {
@@ -189,6 +190,7 @@ std::vector<Warning> gather_warnings(const Members& members) {
     return shared;
 }
 
+// Of all members: one step that lost momentum is a fault of them all.
 std::map<std::string, double> worst_imbalance(const Members& members) {
     std::map<std::string, double> out;
     for (const Member& m : members)
@@ -198,10 +200,10 @@ std::map<std::string, double> worst_imbalance(const Members& members) {
 }
 
 }  // namespace
-// Starts as the first member's summary: what is not replaced below is the same for all.
 
 Summary average_members(const std::vector<Member>& members) {
     ICE_ASSERT(!members.empty());
+    // starts as the first member's summary: what is not replaced below is the same for all
     Summary out = members.front().summary;
     const double share = 1.0 / static_cast<double>(members.size());
     average_counts(members, out);

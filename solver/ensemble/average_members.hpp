@@ -10,7 +10,7 @@ namespace ice {
 
 /// A finished run of an ensemble.
 struct Member {
-    std::int64_t seed = 0;
+    std::int64_t seed = 0;  ///< simulation.seed of the run
     Summary summary;
 };
 

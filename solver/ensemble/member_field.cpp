@@ -100,8 +100,8 @@ bool MemberFields::changes_with_seed(const Group& group, std::int64_t first) {
                             group.file.string(), seed, reason(code)));
         return false;
     }
-    // two seeds with the same floes: the seed changes nothing, and jitter must make the
-    // difference
+    // Two seeds with the same floes: the seed changes nothing, and jitter must make the difference.
+    // Compared as fields, not as files, which hold seed and command.
     const fs::path one = file_of(group, first), other = file_of(group, first + 1);
     if (!same_floes(read_field(one), read_field(other))) return true;
     std::error_code ignored;

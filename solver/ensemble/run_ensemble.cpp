@@ -24,7 +24,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kJitter = 0.01;  // of the smallest ice sphere's radius
+// Jitter of members whose case has none, in radii of the smallest ice sphere [-]: two floes then
+// come nearer by no more than a start tolerates. Larger could make floes that touch overlap; much
+// smaller leaves members alike for their first contacts.
+constexpr double kJitter = 0.01;
 
 // Where no field changes with the seed and the case moves no floe, jitter makes the difference.
 // So little leaves the field as it is; but the motion is chaotic, and after a few impacts the

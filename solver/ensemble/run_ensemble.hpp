@@ -13,8 +13,8 @@ namespace ice {
 /// Options of `icesolve CASE --seeds N`.
 struct EnsembleOptions {
     std::string case_file;
-    std::vector<std::string> overrides;  ///< of the case, "key=value"
-    int members = 0;
+    std::vector<std::string> overrides;     ///< of the case, "key=value"
+    int members = 0;                        ///< number of runs, at least 1
     std::filesystem::path folder;           ///< members in seed-1, seed-2, ...
     bool overwrite = false;                 ///< first remove the runs in the folder
     std::vector<std::string> member_words;  ///< of the command line, for every member

@@ -11,7 +11,9 @@ namespace ice {
 
 namespace {
 
-constexpr std::size_t kMostBodyPanels = 4000;  // of the whole body: 128 MB of coefficients
+// Panels of a whole body at most [-]: 128 MB of coefficients. More allows shorter edges; memory
+// grows with the square.
+constexpr std::size_t kMostBodyPanels = 4000;
 using Vec6 = Eigen::Matrix<double, 6, 1>;
 using Mat6X = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 

@@ -18,15 +18,17 @@ using Mat6 = Eigen::Matrix<double, 6, 6>;
 ///
 /// with n into the water and the mean over a panel at its flux_points(). A is the symmetric part of
 /// what the panels give. The body's images decide about the water's surface (PanelBody::image).
-/// @param body  all of it: not PanelBody::symmetric
+/// @param body     all of it: not PanelBody::symmetric
+/// @param about    [m], in the panels' axes
+/// @param density  of the water [kg/m3]
 /// @throws Error (exit code 1) where the flow has no solution
 Mat6 added_mass(const PanelBody& body, const Vec3& about, double density);
 
 /// Added mass of a ship afloat.
 struct ShipAddedMass {
-    Mat6 matrix = Mat6::Zero();
-    double displacement = 0.0;  ///< rho V of the panels' body [kg]
-    std::size_t panels = 0;
+    Mat6 matrix = Mat6::Zero();  ///< as added_mass(): [kg], [kg m], [kg m2]
+    double displacement = 0.0;   ///< rho V of the panels' body [kg]
+    std::size_t panels = 0;      ///< that it was computed from
 };
 
 /// Of the wetted part of a closed hull. Surge, sway and yaw are slow: the water's surface is a lid.
@@ -40,6 +42,8 @@ ShipAddedMass ship_added_mass(const TriangleMesh& hull, double water, const Vec3
                               double density, double longest_edge = 0.0);
 
 /// A closed body as panels, whole: the mesh's triangles, split until no edge is longer.
+/// @param longest_edge  [m], > 0 @param image  PanelBody::image [-]
+/// @throws Error (exit code 2) where that gives more than 4000 panels
 PanelBody whole_body(const TriangleMesh& mesh, double longest_edge, double image);
 
 }  // namespace ice

@@ -11,11 +11,12 @@ namespace ice {
 
 /// Sets a flow's residual, worst, worst_place and net_flux: the normal velocity that is left at
 /// three points of each element, weighted by its size, and the share of the sources that does not
-/// vanish in sinks. Sums run in the elements' order.
+/// vanish in sinks [-]. Sums run in the elements' order. Without sources the net flux is 0, without
+/// elements the residual is NaN.
 /// @param elements   panels or lines, each with its outward normal
 /// @param size_of    area of a panel [m2], length of a line [m]
 /// @param direction  of the body's motion, at speed 1
-/// @param points     three on each element, a little into the water [m]
+/// @param points     three on each element, in their order, a little into the water [m]
 template <class Flow, class Element, class Size>
 void set_residual(Flow& flow, const std::vector<Element>& elements, const Size& size_of,
                   const Vec3& direction, std::span<const Vec3> points) {

@@ -20,16 +20,22 @@ namespace ice {
 
 namespace {
 
-// Faster flow than this many ship speeds is slowed down to it: at a sharp edge ideal flow has no
-// bound.
+// Faster flow than this many ship speeds [-] is slowed down to it: at a sharp edge ideal flow has
+// no bound. Larger lets single nodes at an edge throw small floes; smaller cuts into flow that is
+// right, such as that at a bluff bow (1 at its stagnation point).
 constexpr double kMostSpeed = 1.2;
-constexpr double kFade = 1.0 / 3.0;  // of the margin
-// Nodes of a table where no spacing is given, in 3D and in 2D; more than the last are refused.
+// Share of the margin in which the flow fades to 0 [-]. Less makes the edge of the table steeper,
+// which a floe feels as a force; more takes flow away near the hull.
+constexpr double kFade = 1.0 / 3.0;
+// Nodes of a table where no spacing is given, in 3D and in 2D; more than the last are refused: a
+// node has four floats, so 320 MB. Twice the nodes take twice the time and halve a node's volume.
 constexpr double kNodes = 3e5, kNodes2D = 1e4, kMostNodes = 2e7;
 // Lines of a section; half as many panels of a hull. Their matrix is stored whole: 512 MB for 8000
 // lines, 128 MB for 4000 panels.
 constexpr std::size_t kMostPanels = 8000;
-constexpr double kWorryingResidual = 0.05;  // hulls with sharp edges have 2 to 4 %, smooth ones 1 %
+// Residual above which a flow is worth a warning [-]: hulls with sharp edges have 2 to 4 %, smooth
+// ones 1 %. Only the warning depends on it.
+constexpr double kWorryingResidual = 0.05;
 // Net source over the sum of all sources' amounts: above it the hull is not closed, or its panels
 // are too large.
 constexpr double kWorryingFlux = 0.005;
@@ -39,8 +45,8 @@ constexpr double kOffSurface = 0.1;
 
 // The hull as the table sees it.
 struct Sources {
-    Vec3 low, high;  // box of the wetted hull [m]
-    double margin = 0.0;
+    Vec3 low, high;       // box of the wetted hull [m]
+    double margin = 0.0;  // of the table around that box [m]
     std::function<std::vector<FlowSample>(std::span<const Vec3>)> flow_at;
     std::function<Vec3(const Vec3&, double)> off_surface;  // near a point, so far off [m]
 };
@@ -67,7 +73,8 @@ void lay_grid(const Sources& s, bool plane, const FlowOptions& options, FlowTabl
     out.origin = Vec3(low.x(), out.symmetric || plane ? 0.0 : low.y(), -spacing * steps(depth));
 }
 
-// 1 within, 0 at the rim, and smooth.
+// 1 within, 0 at the rim, and smooth: the cubic with level ends, so that the flow's slope has no
+// jump, either. @param from_rim, width  [m]
 double fade(double from_rim, double width) {
     const double s = std::clamp(from_rim / width, 0.0, 1.0);
     return s * s * (3.0 - 2.0 * s);
@@ -132,7 +139,8 @@ Vec3 off_panels(const PanelBody& body, const Vec3& p, double off) {
     double least = 1e300;
     Vec3 nearest = p;
     for (const SourcePanel& panel : body.panels) {
-        // A sphere around the panel rules most of them out before the exact distance.
+        // A sphere around the panel rules most of them out before the exact distance; far_squared
+        // is the square of 6 of its radii (source_panel.cpp).
         const double radius = std::sqrt(panel.far_squared) / 6.0;
         const double from_centre = (panel.centre - p).norm();
         if (from_centre - radius >= least) continue;

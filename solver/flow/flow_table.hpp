@@ -18,12 +18,12 @@ struct FlowOptions {
 /// A table, and what its maker noticed.
 struct HullFlow {
     FlowTable table;
-    double panel = 0.0;               ///< longest edge [m]
+    double panel = 0.0;               ///< longest edge of the panels [m]
     double length = 0.0;              ///< of the wetted hull [m]
-    double worst = 0.0;               ///< largest normal velocity left on the hull [1]
+    double worst = 0.0;               ///< largest normal velocity left on the hull, ship speeds [-]
     Vec3 worst_place = Vec3::Zero();  ///< where [m]
-    double net_flux = 0.0;            ///< share of the sources that does not vanish in sinks [1]
-    double solve_seconds = 0.0, table_seconds = 0.0;
+    double net_flux = 0.0;            ///< share of the sources that does not vanish in sinks [-]
+    double solve_seconds = 0.0, table_seconds = 0.0;  ///< wall time of each [s]
 };
 
 /// The flow around a hull, 3D or 2D, from its sources to a table.
@@ -31,12 +31,15 @@ struct HullFlow {
 /// The table reaches a breadth around the hull (2D: a draught), within it the outer third fades
 /// smoothly to 0. Nodes in the hull have the flow of the surface's nearest point. Speeds above 1.2
 /// in the earth frame, which sharp edges make, are lowered to that. The same bits for any number of
-/// threads and any instruction set.
+/// threads and any instruction set. options.panel wins over the bound on panels: too many are
+/// refused, never made coarser.
+/// @param dimension  3, or 2 for a section
 /// @throws Error (exit code 2) where the hull is not in the water, or the options give more than
 ///         8000 panels or 2e7 nodes; (1) where the flow has no solution
 HullFlow make_hull_flow(const TriangleMesh& hull, int dimension, const FlowOptions& options);
 
-/// What is to be said of a flow: a residual above 5 %, sources that do not add up to 0.
+/// What is to be said of a flow: a residual above 5 %, sources that do not add up to 0. Empty for a
+/// flow without faults.
 std::vector<std::string> warnings_of(const HullFlow& flow);
 
 }  // namespace ice

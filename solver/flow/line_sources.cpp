@@ -16,10 +16,14 @@ namespace ice {
 
 namespace {
 
+// Flow at unit distance from a point source of strength 1 in the plane: 1 / (2 pi) [-].
 constexpr double kPerCircle = 0.5 / std::numbers::pi;
-// Where no length is given, a line is at most this part of the wetted section's length.
+// Lines along the wetted section where no length is given [-]. More are more exact, and their
+// matrix grows with the square.
 constexpr double kLinesAlong = 100.0;
-constexpr double kLeastSquare = 1e-60;  // of a distance: at the very end of a line [m2]
+// Least square of a distance [m2], at the very end of a line: its logarithm stays finite. No other
+// point is so near, so that the value has no effect elsewhere.
+constexpr double kLeastSquare = 1e-60;
 
 FlowSample line_flow(const SourceLine& line, const Vec3& x) {
     // (23) without 1 / (2 pi): t ln(r_a / r_b) + theta n, where theta is the angle in which the

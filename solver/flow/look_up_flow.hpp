@@ -14,14 +14,16 @@ namespace ice {
 struct FlowGrid {
     static constexpr std::size_t kNumbers = 4;
 
-    std::vector<float> node;  ///< velocity x, y, z and potential, x fastest, then y
-    Vec3 origin = Vec3::Zero();
-    double per_spacing = 0.0;                   ///< [1/m]
+    /// For a ship at 1 m/s: velocity x, y, z [m/s] and potential [m2/s] of each node, x fastest,
+    /// then y.
+    std::vector<float> node;
+    Vec3 origin = Vec3::Zero();                 ///< place of the first node [m]
+    double per_spacing = 0.0;                   ///< one over the nodes' distance [1/m]
     double last_x = 0, last_y = 0, last_z = 0;  ///< number of the last node along each axis
     std::size_t stride_y = 0, stride_z = 0;     ///< in numbers; along y 0 for a section (2D)
-    bool symmetric = false;
-    double residual = 0.0;    ///< FlowTable::residual
-    std::int64_t panels = 0;  ///< FlowTable::panels
+    bool symmetric = false;                     ///< the table has y >= 0 alone
+    double residual = 0.0;                      ///< FlowTable::residual [-]
+    std::int64_t panels = 0;                    ///< FlowTable::panels
 
     FlowGrid() = default;  ///< no table: look_up_flow() gives zeros
     explicit FlowGrid(const FlowTable& table);
@@ -31,10 +33,11 @@ struct FlowGrid {
 /// The flow at points in the table's axes, linear between the nodes of a cell along x, then y, then
 /// z; 0 outside the table, which has faded by then. Above the water it is that at its surface. The
 /// same bits on every instruction set.
+/// @param points  [m] @param out  as many
 void look_up_flow(const FlowGrid& grid, std::span<const Vec3> points, std::span<FlowSample> out);
 
 namespace reference {
-/// The definition: read this first.
+/// The definition: read this first. @param point  in the table's axes [m]
 FlowSample look_up_flow(const FlowGrid& grid, const Vec3& point);
 }  // namespace reference
 

@@ -9,7 +9,7 @@
 
 namespace ice {
 
-/// Flow at unit distance from a source of strength and area 1: 1 / (4 pi).
+/// Flow at unit distance from a source of strength and area 1: 1 / (4 pi) [-].
 constexpr double kPerSphere = 0.25 / std::numbers::pi;
 
 /// The flow at a point, for a ship at 1 m/s along +x.
@@ -38,15 +38,15 @@ struct FlowSample {
 void sum_panels(const PanelBody& body, std::span<const double> strength,
                 std::span<const Vec3> points, std::span<FlowSample> out);
 
-/// Panels whose mean flux is asked for, eight beside each other.
+/// Panels whose mean flux is computed, eight beside each other.
 struct FluxTargets {
     static constexpr std::size_t kCount = 8;
-    double x[3][kCount], y[3][kCount], z[3][kCount];  ///< flux_points() [m]
-    double nx[kCount], ny[kCount], nz[kCount];        ///< normals
+    double x[3][kCount], y[3][kCount], z[3][kCount];  ///< flux_points(), 3 of each panel [m]
+    double nx[kCount], ny[kCount], nz[kCount];        ///< normals, unit
 };
 
 /// Mean normal velocity through each target from each panel, with its images, at unit strength.
-/// @param out  8 per panel of the body: those of panel j from 8 j on
+/// @param out  8 per panel of the body: those of panel j from 8 j on [m/s]
 void mean_fluxes(const PanelBody& body, const FluxTargets& targets, std::span<double> out);
 
 namespace reference {

@@ -10,7 +10,8 @@ namespace ice::reference {
 
 namespace {
 
-// Of the least distance from an edge's line, in the edge's length: there a logarithm is 32.
+// Of the least distance from an edge's line, in the edge's length [-]: there a logarithm is 32.
+// Larger lowers the speed on an edge, where it is no number of the flow in any case.
 constexpr double kLeastGap = 1e-14;
 
 struct Flow {

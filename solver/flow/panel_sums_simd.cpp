@@ -46,7 +46,7 @@ HWY_INLINE Lanes Log(Lanes x) {
                    hn::Mul(hn::Mul(All(2.0), t), AtanhSeries(hn::Mul(t, t))));
 }
 
-// own::quarter_angle()
+// own::quarter_angle(): all three bounds are tested and the part's numbers chosen, with no branch.
 HWY_INLINE Lanes QuarterAngle(Lanes y, Lanes x) {
     const Mask first = hn::Gt(y, hn::Mul(All(own::kBound[0]), x)), second = hn::Gt(y, x),
                third = hn::Gt(y, hn::Mul(All(own::kBound[2]), x));
@@ -108,6 +108,8 @@ HWY_INLINE Flow NearFlow(const SourcePanel& p, Vectors at) {
     return out;
 }
 
+// A panel of strength 1 at as many points as there are lanes: points beside each other in space are
+// mostly all far from it, or all near.
 HWY_INLINE Flow UnitFlow(const SourcePanel& p, Vectors at) {
     const Tag d;
     const Vectors off = Sub(at, Set(p.centre));
@@ -131,6 +133,7 @@ HWY_INLINE Flow WithImageBelow(const PanelBody& body, const SourcePanel& p, Vect
                      hn::Mul(s, image.phi)});
 }
 
+// Half a symmetric hull and its image in y = 0: a quarter of the entries of the whole one's matrix.
 HWY_INLINE Flow ImagedFlow(const PanelBody& body, const SourcePanel& p, Vectors at) {
     const Flow here = WithImageBelow(body, p, at);
     if (!body.symmetric) return here;

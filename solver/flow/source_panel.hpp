@@ -20,11 +20,13 @@ struct SourcePanel {
     double far_squared;            ///< from this distance on it is a point source [m2]
 };
 
+/// Prepares a triangle. @param a, b, c  corners, counter-clockwise seen from the water [m]
 /// @pre the triangle has an area
 SourcePanel make_panel(const Vec3& a, const Vec3& b, const Vec3& c);
 
-/// Strength of images in z = 0: a flat surface that nothing passes, one that yields without delay
-/// (potential 0), and no surface.
+/// Strength of images in z = 0, as a share of the panel's own [-]: a flat surface that nothing
+/// passes (slow motions), one that yields without delay (potential 0, fast motions), and no surface
+/// (deep water). Other values have no meaning.
 constexpr double kLid = 1.0, kFreeSurface = -1.0, kDeep = 0.0;
 
 /// Panels and their mirror images: in the water's surface z = 0, and where the body is symmetric
@@ -32,18 +34,19 @@ constexpr double kLid = 1.0, kFreeSurface = -1.0, kDeep = 0.0;
 struct PanelBody {
     std::vector<SourcePanel> panels;  ///< z <= 0 but for kDeep, of a symmetric body also y >= 0
     bool symmetric = false;
-    double image = kLid;  ///< strength of the images in z = 0, as a share of the panels' own
+    double image = kLid;  ///< strength of the images in z = 0, as a share of the panels' own [-]
 };
 
-/// A step off the panels into the water, in their size: there the panel's own share of the normal
-/// velocity has its outer limit 1/2 (to 1e-6), without a case of its own in the kernel.
+/// A step off the panels into the water, in their size [-]: there the panel's own share of the
+/// normal velocity has its outer limit 1/2 (to 1e-6), without a case of its own in the kernel. A
+/// larger step takes that much off the limit; a smaller one comes near the rounding of the place.
 constexpr double kOffPanel = 1e-6;
 
 /// The three points whose mean stands for the mean over the panel, exactly for what is quadratic
-/// in place, in barycentric coordinates (2/3, 1/6, 1/6), off the panel by kOffPanel.
+/// in place [m], in barycentric coordinates (2/3, 1/6, 1/6), off the panel by kOffPanel.
 std::array<Vec3, 3> flux_points(const SourcePanel& panel);
 
-/// Where the flow can be checked: three other points, (1/2, 1/4, 1/4).
+/// Where the flow can be checked: three other points [m], (1/2, 1/4, 1/4).
 std::array<Vec3, 3> check_points(const SourcePanel& panel);
 
 }  // namespace ice

@@ -9,8 +9,9 @@ namespace ice {
 /// An even current c, and the flow that the ship makes in it: with U the ship's speed along x
 /// through that water and g the table's flow at the place in the ship's frame,
 ///
-///     w(x, t) = c + U(t) g(x - x_ship(t)).
+///     w(x, t) = c + U(t) g(x - x_ship(t))
 ///
+/// (equation (24)).
 /// The table has no flow of a current athwart the ship: there the water goes through the hull.
 struct WaterFlow {
     FlowGrid grid;
@@ -19,14 +20,15 @@ struct WaterFlow {
     double speed = 0.0;           ///< of the ship, less the current's [m/s]
     bool presses = false;         ///< its dynamic pressure acts on floes
 
-    /// Takes the ship's place and velocity for a step.
+    /// Takes the ship's place [m] and velocity [m/s] for a step.
     void follow(const Vec3& place, const Vec3& velocity) {
         ship = place;
         speed = velocity.x() - current.x();
     }
+    /// Is there more than an even current?
     bool flows() const { return !grid.empty() && speed != 0.0; }
 
-    /// Whether the ship may move the water within a sphere.
+    /// Whether the ship may move the water within a sphere. @param centre, radius  [m]
     bool reaches(const Vec3& centre, double radius) const {
         if (!flows()) return false;
         const double low_y =
@@ -40,7 +42,7 @@ struct WaterFlow {
 };
 
 namespace reference {
-/// w at a place.
+/// w of (24) at a place x [m], world axes [m/s].
 inline Vec3 water_at(const WaterFlow& water, const Vec3& x) {
     if (!water.flows()) return water.current;
     const Vec3 v =
@@ -51,7 +53,7 @@ inline Vec3 water_at(const WaterFlow& water, const Vec3& x) {
 }
 
 /// Dynamic pressure at a place, over the water's density [m2/s2]: Bernoulli's for a ship at
-/// constant speed, p / rho = U (w_x - c_x) - |w - c|^2 / 2, 0 far away.
+/// constant speed, p / rho = U (w_x - c_x) - |w - c|^2 / 2 (equation (P1)), 0 far away.
 inline double pressure_at(const WaterFlow& water, const Vec3& x) {
     if (!water.flows()) return 0.0;
     const Vec3 g =

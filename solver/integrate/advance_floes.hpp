@@ -13,8 +13,8 @@ namespace ice {
 /// What a step does to floes beside their velocities at its end.
 struct Advance {
     const std::vector<Vec3>& angular_velocity_start;  ///< by body [rad/s]
-    const PositionCorrections& corrections;
-    double dt;  ///< [s]
+    const PositionCorrections& corrections;           ///< by body [m], [rad]
+    double dt;                                        ///< [s]
 };
 
 /// Takes the velocity changes of a step into the momenta and moves floes with these, then by the
@@ -22,11 +22,11 @@ struct Advance {
 ///
 ///     P = m v,   L += I (w - w_start),   x += dt v + shift,   q by advance_orientation, then turn,
 ///
-/// with added mass P = (m + R A R^T) v, R of the start,
+/// (equations (1) and (18)) with added mass P = (m + R A R^T) v, R of the start (P2),
 ///
 /// and what update_derived makes of that. Where w has not changed L stays bit for bit, so that
 /// torque-free motion conserves it.
-/// @param floes  not held, ascending
+/// @param floes  numbers of floes that are not held, ascending; none changes nothing
 /// @pre what update_derived makes of their poses
 void advance_floes(Bodies& bodies, std::span<const std::int32_t> floes, const Advance& step);
 

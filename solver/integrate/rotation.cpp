@@ -7,6 +7,7 @@ namespace ice {
 
 namespace {
 
+// w(q) = R I^-1 R^T L [rad/s], (2): without torque L is constant and w is not.
 Vec3 angular_velocity_at(const Eigen::Quaterniond& orientation, const Mat3& inverse_inertia_body,
                          const Vec3& angular_momentum) {
     return ordered_turned(orientation.toRotationMatrix(), inverse_inertia_body, angular_momentum);

@@ -11,9 +11,15 @@ namespace ice {
 
 namespace {
 
-constexpr int kSides = 18;      // of the arc
-constexpr double kStrip = 0.5;  // seawards of the chord, in radii
-constexpr double kLeast = 0.2;  // of the radius at rest
+// Sides of the arc [-], 10 degrees each: its area is 0.5 % less than that of the half disc. More
+// give pieces more corners, each with a sphere; fewer make their edges coarse.
+constexpr int kSides = 18;
+// Breadth of the strip seawards of the load, in radii [-]: ice that stands out beside a notch
+// breaks off, too. Less leaves teeth between two notches; more takes ice that no crack reaches.
+constexpr double kStrip = 0.5;
+// Least factor 1 + C_v v_n of the radius [-], reached at 5.6 m/s with the usual C_v: it keeps the
+// radius above 0. Larger stops the radius from falling sooner, smaller gives fast hulls crumbs.
+constexpr double kLeast = 0.2;
 
 }  // namespace
 

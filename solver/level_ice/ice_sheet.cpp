@@ -12,8 +12,14 @@ namespace {
 
 namespace cl = ClipperLib;
 
-constexpr double kLattice = 0x1p-30;  // [m]
-constexpr double kSheet = 10.0;       // cracked regions: a part as large is a sheet by itself
+// Distance of the lattice's lines [m], 1e-9: a power of two, so that a coordinate is a double
+// without rounding. Coarser moves corners more at each cut; lines finer by more than eight times
+// would round coordinates of 1e6 m.
+constexpr double kLattice = 0x1p-30;
+// A part this many times as large as the cracked region is a sheet by itself [-], as the other side
+// of a channel. Smaller keeps pieces in the sheet that float free; larger turns half sheets into
+// one floe.
+constexpr double kSheet = 10.0;
 
 // Clipper works on whole numbers: a crack cuts the same corners on every machine. A billionth of a
 // metre is far below what any load or area can show.
@@ -87,7 +93,8 @@ std::vector<Loop> all_loops(std::vector<Part> parts) {
     return out;
 }
 
-// Parts without holes: one that has some is cut across, through the middle of its first hole.
+// Parts without holes: one that has some is cut across, through the middle of its first hole. A
+// prism has one outline, and a ring of ice around a hole breaks there in any case.
 std::vector<Part> opened(Part part) {
     if (part.holes.empty()) return {std::move(part)};
     Eigen::AlignedBox2d box, hole;
@@ -186,6 +193,8 @@ double IceSheet::area() const {
     return sum;
 }
 
+// Crossings of a ray along +x with all edges: holes need no case of their own, since they change
+// the count once more.
 bool IceSheet::contains(const Vec2& point) const {
     bool inside = false;  // an odd number of edges lies to the right
     for (const Loop& loop : loops_)
@@ -218,8 +227,12 @@ Loop joined(const Loop& a, const Loop& b) {
 }
 
 std::vector<Loop> shrunk(const Loop& loop, double by, double smallest) {
-    constexpr double kMitre = 2.0;     // longest mitre, in widths of the strip
-    constexpr double kNearest = 1e-3;  // of corners [m]
+    // Longest mitre at a hollow corner, in widths of the strip [-]: notches sharper than 60 degrees
+    // are widened square. Larger cuts a spike into the ice there.
+    constexpr double kMitre = 2.0;
+    // Least distance of corners [m]: nearer ones would each get a sphere in a corner. Larger moves
+    // the outline by up to as much.
+    constexpr double kNearest = 1e-3;
     // Corners move along their mitres; those nearer to each other than a millimetre are merged.
     cl::ClipperOffset offset(kMitre);
     offset.AddPath(to_lattice(loop), cl::jtMiter, cl::etClosedPolygon);

@@ -31,7 +31,8 @@ public:
     /// Cuts the region `crack` out. What of the sheet lies in it breaks off, and what the cut parts
     /// from the rest of the sheet: the largest part stays, and any of ten times the region's area,
     /// as the other side of a channel that goes through. Sheet, pieces and brash together keep
-    /// their area. A ring, as around the hole of a load inside the ice, breaks across the hole.
+    /// their area. A crack beside the ice breaks nothing off. A ring, as around the hole of a load
+    /// inside the ice, breaks across the hole.
     /// @pre crack is simple
     Broken break_off(const Loop& crack);
 
@@ -41,7 +42,7 @@ public:
 
     /// Area of the ice in a region [m2].
     double area_in(const Loop& region) const;
-    /// The ice in a box, as a sheet of its own.
+    /// The ice in a box, as a sheet of its own; empty where there is none.
     IceSheet in_box(const Eigen::AlignedBox2d& box) const;
     /// The ice in a box, in loops without holes, largest first: what has one is cut in two.
     std::vector<Loop> parts_in(const Eigen::AlignedBox2d& box) const;
@@ -49,23 +50,25 @@ public:
     /// Outer loops anticlockwise, holes clockwise; the first is the largest. Empty once all is
     /// gone.
     const std::vector<Loop>& loops() const { return loops_; }
+    /// Of the ice, holes left out [m2]; 0 once all is gone.
     double area() const;
-    /// Is the point in the ice? Points on the edge may be either.
+    /// Is the point [m] in the ice? Points on the edge may be either.
     bool contains(const Vec2& point) const;
 
     /// Sets the sheet as loops() of another gave it: for a run that is continued.
     void restore(std::vector<Loop> loops) { loops_ = std::move(loops); }
 
 private:
-    double smallest_;
+    double smallest_;  // size below which there is no piece [m]
     std::vector<Loop> loops_;
 };
 
-/// Corners of a box.
+/// Corners of a box, 4, anticlockwise [m].
 Loop loop_of(const Eigen::AlignedBox2d& box);
 
 /// What two loops have in common, and what `loop` has without `region`: outer loops, largest first.
-/// Holes are left out: theirs is the area that is missing to the loop's.
+/// Holes are left out: theirs is the area that is missing to the loop's. Empty where there is
+/// nothing.
 std::vector<Loop> common_part(const Loop& loop, const Loop& region);
 std::vector<Loop> without(const Loop& loop, const Loop& region);
 
@@ -73,7 +76,7 @@ std::vector<Loop> without(const Loop& loop, const Loop& region);
 Loop joined(const Loop& a, const Loop& b);
 
 /// A loop moved inwards by `by` [m], which may part it: parts of at least `smallest` in the sense
-/// of IceSheet, without corners nearer to each other than 1 mm.
+/// of IceSheet [m], without corners nearer to each other than 1 mm; none where nothing is left.
 std::vector<Loop> shrunk(const Loop& loop, double by, double smallest);
 
 }  // namespace ice

@@ -6,7 +6,7 @@
 
 namespace ice {
 
-/// A body's outline at the height z of the mesh's axes: the convex hull of the section,
+/// A body's outline [m] at the height z [m] of the mesh's axes: the convex hull of the section,
 /// anticlockwise. Empty where the height misses the mesh.
 Loop section_outline(const TriangleMesh& mesh, double z);
 

@@ -10,7 +10,9 @@
 
 namespace ice {
 
-constexpr double kSmallestPiece = 0.5;  // in the sense of IceSheet, in thicknesses
+// In the sense of IceSheet, in thicknesses [-]: a piece has at least the area of a square of half a
+// thickness. Larger makes more brash, smaller makes pieces that hold few spheres.
+constexpr double kSmallestPiece = 0.5;
 
 struct LiveEdge::Plan {
     struct Body {
@@ -24,7 +26,7 @@ struct LiveEdge::Plan {
     std::vector<std::int32_t> changed;
 };
 
-/// Is there room for a sphere in ice of that outline?
+/// Is there room for a sphere in ice of that outline [m]? @param thickness  [m]
 bool can_be_filled(const Loop& outline, double thickness);
 
 }  // namespace ice

@@ -27,13 +27,14 @@ void carry_loops(CheckpointFile& file, const std::string& name, std::vector<Loop
             loops[k].push_back(corners[next++].head<2>());
 }
 
+// A checkpoint has vectors of three: z is 0, and is dropped again.
 void carry_point(CheckpointFile& file, const std::string& name, Vec2& p) {
     Vec3 point(p.x(), p.y(), 0.0);
     file.carry(name, point);
     p = point.head<2>();
 }
 
-// A member of every row of a table, as a point.
+// A member of every row of a table, as a point. The rows are there before, in both directions.
 template <class Row>
 void carry_points(CheckpointFile& file, const std::string& name, std::vector<Row>& rows,
                   Vec2 Row::*member) {

@@ -10,7 +10,9 @@ namespace ice {
 
 namespace {
 
-constexpr double kWhole = 1e-6;  // share of a cell that may miss from a whole one
+// Share of a cell that may miss from a whole one [-]: rounding to the lattice. Larger takes a cell
+// with a small cut for whole, which then has no tile; 0 lays tiles around rounding.
+constexpr double kWhole = 1e-6;
 
 using Box = Eigen::AlignedBox2d;
 

@@ -21,6 +21,7 @@ struct EdgeGrid {
 /// beside it (at smaller x, larger x, smaller y, larger y, the first with which it has an edge in
 /// common); where there is none, it is left out.
 ///
+/// @param reach  in the sheet's axes [m]; nothing of the sheet within it gives no tiles
 /// @return each loop from its corner with the smallest x, then y; in the order of the cells
 std::vector<Loop> edge_tiles(const IceSheet& sheet, const EdgeGrid& grid,
                              const Eigen::AlignedBox2d& reach,

@@ -10,7 +10,7 @@ namespace ice {
 /// What one contact gave the edge of the ice in a step.
 struct EdgeLoad {
     Vec2 at;         ///< where [m]
-    double down;     ///< impulse downwards, friction included [N s]
+    double down;     ///< impulse downwards, friction included, of (26) [N s]
     double normal;   ///< normal impulse [N s]
     double closing;  ///< the same times the closing speed [N m]
     Vec2 push;       ///< normal impulse on the ice, seen from above [N s]
@@ -26,7 +26,7 @@ struct EdgeWindow {
     double normal_speed;
 };
 
-/// Loads that act on one piece of ice together, the heaviest first.
+/// Loads that act on one piece of ice together, the heaviest first. None for no loads.
 ///
 /// A window holds all loads within `radius` [m] of one of them: of that with the largest sum
 /// downwards, the first of equal ones. Its loads are left out of the next one. Windows that do not

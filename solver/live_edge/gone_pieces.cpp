@@ -15,7 +15,8 @@ namespace {
 
 constexpr const char* kName = "pieces-gone-";
 
-// Of a piece in the file, before its outline. All are doubles: whole numbers up to 2^53 fit.
+// Numbers of a piece in the file before its outline [-]. All are doubles: whole numbers up to 2^53
+// fit. Rows of one kind alone, so that the file can be read without an index.
 constexpr std::size_t kNumbers = 9;
 
 }  // namespace
@@ -59,6 +60,7 @@ void GonePieces::open(const std::filesystem::path& folder) {
 }
 
 void GonePieces::add(const IcePiece& piece) {
+    // written at once: a run that ends by a full disk says so in the step that lost a piece
     std::vector<double> row{static_cast<double>(piece.number),
                             static_cast<double>(piece.body),
                             piece.born,

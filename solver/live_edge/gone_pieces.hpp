@@ -17,7 +17,7 @@ struct IcePiece {
     std::int64_t number;  ///< from 1, in the order of breaking
     std::int32_t body;    ///< that it is, or was
     double born, gone;    ///< [s]; gone: inf while it is there
-    double load;          ///< downwards, that broke it off [N]
+    double load;          ///< downwards, that broke it off [N], 2D [N/m]
     double radius;        ///< of its crack [m]
     Vec2 at;              ///< centre of mass as it broke off, in the ice's axes [m]
     Loop outline;         ///< of the floe, then, in the ice's axes [m]

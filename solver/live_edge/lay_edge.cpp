@@ -26,11 +26,12 @@ namespace {
 
 using Box = Eigen::AlignedBox2d;
 
-// Radius of the spheres, in thicknesses: icefield's default. Two of them fill the thickness.
+// Radius of the spheres, in thicknesses [-]: icefield's default. Two of them fill the thickness.
+// Smaller gives more spheres to a body, and a longer search; larger ones do not fit.
 constexpr double kRadius = 0.25;
 
-// Ice is filled if something is left of its outline this far inwards, in thicknesses: a radius, and
-// a little more, so that the sphere does not just touch.
+// Ice is filled if something is left of its outline this far inwards, in thicknesses [-]: a radius,
+// and a little more, so that the sphere does not just touch. Larger makes more brash.
 constexpr double kHolds = 0.26;
 
 // The box in which there are tiles and pieces: so far ahead of the hull, in radii of a crack at
@@ -46,8 +47,8 @@ constexpr double kParked = 1000.0;
 // which take memory only; with more, pieces leave the scene early for want of a slot.
 constexpr double kCover = 0.25;
 
-// Length of the parts in which the rest of the sheet is drawn, in radii. Only pictures depend on
-// it.
+// Length of the parts in which the rest of the sheet is drawn, in radii [-]. Only pictures depend
+// on it.
 constexpr double kRestLength = 8.0;
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
@@ -60,7 +61,8 @@ PrismForm prism_form(const Case& p) {
             ice.spacing, true};
 }
 
-// About its centroid; none where no sphere fits, or a corner gets none.
+// About its centroid; none where no sphere fits, or a corner gets none. An Error here is no fault
+// of the case: such ice is brash.
 std::optional<Shape> shape_of(const Loop& outline, const PrismForm& form, bool is_strip) {
     Loop centred;
     const Vec2 centre = centroid_of(outline);
@@ -241,7 +243,8 @@ void LiveEdge::put(Scene& scene, double time, Plan& plan) {
         pieces_.push_back({slot.piece, static_cast<std::int32_t>(i), time, kNever, body.load,
                            body.radius, centre, slot.outline});
     }
-    // slots that were given up and not filled again are parked far away, without contacts
+    // Slots that were given up and not filled again are parked far away, without contacts, and with
+    // a small form: an empty body would be a case of its own in every stage.
     for (const std::int32_t i : plan.changed) {
         const auto body = static_cast<std::size_t>(i);
         if (slots_[body - first_].use != Use::free) continue;
@@ -290,6 +293,7 @@ std::vector<Loop> LiveEdge::rest() const {
     Box box;
     for (const Loop& loop : sheet_.loops())
         for (const Vec2& p : loop) box.extend(p);
+    // in parts along x, so that no polygon has all corners of a long sheet
     std::vector<Loop> out;
     const double step = kRestLength * radius_;
     for (double x = box.min().x(); x < box.max().x(); x += step)

@@ -18,10 +18,14 @@ namespace {
 
 using Box = Eigen::AlignedBox2d;
 
-// Depth to which crushed ice stays in the polygon, in thicknesses: spheres that lie deeper in their
-// body by as much still stand for its edge. Where the hull is twice as deep, the ice goes.
+// Depth to which crushed ice stays in the polygon, in thicknesses [-]: spheres that lie deeper in
+// their body by as much still represent its edge. Where the hull is twice as deep, the ice is taken
+// away. Smaller renews the edge more often, with notches lost each time; larger lets spheres be
+// pushed far into a tile that the polygon still has.
 constexpr double kCrushed = 0.125;
 
+// The opening angle of the ice inside a crack [rad]: of the sector with its area, at most that of a
+// straight edge (docs/method.md, section 5).
 double angle_of(double area, double radius) {
     return std::min(2.0 * area / (radius * radius), std::numbers::pi);
 }
@@ -33,6 +37,8 @@ bool LiveEdge::is_tile(std::int32_t body) const {
     return i >= first_ && slots_[i - first_].use == Use::tile;
 }
 
+// Sheet, tiles and cracks lie in axes that drift with the ice: ice that drifts past a ship then
+// breaks as ice does that a ship goes through.
 Vec2 LiveEdge::ship_in_ice(const Scene& scene) const {
     return scene.bodies.position[kShip].head<2>() - drifted_;
 }
@@ -72,6 +78,7 @@ std::vector<IcePiece> LiveEdge::pieces() const {
 }
 
 void LiveEdge::keep_gone_in(const std::filesystem::path& folder) {
+    // pieces that are gone so far go into the file, too: memory holds those in the scene alone
     std::vector<IcePiece> all = pieces();
     gone_pieces_.open(folder);
     pieces_.clear();
@@ -98,6 +105,7 @@ Box LiveEdge::reach(const Scene& scene) const {
 void LiveEdge::find(const Case& parameters, const std::vector<Contact>& contacts,
                     const std::vector<Constraint>& constraints) {
     if (!lives()) return;
+    // Every contact of a tile is a load (26): the ship's, and those of floes that it pushes.
     loads_.clear();
     for (std::size_t k = 0; k < constraints.size(); ++k) {
         const Constraint& c = constraints[k];

@@ -31,8 +31,10 @@ struct IceAreas {
 ///
 /// The sheet is a polygon. Its edge around the ship is laid out in tiles (edge_tiles), bodies that
 /// are held: the hull crushes them. Where the downward load on a window of the edge (edge_windows)
-/// reaches the load that breaks the piece off which a crack around the load's centre would cut out,
-/// that piece becomes a floe, the polygon loses it, and the tiles around are laid anew.
+/// reaches the load that breaks the piece off which a crack around the load's centre would cut out
+/// (equations (26), (29) and (30)), that piece becomes a floe, the polygon loses it, and the tiles
+/// around are laid anew. Rejected: cracks laid along the course before the run; two pieces then
+/// shared a load between them (docs/design-notes.md).
 ///
 /// Polygon, tiles and cracks are in the ice's own axes, which drift with it: places in the world
 /// are theirs plus drift() times the time. So ice that drifts past a ship is the same to it as a
@@ -77,11 +79,11 @@ public:
     void restore(Scene& scene, const Case& parameters) const;
 
     const IceSheet& sheet() const { return sheet_; }
-    double thickness() const { return thickness_; }
+    double thickness() const { return thickness_; }  ///< [m]
     /// Of level ice afloat: its middle's height [m].
     double height() const { return (0.5 - share_) * thickness_; }
-    double density() const { return density_; }
-    double length() const { return length_; }  ///< characteristic length of the plate [m]
+    double density() const { return density_; }  ///< [kg/m3]
+    double length() const { return length_; }    ///< characteristic length of the plate [m]
     /// Side of the cells of its tiles: how far from a load it cracks at rest [m]; in 2D how far
     /// from its tip.
     double radius() const { return radius_; }
@@ -122,8 +124,8 @@ private:
     };
     // A crack that the last step's loads opened.
     struct Crack {
-        Vec2 at, inwards;
-        double radius, load;
+        Vec2 at, inwards;     // ice's axes: place [m]; unit vector along the push
+        double radius, load;  // [m]; [N], in 2D [N/m]
     };
     struct Plan;  // what one renewal lays
 
@@ -151,8 +153,8 @@ private:
     // from the case and the hull
     bool is_strip_ = false;
     std::size_t first_ = 0;  // body of slots_[0]; 0: there is no sheet
-    double thickness_ = 0.0, gap_ = 0.0, length_ = 0.0, radius_ = 0.0;
-    double density_ = 0.0, share_ = 0.0;
+    double thickness_ = 0.0, gap_ = 0.0, length_ = 0.0, radius_ = 0.0;  // [m]
+    double density_ = 0.0, share_ = 0.0;                                // [kg/m3]; below water [-]
     Vec2 drift_ = Vec2::Zero();
     Eigen::AlignedBox2d extent_;
     CrackLaw law_;

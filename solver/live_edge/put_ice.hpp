@@ -10,7 +10,7 @@ struct PutIce {
     Eigen::Vector2d at;        ///< of its centre of mass [m]
     Eigen::Vector2d velocity;  ///< [m/s]
     double density;            ///< [kg/m3]
-    double share;              ///< of the form under water, > 0
+    double share;              ///< of the form's volume under water [-], > 0, at most 1
     bool held;
 };
 
@@ -22,6 +22,7 @@ struct PutIce {
 void put_ice(Scene& scene, std::size_t body, Shape shape, const PutIce& as);
 
 /// The form alone, of a body whose pose and momenta are known: for a run that is continued.
+/// @param density  [kg/m3]
 void put_form(Scene& scene, std::size_t body, Shape shape, double density);
 
 }  // namespace ice

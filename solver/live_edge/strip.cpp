@@ -15,9 +15,11 @@ using Box = Eigen::AlignedBox2d;
 
 // The strip uses the polygons of 3D: it is 1 m broad, so that areas are lengths and sums per metre
 // of breadth need no factor. Cuts are wider than that, or a sliver would be left along the sides.
-constexpr double kHalf = 0.5;   // of the breadth of a section's solid [m]
-constexpr double kWide = 1.0;   // y of cuts, beyond its sides [m]
-constexpr double kCells = 3.0;  // of a tile
+constexpr double kHalf = 0.5;  // half of the breadth of a section's solid [m]: 1 m, by definition
+constexpr double kWide = 1.0;  // y of cuts [m]: any number above kHalf gives the same ice
+// Cells of a tile at most [-]: it is two to three long, so that the ice under the moment of (30a)
+// is one body. More gives more spheres to that body.
+constexpr double kCells = 3.0;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 Box box_of(const Loop& loop) {

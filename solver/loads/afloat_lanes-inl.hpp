@@ -18,7 +18,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace ice::HWY_NAMESPACE {
 
-// Floes of one form and what the loads ask of them.
+// Floes of one form and what the loads need of them: heights [m], mass [kg], velocities [m/s],
+// [rad/s], one floe per lane.
 struct Afloat {
     const Shape& shape;
     Matrices rotation;
@@ -39,6 +40,7 @@ struct Afloat {
     HWY_INLINE Mask Clear() const { return hn::Ge(height, All(shape.bounding_radius)); }
 };
 
+// World axes [N], [N m].
 struct Load {
     Vectors force, moment;
 };

@@ -37,7 +37,7 @@ private:
 };
 
 struct RelativeLoad : Load {
-    Lanes loss;
+    Lanes loss;  // power lost in the motion through the water [W]
 };
 
 // projected_drag() in moving water: all of it as in the middle of the floe

@@ -41,7 +41,7 @@ HWY_INLINE Vectors WaterAt(const WaterFlow& water, Vectors x) {
 }
 
 // What the table has at a form's vertices and, numbered behind them, at the middles of its edges:
-// drag and pressure ask for each several times. Those beyond the first are looked up each time.
+// drag and pressure need each several times. Those beyond the first are looked up each time.
 class FlowNear {
 public:
     HWY_INLINE FlowNear(const Afloat& floes, const WaterFlow& water)
@@ -58,7 +58,9 @@ public:
     }
 
 private:
-    static constexpr std::size_t kFew = 128;  // of some 60 triangles
+    // Places that are kept [-], those of some 60 triangles. More take stack of every call; fewer
+    // look up again what was known. The bits are the same.
+    static constexpr std::size_t kFew = 128;
 
     HWY_INLINE Vectors LookedUp(std::size_t k) const {
         return TableFlowAt(water_, Add(floes_.position, Product(floes_.rotation, Set(Point(k)))));

@@ -13,15 +13,17 @@ namespace ice {
 /// Gravity, buoyancy, drag and the flow's pressure on a floe together, and the parts that the
 /// energy ledger tells apart.
 struct FloeLoad : WaterLoad {
-    WaterLoad drag;                ///< its part
-    WaterLoad pressure;            ///< the part of the flow's dynamic pressure (flow.pressure)
-    WaterLoad applied;             ///< the caller's own part (World::applied_loads)
-    Vec3 righting = Vec3::Zero();  ///< moment of the buoyancy, also where the model leaves it out
-    double water_power = 0.0;      ///< what moving water puts in: drag times its velocity [W]
+    WaterLoad drag;      ///< its part
+    WaterLoad pressure;  ///< the part of the flow's dynamic pressure (flow.pressure)
+    WaterLoad applied;   ///< the caller's own part (World::applied_loads)
+    /// Moment of the buoyancy [N m], also where the model leaves it out.
+    Vec3 righting = Vec3::Zero();
+    double water_power = 0.0;  ///< what moving water puts in: drag times its velocity [W]
 };
 
-/// Loads on floes, in their order. Floes of one form that follow each other cost less.
-/// @param floes  not held, ascending
+/// Loads on floes, in their order: (14), (16) or (17), (24), (25), (P1). Floes of one form that
+/// follow each other cost less. No floes have no loads.
+/// @param floes  numbers of floes that are not held, ascending
 /// @pre what update_derived makes of their poses
 /// @param out    as many
 void load_floes(const Scene& scene, const Case& parameters, std::span<const std::int32_t> floes,

@@ -78,6 +78,8 @@ WaterLoad drag_in_current(const Scene& scene, const Case& p, std::size_t i) {
     return drag;
 }
 
+// In the table around the hull: the law sees the water's velocity at every corner, or for the
+// paper's law at the centre alone.
 RelativeDrag drag_in_flow(const Scene& scene, const Case& p, std::size_t i) {
     const Bodies& b = scene.bodies;
     const Shape& shape = scene.shapes[static_cast<std::size_t>(b.shape[i])];

@@ -46,6 +46,7 @@ struct Buoyancy {
     }
 };
 
+// 2D: motion along x and z and about y alone.
 HWY_INLINE Vectors InPlane(Vectors force) { return {force.x, hn::Zero(Tag()), force.z}; }
 HWY_INLINE Vectors AboutPlane(Vectors moment) {
     return {hn::Zero(Tag()), moment.y, hn::Zero(Tag())};
@@ -115,7 +116,7 @@ void LoadPart(const Scene& scene, const Case& p, std::span<const std::int32_t> i
         all = {Add(all.force, pressure.force), Add(all.moment, pressure.moment)};
     const Vectors parts[7] = {all.force, all.moment,     drag.force,     drag.moment,
                               righting,  pressure.force, pressure.moment};
-    // from one register per component to one vector per floe
+    // from one register per component to one vector per floe, as the ledger reads them
     HWY_ALIGN double value[7][3 * kMostLanes];
     for (int k = 0; k < 7; ++k)
         hn::StoreInterleaved3(parts[k].x, parts[k].y, parts[k].z, d, value[k]);

@@ -9,7 +9,7 @@
 namespace ice {
 
 /// Gravity, buoyancy and drag on every free floe, force and moment about the centre of mass, in the
-/// order of Bodies::moving. In 2D only x, z and the moment about y act.
+/// order of Bodies::moving. In 2D only x, z and the moment about y act. @param out  resized
 void measure_loads(const Scene& scene, const Case& parameters, std::vector<FloeLoad>& out);
 
 /// Adds the caller's own loads to those measured. Floes whose load is zero keep their bits.
@@ -25,7 +25,7 @@ void add_applied(const Bodies& bodies, const std::vector<WaterLoad>& applied,
 std::vector<FloeLoad> loads_by_body(const Bodies& bodies, const std::vector<FloeLoad>& loads);
 
 /// Velocities after the loads act for dt: v += F dt / m (with added mass (m + A)^-1 F dt),
-/// w += I^-1 T dt.
+/// w += I^-1 T dt. @param loads  by Bodies::moving @param dt  [s]
 void apply_loads(Bodies& bodies, const std::vector<FloeLoad>& loads, double dt);
 
 }  // namespace ice

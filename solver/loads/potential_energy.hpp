@@ -6,7 +6,7 @@
 
 namespace ice {
 
-/// Potential energy of all floes, held ones too, in weight and water [J]:
+/// Potential energy of all floes, held ones too, in weight and water [J], 2D [J/m]:
 ///
 ///     U = sum m g z - rho_w g V (z + z_B),
 ///

@@ -15,6 +15,8 @@ namespace ice {
 ///     T = -u x A u                                  (the Munk moment)
 ///     F = (dA/dt) w + A Dw/Dt,   dA/dt w = w_floe x (A w) - A (w_floe x w)
 ///
+/// (equation (P3), Kirchhoff's equations), of first order in dt.
+///
 /// A Dw/Dt only where the flow's pressure acts (flow.pressure), whose force is rho V Dw/Dt. What
 /// comes of the water's own motion is part of FloeLoad::pressure, and so the water's work.
 /// @param loads  of load_floes(), as many

@@ -10,7 +10,7 @@
 namespace ice {
 
 /// Makes the patches of a convex hull's contacts with a convex floe add up to the section that the
-/// hull has cut, whichever of the two the piece is cut off.
+/// hull has cut, whichever of the two the piece is cut off. Only Patch::share changes [m2].
 ///
 /// The overlap is bounded by ice faces A_j and hull faces A_k, and sum A_j n_j = -sum A_k n_k
 /// (divergence theorem). So the shares of the ice's spheres, carried over to the hull's faces along

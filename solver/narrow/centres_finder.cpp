@@ -45,11 +45,13 @@ namespace {
 constexpr std::size_t kSerialLists = 128;
 
 // A pair's spheres are listed as far ahead as it goes in so many steps, within these bounds: more
-// keeps more spheres, less has to be found anew sooner.
-constexpr double kListLookAhead = 5.0;
+// keeps more spheres, less has to be found anew sooner. Tried: 0.15, 0.3 and 0.4 radii (15, 4 and
+// 7 % slower), more than 0.8 (no gain). Contacts are the same.
+constexpr double kListLookAhead = 5.0;                         // steps [-]
 constexpr double kLeastListShare = 0.6, kMostListShare = 0.8;  // of the ice's radius
 
-// Generous bound of the rounding error of a separation [m].
+// Generous bound of the rounding error of a separation [m]. Smaller could let a pair sleep while it
+// touches; larger wakes pairs a little sooner.
 constexpr double kRounding = 1e-6;
 
 // Finds the spheres whose gap is at most `range` [m], and others.

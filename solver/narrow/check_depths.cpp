@@ -26,17 +26,22 @@ Vec3 crossing_of(const PairView& view, const Candidate& c) {
     return 0.5 * (a + at.along_a * along_a + b + at.along_b * along_b);
 }
 
-// Sets the depth to the true one; false where the bodies do not meet there.
+// Bounds a candidate's depth by the meshes; false where its point is not in the other solid (of a
+// crossing: not in both).
 bool hold_to_meshes(const PairView& view, Candidate& c) {
-    // Two edges cross within both solids, or one of them ends before: the depth along the axis is
-    // right where they do, since it is measured between the edges' own lines.
+    // Two edges cross within both solids, or one of them ends before. Where they do, the depth
+    // along the axis stays as it is: it is measured between the edges' own lines. A bound by the
+    // distances of the middle point from both meshes was tried and dropped: overlaps became deeper
+    // (docs/design-notes.md).
     if (c.gap.crossing) {
         const Vec3 at = crossing_of(view, c);
         return foot_in_a(view, at).inside && foot_in_b(view, at).inside;
     }
     const Vec3& n = c.gap.normal;
-    // The incident support point is a point of its body. Moving it to the nearest point of the
-    // other surface ends this overlap, so no true depth is larger.
+    // The incident support point is a point of its body, or the tip of an edge that the mesh may
+    // have cut off. A move of that length, to the nearest point of the other surface, takes this
+    // point out of the other solid: its depth is no larger. It may be smaller along the normal,
+    // so the smaller depth counts. Other points of the bodies may be deeper: the seats find them.
     const Foot foot = c.gap.reference_is_a ? foot_in_a(view, view.support_b(c.j, -n))
                                            : foot_in_b(view, view.support_a(c.i, n));
     c.gap.gap = std::max(c.gap.gap, -foot.distance);

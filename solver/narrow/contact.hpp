@@ -9,17 +9,18 @@
 
 namespace ice {
 
-/// A place where two bodies touch or may touch within the step.
+/// A place where two bodies touch or may touch within the step. Lists of contacts are ordered by
+/// (a, b), within a pair by place (ContactFinder): results depend on that order.
 struct Contact {
     std::int32_t a, b;                ///< bodies, a < b; a = 0 is the ship
     std::int32_t sphere_a, sphere_b;  ///< surface spheres of their shapes; -1 where solids meet
-    std::uint64_t key;                ///< the same contact has the same key in the next step
+    std::uint64_t key;                ///< the same contact of a pair keeps it in the next step
     Vec3 point;                       ///< midway between the surfaces, world axes [m]
     Vec3 normal;                      ///< unit, from a to b
     double gap;                       ///< [m], negative where the surfaces overlap
-    Patch patch;                      ///< the surface that presses here
-    std::int32_t region;              ///< hull region; -1 between floes
-    bool crushes_a;                   ///< the ice that gives way is sphere_a's; else sphere_b's
+    Patch patch;                      ///< the surface that presses here, for the bound (13)
+    std::int32_t region;              ///< row of the hull's region_names; -1 between floes
+    bool crushes_a;                   ///< the ice that is crushed is sphere_a's; else sphere_b's
 };
 
 }  // namespace ice

@@ -12,6 +12,9 @@ void sort_places(std::vector<ContactPlace>& places) {
 }
 
 void order_equals(const std::vector<ContactPlace>& places, Contact* first) {
+    // Runs of equal ranks are spheres and their mirror images. Gap, then x and z of the point order
+    // their contacts; y, in which images differ, does not count, so a mirrored state has the
+    // mirrored order.
     for (std::size_t k = 0; k < places.size();) {
         std::size_t end = k + 1;
         while (end < places.size() && places[end].ranks == places[k].ranks) ++end;

@@ -25,7 +25,7 @@ inline ContactPlace place_of(const PairView& view, const Candidate& c, std::uint
     return {(std::uint64_t{a} << 32) | b, key, &c};
 }
 
-/// Sets all of a contact but its patch and `crushes_a`. @param meeting  its point, a's axes [m]
+/// Sets all of a contact but its patch and `crushes_a`. @param meeting  its point, in a's axes [m]
 inline void fill_contact(const PairView& view, const ContactPlace& place, const Vec3& meeting,
                          Contact& out) {
     const Candidate& c = *place.candidate;
@@ -42,11 +42,12 @@ inline void fill_contact(const PairView& view, const ContactPlace& place, const 
     out.region = ship ? view.shape_a.region.at(c.i, c.gap.normal) : -1;
 }
 
-/// Sorts by the spheres' ranks.
+/// Sorts by the spheres' ranks alone; order_equals() decides among equal ones.
 void sort_places(std::vector<ContactPlace>& places);
 
 /// Brings the contacts made at these places, sorted, into their order: spheres and their mirror
 /// images have the same ranks, and of their contacts gap and place decide.
+/// @param first  of the contacts, as many as places
 void order_equals(const std::vector<ContactPlace>& places, Contact* first);
 
 }  // namespace ice

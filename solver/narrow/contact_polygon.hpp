@@ -14,10 +14,12 @@ namespace ice {
 struct PolygonTolerances {
     /// A face of a is the reference until one of b is this much farther away, and faces until two
     /// edges are [m]: faces that lie flush differ by rounding, and shall keep their contacts from
-    /// step to step. More makes gaps wrong by as much.
+    /// step to step. More makes gaps wrong by as much; less lets the reference, and with it the
+    /// contacts' ids, change between steps.
     static constexpr double kPrefer = 5e-5;
 
-    /// A corner this far beyond the reference face's border counts as over it [m]: flush borders.
+    /// A corner this far beyond the reference face's border counts as over it [m]: flush borders
+    /// differ by rounding. More gives contacts beside the face; less loses corners on its border.
     static constexpr double kBorder = 1e-4;
 };
 
@@ -39,17 +41,21 @@ struct ContactPolygon {
 ///
 /// The axis with the widest gap decides. Where it is a face's, that face is the reference; of the
 /// other piece the face that is turned most against it is the incident one, clipped by the planes
-/// through the reference's borders (Sutherland and Hodgman 1974). Two edges meet in one point,
-/// midway between them where they are nearest. What has not touched yet may be past a border by its
-/// gap: it may come from beside.
+/// through the reference's borders (Sutherland and Hodgman, Reentrant polygon clipping, CACM 17,
+/// 1974). Two edges meet in one point, midway between them where they are nearest. What has not
+/// touched yet may be past a border by its gap: it may come from beside. No corners where every gap
+/// exceeds `most`.
+/// @param axes  find_axes() of these pieces and this pose, all kinds
 void make_contact_polygon(const ConvexPiece& a, const ConvexPiece& b, const RelativePose& pose,
                           const SeparatingAxes& axes, double most, ContactPolygon& out);
 
-/// The axis with the widest gap, unit, from a to b, a's axes; flush ones by PolygonTolerances.
+/// The axis with the widest gap, unit, from a to b, a's axes; flush ones by PolygonTolerances, a's
+/// face before b's before two edges.
 Vec3 axis_normal(const ConvexPiece& a, const ConvexPiece& b, const RelativePose& pose,
                  const SeparatingAxes& axes);
 
-/// This many corners carry the same force and moment as a polygon with more.
+/// This many corners carry nearly the same forces and moments as a polygon with more. Three carry
+/// no load outside their triangle; each further one costs a row in the contact solver.
 constexpr std::size_t kManifoldCorners = 4;
 
 /// Leaves at most `count` corners: those go whose loss takes the least of the polygon's area, the

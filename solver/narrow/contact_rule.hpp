@@ -5,7 +5,8 @@
 
 namespace ice {
 
-/// How contacts are found: where their normals come from, and whether ice can give way.
+/// How contacts are found: where their normals come from, and whether ice can be crushed. Rigid ice
+/// needs no shares of the surface, so that convex floes meet in polygons.
 struct ContactRule {
     NormalRule normal;
     bool crushes = true;

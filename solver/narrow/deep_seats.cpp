@@ -12,10 +12,14 @@ namespace ice {
 
 namespace {
 
-constexpr double kDeepShare = 0.1;  // of the ice's radius
+// Depth from which a seat counts, of the ice's largest radius [-]. With half a radius pairs
+// trembled at that depth for seconds (docs/design-notes.md); less checks more contacts against the
+// meshes.
+constexpr double kDeepShare = 0.1;
 
 // cos 60 degrees: a seat whose direction out of the solid differs more from the deepest one's leads
-// to another face.
+// to another face. Larger drops seats of curved faces; without it seats near a floe's rim, nearer
+// to its upper face than to its side, pushed the other floe down.
 constexpr double kSameDirection = 0.5;
 
 // One body's seats, seen from the other's solid.

@@ -14,25 +14,25 @@ namespace ice {
 
 /// A seat of one body that lies deep in the other's solid.
 struct DeepSeat {
-    std::int32_t sphere;  ///< whose seat it is
+    std::int32_t sphere;  ///< number of the sphere whose seat it is
     bool of_b;            ///< of b in a's solid; else of a in b's
     std::int32_t facing;  ///< the other body's sphere nearest to `foot`
     Vec3 seat, foot;      ///< the seat, and the other surface's point nearest to it; a's axes [m]
     Vec3 normal;          ///< unit, from a to b, along seat - foot; a's axes
-    double gap;           ///< minus their distance, crushed ice of the other body left out [m]
+    double gap;           ///< minus their distance, plus the other body's depth crushed there [m]
 };
 
 /// So deep in the other solid [m] a seat is a contact of its own where its sphere has none.
 ///
-/// A tenth of the radius of b's spheres. Contacts that are found at this depth are pushed out of it
-/// and lost again: with half a radius pairs trembled at that depth for seconds.
+/// A tenth of the largest radius of b's spheres. Contacts that are found at this depth are pushed
+/// out of it and lost again: with half a radius pairs trembled at that depth for seconds.
 double deep_slack(const PairView& view);
 
 /// Finds the seats of either body that lie in the other's solid by more than deep_slack, where no
 /// contact of a sphere within a patch radius is as deep, less that length.
 ///
 /// Depth and direction are those of the nearest point of the other's mesh: exact for any closed
-/// solid, but the shortest way out is the wrong one for a seat beyond the middle of a body. The
+/// solid, but the shortest path out is the wrong one for a seat beyond the middle of a body. The
 /// order of `out` is by place, mirror images about y = 0 alike.
 ///
 /// @param found  contacts that the spheres gave @param out  its old content is dropped
@@ -42,6 +42,7 @@ double find_deep_seats(const PairView& view, std::span<const Candidate> found,
                        std::vector<DeepSeat>& out);
 
 /// Makes their contacts: the patch is that of the seat, or of the ice that a hull's seat is in.
+/// @param seats  of find_deep_seats(), in their order @param out  room for as many
 void emit_deep_seats(const PairView& view, const ContactRule& rule, std::span<const DeepSeat> seats,
                      Contact* out);
 

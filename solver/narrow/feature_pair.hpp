@@ -24,7 +24,7 @@ enum class AxisRule : std::uint8_t {
 
 /// A face's normal as candidate axis, fixed in one of the two bodies.
 struct FaceAxis {
-    Vec3 normal;                         ///< from a to b
+    Vec3 normal;                         ///< unit, from a to b
     Footprint footprint_a, footprint_b;  ///< of the two edges or vertices on that face
 };
 
@@ -35,6 +35,7 @@ public:
     /// @param a, b  one feature of each type, whose centre does not matter; both outlive this
     FeaturePair(const Feature& a, const Feature& b, bool prefer_reference_a);
 
+    /// The gap of two spheres of these types; invalid where measure_gap_surface's is.
     /// @param center_a, center_b  of the two spheres, in the axes of a and b [m]
     Gap measure(const Vec3& center_a, const Vec3& center_b) const {
         if (rule_ == AxisRule::all_axes) return measure_all_axes(center_a, center_b);
@@ -58,13 +59,14 @@ private:
     // One of these with its sign and the gap along it.
     struct DirectedEdgeAxis {
         const EdgeAxis* axis;
-        double sign, gap;
+        double sign, gap;  // 1 or -1, so that sign normal is from a to b; [m]
     };
     static inline const Gap kNone{Vec3::UnitZ(), 0.0, 0.0, true, false};
 
     void list_faces();
     void list_edge_axes();
     void add_edge_axis(int edge_a, int edge_b);
+    // measure() by its rule: along the only face axis; along all axes; by measure_gap_surface().
     Gap measure_face_axis(const Vec3& center_a, const Vec3& center_b) const;
     Gap measure_all_axes(const Vec3& center_a, const Vec3& center_b) const;
     Gap measure_in_full(const Vec3& center_a, const Vec3& center_b) const;
@@ -94,7 +96,7 @@ struct AxisChoice {
     bool reference_is_a;
     Vec3 normal;  ///< of rule `face_axis`
 };
-/// @param slack  widens all bounds [rad]
+/// @param slack  widens all bounds [rad], >= 0: with it `never` holds for any rotation up to it
 AxisChoice choose_axis_rule(const Feature& a, const Feature& b, bool prefer_reference_a,
                             double slack = 0.0);
 

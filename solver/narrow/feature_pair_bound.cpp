@@ -12,7 +12,8 @@ namespace {
 
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
-// More than any two directions differ by [rad]: every normal is possible, nothing is known.
+// More than any two directions differ by [rad], pi: every normal is possible, nothing is known. Any
+// number above pi does the same.
 constexpr double kMostTurn = 4.0;
 
 }  // namespace

@@ -23,10 +23,12 @@ struct Skin {
 /// motion; the cross product of two edges turns faster, and its bound includes that rotation.
 class FeaturePairBound {
 public:
-    /// @param a, b  one feature of each type, whose centre does not matter; both outlive this
+    /// @param a, b   one feature of each type, whose centre does not matter; both outlive this
+    /// @param reach  the larger patch radius [m]
     FeaturePairBound(const Feature& a, const Feature& b, bool prefer_reference_a, double reach,
                      const Skin& skin);
 
+    /// The bound for two spheres of these types [m].
     /// @param center_a, center_b  of the two spheres, in the axes of a and b [m]
     double least(const Vec3& center_a, const Vec3& center_b);
 

@@ -44,13 +44,20 @@ struct FoundBatch;
 /// share, the smaller one between two floes, split among the sphere's contacts with that body, and
 /// counts whole.
 ///
-/// @param margin  [m] per pair is dt times a bound of the pair's closing speed, plus this much
+/// A contact is listed up to a gap of dt times a bound of the pair's closing speed, plus `margin`.
+/// No pairs give no contacts.
 class ContactFinder {
 public:
+    /// By a search of every pair.
+    /// @param pairs   sorted by a, then b
+    /// @param dt      time step [s]
+    /// @param margin  beyond the motion in it [m]
+    /// @param out     its old content is dropped; by (a, b)
     void find(const Scene& scene, const std::vector<BodyPair>& pairs, ContactRule rule, double dt,
               double margin, std::vector<Contact>& out);
     /// The same contacts, to the last bit, from neighbour lists: pairs whose path is shorter than
-    /// their clearance are skipped, and of the others only listed spheres are measured.
+    /// their clearance are skipped, and of the others only listed spheres are measured. Lists are
+    /// kept for pairs that were in the last call, too.
     /// @pre motion was updated with the present poses and dt
     void find(const Scene& scene, const std::vector<BodyPair>& pairs, const MotionBounds& motion,
               ContactRule rule, double dt, double margin, std::vector<Contact>& out);
@@ -98,7 +105,7 @@ private:
 namespace reference {
 /// The contacts of one pair by testing every sphere with every other: the definition for tests.
 /// measure_gap, check_depths, reduce_manifold and find_deep_seats are the finder's own: this proves
-/// its search, not the contact rule.
+/// its search, not the contact rule. @param margin  largest gap of a contact [m]
 void find_contacts(const Scene& scene, BodyPair pair, ContactRule how, double margin,
                    std::vector<Contact>& out);
 }  // namespace reference

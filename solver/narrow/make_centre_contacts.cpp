@@ -11,7 +11,8 @@ namespace ice {
 
 namespace {
 
-// An edge that presses sideways still has some area, so that no contact is without strength.
+// An edge that presses sideways still has some area, as a share of its sphere's [-], so that no
+// contact is without strength. More adds force on sides that slide along.
 constexpr double kLeastFacingCentres = 0.05;
 
 // Surface of an ice sphere as seen along the contact normal: with the mean normal m and the

@@ -9,7 +9,9 @@
 namespace ice {
 
 /// Makes contacts of a pair's candidates under the rule "centres", in the order that ContactFinder
-/// gives them; the candidates' own order does not matter. @param out  room for as many
+/// gives them; the candidates' own order does not matter. A patch is the ice sphere's share [m2]
+/// over the number of its contacts with that body, at least 5 % of it facing the contact.
+/// @param out  room for as many
 void make_centre_contacts(const PairView& view, std::span<const Candidate> candidates,
                           Contact* out);
 

@@ -115,7 +115,7 @@ void make_contacts(const PairView& view, std::span<const Candidate> candidates, 
     for (const ContactPlace& place : places) {
         const Candidate& c = *place.candidate;
         fill_contact(view, place, meeting_point(view, c), *contact);
-        // Of ship and floe the ice gives way; of two floes the one whose sphere is incident.
+        // Of ship and floe the ice is crushed; of two floes the one whose sphere is incident.
         contact->crushes_a = !ship && !c.gap.reference_is_a;
         contact->patch = incident_patch(view, c);
         ++contact;

@@ -14,7 +14,7 @@ struct Feature {
     Vec3 center;           ///< [m]
     double radius;         ///< [m]
     Vec3 normal;           ///< outward unit normal, the middle one on an edge or vertex
-    double spread_cos;     ///< cosine and sine of the half-angle of the normal cone;
+    double spread_cos;     ///< cosine and sine of the half-angle s of the normal cone [-];
     double spread_sin;     ///<   1 and 0 on a face
     NormalCone cone = {};  ///< of the faces that meet there, where they are known
     /// Radius of the surface that it represents [m].
@@ -33,19 +33,19 @@ struct Gap {
     bool crossing = false;  ///< two edges meet across each other, neither on the other's face
     std::int8_t edge_a = -1, edge_b = -1;  ///< which of the spheres' NormalCone::edge these are
     /// Of two edges reference_offset_sq is measured along the reference edge and this along the
-    /// incident one, each from its sphere's apex: a sphere represents its edge half way to the
+    /// incident one [m2], each from its sphere's apex: a sphere represents its edge half way to the
     /// next.
     double incident_offset_sq = 0.0;
 };
 
-/// Closest points of two lines, through pa along unit ea and through pb along unit eb: their places
-/// along the lines [m]. Parallel lines give infinities.
+/// Closest points of two lines, through pa [m] along unit ea and through pb [m] along unit eb:
+/// their places along the lines [m]. Parallel lines give NaN, nearly parallel ones large numbers.
 struct LineParameters {
     double along_a, along_b;
 };
 LineParameters closest_on_lines(const Vec3& pa, const Vec3& ea, const Vec3& pb, const Vec3& eb);
 
-/// Foremost point of the feature along the outward unit vector n (docs/method.md, section 3).
+/// Foremost point of the feature along the outward unit vector n [m] (docs/method.md, section 3).
 ///
 /// The faces' planes, all tangent to the sphere, meet at the apex, r / cos s along the middle
 /// normal (NormalCone::apex_distance). So a floe keeps its sharp edges: rounded by the spheres'
@@ -61,7 +61,7 @@ inline Vec3 support_offset(const NormalCone& faces, double radius, const Vec3& m
 
 /// The paper's rule (Figure 1): normal from centre to centre, gap |d| - (r_a + r_b).
 ///
-/// Coincident centres have no direction and give an invalid gap.
+/// Coincident centres have no direction and give an invalid gap. Centres and radii in [m].
 inline Gap measure_gap_centres(const Vec3& center_a, double radius_a, const Vec3& center_b,
                                double radius_b) {
     const Vec3 d = center_b - center_a;
@@ -89,9 +89,11 @@ inline Gap measure_gap_centres(const Vec3& center_a, double radius_a, const Vec3
 /// apex, a if both. The gap is exact for a face on a face, an edge on a face and an edge across an
 /// edge, whatever the radius of the spheres.
 ///
-/// Invalid where n is not in both cones (to about 3 degrees at edges), where n . (c_b - c_a) <= 0,
+/// Invalid where n is not in both cones (to 0.3 degrees where faces are square, and to 1.3 degrees
+/// along an edge), where n . (c_b - c_a) <= 0, as with coincident centres,
 /// where neither apex lies over the other's face and no edges cross within the patch radii, and
 /// where another face is penetrated less over the whole patch: the bodies then meet elsewhere.
+/// `normal` and `gap` of an invalid one mean nothing.
 Gap measure_gap_surface(const Feature& a, const Feature& b, bool prefer_reference_a);
 
 }  // namespace ice

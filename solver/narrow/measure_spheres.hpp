@@ -17,8 +17,9 @@ namespace ice {
 /// sphere may be its patch radius from there: NormalCone::tangent_extent has half of it for each,
 /// this adds the difference for the shape with the larger one.
 struct SphereRange {
-    double margin, reach;
+    double margin, reach;  ///< along and across the normal [m]
 
+    /// @param m  the margin [m]
     SphereRange(const PairView& view, double m) : margin(m), reach(reach_of(view)) {}
 
     /// Largest squared distance of centres [m2].
@@ -27,6 +28,7 @@ struct SphereRange {
                      across = reach + a.tangent_extent + b.tangent_extent;
         return along * along + across * across;
     }
+    /// Are the centres within it? Spheres beyond it cannot be candidates.
     bool holds(const Feature& a, const Feature& b) const {
         return (a.center - b.center).squaredNorm() <= squared(a.cone, b.cone);
     }
@@ -52,7 +54,9 @@ void group_by_types(const PairView& view, std::span<SpherePair> spheres);
 
 /// Keeps of the spheres from `first` on those that may be candidates while the pair moves within
 /// `skin`, sorted by feature types; returns the least gap that they may have, less that
-/// motion [m]. @param reach  SphereRange's [m]
+/// motion [m]: infinite where none is kept.
+/// @param reach    SphereRange's [m]
+/// @param spheres  those before `first` stay as they are
 double bound_spheres(const PairView& view, double reach, const Skin& skin, std::size_t first,
                      std::vector<SpherePair>& spheres);
 

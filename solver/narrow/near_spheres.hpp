@@ -12,8 +12,8 @@ namespace ice {
 
 /// p' = turn p + shift, from one body's axes to another's.
 struct FloatPose {
-    float turn[3][3];
-    float shift[3];  ///< [m]
+    float turn[3][3];  ///< rotation matrix, row by row
+    float shift[3];    ///< [m]
 };
 
 /// How far apart two spheres may be and still matter: see in_range.
@@ -22,14 +22,17 @@ struct SearchRange {
 };
 
 /// Larger than any coordinate [m]: an empty box has it as its low and minus it as its high corner.
+/// Its square is still a finite float, so that sums of squares do not overflow.
 constexpr float kBeyondAll = 1e18f;
 
 /// Spheres picked from a body, in the axes of the search; entries from `count` on mean nothing.
 struct NearSpheres {
+    /// Centre, extents along and across a contact normal, hypot of these [m]; of equal length, at
+    /// least `count`.
     std::vector<float> x, y, z, normal_extent, tangent_extent, own;
-    std::vector<std::int32_t> id;
-    std::size_t count = 0;
-    FloatBox box;  ///< of their centres; empty (low > high) where there are none
+    std::vector<std::int32_t> id;  ///< the shape's number of the sphere
+    std::size_t count = 0;         ///< spheres picked
+    FloatBox box;  ///< of their centres as they were picked; empty (low > high) for none
 };
 
 /// Pairs found by find_near_pairs. The partners of its k-th row are [end[k - 1], end[k]).
@@ -39,13 +42,14 @@ struct NearPairs {
     std::vector<std::uint8_t> masks;    ///< room for the search
 };
 
-/// Groups of 16 spheres whose box comes within `reach` [m] of `box`, ascending; body axes.
+/// Groups of 16 spheres whose box comes within `reach` [m] of `box`, ascending; body axes. None for
+/// an empty box. @param out  its old content is dropped
 void find_groups(const SphereBlocks& spheres, const FloatBox& box, float reach,
                  std::vector<std::int32_t>& out);
 
 /// Picks, of these groups, the spheres whose centres, moved by `pose`, lie in `box` grown by
-/// `grow` + the sphere's own hypot(normal_extent, tangent_extent) on all sides; order of the groups
-/// is kept.
+/// `grow` [m] + the sphere's own hypot(normal_extent, tangent_extent) on all sides; order of the
+/// groups is kept. None for no groups.
 void pick_spheres(const SphereBlocks& spheres, const std::vector<std::int32_t>& groups,
                   const FloatPose& pose, const FloatBox& box, float grow, NearSpheres& out);
 
@@ -56,7 +60,8 @@ void pick_spheres(const NearSpheres& from, const FloatBox& box, float grow, Near
 ///
 ///     |c_f - c_m|^2 <= (n_f + n_m + range.along)^2 + (t_f + t_m + range.across)^2,
 ///
-/// n and t being the normal and tangent extents, in the order of `many`.
+/// n and t being the normal and tangent extents [m], in the order of `many`. Rows without a partner
+/// have an empty range.
 void find_near_pairs(const NearSpheres& few, std::size_t first, std::size_t last,
                      const NearSpheres& many, const SearchRange& range, NearPairs& out);
 

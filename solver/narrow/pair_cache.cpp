@@ -15,8 +15,9 @@ namespace ice {
 namespace {
 
 // The skin covers a pair's motion in this many steps, within the bounds below: a thicker skin lists
-// more spheres, a thinner one is renewed more often.
-constexpr double kLookAhead = 5.0;
+// more spheres, a thinner one is renewed more often. Half of the largest skin takes 19 % more time
+// in the pre-sawn channel; eight steps and 0.9 radii won nothing. Contacts are the same.
+constexpr double kLookAhead = 5.0;                          // steps [-]
 constexpr double kLeastAngle = 0.0075, kMostAngle = 0.015;  // [rad]
 constexpr double kLeastShare = 0.3, kMostShare = 0.6;       // of the ice's radius
 

@@ -25,13 +25,15 @@ struct PairView {
           translation_ab(s.bodies.rotation[p.a].transpose() *
                          (s.bodies.position[p.b] - s.bodies.position[p.a])) {}
 
+    /// Present centre of a's sphere i, then of b's sphere j, both in a's axes [m].
     Vec3 center_a(std::int32_t i) const {
         return shape_a.center[i] + scene.crushed.displacement_of(pair.a, i);
     }
-    Vec3 center_b(std::int32_t j) const {  // in a's axes
+    Vec3 center_b(std::int32_t j) const {
         return rotation_ab * (shape_b.center[j] + scene.crushed.displacement_of(pair.b, j)) +
                translation_ab;
     }
+    /// A point in b's axes [m].
     Vec3 to_b(const Vec3& in_a) const { return rotation_ab.transpose() * (in_a - translation_ab); }
     /// Has the sphere been driven right through its body?
     bool is_gone_a(std::int32_t i) const {
@@ -42,6 +44,7 @@ struct PairView {
                !shape_b.box.contains(
                    Vec3(shape_b.center[j] + scene.crushed.displacement_of(pair.b, j)));
     }
+    /// Spheres with their features, in a's axes.
     Feature sphere_a(std::int32_t i) const {
         return {center_a(i),           shape_a.radius[i],     shape_a.normal[i],
                 shape_a.spread_cos[i], shape_a.spread_sin[i], shape_a.cone[i],
@@ -52,7 +55,8 @@ struct PairView {
                 shape_b.spread_cos[j], shape_b.spread_sin[j], shape_b.cone[j].turned(rotation_ab),
                 shape_b.patch_radius};
     }
-    /// support_point of sphere_a(i) and sphere_b(j), whose faces need not be turned for it.
+    /// support_point of sphere_a(i) and sphere_b(j), whose faces need not be turned for it, along
+    /// the unit vector n, outward of that sphere; all in a's axes [m].
     Vec3 support_a(std::int32_t i, const Vec3& n) const {
         return center_a(i) +
                support_offset(shape_a.cone[i], shape_a.radius[i], shape_a.normal[i], n);
@@ -63,7 +67,8 @@ struct PairView {
     }
 };
 
-/// Upper bound of the speed at which surface points of the two bodies approach [m/s].
+/// Upper bound of the speed at which surface points of the two bodies approach [m/s]: by the
+/// triangle inequality, |v_b - v_a| + |w_a| R_a + |w_b| R_b with the bounding radii R.
 inline double closing_speed(const Scene& scene, BodyPair pair) {
     const Bodies& b = scene.bodies;
     const auto turning = [&](std::int32_t i) {
@@ -75,8 +80,8 @@ inline double closing_speed(const Scene& scene, BodyPair pair) {
 
 /// Two spheres that may touch.
 struct Candidate {
-    std::int32_t i, j;  // spheres of a and b
-    Gap gap;
+    std::int32_t i, j;  // numbers of the spheres of a and b
+    Gap gap;            // its normal in a's axes
     std::int32_t incident() const { return gap.reference_is_a ? j : i; }
 };
 

@@ -8,10 +8,13 @@ namespace ice {
 
 namespace {
 
-// Faces that lie this close together [m] touch: gaps are never exact.
+// Faces that lie this close together [m] touch: gaps are never exact. It is the depth in which a
+// flat patch comes from nothing to its whole area; larger makes that softer, smaller makes the
+// bound jump with the rounding of a gap.
 constexpr double kTouch = 1e-4;
 
-// A patch that stands upright still has this share of its area, so that nothing passes through it.
+// A patch that stands upright still has this share of its area [-], so that nothing passes through
+// it. More adds force on sides that slide along; 0 lets a body cut along its own side unresisted.
 constexpr double kLeastFacing = 0.05;
 
 // Projected area of a wing of unit area as far as a face at `depth` below the foot cuts it; the

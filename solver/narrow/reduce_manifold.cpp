@@ -64,6 +64,7 @@ void reduce_manifold(const PairView& view, double margin, std::vector<Candidate>
     if (std::none_of(candidates.begin(), candidates.end(),
                      [&](const Candidate& c) { return c.gap.gap <= margin; }))
         return candidates.clear();
+    // Nearest first, so that a face keeps its nearest reference sphere without a second pass.
     thread_local std::vector<Row> rows;  // keep their memory
     thread_local std::vector<Candidate> kept;
     sort_by_incident(view, candidates, rows);

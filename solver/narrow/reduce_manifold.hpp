@@ -9,8 +9,9 @@ namespace ice {
 
 /// Reduces a pair's candidates to contacts: one for each incident sphere and reference face, the
 /// laterally nearest. Where two faces meet at a convex edge it keeps the one with the smaller
-/// penetration: a point behind only one of the two planes is still outside. Clears the candidates
-/// if no gap is within `margin` [m], else drops those beyond it. Afterwards the candidates of an
+/// penetration: a point behind only one of the two planes is still outside. Normals within 30
+/// degrees count as one face (kSameFace). Clears the candidates if no gap is within `margin` [m],
+/// else drops those beyond it, after they have ruled out others. Afterwards the candidates of an
 /// incident sphere are adjacent, in an order that mirror images have in common.
 void reduce_manifold(const PairView& view, double margin, std::vector<Candidate>& candidates);
 

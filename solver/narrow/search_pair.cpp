@@ -7,7 +7,8 @@ namespace ice {
 
 namespace {
 
-// Up to so many it costs less to compare with all than to pick the nearer ones.
+// Up to so many it costs less to compare with all than to pick the nearer ones. Only time depends
+// on it: the same pairs are found.
 constexpr std::size_t kAllAtOnce = 64;
 
 // The box around a box that was moved by p' = turn p + shift.
@@ -92,7 +93,8 @@ void PairSearch::pick(const PairView& view, double along, double across,
     pick_spheres(few, groups_, to_floats(Mat3::Identity(), Vec3::Zero()), many_.box, reach_few,
                  few_);
     // Those picked are compared at their present places. One deeply crushed sphere would else list
-    // every sphere of its body with all within that depth.
+    // every sphere of its body with all within that depth. The boxes of few_ and many_ are those of
+    // the places before; none of them is read from here on.
     move_crushed(view.scene.crushed, few_a ? view.pair.b : view.pair.a,
                  few_a ? view.shape_b : view.shape_a, turn, shift, many_);
     move_crushed(view.scene.crushed, few_a ? view.pair.a : view.pair.b,

@@ -8,7 +8,7 @@
 
 namespace ice {
 
-/// p' = turn p + shift, rounded.
+/// p' = turn p + shift [m], rounded to floats.
 FloatPose to_floats(const Mat3& turn, const Vec3& shift);
 
 /// Finds the spheres of two bodies that are near each other; keeps its memory between pairs.
@@ -16,16 +16,18 @@ FloatPose to_floats(const Mat3& turn, const Vec3& shift);
 /// Picks the groups, then the spheres of the body with more spheres that are near the other body's
 /// box; of that body the spheres near the picked ones; and compares these all with all. Crushed
 /// spheres are picked at their places before the crushing, in a range wider by its depth, and
-/// compared at their present ones.
+/// compared at their present ones. NearSpheres::box of what was picked stays that of the places
+/// before the crushing: from there on rows are compared by boxes of their present places.
 class PairSearch {
 public:
     /// Calls visit(i, j) for all spheres i of a and j of b with
     ///
     ///     |c_i - c_j|^2 <= (apex_i + apex_j + along)^2 + (tangent_i + tangent_j + across)^2,
     ///
-    /// with apex_distance and tangent_extent of NormalCone, and for some that are farther by
-    /// rounding to floats. A sphere of the body with fewer spheres comes with all
-    /// its partners at once.
+    /// with apex_distance and tangent_extent of NormalCone [m], and for some that are farther by
+    /// rounding to floats. A sphere of the body with fewer spheres comes with all its partners at
+    /// once. No call where no sphere is near.
+    /// @param along, across  added to the spheres' own extents [m], >= 0
     /// @param blocks  the shapes' spheres; in `balls` apex_distance is the radius, tangent_extent 0
     template <class Visit>
     void for_each_near(const PairView& view, double along, double across, const Visit& visit,

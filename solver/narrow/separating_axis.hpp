@@ -12,7 +12,7 @@ namespace ice {
 
 /// Where piece b is in the axes of piece a: p_a = rotation p_b + translation.
 struct RelativePose {
-    Mat3 rotation;
+    Mat3 rotation;     ///< b's axes to a's
     Vec3 translation;  ///< [m]
 };
 
@@ -24,7 +24,7 @@ struct RelativePose {
 /// of b's); the gap is then that of their two lines. The faces of the Minkowski difference b - a
 /// are these three kinds and no others, so the widest gap
 ///
-///   * is minus the penetration depth where the pieces overlap: the shortest way to part them;
+///   * is minus the penetration depth where the pieces overlap: the shortest shift that parts them;
 ///   * is at most their distance where they do not, and equal to it where a face or two edges are
 ///     nearest.
 ///
@@ -33,16 +33,17 @@ struct SeparatingAxes {
     static constexpr double kNone = -std::numeric_limits<double>::infinity();
 
     double face_a = kNone, face_b = kNone, edges = kNone;
-    std::int32_t plane_a = -1, plane_b = -1;  ///< the first of those with the gap
-    std::int32_t edge_a = -1, edge_b = -1;    ///< the first pair, by a's edge, then by b's
+    std::int32_t plane_a = -1, plane_b = -1;  ///< the first of those with the gap; -1: not measured
+    std::int32_t edge_a = -1, edge_b = -1;    ///< the first pair, by a's edge, then b's; -1: none
 
+    /// [m]; minus infinity where nothing was measured.
     double widest() const { return std::max({face_a, face_b, edges}); }
 };
 
 /// Measures the axes. Stops early after a's or b's planes where one of them has a gap of more than
 /// `enough` [m]: then the pieces are that far apart, and the later kinds are left out.
-/// @pre neither piece is empty
 /// Edges whose sine is less than 1e-6 have no axis; a plane's beside it differs by as little.
+/// Cost: planes times corners, then pairs of edges. @pre neither piece is empty
 SeparatingAxes find_axes(const ConvexPiece& a, const ConvexPiece& b, const RelativePose& pose,
                          double enough);
 
@@ -50,8 +51,8 @@ SeparatingAxes find_axes(const ConvexPiece& a, const ConvexPiece& b, const Relat
 Vec3 edge_axis(const ConvexPiece& a, const ConvexPiece& b, const RelativePose& pose,
                std::int32_t edge_a, std::int32_t edge_b);
 
-/// The gap [m] along one plane of a (or, where plane_a < 0, of b): cheap, to ask first about the
-/// axis that parted the pieces in the last step. Same bits as find_axes gives.
+/// The gap [m] along one plane of a (or, where plane_a < 0, of b): a cheap first test of the axis
+/// that parted the pieces in the last step. Same bits as find_axes gives.
 double gap_along_plane(const ConvexPiece& a, const ConvexPiece& b, const RelativePose& pose,
                        std::int32_t plane_a, std::int32_t plane_b);
 

@@ -11,7 +11,8 @@ namespace ice {
 
 namespace {
 
-// Edges whose sine squared is less have no axis.
+// Edges whose sine squared is less [-] have no axis: their cross product has no digits left. A
+// plane's normal beside it differs by as little (1e-6), so that nothing is lost.
 constexpr double kParallelSquared = 1e-12;
 
 // All rows in the same order, as the kernel has it.

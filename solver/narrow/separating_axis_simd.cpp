@@ -46,7 +46,7 @@ HWY_INLINE Vectors Turned(const Pose& pose, Vectors v) {
     return {Dot(pose.row[0], v), Dot(pose.row[1], v), Dot(pose.row[2], v)};
 }
 
-// Vectors of b in a's axes.
+// Vectors of b in a's axes: turned once, instead of for each vector of a.
 template <std::size_t kBlocks>
 struct Moved {
     VectorBlock blocks[kBlocks];
@@ -84,7 +84,8 @@ HWY_INLINE void Reduce(Lanes gaps, std::size_t first, std::size_t count, Widest&
         }
 }
 
-// The widest gap of planes to corners in the same axes.
+// The widest gap of planes to corners in the same axes. Lanes are planes, so that each has its own
+// minimum over the corners and no sum goes across lanes.
 template <class Offset>
 HWY_INLINE Widest GapOfPlanes(const VectorBlock* normals, std::size_t planes, const Offset& offset,
                               const VectorBlock* corners, std::size_t corner_count) {
@@ -140,6 +141,7 @@ HWY_INLINE Crossing CrossEdges(const ConvexPiece& a, Vectors eb, Vectors b1, Vec
     return best;
 }
 
+// Lanes are b's edges: a's are broadcast one by one, and most of them have no lane that crosses.
 HWY_INLINE void FindCrossing(const ConvexPiece& a, const ConvexPiece& b, const Pose& pose,
                              SeparatingAxes& out) {
     const Tag d;

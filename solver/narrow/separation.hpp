@@ -14,12 +14,13 @@ namespace ice {
 double separation(const PairView& view);
 
 /// The same, or any gap wider than `enough` [m] where there is one: bodies that are apart mostly
-/// stay so along the same normal. @param axis  number of the normal to begin with; the one along
-/// which the gap is, where there are any
+/// stay so along the same normal.
+/// @param axis  number of the normal to begin with, a's first, then b's; on return the one along
+///              which the gap is, where there are any
 double separation(const PairView& view, double enough, std::size_t& axis);
 
-/// The separation shrinks by at most this factor times the sum of both bodies' paths
-/// (MotionBounds::path).
+/// The separation shrinks by at most this factor [-], at least 1, times the sum of both bodies'
+/// paths (MotionBounds::path).
 double separation_share(const PairView& view);
 
 }  // namespace ice

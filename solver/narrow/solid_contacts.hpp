@@ -21,7 +21,8 @@ bool meets_in_polygon(const Scene& scene, BodyPair pair, const ContactRule& rule
 const ContactPolygon& find_polygon(const PairView& view, const SeparatingAxes& axes, double most);
 
 /// Makes contacts of a polygon's corners, in their order. Between floes that cannot be crushed they
-/// have no spheres and no share; else those of the nearest spheres, b's ice giving way.
+/// have no spheres and no share; else those of the nearest spheres, b's ice being crushed.
+/// @param normal  of the polygon: unit, from a to b, a's axes @param out  room for as many
 void emit_polygon(const PairView& view, const ContactRule& rule, const Vec3& normal,
                   std::span<const PolygonCorner> corners, Contact* out);
 

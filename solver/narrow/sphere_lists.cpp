@@ -7,7 +7,8 @@ namespace ice {
 
 namespace {
 
-// Up to so many blocks gaps do not matter.
+// Up to so many blocks [-], some 100 kB, rows that are no longer in use do not matter. Only memory
+// and time depend on it.
 constexpr std::size_t kFewest = 256;
 
 }  // namespace

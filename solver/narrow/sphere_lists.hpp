@@ -33,6 +33,7 @@ public:
     /// Keeps the rows of pairs that are in the new list, too; both lists are sorted.
     void match(const std::vector<BodyPair>& pairs);
 
+    /// Row of the k-th pair of the last match().
     Row& row(std::size_t k) { return rows_[k]; }
 
     /// Pair k has no contact while the sum of its bodies' MotionBounds::path_after_step is less
@@ -43,6 +44,7 @@ public:
     std::span<const ListedSpheres> listed(std::size_t k) const {
         return {blocks_.data() + rows_[k].first, rows_[k].count};
     }
+    /// Replaces the spheres of pair k. One thread at a time.
     void keep(std::size_t k, std::span<const ListedSpheres> listed);
 
 private:

@@ -6,7 +6,8 @@
 
 namespace ice {
 
-/// Each call of a finder has its own number, so that a thread drops the results of older calls.
+/// Each call of a finder has its own number, from 1, so that a thread drops the results of older
+/// calls.
 inline std::uint64_t next_call() {
     static std::atomic<std::uint64_t> calls{0};
     return ++calls;
@@ -14,7 +15,7 @@ inline std::uint64_t next_call() {
 
 /// Results of the calling thread in this call so far; it keeps its memory. By thread, not by pair:
 /// a pair's row changes from step to step, so lists by row would all grow to the size that the
-/// largest pair ever needed. @tparam Batch  has forget()
+/// largest pair ever needed. @param call  of next_call() @tparam Batch  has forget()
 template <class Batch>
 Batch& batch_of(std::uint64_t call) {
     thread_local std::uint64_t filled_in = 0;

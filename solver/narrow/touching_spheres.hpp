@@ -20,22 +20,26 @@ namespace ice {
 struct alignas(64) ListedSpheres {
     static constexpr std::size_t kPairs = 16;
 
-    std::int32_t a[kPairs], b[kPairs];                ///< numbers of the spheres
+    std::int32_t a[kPairs], b[kPairs];                ///< numbers of the spheres, 16 each
     std::int16_t ax[kPairs], ay[kPairs], az[kPairs];  ///< centre of a's, from an origin of the list
     std::int16_t bx[kPairs], by[kPairs], bz[kPairs];  ///< and of b's
     std::int16_t radii[kPairs];                       ///< sum of both radii; -kMost - 1 in the fill
 
-    static constexpr int kMost = 32767;  ///< largest number of units
-    /// Largest error of a gap: 0.5 (2 sqrt(3) + 1) = 2.24 by rounding to units, 0.1 by floats.
+    /// Largest number of units [-], that of 16 bits: the unit of a list is its largest coordinate
+    /// over this.
+    static constexpr int kMost = 32767;
+    /// Largest error of a gap, in units: 0.5 (2 sqrt(3) + 1) = 2.24 by rounding to units, 0.1 by
+    /// floats. Larger lists more spheres, smaller would miss touching ones.
     static constexpr double kError = 2.5;
-    static constexpr float kNowhere = 1e9f;  ///< a gap that is wider than any
+    /// Far beyond any gap, in units: the least gap of an empty list.
+    static constexpr float kNowhere = 1e9f;
 };
 
 /// Results of find_touching; entries from `count` on mean nothing.
 struct TouchingSpheres {
-    std::vector<std::int32_t> a, b;
-    std::size_t count = 0;
-    float least = ListedSpheres::kNowhere;  ///< gap of all that are listed
+    std::vector<std::int32_t> a, b;         ///< numbers of the spheres, at least `count` each
+    std::size_t count = 0;                  ///< pairs that touch
+    float least = ListedSpheres::kNowhere;  ///< least gap of all that are listed, in units
 };
 
 /// Finds the listed pairs, in their order, whose gap is at most `most`,
@@ -44,6 +48,7 @@ struct TouchingSpheres {
 ///
 /// all lengths in the list's unit.
 /// @param pose  brings b's axes to a's, from the list's origin; finite
+/// @param out   its old content is dropped; no listed spheres give none
 void find_touching(std::span<const ListedSpheres> listed, const FloatPose& pose, float most,
                    TouchingSpheres& out);
 

@@ -106,7 +106,9 @@ std::int64_t CsvFile::flush() {
 }
 
 void CsvFile::add(const std::vector<double>& row) {
-    constexpr std::size_t kEnough = 8192;  // bytes at a time
+    // Bytes at a time: fewer write more often, more lose more rows to a kill.
+    constexpr std::size_t kEnough = 8192;
+    // nine digits give every float back; run.h5 has the doubles
     std::string line;
     for (const double value : row) line += fmt::format("{}{:.9g}", line.empty() ? "" : ",", value);
     for (const std::size_t column : per_metre_) line += fmt::format(",{:.9g}", row[column]);
@@ -115,11 +117,13 @@ void CsvFile::add(const std::vector<double>& row) {
 }
 
 void CsvFile::finish() {
+    // renamed last: a file without .part is whole
     if (!write_waiting() || std::fclose(out_.release()) != 0)
         throw run_failed(path_.string(), "cannot be completed", "check that the disk is not full");
     keep_file(part_of(path_), path_);
 }
 
+// In the order of the columns above; docs/contract.md, section 5, fixes it.
 std::vector<double> csv_row(const HistoryRow& row, bool breaking, bool ship) {
     std::vector<double> out{row.time};
     append(out, row.contact_force);

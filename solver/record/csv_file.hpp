@@ -22,6 +22,7 @@ namespace ice {
 /// @throws Error (exit code 1) naming the file when it cannot be created or the disk is full.
 class CsvFile {
 public:
+    /// @param columns  names with commas between @param dimension  2 or 3
     CsvFile(std::filesystem::path path, const std::string& columns, int dimension);
     /// Goes on from the first `bytes` of an earlier file of the same table: `earlier` or
     /// `earlier`.part, which this one may replace. Without them the rows begin here.
@@ -31,8 +32,10 @@ public:
     bool begins_late() const { return begins_late_; }
     /// Writes buffered rows to disk and returns the file's length [bytes].
     std::int64_t flush();
-    /// @param row  a value for each of `columns`
+    /// @param row  a value for each of `columns`, in the unit of its name; the copies per metre are
+    ///             added here
     void add(const std::vector<double>& row);
+    /// Writes what is left and renames the file: no add() afterwards.
     void finish();
 
 private:

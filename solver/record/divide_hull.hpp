@@ -22,6 +22,7 @@ double panel_size(const Scene& scene);
 /// half of size^2 joins the nearest larger panel of its region that faces within 60 degrees and has
 /// its centre within 2 sizes; where there is none it counts as half a panel.
 /// In 2D a panel is a piece of the section and its length the metre of breadth.
+/// @param size      edge of a panel [m] (panel_size)
 /// @param waterline height of the water in the ship frame [m]
 /// Loads are zero; of a hull without spheres or a size of 0 no panels are made.
 HullPanels divide_hull(const Shape& hull, double size, double waterline);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Where the ship's work goes: every joule given to the ice is booked once.
+/// The energy ledger: every joule that the ship gives to the ice is booked once.
 #pragma once
 
 #include <optional>
@@ -46,11 +46,12 @@ namespace ice {
 ///
 ///     dK = sum J_c . V + ship_work + drift_work + dt sum (F . v + T . w)   in every step.
 ///
-/// A floe at rest under load books nothing. The residual is what weight and buoyancy do by this
-/// sum less what they do by -dU. Their force at the pose between two steps acts on the mean of both
-/// steps' motions, the trapezoidal rule, so the residual is of second order in time_step. With the
-/// means over the impact stage alone instead, as first tried, every impact under load leaves
-/// dt F . (change of v) / 2: 0.8 % of the ship's work in the paper's 2D case at 0.5 m/s.
+/// (equations (19) and (20)). A floe at rest under load adds nothing to the ledger. The residual is
+/// what weight and buoyancy do by this sum less what they do by -dU. Their force at the pose
+/// between two steps acts on the mean of both steps' motions, the trapezoidal rule, so the residual
+/// is of second order in time_step. With the means over the impact stage alone instead, as first
+/// tried, every impact under load leaves dt F . (change of v) / 2: 0.8 % of the ship's work in the
+/// paper's 2D case at 0.5 m/s.
 struct EnergyLedger {
     double ship_work = 0.0, drift_work = 0.0;
     double kinetic_change = 0.0;  ///< of the floes, over all steps
@@ -58,11 +59,11 @@ struct EnergyLedger {
     double water_work = 0.0, applied_work = 0.0;
     double separation = 0.0;
     double buoyancy_moment = 0.0;
-    std::optional<double> potential_start;  ///< before the first step
+    std::optional<double> potential_start;  ///< before the first step [J]; none before begin()
 
     /// Before each step; the first one takes the potential energy.
     void begin(const Scene& scene, const Case& parameters);
-    /// Energy at the end that the books do not explain, given the potential energy there.
+    /// Energy at the end that the ledger does not explain, given the potential energy there [J].
     double residual(double potential_now) const;
 };
 
@@ -73,7 +74,7 @@ void book_step(const Scene& scene, const Case& parameters,
                EnergyLedger& ledger);
 
 /// Fills Summary::energy, and warns where more than 0.5 % of the ship's work, or of the losses
-/// where they are larger, is not explained.
+/// where they are larger, is not explained. @param potential_now  at the end [J]
 void fill_energy(const EnergyLedger& ledger, double potential_now, Summary& summary);
 
 }  // namespace ice

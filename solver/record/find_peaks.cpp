@@ -12,9 +12,11 @@ namespace ice {
 
 namespace {
 
-constexpr std::size_t kDenseRanks = 10;  // levels: all of the highest peaks, then every 1.25th rank
+// Levels of exceedance [-]: all of the 10 highest peaks, then every 1.25th rank. On the logarithmic
+// axis of rates the points lie evenly; more of them only lengthen the summary.
+constexpr std::size_t kDenseRanks = 10;
 constexpr double kRankFactor = 1.25;
-constexpr double kHour = 3600.0;
+constexpr double kHour = 3600.0;  // [s]
 
 std::vector<double> peaks_above(std::span<const double> series, double level) {
     std::vector<double> peaks;
@@ -32,6 +34,7 @@ std::vector<double> peaks_above(std::span<const double> series, double level) {
     return peaks;
 }
 
+// Of no windows no number: peaks_of() then does not look at it.
 double mean_of_windows(std::span<const double> series) {
     return std::accumulate(series.begin(), series.end(), 0.0) / static_cast<double>(series.size());
 }
@@ -63,6 +66,7 @@ PeakStatistics peaks_of(std::span<const double> series, double mean, double wind
 double quantile(std::vector<double> series, double share) {
     if (series.empty()) return 0.0;
     // the smallest value that at least this share of the values does not exceed
+    // By selection, not by sorting: one quantile of a long series is wanted.
     const auto rank = static_cast<std::size_t>(
         std::max(0.0, std::ceil(share * static_cast<double>(series.size())) - 1.0));
     const auto place = series.begin() + static_cast<std::ptrdiff_t>(rank);

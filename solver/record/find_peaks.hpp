@@ -10,7 +10,8 @@ namespace ice {
 
 class LongSeries;
 
-/// Mean, 99th percentile, maximum and peaks of a series of window means.
+/// Mean, 99th percentile, maximum and peaks of a series of window means, in the series' unit; zeros
+/// for an empty one.
 ///
 /// Peaks: the series is cut where it rises from at most its mean to above it; the largest value of
 /// each piece that begins so is a peak, that of an unfinished last piece too. So one push that
@@ -20,10 +21,10 @@ class LongSeries;
 PeakStatistics find_peaks(std::span<const double> series, double window);
 /// The same of a long series, of whose windows the largest in each block are kept: peaks less than
 /// two blocks apart may be one, and the percentile is that of the blocks. Mean and maximum are
-/// exact.
+/// exact. @param window  time per single value [s]
 PeakStatistics find_peaks(const LongSeries& series, double window);
 
-/// Value below which `share` of the series lies: the largest for a share of 1, 0 for no series.
+/// Value below which `share` [-] of the series lies: the largest for a share of 1, 0 for no series.
 double quantile(std::vector<double> series, double share);
 
 }  // namespace ice

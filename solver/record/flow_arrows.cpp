@@ -11,9 +11,14 @@ namespace ice {
 
 namespace {
 
-constexpr double kOnSurface = 1200.0, kAlong = 25.0;  // places on the water, cells along the hull
-constexpr double kLeast = 0.01;                       // shorter ones are not seen
-constexpr std::size_t kMostPieces = 20000;  // of the wetted surface, from which cells are drawn
+// Places on the water, and cells along the hull, before some are left out [-]: as many as a picture
+// can show.
+constexpr double kOnSurface = 1200.0, kAlong = 25.0;
+// Least speed of an arrow, in ship speeds [-]: shorter ones are not seen.
+constexpr double kLeast = 0.01;
+// Pieces of the wetted surface, from which cells are drawn, at most [-]. All of these matter to
+// pictures alone.
+constexpr std::size_t kMostPieces = 20000;
 
 class Sampler {
 public:

@@ -11,7 +11,7 @@ namespace ice {
 /// Velocities of the water for a ship at 1 m/s, at places that move with the ship but do not turn.
 struct FlowArrows {
     std::vector<Vec3> point;     ///< from the water's surface above the ship's origin [m]
-    std::vector<Vec3> velocity;  ///< [1]
+    std::vector<Vec3> velocity;  ///< by point, in ship speeds [-]
 };
 
 /// Some hundred places where the flow is 0.01 or more: even ones in the water's surface (2D: in the

@@ -19,8 +19,8 @@ public:
     void add(const Bodies& bodies, const std::vector<Contact>& contacts,
              const std::vector<Constraint>& constraints);
 
-    /// The contacts since the last call as mean forces over `span` [s], sorted by floe and sphere.
-    /// Without a span there are none.
+    /// The contacts since the last call as mean forces [N] over `span` [s], sorted by floe and
+    /// sphere; what was collected is dropped. Without a span there are none.
     std::vector<HullContact> take(double span);
 
     /// Writes or sets its state, by the file's direction (recorder_state.cpp).

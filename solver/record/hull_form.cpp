@@ -12,7 +12,9 @@ namespace {
 
 using Segment = std::pair<Vec3, Vec3>;
 
-constexpr double kFullBreadth = 0.99;  // share of the breadth from which on the midbody counts
+// Share of the breadth from which on the midbody counts [-]. Nearer to 1 a mesh's rounding shortens
+// it; less counts shoulders as parallel sides. Riska's formula takes that length.
+constexpr double kFullBreadth = 0.99;
 
 // Where the plane z = height cuts the mesh, as loose segments. Vertices on the plane count as
 // above it, so that every cut triangle gives exactly one segment.

@@ -9,6 +9,7 @@
 
 namespace ice {
 
+// Blocks have equal lengths, so that the mean of two means is that of all their values.
 double LongSeries::joined(double a, double b) const {
     return join_ == Join::mean ? 0.5 * (a + b) : std::max(a, b);
 }
@@ -47,6 +48,7 @@ void LongSeries::halve() {
 }
 
 double LongSeries::standard_deviation() const {
+    // while all single values are there, by their own sum: the same bits as of a plain list
     if (length_ == 1) return ice::standard_deviation(blocks_);
     return std::sqrt(squares_ / static_cast<double>(count_ - 1));
 }

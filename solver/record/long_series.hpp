@@ -17,15 +17,19 @@ class CheckpointFile;
 /// value and standard deviation are those of all single values whatever the length.
 class LongSeries {
 public:
-    static constexpr std::size_t kMost = 65536;  ///< 22 minutes of steps of 0.02 s
+    /// Values kept at most [-]: 512 kB, 22 minutes of steps of 0.02 s. Fewer join values sooner,
+    /// and spectrum and peaks see less of short times; more costs memory.
+    static constexpr std::size_t kMost = 65536;
 
     /// What a block keeps of its values.
     enum class Join { mean, largest };
 
     explicit LongSeries(Join join = Join::mean) : join_(join) {}
 
+    /// Numbers are in the caller's unit throughout.
     void add(double value);
 
+    /// Values added so far.
     std::size_t count() const { return static_cast<std::size_t>(count_); }
     bool empty() const { return count_ == 0; }
     /// In the order of the values; the last, unfinished block is left out.
@@ -33,6 +37,7 @@ public:
     /// Values in a block: a power of two.
     std::size_t block_length() const { return static_cast<std::size_t>(length_); }
 
+    /// 0 for no values.
     double sum() const { return sum_; }
     /// NaN for no values.
     double mean() const { return sum_ / static_cast<double>(count_); }

@@ -12,7 +12,8 @@ namespace ice {
 namespace {
 
 // A ship contact that still closes faster than this [m/s] after the solver is jammed: 1 cm/s is far
-// above any tolerance in use and far below a ship's speed.
+// above any tolerance in use and far below a ship's speed. Smaller counts solutions that ran out of
+// iterations, larger misses slow jams.
 constexpr double kJamSpeed = 0.01;
 
 // Contacts of one floe and region become one entry.

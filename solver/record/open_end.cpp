@@ -11,8 +11,11 @@ namespace ice {
 
 namespace {
 
-constexpr double kOut = 0.1;       // of a floe's length: less is jitter, or neighbours that settle
-constexpr double kWithShip = 0.1;  // of the ship's way
+// How far a floe reaches out, in its own lengths [-]: less is jitter, or neighbours that settle.
+constexpr double kOut = 0.1;
+// How far the farthest came out, as a share of the ship's travel [-]: less is ice that spreads
+// slowly. Only the warning depends on both; larger ones warn later.
+constexpr double kWithShip = 0.1;
 
 }  // namespace
 

@@ -9,13 +9,13 @@
 
 namespace ice {
 
-/// Warns, at the end of a run, of a channel that gave way: the ship pushed loose floes out of its
-/// open far end, so that the ice ahead moved with the ship instead of standing against it.
+/// Warns, at the end of a run, of a channel that emptied: the ship pushed loose floes out of its
+/// open far end, so that the ice ahead moved with the ship instead of resisting it.
 ///
 /// A channel has unbroken ice on both sides of its loose floes (Scene::start). A floe counts that
 /// moves freely ahead of the bow and reaches beyond where the ice ended at the start by a tenth of
 /// its own length. Nothing is said where the farthest came out by less than a tenth of the ship's
-/// way: floes that spread slowly into open water do not move with the ship.
+/// travel: floes that spread slowly into open water do not move with the ship.
 ///
 /// @param travel  of the ship up to now [m]
 std::optional<Warning> warn_of_open_end(const Scene& scene, const Case& parameters, double travel);

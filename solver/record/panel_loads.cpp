@@ -10,9 +10,13 @@ namespace ice {
 
 namespace {
 
-constexpr double kPanelWindow = 0.1;     // [s]
-constexpr std::int64_t kLeastSteps = 5;  // a window of fewer would still be single hits
-constexpr std::size_t kMostPanels = 40;  // in summary.json; run.h5 has all
+// Time of a window whose mean force counts [s]. A shorter one shows single hits, which depend on
+// the step; a longer one averages pushes out of the peaks.
+constexpr double kPanelWindow = 0.1;
+// Steps of a window at least [-]: a window of fewer would still be single hits.
+constexpr std::int64_t kLeastSteps = 5;
+// Panels in summary.json at most [-], beside the hardest of each region; run.h5 has all.
+constexpr std::size_t kMostPanels = 40;
 
 }  // namespace
 
@@ -33,6 +37,7 @@ PanelLoads::PanelLoads(HullPanels hull, std::vector<std::string> region_names, d
 
 void PanelLoads::add(const std::vector<Contact>& contacts,
                      const std::vector<Constraint>& constraints, double time) {
+    // the tolerance is that of times that are multiples of dt up to rounding [s]
     if (time < average_from_ - 1e-9) return;
     for (std::size_t k = 0; k < constraints.size(); ++k) {
         const Constraint& c = constraints[k];
@@ -69,6 +74,8 @@ void PanelLoads::close_window() {
     ++windows_;
 }
 
+// Means are over all windows, those without a load included: a panel that is hit seldom has a small
+// mean and a large maximum.
 HullPanels PanelLoads::panels() const {
     HullPanels out = hull_;
     for (std::size_t k = 0; k < forces_.size(); ++k) {
@@ -83,6 +90,7 @@ HullPanels PanelLoads::panels() const {
 }
 
 void PanelLoads::fill(Summary& summary) const {
+    // a run shorter than a window has no peaks: the keys stay out
     if (windows_ == 0) return;
     for (std::size_t r = 0; r < region_names_.size(); ++r) {
         RegionStatistics& out = summary.regions[region_names_[r]];

@@ -18,11 +18,11 @@ class CheckpointFile;
 class PanelLoads {
 public:
     /// Windows are of 0.1 s, in whole steps, but of at least 5 steps.
-    /// @param hull panels with zero loads (divide_hull.hpp); @param average_from [s]
+    /// @param hull panels with zero loads (divide_hull.hpp) @param average_from [s] @param dt [s]
     PanelLoads(HullPanels hull, std::vector<std::string> region_names, double average_from,
                double dt);
 
-    /// Adds the impulses of a step that ended at `time`. @param contacts one per constraint
+    /// Adds the impulses of a step that ended at `time` [s]. @param contacts one per constraint
     void add(const std::vector<Contact>& contacts, const std::vector<Constraint>& constraints,
              double time);
 

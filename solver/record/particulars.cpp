@@ -41,6 +41,7 @@ double plan_area(const TriangleMesh& mesh, const Mat3& rotation) {
     return 0.5 * both;
 }
 
+// Of a floe [m]: the diameter of the circle with its area; 2D: its length.
 double size_of(const Shape& shape, const Mat3& rotation) {
     if (shape.dimension == 2) return extent_of(shape.mesh, rotation).x();
     return 2.0 * std::sqrt(plan_area(shape.mesh, rotation) / std::numbers::pi);
@@ -68,6 +69,7 @@ ShipParticulars measure_ship(const Scene& scene, const Case& parameters) {
     return measure_ship(scene, parameters, scene.bodies.position[kShip].z());
 }
 
+// Upright at this height, also where the ship trims: formulas are made for ships on even keel.
 ShipParticulars measure_ship(const Scene& scene, const Case& parameters, double height) {
     const Shape& hull = scene.shapes[0];
     double keel = hull.mesh.vertices.front().z();
@@ -108,6 +110,7 @@ IceParticulars measure_ice(const Scene& scene, const Case& parameters) {
     const Mat3 as_it_lies = group_of(scene, parameters, 1).orientation.toRotationMatrix();
     ice.thickness = extent_of(shape_of(scene, 1).mesh, as_it_lies).z();
     measure_sizes(scene, parameters, ice);
+    // which rules of release are in use: a resistance means little without them
     bool used[std::size(kHoldNames)] = {};
     for (std::size_t i = 1; i < scene.bodies.size(); ++i)
         used[static_cast<std::size_t>(group_of(scene, parameters, i).hold)] = true;

@@ -29,7 +29,7 @@ IceParticulars measure_ice(const Scene& scene, const Case& parameters);
 /// Mean speed [m/s] from average_from to `until`, or over the whole run where it ends before.
 double speed_mean(const Case& parameters, double until);
 
-/// Travel from the start to `until` [s].
+/// Travel from the start to `until` [s], in metres and lengths of the waterline.
 TravelParticulars measure_travel(const Case& parameters, const ShipParticulars& ship, double until);
 
 /// How a ship that answers went, and how it lies in calm water.
@@ -39,7 +39,7 @@ struct FreeTravel {
     double distance, averaged;  ///< along x, all and in the averaged time [m]
 };
 
-/// Fills ship, ice, travel, formulas and lindqvist_submersion of a run that ended at `until`.
+/// Fills ship, ice, travel, formulas and lindqvist_submersion of a run that ended at `until` [s].
 /// @param went  of a ship that answers; others go as prescribed
 void fill_particulars(const Scene& scene, const Case& parameters, double until, Summary& summary,
                       const std::optional<FreeTravel>& went = std::nullopt);

@@ -22,6 +22,8 @@ namespace ice {
 
 namespace {
 
+// What run.h5 has once: with case, program and forms a report needs no other file, and the run can
+// be made again.
 RunHeader make_header(const Case& parameters, const Scene& scene, const std::string& command) {
     RunHeader header;
     header.dimension = scene.dimension;
@@ -33,6 +35,7 @@ RunHeader make_header(const Case& parameters, const Scene& scene, const std::str
     header.average_from = parameters.average_from;
     for (const Shape& shape : scene.shapes)
         header.shapes.push_back({shape.mesh, shape.center, shape.radius});
+    // rows of floes from body 1 on: the ship has its own datasets
     const Bodies& b = scene.bodies;
     for (std::size_t i = 1; i < b.size(); ++i) {
         header.body_shape.push_back(b.shape[i]);
@@ -48,7 +51,8 @@ RunHeader make_header(const Case& parameters, const Scene& scene, const std::str
     return header;
 }
 
-// Half the smallest ice sphere: deeper, and spheres slip past each other.
+// Half the radius of the smallest ice sphere [m]: deeper, and spheres slip past each other. A
+// warning's bound; a larger one warns of less.
 double worrying_overlap(const Scene& scene) {
     double smallest = std::numeric_limits<double>::infinity();
     for (std::size_t k = 1; k < scene.shapes.size(); ++k)
@@ -56,7 +60,9 @@ double worrying_overlap(const Scene& scene) {
     return 0.5 * smallest;
 }
 
-// The solids are looked at once in so many steps: an overlap that contacts miss lasts for seconds.
+// The solids are looked at once in so many steps [-]: an overlap that contacts miss lasts for
+// seconds. A look measures all bodies by their meshes, so more of them take time; fewer miss short
+// overlaps.
 constexpr std::int64_t kLookEvery = 50;
 
 struct CsvTable {
@@ -64,6 +70,8 @@ struct CsvTable {
     std::string columns;
 };
 
+// The tables of a run and their columns: those on breaking and on the ship's motion are there only
+// where they can differ from 0, behind the others, whose places stay.
 std::vector<CsvTable> csv_tables(const Case& parameters) {
     std::string forces = kForceColumns;
     if (parameters.has_bending()) forces += kBreakingColumn;
@@ -74,6 +82,7 @@ std::vector<CsvTable> csv_tables(const Case& parameters) {
     return tables;
 }
 
+// Held wins over behind: a held floe astern does not count as passed.
 FloeState state_of(const Scene& scene, std::size_t i) {
     if (scene.bodies.held[i]) return FloeState::held;
     return is_behind(scene, i) ? FloeState::behind : FloeState::moving;
@@ -92,7 +101,8 @@ std::uint64_t state_hash(const Scene& scene, const std::vector<Constraint>& cons
         for (int d = 0; d < 3; ++d) hash.add(v[d]);
     };
     const Bodies& b = scene.bodies;
-    // the bodies' state, and the impulses of the step
+    // The bodies' state, and the impulses of the step: those on the ship and on held ice show in no
+    // momentum.
     for (std::size_t i = 0; i < b.size(); ++i) {
         add(b.position[i]);
         for (const double x : b.orientation[i].coeffs()) hash.add(x);
@@ -143,6 +153,7 @@ void Recorder::open(const std::filesystem::path& folder, const std::string& comm
     add_frame({scene, no_contacts, no_constraints, {}, 0.0, true});
 }
 
+// Files whose earlier rows are lost begin at the checkpoint, each by itself: others keep theirs.
 std::vector<std::string> Recorder::resume(const std::filesystem::path& folder,
                                           const std::string& command_line, const Scene& scene,
                                           const std::filesystem::path& earlier,
@@ -197,6 +208,8 @@ bool Recorder::is_look_due(double time) const {
     return parameters_.normal == NormalRule::surface && std::llround(time / dt_) % kLookEvery == 0;
 }
 
+// The ship's pose is that at the end of a row; thrust and lines' forces are sums, of which
+// flush_history() makes means.
 void Recorder::add_ship(const StepView& view) {
     const FreeShip& ship = *view.ship;
     ship_statistics_.add(ship, view.scene, parameters_, view.time);
@@ -309,6 +322,7 @@ std::optional<FreeTravel> Recorder::travel(const StepView& view) const {
 }
 
 void Recorder::finish(const StepView& view, Summary& summary) {
+    // the last row and frame, however short: a run may end between two of them
     flush_history(view);
     if (view.time > last_frame_) add_frame(view);
     run_->finish(panel_loads_.panels());

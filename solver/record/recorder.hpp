@@ -92,7 +92,7 @@ private:
     bool is_look_due(double time) const;
 
     Case parameters_;
-    double dt_;
+    double dt_;                       ///< time step [s]
     std::filesystem::path folder_;    ///< from open() or resume() on
     std::optional<RunWriter> run_;    ///< likewise
     std::vector<CsvFile> csv_files_;  ///< forces.csv, then the tracked floes'
@@ -108,11 +108,11 @@ private:
     std::vector<FloeForces> tracked_sum_;  ///< per tracked floe, since the last row
     std::vector<Vec3> frame_impulse_;      ///< ship on floe since the last frame [N s]
     HullContacts hull_contacts_;           ///< since the last frame
-    double last_frame_ = 0.0;
+    double last_frame_ = 0.0;              ///< its time [s]
     std::int64_t frames_ = 0, rows_ = 0;
 };
 
-/// Equal states, equal hashes: poses, momenta and the last step's impulses.
+/// Equal states, equal hashes: poses, momenta and the last step's impulses, bit for bit.
 std::uint64_t state_hash(const Scene& scene, const std::vector<Constraint>& constraints);
 
 /// Floes whose centre is aft of the hull's aftmost point.

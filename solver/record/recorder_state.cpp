@@ -11,7 +11,8 @@
 namespace ice {
 
 void Recorder::carry(CheckpointFile& file) {
-    // the row of the histories that is begun, and the frame
+    // The row of the histories that is begun, and the frame: all that is not in a file yet. Names
+    // are fixed: a checkpoint is read by them, so a member may be renamed and its field may not.
     file.carry("row.contact_force", row_.contact_force);
     file.carry("row.friction_force", row_.friction_force);
     file.carry("row.moment", row_.moment);
@@ -55,6 +56,7 @@ void ShipStatistics::carry(CheckpointFile& file) {
     stuck_ = stuck != 0;
 }
 
+// The panels themselves follow from the hull; their loads alone are state.
 void PanelLoads::carry(CheckpointFile& file) {
     file.carry("panels.steps", steps_);
     file.carry("panels.windows", windows_);
@@ -85,6 +87,7 @@ void HullContacts::carry(CheckpointFile& file) {
     for (std::size_t k = 0; k < keys.size(); ++k) sums_.emplace(keys[k], sums[k]);
 }
 
+// Sums and extremes since the start: a resumed run's means are those of an uninterrupted one.
 void RunStatistics::carry(CheckpointFile& file) {
     for (std::size_t d = 0; d < 3; ++d) total_[d].carry(file, fmt::format("tally.total.{}", d));
     file.carry("tally.contact", contact_);

@@ -24,6 +24,7 @@ double response(const Bodies& b, const Constraint& c) {
 
 double residual_impulse(const Bodies& bodies, const std::vector<Constraint>& constraints,
                         double dt) {
+    // each contact by itself: a joint solution would be the one that did not converge
     double sum = 0.0;
     for (const Constraint& c : constraints) {
         if (!c.can_move) continue;

@@ -18,8 +18,11 @@ namespace ice {
 /// the impulse it has, where a resting impulse pushes it apart, u > 0, and no impact did.
 /// 0 when all conditions of the resting stage hold. Contacts that nothing can move are left out.
 ///
+/// (docs/method.md, section 4, on the stopping test.)
+///
 /// Each contact is mended alone, so contacts of one floe count its mass several times: the sum is
 /// an upper estimate of the force that the step lacks; the next step brings most of it.
+/// @param dt  time step [s]
 double residual_impulse(const Bodies& bodies, const std::vector<Constraint>& constraints,
                         double dt);
 

@@ -16,10 +16,11 @@ namespace ice {
 
 namespace {
 
-constexpr double kKilo = 1e4;    // from here on in kN, kJ
-constexpr double kShown = 0.01;  // of the work
+constexpr double kKilo = 1e4;    // from here on in kN [N], kJ [J]
+constexpr double kShown = 0.01;  // share of the work from which an entry is printed [-]
 
-// Numbers in one unit and to one digit.
+// Numbers in one unit and to one digit: a value, its interval and its parts then compare at a
+// glance. More digits than the interval is worth would look like knowledge.
 struct Format {
     double unit = 1.0;
     std::string name;
@@ -61,6 +62,7 @@ std::string force_text(double value) {
 }
 
 std::string resistance_line(const Summary& s) {
+    // two states have no mean: averages that never began, and a ship that nothing touched
     const double speed = s.ship.speed_mean;
     const ForceStatistics& r = s.resistance;
     const auto moved = fmt::format("{} of {} floes moved", s.floes_moved, s.floes_total);

@@ -9,9 +9,10 @@
 namespace ice {
 
 /// "1410 +- 55 N": the interval with two significant digits, the value to its last one; kN from
-/// 10 kN on, per metre in 2D. Without an interval four digits, and why.
+/// 10 kN on, per metre in 2D. Without an interval (NaN) four digits, and why.
+/// @param value, half_width  [N], in 2D [N/m]
 std::string force_text(double value, double half_width, int dimension);
-/// "1.42 kN": three digits, of a whole ship.
+/// "1.42 kN": three digits, of a whole ship. @param value  [N]
 std::string force_text(double value);
 
 /// Mean resistance with interval, at the mean speed of the averaged time, and its parts.

@@ -11,6 +11,7 @@ namespace ice {
 namespace {
 
 // @param contact, friction  sums of its parts over the same steps
+// @param sign  -1 for the resistance, which is positive against +x @param dt  of a step [s]
 ForceStatistics statistics(const LongSeries& total, double contact, double friction, double sign,
                            double dt) {
     ForceStatistics out;
@@ -44,6 +45,7 @@ RunStatistics::RunStatistics(StatisticsOptions options)
 
 void RunStatistics::add(const StepRecord& record, double time, double dt,
                         std::optional<double> residual) {
+    // of all steps: extremes, and the places where a user has to look
     ++steps_;
     unconverged_ += residual ? 1 : 0;
     contacts_ += record.contacts;
@@ -89,6 +91,8 @@ void RunStatistics::add_look(const OverlapFound& found, const StepRecord& record
     if (is_averaged(time)) add_unseen_loads(worrying, record);
 }
 
+// How much of the load comes from floes whose overlap the contacts do not know, and how many floes
+// should press on the hull and do not: both say how far the mean may be off.
 void RunStatistics::add_unseen_loads(const std::vector<UnseenOverlap>& worrying,
                                      const StepRecord& record) {
     std::set<std::int32_t> pressing, doubtful, in_hull;
@@ -108,6 +112,7 @@ void RunStatistics::add_unseen_loads(const std::vector<UnseenOverlap>& worrying,
 }
 
 void RunStatistics::add_averaged(const StepRecord& record, double dt) {
+    // sums, of which fill() makes means
     averaged_time_ += dt;
     impulse_ += record.impulse;
     contact_ += record.contact_force;
@@ -119,6 +124,7 @@ void RunStatistics::add_averaged(const StepRecord& record, double dt) {
         kind.force += force.x();
         ++kind.steps;
     };
+    // the force of doubtful steps by itself: the warning states the mean without them
     if (record.jammed_contacts > 0) book(jam_);
     if (record.closing_speed > options_.tunnelling_speed) book(fast_);
 }
@@ -140,6 +146,7 @@ void RunStatistics::add_regions(const StepRecord& record, bool averaged) {
 }
 
 void RunStatistics::add_jam(const StepRecord& record, double time) {
+    // all jammed steps are counted; of the first one the place is kept
     if (record.jammed_contacts == 0) return;
     if (jammed_steps_++ > 0) return;
     first_jam_time_ = time;

@@ -33,10 +33,11 @@ class RunStatistics {
 public:
     explicit RunStatistics(StatisticsOptions options);
 
-    /// @param residual  residual_impulse() of a step of which a solver stage did not converge
+    /// @param time      at the end of the step [s] @param dt  its length [s]
+    /// @param residual  residual_impulse() [N s] of a step of which a solver stage did not converge
     void add(const StepRecord& record, double time, double dt, std::optional<double> residual);
 
-    /// What a look at the solids found at the end of a step.
+    /// What a look at the solids found at the end of a step, at `time` [s].
     void add_look(const OverlapFound& found, const StepRecord& record, double time);
 
     /// Fills in forces, regions, contacts, energy and warnings of a summary.

@@ -17,7 +17,8 @@ namespace {
 
 // A mean that comes from a hundredth of the steps by more than this is one of hits, and Student's
 // interval of few hits is too narrow: with 0.64 to 0.78 (the paper's 3D case, rigid) seeds differ
-// by more than it, with 0.24 (its 2D case at 1 m/s) they do not.
+// by more than it, with 0.24 (its 2D case at 1 m/s) they do not. A share of the mean [-]; only the
+// warning depends on it.
 constexpr double kWorryingPeaks = 0.5;
 
 // The share of sum |f| that the 1 % of steps with the largest |f| carry; 0 below 100 steps.

@@ -17,8 +17,12 @@ namespace ice {
 
 namespace {
 
-constexpr double kSlow = 0.1;        // [m/s]
-constexpr double kStuckTime = 10.0;  // [s]
+// A ship that goes slower than this [m/s] for this time [s] counts as stuck in ice: it is noted in
+// the summary, and nothing else depends on it. Larger speeds or shorter times note ramming, too.
+constexpr double kSlow = 0.1;
+constexpr double kStuckTime = 10.0;
+// Ordinates of the periodogram in which a period is looked for [-]: the shortest is a 400th of the
+// series. More find shorter periods and take as much longer.
 constexpr std::size_t kMostOrdinates = 400;
 
 // Period of the largest ordinate of the periodogram [s]; 0 where nothing changes.

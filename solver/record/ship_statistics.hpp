@@ -16,7 +16,7 @@ class CheckpointFile;
 /// The entries of summary.json on a ship that answers (docs/contract.md, section 5).
 class ShipStatistics {
 public:
-    /// A step that ended at `time`; means use those from average_from on.
+    /// A step that ended at `time` [s]; means use those from average_from on.
     void add(const FreeShip& ship, const Scene& scene, const Case& parameters, double time);
 
     /// How it went since the start. @pre it answers

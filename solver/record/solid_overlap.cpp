@@ -10,10 +10,12 @@ namespace ice {
 
 namespace {
 
-// Vertices of a fine hull are as close as its seats, which stand for them.
+// With more vertices than this [-] the seats stand for them: those of a fine hull are as close as
+// its seats. More takes longer for each look; fewer may miss corners of coarse hulls.
 constexpr std::size_t kMostVertices = 1000;
 
-// A point this near to a surface is on it, and in the body [m]: rounding.
+// A point this near to a surface is on it, and in the body [m]: rounding. Larger counts bodies that
+// touch as overlapping.
 constexpr double kOnSurface = 1e-9;
 
 const Shape& shape_of(const Scene& scene, std::int32_t body) {

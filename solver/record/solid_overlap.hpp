@@ -43,7 +43,7 @@ OverlapFound measure_overlaps(const Scene& scene, const std::vector<Contact>& co
 /// One pair, whatever its contacts know.
 PairOverlap measure_overlap(const Scene& scene, std::int32_t a, std::int32_t b);
 
-/// Does a point of the world's axes lie in a body's mesh?
+/// Does a point [m] of the world's axes lie in a body's mesh?
 bool is_inside(const Scene& scene, std::int32_t body, const Vec3& point);
 
 }  // namespace ice

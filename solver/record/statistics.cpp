@@ -13,9 +13,15 @@ namespace ice {
 
 namespace {
 
-constexpr std::size_t kFewest = 40;    // samples
-constexpr std::size_t kMost = 8192;    // samples that are used one by one
-constexpr std::size_t kNarrowest = 2;  // ordinates of a band
+// Samples that an interval needs [-]: fewer do not show their correlation. More gives short runs no
+// interval at all.
+constexpr std::size_t kFewest = 40;
+// Samples that are used one by one [-]; longer series are averaged in blocks. More takes longer;
+// fewer hide short correlation.
+constexpr std::size_t kMost = 8192;
+// Ordinates of a band at least [-]: Student's t with 4 degrees of freedom. With one alone intervals
+// would be half as wide again.
+constexpr std::size_t kNarrowest = 2;
 
 // White noise has a window of 3 samples, so an ordinate for 18: with more blocks than that, the
 // second look narrows no band that is flat.

@@ -10,15 +10,16 @@ namespace ice {
 
 class LongSeries;
 
-/// Chance that a series without a trend is said to have one.
+/// Chance that a series without a trend is said to have one [-]: the test's level. Larger warns of
+/// more trends that are none, smaller misses slow ones.
 inline constexpr double kTrendChance = 0.01;
 
 struct MeanInterval {
-    double mean = 0.0;
-    double half_width = 0.0;         ///< of the 95 % interval of the mean
+    double mean = 0.0;               ///< in the series' unit
+    double half_width = 0.0;         ///< of the 95 % interval of the mean, in the series' unit
     double correlation_time = 0.0;   ///< sum of the autocorrelation over all lags [samples]
-    double effective_samples = 0.0;  ///< independent samples that know the mean as well
-    double trend = 0.0;              ///< change over the series of the straight line through it
+    double effective_samples = 0.0;  ///< independent samples that know the mean as well [-]
+    double trend = 0.0;  ///< change over the series of the line through it, in the series' unit
     std::optional<bool> trend_significant;  ///< at 99 %; none: too short to tell
 };
 
@@ -61,10 +62,11 @@ MeanInterval mean_interval(std::span<const double> series);
 /// The same: mean, count and deviation of all single values, the spectrum of the series' blocks.
 MeanInterval mean_interval(const LongSeries& series);
 
-/// Mean of independent values with Student's 95 % interval; for fewer than two NaN.
+/// Mean of independent values with Student's 95 % interval, in their unit; for fewer than two the
+/// interval is NaN, for none the mean too.
 MeanInterval student_interval(std::span<const double> values);
 
-/// Standard deviation about the mean; 0 for fewer than two samples.
+/// Standard deviation about the mean, in the series' unit; 0 for fewer than two samples.
 double standard_deviation(std::span<const double> series);
 
 }  // namespace ice

@@ -7,7 +7,7 @@
 namespace ice {
 
 /// The straight line through the resistance of the averaged time, as a warning. Its share is half
-/// of the line's change over the mean: the mean of a state that lasts may be as far away as the
+/// of the line's change over the mean [-]: the mean of a state that lasts may be as far away as the
 /// line's end. @pre the mean is not 0
 Warning warn_of_trend(const Summary& summary);
 

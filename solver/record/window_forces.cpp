@@ -13,7 +13,9 @@ namespace ice {
 
 namespace {
 
-// A double's exponent and the first 8 digits of its mantissa: 256 classes between powers of two.
+// Bits of a double that a class leaves out [-]. What stays is its exponent and the first 8 digits
+// of its mantissa: 256 classes between powers of two, so that a quantile is right to 0.2 %. One bit
+// more left out halves classes and memory, and doubles that error.
 constexpr int kDropped = 44;
 
 // The bits of positive doubles rise with their values, so the leading ones number classes of equal

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Conservation of momentum, looked after from outside the step: a check, not a part of the method.
+/// Conservation of momentum, checked from outside the step: not a part of the method.
 #pragma once
 
 #include <vector>
@@ -9,16 +9,18 @@
 namespace ice {
 
 /// Rounding of a step: an impulse is the sum of up to thousands of small changes, each exact to
-/// 1e-16 of the velocity it meets. On the paper's cases the worst step is off by 1e-13.
+/// 1e-16 of the velocity it meets. On the paper's cases the worst step is off by 1e-13. A share of
+/// the terms' magnitudes [-]; less stops runs for rounding, more lets small faults pass.
 constexpr double kBalanceTolerance = 1e-12;
 
 /// State that a step changes.
 struct Momenta {
-    std::vector<Vec3> position, linear, angular;  ///< per body, as in Bodies
-    ShipAngles ship_angles = ShipAngles::Zero();
+    /// By body, as in Bodies: places [m], P [kg m/s], L [kg m2/s].
+    std::vector<Vec3> position, linear, angular;
+    ShipAngles ship_angles = ShipAngles::Zero();  ///< roll, pitch, yaw [rad]
 };
 
-/// How far a step was from balance, as a share of the magnitudes that should cancel.
+/// How far a step was from balance, as a share of the magnitudes that should cancel [-].
 struct Imbalance {
     double linear = 0.0;    ///< of the worst floe: change of P against loads and contact impulses
     double angular = 0.0;   ///< of the worst floe: change of L likewise
@@ -28,6 +30,7 @@ struct Imbalance {
                             ///< against those forces; 0 for a prescribed course
     std::int32_t linear_floe = 0, angular_floe = 0;  ///< the worst ones; 0 where there is none
 
+    /// The largest of them [-].
     double worst() const;
 };
 

@@ -15,8 +15,11 @@ namespace ice {
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
-constexpr double kLeastShare = 0.02;  // of the averaged time without ice ahead
-constexpr double kMostCells = 4e6;    // of the hull's cross section
+// Share of the averaged time without ice ahead that is worth a warning [-]: less changes a mean by
+// less than its interval.
+constexpr double kLeastShare = 0.02;
+// Cells of the hull's cross section at most [-]. Fewer make distances coarser than a spacing.
+constexpr double kMostCells = 4e6;
 
 // The hull's cross section in cells of y and z, with the foremost point in each [m]: of its
 // spheres and of its mesh, whose edges reach beyond them where they are sharp.
@@ -43,7 +46,7 @@ public:
     }
 
     // How far the ship goes until it meets the cube around a sphere, in whose corners the edges and
-    // corners of its floe lie; infinite where that is not in its way.
+    // corners of its floe lie; infinite where that is not in its path.
     double distance_to(const Vec3& centre, double radius) const {
         double least = kNever;
         for (int k = 0; k < 9; ++k) {
@@ -151,7 +154,7 @@ double distance_through(const World& w, double way) {
     for (std::size_t i = 1; i < w.scene.bodies.size(); ++i) {
         if (is_unbroken(w.scene, w.parameters, i)) continue;
         const Eigen::AlignedBox3d box = box_of(w.scene, i);
-        // loose floes beside the way are not met
+        // loose floes beside the path are not met
         if (box.max().y() < hull.min().y() || box.min().y() > hull.max().y()) continue;
         far = std::max(far, way > 0.0 ? box.max().x() : -box.min().x());
     }
@@ -225,7 +228,7 @@ std::vector<Warning> check_course(const World& w) {
     const Course course = measure_course(w);
     if (!(course.travel > 0.0) || any_floe_moves(w.scene.bodies)) return warnings;
     warn_of_meeting(p, course, warnings);
-    // level ice that stays is wide of the hull's way by its making
+    // level ice that stays is wide of the hull's path by its making
     if (course.hits_fixed_at < p.duration && !p.has_level_ice())
         warnings.push_back(
             {fmt::format("the ship runs into unbroken ice, which cannot move, after {:.4g} m at "

@@ -10,19 +10,19 @@
 
 namespace ice {
 
-/// The ship's way through the ice as it lies at the start. Infinite where nothing lies in the way,
-/// or the time is not reached.
+/// The ship's course through the ice as it lies at the start. Infinite where no ice lies in its
+/// path, or the time is not reached.
 struct Course {
     double travel = 0.0;           ///< along the course, over the whole run [m], >= 0
-    double clearance = 0.0;        ///< to the first ice on the way [m]
-    double clearance_fixed = 0.0;  ///< to the first unbroken ice on the way [m]
+    double clearance = 0.0;        ///< to the first ice in the path [m]
+    double clearance_fixed = 0.0;  ///< to the first unbroken ice in the path [m]
     double meets_at = 0.0;         ///< when the ship meets the first ice [s]
     double hits_fixed_at = 0.0;    ///< when it meets unbroken ice [s]
     double through = 0.0;          ///< until its foremost point is beyond all loose floes [m]
     double leaves_at = 0.0;        ///< when its foremost point is beyond all loose floes [s]
 };
 
-/// Measures the course from the contact spheres: ice lies in the way where the hull's cross
+/// Measures the course from the contact spheres: ice lies in the path where the hull's cross
 /// section, in cells of one sphere spacing, passes over it. Distances are right to about a spacing.
 /// Loose floes beyond which the ship "leaves" are those within its breadth.
 Course measure_course(const World& world);

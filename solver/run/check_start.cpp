@@ -20,7 +20,8 @@ namespace ice {
 namespace {
 
 // A part of the hull in the ice belt that is worth a warning when no sphere stands for it: the
-// edges of a deck or a transom in full-bodied hulls stay below it.
+// edges of a deck or a transom in full-bodied hulls stay below it. A share of the area [-]; only
+// the warning depends on it.
 constexpr double kWorryingUnfelt = 0.005;
 
 constexpr std::size_t kMostNamed = 5;  // pairs in a message

@@ -51,6 +51,7 @@ std::uint64_t hash_of(const Shape& shape) {
     return hash.value();
 }
 
+// What may not change between checkpoint and restart. Names of files may; their content may not.
 Identity identity_of(const World& w) {
     const Bodies& b = w.scene.bodies;
     std::vector<std::uint64_t> of_row;

@@ -20,6 +20,7 @@ namespace ice {
 
 namespace {
 
+// Lines of one subject each, with the numbers in which a wrong unit or draught shows at a glance.
 std::string ship_line(const World& w, const ShipParticulars& ship) {
     const Shape& hull = w.scene.shapes[0];
     std::string out = fmt::format("  ship       {:.4g} m long", ship.length);
@@ -69,6 +70,7 @@ std::string hold_text(const std::vector<std::string>& hold) {
     return fmt::format("{}", fmt::join(words, ", "));
 }
 
+// Level ice has no floes yet; its line has the size of cracks, by which a wrong strength shows.
 std::string ice_line(const World& w, const IceParticulars& ice) {
     if (w.edge.lives()) {
         const auto& extent = w.parameters.level_ice.extent;
@@ -84,6 +86,7 @@ std::string ice_line(const World& w, const IceParticulars& ice) {
             w.edge.thickness(), extent[0], extent[1], extent[2], extent[3], w.edge.radius());
     }
     std::string out = fmt::format("  ice        {} floes", ice.floes);
+    // of no loose floes there is no size
     if (ice.floes > 0)
         out += fmt::format(" of {:.3g} to {:.3g} m", ice.floe_size_min, ice.floe_size_max);
     out += fmt::format(", {:.3g} m thick", ice.thickness);
@@ -99,6 +102,7 @@ std::string distance_text(double distance) {
     return std::isfinite(distance) ? fmt::format("{:.3g} m", distance) : "none";
 }
 
+// Duration and speed as lengths of the ship, since a mean needs some of these.
 std::string course_line(const World& w, const ShipParticulars& ship, const Course& course) {
     const Case& p = w.parameters;
     // The distance of a ship that surges is a result of the run.
@@ -129,7 +133,8 @@ std::string spheres_line(const World& w) {
     return out;
 }
 
-// The line of spherize's certificate on the hull's ice belt.
+// The line of spherize's certificate on the hull's ice belt: what part of it has no spheres. None
+// for a hull made in code.
 std::string belt_line(const World& w) {
     std::error_code none;
     if (!std::filesystem::is_regular_file(w.parameters.hull_spheres, none)) return {};  // made here

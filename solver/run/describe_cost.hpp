@@ -12,10 +12,10 @@ namespace ice {
 /// Upper bound of a run's files and memory, before run.h5 is compressed. Touches of hull and floes,
 /// whose number nobody knows beforehand, are not in it.
 struct RunCost {
-    std::int64_t steps = 0, rows = 0, frames = 0;
-    double run_file = 0.0;  ///< run.h5 [B]
-    double tables = 0.0;    ///< forces.csv and those of tracked floes [B]
-    double memory = 0.0;    ///< beside the scene [B]
+    std::int64_t steps = 0, rows = 0, frames = 0;  ///< of the run, of each history, poses stored
+    double run_file = 0.0;                         ///< run.h5 [B]
+    double tables = 0.0;                           ///< forces.csv and those of tracked floes [B]
+    double memory = 0.0;                           ///< beside the scene [B]
 };
 RunCost run_cost(const Case& parameters, std::size_t floes, std::size_t regions);
 

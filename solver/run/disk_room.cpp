@@ -18,12 +18,16 @@ namespace ice {
 
 namespace {
 
-constexpr std::uint64_t kStride = 1 << 16;  // bytes of rows between two looks
-constexpr std::uint64_t kEnd = 1 << 19;     // HDF5's blocks and indices, summary.json, run.log
-// of a checkpoint, generous: a run of 5 floes has one of 53 kB
+// Bytes of rows between two looks. More holds as much more room, less looks at the disk more often.
+constexpr std::uint64_t kStride = 1 << 16;
+// Bytes for HDF5's blocks and indices, summary.json and run.log. All bounds here are generous: too
+// much stops a run a little early, too little leaves a file cut.
+constexpr std::uint64_t kEnd = 1 << 19;
+// Bytes of a checkpoint: a run of 5 floes has one of 53 kB.
 constexpr std::uint64_t kFields = 1 << 16, kPerBody = 400, kPerContact = 400;
-constexpr std::uint64_t kPerStep = 64;     // statistics remember forces of LongSeries::kMost steps
-constexpr std::uint64_t kFrameBytes = 68;  // per floe
+// Bytes per step: statistics remember forces of LongSeries::kMost steps.
+constexpr std::uint64_t kPerStep = 64;
+constexpr std::uint64_t kFrameBytes = 68;  // bytes per floe in a frame of run.h5
 // Rows in the CSV files between two looks: text takes at most 25 bytes for the 8 of a number, and
 // the streams buffer some.
 constexpr std::uint64_t kTextStride = 4 * kStride, kTextBuffer = 1 << 14;

@@ -24,12 +24,22 @@ namespace {
 // read.
 constexpr std::uint64_t kTables = 1;
 
-constexpr double kSameDraught = 0.01;  // of the draught
-constexpr double kMostFroude = 0.2;    // waves change the flow by its square
+// Largest difference of a file's draught from the case's, as its share [-]. Larger takes the flow
+// of another wetted hull; smaller refuses draughts that were rounded.
+constexpr double kSameDraught = 0.01;
+// Froude number above which the flat surface is worth a warning [-]: waves change the flow by its
+// square, 4 % here.
+constexpr double kMostFroude = 0.2;
+// Residual of the flow that is worth a warning [-]: hulls with sharp edges have 0.02 to 0.04.
 constexpr double kMostResidual = 0.05;
-constexpr auto kOthersWork = std::chrono::minutes(10);  // the longest that a flow may take
-constexpr double kOfMean = 0.25;  // 1 % of the flow is a quarter of that of a channel's resistance
+// The longest that this program waits for the flow that another one makes.
+constexpr auto kOthersWork = std::chrono::minutes(10);
+// Change of a mean resistance per change of the flow [-]: 1 % of the flow is a quarter of a per
+// cent of a channel's resistance. It scales a warning's share alone.
+constexpr double kOfMean = 0.25;
 
+// Extent along z in the form's own axes [m], 0 without floes: the flow has to be resolved over a
+// floe's height, and floes mostly lie flat.
 double thinnest_floe(const Scene& scene) {
     double out = std::numeric_limits<double>::infinity();
     for (std::size_t k = 1; k < scene.shapes.size(); ++k) {

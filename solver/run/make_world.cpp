@@ -31,6 +31,7 @@ void require_rising_times(const Case& p) {
                             "order the rows by time, each time once");
 }
 
+// A section and a solid have other units: one in the other's world would have a wrong mass.
 void require_dimension(const SphereSet& set, int dimension, const char* what) {
     if (set.dimension != dimension)
         throw bad_input(
@@ -38,7 +39,7 @@ void require_dimension(const SphereSet& set, int dimension, const char* what) {
             "fill hull and floes by the same function, and set Case::dimension");
 }
 
-// Row of the floes that are held this way; groups are how a case tells its floes apart.
+// Row of the floes with this rule of release; groups are how a case tells its floes apart.
 std::int32_t group_of(Case& parameters, Hold hold) {
     auto& groups = parameters.floes;
     const auto known = std::find_if(groups.begin(), groups.end(),
@@ -64,7 +65,7 @@ World make_world(const Case& parameters, const SphereSet& hull) {
     require_dimension(hull, parameters.dimension, "the hull");
     World world;
     world.parameters = parameters;
-    // a world has no groups until add_floe makes them, one for each way of holding
+    // a world has no groups until add_floe makes them, one for each rule of release
     world.parameters.floes.clear();
     if (world.parameters.speed_table.empty()) world.parameters.speed_table = {{0.0, 0.0}};
     Shape shape = build_shape(hull, false);

@@ -26,6 +26,7 @@ namespace ice {
 
 namespace {
 
+// References alone: a recorder sees the world after a step and keeps none of it.
 StepView view_of(const World& w) {
     return {w.scene,
             w.contacts,
@@ -37,8 +38,12 @@ StepView view_of(const World& w) {
             w.edge.lives() ? &w.edge : nullptr};
 }
 
-constexpr double kFarAway = 1e7;  // [m]
+// A body farther away than this [m] is a fault: no course is so long. Larger lets a run that fails
+// go on for longer.
+constexpr double kFarAway = 1e7;
 
+// A not-a-number spreads to every body that it touches: the run stops in the step that made it, and
+// names it. The comparison is written so that a not-a-number fails it.
 void check_finite(const World& w) {
     const Bodies& b = w.scene.bodies;
     for (const std::int32_t i : b.moving)  // held ones are as the case gave them
@@ -64,6 +69,8 @@ void verified_step(World& w, Summary& summary) {
     if (w.ship.answers()) keep("ship", found.ship);
 }
 
+// What the summary states of the program and its run. Wall times differ between equal runs; all
+// else of the summary is the same.
 void fill_run(const World& w, double wall_seconds, Summary& s) {
     const Case& p = w.parameters;
     s.title = p.title;
@@ -97,7 +104,7 @@ void create_folder(const std::filesystem::path& folder) {
                          "choose another folder");
 }
 
-// A run on its way: what run() and its parts share.
+// A run under way: what run() and its parts share.
 struct Job {
     World& world;
     const RunOptions& options;
@@ -119,13 +126,14 @@ void start(Job& job) {
     job.progress.warnings = job.options.start_warnings;
 }
 
-// The part of the averaged time that is over.
-// 0 before the averages begin, 1 at the end
+// The part of the averaged time that is over: 0 before the averages begin, 1 at the end. It is the
+// share of the mean that another program may have computed.
 double averaged_share(const World& w) {
     const Case& p = w.parameters;
     return std::clamp((w.time - p.average_from) / (p.duration - p.average_from), 0.0, 1.0);
 }
 
+// Continues from a checkpoint: progress and rows of before count as this run's own.
 void go_on(Job& job, const SavedRun& saved) {
     const RunOptions& o = job.options;
     job.progress = saved.progress;
@@ -224,6 +232,8 @@ void advance(Job& job) {
 }  // namespace
 
 World build_world(const Case& parameters) {
+    // Ice before water: level ice lies around the hull, and the spacing of the flow's table follows
+    // from the thinnest floe.
     World world;
     world.parameters = parameters;
     world.scene = build_scene(world.parameters);
@@ -256,6 +266,7 @@ Summary run(World& world, const RunOptions& options) {
             {fmt::format("simulation.duration is not a whole number of steps: {:g} s are simulated",
                          static_cast<double>(steps) * p.time_step),
              false});
+    // files are opened before the first step: a folder that cannot be written costs no run
     if (options.saved != nullptr)
         go_on(job, *options.saved);
     else

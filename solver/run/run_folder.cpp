@@ -34,6 +34,7 @@ bool is_numbered(std::string_view name, std::string_view prefix, std::string_vie
     return name.find_first_not_of("0123456789-") == std::string_view::npos;
 }
 
+// Files that state the result of a whole run: out of date as soon as the run is resumed.
 bool is_result(std::string_view name) {
     constexpr std::array<std::string_view, 4> names{"summary.json", "report.html", "run.h5",
                                                     "forces.csv"};
@@ -41,13 +42,15 @@ bool is_result(std::string_view name) {
            is_numbered(name, "floe_", ".csv");
 }
 
-// All that icesolve writes into a run folder, the report that it asks for included.
+// All that icesolve writes into a run folder, the report that it orders from icepost included.
+// Nothing else is ever removed: users keep notes and pictures beside a run.
 bool is_of_a_run(std::string_view name) {
     if (name.ends_with(kPart)) name.remove_suffix(kPart.size());
     return is_result(name) || name == "case.resolved.cfg" || name == kLogName ||
            name == kCheckpointName || is_numbered(name, "checkpoint-rows-", ".h5");
 }
 
+// Names first, then removal: a directory that changes while it is read may skip entries.
 void remove_where(const fs::path& folder, const std::function<bool(const std::string&)>& is_meant) {
     std::error_code ignored;
     std::vector<fs::path> meant;
@@ -84,6 +87,7 @@ void refuse_ensemble(const fs::path& folder) {
                             "choose another folder with --out, or go on with it: --seeds N");
 }
 
+// The error names what is there and every command that helps: resume, replace, another folder.
 void refuse_taken(const fs::path& folder, const FolderCommands& commands) {
     const std::vector<std::string> names = names_in(folder);
     if (names.empty()) return;
@@ -155,6 +159,7 @@ fs::path default_run_folder(const fs::path& case_file) {
     return fs::path("results") / name;
 }
 
+// By files that an ensemble's own folder never has: it has a summary.json and a run.log, too.
 bool holds_single_run(const fs::path& folder) {
     constexpr std::array<const char*, 4> names{"run.h5", "run.h5.part", "case.resolved.cfg",
                                                kCheckpointName};

@@ -9,7 +9,7 @@ namespace ice {
 
 /// State of run() itself, beside the world and the recorder.
 struct RunProgress {
-    double wall_seconds = 0.0;      ///< of all programs that worked on the run
+    double wall_seconds = 0.0;      ///< of all programs that worked on the run [s]
     std::vector<Warning> warnings;  ///< about the start and restarts
 };
 

@@ -11,7 +11,9 @@ namespace ice {
 
 namespace {
 
-constexpr int kMostParts = 100;  // of a triangle's side
+// Parts of a triangle's side at most [-], 5000 points. Fewer see less of a coarse mesh's large
+// triangles; more only take time.
+constexpr int kMostParts = 100;
 
 // Seats and tips of the hull's spheres, by x.
 std::vector<Vec3> places_felt(const Shape& hull) {

@@ -21,8 +21,12 @@ namespace ice {
 
 namespace {
 
+// Floes of a case at most [-]: their state alone takes some 4 GB. A larger number is a slip in
+// floes.count, and would end in a failed allocation without a key's name.
 constexpr double kMostFloes = 1e7;
 
+// A set of another dimension is refused by its file's name, with the command that makes the right
+// one.
 Shape read_shape(const std::filesystem::path& file, int dimension, bool about_centre_of_mass) {
     const SphereSet set = read_spheres(file);
     if (set.dimension != dimension)
@@ -55,6 +59,8 @@ std::vector<Vec3> place_group(const FloeGroup& group, const Vec3& low, const Vec
     return places;
 }
 
+// Floes of one form, in rows and columns. They are placed and not moved apart: check_start() finds
+// overlaps.
 void add_group(Scene& scene, const Case& parameters, std::size_t g, std::int32_t shape_row) {
     const FloeGroup& group = parameters.floes[g];
     const Shape& shape = scene.shapes[static_cast<std::size_t>(shape_row)];
@@ -133,7 +139,8 @@ void add_field_group(Scene& scene, const Case& parameters, std::size_t g, ShapeR
     }
 }
 
-// The row of a shape's moments of inertia, made where its newest is of another density.
+// The row of a shape's moments of inertia, made where its newest is of another density. Thousands
+// of floes of one form share a row, which the lanes of the loads then load once.
 std::int32_t share_inertia(Scene& scene, std::int32_t shape_row, double density) {
     Bodies& b = scene.bodies;
     b.inertia_of_shape.resize(scene.shapes.size(), -1);
@@ -186,6 +193,7 @@ std::size_t add_floe(Scene& scene, std::int32_t shape_row, double density, const
     // floating heights are found before
     const Shape& shape = scene.shapes[static_cast<std::size_t>(shape_row)];
     ICE_ASSERT(std::isfinite(start.position.z()));
+    // a held floe keeps its momentum: it drifts at its velocity, and is released with it
     const bool held = start.hold != Hold::never;
     Bodies& b = scene.bodies;
     b.shape.push_back(shape_row);

@@ -38,7 +38,8 @@ struct FloeStart {
 std::size_t add_floe(Scene& scene, std::int32_t shape, double density, const FloeStart& start,
                      std::int32_t group);
 
-/// An empty scene with the ship in it.
+/// An empty scene with the ship in it, upright.
+/// @param position  of the mesh's origin [m] @param velocity  [m/s]
 Scene make_scene(Shape hull, const Vec3& position, const Vec3& velocity);
 
 }  // namespace ice

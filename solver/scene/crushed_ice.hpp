@@ -12,11 +12,14 @@ namespace ice {
 /// Depths to which contact has crushed the ice. Crushed ice is gone for good, so its sphere lies
 /// deeper in the floe. Mass, buoyancy and drag remain those of the whole floe.
 struct CrushedIce {
-    std::vector<std::int64_t> first;  ///< per body: its row of displacement, -1 while whole
-    std::vector<Vec3> displacement;   ///< per surface sphere of crushed bodies, body axes [m]
-    std::vector<double> deepest;      ///< per body, as far as `first`: its longest displacement [m]
+    /// By body, up to the last one that was ever crushed: its first row of displacement, -1 while
+    /// whole.
+    std::vector<std::int64_t> first;
+    std::vector<Vec3> displacement;  ///< by surface sphere of crushed bodies, body axes [m]
+    std::vector<double> deepest;     ///< by body, as long as `first`: its longest displacement [m]
 
-    /// Spheres that have moved since MotionBounds was updated: their bodies and ways [m].
+    /// Spheres that have moved since Recess::move_spheres() began the list anew: their bodies and
+    /// shifts. MotionBounds reads it, as the motion of surfaces.
     struct CrushEvent {
         std::int32_t body;
         double depth;  ///< [m]
@@ -33,6 +36,7 @@ struct CrushedIce {
         return displacement[static_cast<std::size_t>(first[static_cast<std::size_t>(body)] +
                                                      sphere)];
     }
+    /// Its longest displacement [m]; 0 for a whole body.
     double deepest_of(std::int32_t body) const {
         return is_whole(body) ? 0.0 : deepest[static_cast<std::size_t>(body)];
     }

@@ -5,7 +5,8 @@
 
 namespace ice {
 
-/// Moments of inertia of a form of that density [kg/m3] about its centre of mass.
+/// Moments of inertia [kg m2] of a form of that density [kg/m3], > 0, about its centre of mass: the
+/// exact integrals over its mesh. 2D: [kg m], and an inverse about y alone.
 Inertia inertia_of(const Shape& shape, double density);
 
 }  // namespace ice

@@ -13,7 +13,9 @@ namespace ice {
 
 namespace {
 
-constexpr double kLeast = 1e-6;  // of the depth: what rounding of a mesh makes of a draught of 0
+// Least draught, in depths of the hull [-]: what rounding of a mesh makes of a draught of 0. Only
+// refusals depend on it.
+constexpr double kLeast = 1e-6;
 
 // z of the lowest and the highest vertex
 std::pair<double, double> heights_of(const TriangleMesh& mesh) {

@@ -8,7 +8,8 @@ namespace ice {
 /// Speed [m/s] at which a body goes the diameter of the smallest contact sphere within a time_step.
 ///
 /// A body's surface is a layer of spheres to others: beyond this speed they may pass through it
-/// (tunnel) without having met it.
+/// (tunnel) without having met it. The hull's spheres count, too, also in a scene without floes.
+/// @param time_step  [s], > 0
 double tunnelling_speed(const Scene& scene, double time_step);
 
 }  // namespace ice

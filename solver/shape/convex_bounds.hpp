@@ -21,8 +21,10 @@ struct BoundedSphere {
 ///
 /// Taken from the mesh: its vertices, and a plane through the foremost of them along each facet's
 /// normal. A form of more than kMost different normals or vertices (a hull of thousands of
-/// triangles) has none: asking them would cost more than it saves.
+/// triangles) has none: a test of them would cost more than it saves.
 struct ConvexBounds {
+    /// Normals or vertices at most [-]: a prism floe of 18 sides has 20 and 36. More gives more
+    /// shapes a bound, whose test grows with normals times vertices; results stay the same.
     static constexpr std::size_t kMost = 40;
 
     std::vector<Vec3> corners;   ///< [m]
@@ -34,6 +36,7 @@ struct ConvexBounds {
     /// their spheres.
     bool hold_spheres = false;
 
+    /// Shapes without bounds are always searched.
     bool known() const { return !corners.empty(); }
 
     ConvexBounds() = default;

@@ -22,7 +22,8 @@ public:
 
     /// Row of the set's region_names: that of the sphere's face whose normal is nearest to n (unit,
     /// outward, the set's axes), and of faces in one plane the nearest to the sphere. So a push
-    /// between the normals of two faces that meet in an edge counts for one of them, whole.
+    /// between the normals of two faces that meet in an edge counts for one of them, whole. Without
+    /// borders nearby it is of_spheres()'s.
     std::int32_t at(std::int32_t sphere, const Vec3& n) const;
 
     /// Where most of each surface sphere's area lies.

@@ -7,6 +7,7 @@
 
 namespace ice {
 
+// An edge by its two vertices, the lower number first: both of its triangles find the same one.
 MeshEdges find_edges(const TriangleMesh& mesh) {
     MeshEdges out;
     std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> known;

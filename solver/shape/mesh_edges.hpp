@@ -11,11 +11,12 @@ namespace ice {
 
 /// The edges of a mesh, each once: triangles that share one share its middle.
 struct MeshEdges {
-    std::vector<Vec3> middle;                              ///< [m]
-    std::vector<std::array<std::int32_t, 3>> of_triangle;  ///< the edge behind each corner
+    std::vector<Vec3> middle;  ///< [m]
+    /// By triangle: the edge behind each corner, a row of `middle`.
+    std::vector<std::array<std::int32_t, 3>> of_triangle;
 };
 
-/// In the order of the triangles. @pre corners are vertices of the mesh
+/// In the order of the triangles; none for no triangles. @pre corners are vertices of the mesh
 MeshEdges find_edges(const TriangleMesh& mesh);
 
 }  // namespace ice

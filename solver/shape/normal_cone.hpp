@@ -13,7 +13,8 @@ namespace ice {
 /// The faces that meet in an edge (2) or a vertex (3), by their outward normals, and the cone of
 /// all outward normals there (docs/method.md, section 3).
 struct NormalCone {
-    int count = 0;
+    int count = 0;  ///< 0: faces not known, as on a face, a round part or a knife edge
+    /// Outward, unit; the first `count` of them.
     std::array<Vec3, 3> normal{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
     double apex_distance =
         0.0;  ///< from the sphere's centre along its normal to where they meet [m]
@@ -26,7 +27,8 @@ struct NormalCone {
     /// The same in other axes.
     NormalCone turned(const Mat3& turn) const;
 
-    /// Is n in the cone: are its components along the faces' normals positive, to some degrees?
+    /// Is n, a unit vector, in the cone: are its components along the faces' normals positive, to
+    /// 0.3 degrees where these are square?
     /// Outside the cone another sphere has the body's foremost point; so it has where n leans along
     /// the edge, by more than `most_along` (cosine).
     /// @param slack  widens all bounds [rad]; negative: narrows them
@@ -56,7 +58,8 @@ struct NormalCone {
 
     /// Number of edges: 3 end at a vertex, 1 passes between two faces, else none.
     int edges() const { return count == 3 ? 3 : count / 2; }
-    /// Unit vector along edge k: of a vertex from there into the solid, else of either sign.
+    /// Unit vector along edge k, 0 <= k < edges(): of a vertex from there into the solid, else of
+    /// either sign.
     Vec3 edge(int k) const {
         const auto n = static_cast<std::size_t>(k);
         return count == 2 ? part[2] : Vec3(-per_length[n] * part[n]);
@@ -65,7 +68,9 @@ struct NormalCone {
     bool ends() const { return count == 3; }
 
 private:
-    // a part this negative is still no normal of another place: 3 degrees where faces are square
+    // A part this negative [-] still belongs to the cone: 0.3 degrees beyond it where the faces are
+    // square, more than the rounding of normals stored as floats. With 3 degrees overlaps of 3 to
+    // 6 mm remained in the bench scenes (docs/design-notes.md); with 0 flush faces lose contacts.
     static constexpr double kBelongs = -0.005;
 
     // n . part[k] is n's part along normal[k], times `size` (positive); of two faces part[2] is the

@@ -15,12 +15,16 @@ namespace ice {
 namespace {
 
 // Faces whose normals are this far apart (cosine) meet in a knife edge of less than 20
-// degrees, or are the two sides of a plate as thin as the sphere: that is left round.
+// degrees, or are the two sides of a plate as thin as the sphere: that is left round. A tip at
+// r / cos of the half angle would lie far outside the sphere. Nearer to -1 keeps sharper tips.
 constexpr double kKnife = -0.94;
 
-// Normals whose box product with two others is below this lie in their plane: an edge, no corner.
+// Normals whose box product with two others is below this [-], 6 degrees where those are square,
+// lie in their plane: an edge, no corner. Smaller makes corners of smooth strips, whose cones are
+// needles; larger makes edges of blunt corners.
 constexpr double kSamePlane = 0.1;
 
+// The mesh as the water's kernels read it, eight triangles beside each other.
 FacetBlocks facets_of(const TriangleMesh& mesh) {
     std::vector<Facet> facets;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
@@ -90,7 +94,8 @@ void copy_surface_spheres(const SphereSet& set, const Vec3& origin, Shape& shape
     }
 }
 
-// Numbers the feature types by their first spheres.
+// Numbers the feature types by their first spheres. Pairs of types share their separating axes, so
+// that a box floe of 240 spheres has 26 types to look at (docs/design-notes.md).
 void number_feature_types(Shape& shape) {
     std::map<std::array<double, 18>, std::int32_t> known;
     for (std::size_t k = 0; k < shape.center.size(); ++k) {

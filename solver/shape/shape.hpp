@@ -31,16 +31,16 @@ struct Shape {
     std::vector<double> radius;      ///< [m]
     std::vector<Vec3> normal;        ///< outward, unit
     std::vector<double> spread_cos;  ///< of the half-angle between `normal` and the surface
-    std::vector<double> spread_sin;  ///<   normals met there: 1 and 0 on a face
+    std::vector<double> spread_sin;  ///<   normals met there [-]: 1 and 0 on a face
     std::vector<NormalCone> cone;    ///< of the faces that meet at the sphere; empty on a face
     /// Spheres of one feature type differ in place, area and region only.
     std::vector<std::int32_t> feature_type;
-    std::size_t feature_types = 0;
+    std::size_t feature_types = 0;  ///< of which feature_type has 0 ... feature_types - 1
     /// Rank by place, mirror images about y = 0 alike. Decisions and orders that look at this
     /// before any index keep mirror-image states mirror images, bit for bit.
     std::vector<std::int32_t> mirror_rank;
-    std::vector<double> area;  ///< share of the surface [m2]
-    FaceRegions region;        ///< rows of region_names
+    std::vector<double> area;  ///< share of the surface [m2]; 2D: a length [m]
+    FaceRegions region;        ///< by sphere: rows of region_names
     std::vector<std::string> region_names;
     std::size_t sphere_count = 0;  ///< of the whole set, interior included
     ConvexBounds bounds;           ///< of mesh and spheres
@@ -49,8 +49,8 @@ struct Shape {
     SphereBlocks balls;            ///< the same without their faces, for the rule "centres"
     double largest_radius = 0.0;   ///< [m]
     double spacing = 0.0;          ///< nominal distance of the surface spheres [m]
-    double patch_radius =
-        0.0;                 ///< of each sphere: it represents the surface that near its centre [m]
+    /// Of each sphere: it represents the surface that near its centre, 0.75 spacings [m].
+    double patch_radius = 0.0;
     SidePlanes side_planes;  ///< at which the faces end within it
 
     TriangleMesh mesh;                            ///< closed, body axes
@@ -62,7 +62,8 @@ struct Shape {
     double bounding_radius = 0.0;  ///< about the body origin [m]
 };
 
-/// Makes the shape of a floe (axes moved to the centre of mass) or of the hull (axes kept).
+/// Makes the shape of a floe (axes moved to the centre of mass) or of the hull (axes kept). The
+/// same set gives the same bits.
 /// @throws Error (exit code 2) when the set has no surface spheres.
 Shape build_shape(const SphereSet& set, bool about_centre_of_mass);
 

@@ -11,14 +11,17 @@ namespace ice {
 
 namespace {
 
-// Normals this near (cosine; 2.6 degrees) in planes this near (radii) are of one face: the hull's
-// are curved.
+// Normals this near (cosine; 2.6 degrees) in planes this near (radii) [-] are of one face: the
+// hull's are curved. Looser ones take a neighbouring face for the own one, which then has no border
+// there; stricter ones end a curved face at each of its facets.
 constexpr double kOneFace = 0.999, kOnePlane = 0.1;
 
-// Planes this near (cosine, radii) are one: spheres along a straight edge differ by rounding.
+// Planes this near (cosine, radii) [-] are one: spheres along a straight edge differ by rounding.
+// Only the number of planes to test depends on it.
 constexpr double kSameBorderNormal = 1.0 - 1e-9, kBorderRounding = 1e-6;
 
-// A plane that leaves this much (radii) of another edge's sphere before it cuts nothing off.
+// A plane that leaves this much (radii) [-] of another edge's sphere before it cuts nothing off.
+// Larger lets planes cut hollow outlines; smaller drops planes for rounding.
 constexpr double kCutOff = 0.01;
 
 // The face of a sphere: its patch lies in a plane tangent to it.

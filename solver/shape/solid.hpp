@@ -13,10 +13,11 @@ namespace ice {
 
 /// Eight vectors beside each other, by component.
 struct alignas(64) VectorBlock {
-    /// Fixed, so that no order of operations depends on the instruction set.
+    /// Fixed, so that no order of operations depends on the instruction set; eight doubles are the
+    /// widest vector in use.
     static constexpr std::size_t kLanes = 8;
 
-    double x[kLanes], y[kLanes], z[kLanes];
+    double x[kLanes], y[kLanes], z[kLanes];  ///< by lane
 };
 
 /// Vectors in blocks; the last block is filled up with copies of the last vector.
@@ -49,7 +50,9 @@ struct SolidEdge {
 /// Coplanar triangles of the mesh are one plane. Planes, corners and edges stand in an order that
 /// mirror images about y = 0 have in common but for the images themselves.
 struct ConvexPiece {
-    /// With more planes or corners than this a piece is not made: curved surfaces are no pieces.
+    /// With more planes or corners than this [-] a piece is not made: curved surfaces are none. All
+    /// pairs of edges are candidates, so the cost grows with the square; with fewer, floes of many
+    /// sides lose the exact axis. The ids of contact corners have room for no more.
     static constexpr std::size_t kMost = 64;
 
     VectorBlocks normals;                ///< of the planes, outward, unit

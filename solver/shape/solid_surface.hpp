@@ -13,6 +13,7 @@ public:
     SolidSurface(const SolidSurface&) = delete;  // the tree refers to this mesh
     SolidSurface& operator=(const SolidSurface&) = delete;
 
+    /// The nearest point [m] to p [m], its distance [m], and whether p lies inside; body axes.
     Foot closest(const Vec3& p) const { return tree_.closest(p); }
 
 private:

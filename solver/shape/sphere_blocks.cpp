@@ -13,7 +13,8 @@ namespace {
 constexpr std::size_t kGroup = SphereBlocks::kGroup;
 constexpr std::size_t kCluster = kGroup * kGroup;
 
-// Squares of distances to the fill are still finite floats.
+// Place of the spheres that fill up the last group [m]: beyond any body, and squares of distances
+// to it are still finite floats.
 constexpr float kFarAway = 1e18f;
 
 // Halves the widest side of the spheres' box again and again, always at whole groups and, as long

@@ -34,8 +34,11 @@ struct BoxRows {
 /// Floats: the search may find too much, never too little, so its user adds the error of rounding
 /// to floats (kFloatShare) to all distances; the pairs found are measured in double precision.
 struct SphereBlocks {
+    /// Spheres in a group: the lanes of the widest vector of floats. Smaller groups have tighter
+    /// boxes, and more of them to test.
     static constexpr std::size_t kGroup = 16;
-    /// Distances between floats are right to this share of the coordinates' size.
+    /// Distances between floats are right to this share [-] of the coordinates' size, some ten
+    /// units in the last place. Less could miss contacts, more finds spheres in vain.
     static constexpr float kFloatShare = 1e-6f;
 
     // per sphere; the last group is filled up with spheres that are far from everything
@@ -49,6 +52,7 @@ struct SphereBlocks {
     std::size_t count = 0;  ///< spheres
     std::size_t group_count = 0;
     FloatBox box{};  ///< of all centres
+    /// Of all spheres [m].
     float largest_normal_extent = 0.0f, largest_tangent_extent = 0.0f, largest_own = 0.0f;
     float size = 0.0f;  ///< largest coordinate of a centre [m]
 

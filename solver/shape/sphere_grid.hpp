@@ -14,8 +14,8 @@ namespace ice {
 
 /// Points sorted into equal cells of a box, for "which spheres are near here?".
 ///
-/// Cells are stored row by row (x fastest) as ranges of
-/// `items`, so a query over neighbouring cells along x reads one run of memory.
+/// Cells are stored row by row (x fastest) as ranges of `items`, so a query over neighbouring cells
+/// along x reads one run of memory.
 class SphereGrid {
 public:
     SphereGrid() = default;
@@ -23,7 +23,8 @@ public:
     /// @param cell    wanted edge of a cell [m], > 0; enlarged where the box would need more than
     ///                four cells per point
     SphereGrid(std::span<const Vec3> points, double cell) { build(points, cell); }
-    /// Makes it anew, in the memory it has where that is enough.
+    /// Makes it anew, in the memory it has where that is enough. Arguments as of the constructor;
+    /// points must be finite.
     void build(std::span<const Vec3> points, double cell);
 
     /// Calls visit(k) for every point k in the cells that the cube of half edge `range` [m] around
@@ -54,11 +55,11 @@ private:
         return static_cast<int>(std::floor(std::clamp(cell, -2.0, count_[axis] + 1.0)));
     }
 
-    Vec3 origin_ = Vec3::Zero();
-    double cell_ = 1.0;
-    int count_[3] = {0, 0, 0};
+    Vec3 origin_ = Vec3::Zero();       ///< lowest corner of the box [m]
+    double cell_ = 1.0;                ///< edge of a cell [m]
+    int count_[3] = {0, 0, 0};         ///< cells along x, y, z
     std::vector<std::int32_t> begin_;  ///< cells + 1
-    std::vector<std::int32_t> items_;
+    std::vector<std::int32_t> items_;  ///< numbers of points, by cell
 };
 
 }  // namespace ice

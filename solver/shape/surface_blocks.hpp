@@ -16,16 +16,17 @@ struct Facet {
     Vec3 area;       ///< outward normal x area [m2]
 };
 
-/// The triangle with these corners, anticlockwise seen from outside.
+/// The triangle with these corners [m], anticlockwise seen from outside; a flat one has area 0.
 Facet make_facet(const Vec3& a, const Vec3& b, const Vec3& c);
 
 /// Eight facets, by component. The fill of the last block lies on the last facet, with no area.
 struct alignas(64) FacetBlock {
-    /// Fixed, so that the order of sums depends on no instruction set.
+    /// Fixed, so that the order of sums depends on no instruction set. Another number gives loads
+    /// with other last digits.
     static constexpr std::size_t kLanes = 8;
 
-    double area[3][kLanes];       ///< [m2]
-    double corner[3][3][kLanes];  ///< number, component [m]
+    double area[3][kLanes];       ///< component, lane [m2]
+    double corner[3][3][kLanes];  ///< number, component, lane [m]
 };
 
 /// Facets in blocks, in their order. Reads like a list of Facet.

@@ -11,8 +11,8 @@ namespace ice {
 ///
 ///     P_D = (T / (K_e (1 - U / (3 U_ow) - 2/3 (U / U_ow)^2)))^(3/2) / D,
 ///
-/// without the speed's terms for U < 0; 0 for a thrust astern, infinite from U_ow on. NaN where
-/// the keys are not given.
+/// (equation (S2) inverted, K_e as in thrust.hpp) without the speed's terms for U < 0; 0 for no
+/// thrust or one astern, infinite from U_ow on. NaN where the keys are not given.
 double delivered_power(const Propulsion& propulsion, double thrust, double speed);
 
 }  // namespace ice

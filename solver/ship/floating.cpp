@@ -13,11 +13,18 @@ namespace ice {
 
 namespace {
 
+// Newton's steps at most [-]: a ship that needs more is refused as one without equilibrium.
 constexpr int kMostSteps = 100;
-constexpr double kBalanced = 1e-11;  // of the weight, and of weight times length
-constexpr double kStepAngle = 1e-4;  // of a difference [rad]: its error is of the order of 1e-8
-constexpr double kMostTurn = 0.1;    // of one of Newton's steps [rad]
-constexpr double kMostSink = 0.1;    // likewise, of the hull's depth
+// Force and moment that are left, as shares of the weight and of weight times length [-]. Smaller
+// is below the rounding of the sums over the mesh; larger lets the ship begin with a small bob.
+constexpr double kBalanced = 1e-11;
+// Half the span of a central difference [rad] (for heave: of the hull's depth): its error is of the
+// order of 1e-8. Smaller loses digits to rounding, larger sees the curvature of the hull.
+constexpr double kStepAngle = 1e-4;
+// Bounds of one of Newton's steps: [rad], and a share of the hull's depth [-]. Larger ones may turn
+// the ship over or lift it out of the water; smaller ones only take more steps.
+constexpr double kMostTurn = 0.1;
+constexpr double kMostSink = 0.1;
 
 // heave, roll, pitch: the motions in which water restores
 using Attitude = Vec3;

@@ -14,12 +14,15 @@ struct FloatingForce {
     double volume = 0.0;         ///< submerged [m3]
 };
 
-/// By clipping the hull's mesh at the water, exactly at any attitude.
-/// @param height  of the mesh's origin [m]
+/// By clipping the hull's mesh at the water, exactly at any attitude. Above the water the weight
+/// alone is left.
+/// @param rotation       ship to world
+/// @param height         of the mesh's origin [m]
+/// @param water_density  [kg/m3] @param gravity  [m/s2]
 FloatingForce floating_force(const Shape& hull, const ShipBody& body, const Mat3& rotation,
                              double height, double water_density, double gravity);
 
-/// m g z_G - rho g V (z + z_B) [J]: its slopes are those forces.
+/// m g z_G - rho g V (z + z_B) [J]: its slopes are those forces. Arguments as of floating_force().
 double floating_energy(const Shape& hull, const ShipBody& body, const Mat3& rotation, double height,
                        double water_density, double gravity);
 
@@ -33,7 +36,8 @@ struct Equilibrium {
 };
 
 /// Finds it by Newton's steps from how the scene places the hull, to 1e-11 of the weight; motions
-/// that are not free stay.
+/// that are not free stay. Without such a free motion, or without gravity, the ship stays as it is
+/// placed. A step is at most 0.1 rad and a tenth of the hull's depth.
 /// @throws Error (exit code 2) where the ship capsizes, sinks, or no equilibrium is found
 Equilibrium find_equilibrium(const Case& parameters, const Scene& scene, const ShipBody& body);
 

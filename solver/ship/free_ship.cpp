@@ -17,6 +17,7 @@ Vec3 free_part(const ShipBody& body, Freedom first, Vec3 motion) {
     return motion;
 }
 
+// Surge, sway, heave or roll, pitch, yaw of six numbers.
 Vec3 of_three(const SixNumbers& six, Freedom first) {
     const auto k = static_cast<std::size_t>(first);
     return {six[k], six[k + 1], six[k + 2]};
@@ -91,6 +92,8 @@ void FreeShip::apply_loads(const Case& p, Scene& scene, double time) {
     loads_ = measure_ship_loads(p, scene.shapes[0], *rig_, state_of(b, time), scene.water.current,
                                 speed_error_);
     add_damping(p, scene);
+    // In world axes, by the same inverses as for impulses: locked motions have zeros in them, so
+    // that a force along them changes nothing.
     const ShipForce total = loads_.total();
     // (S1) without impulses: the contacts have theirs in the stages that follow
     b.velocity[kShip] += b.ship.inverse_mass * (p.time_step * total.force);

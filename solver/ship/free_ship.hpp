@@ -24,7 +24,7 @@ struct ShipEnergies {
     double separation = 0.0;                        ///< put in by the moves that open overlaps
     std::optional<double> kinetic_start, potential_start;  ///< before the first step
 
-    /// What the books do not explain. @param gained  dK + dU [J]
+    /// What the ledger does not explain [J]. @param gained  dK + dU [J]
     double residual(double gained) const {
         return thrust + tow + mooring + separation - ice - losses - gained;
     }
@@ -49,23 +49,25 @@ public:
     const ShipRig& rig() const { return *rig_; }
 
     /// Beginning of a step: prescribed velocities, and how the ship answers impulses in it.
+    /// @param time  at the start of the step [s]
     void start_step(const Case& parameters, Scene& scene, double time);
-    /// Loads change the velocity.
+    /// Loads change the velocity over a time_step. @param time  at the start of the step [s]
     void apply_loads(const Case& parameters, Scene& scene, double time);
-    /// Books a step, before the poses advance.
+    /// Books a step of dt [s], before the poses advance.
     void book(const Scene& scene, const std::vector<Constraint>& constraints,
               const PositionCorrections& corrections, double dt);
     /// Turns the ship, after its place has advanced with its velocity, and moves it by its position
-    /// correction.
+    /// correction. @param dt  [s]
     void turn(Scene& scene, const PositionCorrections& corrections, double dt);
 
     const ShipLoads& loads() const { return loads_; }  ///< of the last step
+    /// Roll, pitch and yaw now [rad]; zero at prescribed speed.
     const ShipAngles& angles() const { return angles_; }
     const ShipEnergies& energies() const { return energies_; }
-    /// Of the centre of gravity and about it, at the start of the last step.
+    /// Of the centre of gravity [m/s] and about it [rad/s], at the start of the last step.
     const Vec3& velocity_start() const { return velocity_start_; }
     const Vec3& spin_start() const { return spin_start_; }
-    /// In the free motions [J].
+    /// In the free motions, of ship and added mass [J]; 0 at prescribed speed.
     double kinetic_energy(const Bodies& bodies) const;
     /// Of weight and water; 0 where the ship is held upright and at its height [J].
     double potential_energy(const Scene& scene, const Case& parameters) const;

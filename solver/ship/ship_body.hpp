@@ -9,6 +9,7 @@
 
 namespace ice {
 
+/// One number for each motion, in the order of Freedom.
 using SixNumbers = std::array<double, kFreedoms>;
 
 /// Constants of a run.
@@ -18,9 +19,9 @@ struct ShipBody {
     Vec3 inertia = Vec3::Zero();  ///< about the centre of gravity, ship axes [kg m2]
     SixNumbers added{};           ///< added mass [kg] and inertia [kg m2], ship axes
     SixNumbers water_damping{};   ///< of ship.matrix, likewise [N s/m], [N m s]
-    double coupling = 0.0;        ///< largest_coupling() of mass and ship.matrix, which is left out
+    double coupling = 0.0;  ///< largest_coupling() of mass and ship.matrix, which is left out [-]
     Vec3 centre_of_gravity = Vec3::Zero();  ///< ship frame [m]
-    Vec3 gyration = Vec3::Zero();           ///< [m]
+    Vec3 gyration = Vec3::Zero();           ///< radii about the ship's x, y, z [m]
 
     bool any_free() const;
     bool turns() const { return free[roll] || free[pitch] || free[yaw]; }
@@ -53,16 +54,17 @@ struct ShipAxes {
 };
 ShipAxes axes_of(const ShipAngles& angles);
 
-/// Mass matrices in those axes: generalised mass of shifts and of turns.
+/// Mass matrices in those axes: generalised mass of shifts [kg] and of turns [kg m2].
 struct ShipMasses {
     Mat3 shift, turn;
 };
 ShipMasses masses_of(const ShipBody& body, const ShipAngles& angles);
 
-/// The inverse on the free ones of three motions, zero in the others. @param first  surge or roll
+/// The inverse on the free ones of three motions, zero in the others; all zero where none is free.
+/// The unit is the inverse of the matrix's. @param first  surge or roll
 Mat3 inverse_on_free(const Mat3& matrix, const ShipBody& body, Freedom first);
 
-/// How the ship answers impulses in that attitude.
+/// How the ship answers impulses in that attitude: the inverses of (S1). @param angles  [rad]
 ShipResponse response_of(const ShipBody& body, const ShipAngles& angles);
 
 }  // namespace ice

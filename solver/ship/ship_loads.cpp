@@ -11,11 +11,14 @@ namespace ice {
 
 namespace {
 
-// Steps per radian of a spring's swing: with fewer, symplectic Euler is off by more than a per cent
-// in the period, (w dt)^2 / 24, and at w dt = 2 it diverges.
+// Most phase of a spring's swing in a step, w dt [rad]: beyond it symplectic Euler is off by more
+// than a per cent in the period, (w dt)^2 / 24, and at w dt = 2 it diverges. Smaller refuses time
+// steps that are good enough.
 constexpr double kMostSwing = 0.5;
 
-constexpr double kUsualGravity = 9.81;  // of the answer's time, also where a case has none [m/s2]
+// Gravity in the answer's time of the controls [m/s2], also where a case has none. Controls settle
+// sooner with more; means do not depend on it.
+constexpr double kUsualGravity = 9.81;
 
 Vec3 level(const Vec3& v) { return {v.x(), v.y(), 0.0}; }
 

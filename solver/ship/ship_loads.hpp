@@ -20,12 +20,12 @@ struct ShipForce {
 
 /// The parts of it in a step.
 struct ShipLoads {
-    ShipForce water;       ///< weight and buoyancy
-    ShipForce propulsion;  ///< thrust, and the moment that holds the heading
-    ShipForce tow, mooring;
-    ShipForce losses;  ///< resistance in open water and linear damping
-    ShipForce gyroscopic;
-    double thrust = 0.0;  ///< along the heading [N]
+    ShipForce water;         ///< weight and buoyancy
+    ShipForce propulsion;    ///< thrust, and the moment that holds the heading
+    ShipForce tow, mooring;  ///< of the lines
+    ShipForce losses;        ///< resistance in open water and linear damping
+    ShipForce gyroscopic;    ///< -w x (I + A') w of (S1), a moment
+    double thrust = 0.0;     ///< along the heading [N]
 
     ShipForce total() const;
 };
@@ -58,7 +58,8 @@ struct ShipRig {
 ShipRig make_ship_rig(const Case& parameters, const Scene& scene);
 
 /// All but the damping, which the step takes in its middle.
-/// @param speed_error  int (hold_speed - U) dt so far [m]
+/// @param current      of the water [m/s]
+/// @param speed_error  int (hold_speed - U) dt so far [m]; 0 without a speed hold
 ShipLoads measure_ship_loads(const Case& parameters, const Shape& hull, const ShipRig& rig,
                              const ShipState& state, const Vec3& current, double speed_error);
 

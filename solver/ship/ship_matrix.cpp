@@ -12,6 +12,7 @@ namespace ice {
 
 namespace {
 
+// Largest number in a file, in its SI unit: no ship has so much, so more is a mistake.
 constexpr double kMost = 1e18;
 
 const Schema& matrix_schema() {
@@ -20,6 +21,7 @@ const Schema& matrix_schema() {
                    "-",  -kMost,       kMost,
                    6,    "",           "Of surge, sway, heave, roll, pitch, yaw; SI units."};
     };
+    // both tables as one list of keys: the reader of case files then finds units, lengths and slips
     static const Schema kSchema{{{"about", Kind::vector, Dimension::length, "-", -1e4, 1e4, 3, "",
                                   "The point of the moments, in the axes of the hull's mesh."},
                                  row("added_mass.surge"),
@@ -78,8 +80,8 @@ private:
                 for (int j = 0; j < 6; ++j) out(i, j) = (*row)[static_cast<std::size_t>(j)];
         if (out.diagonal().minCoeff() < 0.0)
             complain(fmt::format("[{}] has a number below 0 on its diagonal", table));
-        // a radiation program's rounding leaves it not quite symmetric; energy asks for
-        // symmetry
+        // a radiation program's rounding leaves it not quite symmetric; without symmetry the
+        // matrix would have no energy
         return 0.5 * (out + out.transpose());
     }
     void complain(const std::string& what) {

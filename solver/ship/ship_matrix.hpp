@@ -26,7 +26,7 @@ ShipMatrix read_ship_matrix(const std::filesystem::path& file);
 /// @param arm  from the old point to the new one [m]
 Mat6 moved(const Mat6& matrix, const Vec3& arm);
 
-/// Largest |M_ij| / sqrt(M_ii M_jj), i != j; 0 where a motion has no mass.
+/// Largest |M_ij| / sqrt(M_ii M_jj) [-], i != j; motions without mass do not count.
 double largest_coupling(const Mat6& matrix);
 
 }  // namespace ice

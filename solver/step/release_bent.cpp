@@ -12,7 +12,7 @@ namespace {
 
 // Still held for the rest of the step, whose impulses were computed with a floe that cannot move;
 // free with the next one.
-constexpr std::uint8_t kBent = 2;  // Bodies::held
+constexpr std::uint8_t kBent = 2;  // value of Bodies::held [-]
 
 }  // namespace
 

@@ -14,11 +14,11 @@ namespace ice {
 /// (docs/method.md, section 5).
 ///
 /// The load is the downward part of all impulses, friction included, that the ship and moving floes
-/// give the floe in the step, over the step: F = -sum (J_n n + J_t) . z / dt, summed in the order
-/// of the contacts. The floe is let go when F >= breaking_load f(v_n), f being
-/// bending.factor_table and v_n the mean of the contacts' closing speeds, weighted by their normal
-/// impulses. In the step that breaks it, it is held: release_bent() lets it go as the next one
-/// begins.
+/// give the floe in the step, over the step: F = -sum (J_n n + J_t) . z / dt [N], equation (26),
+/// summed in the order of the contacts. The floe is released when F >= breaking_load f(v_n), f
+/// being bending.factor_table and v_n the mean of the contacts' closing speeds, weighted by their
+/// normal impulses [m/s]; a contact that opens counts with 0. In the step that breaks it, it is
+/// held: release_bent() releases it as the next one begins.
 class BentFloes {
 public:
     /// @pre the constraints hold the impulses of the step just done

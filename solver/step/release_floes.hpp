@@ -13,7 +13,8 @@ namespace ice {
 /// until-hull-contact by the ship only, until-contact by the ship or a moving floe. Floes held
 /// until they bend are released by BentFloes, without strength as until-contact.
 ///
-/// A contact touches when gap + dt min(v_r . n, 0) <= 0.
+/// A contact touches when gap + dt min(v_r . n, 0) <= 0: the criterion of the impacts, so that a
+/// floe is free in the impact that releases it.
 /// @return true when a floe was released, so that contacts must be looked for again
 bool release_touched(Scene& scene, const Case& parameters, const std::vector<Contact>& contacts);
 

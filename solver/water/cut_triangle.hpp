@@ -23,10 +23,11 @@ inline Vector cross(Vector a, Vector b) {
 inline double dot(Vector a, Vector b) { return (a.x * b.x + a.y * b.y) + a.z * b.z; }
 inline Vector get(const Vec3& from) { return {from[0], from[1], from[2]}; }
 
+// A height [m] at the water counts as wet: a facet in the surface has no height and so no load.
 inline bool wet(double z) { return z <= 0.0; }
 
-// How a quantity that is even on a triangle cuts it at 0, from its values at the corners and which
-// of these are inside. Where it does, `apex` is the corner alone on its side.
+// How a quantity that is linear on a triangle cuts it at 0, from its values at the corners and
+// which of these are inside. Where it does, `apex` is the corner alone on its side.
 struct Cut {
     std::array<double, 3> value;
     std::array<bool, 3> inside;

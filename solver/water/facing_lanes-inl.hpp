@@ -96,7 +96,7 @@ HWY_INLINE Lanes SizeOf(const Tip& tip) {
     return hn::IfThenElse(tip.inside, size, hn::Neg(size));
 }
 
-// Over the part where the flow comes from outside. @param of  the triangles that are asked for
+// Over the part where the flow comes from outside. @param of  the triangles that count
 HWY_INLINE Facing IntegratePart(const Triangles& t, Mask of) {
     const Tag d;
     const Lanes zero = hn::Zero(d);

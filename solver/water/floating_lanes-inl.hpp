@@ -32,7 +32,7 @@ HWY_INLINE std::size_t BlocksWith(const FacetBlocks& facets, std::size_t lane) {
 }
 
 // Heights of a form's corners above the water. Triangles share theirs: where a form has few, each
-// is asked for once.
+// is computed once.
 class FormHeights {
 public:
     HWY_INLINE FormHeights(const Shape& form, const Water& water) : form_(form), water_(water) {
@@ -51,6 +51,8 @@ public:
     HWY_INLINE const FacetBlocks& Facets() const { return form_.facets; }
 
 private:
+    // Vertices up to which heights are kept [-]. More take stack of every call, fewer compute
+    // shared corners again. The bits are the same.
     static constexpr std::size_t kFew = 64;
 
     const Shape& form_;

@@ -26,12 +26,14 @@ struct Submerged {
 /// Triangles that cross the surface are clipped. A body wholly below or above costs no triangles.
 /// Continuous in the pose: no steps when an edge crosses the surface.
 ///
+/// (equation (14)). Zeros for a body above the water, and where a corner dips in by less than
+/// rounding; the solid's own volume and centroid below it.
 /// @param rotation  body to world
 /// @param height    z of the body origin [m]
 Submerged measure_submerged(const Shape& shape, const Mat3& rotation, double height);
 
-/// z of the body origin [m] at which the submerged volume is `fraction` of the whole, orientation
-/// given; bisection to 1e-12 of the body's height.
+/// z of the body origin [m] at which the submerged volume is `fraction` [-] of the whole,
+/// orientation given; bisection to 1e-12 of the body's height.
 /// @pre 0 < fraction; a fraction of 1 or more gives the height at which the top just submerges.
 double floating_height(const Shape& shape, const Mat3& rotation, double fraction);
 

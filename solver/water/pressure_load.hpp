@@ -13,8 +13,11 @@ namespace ice {
 ///
 ///     F = -int p n dA,   T = -int p r x n dA
 ///
+/// (equation (P1)). Zero for a body above the water.
+/// @param rotation  body to world
 /// @param height    z of the body origin [m]
-/// @param pressure  at a point of the body, body axes [Pa]; that of water at rest is buoyancy's
+/// @param pressure  [Pa] at a point of the body [m], body axes; that of water at rest is
+///                  buoyancy's and left out
 WaterLoad pressure_load(const Shape& shape, const Mat3& rotation, double height,
                         const std::function<double(const Vec3&)>& pressure);
 

@@ -11,7 +11,8 @@ namespace ice {
 
 /// Force and moment, and what of their work is lost.
 struct RelativeDrag : WaterLoad {
-    double loss = 0.0;  ///< -int u . dF >= 0 [W]: the rest of -(F . v + T . w) goes to the water
+    double loss = 0.0;  ///< -int u . dF >= 0 [W], D of (25): the rest of -(F . v + T . w) goes to
+                        ///< the water
 };
 
 /// panel_drag() with the velocity relative to water that moves, u = v + w x r - w_water, linear
@@ -21,7 +22,12 @@ struct RelativeDrag : WaterLoad {
 ///
 /// Quarters, because a flow around a bow turns within a floe's length: with whole triangles the
 /// resistance in a pre-sawn channel is 2 % higher, with sixteenths 1 % lower.
-/// @param water  the water's velocity at a point of the body, both in body axes [m/s]
+/// (equations (24) and (25)). In water at rest it is panel_drag() up to rounding. Zero for a body
+/// above the water.
+/// @param motion         velocities over ground here, not relative to the water
+/// @param water          the water's velocity [m/s] at a point of the body [m], both in body axes
+/// @param coefficient    C_d [-]
+/// @param water_density  rho_w [kg/m3]
 RelativeDrag relative_drag(const Shape& shape, const Motion& motion,
                            const std::function<Vec3(const Vec3&)>& water, double coefficient,
                            double water_density);

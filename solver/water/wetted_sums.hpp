@@ -6,12 +6,12 @@
 
 namespace ice {
 
-/// Height of a point p of the body above the water: up . p + height [m].
+/// Height of a point p of the body above the water: up . p + height [m]. The water is z = 0.
 struct WaterPlane {
     Vec3 up;        ///< world z in body axes
     double height;  ///< of the body origin [m]
 
-    /// rotation: body to world.
+    /// @param rotation  body to world @param height_of_origin  over the water [m]
     WaterPlane(const Mat3& rotation, double height_of_origin)
         : up(rotation.row(2)), height(height_of_origin) {}
 };
@@ -31,7 +31,8 @@ struct WettedIntegrals {
 ///
 /// sums over the three corners. The one corner whose side differs from the others', p0, is the apex
 /// of a tip with the others at z = 0: the tip counts where p0 is wet, all but the tip where it is
-/// dry.
+/// dry. No facets give zeros, nothing wet and nothing dry; the fill of the last block has no area.
+/// Sums run in the facets' order over eight lanes, then over the lanes: the same bits everywhere.
 WettedIntegrals integrate_wetted(const FacetBlocks& facets, const WaterPlane& water);
 
 /// Integrals over the part of the wetted surface that a flow u meets, n . u > 0, with f = n . u.
@@ -49,15 +50,19 @@ struct FacingIntegrals {
 ///     int f p dA   = A / 12 (F P + G),
 ///     int f p p dA = A / 60 ((F P + G) P + P G + sum of (F + 2 f) p p).
 ///
-/// Triangles, and tips that the water cuts off, are cut where f = 0 in the same way again.
+/// Triangles, and tips that the water cuts off, are cut where f = 0 in the same way again. Zeros
+/// where nothing is wet, or v and w are zero.
+/// @param v  velocity of the body origin relative to the water, body axes [m/s]
+/// @param w  angular velocity, body axes [rad/s]
 FacingIntegrals integrate_facing(const FacetBlocks& facets, const WaterPlane& water, const Vec3& v,
                                  const Vec3& w);
 
-/// int f dA alone, for w = 0 [m3/s].
+/// int f dA alone, for w = 0 [m3/s]. @param v  body axes [m/s]
 double integrate_facing(const FacetBlocks& facets, const WaterPlane& water, const Vec3& v);
 
 /// Least product of two differences of height that a share is divided by, so that a triangle level
-/// with the water to 1e-150 m has one, too [m2].
+/// with the water to 1e-150 m has one, too [m2]. Any value that no real triangle reaches gives the
+/// same results; 0 would give 0 / 0.
 constexpr double kFlat = 1e-300;
 
 namespace reference {

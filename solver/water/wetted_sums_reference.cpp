@@ -41,6 +41,7 @@ Cut cut_by_water(const FacetBlock& block, std::size_t lane, const WaterPlane& wa
     return Cut(z, {wet(z[0]), wet(z[1]), wet(z[2])});
 }
 
+// (16) needs no integral over the wetted part: the flow is even, so the wetted share will do.
 double share_of(const FacetBlock& block, std::size_t lane, const WaterPlane& water) {
     const Cut h = cut_by_water(block, lane, water);
     return ice::wetted_share(h.value[0], h.value[1], h.value[2]);
@@ -84,6 +85,8 @@ struct Facing {
     }
 };
 
+// Integrals of products of linear functions over a triangle by their corners' values: exact, with
+// the factors 1/3, 1/12 and 1/60 taken out (wetted_sums.hpp).
 Facing integrate_whole(const Triangle& t) {
     Facing out;
     out.flow = (t.f[0] + t.f[1]) + t.f[2];

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""free_ship_test.py PROGRAMS [FOLDER]: a ship free in surge, and one on rails in the same ice.
+"""free_ship_test.py PROGRAMS [FOLDER]: a ship free in surge, and a captive one in the same ice.
 
 A flared wedge of 6 m goes through rows of floes that let go as it touches them. Held at a speed by its
 thrust, the free ship's mean resistance is within the captive ship's interval. The speed to which a net

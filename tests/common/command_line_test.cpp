@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the programs make of the words of a command line (common/cli).
+//
+// Tolerances: 1e-15 is rounding of one product.
 #include <catch2/catch.hpp>
 #include <string>
 
@@ -7,6 +9,7 @@
 #include "common/cli/output_files.hpp"
 #include "common/cli/quantity_option.hpp"
 #include "tests/common/fixtures.hpp"
+#include "tests/support/tolerance.hpp"
 
 using namespace ice;
 using namespace ice::test;
@@ -24,10 +27,9 @@ double si(const CLI::Validator& option, std::string word) {
 TEST_CASE("an option with a unit is a number in SI", "[console][analytic]") {
     const CLI::Validator length = positive_quantity(Dimension::length, "2.5");
     CHECK(si(length, "2.5") == 2.5);
-    CHECK(si(length, "10 cm") == Approx(0.1).epsilon(1e-15));
+    CHECK(si(length, "10 cm") == Near(0.1).epsilon(1e-15));
     CHECK(si(positive_quantity(Dimension::time, "5 min"), "5min") == 300.0);
-    CHECK(si(positive_quantity(Dimension::speed, "2 kn"), "3.6 km/h") ==
-          Approx(1.0).epsilon(1e-15));
+    CHECK(si(positive_quantity(Dimension::speed, "2 kn"), "3.6 km/h") == Near(1.0).epsilon(1e-15));
     CHECK(si(finite_quantity(Dimension::length, "0"), "-2 km") == -2000.0);
     CHECK(si(finite_quantity(Dimension::length, "0"), "0") == 0.0);
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Tolerances: 1e-7 is a normal stored as floats.
 #include "common/formats/field_file.hpp"
 
 #include <catch2/catch.hpp>
@@ -6,6 +7,7 @@
 #include <limits>
 
 #include "tests/common/fixtures.hpp"
+#include "tests/support/tolerance.hpp"
 
 using namespace ice;
 using namespace ice::test;
@@ -95,7 +97,7 @@ TEST_CASE("a field comes back as written, normals to float precision", "[formats
             CHECK(is.creases[c].normal == was.creases[c].normal);
         }
         for (std::size_t n = 0; n < is.normals.size(); ++n)
-            CHECK((is.normals[n] - was.normals[n]).norm() < 1e-7);
+            CHECK((is.normals[n] - was.normals[n]).norm() < tolerance(1e-7));
         CHECK(is.solid.volume == was.solid.volume);
         CHECK(is.solid.inertia == was.solid.inertia);
         CHECK(is.mesh.vertices == was.mesh.vertices);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Tolerances: 1e-7 is a normal stored as floats.
 #include "common/formats/spheres_file.hpp"
 
 #include <catch2/catch.hpp>
@@ -7,6 +8,7 @@
 
 #include "common/formats/hdf5_file.hpp"
 #include "tests/common/fixtures.hpp"
+#include "tests/support/tolerance.hpp"
 
 using namespace ice;
 using namespace ice::test;
@@ -79,7 +81,7 @@ TEST_CASE("a sphere set comes back as written, normals to float precision", "[fo
     CHECK(back.creases[1].normal == Vec3::UnitY());
     REQUIRE(back.normals.size() == set.surface_count);
     for (std::size_t k = 0; k < set.surface_count; ++k)
-        CHECK((back.normals[k] - set.normals[k]).norm() < 1e-7);
+        CHECK((back.normals[k] - set.normals[k]).norm() < tolerance(1e-7));
     CHECK(back.solid.volume == set.solid.volume);
     CHECK(back.solid.inertia == set.solid.inertia);
     CHECK(back.mesh.vertices == set.mesh.vertices);

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Tolerances: 1e-12 is rounding of a sum over corners; 1e-9 m is kSamePoint, within which corners
+// are one.
 #include "tests/peers/section.hpp"
 
 #include <algorithm>
@@ -6,9 +8,12 @@
 
 #include "common/base/error.hpp"
 #include "tests/support/make_sphere_sets.hpp"
+#include "tests/support/tolerance.hpp"
 
 using namespace ice;
 using namespace ice::peers;
+using ice::test::Near;
+using ice::test::tolerance;
 
 namespace {
 
@@ -46,7 +51,7 @@ Polygon square(double x, double z) { return {{x, z}, {x + 1, z}, {x + 1, z + 1},
 TEST_CASE("the outline of a box of 1 x 0.4 m has four corners and its area", "[peers]") {
     const Polygon p = outline_of(test::make_box_mesh(Vec3(1.0, 1.0, 0.4)));
     REQUIRE(p.size() == 4);
-    CHECK(area_of(p) == Approx(0.4).epsilon(1e-12));  // positive: counter-clockwise
+    CHECK(area_of(p) == Near(0.4).epsilon(1e-12));  // positive: counter-clockwise
 }
 
 TEST_CASE("the outline of a prism is its polygon", "[peers]") {
@@ -54,8 +59,8 @@ TEST_CASE("the outline of a prism is its polygon", "[peers]") {
     REQUIRE(p.size() == kL.size());
     for (const Vec2& corner : kL)
         CHECK(std::any_of(p.begin(), p.end(),
-                          [&](const Vec2& q) { return (q - corner).norm() < 1e-9; }));
-    CHECK(area_of(p) == Approx(3.0).epsilon(1e-12));
+                          [&](const Vec2& q) { return (q - corner).norm() < tolerance(1e-9); }));
+    CHECK(area_of(p) == Near(3.0).epsilon(1e-12));
 }
 
 TEST_CASE("an open section and one without triangles are refused", "[peers]") {
@@ -68,7 +73,7 @@ TEST_CASE("an open section and one without triangles are refused", "[peers]") {
 TEST_CASE("an L falls into two convex parts that keep its area and cut no edge", "[peers]") {
     const std::vector<Polygon> parts = convex_parts(kL);
     REQUIRE(parts.size() == 2);
-    CHECK(area_of(parts[0]) + area_of(parts[1]) == Approx(3.0).epsilon(1e-12));
+    CHECK(area_of(parts[0]) + area_of(parts[1]) == Near(3.0).epsilon(1e-12));
     for (const Polygon& part : parts)
         for (const Vec2& corner : part) CHECK(std::find(kL.begin(), kL.end(), corner) != kL.end());
 }
@@ -77,17 +82,17 @@ TEST_CASE("the inset of an L by 0.1 m has its edges 0.1 m further in", "[peers]"
     const Polygon p = inset(kL, 0.1);
     const Polygon expected{{0.1, 0.1}, {1.9, 0.1}, {1.9, 0.9}, {0.9, 0.9}, {0.9, 1.9}, {0.1, 1.9}};
     REQUIRE(p.size() == expected.size());
-    for (std::size_t k = 0; k < p.size(); ++k) CHECK((p[k] - expected[k]).norm() < 1e-12);
+    for (std::size_t k = 0; k < p.size(); ++k)
+        CHECK((p[k] - expected[k]).norm() < tolerance(1e-12));
 }
 
 TEST_CASE("distance and depth of unit squares", "[peers]") {
-    CHECK(distance(square(0, 0), square(1.5, 0)) == Approx(0.5));
-    CHECK(distance(square(0, 0), square(4.0, 5.0)) ==
-          Approx(5.0));  // 3, 4, 5 from corner to corner
+    CHECK(distance(square(0, 0), square(1.5, 0)) == Near(0.5));
+    CHECK(distance(square(0, 0), square(4.0, 5.0)) == Near(5.0));  // 3, 4, 5 from corner to corner
     CHECK(distance(square(0, 0), square(0.9, 0.2)) == 0.0);
     CHECK(distance(square(0, 0), kL) == 0.0);
-    CHECK(overlap_depth(square(0, 0), square(0.9, 0.2)) == Approx(0.1));
+    CHECK(overlap_depth(square(0, 0), square(0.9, 0.2)) == Near(0.1));
     CHECK(overlap_depth(square(0, 0), square(1.5, 0)) == 0.0);
     // reaches 0.1 into the notch's wall only, the notch itself is free
-    CHECK(overlap_depth(kL, square(0.9, 1.2)) == Approx(0.1));
+    CHECK(overlap_depth(kL, square(0.9, 1.2)) == Near(0.1));
 }

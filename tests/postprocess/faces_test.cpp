@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Tolerances: 1e-12 is rounding of a rotation of lengths of a metre.
 #include "postprocess/views/faces.hpp"
 
 #include <catch2/catch.hpp>
@@ -6,10 +7,13 @@
 
 #include "postprocess/views/depth_map.hpp"
 #include "tests/common/fixtures.hpp"
+#include "tests/support/tolerance.hpp"
 
 using namespace ice;
 using namespace ice::views;
 using ice::test::make_box;
+using ice::test::Near;
+using ice::test::tolerance;
 
 TEST_CASE("the 12 triangles of a box become 6 faces with 4 corners and outward normals",
           "[views][analytic]") {
@@ -17,7 +21,7 @@ TEST_CASE("the 12 triangles of a box become 6 faces with 4 corners and outward n
     REQUIRE(faces.size() == 6);
     for (const Face& face : faces) {
         CHECK(face.corners.size() == 4);
-        CHECK(face.normal.norm() == Approx(1.0));
+        CHECK(face.normal.norm() == Near(1.0));
         CHECK(face.normal.dot(face.center()) > 0.2);
     }
 }
@@ -47,10 +51,10 @@ TEST_CASE("a box cut at the waterline has 5 faces below and 5 above, and a secti
     CHECK(make_faces(cut.above).size() == 5);
     double length = 0.0;
     for (const auto& [a, b] : cut.section) {
-        CHECK(std::abs(a.z()) < 1e-12);
+        CHECK(std::abs(a.z()) < tolerance(1e-12));
         length += (b - a).norm();
     }
-    CHECK(length == Approx(12.0));
+    CHECK(length == Near(12.0));
     CHECK(cut_mesh(make_box({1, 1, 1}), 2.0).above.triangles.empty());
     CHECK(cut_mesh(make_box({1, 1, 1}), 0.5).above.triangles.empty());
 }
@@ -78,7 +82,7 @@ TEST_CASE("the depth map gives the bottom of a box seen from below, and nothing 
           "[views][analytic]") {
     const Projection below = projection_of(ViewFrom::below);
     const DepthMap map(make_box({4.0, 2.0, 1.0}), below, 200);
-    CHECK(map.nearness(0.3, 0.2) == Approx(0.5));
+    CHECK(map.nearness(0.3, 0.2) == Near(0.5));
     CHECK(map.nearness(2.5, 0.0) < -1e300);
     CHECK(DepthMap(TriangleMesh{}, below, 200).nearness(0.0, 0.0) < -1e300);
 }
@@ -87,6 +91,6 @@ TEST_CASE("right x up points to the viewer in all five views", "[views]") {
     const auto from = GENERATE(ViewFrom::below, ViewFrom::top, ViewFrom::side, ViewFrom::front,
                                ViewFrom::quarter);
     const Projection p = projection_of(from);
-    CHECK((p.right.cross(p.up) - p.toward).norm() < 1e-12);
-    CHECK(p.right.norm() == Approx(1.0));
+    CHECK((p.right.cross(p.up) - p.toward).norm() < tolerance(1e-12));
+    CHECK(p.right.norm() == Near(1.0));
 }

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Coefficients fitted to resistances that were made from known ones.
+//
+// Tolerances: 1e-9 and 1e-8 are rounding of the sums, amplified by the columns' condition of some
+// 1e3 and by the exponents; 1e-6 of a force is made of them, with a reserve.
 #include <fmt/format.h>
 
 #include <catch2/catch.hpp>
@@ -11,6 +14,7 @@
 #include "postprocess/fit/fit_sweep.hpp"
 #include "postprocess/report/evaluate_run.hpp"
 #include "tests/postprocess/write_runs.hpp"
+#include "tests/support/tolerance.hpp"
 
 using namespace ice;
 using namespace ice::fit;
@@ -47,14 +51,14 @@ TEST_CASE("exact resistances give their coefficients back", "[fit][analytic]") {
     CHECK(fit.exponent_fitted);
     REQUIRE(fit.breaking_fitted);
     // rounding of the sums, amplified by the columns' condition of some 1e3
-    CHECK(fit.coefficients.buoyancy == Approx(kTrue.buoyancy).epsilon(1e-9));
-    CHECK(fit.coefficients.clearing == Approx(kTrue.clearing).epsilon(1e-9));
-    CHECK(fit.coefficients.clearing_exponent == Approx(kTrue.clearing_exponent).epsilon(1e-8));
-    CHECK(fit.coefficients.breaking == Approx(kTrue.breaking).epsilon(1e-8));
-    CHECK(fit.coefficients.breaking_exponent == Approx(kTrue.breaking_exponent).epsilon(1e-8));
-    CHECK(fit.residual < 1e-9);
+    CHECK(fit.coefficients.buoyancy == Near(kTrue.buoyancy).epsilon(1e-9));
+    CHECK(fit.coefficients.clearing == Near(kTrue.clearing).epsilon(1e-9));
+    CHECK(fit.coefficients.clearing_exponent == Near(kTrue.clearing_exponent).epsilon(1e-8));
+    CHECK(fit.coefficients.breaking == Near(kTrue.breaking).epsilon(1e-8));
+    CHECK(fit.coefficients.breaking_exponent == Near(kTrue.breaking_exponent).epsilon(1e-8));
+    CHECK(fit.residual < tolerance(1e-9));
     for (const FitPoint& p : points)
-        CHECK(fitted_resistance(fit, p) == Approx(p.resistance).epsilon(1e-9));
+        CHECK(fitted_resistance(fit, p) == Near(p.resistance).epsilon(1e-9));
 }
 
 TEST_CASE("two speeds keep Jeong's exponent, one is refused, rest is a speed",
@@ -67,8 +71,8 @@ TEST_CASE("two speeds keep Jeong's exponent, one is refused, rest is a speed",
                                std::pow(points[1].scales.froude, -jeong.clearing_exponent);
     const SpencerFit fit = fit_spencer(points);
     CHECK_FALSE(fit.exponent_fitted);
-    CHECK(fit.coefficients.buoyancy == Approx(jeong.buoyancy));
-    CHECK(fit.coefficients.clearing == Approx(jeong.clearing));
+    CHECK(fit.coefficients.buoyancy == Near(jeong.buoyancy));
+    CHECK(fit.coefficients.clearing == Near(jeong.clearing));
     CHECK(std::isnan(fit.intervals.buoyancy));
     points[1] = points[0];
     CHECK_THROWS_WITH(fit_spencer(points), Catch::Contains("fewer than two speeds"));
@@ -133,8 +137,8 @@ TEST_CASE("a sweep gives its coefficients, a file gives them to the formulas", "
     const auto points = fit_points(sweep, sweep::make_points(sweep), std::nan(""));
     REQUIRE(points.size() == 3);
     const SpencerFit fit = fit_spencer(points);
-    CHECK(fit.coefficients.buoyancy == Approx(kTrue.buoyancy).epsilon(1e-8));
-    CHECK(fit.coefficients.clearing_exponent == Approx(kTrue.clearing_exponent).epsilon(1e-8));
+    CHECK(fit.coefficients.buoyancy == Near(kTrue.buoyancy).epsilon(1e-8));
+    CHECK(fit.coefficients.clearing_exponent == Near(kTrue.clearing_exponent).epsilon(1e-8));
     CHECK(fit.intervals.buoyancy > 0.0);
     CHECK(fit_warnings(sweep, fit).empty());
     CHECK_THAT(fit_text(fit, points), Catch::Contains("C_B    0.62 +-"));
@@ -147,5 +151,5 @@ TEST_CASE("a sweep gives its coefficients, a file gives them to the formulas", "
     double broken = 0.0;
     for (const FormulaValue& f : s.formulas)
         if (f.part == "buoyancy + clearing") broken = f.value;
-    CHECK(broken == Approx(spencer_resistance(kHull, ice, kTrue).broken_ice()).epsilon(1e-6));
+    CHECK(broken == Near(spencer_resistance(kHull, ice, kTrue).broken_ice()).epsilon(1e-6));
 }

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Attainable speeds against their closed forms.
+//
+// Tolerances: 1e-12 and 1e-10 are rounding of a straight line through two points, and of its
+// inverse; 1e-6 N is that of a difference of forces of 1e5 N; 1e-9 is rounding of a mean.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,6 +13,7 @@
 #include "common/formulas/spencer.hpp"
 #include "postprocess/attain/hv_curves.hpp"
 #include "tests/postprocess/write_runs.hpp"
+#include "tests/support/tolerance.hpp"
 
 using namespace ice;
 using namespace ice::attain;
@@ -76,21 +80,21 @@ TEST_CASE("R = a + b V meets a constant thrust at (T - a) / b, a net curve at it
     const double a = 2e5, b = 3e5;
     const std::vector<SpeedPoint> points{{1.0, a + b, 1e4}, {3.0, a + 3.0 * b, 1e4}};
     const ResistanceFit fit = fit_resistance(points);
-    CHECK(fit.at(2.0) == Approx(a + 2.0 * b).epsilon(1e-12));
-    CHECK(attained_speed(fit, constant(8e5)).speed == Approx((8e5 - a) / b).epsilon(1e-10));
+    CHECK(fit.at(2.0) == Near(a + 2.0 * b).epsilon(1e-12));
+    CHECK(attained_speed(fit, constant(8e5)).speed == Near((8e5 - a) / b).epsilon(1e-10));
     // T_B (1 - x/3 - 2/3 x^2) = a + b U_ow x
     const Thrust net{"net", 1.5e6, 8.0, {}};
     const double p = net.bollard_pull / 3.0 + b * 8.0, q = 2.0 / 3.0 * net.bollard_pull;
     const double x = (-p + std::sqrt(p * p + 4.0 * q * (net.bollard_pull - a))) / (2.0 * q);
     const AttainedSpeed met = attained_speed(fit, net);
-    CHECK(met.speed == Approx(8.0 * x).epsilon(1e-10));
+    CHECK(met.speed == Near(8.0 * x).epsilon(1e-10));
     CHECK(met.reach == Reach::outside);  // 3.2 m/s, the runs end at 3
     // the mean of two points has half the variance: 1e4 / sqrt(2) at 2 m/s
-    CHECK(fit.half(2.0) == Approx(1e4 / std::sqrt(2.0)).epsilon(1e-10));
-    CHECK(fit.half(1.0) == Approx(1e4).epsilon(1e-10));
+    CHECK(fit.half(2.0) == Near(1e4 / std::sqrt(2.0)).epsilon(1e-10));
+    CHECK(fit.half(1.0) == Near(1e4).epsilon(1e-10));
     const AttainedSpeed middle = attained_speed(fit, constant(a + 2.0 * b));
     // to first order half / b; the interval's own growth with speed is second order in 0.024
-    CHECK(0.5 * (middle.high - middle.low) == Approx(1e4 / std::sqrt(2.0) / b).epsilon(1e-3));
+    CHECK(0.5 * (middle.high - middle.low) == Near(1e4 / std::sqrt(2.0) / b).epsilon(1e-3));
 }
 
 TEST_CASE("a ship is stuck, beyond its curve, or not held by the ice", "[hv][degenerate]") {
@@ -104,7 +108,7 @@ TEST_CASE("a ship is stuck, beyond its curve, or not held by the ice", "[hv][deg
     CHECK(std::isnan(attained_speed(flat, constant(6e5)).speed));
     const ResistanceFit unknown = fit_resistance({{1.0, 5e5, std::nan("")}, {3.0, 8e5, 1e4}});
     CHECK(std::isnan(attained_speed(unknown, constant(6e5)).low));
-    CHECK(attained_speed(unknown, constant(6e5)).speed == Approx(1.0 + 2.0 / 3.0));
+    CHECK(attained_speed(unknown, constant(6e5)).speed == Near(1.0 + 2.0 / 3.0));
 }
 
 TEST_CASE("four speeds on a parabola are fitted by it, scattered ones by a line", "[hv]") {
@@ -115,7 +119,7 @@ TEST_CASE("four speeds on a parabola are fitted by it, scattered ones by a line"
         scattered.push_back({u, 1e5 + 2e4 * u + 900.0 * (sign = -sign), 1e3});
     }
     CHECK(fit_resistance(curved).coefficient.size() == 3);
-    CHECK(fit_resistance(curved).at(2.5) == Approx(1e5 + 5e4 + 5e4 * 6.25));
+    CHECK(fit_resistance(curved).at(2.5) == Near(1e5 + 5e4 + 5e4 * 6.25));
     CHECK(fit_resistance(scattered).coefficient.size() == 2);
 }
 
@@ -123,13 +127,13 @@ TEST_CASE("thrust curves: the bollard's end, the open-water end, power, a table"
           "[hv][analytic]") {
     const Thrust net{"net", 1.2e6, 8.0, {}};
     CHECK(net.at(0.0) == 1.2e6);
-    CHECK(net.at(8.0) == Approx(0.0).margin(1e-6));
-    CHECK(net.at(4.0) == Approx(1.2e6 * (1.0 - 1.0 / 6.0 - 1.0 / 6.0)));
+    CHECK(net.at(8.0) == Near(0.0).margin(1e-6));
+    CHECK(net.at(4.0) == Near(1.2e6 * (1.0 - 1.0 / 6.0 - 1.0 / 6.0)));
     // 1000 kW on 8 m: (8000)^(2/3) = 400, times 0.98 kN
-    CHECK(bollard_pull(1e6, 8.0, 2) == Approx(392e3));
+    CHECK(bollard_pull(1e6, 8.0, 2) == Near(392e3));
     const Thrust table{"table", 0.0, 0.0, {{1.0, 10.0}, {3.0, 4.0}}};
     CHECK(table.at(0.0) == 10.0);
-    CHECK(table.at(2.0) == Approx(7.0));
+    CHECK(table.at(2.0) == Near(7.0));
     CHECK(table.at(9.0) == 4.0);
 }
 
@@ -144,11 +148,11 @@ TEST_CASE("a file of thrust curves, and what is wrong with one", "[hv]") {
     const auto thrusts = read_thrusts(file);
     REQUIRE(thrusts.size() == 4);
     CHECK(thrusts[0].name == "both");
-    CHECK(thrusts[0].open_water_speed == Approx(16.0 * 1852.0 / 3600.0));
+    CHECK(thrusts[0].open_water_speed == Near(16.0 * 1852.0 / 3600.0));
     CHECK(thrusts[1].name == "thrust 2");
     CHECK(thrusts[1].at(7.0) == 5e5);
-    CHECK(thrusts[2].at(0.0) == Approx(392e3));
-    CHECK(thrusts[3].at(1.0) == Approx(7.0));
+    CHECK(thrusts[2].at(0.0) == Near(392e3));
+    CHECK(thrusts[3].at(1.0) == Near(7.0));
     for (const auto& [text, fault] : std::vector<std::pair<std::string, std::string>>{
              {"", "has no [[thrust]]"},
              {"[[thrust]]\nname = \"x\"\n", "give one of constant"},
@@ -174,9 +178,9 @@ TEST_CASE("the h-v curve of a sweep is that of its resistances, formulas beside 
     REQUIRE(curve.points.size() == 2);
     // h 0.5: 1e5 + 1.5e5 u = 8e5; h 1: 2e5 + 3e5 u = 8e5
     CHECK(curve.points[0].thickness == 0.5);
-    CHECK(curve.points[0].attained.speed == Approx(7.0 / 1.5));
+    CHECK(curve.points[0].attained.speed == Near(7.0 / 1.5));
     CHECK(curve.points[0].attained.reach == Reach::outside);
-    CHECK(curve.points[1].attained.speed == Approx(2.0));
+    CHECK(curve.points[1].attained.speed == Near(2.0));
     CHECK(curve.points[1].attained.low < 2.0);
     CHECK(curve.points[1].attained.high > 2.0);
     CHECK_FALSE(study.warnings.empty());  // one speed outside the runs
@@ -202,7 +206,7 @@ TEST_CASE("free ships have their mean speeds, on one chart with fixed courses", 
         ++free;
         CHECK(curve.name == "free ship");  // its power is no axis of its own
         REQUIRE(curve.points.size() == 2);
-        CHECK(curve.points[0].attained.high == Approx(3.1));
+        CHECK(curve.points[0].attained.high == Near(3.1));
         CHECK(curve.points[1].attained.reach == Reach::stuck);
     }
     CHECK(free == 1);
@@ -225,7 +229,7 @@ TEST_CASE("a formula's h-v curve is where its own resistance meets the thrust", 
     for (const HvPoint& p : jeong->points) {
         const IceConditions ice{p.thickness, 0.1, 900.0, 1025.0, 9.81, p.attained.speed};
         CHECK(spencer_resistance({95.0, 22.0, 8.0, 0.0, 0.0}, ice).broken_ice() ==
-              Approx(3e5).epsilon(1e-9));
+              Near(3e5).epsilon(1e-9));
     }
 }
 

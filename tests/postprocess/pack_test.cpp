@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the page holds of a run, decoded again as web/src/data.js does.
+//
+// Tolerances: 1e-9 is rounding of half a step of a code; 0.1 % of a force is a few steps of its
+// root, coded in 8191; 1e-12 is rounding of a weight.
 #include "postprocess/report/pack.hpp"
 
 #include <zlib.h>
@@ -11,6 +14,7 @@
 #include "postprocess/report/viewer_data.hpp"
 #include "postprocess/statistics/thin_series.hpp"
 #include "tests/common/fixtures.hpp"
+#include "tests/support/tolerance.hpp"
 
 using namespace ice;
 using namespace ice::test;
@@ -71,7 +75,7 @@ TEST_CASE("series of any numbers come back from the page, whatever the order", "
 TEST_CASE("a quantiser is exact to half its step and has no more than 16 bits", "[report]") {
     const Quantiser q = make_quantiser(-3.0, 5.0, 1e-9);
     for (const double v : {-3.0, -0.1, 1.234, 5.0})
-        CHECK(std::abs(q.code(v) * q.step + q.offset - v) <= 0.5 * q.step * (1 + 1e-9));
+        CHECK(std::abs(q.code(v) * q.step + q.offset - v) <= 0.5 * q.step * (1 + tolerance(1e-9)));
     CHECK(make_quantiser(0.0, 1.0, 0.1).step == 0.1);
     CHECK(make_quantiser(2.0, 2.0, 0.0).code(2.0) == 0);
     CHECK(make_quantiser(1.0, -1.0, 0.5).step == 0.5);  // of no values
@@ -100,7 +104,7 @@ TEST_CASE("the page's poses, states and loads are those of the run to the promis
                 const double offset = meta["position"]["offset"][d];
                 REQUIRE(std::abs(position[d * rows + k] * step + offset -
                                  run.frames[f].position[b][static_cast<Eigen::Index>(d)]) <=
-                        0.5 * step * (1 + 1e-9));
+                        0.5 * step * (1 + tolerance(1e-9)));
             }
             const Eigen::Quaterniond q(turn[k], turn[rows + k], turn[2 * rows + k],
                                        turn[3 * rows + k]);
@@ -110,7 +114,7 @@ TEST_CASE("the page's poses, states and loads are those of the run to the promis
             const double force = f == 0 ? 0.0 : run.frames[f].contact_force[b].norm();
             const double root = (load[k] >> 2) / 8191.0;
             REQUIRE(root * root * meta["load"]["max"].get<double>() ==
-                    Approx(force).margin(0.001 * 317));
+                    Near(force).margin(0.001 * 317));
         }
 }
 
@@ -140,21 +144,21 @@ TEST_CASE("a moving average of a straight line is that line, of one peak Hann's 
     }
     peak[50] = 10.0;
     const auto mean = statistics::moving_average(x, line, 1.0, {2.0, 5.0});
-    CHECK(mean[0] == Approx(5.0));
-    CHECK(mean[1] == Approx(14.0));
+    CHECK(mean[0] == Near(5.0));
+    CHECK(mean[1] == Near(14.0));
     // weights (1 + cos(pi t)) / 2 at 0.1 s sum to 1 s / 0.1 s = 10
     const auto share = statistics::moving_average(x, peak, 1.0, {3.9, 4.5, 5.0, 5.5, 6.1});
-    CHECK(share[0] == Approx(0.0).margin(1e-12));
-    CHECK(share[1] == Approx(0.5));
-    CHECK(share[2] == Approx(1.0));
-    CHECK(share[3] == Approx(0.5));
-    CHECK(share[4] == Approx(0.0).margin(1e-12));
+    CHECK(share[0] == Near(0.0).margin(1e-12));
+    CHECK(share[1] == Near(0.5));
+    CHECK(share[2] == Near(1.0));
+    CHECK(share[3] == Near(0.5));
+    CHECK(share[4] == Near(0.0).margin(1e-12));
 }
 
 TEST_CASE("at the ends a moving average is that of what is there", "[statistics][degenerate]") {
     const std::vector<double> x{0.0, 0.1, 0.2}, y{4.0, 4.0, 4.0};
     for (const double mean : statistics::moving_average(x, y, 1.0, {0.0, 0.2}))
-        CHECK(mean == Approx(4.0));
+        CHECK(mean == Near(4.0));
     CHECK(statistics::moving_average(x, y, 1.0, {9.0}) == std::vector<double>{0.0});
     CHECK(statistics::moving_average({}, {}, 1.0, {0.0}) == std::vector<double>{0.0});
 }

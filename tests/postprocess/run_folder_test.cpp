@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Tolerances: 1e-12 is rounding of a time.
 #include <catch2/catch.hpp>
 
 #include "tests/postprocess/make_folder.hpp"
+#include "tests/support/tolerance.hpp"
 
 using namespace ice;
 using namespace ice::test;
@@ -38,7 +40,7 @@ TEST_CASE("a run has the poses, forces and times that were written", "[read][ana
     CHECK(run.data.history[3].contact_force == Vec3(-1024.0, 16.0, 256.0));
     CHECK(run.data.history[3].friction_force == Vec3(-128.0, 0.0, 32.0));
     // rows lie 0.05 s apart: 0, 0.05, 0.1, 0.15 s
-    CHECK(run.data.history[3].time == Approx(0.15).epsilon(1e-12));
+    CHECK(run.data.history[3].time == Near(0.15).epsilon(1e-12));
     CHECK(run.data.header.body_mass.at(0) == 144.0);
     CHECK_FALSE(run.summary);
 }

@@ -7,6 +7,7 @@
 #include "postprocess/views/floe_style.hpp"
 #include "postprocess/views/hull_drawing.hpp"
 #include "tests/postprocess/make_folder.hpp"
+#include "tests/support/tolerance.hpp"
 
 using namespace ice;
 using namespace ice::test;
@@ -160,7 +161,7 @@ TEST_CASE("faces turned to the light are brighter, within 0.68 and 1.06", "[view
     const double lit = brightness(p.toward, p), dark = brightness(-p.toward, p);
     CHECK(lit > dark);
     CHECK(lit <= 1.1);
-    CHECK(dark == Approx(0.68).margin(0.02));
+    CHECK(dark == Near(0.68).margin(0.02));
 }
 
 TEST_CASE("runs without floes or with an empty hull can be drawn", "[views]") {

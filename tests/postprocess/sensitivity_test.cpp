@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Tolerances: 1e-5 is the last digit of t in a table.
 #include <fmt/format.h>
 
 #include <catch2/catch.hpp>
@@ -9,6 +10,7 @@
 #include "postprocess/sensitivity/tornado.hpp"
 #include "postprocess/sensitivity/write_study.hpp"
 #include "tests/postprocess/make_folder.hpp"
+#include "tests/support/tolerance.hpp"
 
 using namespace ice;
 using namespace ice::test;
@@ -59,12 +61,12 @@ TEST_CASE("Welch's interval is the two-sample one for equal scatter, Student's f
           "[sensitivity][analytic]") {
     const Seeds a = ensemble("", {9.0, 10.0, 11.0}), b = ensemble("", {19.0, 20.0, 21.0});
     // both have s = 1: v = 4, t_{0.975, 4} = 2.77645 (tables)
-    CHECK(estimate_difference(a, b).mean == Approx(10.0));
-    CHECK(estimate_difference(a, b).half == Approx(2.77645 * std::sqrt(2.0 / 3.0)).epsilon(1e-5));
-    CHECK(estimate_difference(b, a).mean == Approx(-10.0));
+    CHECK(estimate_difference(a, b).mean == Near(10.0));
+    CHECK(estimate_difference(a, b).half == Near(2.77645 * std::sqrt(2.0 / 3.0)).epsilon(1e-5));
+    CHECK(estimate_difference(b, a).mean == Near(-10.0));
     // no scatter in one: what is left is Student's interval of the other, v = 2, t = 4.30265
     const Seeds still = ensemble("", {5.0, 5.0, 5.0, 5.0});
-    CHECK(estimate_difference(a, still).half == Approx(4.30265 / std::sqrt(3.0)).epsilon(1e-5));
+    CHECK(estimate_difference(a, still).half == Near(4.30265 / std::sqrt(3.0)).epsilon(1e-5));
     CHECK(estimate_difference(still, still).half == 0.0);
     // single runs have their own intervals, which add as squares
     CHECK(estimate_difference(ensemble("", {1.0}, 3.0), ensemble("", {2.0}, 4.0)).half == 5.0);
@@ -84,10 +86,10 @@ TEST_CASE("a study's inputs are ranked by what they move, and a change must beat
     const auto ranked = rank_inputs(study);
     REQUIRE(ranked.size() == 3);
     CHECK(ranked[0].name == "drag");
-    CHECK(ranked[0].largest() == Approx(200.0));
+    CHECK(ranked[0].largest() == Near(200.0));
     REQUIRE(ranked[0].changes.size() == 2);
-    CHECK(ranked[0].changes[0].difference.mean == Approx(-200.0));
-    CHECK(ranked[0].changes[1].difference.mean == Approx(100.0));
+    CHECK(ranked[0].changes[0].difference.mean == Near(-200.0));
+    CHECK(ranked[0].changes[1].difference.mean == Near(100.0));
     CHECK(ranked[0].changes[1].significant());
     // no change and no result: in the plan's order behind what moves, and neither is significant
     CHECK(ranked[1].name == "rule");
@@ -134,8 +136,8 @@ TEST_CASE("bars of the tornado are as long as the differences and stay inside th
         CHECK(std::stod((*it)[1]) + std::stod((*it)[2]) <= 846.0);
         widths.push_back(std::stod((*it)[2]));
     }
-    REQUIRE(widths.size() == 3);                              // -20 %, +10 %, 0
-    CHECK(widths[0] == Approx(2.0 * widths[1]).margin(0.3));  // pixels are rounded to tenths
+    REQUIRE(widths.size() == 3);                            // -20 %, +10 %, 0
+    CHECK(widths[0] == Near(2.0 * widths[1]).margin(0.3));  // pixels are rounded to tenths
     CHECK(widths[2] < 0.2);
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Tolerances: 1e-6 and 1e-5 are the last digit of t in a table.
 #include <fmt/format.h>
 
 #include <catch2/catch.hpp>
@@ -10,6 +11,7 @@
 #include "postprocess/sweep/sweep_tables.hpp"
 #include "postprocess/sweep/write_sweep.hpp"
 #include "tests/postprocess/write_runs.hpp"
+#include "tests/support/tolerance.hpp"
 
 using namespace ice;
 using namespace ice::test;
@@ -17,11 +19,11 @@ using namespace ice::sweep;
 
 TEST_CASE("the mean of 9, 10, 11 is 10 with a half width of 4.303 / sqrt(3)", "[sweep][analytic]") {
     const Estimate three = estimate_mean({9.0, 10.0, 11.0});
-    CHECK(three.mean == Approx(10.0));
+    CHECK(three.mean == Near(10.0));
     // t_{0.975, 2} = 4.30265 (tables), s = 1
-    CHECK(three.half == Approx(4.30265 / std::sqrt(3.0)).epsilon(1e-6));
+    CHECK(three.half == Near(4.30265 / std::sqrt(3.0)).epsilon(1e-6));
     // two values: t_{0.975, 1} = 12.7062, s / sqrt(2) is half their distance
-    CHECK(estimate_mean({1.0, 3.0}).half == Approx(12.7062).epsilon(1e-5));
+    CHECK(estimate_mean({1.0, 3.0}).half == Near(12.7062).epsilon(1e-5));
     CHECK(estimate_mean({5.0, 5.0, 5.0}).half == 0.0);
     CHECK(std::isnan(estimate_mean({5.0}).half));
     CHECK(std::isnan(estimate_mean({}).mean));
@@ -54,38 +56,38 @@ TEST_CASE("without a plan the resolved cases say what varies, and seeds become i
     REQUIRE(points.size() == 4);
     const Point& p = points.front();  // mu = 0.1, u = 0.5
     CHECK(p.runs.size() == 3);
-    CHECK(p.part(Part::total).mean == Approx(510.0));
-    CHECK(p.part(Part::total).half == Approx(4.30265 / std::sqrt(3.0)).epsilon(1e-6));
-    CHECK(p.part(Part::bow).mean == Approx(306.0));
-    CHECK(p.part(Part::bottom).mean == Approx(153.0));
+    CHECK(p.part(Part::total).mean == Near(510.0));
+    CHECK(p.part(Part::total).half == Near(4.30265 / std::sqrt(3.0)).epsilon(1e-6));
+    CHECK(p.part(Part::bow).mean == Near(306.0));
+    CHECK(p.part(Part::bottom).mean == Near(153.0));
     CHECK(p.part(Part::sides).mean == 0.0);
-    CHECK(p.part(Part::rest).mean == Approx(51.0));
-    CHECK(p.part(Part::friction).mean == Approx(102.0));
-    CHECK(p.part(Part::bottom_contact).mean == Approx(102.0));
-    CHECK(p.part(Part::bottom_friction).mean == Approx(51.0));
+    CHECK(p.part(Part::rest).mean == Near(51.0));
+    CHECK(p.part(Part::friction).mean == Near(102.0));
+    CHECK(p.part(Part::bottom_contact).mean == Near(102.0));
+    CHECK(p.part(Part::bottom_friction).mean == Near(51.0));
     CHECK(p.part(Part::rest_friction).mean == 0.0);
-    CHECK(p.lindqvist == Approx(550.0));
+    CHECK(p.lindqvist == Near(550.0));
     for (const Point& point : points) {
         double sum = 0.0;
         for (const Part part : {Part::bow, Part::sides, Part::bottom, Part::rest})
             sum += point.part(part).mean;
-        CHECK(sum == Approx(point.part(Part::total).mean));
+        CHECK(sum == Near(point.part(Part::total).mean));
         sum = point.part(Part::friction).mean;
         for (const Part part :
              {Part::bow_contact, Part::sides_contact, Part::bottom_contact, Part::rest_contact})
             sum += point.part(part).mean;
-        CHECK(sum == Approx(point.part(Part::total).mean));
+        CHECK(sum == Near(point.part(Part::total).mean));
         CHECK(point.part(Part::bow_contact).mean + point.part(Part::bow_friction).mean ==
-              Approx(point.part(Part::bow).mean));
+              Near(point.part(Part::bow).mean));
         CHECK(point.part(Part::contact).mean + point.part(Part::friction).mean ==
-              Approx(point.part(Part::total).mean));
+              Near(point.part(Part::total).mean));
     }
 
     const auto curves = make_curves(sweep, points);
     REQUIRE(curves.size() == 2);
     CHECK(curves[1].label == "friction ship-ice 0.2");
     CHECK(curves[1].points.size() == 2);
-    CHECK(curves[1].points[1].part(Part::total).mean == Approx(1020.0));
+    CHECK(curves[1].points[1].part(Part::total).mean == Near(1020.0));
 }
 
 TEST_CASE("a single run has its own interval, and keys that follow the speed are no axes",
@@ -121,7 +123,7 @@ TEST_CASE("summaries from before the split have parts without contact and fricti
     const Sweep sweep = read_sweep(folder.path());
     const auto points = make_points(sweep);
     REQUIRE(points.size() == 2);
-    CHECK(points[0].part(Part::bow).mean == Approx(300.0));
+    CHECK(points[0].part(Part::bow).mean == Near(300.0));
     CHECK(std::isnan(points[0].part(Part::bow_friction).mean));
     const std::string page = make_sweep_page(sweep, folder / "sweep.html");
     CHECK(tag_fault(markup_of(page)).empty());
@@ -191,7 +193,7 @@ TEST_CASE("members of an ensemble count once, whatever their seeds changed", "[s
     const auto points = make_points(sweep);
     REQUIRE(points.size() == 2);
     CHECK(points[0].runs.size() == 3);
-    CHECK(points[0].part(Part::total).mean == Approx(1002.0));
+    CHECK(points[0].part(Part::total).mean == Near(1002.0));
     CHECK(read_sweep(folder / "u0.5").runs.size() == 3);
 }
 
@@ -208,10 +210,10 @@ TEST_CASE("the ship's work is shared out per metre of travel", "[sweep][analytic
     }
     const auto points = make_points(sweep);
     const auto shares = share_work(sweep, points.front());  // 0.5 m/s: 10 m
-    CHECK(shares.front().force == Approx(500.0));
+    CHECK(shares.front().force == Near(500.0));
     double sum = 0.0;
     for (const WorkShare& share : shares) sum += share.force;
-    CHECK(sum == Approx(1000.0));  // the work and what became of it
+    CHECK(sum == Near(1000.0));  // the work and what became of it
 
     const std::string text = sweep_markdown(sweep);
     CHECK_THAT(

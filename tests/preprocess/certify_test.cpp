@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The certificate against the source, the ice belt, ends cut back, spheres outside.
+//
+// Tolerances: 1e-12 is rounding of a sum over triangles; 1e-9 m that of a distance, with a reserve;
+// 1e-6 of a radius is what spherize settles to.
 #include <catch2/catch.hpp>
 
 #include "common/base/error.hpp"
@@ -15,8 +18,11 @@
 #include "tests/preprocess/look_alikes.hpp"
 #include "tests/support/make_hull.hpp"
 #include "tests/support/make_meshes.hpp"
+#include "tests/support/tolerance.hpp"
 
 using namespace ice;
+using ice::test::Near;
+using ice::test::tolerance;
 
 namespace {
 
@@ -56,7 +62,7 @@ TEST_CASE("a mesh is its own solid: all distances are zero", "[certify][analytic
     CHECK(report.source.to_solid.max == 0.0);
     CHECK(report.source.to_source.max == 0.0);
     CHECK(report.source.caps_area == 0.0);
-    CHECK(report.source.area == Approx(measure_mass(hull).area).epsilon(1e-12));
+    CHECK(report.source.area == Near(measure_mass(hull).area).epsilon(1e-12));
 }
 
 TEST_CASE("a face that was moved aft by 0.3 m is 0.3 m away, with its share and place",
@@ -64,12 +70,12 @@ TEST_CASE("a face that was moved aft by 0.3 m is 0.3 m away, with its share and 
     const TriangleMesh box = test::make_box_mesh(Vec3(4, 1, 1));
     const SpheresReport report = compared(box, shortened(box, 0.3), 0.1);
     // the source's forward face, 1 of 18 m2, and the sides' last 0.3 m; the largest at the face
-    CHECK(report.source.to_solid.max == Approx(0.3).epsilon(1e-9));
-    CHECK(report.source.to_solid.at[0] == Approx(2.0));
-    CHECK(report.source.to_solid.p99 == Approx(0.3).epsilon(1e-9));
+    CHECK(report.source.to_solid.max == Near(0.3).epsilon(1e-9));
+    CHECK(report.source.to_solid.at[0] == Near(2.0));
+    CHECK(report.source.to_solid.p99 == Near(0.3).epsilon(1e-9));
     CHECK(report.source.to_solid.p50 == 0.0);
     // seen from the solid, whose face lies in the source, the nearest side is 0.3 m or less away
-    CHECK(report.source.to_source.max == Approx(0.3).epsilon(0.05));
+    CHECK(report.source.to_source.max == Near(0.3).epsilon(0.05));
     CHECK(report.source.caps_area == 0.0);
 }
 
@@ -112,7 +118,7 @@ TEST_CASE("an opening's cap is told apart from a surface that was moved", "[cert
     const SpheresReport report = compared(open, box, 0.1);
     CHECK(report.source.to_solid.max == 0.0);
     CHECK(report.source.to_source.max == 0.0);
-    CHECK(report.source.caps_area == Approx(4.0));
+    CHECK(report.source.caps_area == Near(4.0));
 }
 
 TEST_CASE("a part that was lost is a distance, and a warning with the number", "[certify]") {
@@ -133,12 +139,12 @@ TEST_CASE("a stem that repairs moved in the ice belt is refused, wrapped it is a
     const TriangleMesh solid = shortened(box, 0.3);
     SpheresReport report;
     set_ice_belt(solid, 0.5, 0.05, report);
-    CHECK(report.belt.low == Approx(-0.1));
-    CHECK(report.belt.high == Approx(0.1));
+    CHECK(report.belt.low == Near(-0.1));
+    CHECK(report.belt.high == Near(0.1));
     CHECK_THROWS_WITH(certify_solid("box.stl", box, solid, 0.1, false, report),
                       Catch::Contains("ice belt") && Catch::Contains("0.3 m"));
     certify_solid("box.stl", box, solid, 0.1, true, report);
-    CHECK(report.belt.to_solid.max == Approx(0.3).epsilon(1e-9));
+    CHECK(report.belt.to_solid.max == Near(0.3).epsilon(1e-9));
     CHECK(warns(report, "outside the solid"));
     // outside the belt it is a warning anyway
     SpheresReport dry;
@@ -152,8 +158,8 @@ TEST_CASE("draughts that mean nothing are refused by name", "[certify][errors]")
     CHECK_THROWS_WITH(set_ice_belt(box, 1.5, {}, report), Catch::Contains("--draught"));
     CHECK_THROWS_WITH(set_ice_belt(box, {}, 0.1, report), Catch::Contains("--ice-thickness"));
     set_ice_belt(box, 0.8, {}, report);
-    CHECK(report.belt.thickness == Approx(0.08));
-    CHECK(report.belt.water() == Approx(0.3));
+    CHECK(report.belt.thickness == Near(0.08));
+    CHECK(report.belt.water() == Near(0.3));
 }
 
 TEST_CASE("a wedge's stem is cut back by R (1 / sin(angle) - 1)", "[certify][analytic]") {
@@ -167,8 +173,8 @@ TEST_CASE("a wedge's stem is cut back by R (1 / sin(angle) - 1)", "[certify][ana
                                    [](const CutBack& cut) { return cut.part == "stem"; });
     REQUIRE(stem != report.cut_back.end());
     // levels are a quarter of a radius apart: the nearest lies at most R / 8 off a sphere's centre
-    CHECK(stem->by >= expected * (1 - 1e-6));
-    CHECK(stem->by <= expected + radius * (1.0 - std::cos(std::asin(0.125))) + 1e-9);
+    CHECK(stem->by >= expected * (1 - tolerance(1e-6)));
+    CHECK(stem->by <= expected + radius * (1.0 - std::cos(std::asin(0.125))) + tolerance(1e-9));
     CHECK_THAT(cut_back_text(*stem), Catch::Contains("the stem is cut back by up to"));
     // a box is cut nowhere
     SpheresReport none;
@@ -223,7 +229,7 @@ TEST_CASE("no sphere is outside by exact winding number where faces cross", "[ce
     const WindingNumber winding(folded);
     for (std::size_t k = 0; k < set.surface_count; k += 7)
         REQUIRE(winding.at(set.centers[k], INFINITY) > 0.5);
-    CHECK(report.protrusion_max <= 1e-6 * set.radius);
+    CHECK(report.protrusion_max <= tolerance(1e-6) * set.radius);
 }
 
 TEST_CASE("spheres outside are dropped heap by heap, those inside keep their order",

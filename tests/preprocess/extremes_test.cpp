@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Filling what is far away, tiny, huge or degenerate.
+//
+// Tolerances: 1e-12 and 1e-9 are rounding of a cosine and its inverse near 1; 1e-9 of a sum that of
+// 40 terms, with a reserve.
 #include <catch2/catch.hpp>
 #include <numeric>
 
@@ -9,8 +12,11 @@
 #include "tests/preprocess/check_shares.hpp"
 #include "tests/preprocess/fill_options.hpp"
 #include "tests/support/make_meshes.hpp"
+#include "tests/support/tolerance.hpp"
 
 using namespace ice;
+using ice::test::Near;
+using ice::test::tolerance;
 using test::check_shares;
 using test::options;
 
@@ -46,10 +52,10 @@ TEST_CASE("the cone of hundreds of directions holds all and is hardly too wide",
                                     std::sin(tilt) * std::sin(angle), std::cos(tilt));
     }
     const Cone cone = narrowest_cone(directions);
-    CHECK(cone.half_angle >= 0.5 - 1e-12);
+    CHECK(cone.half_angle >= 0.5 - tolerance(1e-12));
     CHECK(cone.half_angle <= 0.5 * 1.01);
     for (const Vec3& d : directions)
-        REQUIRE(std::acos(std::min(1.0, d.dot(cone.axis))) <= cone.half_angle + 1e-9);
+        REQUIRE(std::acos(std::min(1.0, d.dot(cone.axis))) <= cone.half_angle + tolerance(1e-9));
 }
 
 TEST_CASE("a box a thousand kilometres from the origin is filled", "[fill][degenerate]") {
@@ -58,7 +64,7 @@ TEST_CASE("a box a thousand kilometres from the origin is filled", "[fill][degen
     SpheresReport report;
     const SphereSet set = fill_spheres(mesh, options(0.05), report);
     CHECK(set.surface_count > 1000);
-    CHECK(report.protrusion_max < 1e-8);  // coordinates are known to 1e-10 m
+    CHECK(report.protrusion_max < tolerance(1e-8));  // coordinates are known to 1e-10 m
 }
 
 TEST_CASE("a spacing that would take 1e8 discs is refused", "[fill][errors]") {
@@ -90,7 +96,7 @@ TEST_CASE("volume shares sum to the volume even where no spheres are near the ce
     SpheresReport report;
     const SphereSet set = fill_spheres(extrude(section, {"hull"}), options(0.1), report);
     const double sum = std::accumulate(set.volumes.begin(), set.volumes.end(), 0.0);
-    CHECK(sum == Approx(1.0 + 39 * 0.05).epsilon(1e-9));
+    CHECK(sum == Near(1.0 + 39 * 0.05).epsilon(1e-9));
     for (const double v : set.volumes) REQUIRE(v > 0.0);
     REQUIRE(report.warnings.size() == 1);
     CHECK_THAT(report.warnings[0], Catch::Contains("miss the centroid"));

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // From specification to field: keys, shared shapes, spheres, equal bytes.
+//
+// Tolerances: 1e-12 is rounding of a sum over triangles; 1e-9 that of sums over shares, with a
+// reserve; 1e-6 is a normal stored as a float.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -13,6 +16,7 @@
 #include "preprocess/field/plan_floes.hpp"
 #include "preprocess/fill/certificate.hpp"
 #include "tests/preprocess/field_support.hpp"
+#include "tests/support/tolerance.hpp"
 
 using namespace ice;
 using namespace ice::test;
@@ -66,8 +70,8 @@ TEST_CASE("equal floes share a shape, wherever they lie", "[field]") {
     // first column of three whole floes, then a half one
     CHECK(field.floes[0].shape == field.floes[2].shape);
     CHECK(field.floes[3].shape != field.floes[2].shape);
-    CHECK(field.floes[0].position[0] == Approx(0.5));
-    CHECK(field.floes[0].position[1] == Approx(-1.0));
+    CHECK(field.floes[0].position[0] == Near(0.5));
+    CHECK(field.floes[0].position[1] == Near(-1.0));
     CHECK(field.radius == 0.05);
     CHECK(field.spacing == 0.1);
     CHECK(field.specification == kBrick);
@@ -83,7 +87,7 @@ TEST_CASE("a shape's spheres touch its faces, and their shares add up", "[field]
     CHECK(report.spheres > field.floes.size() * 20);
     for (const SphereSet& shape : field.shapes) {
         CHECK((fill ? shape.size() > shape.surface_count : shape.size() == shape.surface_count));
-        CHECK(shape.solid.centroid.norm() < 1e-12);
+        CHECK(shape.solid.centroid.norm() < tolerance(1e-12));
         double area = 0.0, volume = 0.0;
         Vec3 moment = Vec3::Zero();
         for (const double a : shape.areas) area += a;
@@ -91,14 +95,14 @@ TEST_CASE("a shape's spheres touch its faces, and their shares add up", "[field]
             volume += shape.volumes[k];
             moment += shape.volumes[k] * shape.centers[k];
             // none reaches beyond the flat faces; 1e-9: settled to 1e-10 of the radius
-            REQUIRE(std::abs(shape.centers[k].z()) <= 0.5 - 0.25 + 1e-9);
+            REQUIRE(std::abs(shape.centers[k].z()) <= 0.5 - 0.25 + tolerance(1e-9));
         }
-        CHECK(area == Approx(shape.solid.area).epsilon(1e-9));
-        CHECK(volume == Approx(shape.solid.volume).epsilon(1e-9));
-        CHECK(moment.norm() < 1e-9 * shape.solid.volume);
+        CHECK(area == Near(shape.solid.area).epsilon(1e-9));
+        CHECK(volume == Near(shape.solid.volume).epsilon(1e-9));
+        CHECK(moment.norm() < tolerance(1e-9) * shape.solid.volume);
         for (std::size_t k = 0; k < shape.surface_count; ++k)
             REQUIRE((shape.centers[k].z() > 0.2499 || shape.centers[k].z() < -0.2499 ||
-                     std::abs(shape.normals[k].z()) < 1e-6));
+                     std::abs(shape.normals[k].z()) < tolerance(1e-6)));
     }
 }
 
@@ -119,7 +123,7 @@ TEST_CASE("floes are covered as spherize covers solids, by its own certificate",
             certify(tree, finder, survey_surface(tree, shape, finder, false), false, shape,
                     certificate);
             REQUIRE(certificate.covering_radius < 0.75 * field.spacing);
-            REQUIRE(certificate.protrusion_max < 1e-9);
+            REQUIRE(certificate.protrusion_max < tolerance(1e-9));
         }
     }
 }
@@ -285,7 +289,8 @@ TEST_CASE("a floe's top and bottom have the same spheres, and its creases normal
             REQUIRE(twin != shape.centers.end());
             const auto t = static_cast<std::size_t>(twin - shape.centers.begin());
             REQUIRE(shape.areas[t] == shape.areas[k]);
-            REQUIRE((shape.normals[t] - shape.normals[k].cwiseProduct(flip)).norm() < 1e-9);
+            REQUIRE((shape.normals[t] - shape.normals[k].cwiseProduct(flip)).norm() <
+                    tolerance(1e-9));
         }
         REQUIRE(!shape.creases.empty());
         for (const CreaseNormal& crease : shape.creases) {
@@ -293,7 +298,7 @@ TEST_CASE("a floe's top and bottom have the same spheres, and its creases normal
             for (std::size_t t = 0; t < shape.mesh.triangles.size(); ++t)
                 nearest =
                     std::max(nearest, crease.normal.dot(shape.mesh.area_vector(t).normalized()));
-            REQUIRE(nearest > 1.0 - 1e-9);
+            REQUIRE(nearest > 1.0 - tolerance(1e-9));
         }
     }
 }

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Grids, bricks, cusps and edges: where floes lie, what they cover, that none overlap.
+//
+// Tolerances: 1e-14 is rounding of places of 10 m; 1e-12 of an area that of a sum over floes.
 #include <catch2/catch.hpp>
 #include <cmath>
 
 #include "preprocess/field/polygon_checks.hpp"
 #include "tests/preprocess/field_support.hpp"
+#include "tests/support/tolerance.hpp"
 
 using namespace ice;
 using namespace ice::test;
@@ -30,11 +33,11 @@ TEST_CASE("a grid lies where its case pattern would, x fastest", "[field][analyt
     REQUIRE(plan.loose.size() == 12);
     CHECK(plan.fixed.empty());
     // breadth 3 x 0.8 + 2 x 0.2 = 2.8 m about y = 1
-    CHECK((plan.loose[0][0] - Vec2(5.0, -0.4)).norm() < 1e-14);
-    CHECK((plan.loose[1][0] - Vec2(6.1, -0.4)).norm() < 1e-14);
-    CHECK((plan.loose[4][0] - Vec2(5.0, 0.6)).norm() < 1e-14);
-    CHECK((plan.loose[11][2] - Vec2(9.3, 2.4)).norm() < 1e-14);
-    CHECK((plan.area.sizes() - Vec2(4.3, 2.8)).norm() < 1e-14);
+    CHECK((plan.loose[0][0] - Vec2(5.0, -0.4)).norm() < tolerance(1e-14));
+    CHECK((plan.loose[1][0] - Vec2(6.1, -0.4)).norm() < tolerance(1e-14));
+    CHECK((plan.loose[4][0] - Vec2(5.0, 0.6)).norm() < tolerance(1e-14));
+    CHECK((plan.loose[11][2] - Vec2(9.3, 2.4)).norm() < tolerance(1e-14));
+    CHECK((plan.area.sizes() - Vec2(4.3, 2.8)).norm() < tolerance(1e-14));
 }
 
 TEST_CASE("bricks are shifted by half a floe and the channel's sides stay straight",
@@ -43,14 +46,14 @@ TEST_CASE("bricks are shifted by half a floe and the channel's sides stay straig
     REQUIRE(plan.loose.size() == 3 + 4 + 3 + 4);
     for (std::size_t column = 0, k = 0; column < 4; ++column) {
         const std::size_t count = column % 2 == 0 ? 3 : 4;
-        CHECK(plan.loose[k][0].y() == Approx(-0.4));
-        CHECK(plan.loose[k + count - 1][2].y() == Approx(2.4));
+        CHECK(plan.loose[k][0].y() == Near(-0.4));
+        CHECK(plan.loose[k + count - 1][2].y() == Near(2.4));
         double length = 0.0;
         for (std::size_t j = 0; j < count; ++j)
             length += plan.loose[k + j][2].y() - plan.loose[k + j][0].y();
-        CHECK(length == Approx(2.8 - (static_cast<double>(count) - 1.0) * 0.2));
+        CHECK(length == Near(2.8 - (static_cast<double>(count) - 1.0) * 0.2));
         // seams of odd columns are half a floe and gap beside those of even ones
-        if (column == 1) CHECK(plan.loose[k + 1][0].y() - plan.loose[0][0].y() == Approx(0.5));
+        if (column == 1) CHECK(plan.loose[k + 1][0].y() - plan.loose[0][0].y() == Near(0.5));
         k += count;
     }
     CHECK_THROWS_WITH(field_plan("pattern = \"brick\"\n" + kIce +
@@ -64,10 +67,10 @@ TEST_CASE("edges lie beside the field, in equal pieces, with their overhang", "[
                                       "overhang = [4, 1]\nahead = 0\n");
     // x from 1.0 to 10.3 m: four pieces of 2.325 m on each side
     REQUIRE(plan.fixed.size() == 8);
-    CHECK((plan.fixed[0][0] - Vec2(1.0, -2.9)).norm() < 1e-14);
-    CHECK((plan.fixed[3][2] - Vec2(10.3, -0.9)).norm() < 1e-14);
-    CHECK((plan.fixed[4][0] - Vec2(1.0, 2.9)).norm() < 1e-14);
-    for (const Outline& piece : plan.fixed) CHECK(area_of(piece) == Approx(2.325 * 2.0));
+    CHECK((plan.fixed[0][0] - Vec2(1.0, -2.9)).norm() < tolerance(1e-14));
+    CHECK((plan.fixed[3][2] - Vec2(10.3, -0.9)).norm() < tolerance(1e-14));
+    CHECK((plan.fixed[4][0] - Vec2(1.0, 2.9)).norm() < tolerance(1e-14));
+    for (const Outline& piece : plan.fixed) CHECK(area_of(piece) == Near(2.325 * 2.0));
 }
 
 TEST_CASE("unbroken ice closes a channel's far end from side to side, without overlap or leak",
@@ -78,13 +81,13 @@ TEST_CASE("unbroken ice closes a channel's far end from side to side, without ov
                                       "overhang = [4, 0]\nahead = 1\n");
     REQUIRE(plan.fixed.size() == 4 + 4 + 2);
     for (std::size_t side : {0u, 4u})
-        CHECK(plan.fixed[side + 3][2].x() == Approx(10.8).epsilon(1e-14));
-    CHECK((plan.fixed[8][0] - Vec2(9.8, -0.9)).norm() < 1e-14);
-    CHECK((plan.fixed[8][2] - plan.fixed[9][1]).norm() < 1e-14);
-    CHECK((plan.fixed[9][2] - Vec2(10.8, 2.9)).norm() < 1e-14);
+        CHECK(plan.fixed[side + 3][2].x() == Near(10.8).epsilon(1e-14));
+    CHECK((plan.fixed[8][0] - Vec2(9.8, -0.9)).norm() < tolerance(1e-14));
+    CHECK((plan.fixed[8][2] - plan.fixed[9][1]).norm() < tolerance(1e-14));
+    CHECK((plan.fixed[9][2] - Vec2(10.8, 2.9)).norm() < tolerance(1e-14));
     // flush with both sides: floes find no way round, and nothing lies over anything
-    CHECK(plan.fixed[8][0].y() == Approx(plan.fixed[0][2].y()).epsilon(1e-14));
-    CHECK(plan.fixed[9][2].y() == Approx(plan.fixed[4][0].y()).epsilon(1e-14));
+    CHECK(plan.fixed[8][0].y() == Near(plan.fixed[0][2].y()).epsilon(1e-14));
+    CHECK(plan.fixed[9][2].y() == Near(plan.fixed[4][0].y()).epsilon(1e-14));
     std::vector<Outline> all = plan.loose;
     all.insert(all.end(), plan.fixed.begin(), plan.fixed.end());
     for (std::size_t i = 0; i < all.size(); ++i)
@@ -95,9 +98,9 @@ TEST_CASE("a longer overhang stays as it is beside a closed end", "[field]") {
     const std::string edges = "[edges]\nbreadth = 2\noverhang = [0, 7]\n";
     const FieldPlan plan = field_plan("pattern = \"grid\"\n" + kIce + kGrid + edges);
     CHECK(plan.fixed[0][1].x() < 16.3);
-    CHECK(plan.fixed[1][1].x() == Approx(16.3));
-    CHECK(plan.fixed.back()[0].x() == Approx(9.3));
-    CHECK(plan.fixed.back()[1].x() == Approx(11.3));  // as long as the sides are broad
+    CHECK(plan.fixed[1][1].x() == Near(16.3));
+    CHECK(plan.fixed.back()[0].x() == Near(9.3));
+    CHECK(plan.fixed.back()[1].x() == Near(11.3));  // as long as the sides are broad
 }
 
 TEST_CASE("channels of every pattern are closed ahead unless the specification says 0", "[field]") {
@@ -117,11 +120,11 @@ TEST_CASE("channels of every pattern are closed ahead unless the specification s
     // the last pieces lie across the end, from side to side
     double breadth = 0.0;
     for (const Outline& piece : closed.fixed) {
-        if (piece[0].x() != Approx(end)) continue;
+        if (piece[0].x() != Near(end)) continue;
         breadth += piece[2].y() - piece[0].y();
-        CHECK(piece[1].x() == Approx(end + 1.5));
+        CHECK(piece[1].x() == Near(end + 1.5));
     }
-    CHECK(breadth == Approx(closed.area.sizes().y() + 0.5));
+    CHECK(breadth == Near(closed.area.sizes().y() + 0.5));
     for (const Outline& piece : open.fixed) CHECK(piece[0].x() < end);
     for (const Outline& floe : closed.loose)
         for (const Outline& piece : closed.fixed) REQUIRE(overlap_depth(floe, piece) < kTouch);
@@ -158,7 +161,7 @@ TEST_CASE("cusps fill the channel: each row is as long as the breaking length", 
 TEST_CASE("cusps without jitter have the exact area of their arcs", "[field][analytic]") {
     // rows 80 m long, and the last front's arcs in place of the first's, all 8 m wide and 2 m deep
     const FieldPlan plan = field_plan(cusps("jitter = 0\n"));
-    CHECK(total_area(plan.loose) == Approx(80.0 * 24.0).epsilon(1e-12));
+    CHECK(total_area(plan.loose) == Near(80.0 * 24.0).epsilon(1e-12));
     // equal forms: whole cusps behind halves, halves at each side, whole ones behind whole ones
     FieldReport report;
     const FieldSpec spec = field_spec(cusps("jitter = 0\n"));

@@ -7,6 +7,7 @@
 #include "common/base/error.hpp"
 #include "preprocess/field/plan_floes.hpp"
 #include "tests/preprocess/field_support.hpp"
+#include "tests/support/tolerance.hpp"
 
 using namespace ice;
 using namespace ice::test;
@@ -26,7 +27,7 @@ std::string polygons(const std::string& suffix, const std::string& text, std::si
         CHECK(plan.loose.size() == count);
         for (const Outline& floe : plan.loose) CHECK(area_of(floe) > 0.0);
         CHECK(plan.area.min().x() == 10.0);
-        CHECK(total_area(plan.loose) == Approx(4.0 * static_cast<double>(count)));
+        CHECK(total_area(plan.loose) == Near(4.0 * static_cast<double>(count)));
     } catch (const Error& error) {
         CHECK(error.code() == ExitCode::bad_input);
         return error.what();

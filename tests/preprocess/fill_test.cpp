@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Sphere sets: counts, exact integrals, tangency, cover, symmetry, threads, refusals.
+//
+// Tolerances: 1e-13 to 1e-12 are rounding of sums over a box's triangles; 1e-9 that of an inertia
+// at a distance; 1e-6 R is where the fill settles.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <map>
@@ -13,8 +16,11 @@
 #include "tests/preprocess/fill_options.hpp"
 #include "tests/preprocess/solid_oracle.hpp"
 #include "tests/support/make_meshes.hpp"
+#include "tests/support/tolerance.hpp"
 
 using namespace ice;
+using ice::test::Near;
+using ice::test::tolerance;
 using test::check_shares;
 using test::options;
 
@@ -25,17 +31,17 @@ TEST_CASE("the paper's floe is exactly 240 spheres, 0.24 m3, with its inertia to
                                        options(0.05, 0, Arrangement::lattice), report);
     CHECK(set.size() == 240);
     CHECK(report.surface_spheres == 240 - 8 * 6 * 1);
-    CHECK(set.solid.volume == Approx(0.24).epsilon(1e-12));
+    CHECK(set.solid.volume == Near(0.24).epsilon(1e-12));
     const Vec3 d(1, 0.8, 0.3);
     for (int k = 0; k < 3; ++k) {
         const double expected = 0.24 / 12.0 * (d.squaredNorm() - d[k] * d[k]);
-        CHECK(set.solid.inertia(k, k) == Approx(expected).epsilon(1e-12));
+        CHECK(set.solid.inertia(k, k) == Near(expected).epsilon(1e-12));
     }
-    for (const double v : set.volumes) REQUIRE(v == Approx(0.001).epsilon(1e-12));
+    for (const double v : set.volumes) REQUIRE(v == Near(0.001).epsilon(1e-12));
     // tangent to all six faces
     Eigen::AlignedBox3d box;
     for (const Vec3& c : set.centers) box.extend(c);
-    CHECK((box.sizes() - (d - Vec3::Constant(0.1))).norm() < 1e-12);
+    CHECK((box.sizes() - (d - Vec3::Constant(0.1))).norm() < tolerance(1e-12));
     check_shares(set);
 }
 
@@ -51,10 +57,10 @@ TEST_CASE("conforming layers touch from inside, no centre outside, by CGAL",
     for (std::size_t k = 0; k < set.size(); ++k) {
         REQUIRE(answers[k].inside);
         // protrusion at most 1e-6 R; surface spheres touch as closely
-        REQUIRE(answers[k].distance >= radius * (1 - 1e-6));
-        if (set.on_surface(k)) REQUIRE(answers[k].distance <= radius * (1 + 1e-6));
+        REQUIRE(answers[k].distance >= radius * (1 - tolerance(1e-6)));
+        if (set.on_surface(k)) REQUIRE(answers[k].distance <= radius * (1 + tolerance(1e-6)));
     }
-    CHECK(report.protrusion_max <= 1e-6 * radius);
+    CHECK(report.protrusion_max <= tolerance(1e-6) * radius);
     CHECK(report.surface_spheres > 100);
     check_shares(set);
 }
@@ -93,7 +99,7 @@ TEST_CASE("the covering radius is that of a dense search", "[fill][equivalence]"
         worst = std::max(worst, std::sqrt(nearest));
     }
     // the climb stops at steps of 0.01 spacings; the search sees every 0.04
-    CHECK(report.covering_radius == Approx(worst).margin(0.03 * set.spacing));
+    CHECK(report.covering_radius == Near(worst).margin(0.03 * set.spacing));
 }
 
 TEST_CASE("a symmetric hull gets mirror images port and starboard, bit for bit",
@@ -127,7 +133,7 @@ TEST_CASE("a lattice that cannot fill a box from face to face is centred in it",
     CHECK(set.size() == 13 * 9 * 6);
     Vec3 sum = Vec3::Zero();
     for (const Vec3& c : set.centers) sum += c;
-    CHECK(sum.norm() < 1e-12 * static_cast<double>(set.size()));
+    CHECK(sum.norm() < tolerance(1e-12) * static_cast<double>(set.size()));
     check_shares(set);
 }
 
@@ -138,7 +144,7 @@ TEST_CASE("a lattice stands on the largest flat face", "[fill][analytic]") {
                                        options(0.07, 0, Arrangement::lattice), report);
     double top = -1e300;
     for (const Vec3& c : set.centers) top = std::max(top, c.z());
-    CHECK(top == Approx(-0.07).epsilon(1e-9));
+    CHECK(top == Near(-0.07).epsilon(1e-9));
 }
 
 TEST_CASE("blocks of a lattice are decided as its single points are", "[fill][equivalence]") {
@@ -188,7 +194,8 @@ TEST_CASE("moving a mesh by 1 km moves its spheres and keeps its inertia to 1e-9
     for (Vec3& v : mesh.vertices) v += Vec3(1000, -500, 200);
     const SphereSet there = fill_spheres(mesh, options(0.05, 0, Arrangement::lattice), report);
     CHECK(there.size() == here.size());
-    CHECK((there.solid.inertia - here.solid.inertia).norm() < 1e-9 * here.solid.inertia.norm());
+    CHECK((there.solid.inertia - here.solid.inertia).norm() <
+          tolerance(1e-9) * here.solid.inertia.norm());
 }
 
 TEST_CASE("discs of a rectangle stand on its outline, corners included, at most the spacing apart",
@@ -198,9 +205,9 @@ TEST_CASE("discs of a rectangle stand on its outline, corners included, at most 
     const SphereSet set = fill_discs(slice_solid(box, 0.0), box.region_names,
                                      options(0.1, 0.05, Arrangement::conforming, true), report);
     CHECK(set.dimension == 2);
-    CHECK(set.solid.volume == Approx(0.4).epsilon(1e-13));
-    CHECK(set.solid.inertia(1, 1) == Approx(0.4 * 1.16 / 12).epsilon(1e-12));
-    CHECK(set.solid.area == Approx(2.8).epsilon(1e-13));
+    CHECK(set.solid.volume == Near(0.4).epsilon(1e-13));
+    CHECK(set.solid.inertia(1, 1) == Near(0.4 * 1.16 / 12).epsilon(1e-12));
+    CHECK(set.solid.area == Near(2.8).epsilon(1e-13));
     // the offset outline is 0.8 x 0.2 m: 2 (16 + 4) discs
     CHECK(set.size() == 40);
     int corners = 0;
@@ -225,9 +232,9 @@ TEST_CASE("discs of a hull's section have the guarantees of spheres, per metre o
     double outline = 0.0;
     for (const auto& loop : section.loops)
         for (const SectionEdge& edge : loop) outline += (edge.b - edge.a).norm();
-    CHECK(set.solid.area == Approx(outline).epsilon(1e-12));
+    CHECK(set.solid.area == Near(outline).epsilon(1e-12));
     check_shares(set);
-    CHECK(report.protrusion_max <= 1e-6 * set.radius);
+    CHECK(report.protrusion_max <= tolerance(1e-6) * set.radius);
     CHECK(report.covering_radius <= 0.65 * set.spacing);
     CHECK(report.normal_error_mean_deg <= 1.0);
     // one disc a spacing, and one more for each of the outline's corners
@@ -241,8 +248,8 @@ TEST_CASE("discs of a hull's section have the guarantees of spheres, per metre o
                 const double t = std::clamp(from.dot(along) / along.squaredNorm(), 0.0, 1.0);
                 nearest = std::min(nearest, (from - t * along).norm());
             }
-        REQUIRE(nearest >= set.radius * (1 - 1e-6));
-        if (set.on_surface(k)) REQUIRE(nearest <= set.radius * (1 + 1e-6));
+        REQUIRE(nearest >= set.radius * (1 - tolerance(1e-6)));
+        if (set.on_surface(k)) REQUIRE(nearest <= set.radius * (1 + tolerance(1e-6)));
     }
 }
 

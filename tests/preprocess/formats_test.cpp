@@ -12,8 +12,11 @@
 #include "tests/support/fbx_texts.hpp"
 #include "tests/support/mesh_texts.hpp"
 #include "tests/support/temporary_file.hpp"
+#include "tests/support/tolerance.hpp"
 
 using namespace ice;
+using ice::test::Near;
+using ice::test::tolerance;
 using test::TemporaryFile;
 
 namespace {
@@ -56,8 +59,8 @@ Read read(const std::string& suffix, const std::string& bytes, const ReadOptions
 constexpr double kRounding = 1e-13;
 
 void check(const Read& r, const Vec3& centroid, double volume = 1.0) {
-    CHECK(r.volume == Approx(volume).epsilon(kRounding));
-    CHECK((r.centroid - centroid).norm() < kRounding * centroid.norm());
+    CHECK(r.volume == Near(volume).epsilon(kRounding));
+    CHECK((r.centroid - centroid).norm() < tolerance(kRounding) * centroid.norm());
 }
 
 bool warned(const Read& r, const std::string& words) {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Units and axes that nobody gave: what is guessed, and what must be left alone.
+//
+// Tolerances: 1e-12 is rounding of sums over triangles.
 #include <catch2/catch.hpp>
 
 #include "preprocess/load/choose_frame.hpp"
@@ -9,8 +11,10 @@
 #include "preprocess/load/read_mesh.hpp"
 #include "preprocess/load/symmetry.hpp"
 #include "tests/support/make_meshes.hpp"
+#include "tests/support/tolerance.hpp"
 
 using namespace ice;
+using ice::test::Near;
 
 namespace {
 
@@ -111,7 +115,7 @@ TEST_CASE("a hull drawn in any upright way comes out with its bow ahead and its 
                           Case{rows(X, Z, -Y), "y", "+x"}, Case{rows(Y, Z, X), "y", "+z"},
                           Case{rows(-Y, Z, -X), "y", "-z"}}) {
         CAPTURE(c.up, c.forward);
-        REQUIRE(c.drawn.determinant() == Approx(1.0));
+        REQUIRE(c.drawn.determinant() == Near(1.0));
         const Chosen chosen = choose(mapped(ship, c.drawn));
         CHECK(chosen.frame.matrix() * c.drawn == Mat3::Identity());
         CHECK(chosen.notes.guessed.at("up").substr(0, 1) == c.up);
@@ -315,6 +319,6 @@ TEST_CASE("the finer end has the narrower sections", "[load][frame][analytic]") 
         v.x() += 5.0;
         v.y() *= 1.0 - 0.05 * v.x();
     }
-    CHECK(fineness_ratio(wedge, {}) == Approx(1.92 / 1.08).epsilon(1e-12));
+    CHECK(fineness_ratio(wedge, {}) == Near(1.92 / 1.08).epsilon(1e-12));
     CHECK(fineness_ratio(TriangleMesh{}, {}) == 1.0);
 }

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The interior fill, point by point: CGAL's answers, the slow twin's, symmetry, threads.
+//
+// Tolerances: 1e-12 is rounding of a distance.
 #include <bit>
 #include <catch2/catch.hpp>
 #include <map>
@@ -11,8 +13,11 @@
 #include "tests/preprocess/solid_oracle.hpp"
 #include "tests/support/make_hull.hpp"
 #include "tests/support/make_meshes.hpp"
+#include "tests/support/tolerance.hpp"
 
 using namespace ice;
+using ice::test::Near;
+using ice::test::tolerance;
 
 namespace {
 
@@ -197,13 +202,13 @@ TEST_CASE("a hexagonal lattice touches twelve neighbours and fills 0.74 of a lar
     for (const Vec3& c : centers) {
         const double distance = (c - middle).norm();
         if (distance == 0.0) continue;
-        REQUIRE(distance >= 2 * radius * (1 - 1e-12));
+        REQUIRE(distance >= 2 * radius * (1 - tolerance(1e-12)));
         touching += distance < 2 * radius * (1 + 1e-12);
     }
     CHECK(touching == 12);
     // centres fill the box less R on all sides, give or take half a layer at each face
     const double expected = 3.9 * 2.9 * 2.9 / (4 * std::sqrt(2.0) * std::pow(radius, 3));
-    CHECK(static_cast<double>(fill.count) == Approx(expected).epsilon(0.05));
+    CHECK(static_cast<double>(fill.count) == Near(expected).epsilon(0.05));
 }
 
 TEST_CASE("a symmetric hull's fill is symmetric, bit for bit", "[lattice][property]") {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The look-alikes have the faults they are made for, and no others.
+//
+// Tolerances: 1e-12 is rounding of a volume.
 #include "tests/preprocess/look_alikes.hpp"
 
 #include <algorithm>
@@ -10,8 +12,10 @@
 #include "preprocess/clean/self_intersections.hpp"
 #include "preprocess/repair/check_solid.hpp"
 #include "tests/support/make_hull.hpp"
+#include "tests/support/tolerance.hpp"
 
 using namespace ice;
+using ice::test::Near;
 
 namespace {
 
@@ -30,7 +34,7 @@ TEST_CASE("look-alike: the container ship is a solid, and crosses itself at the 
     INFO(d.text());
     CHECK(d.good());
     CHECK(d.parts == 1);
-    CHECK(length_of(clean) == Approx(test::kShipLength).epsilon(0.03));
+    CHECK(length_of(clean) == Near(test::kShipLength).epsilon(0.03));
     const double block = d.volume / (230.0 * 32.2 * 19.0);
     CAPTURE(block);
     CHECK((block > 0.6 && block < 0.85));
@@ -56,11 +60,11 @@ TEST_CASE("look-alike: the combatant is a solid with a fine bow, and crosses its
     const SolidDiagnosis d = diagnose_solid(hull);
     INFO(d.text());
     CHECK(d.good());
-    CHECK(length_of(hull) == Approx(142.0).epsilon(0.02));
+    CHECK(length_of(hull) == Near(142.0).epsilon(0.02));
     const TriangleMesh folded = test::combatant(0.05);
     const auto pairs = find_self_intersections(folded);
     CHECK(pairs.size() > 20);
-    CHECK(measure_mass(folded).volume == Approx(measure_mass(hull).volume).epsilon(1e-3));
+    CHECK(measure_mass(folded).volume == Near(measure_mass(hull).volume).epsilon(1e-3));
 }
 
 TEST_CASE("look-alike: the double skin's plates are solids that touch, or do not",
@@ -69,7 +73,7 @@ TEST_CASE("look-alike: the double skin's plates are solids that touch, or do not
     const TriangleMesh touching = test::double_skin(0.0, &outer, &plates);
     CHECK(find_parts(touching).count == 144);
     for (const double volume : part_volumes(touching, find_parts(touching))) CHECK(volume > 0.0);
-    CHECK(plates / outer == Approx(1.0 - 0.512).epsilon(1e-12));
+    CHECK(plates / outer == Near(1.0 - 0.512).epsilon(1e-12));
     CHECK(find_self_intersections(test::double_skin(0.01)).empty());
 }
 

@@ -1,26 +1,31 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Distances and inside tests against CGAL.
+//
+// Tolerances: 1e-12 m is rounding of lengths of a metre.
 #include <catch2/catch.hpp>
 #include <random>
 
 #include "common/geometry/surface_tree.hpp"
 #include "tests/preprocess/solid_oracle.hpp"
 #include "tests/support/make_meshes.hpp"
+#include "tests/support/tolerance.hpp"
 
 using namespace ice;
+using ice::test::Near;
+using ice::test::tolerance;
 
 TEST_CASE("distances to a unit box", "[measure][analytic]") {
     const TriangleMesh box = test::make_box_mesh(Vec3(1, 1, 1));
     const SurfaceTree tree(box);
-    CHECK(tree.closest(Vec3(0.2, 0, 0)).distance == Approx(0.3));
+    CHECK(tree.closest(Vec3(0.2, 0, 0)).distance == Near(0.3));
     CHECK(tree.closest(Vec3(0.2, 0, 0)).inside);
-    CHECK(tree.closest(Vec3(1.5, 1.5, 0)).distance == Approx(std::sqrt(2.0)));
+    CHECK(tree.closest(Vec3(1.5, 1.5, 0)).distance == Near(std::sqrt(2.0)));
     CHECK_FALSE(tree.closest(Vec3(1.5, 1.5, 1.5)).inside);
     CHECK_FALSE(tree.closest(Vec3(0.5, 0, 0)).inside);  // on the surface
     std::vector<Foot> feet;
     tree.within(Vec3(0.4, 0.4, 0), 0.2, feet);
     REQUIRE(feet.size() == 2);  // one triangle of each of the two near faces
-    for (const Foot& foot : feet) CHECK(foot.distance == Approx(0.1));
+    for (const Foot& foot : feet) CHECK(foot.distance == Near(0.1));
     CHECK(tree.is_clear(Vec3(0.2, 0, 0), 0.3 - 1e-12));
     CHECK_FALSE(tree.is_clear(Vec3(0.2, 0, 0), 0.3 + 1e-12));
 }
@@ -43,6 +48,6 @@ TEST_CASE("inside and distance equal CGAL's on 3000 points of each solid",
     for (std::size_t k = 0; k < points.size(); ++k) {
         const Foot foot = tree.closest(points[k]);
         REQUIRE(foot.inside == expected[k].inside);
-        REQUIRE(foot.distance == Approx(expected[k].distance).margin(1e-12));
+        REQUIRE(foot.distance == Near(expected[k].distance).margin(1e-12));
     }
 }

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Hulls as they come (look_alikes): what is wrong is mended where it is.
+//
+// Tolerances: 1e-4 is the sampling error of 1000 x 1000 rows; 1e-12 and 1e-9 are rounding of a
+// volume.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,8 +20,10 @@
 #include "tests/support/damage_mesh.hpp"
 #include "tests/support/make_hull.hpp"
 #include "tests/support/make_meshes.hpp"
+#include "tests/support/tolerance.hpp"
 
 using namespace ice;
+using ice::test::Near;
 
 namespace {
 
@@ -70,7 +75,7 @@ TEST_CASE("crossings at the stern leave every vertex forward of 0.1 L where it w
     CHECK(mended.warnings.empty());
     CHECK(mended.count("overlapping parts united") == 2);
     // every place of positive winding number counts once: the sampling error of 1000 x 1000 rows
-    CHECK(mended.volume == Approx(measure_rows(ship, 1000)[0].by_winding).epsilon(1e-4));
+    CHECK(mended.volume == Near(measure_rows(ship, 1000)[0].by_winding).epsilon(1e-4));
 }
 
 TEST_CASE("sides that cross along a keel, and plates through a deck edge, are cut where they cross",
@@ -80,7 +85,7 @@ TEST_CASE("sides that cross along a keel, and plates through a deck edge, are cu
     INFO(mended.said());
     CHECK(mended.warnings.empty());
     CHECK(mended.count("crossing triangles cut where they meet") > 50);
-    CHECK(mended.volume == Approx(measure_rows(mesh, 1000)[0].by_winding).epsilon(1e-4));
+    CHECK(mended.volume == Near(measure_rows(mesh, 1000)[0].by_winding).epsilon(1e-4));
 }
 
 TEST_CASE("hulls of 1e5 triangles cut at their waterline are closed there", "[repair][mend]") {
@@ -93,7 +98,7 @@ TEST_CASE("hulls of 1e5 triangles cut at their waterline are closed there", "[re
         below += cut.corner(t, 0).dot(cut.corner(t, 1).cross(cut.corner(t, 2))) / 6.0;
     const Mended mended = mend(cut);
     // in the stem the two sides' rims are nearer than a third of their edges: stitched there
-    CHECK(mended.volume == Approx(below).epsilon(1e-6));
+    CHECK(mended.volume == Near(below).epsilon(1e-6));
     CHECK(mended.count("deck closed by a cap") == 1);
 }
 
@@ -103,7 +108,7 @@ TEST_CASE("patches that were tessellated one by one are stitched, and stay where
     const double volume = measure_mass(test::container_ship(test::Stern::clean)).volume;
     const Mended mended = mend(patches);
     INFO(mended.said());
-    CHECK(mended.volume == Approx(volume).epsilon(1e-3));
+    CHECK(mended.volume == Near(volume).epsilon(1e-3));
     CHECK(mended.warnings.empty());
     REQUIRE(mended.repairs[0].first.starts_with("open edges stitched across cracks of up to 0.1"));
     CHECK(mended.repairs[0].second > 3000);
@@ -123,7 +128,7 @@ TEST_CASE(
     for (const double crack : {3e-4, 5e-4}) {
         const Mended mended = mend(test::patchwise_ship(crack));
         INFO(crack << ": " << mended.said());
-        CHECK(mended.volume == Approx(volume).epsilon(2e-3));
+        CHECK(mended.volume == Near(volume).epsilon(2e-3));
     }
     for (const double crack : {7e-4, 2e-3})
         CHECK_THROWS_WITH(mend(test::patchwise_ship(crack)),
@@ -141,24 +146,24 @@ TEST_CASE("triangles one by one with gaps of 1e-4 L become one surface", "[repai
         0.5e-4 * test::kShipLength, random);
     const Mended mended = mend(ship);
     INFO(mended.said());
-    CHECK(mended.volume == Approx(volume).epsilon(2e-3));
+    CHECK(mended.volume == Near(volume).epsilon(2e-3));
 }
 
 TEST_CASE("a ship of plates is filled, whether they touch or leave gaps", "[repair][mend]") {
     double outer = 0.0, plates = 0.0;
     SECTION("touching: exactly, in the envelope and in the material") {
         const TriangleMesh mesh = test::double_skin(0.0, &outer, &plates);
-        CHECK(mend(mesh).volume == Approx(outer).epsilon(1e-9));
+        CHECK(mend(mesh).volume == Near(outer).epsilon(1e-9));
         SolidOptions options;
         options.kind = SolidKind::material;
-        CHECK(mend(mesh, options).volume == Approx(plates).epsilon(1e-9));
+        CHECK(mend(mesh, options).volume == Near(plates).epsilon(1e-9));
     }
     SECTION("gaps of 0.01 m: to the cells of a contour, and said") {
         const TriangleMesh mesh = test::double_skin(0.01, &outer, &plates);
         SolidOptions options;
         options.radius = 0.4;
         const Mended mended = mend(mesh, options);
-        CHECK(mended.volume == Approx(outer).epsilon(0.01));
+        CHECK(mended.volume == Near(outer).epsilon(0.01));
         REQUIRE(mended.warnings.size() == 1);
         CHECK_THAT(mended.warnings[0],
                    Catch::Contains("voids of about 5") && Catch::Contains("cells of 0.4 m"));
@@ -169,7 +174,7 @@ TEST_CASE("a catamaran with 57 planar holes is accepted, with the doubt that lea
           "[repair][mend]") {
     double whole = 0.0;
     const Mended mended = mend(test::catamaran(&whole));
-    CHECK(mended.volume == Approx(whole).epsilon(1e-9));
+    CHECK(mended.volume == Near(whole).epsilon(1e-9));
     REQUIRE(mended.warnings.size() == 1);
     CHECK_THAT(mended.warnings[0], Catch::Contains("57 openings were closed by guess") &&
                                        Catch::Contains("1.3 % of the volume in doubt"));
@@ -191,7 +196,7 @@ TEST_CASE("openings that leave too much in doubt together are refused with the s
 TEST_CASE("a flow solver's box and sea plane are dropped and named", "[repair][mend]") {
     const TriangleMesh ship = test::container_ship(test::Stern::clean, 60, 20);
     const Mended mended = mend(test::in_domain_box(ship, true, true));
-    CHECK(mended.volume == Approx(measure_mass(ship).volume).epsilon(1e-12));
+    CHECK(mended.volume == Near(measure_mass(ship).volume).epsilon(1e-12));
     CHECK(mended.count("parts of a flow solver's domain dropped") == 2);
     REQUIRE(mended.warnings.size() == 2);
     CHECK_THAT(mended.warnings[0], Catch::Contains("a box of 924 x 693 x 693 m"));
@@ -200,11 +205,11 @@ TEST_CASE("a flow solver's box and sea plane are dropped and named", "[repair][m
     strict.mode = RepairMode::strict;
     CHECK_THROWS_WITH(mend(test::in_domain_box(ship), strict), Catch::Contains("a box of"));
     const TriangleMesh floe = test::make_box_mesh(Vec3(2, 1, 0.5));
-    CHECK(mend(test::in_domain_box(floe, true, true)).volume == Approx(1.0));
+    CHECK(mend(test::in_domain_box(floe, true, true)).volume == Near(1.0));
     // a barge around its own small tank is no domain: nothing here is anything but a box
     TriangleMesh barge = test::make_box_mesh(Vec3(60, 20, 5));
     test::append(barge, test::make_box_mesh(Vec3(6, 4, 3)));
-    CHECK(mend(barge).volume == Approx(6000.0));
+    CHECK(mend(barge).volume == Near(6000.0));
 }
 
 TEST_CASE("wrapping a hull with an open deck caps the deck first, and says what that gives",
@@ -216,11 +221,11 @@ TEST_CASE("wrapping a hull with an open deck caps the deck first, and says what 
     SolidOptions options;
     options.mode = RepairMode::wrap;
     const Mended mended = mend(cut, options);
-    CHECK(mended.volume == Approx(below).epsilon(0.02));
+    CHECK(mended.volume == Near(below).epsilon(0.02));
     REQUIRE(mended.warnings.size() == 2);
     const double said = std::stod(mended.warnings[1].substr(mended.warnings[1].rfind('(') + 1));
     // the winding number's volume is that of 20 000 places
-    CHECK(said == Approx(100.0 * (mended.volume / below - 1.0)).margin(1.0));
+    CHECK(said == Near(100.0 * (mended.volume / below - 1.0)).margin(1.0));
 }
 
 TEST_CASE("a noisy surface is solid where it encloses, and is called noisy", "[repair][mend]") {
@@ -230,8 +235,8 @@ TEST_CASE("a noisy surface is solid where it encloses, and is called noisy", "[r
     std::uniform_real_distribution<double> unit(-0.6, 0.6);  // faces are about 2 m by 0.5 m
     for (Vec3& v : ship.vertices) v += Vec3(unit(random), unit(random), unit(random));
     const Mended mended = mend(ship);
-    CHECK(mended.volume == Approx(volume).epsilon(0.01));
-    CHECK(mended.volume == Approx(measure_rows(ship, 1000)[0].by_winding).epsilon(1e-4));
+    CHECK(mended.volume == Near(volume).epsilon(0.01));
+    CHECK(mended.volume == Near(measure_rows(ship, 1000)[0].by_winding).epsilon(1e-4));
     REQUIRE(mended.warnings.size() == 1);
     CHECK_THAT(mended.warnings[0], Catch::Contains("% of the triangles cross others"));
 }

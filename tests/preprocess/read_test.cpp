@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Reading mesh files.
+//
+// Tolerances: 1e-14 and 1e-13 are rounding of a sum over a cube's triangles, and of a scale.
 #include <catch2/catch.hpp>
 
 #include "common/base/error.hpp"
@@ -8,8 +10,10 @@
 #include "preprocess/repair/check_solid.hpp"
 #include "tests/support/make_meshes.hpp"
 #include "tests/support/temporary_file.hpp"
+#include "tests/support/tolerance.hpp"
 
 using namespace ice;
+using ice::test::Near;
 using test::TemporaryFile;
 
 namespace {
@@ -36,7 +40,7 @@ TEST_CASE("OBJ groups become regions of their triangles", "[load]") {
     CHECK(count[1] == 1);
     CHECK(count[2] == 2);
     CHECK(count[3] == 1);
-    CHECK(volume_of(mesh) == Approx(1.0).epsilon(1e-14));
+    CHECK(volume_of(mesh) == Near(1.0).epsilon(1e-14));
 }
 
 TEST_CASE("decimals that a float cannot hold come back as written", "[load]") {
@@ -69,24 +73,22 @@ TEST_CASE("STL and PLY hold the same solid as OBJ", "[load]") {
         "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
         "property float z\nelement face 4\nproperty list uchar int vertex_indices\nend_header\n"
         "0 0 0\n1 0 0\n0 2 0\n0 0 3\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
-    CHECK(volume_of(read_mesh(TemporaryFile(".stl", stl).path(), {})) ==
-          Approx(1.0).epsilon(1e-14));
-    CHECK(volume_of(read_mesh(TemporaryFile(".ply", ply).path(), {})) ==
-          Approx(1.0).epsilon(1e-14));
+    CHECK(volume_of(read_mesh(TemporaryFile(".stl", stl).path(), {})) == Near(1.0).epsilon(1e-14));
+    CHECK(volume_of(read_mesh(TemporaryFile(".ply", ply).path(), {})) == Near(1.0).epsilon(1e-14));
 }
 
 TEST_CASE("scale, up and forward turn the file's axes into the ship's", "[load]") {
     const TemporaryFile file(".obj", kTetrahedron);
     ReadOptions options;
     options.scale = 0.001;
-    CHECK(volume_of(read_mesh(file.path(), options)) == Approx(1e-9).epsilon(1e-13));
+    CHECK(volume_of(read_mesh(file.path(), options)) == Near(1e-9).epsilon(1e-13));
 
     options = {};
     options.up = "y";
     options.forward = "-z";
     const TriangleMesh turned = read_mesh(file.path(), options);
     // file y is up, file -z forward, so port is up x forward = y x -z = -x
-    CHECK(volume_of(turned) == Approx(1.0).epsilon(1e-14));
+    CHECK(volume_of(turned) == Near(1.0).epsilon(1e-14));
     bool found = false;
     for (const Vec3& v : turned.vertices) found = found || v.isApprox(Vec3(-3, 0, 0));
     CHECK(found);
@@ -114,7 +116,7 @@ TEST_CASE("option mirror y doubles half a box into a closed one", "[load]") {
     TriangleMesh whole = read_mesh(file.path(), options, &notes);
     weld(whole);
     CHECK(diagnose_solid(whole).good());
-    CHECK(measure_mass(whole).volume == Approx(8.0).epsilon(1e-14));
+    CHECK(measure_mass(whole).volume == Near(8.0).epsilon(1e-14));
     for (const std::string& warning : notes.warnings)
         CHECK_THAT(warning, !Catch::Contains("both sides"));
 

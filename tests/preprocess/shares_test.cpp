@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a sphere stands for: its normals, its part of the surface, and what stays without any.
+//
+// Tolerances: 1e-6 is a normal stored as a float; 1e-12 is rounding of a sum of areas; 1e-9 of a
+// part's size that of a cut.
 #include <catch2/catch.hpp>
 #include <map>
 
@@ -8,8 +11,11 @@
 #include "preprocess/fill/point_cells.hpp"
 #include "preprocess/fill/surface_samples.hpp"
 #include "tests/support/make_meshes.hpp"
+#include "tests/support/tolerance.hpp"
 
 using namespace ice;
+using ice::test::Near;
+using ice::test::tolerance;
 
 TEST_CASE("normals of a box: faces square to them, edges at 45 degrees, corners at 54.7",
           "[fill][analytic]") {
@@ -29,8 +35,8 @@ TEST_CASE("normals of a box: faces square to them, edges at 45 degrees, corners 
                 ++faces;
             }
         REQUIRE(faces >= 1);
-        REQUIRE((set.normals[k] - sum.normalized()).norm() < 1e-6);
-        REQUIRE(set.normal_spread[k] == Approx(std::acos(1.0 / std::sqrt(faces))).margin(1e-6));
+        REQUIRE((set.normals[k] - sum.normalized()).norm() < tolerance(1e-6));
+        REQUIRE(set.normal_spread[k] == Near(std::acos(1.0 / std::sqrt(faces))).margin(1e-6));
         corners += faces == 3;
     }
     CHECK(corners == 8);
@@ -44,7 +50,7 @@ TEST_CASE("stored normals are within a degree of a smooth surface, in the mean",
     const double radius = 3.0;
     const TriangleMesh globe = test::make_globe(radius, 120);
     const SphereSet set = fill_spheres(globe, {0.1}, report);
-    CHECK(report.normal_error_mean_deg == Approx(0.36 * 0.1 / radius * 180 / M_PI).epsilon(0.15));
+    CHECK(report.normal_error_mean_deg == Near(0.36 * 0.1 / radius * 180 / M_PI).epsilon(0.15));
     for (std::size_t k = 0; k < set.surface_count; ++k)
         // facets of the globe stand off its normal by half their turn, 1.5 degrees
         REQUIRE(set.normals[k].dot(set.centers[k].normalized()) > std::cos(0.03));
@@ -68,7 +74,7 @@ TEST_CASE("edges and corners say which normals meet there", "[fill][analytic]") 
         }
         const auto& normals = met[static_cast<std::int32_t>(k)];
         REQUIRE(normals.size() == (faces > 1 ? faces : 0));
-        for (const Vec3& n : normals) REQUIRE(n.cwiseAbs().maxCoeff() == Approx(1.0));
+        for (const Vec3& n : normals) REQUIRE(n.cwiseAbs().maxCoeff() == Near(1.0));
         corners += faces == 3;
     }
     CHECK(corners == 8);
@@ -86,8 +92,8 @@ TEST_CASE("faces take no area of one another round an edge", "[fill][analytic]")
         if (set.normals[k].z() < -0.9) bottom += set.areas[k];
     }
     // without the rims, which the edge spheres have: a sphere's share reaches 0.05 m beyond it
-    CHECK(top == Approx(2.7 * 1.7).epsilon(0.1));
-    CHECK(bottom == Approx(top).epsilon(0.05));
+    CHECK(top == Near(2.7 * 1.7).epsilon(0.1));
+    CHECK(bottom == Near(top).epsilon(0.05));
 }
 
 TEST_CASE("shares that cannot meet the centroid say so", "[fill][degenerate]") {
@@ -128,21 +134,21 @@ TEST_CASE("a fin too thin for a sphere is listed with its place and size", "[fil
     SpheresReport report;
     fill_spheres(extrude(section, {"hull"}), {0.1}, report);
     REQUIRE(report.thin_features.size() == 1);
-    CHECK(report.thin_features[0].at[2] == Approx(-0.6).margin(0.2));
-    CHECK(report.thin_features[0].size == Approx(1.25).margin(0.3));
+    CHECK(report.thin_features[0].at[2] == Near(-0.6).margin(0.2));
+    CHECK(report.thin_features[0].size == Near(1.25).margin(0.3));
 }
 
 TEST_CASE("the narrowest cone holds all directions and no narrower one does", "[fill][analytic]") {
     const Vec3 x = Vec3::UnitX(), y = Vec3::UnitY(), z = Vec3::UnitZ();
     CHECK(narrowest_cone(std::array{x}).half_angle == 0.0);
-    CHECK(narrowest_cone(std::array{x, y}).half_angle == Approx(M_PI / 4));
-    CHECK(narrowest_cone(std::array{x, y, z}).half_angle == Approx(std::acos(std::sqrt(1.0 / 3))));
+    CHECK(narrowest_cone(std::array{x, y}).half_angle == Near(M_PI / 4));
+    CHECK(narrowest_cone(std::array{x, y, z}).half_angle == Near(std::acos(std::sqrt(1.0 / 3))));
     // a direction between the others changes nothing
     const Vec3 between = (x + y).normalized();
     const Cone cone = narrowest_cone(std::array{x, between, y});
-    CHECK(cone.half_angle == Approx(M_PI / 4));
-    CHECK((cone.axis - between).norm() < 1e-12);
-    CHECK(narrowest_cone(std::array{x, Vec3(-x)}).half_angle == Approx(M_PI));
+    CHECK(cone.half_angle == Near(M_PI / 4));
+    CHECK((cone.axis - between).norm() < tolerance(1e-12));
+    CHECK(narrowest_cone(std::array{x, Vec3(-x)}).half_angle == Near(M_PI));
 }
 
 TEST_CASE("the nearest point is the one a search of all finds, the first of equals",
@@ -177,11 +183,11 @@ TEST_CASE("surface samples sum to the area, stand in the triangles' middles and 
     for (const SurfaceSample& s : samples) {
         area += s.area;
         first += s.area * s.point;
-        REQUIRE(s.area <= 0.1 * 0.1 * (1 + 1e-9));
+        REQUIRE(s.area <= 0.1 * 0.1 * (1 + tolerance(1e-9)));
     }
-    CHECK(area == Approx(0.75 + 5.0).epsilon(1e-12));
+    CHECK(area == Near(0.75 + 5.0).epsilon(1e-12));
     // 0.75 (3, 0.1, 0) + 5 (5/3, 0, 2/3): centroids of the two
-    CHECK((first - Vec3(2.25 + 25.0 / 3, 0.075, 10.0 / 3)).norm() < 1e-12);
+    CHECK((first - Vec3(2.25 + 25.0 / 3, 0.075, 10.0 / 3)).norm() < tolerance(1e-12));
     // the slender triangle gets pieces by its area, not by its length squared
     CHECK(static_cast<double>(samples.size()) < 1.6 * 5.75 / 0.01);
 }

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Loads of the caller: motion in closed form, work in the ledger, no change where they are zero.
+//
+// Tolerances: 1e-9 is rounding of the same 200 sums, of a difference of energies.
 #include <catch2/catch.hpp>
 
 #include "solver/run/balance.hpp"
 #include "solver/run/make_world.hpp"
 #include "tests/support/make_sphere_sets.hpp"
+#include "tests/support/tolerance.hpp"
 
 using namespace ice;
+using ice::test::Near;
+using ice::test::tolerance;
 
 namespace {
 
@@ -41,14 +46,14 @@ TEST_CASE("a steady force and a moment about the vertical move a floe as Newton 
     const double time = kSteps * kStep;
     const Vec3 velocity = force * time / bodies.mass[1];
     // sums of 200 equal changes: rounding of each, 1e-16, times their number
-    CHECK((bodies.velocity[1] - velocity).head<2>().norm() < 1e-12 * velocity.norm());
+    CHECK((bodies.velocity[1] - velocity).head<2>().norm() < tolerance(1e-12) * velocity.norm());
     const double spin = 7.0 * time / bodies.inertia(1)(2, 2);
-    CHECK(std::abs(bodies.angular_velocity[1].z() - spin) < 1e-9 * spin);
+    CHECK(std::abs(bodies.angular_velocity[1].z() - spin) < tolerance(1e-9) * spin);
     // all of the work is motion: F . v t / 2 and T w t / 2
     const double work = 0.5 * bodies.mass[1] * velocity.squaredNorm() + 0.5 * 7.0 * time * spin;
-    CHECK(world.ledger.applied_work == Approx(work).epsilon(1e-9));
+    CHECK(world.ledger.applied_work == Near(work).epsilon(1e-9));
     CHECK(std::abs(world.ledger.residual(potential_energy(world.scene, world.parameters))) <
-          1e-9 * work);
+          tolerance(1e-9) * work);
 }
 
 TEST_CASE("loads of the ship and of held floes are not taken") {

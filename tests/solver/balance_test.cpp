@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The check of momentum: it passes what balances and names what does not.
+//
+// Tolerances: 1e-14 is rounding of a few momenta of one size, 1e-16 each.
 #include "solver/run/balance.hpp"
 
 #include <algorithm>
@@ -8,8 +10,10 @@
 #include "common/base/error.hpp"
 #include "solver/water/hydrostatics.hpp"
 #include "tests/support/make_worlds.hpp"
+#include "tests/support/tolerance.hpp"
 
 using namespace ice;
+using ice::test::tolerance;
 
 namespace {
 
@@ -76,7 +80,7 @@ TEST_CASE("floes that float at rest and touch nothing balance from the first ste
         REQUIRE(w.constraints.empty());
         const Imbalance found = require_balance(before, w);
         // the loads are there on both sides: what is left is their own rounding
-        CHECK(found.together < 1e-14);
+        CHECK(found.together < tolerance(1e-14));
     }
 }
 

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A plate at 45 degrees that digs into the face of a floe: the pressed areas add up to the section.
+//
+// Tolerances: 1e-6 is a normal stored as a float; 1 % of a section is the 0.1 mm by which a share
+// counts early, over 0.02 m.
 #include "solver/narrow/carry_shares.hpp"
 
 #include <Eigen/Geometry>
@@ -10,8 +13,10 @@
 #include "solver/narrow/make_contacts.hpp"
 #include "tests/support/make_filled_sets.hpp"
 #include "tests/support/make_worlds.hpp"
+#include "tests/support/tolerance.hpp"
 
 using namespace ice;
+using ice::test::Near;
 
 namespace {
 
@@ -88,9 +93,9 @@ TEST_CASE("shares on both faces of an edge at 45 degrees add up to the section o
         face += view.shape_b.area[j];
     }
     // A (-n_j . n)(n . s), before: cos 45 degrees twice; normals are floats
-    CHECK(section(contacts) == Approx(0.5 * face).epsilon(1e-6));
+    CHECK(section(contacts) == Near(0.5 * face).epsilon(1e-6));
     carry_shares(view, contacts);
-    CHECK(section(contacts) == Approx(face).epsilon(1e-6));
+    CHECK(section(contacts) == Near(face).epsilon(1e-6));
 }
 
 TEST_CASE("the plate's edge adds what the ice's spheres leave of its section, and no more",
@@ -114,7 +119,7 @@ TEST_CASE("the plate's edge adds what the ice's spheres leave of its section, an
     // a wedge 0.02 m deep is 2 x 0.02 m wide, so long as its sphere's share is over both wings;
     // the share begins to count 0.1 mm before its wing is reached (patch.cpp)
     const double own = section(edge);
-    CHECK(own == Approx(2.0 * 0.02 * edge.patch.share / (2.0 * edge.patch.wing)).epsilon(0.01));
+    CHECK(own == Near(2.0 * 0.02 * edge.patch.share / (2.0 * edge.patch.wing)).epsilon(0.01));
     // of the edge's section the ice's sphere has this part, once it is carried over
     const double part = GENERATE(0.0, 0.3, 0.9, 1.5);
     Contact face = on_face(view, j, Vec3(1, 0, 1).normalized());
@@ -122,8 +127,8 @@ TEST_CASE("the plate's edge adds what the ice's spheres leave of its section, an
     std::vector<Contact> contacts{edge, face};
     carry_shares(view, contacts);
     CAPTURE(part);
-    CHECK(section(contacts[1]) == Approx(part * own).epsilon(1e-6).margin(1e-15));
-    CHECK(section(contacts) == Approx(std::max(1.0, part) * own).epsilon(1e-6));
+    CHECK(section(contacts[1]) == Near(part * own).epsilon(1e-6).margin(1e-15));
+    CHECK(section(contacts) == Near(std::max(1.0, part) * own).epsilon(1e-6));
 }
 
 TEST_CASE("between floes, and where a solid is not convex, shares stay as they are",

@@ -10,6 +10,7 @@
 #include "solver/case/case_schema.hpp"
 #include "solver/case/read_case.hpp"
 #include "tests/solver/case_support.hpp"
+#include "tests/support/tolerance.hpp"
 
 using namespace ice;
 using namespace ice::test;
@@ -17,14 +18,14 @@ using namespace ice::test;
 TEST_CASE("a case reads with units, defaults and derived values", "[case]") {
     const CaseFolder folder(kGood);
     const Case c = read_case(folder.file());
-    CHECK(c.time_step == Approx(0.005));
-    CHECK(c.ship_speed(3.0) == Approx(2.0 * 1852.0 / 3600.0));
+    CHECK(c.time_step == Near(0.005));
+    CHECK(c.ship_speed(3.0) == Near(2.0 * 1852.0 / 3600.0));
     CHECK(c.floes.size() == 1);
     CHECK(c.floes[0].count == std::array<int, 2>{20, 9});
-    CHECK(c.floes[0].gap[0] == Approx(0.02));
+    CHECK(c.floes[0].gap[0] == Near(0.02));
     CHECK(c.floes[0].hold == Hold::always);
-    CHECK(c.contact.crushing_pressure == Approx(1.5e6));
-    CHECK(c.average_from == Approx(10.0));  // a third of the duration
+    CHECK(c.contact.crushing_pressure == Near(1.5e6));
+    CHECK(c.average_from == Near(10.0));  // a third of the duration
     CHECK(c.track == std::vector<int>{1, 2});
     CHECK(c.normal == NormalRule::surface);
     CHECK(c.buoyancy == BuoyancyModel::distributed);
@@ -54,7 +55,7 @@ TEST_CASE("overrides are read as TOML, then as text with a unit", "[case]") {
         read_case(folder.file(), {"ice.density=917 kg/m3", "hull.speed_table=[[0,1],[10,2]]",
                                   "floes.1.hold=never", "floes.gap=[0.1,0.2]"});
     CHECK(c.ice_density == 917.0);
-    CHECK(c.ship_speed(5.0) == Approx(1.5));
+    CHECK(c.ship_speed(5.0) == Near(1.5));
     CHECK(c.ship_speed(-1.0) == 1.0);
     CHECK(c.ship_speed(99.0) == 2.0);
     CHECK(c.floes[0].hold == Hold::never);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Contacts of a solid that is not convex, held to the meshes: a hull that is an angle seen from
 // above, a square of 4 m without its quarter x, y > 0, and a box of 1.2 x 1 x 0.4 m as a floe.
+//
+// Tolerances: 1e-6 is a normal or a radius stored as a float, 1e-7 of it.
 #include "solver/narrow/check_depths.hpp"
 
 #include <Eigen/Geometry>
@@ -9,31 +11,16 @@
 #include <numbers>
 
 #include "solver/narrow/deep_seats.hpp"
-#include "tests/support/make_filled_sets.hpp"
-#include "tests/support/make_prisms.hpp"
-#include "tests/support/make_worlds.hpp"
+#include "tests/support/make_angle_world.hpp"
+#include "tests/support/tolerance.hpp"
 
 using namespace ice;
+using ice::test::Near;
+using ice::test::tolerance;
 
 namespace {
 
 constexpr double kRadius = 0.05, kSlack = 0.1 * kRadius;
-
-World angle_and_floe(const Vec3& place, const Quaternion& turn = Quaternion::Identity()) {
-    std::vector<Vec3> low, high;
-    for (const auto& [x, y] : {std::pair(0, 0), {0, 2}, {-2, 2}, {-2, -2}, {2, -2}, {2, 0}}) {
-        low.emplace_back(x, y, -0.5);
-        high.emplace_back(x, y, 0.5);
-    }
-    World w;
-    w.parameters = test::empty_space(0.01);
-    const TriangleMesh mesh = test::make_ring_mesh(low, high);
-    w.scene = make_scene(build_shape(test::fill_surface(mesh, kRadius, 0.1), false), Vec3::Zero(),
-                         Vec3::Zero());
-    const auto box = test::add_shape(w, test::fill_box(Vec3(1.2, 1, 0.4), kRadius, 0.1));
-    add_floe(w.scene, box, 900.0, place, turn, 0, false);
-    return w;
-}
 
 // The sphere nearest to `at` [m] among those where so many faces meet (0: on a face).
 std::int32_t sphere_at(const Shape& shape, const Vec3& at, int faces) {
@@ -49,7 +36,7 @@ std::int32_t sphere_at(const Shape& shape, const Vec3& at, int faces) {
 // What is left of a candidate.
 std::vector<Candidate> checked(const World& w, const Candidate& candidate) {
     const PairView view(w.scene, {0, 1});
-    REQUIRE(deep_slack(view) == Approx(kSlack).epsilon(1e-6));
+    REQUIRE(deep_slack(view) == Near(kSlack).epsilon(1e-6));
     std::vector<Candidate> out{candidate};
     check_depths(view, out);
     return out;
@@ -59,7 +46,7 @@ std::vector<Candidate> checked(const World& w, const Candidate& candidate) {
 Candidate face_on_face(const World& w, double gap) {
     const std::int32_t i = sphere_at(w.scene.shapes[0], Vec3(2.0 - kRadius, -1.0, 0.0), 0),
                        j = sphere_at(w.scene.shapes[1], Vec3(-0.6 + kRadius, 0.0, 0.0), 0);
-    REQUIRE((w.scene.shapes[1].normal[j] + Vec3::UnitX()).norm() < 1e-6);
+    REQUIRE((w.scene.shapes[1].normal[j] + Vec3::UnitX()).norm() < tolerance(1e-6));
     return {i, j, {Vec3::UnitX(), gap, 0.0, true, true}};
 }
 
@@ -68,10 +55,10 @@ Candidate face_on_face(const World& w, double gap) {
 TEST_CASE("a deep point in the other solid is as deep as its distance from that surface at most",
           "[narrow][deep][analytic]") {
     // 0.05 m over the face x = 2; the leg's other faces are 0.3 m away and more
-    const World w = angle_and_floe(Vec3(2.0 + 0.6 - 0.05, -1.0, 0.0));
+    const World w = test::angle_and_box(kRadius, Vec3(2.0 + 0.6 - 0.05, -1.0, 0.0));
     const auto held = checked(w, face_on_face(w, -0.3));
     REQUIRE(held.size() == 1);
-    CHECK(held[0].gap.gap == Approx(-0.05).epsilon(1e-6));
+    CHECK(held[0].gap.gap == Near(-0.05).epsilon(1e-6));
     // a gap that is less deep is kept as it is
     CHECK(checked(w, face_on_face(w, -0.03)).at(0).gap.gap == -0.03);
 }
@@ -79,7 +66,7 @@ TEST_CASE("a deep point in the other solid is as deep as its distance from that 
 TEST_CASE("a point deep behind two planes and outside the solid is no contact",
           "[narrow][deep][analytic]") {
     // in the missing quarter: 1.7 m behind the plane x = 2 of one leg, 1.1 m behind y = 2
-    const World w = angle_and_floe(Vec3(0.9, 0.9, 0.0));
+    const World w = test::angle_and_box(kRadius, Vec3(0.9, 0.9, 0.0));
     CHECK(checked(w, face_on_face(w, -1.7)).empty());
     // shallow ones are left to the rule of the features
     CHECK(checked(w, face_on_face(w, -0.9 * kSlack)).size() == 1);
@@ -95,13 +82,13 @@ TEST_CASE("edges that cross are a deep contact where the place between them lies
                             Quaternion(Eigen::AngleAxisd(-eighth, Vec3::UnitY()));
     const Vec3 outwards = Vec3(1, 1, 0).normalized(), along = Vec3(-1, 1, 0).normalized();
     const Vec3 edge(-0.6, 0.0, 0.2);
-    const World w =
-        angle_and_floe(Vec3(2.0, 0.0, 0.1) - depth * outwards + beside * along - turn * edge, turn);
+    const World w = test::angle_and_box(
+        kRadius, Vec3(2.0, 0.0, 0.1) - depth * outwards + beside * along - turn * edge, turn);
     const Shape &hull = w.scene.shapes[0], &floe = w.scene.shapes[1];
     const std::int32_t i = sphere_at(hull, Vec3(2.0 - kRadius, -kRadius, 0.1), 2),
                        j = sphere_at(floe, edge + kRadius * Vec3(1, 0, -1), 2);
-    REQUIRE(std::abs(hull.cone[i].edge(0).dot(Vec3::UnitZ())) > 1.0 - 1e-6);
-    REQUIRE(std::abs(floe.cone[j].edge(0).dot(Vec3::UnitY())) > 1.0 - 1e-6);
+    REQUIRE(std::abs(hull.cone[i].edge(0).dot(Vec3::UnitZ())) > 1.0 - tolerance(1e-6));
+    REQUIRE(std::abs(floe.cone[j].edge(0).dot(Vec3::UnitY())) > 1.0 - tolerance(1e-6));
     const auto held = checked(w, {i, j, {outwards, -depth, 0.0, true, true, true, 0, 0}});
     if (std::abs(beside) > 0.5) {
         CHECK(held.empty());

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Between spheres up to kWidestSpacing apart there is no way into a body.
+//
+// Tolerances: 1e-12 is rounding of a few dozen products of lengths of a metre, 1e-16 m each.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -8,6 +10,7 @@
 #include "common/formats/widest_spacing.hpp"
 #include "solver/narrow/find_contacts.hpp"
 #include "tests/support/make_worlds.hpp"
+#include "tests/support/tolerance.hpp"
 
 using namespace ice;
 using namespace ice::test;
@@ -36,7 +39,7 @@ TEST_CASE("an upright edge that cuts a plate's side anywhere has a contact as de
             const auto deepest =
                 std::min_element(contacts.begin(), contacts.end(),
                                  [](const Contact& l, const Contact& r) { return l.gap < r.gap; });
-            CHECK(deepest->gap == Approx(-kDepth).margin(1e-12));
-            CHECK(deepest->normal.x() == Approx(1.0).margin(1e-12));
+            CHECK(deepest->gap == Near(-kDepth).margin(1e-12));
+            CHECK(deepest->normal.x() == Near(1.0).margin(1e-12));
         }
 }

@@ -15,8 +15,11 @@
 #include "solver/narrow/solid_contacts.hpp"
 #include "tests/support/make_prisms.hpp"
 #include "tests/support/make_worlds.hpp"
+#include "tests/support/tolerance.hpp"
 
 using namespace ice;
+using ice::test::Near;
+using ice::test::tolerance;
 
 namespace {
 
@@ -65,11 +68,11 @@ TEST_CASE("boxes on each other meet in the rectangle that they share", "[narrow]
     CHECK(polygon.normal == Vec3::UnitZ());
     REQUIRE(polygon.corners.size() == 4);
     for (const PolygonCorner& c : polygon.corners) {
-        CHECK(c.gap == Approx(gap).margin(1e-15));
-        CHECK(c.point.z() == Approx(0.5 + 0.5 * gap).margin(1e-15));
+        CHECK(c.gap == Near(gap).margin(1e-15));
+        CHECK(c.point.z() == Near(0.5 + 0.5 * gap).margin(1e-15));
     }
     // borders have a slack of 0.1 mm, and what has not touched may come from beside by its gap
-    CHECK(area_of(polygon) == Approx(1.5 * 2.0).margin(5.0 * (1e-4 + std::max(gap, 0.0))));
+    CHECK(area_of(polygon) == Near(1.5 * 2.0).margin(5.0 * (1e-4 + std::max(gap, 0.0))));
     std::set<std::uint32_t> ids;
     for (const PolygonCorner& c : polygon.corners) ids.insert(c.id);
     CHECK(ids.size() == 4);
@@ -84,21 +87,21 @@ TEST_CASE("a tilted box meets a face along its lower edge, one on its corner in 
     ContactPolygon polygon = meet(plate, cube, {turn, Vec3(0, 0, 0.5 + low - depth)}, 0.001);
     REQUIRE(polygon.corners.size() == 2);
     for (const PolygonCorner& c : polygon.corners) {
-        CHECK(c.gap == Approx(-depth).epsilon(1e-12));
-        CHECK(std::abs(c.point.y()) == Approx(0.5).epsilon(1e-12));
+        CHECK(c.gap == Near(-depth).epsilon(1e-12));
+        CHECK(std::abs(c.point.y()) == Near(0.5).epsilon(1e-12));
     }
     turn = Eigen::Quaterniond::FromTwoVectors(Vec3(1, 1, 1), Vec3(0, 0, -1)).toRotationMatrix();
     polygon = meet(plate, cube, {turn, Vec3(0, 0, 0.5 + std::sqrt(0.75) - depth)}, 0.001);
     REQUIRE(polygon.corners.size() == 1);
-    CHECK(polygon.corners[0].gap == Approx(-depth).epsilon(1e-12));
-    CHECK(polygon.corners[0].point.head<2>().norm() < 1e-12);
+    CHECK(polygon.corners[0].gap == Near(-depth).epsilon(1e-12));
+    CHECK(polygon.corners[0].point.head<2>().norm() < tolerance(1e-12));
     // seen from the other body it is the same
     const ContactPolygon back = meet(
         cube, plate,
         {turn.transpose(), -(turn.transpose() * Vec3(0, 0, 0.5 + std::sqrt(0.75) - depth))}, 0.001);
     REQUIRE(back.corners.size() == 1);
-    CHECK(back.corners[0].gap == Approx(-depth).epsilon(1e-12));
-    CHECK((turn * back.normal + Vec3::UnitZ()).norm() < 1e-12);
+    CHECK(back.corners[0].gap == Near(-depth).epsilon(1e-12));
+    CHECK((turn * back.normal + Vec3::UnitZ()).norm() < tolerance(1e-12));
 }
 
 TEST_CASE("edges that cross meet midway between them where they cross", "[narrow][analytic]") {
@@ -113,9 +116,9 @@ TEST_CASE("edges that cross meet midway between them where they cross", "[narrow
     const ContactPolygon polygon =
         meet(cube, cube, {turn, at + gap * n - turn * Vec3(1, 1, 0.2)}, 0.01);
     REQUIRE(polygon.corners.size() == 1);
-    CHECK(polygon.corners[0].gap == Approx(gap).epsilon(1e-12));
-    CHECK((polygon.corners[0].point - (at + 0.5 * gap * n)).norm() < 1e-14);
-    CHECK((polygon.normal - n).norm() < 1e-15);
+    CHECK(polygon.corners[0].gap == Near(gap).epsilon(1e-12));
+    CHECK((polygon.corners[0].point - (at + 0.5 * gap * n)).norm() < tolerance(1e-14));
+    CHECK((polygon.normal - n).norm() < tolerance(1e-15));
 }
 
 TEST_CASE("no corner is deeper than the penetration, one of each overlap is as deep",
@@ -136,8 +139,8 @@ TEST_CASE("no corner is deeper than the penetration, one of each overlap is as d
         for (const PolygonCorner& c : polygon.corners) least = std::min(least, c.gap);
         if (gap > 0.0) continue;
         // a face that is deeper by kPrefer may have been preferred
-        REQUIRE(least >= gap - PolygonTolerances::kPrefer - 1e-12);
-        REQUIRE(least <= gap + 1e-9);
+        REQUIRE(least >= gap - PolygonTolerances::kPrefer - tolerance(1e-12));
+        REQUIRE(least <= gap + tolerance(1e-9));
         reduce_polygon(kManifoldCorners, polygon);
         REQUIRE(polygon.corners.size() <= kManifoldCorners);
         REQUIRE(std::any_of(polygon.corners.begin(), polygon.corners.end(),
@@ -179,7 +182,7 @@ TEST_CASE("a pair stays found whatever its depth, with its true depth and the sh
     reference::find_contacts(w.scene, {1, 2}, {NormalRule::surface, crushes}, 0.0, expected);
     REQUIRE_FALSE(found.empty());
     CHECK(found.size() == expected.size());
-    CHECK(deepest(found) == Approx(-depth).epsilon(1e-6));  // normals of creases are floats
+    CHECK(deepest(found) == Near(-depth).epsilon(1e-6));  // normals of creases are floats
     for (const Contact& c : found) {
         CHECK(c.normal.dot(Vec3::Unit(axis)) > 0.999);
         CHECK((c.sphere_b >= 0) == crushes);

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Where the hull lies, whether it meets the ice, and which channels give way.
+//
+// Tolerances: 0.02 is twice kCell over the 20 m of the average; 1e-9 m is rounding of places of 10
+// m, with a reserve.
 #include <catch2/catch.hpp>
 
 #include "solver/record/open_end.hpp"
@@ -9,6 +12,7 @@
 #include "solver/scene/place_hull.hpp"
 #include "tests/common/fixtures.hpp"
 #include "tests/support/make_worlds.hpp"
+#include "tests/support/tolerance.hpp"
 
 using namespace ice;
 using namespace ice::test;
@@ -73,7 +77,7 @@ TEST_CASE("a draught places the keel that far below the water, wherever the mesh
     p.hull_position = Vec3(-3, 1, std::nan(""));
     const Vec3 place = place_hull(p, hull_mesh(keel));
     CHECK(place.head<2>() == Eigen::Vector2d(-3, 1));
-    CHECK(place.z() + keel == Approx(-0.8));
+    CHECK(place.z() + keel == Near(-0.8));
     // the same by z
     Case by_z;
     by_z.hull_position = place;
@@ -105,15 +109,15 @@ TEST_CASE("clearance is the way to the first ice that the hull's section meets",
           "[step][analytic]") {
     // beside the hull, below its keel and astern there is nothing to meet
     World w = world_of({Vec3(9, 0, -0.1), Vec3(7, 3, -0.1), Vec3(6.5, 0, -2), Vec3(-8, 0, -0.1)});
-    CHECK(measure_course(w).clearance == Approx(3.5).margin(kCell));
+    CHECK(measure_course(w).clearance == Near(3.5).margin(kCell));
     CHECK(std::isinf(measure_course(w).clearance_fixed));
-    CHECK(measure_course(w).travel == Approx(20.0));
-    CHECK(measure_course(w).meets_at == Approx(3.5).margin(kCell));
+    CHECK(measure_course(w).travel == Near(20.0));
+    CHECK(measure_course(w).meets_at == Near(3.5).margin(kCell));
     add_unbroken(w, Vec3(15.5, 0.9, -0.1));
-    CHECK(measure_course(w).clearance_fixed == Approx(10.0).margin(kCell));
+    CHECK(measure_course(w).clearance_fixed == Near(10.0).margin(kCell));
     // astern: the ship goes against x
     w.parameters.speed_table = {{0.0, -2.0}};
-    CHECK(measure_course(w).clearance == Approx(2.5).margin(kCell));
+    CHECK(measure_course(w).clearance == Near(2.5).margin(kCell));
 }
 
 TEST_CASE("a ship that meets no ice, or too late, is warned of with both distances", "[step]") {
@@ -126,7 +130,7 @@ TEST_CASE("a ship that meets no ice, or too late, is warned of with both distanc
     const auto warnings = check_course(w);
     REQUIRE_FALSE(warnings.empty());
     CHECK_THAT(warnings[0].text, Catch::Contains("averaged from 20 s, but the ship meets the ice"));
-    CHECK(*warnings[0].share == Approx(0.75).margin(0.02));
+    CHECK(*warnings[0].share == Near(0.75).margin(0.02));
 }
 
 TEST_CASE("a ship that leaves the ice while forces are averaged is warned of", "[step]") {
@@ -135,7 +139,7 @@ TEST_CASE("a ship that leaves the ice while forces are averaged is warned of", "
                Catch::Contains("leaves the ice at 5.5 s, before forces are averaged from 8 s"));
     const World w = field_of(13);  // the bow is out at 13.5 s of 8 to 20 s
     CHECK_THAT(only_warning(w), Catch::Contains("the bow leaves the ice at 13.5 s"));
-    CHECK(*check_course(w)[0].share == Approx(6.5 / 12.0));
+    CHECK(*check_course(w)[0].share == Near(6.5 / 12.0));
 }
 
 TEST_CASE("a ship that runs into unbroken ice is warned of", "[step]") {
@@ -149,10 +153,10 @@ TEST_CASE("a ship that runs into unbroken ice is warned of", "[step]") {
 TEST_CASE("the way to the ice begins at the stem, which no sphere reaches where it is sharp",
           "[step][analytic]") {
     World w = field_of(25);
-    REQUIRE(measure_course(w).clearance == Approx(0.5).margin(1e-9));
+    REQUIRE(measure_course(w).clearance == Near(0.5).margin(1e-9));
     for (Vec3& v : w.scene.shapes[0].mesh.vertices)
         if (v.x() > 0.0) v = Vec3(5.4, 0, v.z());  // a wedge's edge, 0.4 m before the spheres
-    CHECK(measure_course(w).clearance == Approx(0.1).margin(1e-9));
+    CHECK(measure_course(w).clearance == Near(0.1).margin(1e-9));
 }
 
 TEST_CASE("averages over less than a length are warned of, with the duration for one", "[step]") {

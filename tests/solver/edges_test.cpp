@@ -8,8 +8,11 @@
 #include <random>
 
 #include "solver/narrow/measure_gap.hpp"
+#include "tests/support/tolerance.hpp"
 
 using namespace ice;
+using ice::test::Near;
+using ice::test::tolerance;
 
 namespace {
 
@@ -68,14 +71,14 @@ void check_gap(const Feature& a, const Feature& b, const Vec3& normal, double ga
             CAPTURE(seed, prefer_reference_a);
             REQUIRE(forth.valid);
             REQUIRE(back.valid);
-            CHECK((forth.normal - turn * normal).norm() < kRounding);
-            CHECK((back.normal + turn * normal).norm() < kRounding);
-            CHECK(forth.gap == Approx(gap).margin(kRounding));
-            CHECK(back.gap == Approx(gap).margin(kRounding));
+            CHECK((forth.normal - turn * normal).norm() < tolerance(kRounding));
+            CHECK((back.normal + turn * normal).norm() < tolerance(kRounding));
+            CHECK(forth.gap == Near(gap).margin(kRounding));
+            CHECK(back.gap == Near(gap).margin(kRounding));
             const auto beside_sq = [](const Gap& g) {
                 return std::max(g.reference_offset_sq, g.incident_offset_sq);
             };
-            CHECK(beside_sq(forth) == Approx(beside_sq(back)).margin(kRounding));
+            CHECK(beside_sq(forth) == Near(beside_sq(back)).margin(kRounding));
         }
 }
 
@@ -107,10 +110,9 @@ TEST_CASE("a corner inside a face is as deep as it is, however near the face's o
     for (const bool prefer_reference_a : {false, true}) {
         const Gap found = measure_gap_surface(a, b, prefer_reference_a);
         REQUIRE(found.valid);
-        CHECK((found.normal - kX).norm() < kRounding);
-        CHECK(found.gap == Approx(-depth).margin(kRounding));
-        CHECK(measure_gap_surface(b, a, prefer_reference_a).gap ==
-              Approx(-depth).margin(kRounding));
+        CHECK((found.normal - kX).norm() < tolerance(kRounding));
+        CHECK(found.gap == Near(-depth).margin(kRounding));
+        CHECK(measure_gap_surface(b, a, prefer_reference_a).gap == Near(-depth).margin(kRounding));
     }
 }
 
@@ -127,7 +129,7 @@ TEST_CASE("edges of boxes side by side have the faces' normal and distance at an
     const Gap found = measure_gap_surface(left, right, false);
     const double beyond = std::max(0.0, std::abs(height) - kRadius);
     CHECK(found.reference_is_a == (height <= 0.0));
-    CHECK(found.reference_offset_sq == Approx(aside * aside + beyond * beyond).margin(kRounding));
+    CHECK(found.reference_offset_sq == Near(aside * aside + beyond * beyond).margin(kRounding));
     CHECK_FALSE(found.crossing);
 }
 
@@ -171,15 +173,15 @@ TEST_CASE("a corner's edges cross another body's edge as any edge does",
     if (beside > 0.0) {
         REQUIRE(found.valid);
         CHECK(found.crossing);
-        CHECK((found.normal - n).norm() < kRounding);
-        CHECK(found.gap == Approx(gap).margin(kRounding));
+        CHECK((found.normal - n).norm() < tolerance(kRounding));
+        CHECK(found.gap == Near(gap).margin(kRounding));
         // the corner's edge to where they cross, and the ridge's
         const double corner_sq =
             found.reference_is_a ? found.reference_offset_sq : found.incident_offset_sq;
         const double ridge_sq =
             found.reference_is_a ? found.incident_offset_sq : found.reference_offset_sq;
-        CHECK(corner_sq == Approx(beside * beside).epsilon(1e-12));
-        CHECK(ridge_sq == Approx(0.03 * 0.03).epsilon(1e-12));
+        CHECK(corner_sq == Near(beside * beside).epsilon(1e-12));
+        CHECK(ridge_sq == Near(0.03 * 0.03).epsilon(1e-12));
     } else {
         // beyond the corner there is no edge to cross
         CHECK_FALSE((found.valid && found.crossing));
@@ -201,9 +203,9 @@ TEST_CASE("an edge on a face's corner, between two of its spheres, crosses the f
     CHECK(found.crossing);
     // the nearer of the two crossings, the other one is next to other spheres
     CHECK((found.reference_is_a ? found.reference_offset_sq : found.incident_offset_sq) ==
-          Approx(0.06 * 0.06));
+          Near(0.06 * 0.06));
     CHECK((found.reference_is_a ? found.incident_offset_sq : found.reference_offset_sq) ==
-          Approx(2 * 0.03 * 0.03));
+          Near(2 * 0.03 * 0.03));
     // where the corner is over all that the edge's sphere stands for it is the probe
     edge.patch_radius = corner.patch_radius = 0.1;
     CHECK_FALSE(measure_gap_surface(edge, corner, true).crossing);
@@ -269,8 +271,8 @@ TEST_CASE("crossed edges meet across both, with the distance of the two lines",
     CHECK(found.crossing);
     const double a_sq = found.reference_is_a ? found.reference_offset_sq : found.incident_offset_sq;
     const double b_sq = found.reference_is_a ? found.incident_offset_sq : found.reference_offset_sq;
-    CHECK(a_sq == Approx(along_a * along_a).margin(kRounding));
-    CHECK(b_sq == Approx(along_b * along_b).margin(kRounding));
+    CHECK(a_sq == Near(along_a * along_a).margin(kRounding));
+    CHECK(b_sq == Near(along_b * along_b).margin(kRounding));
 }
 
 TEST_CASE("crossed edges that both slope meet along the common perpendicular of their lines",
@@ -309,7 +311,7 @@ TEST_CASE("a corner over a face has the face's normal and the corner's height",
     const Gap found = measure_gap_surface(floor, corner, false);
     CHECK(found.reference_is_a);
     CHECK_FALSE(measure_gap_surface(corner, floor, false).reference_is_a);
-    CHECK(found.reference_offset_sq == Approx(at.x() * at.x() + at.y() * at.y()).margin(kRounding));
+    CHECK(found.reference_offset_sq == Near(at.x() * at.x() + at.y() * at.y()).margin(kRounding));
     // an edge that slopes over the face as the cube does
     check_gap(floor, tip_sphere(at, {turn * -kX, turn * -kZ}), kZ, gap);
 }

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Members of an ensemble as one summary, and results as lines for a terminal.
+//
+// Tolerances: 1e-6 is the last digit of Student's factor in a table.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -8,8 +10,10 @@
 #include "solver/ensemble/average_members.hpp"
 #include "solver/record/result_text.hpp"
 #include "solver/record/trend_warning.hpp"
+#include "tests/support/tolerance.hpp"
 
 using namespace ice;
+using ice::test::Near;
 
 namespace {
 
@@ -37,21 +41,21 @@ TEST_CASE("an ensemble's mean is its members', its interval Student's", "[ensemb
     members[1].summary.warnings = {{"floe 3 fell off", true, 0.25}};
     const Summary s = average_members(members);
     const double half_width = 4.302653 * 10.0 / std::sqrt(3.0);  // t(0.975, 2), s = 10
-    CHECK(s.resistance.mean == Approx(110.0));
-    CHECK(s.resistance.ci95 == Approx(half_width).epsilon(1e-6));
-    CHECK(s.resistance.contact_mean == Approx(77.0));
+    CHECK(s.resistance.mean == Near(110.0));
+    CHECK(s.resistance.ci95 == Near(half_width).epsilon(1e-6));
+    CHECK(s.resistance.contact_mean == Near(77.0));
     CHECK(s.resistance.max == 1200.0);
     CHECK(s.resistance.effective_samples == 3.0);
     REQUIRE(s.ensemble);
-    CHECK(s.ensemble->mean == Approx(110.0));
+    CHECK(s.ensemble->mean == Near(110.0));
     CHECK(s.ensemble->means == std::vector<double>{100.0, 110.0, 120.0});
     CHECK(s.ensemble->seeds == std::vector<std::int64_t>{1, 2, 3});
     CHECK(s.steps == 3000);
-    CHECK(s.simulated_s == Approx(60.0));
+    CHECK(s.simulated_s == Near(60.0));
     CHECK(s.floes_moved == 2);
-    CHECK(s.energy.at("drag_J") == Approx(110.0));
+    CHECK(s.energy.at("drag_J") == Near(110.0));
     CHECK(s.regions.at("bow").hits == 9);
-    CHECK(s.regions.at("bow").mean[0] == Approx(-110.0));
+    CHECK(s.regions.at("bow").mean[0] == Near(-110.0));
     REQUIRE(s.warnings.size() == 1);
     CHECK(s.warnings[0] == Warning{"seed 2: floe 3 fell off", true, 0.25});
 }
@@ -76,9 +80,9 @@ TEST_CASE("an ensemble's summary has no numbers of one member alone", "[ensemble
     CHECK_FALSE(s.regions.at("bow").force_peaks);
     CHECK(s.imbalance.at("momentum") == 3e-12);
     CHECK(s.ice.floe_size_min == 2.0);
-    CHECK(s.ice.floe_size_mean == Approx(4.5));
+    CHECK(s.ice.floe_size_mean == Near(4.5));
     CHECK(s.ice.floe_size_max == 9.0);
-    CHECK(s.ice.concentration == Approx(0.75));
+    CHECK(s.ice.concentration == Near(0.75));
     CHECK(s.ice.floes == 11);
     CHECK(std::isnan(s.ice.thickness));  // unknown in both
 }

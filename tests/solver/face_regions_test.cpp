@@ -8,8 +8,10 @@
 #include "common/base/units.hpp"
 #include "solver/record/measure_step.hpp"
 #include "tests/support/make_worlds.hpp"
+#include "tests/support/tolerance.hpp"
 
 using namespace ice;
+using ice::test::tolerance;
 
 namespace {
 
@@ -136,11 +138,11 @@ TEST_CASE("ice on the shoulder pushes the bow along x and the side along y, and 
     const Booked ahead = push_floe(Vec3(2.5, 1.0, 0), 0.0, Vec3(-1, 0, 0));
     CHECK(ahead.bow.x() < -1000.0);
     CHECK(ahead.side.x() == 0.0);
-    CHECK((ahead.bow - ahead.total).norm() < kRounding * ahead.total.norm());
+    CHECK((ahead.bow - ahead.total).norm() < tolerance(kRounding) * ahead.total.norm());
     const Booked beside = push_floe(Vec3(2.0, 1.4, 0), 0.0, Vec3(0, -1, 0));
     CHECK(beside.side.y() < -1000.0);
     CHECK(beside.bow.y() == 0.0);
-    CHECK((beside.side - beside.total).norm() < kRounding * beside.total.norm());
+    CHECK((beside.side - beside.total).norm() < tolerance(kRounding) * beside.total.norm());
 }
 
 TEST_CASE(
@@ -154,7 +156,7 @@ TEST_CASE(
     const Vec3& nearer = yaw < 45.0 ? b.bow : b.side;
     CAPTURE(yaw);
     CHECK(-nearer.dot(n) > 1000.0);
-    CHECK((nearer - b.total).norm() < kRounding * b.total.norm());
+    CHECK((nearer - b.total).norm() < tolerance(kRounding) * b.total.norm());
     // the vertical shoulder is cut along its height, so that nothing pushes up or down
-    CHECK((b.total - b.total.dot(n) * n).norm() < kRounding * b.total.norm());
+    CHECK((b.total - b.total.dot(n) * n).norm() < tolerance(kRounding) * b.total.norm());
 }

@@ -12,8 +12,10 @@
 #include "solver/narrow/feature_pair_bound.hpp"
 #include "solver/narrow/find_contacts.hpp"
 #include "tests/support/make_worlds.hpp"
+#include "tests/support/tolerance.hpp"
 
 using namespace ice;
+using ice::test::tolerance;
 
 namespace {
 
@@ -151,7 +153,7 @@ TEST_CASE("no gap comes below the bound of two feature types within the skin",
         ++compared;
         CAPTURE(k, least, gap.gap, gone, gap.crossing);
         // lengths of a tenth of a metre, rounded to 1e-17
-        REQUIRE(gap.gap >= least - gone - 1e-15);
+        REQUIRE(gap.gap >= least - gone - tolerance(1e-15));
     }
     CHECK(compared > 100);
 }

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Floes from a field file: which shapes, where, how high, and which of them may move.
+//
+// Tolerances: 1e-12 is rounding of a few sums and products; 1e-9 that of a clearance, a difference
+// of places of 10 m.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numeric>
@@ -10,8 +13,11 @@
 #include "solver/scene/build_scene.hpp"
 #include "tests/support/make_sphere_sets.hpp"
 #include "tests/support/temporary_file.hpp"
+#include "tests/support/tolerance.hpp"
 
 using namespace ice;
+using ice::test::Near;
+using ice::test::tolerance;
 
 namespace {
 
@@ -77,12 +83,12 @@ TEST_CASE("a field's floes lie where the file says, afloat, unbroken ice last", 
     for (std::size_t i = 1; i < b.size(); ++i) {
         CAPTURE(i);
         // floating_height bisects to 1e-12 of the height
-        CHECK((b.position[i] - expected[i - 1]).norm() < 1e-11);
+        CHECK((b.position[i] - expected[i - 1]).norm() < tolerance(1e-11));
         CHECK(b.group[i] == (i <= 2 ? 0 : 1));
         CHECK(b.held[i] == 1);  // the default, until the hull's contact
     }
-    CHECK(b.mass[1] == Approx(900.0 * kSmall.prod()).epsilon(1e-12));
-    CHECK(b.mass[2] == Approx(900.0 * kLarge.prod()).epsilon(1e-12));
+    CHECK(b.mass[1] == Near(900.0 * kSmall.prod()).epsilon(1e-12));
+    CHECK(b.mass[2] == Near(900.0 * kLarge.prod()).epsilon(1e-12));
     CHECK(b.orientation[2].z() == 0.8);
 }
 
@@ -112,16 +118,16 @@ TEST_CASE("a drafted case of a box hull has the numbers that follow by hand", "[
     const Draft draft = draft_case(hull.path(), file.path());
     CHECK(draft.draught_from_mesh);
     CHECK(draft.draught == 0.5);
-    CHECK(draft.length == Approx(10.0).epsilon(1e-12));
+    CHECK(draft.length == Near(10.0).epsilon(1e-12));
     CHECK(draft.y == 0.0);
     // the bow two spacings of 0.4 m before the ice, rounded down to a centimetre
-    CHECK(draft.x == Approx(0.005 - 0.8 - 5.0 - 0.005).epsilon(1e-12));
-    CHECK(draft.clearance == Approx(0.805).epsilon(1e-9));
+    CHECK(draft.x == Near(0.005 - 0.8 - 5.0 - 0.005).epsilon(1e-12));
+    CHECK(draft.clearance == Near(0.805).epsilon(1e-9));
     // 0.0657 sqrt(9.81 m/s2 x 10 m) = 0.6507 m/s; a fifth of 0.1 m at 0.65 m/s is 0.031 s
     CHECK(draft.speed == 0.65);
     CHECK(draft.time_step == 0.02);
     // 15 m and the clearance are 1215.8 steps of 0.013 m; the last 10 m take 15.385 s
-    CHECK(draft.duration == Approx(1216 * 0.02).epsilon(1e-12));
+    CHECK(draft.duration == Near(1216 * 0.02).epsilon(1e-12));
     CHECK(draft.average_from == 8.94);
-    CHECK(draft.lengths == Approx(0.65 * 24.32 / 10.0).epsilon(1e-12));
+    CHECK(draft.lengths == Near(0.65 * 24.32 / 10.0).epsilon(1e-12));
 }

@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A ship that answers, without ice: periods, stability, damping, thrust, lines.
+//
+// Tolerances: 5e-4 is half of the last printed digit of a period; 1e-3 is sin x against x at 0.01
+// rad; 1e-9 is where the search for the equilibrium stops; 1e-6 m/s is what an exponential approach
+// leaves after 20 times its constant; 1e-12 is rounding of some thousand sums.
 #include "solver/ship/free_ship.hpp"
 
 #include <fmt/format.h>
@@ -14,6 +18,7 @@
 #include "solver/ship/ship_matrix.hpp"
 #include "tests/common/fixtures.hpp"
 #include "tests/support/make_ships.hpp"
+#include "tests/support/tolerance.hpp"
 
 using namespace ice;
 using namespace ice::test;
@@ -53,10 +58,10 @@ TEST_CASE("a barge heaves, rolls and pitches with the periods of linear theory",
             p.ship.added_mass[heave] = added;
             World w = barge_world(p);
             const double expected = 2.0 * kPi / kOmega * std::sqrt(1.0 + added);
-            CHECK(expected == Approx(added == 0.0 ? 2.407 : 3.404).epsilon(5e-4));
+            CHECK(expected == Near(added == 0.0 ? 2.407 : 3.404).epsilon(5e-4));
             const double found = period_of(decay(w, heave, 0.01, 3000), dt);
             // linear but for rounding; the crossings' straight lines are good to (w dt)^2 / 8
-            CHECK(found == Approx(period_of_steps(expected, dt)).epsilon(2e-6));
+            CHECK(found == Near(period_of_steps(expected, dt)).epsilon(2e-6));
         }
     }
     SECTION("roll 3.239 s and pitch 2.446 s") {
@@ -66,10 +71,10 @@ TEST_CASE("a barge heaves, rolls and pitches with the periods of linear theory",
             World w = barge_world(barge_case({motion}, dt));
             const double linear =
                 2.0 * kPi * std::sqrt(inertia / (Barge::kMass * Barge::kGravity * gm));
-            CHECK(linear == Approx(expected).epsilon(5e-4));
+            CHECK(linear == Near(expected).epsilon(5e-4));
             // at 1e-4 rad the righting arm is linear to 1e-8
             const double found = period_of(decay(w, motion, 1e-4, 3000), dt);
-            CHECK(found == Approx(period_of_steps(linear, dt)).epsilon(2e-6));
+            CHECK(found == Near(period_of_steps(linear, dt)).epsilon(2e-6));
         }
     }
 }
@@ -78,11 +83,11 @@ TEST_CASE("the barge's metacentric heights are B^2 and L^2 over 12 T", "[ship]")
     const World w = barge_world(barge_case({heave, roll, pitch}));
     const Equilibrium& e = w.ship.rig().equilibrium;
     // differences over 1e-4 rad are good to 1e-8 of the radius
-    CHECK(e.gm_transverse == Approx(4.0 / (12.0 * 1.44)).epsilon(1e-7));
-    CHECK(e.gm_longitudinal == Approx(100.0 / (12.0 * 1.44)).epsilon(1e-6));
-    CHECK(e.stiffness[heave] == Approx(1000.0 * 9.81 * 20.0).epsilon(1e-9));
-    CHECK(e.volume == Approx(28.8).epsilon(1e-12));
-    CHECK(w.scene.bodies.position[kShip].z() == Approx(0.0).margin(1e-9));
+    CHECK(e.gm_transverse == Near(4.0 / (12.0 * 1.44)).epsilon(1e-7));
+    CHECK(e.gm_longitudinal == Near(100.0 / (12.0 * 1.44)).epsilon(1e-6));
+    CHECK(e.stiffness[heave] == Near(1000.0 * 9.81 * 20.0).epsilon(1e-9));
+    CHECK(e.volume == Near(28.8).epsilon(1e-12));
+    CHECK(w.scene.bodies.position[kShip].z() == Near(0.0).margin(1e-9));
 }
 
 TEST_CASE("the righting arm of a wall-sided ship is exact while its deck is dry", "[ship]") {
@@ -103,7 +108,7 @@ TEST_CASE("the righting arm of a wall-sided ship is exact while its deck is dry"
         const double tangent = std::tan(heel);
         const double expected = std::sin(heel) * (gm + 0.5 * gm * tangent * tangent);
         CAPTURE(heel);
-        CHECK(arm == Approx(expected).margin(1e-9));
+        CHECK(arm == Near(expected).margin(1e-9));
     }
 }
 
@@ -115,17 +120,17 @@ TEST_CASE("a trimmed ship is put where it floats, and one that would capsize is 
         const World w = barge_world(p);
         const ShipAngles& angles = w.ship.rig().equilibrium.angles;
         // small angles: x_G / GM_L
-        CHECK(angles[1] == Approx(0.05 / (100.0 / (12.0 * 1.44))).epsilon(1e-3));
+        CHECK(angles[1] == Near(0.05 / (100.0 / (12.0 * 1.44))).epsilon(1e-3));
         World moved = barge_world(p);
         for (int k = 0; k < 100; ++k) step(moved);
-        CHECK(moved.ship.angles()[1] == Approx(angles[1]).margin(1e-9));
-        CHECK(height(moved) == Approx(0.0).margin(1e-9));
+        CHECK(moved.ship.angles()[1] == Near(angles[1]).margin(1e-9));
+        CHECK(height(moved) == Near(0.0).margin(1e-9));
     }
     SECTION("a heavier one sinks") {
         Case p = barge_case({heave});
         p.ship.mass = 30000.0;
         const World w = barge_world(p);
-        CHECK(w.ship.rig().equilibrium.height == Approx(-0.06).epsilon(1e-9));
+        CHECK(w.ship.rig().equilibrium.height == Near(-0.06).epsilon(1e-9));
     }
     SECTION("no stability, no water below it") {
         Case p = barge_case({roll});
@@ -154,7 +159,7 @@ TEST_CASE("heave decays with the logarithmic decrement of its damping ratio", "[
         REQUIRE(peaks.size() == 6);
         const double found = std::log(peaks[1] / peaks[5]) / 4.0;
         const double expected = 2.0 * kPi * zeta / std::sqrt(1.0 - zeta * zeta);
-        CHECK(found == Approx(expected).epsilon(0.01));
+        CHECK(found == Near(expected).epsilon(0.01));
     }
 }
 
@@ -174,9 +179,9 @@ TEST_CASE("the water that a hull's panels move along slows its heave and surge",
     CHECK((added(0, 0) > 0.02 * Barge::kMass && added(0, 0) < 0.3 * Barge::kMass));
     const std::vector<double> z = decay(w, heave, 0.01, 3000);
     const double expected = 2.0 * kPi / kOmega * std::sqrt(1.0 + added(2, 2) / Barge::kMass);
-    CHECK(period_of(z, dt) == Approx(period_of_steps(expected, dt)).epsilon(2e-6));
+    CHECK(period_of(z, dt) == Near(period_of_steps(expected, dt)).epsilon(2e-6));
     CHECK(w.scene.bodies.velocity[kShip].x() ==
-          Approx(5000.0 * 30.0 / (Barge::kMass + added(0, 0))).epsilon(1e-12));
+          Near(5000.0 * 30.0 / (Barge::kMass + added(0, 0))).epsilon(1e-12));
 }
 
 TEST_CASE("a matrix about another point gives each motion the same energy", "[ship][analytic]") {
@@ -188,12 +193,12 @@ TEST_CASE("a matrix about another point gives each motion the same energy", "[sh
         const Eigen::Matrix<double, 6, 1> motion = random.col(k);
         Eigen::Matrix<double, 6, 1> old = motion;
         old.head<3>() -= Vec3(motion.tail<3>()).cross(arm);
-        CHECK(motion.dot(there * motion) == Approx(old.dot(matrix * old)).epsilon(1e-12));
+        CHECK(motion.dot(there * motion) == Near(old.dot(matrix * old)).epsilon(1e-12));
     }
     Mat6 coupled = Mat6::Identity();
     coupled(1, 5) = coupled(5, 1) = 0.5;
     coupled(5, 5) = 4.0;
-    CHECK(largest_coupling(coupled) == Approx(0.25));
+    CHECK(largest_coupling(coupled) == Near(0.25));
     CHECK(largest_coupling(Mat6::Zero()) == 0.0);
 }
 
@@ -212,12 +217,12 @@ TEST_CASE("a ship heaves with the water of its matrix file", "[ship]") {
     Case p = barge_case({heave});
     p.ship.matrix = folder / "ship.toml";
     World w = barge_world(p);
-    CHECK(w.ship.rig().body.added[pitch] == Approx(0.3 * 0.3 * added).margin(1e-6));
+    CHECK(w.ship.rig().body.added[pitch] == Near(0.3 * 0.3 * added).margin(1e-6));
     CHECK(w.ship.rig().body.coupling > 0.0);
     const std::vector<double> z = decay(w, heave, 0.1, 3000);
     const double period =
         2.0 * kPi * std::sqrt((Barge::kMass + added) / stiffness / (1.0 - zeta * zeta));
-    CHECK(period_of(z, 0.01) == Approx(period).epsilon(1e-4));
+    CHECK(period_of(z, 0.01) == Near(period).epsilon(1e-4));
 }
 
 TEST_CASE("thrust accelerates mass and added mass", "[ship]") {
@@ -228,7 +233,7 @@ TEST_CASE("thrust accelerates mass and added mass", "[ship]") {
     for (int k = 0; k < 100; ++k) step(w);
     // a hundred sums
     CHECK(w.scene.bodies.velocity[kShip].x() ==
-          Approx(5000.0 / (1.05 * Barge::kMass)).epsilon(1e-13));
+          Near(5000.0 / (1.05 * Barge::kMass)).epsilon(1e-13));
     CHECK(w.scene.bodies.velocity[kShip].tail<2>().isZero(0.0));
     CHECK(w.scene.bodies.orientation[kShip].vec().isZero(0.0));
 }
@@ -240,20 +245,20 @@ TEST_CASE("a ship goes on until thrust is resistance", "[ship]") {
         p.propulsion.resistance_table = {{0.0, 0.0}, {10.0, 24000.0}};
         World w = barge_world(p);
         for (int k = 0; k < 4000; ++k) step(w);
-        CHECK(w.scene.bodies.velocity[kShip].x() == Approx(2.5).margin(1e-6));
+        CHECK(w.scene.bodies.velocity[kShip].x() == Near(2.5).margin(1e-6));
     }
     SECTION("net thrust ends at the open-water speed, and with a linear loss where both meet") {
         p.propulsion.bollard_pull = 20000.0;
         p.propulsion.open_water_speed = 6.0;
         World w = barge_world(p);
         for (int k = 0; k < 4000; ++k) step(w);
-        CHECK(w.scene.bodies.velocity[kShip].x() == Approx(6.0).margin(1e-6));
+        CHECK(w.scene.bodies.velocity[kShip].x() == Near(6.0).margin(1e-6));
         p.ship.damping[surge] = 3000.0;
         World slower = barge_world(p);
         for (int k = 0; k < 4000; ++k) step(slower);
         const double u = slower.scene.bodies.velocity[kShip].x();
         CHECK(20000.0 * (1.0 - u / 18.0 - 2.0 / 3.0 * u * u / 36.0) ==
-              Approx(3000.0 * u).margin(1e-2));
+              Near(3000.0 * u).margin(1e-2));
         CHECK(u < 5.0);
     }
     SECTION("a held speed needs the resistance as thrust") {
@@ -261,8 +266,8 @@ TEST_CASE("a ship goes on until thrust is resistance", "[ship]") {
         p.propulsion.resistance_table = {{0.0, 0.0}, {10.0, 24000.0}};
         World w = barge_world(p);
         for (int k = 0; k < 4000; ++k) step(w);
-        CHECK(w.scene.bodies.velocity[kShip].x() == Approx(2.0).margin(1e-6));
-        CHECK(w.ship.loads().thrust == Approx(4800.0).margin(1e-2));
+        CHECK(w.scene.bodies.velocity[kShip].x() == Near(2.0).margin(1e-6));
+        CHECK(w.ship.loads().thrust == Near(4800.0).margin(1e-2));
     }
     SECTION("a tow pulls with the resistance") {
         p.speed_table = {{0.0, 2.0}};
@@ -271,8 +276,8 @@ TEST_CASE("a ship goes on until thrust is resistance", "[ship]") {
         p.propulsion.resistance_table = {{0.0, 0.0}, {10.0, 24000.0}};
         World w = barge_world(p);
         for (int k = 0; k < 4000; ++k) step(w);
-        CHECK(w.scene.bodies.velocity[kShip].x() == Approx(2.0).margin(1e-9));
-        CHECK(w.ship.loads().tow.force.x() == Approx(4800.0).margin(1e-4));
+        CHECK(w.scene.bodies.velocity[kShip].x() == Near(2.0).margin(1e-9));
+        CHECK(w.ship.loads().tow.force.x() == Near(4800.0).margin(1e-4));
     }
 }
 
@@ -283,7 +288,7 @@ TEST_CASE("bollard pull of a power is K (P D)^(2/3)", "[ship]") {
     p.open_water_speed = 8.0;
     for (const auto& [screws, k] : {std::pair(1, 0.78), std::pair(2, 0.98), std::pair(3, 1.12)}) {
         p.screws = screws;
-        CHECK(bollard_pull(p) == Approx(1e3 * k * std::pow(40000.0, 2.0 / 3.0)));
+        CHECK(bollard_pull(p) == Near(1e3 * k * std::pow(40000.0, 2.0 / 3.0)));
     }
     CHECK(delivered_power(p, 1.0, 3.0) == 10e6);
     Propulsion held;  // the power that its thrust takes
@@ -292,12 +297,12 @@ TEST_CASE("bollard pull of a power is K (P D)^(2/3)", "[ship]") {
     held.open_water_speed = 8.0;
     held.screws = 3;
     for (const double u : {-1.0, 0.0, 3.0})
-        CHECK(delivered_power(held, thrust_at(p, u), u) == Approx(10e6).epsilon(1e-12));
+        CHECK(delivered_power(held, thrust_at(p, u), u) == Near(10e6).epsilon(1e-12));
     CHECK(delivered_power(held, -1.0, 3.0) == 0.0);
     CHECK(std::isinf(delivered_power(held, 1.0, 8.0)));
-    CHECK(thrust_at(p, 8.0) == Approx(0.0).margin(1e-6));
+    CHECK(thrust_at(p, 8.0) == Near(0.0).margin(1e-6));
     CHECK(thrust_at(p, -1.0) == bollard_pull(p));
-    CHECK(thrust_at(p, 4.0) == Approx(bollard_pull(p) * (1.0 - 1.0 / 6.0 - 1.0 / 6.0)));
+    CHECK(thrust_at(p, 4.0) == Near(bollard_pull(p) * (1.0 - 1.0 / 6.0 - 1.0 / 6.0)));
 }
 
 TEST_CASE("a moored ship is offset by F / k and swings with 2 pi sqrt((m + A) / k)", "[ship]") {
@@ -318,7 +323,7 @@ TEST_CASE("a moored ship is offset by F / k and swings with 2 pi sqrt((m + A) / 
             const double mass =
                 (1.0 + p.ship.added_mass[k]) * Barge::kMass * (motion == yaw ? 2.5 * 2.5 : 1.0);
             const double expected = 2.0 * kPi * std::sqrt(mass / p.mooring.stiffness[k]);
-            CHECK(period_of(off, 0.01) == Approx(period_of_steps(expected, 0.01)).epsilon(1e-5));
+            CHECK(period_of(off, 0.01) == Near(period_of_steps(expected, 0.01)).epsilon(1e-5));
         }
     }
     SECTION("offset under pretension") {
@@ -326,7 +331,7 @@ TEST_CASE("a moored ship is offset by F / k and swings with 2 pi sqrt((m + A) / 
         p.ship.damping[surge] = 1.0;
         World w = barge_world(p);
         for (int k = 0; k < 6000; ++k) step(w);
-        CHECK(w.scene.bodies.position[kShip].x() == Approx(1000.0 / 2e4).epsilon(1e-9));
+        CHECK(w.scene.bodies.position[kShip].x() == Near(1000.0 / 2e4).epsilon(1e-9));
     }
 }
 
@@ -337,7 +342,7 @@ TEST_CASE("a ship that turned keeps its heading when steered", "[ship]") {
     w.ship.place(w.scene, 0.0, ShipAngles(0, 0, 0.2));
     for (int k = 0; k < 4000; ++k) step(w);
     // it is set back to the heading of the start
-    CHECK(w.ship.angles()[2] == Approx(0.0).margin(1e-6));
+    CHECK(w.ship.angles()[2] == Near(0.0).margin(1e-6));
 }
 
 TEST_CASE("a locked motion stays locked while the others swing", "[ship]") {
@@ -362,5 +367,5 @@ TEST_CASE("the energy of a swinging ship is kept, and its losses are booked", "[
     const double kinetic = w.ship.kinetic_energy(w.scene.bodies) - *e.kinetic_start;
     const double potential = w.ship.potential_energy(w.scene, w.parameters) - *e.potential_start;
     CHECK(e.losses > 0.0);
-    CHECK(e.thrust - e.losses - kinetic - potential == Approx(0.0).margin(2e-3 * e.thrust));
+    CHECK(e.thrust - e.losses - kinetic - potential == Near(0.0).margin(2e-3 * e.thrust));
 }

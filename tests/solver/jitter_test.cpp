@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Members of an ensemble: small random offsets that depend on seed and floe alone.
+//
+// Tolerances: 1e-15 is rounding of a rotation's entries, of the order of one.
 #include "solver/scene/jitter.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 
 #include "tests/support/make_worlds.hpp"
+#include "tests/support/tolerance.hpp"
 
 using namespace ice;
+using ice::test::tolerance;
 
 namespace {
 
@@ -67,9 +71,10 @@ TEST_CASE("offsets and turns are spread over their whole range and no more",
             after.bodies.orientation[i] * before.bodies.orientation[i].conjugate();
         const double angle = 2.0 * std::atan2(turn.z(), turn.w());
         REQUIRE(shift.z() == 0.0);
-        REQUIRE(std::hypot(turn.x(), turn.y()) < 1e-15);  // about the vertical
+        REQUIRE(std::hypot(turn.x(), turn.y()) < tolerance(1e-15));  // about the vertical
         const Vec3 offset(shift.x() / kJitter, shift.y() / kJitter, angle / most_turn);
-        REQUIRE(offset.cwiseAbs().maxCoeff() <= 1.0 + 1e-12);  // positions up to 750 m are rounded
+        REQUIRE(offset.cwiseAbs().maxCoeff() <=
+                1.0 + tolerance(1e-12));  // positions up to 750 m are rounded
         largest = largest.cwiseMax(offset.cwiseAbs());
         sum += offset;
     }
@@ -106,7 +111,7 @@ TEST_CASE("the derived rotation is that of the new orientation", "[scene][jitter
     const Scene after = jittered(3, parameters(7));
     for (std::size_t i = 1; i < after.bodies.size(); ++i)
         CHECK((after.bodies.rotation[i] - after.bodies.orientation[i].toRotationMatrix()).norm() <
-              1e-15);
+              tolerance(1e-15));
 }
 
 TEST_CASE("2D floes move along x only", "[scene][jitter]") {

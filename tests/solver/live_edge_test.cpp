@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Level ice whose edge breaks where and when it is loaded: a small icebreaker goes into a sheet.
+//
+// Tolerances: 1e-9 of an area is outlines on whole multiples of 2^-30 m; 1e-6 m2 is 1 nm along a
+// piece's outline; 1e-12 is rounding of one sum.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
@@ -20,6 +23,7 @@
 #include "tests/support/make_filled_sets.hpp"
 #include "tests/support/make_prisms.hpp"
 #include "tests/support/make_worlds.hpp"
+#include "tests/support/tolerance.hpp"
 
 using namespace ice;
 using namespace ice::test;
@@ -77,7 +81,7 @@ TEST_CASE("tiles of a straight edge are its cells and those behind", "[level_ice
         REQUIRE(tile[0].x() == 0.0);
     }
     CHECK(tiles.size() == 4);
-    CHECK(area == Approx(16.0));
+    CHECK(area == Near(16.0));
 }
 
 TEST_CASE("a strip that the grid cuts off goes to the cell beside it", "[level_ice][edge]") {
@@ -88,9 +92,9 @@ TEST_CASE("a strip that the grid cuts off goes to the cell beside it", "[level_i
     double area = 0.0;
     for (const Loop& tile : tiles) {
         area += area_of(tile);
-        REQUIRE(area_of(tile) == Approx(2.1 * 2.0));
+        REQUIRE(area_of(tile) == Near(2.1 * 2.0));
     }
-    CHECK(area == Approx(2.1 * 8.0));
+    CHECK(area == Near(2.1 * 8.0));
 }
 
 TEST_CASE("loads on one piece are one window, the heaviest first", "[level_ice][edge][analytic]") {
@@ -103,10 +107,10 @@ TEST_CASE("loads on one piece are one window, the heaviest first", "[level_ice][
     const auto windows = edge_windows(loads, 2.0);
     REQUIRE(windows.size() == 2);
     CHECK(windows[0].down == 4.0);
-    CHECK(windows[0].at.x() == Approx(0.75));
-    CHECK(windows[0].inwards.x() == Approx(0.6));
-    CHECK(windows[0].closing == Approx(6.0 / 4.0));
-    CHECK(windows[0].normal_speed == Approx(6.0 / 10.0));
+    CHECK(windows[0].at.x() == Near(0.75));
+    CHECK(windows[0].inwards.x() == Near(0.6));
+    CHECK(windows[0].closing == Near(6.0 / 4.0));
+    CHECK(windows[0].normal_speed == Near(6.0 / 10.0));
     CHECK(windows[1].down == 3.0);
     CHECK(windows[1].at.x() == 9.0);
     CHECK(edge_windows({}, 2.0).empty());
@@ -117,17 +121,17 @@ TEST_CASE("a ship breaks its way, ice is neither lost nor made, and no piece is 
     World w = make_world(sheet_case(0.8, 1e3));
     const double whole = 40.0 * 16.0;
     const std::size_t bodies = w.scene.bodies.size();
-    REQUIRE(sum_of(w.edge.areas()) == Approx(whole).epsilon(1e-12));
+    REQUIRE(sum_of(w.edge.areas()) == Near(whole).epsilon(1e-12));
     std::size_t seen = 0;
     double deepest = 0.0;
     while (w.time < 10.0) {
         step(w);
-        REQUIRE(std::abs(sum_of(w.edge.areas()) - whole) <= 1e-9 * whole);
+        REQUIRE(std::abs(sum_of(w.edge.areas()) - whole) <= tolerance(1e-9) * whole);
         REQUIRE(w.scene.bodies.size() == bodies);
         const auto& pieces = w.edge.pieces();
         for (; seen < pieces.size(); ++seen) {
             const IcePiece& piece = pieces[seen];
-            REQUIRE(w.edge.sheet().area_in(piece.outline) <= 1e-6);
+            REQUIRE(w.edge.sheet().area_in(piece.outline) <= tolerance(1e-6));
             REQUIRE(area_of(piece.outline) >= 0.15 * 0.15);
             REQUIRE(piece.load > 0.0);
             deepest = std::max(deepest, measure_overlap(w.scene, 0, piece.body).depth);
@@ -189,16 +193,16 @@ TEST_CASE("level ice that drifts past a ship is a ship that goes through level i
         most = std::max(most, (normal + tangent).norm());
         CAPTURE(goes.time, free);
         // rounding of places, over the crushed depths of millimetres that give the forces
-        REQUIRE((normal + tangent - normal_2 - tangent_2).norm() <= 1e-6 * (1.0 + most));
+        REQUIRE((normal + tangent - normal_2 - tangent_2).norm() <= tolerance(1e-6) * (1.0 + most));
         REQUIRE(goes.edge.pieces().size() == rests.edge.pieces().size());
     }
     CHECK(goes.edge.pieces().size() > 1);
-    CHECK(goes.edge.areas().sheet == Approx(rests.edge.areas().sheet).epsilon(1e-9));
+    CHECK(goes.edge.areas().sheet == Near(rests.edge.areas().sheet).epsilon(1e-9));
     const Vec3 ship = goes.scene.bodies.position[kShip] - rests.scene.bodies.position[kShip];
     for (const IcePiece& piece : goes.edge.pieces()) {
         const auto i = static_cast<std::size_t>(piece.body);
         CHECK((goes.scene.bodies.position[i] - rests.scene.bodies.position[i] - ship).norm() <
-              1e-6);
+              tolerance(1e-6));
     }
 }
 

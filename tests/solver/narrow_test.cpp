@@ -4,6 +4,9 @@
 // reference::find_contacts shares measure_gap, check_depths, reduce_manifold and find_deep_seats
 // with the finder: it proves the search. The rule has other oracles: tests/poses (volumes, no
 // common code), contact_polygon_test.cpp, tests/validation/deep_seats_test.cpp.
+//
+// Tolerances: 1e-14 and 1e-15 are rounding of a few products of lengths of 0.1 m, 1e-12 that of a
+// difference or a root of them; 1e-6 of a gap is a normal stored as a float.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -14,8 +17,11 @@
 #include "solver/narrow/measure_gap.hpp"
 #include "solver/shape/sphere_grid.hpp"
 #include "tests/support/make_worlds.hpp"
+#include "tests/support/tolerance.hpp"
 
 using namespace ice;
+using ice::test::Near;
+using ice::test::tolerance;
 
 namespace {
 
@@ -54,10 +60,10 @@ TEST_CASE("a sphere beside another on a flat face has the face's gap, not the sp
     const Feature a = face(Vec3::Zero(), 0.1, Vec3::UnitZ());
     const Feature b = face(Vec3(0.07, 0, 0.18), 0.05, -Vec3::UnitZ());
     const Gap gap = measure_gap_surface(a, b, true);
-    CHECK(gap.gap == Approx(0.03).epsilon(1e-14));
+    CHECK(gap.gap == Near(0.03).epsilon(1e-14));
     CHECK(gap.normal == Vec3::UnitZ());
-    CHECK(gap.reference_offset_sq == Approx(0.0049).epsilon(1e-12));
-    CHECK(measure_gap_surface(a, b, false).gap == Approx(0.03).epsilon(1e-14));
+    CHECK(gap.reference_offset_sq == Near(0.0049).epsilon(1e-12));
+    CHECK(measure_gap_surface(a, b, false).gap == Near(0.03).epsilon(1e-14));
 }
 
 TEST_CASE("an edge on a face takes the face's normal, whichever body has it",
@@ -70,15 +76,15 @@ TEST_CASE("an edge on a face takes the face's normal, whichever body has it",
     CHECK(forth.reference_is_a);
     CHECK(back.normal == -Vec3::UnitZ());
     CHECK_FALSE(back.reference_is_a);
-    CHECK(forth.gap == Approx(-0.01).epsilon(1e-12));
-    CHECK(back.gap == Approx(-0.01).epsilon(1e-12));
+    CHECK(forth.gap == Near(-0.01).epsilon(1e-12));
+    CHECK(back.gap == Near(-0.01).epsilon(1e-12));
 }
 
 TEST_CASE("an edge across an edge meets along the line of centres", "[narrow][analytic]") {
     const Feature a = edge(Vec3::Zero(), 0.1, Vec3::UnitX());
     const Feature b = edge(Vec3(0.15, 0.03, 0), 0.05, -Vec3::UnitX());
     const Gap gap = measure_gap_surface(a, b, false);
-    CHECK((gap.normal - Vec3(0.15, 0.03, 0).normalized()).norm() < 1e-15);
+    CHECK((gap.normal - Vec3(0.15, 0.03, 0).normalized()).norm() < tolerance(1e-15));
 }
 
 TEST_CASE("faces turned away from each other do not touch", "[narrow]") {
@@ -98,13 +104,13 @@ TEST_CASE("a floe face under a flat hull has one contact per floe sphere, all wi
     double area = 0.0;
     for (const Contact& c : contacts) {
         // normals are floats: an edge's corner is a part in 1e7 off its sphere
-        REQUIRE(c.gap == Approx(0.002).epsilon(1e-6));
-        REQUIRE((c.normal + Vec3::UnitZ()).norm() < 1e-12);
+        REQUIRE(c.gap == Near(0.002).epsilon(1e-6));
+        REQUIRE((c.normal + Vec3::UnitZ()).norm() < tolerance(1e-12));
         area += cut_area(c.patch, c.patch.depth);
     }
     // shares of the make_box_set are 0.01 m2 per face and sphere; normals are floats, so a flat
     // wing of an edge may lean by 1e-7 x its half side of 0.05 m, against a touch of 1e-4 m
-    CHECK(area == Approx(0.8).epsilon(5e-5));
+    CHECK(area == Near(0.8).epsilon(5e-5));
 }
 
 // Moves three of ten spheres of each floe inwards, by up to `most` radii.

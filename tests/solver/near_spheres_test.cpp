@@ -6,8 +6,10 @@
 #include <random>
 
 #include "tests/support/every_instruction_set.hpp"
+#include "tests/support/tolerance.hpp"
 
 using namespace ice;
+using ice::test::Near;
 
 namespace {
 
@@ -66,7 +68,7 @@ TEST_CASE("blocks hold every sphere once, near others, within the boxes of group
         const SearchSphere& s = spheres[static_cast<std::size_t>(blocks.id[k])];
         ++seen[static_cast<std::size_t>(blocks.id[k])];
         REQUIRE(blocks.x[k] == static_cast<float>(s.center.x()));
-        REQUIRE(blocks.own[k] == Approx(std::hypot(s.normal_extent, s.tangent_extent)));
+        REQUIRE(blocks.own[k] == Near(std::hypot(s.normal_extent, s.tangent_extent)));
         const std::size_t group = k / 16, cluster = group / 16;
         REQUIRE(blocks.groups.low[1][group] <= blocks.y[k]);
         REQUIRE(blocks.groups.high[1][group] >= blocks.y[k]);

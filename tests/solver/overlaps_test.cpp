@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Overlaps: how fast they open, and whether solids that lie in each other are seen.
+//
+// Tolerances: 1e-12 m is rounding of lengths of a metre; 1e-6 m is a normal stored as a float, over
+// 0.05 m.
 #include <catch2/catch.hpp>
 
 #include "solver/record/solid_overlap.hpp"
 #include "solver/run/unfelt_hull.hpp"
 #include "tests/support/make_worlds.hpp"
+#include "tests/support/tolerance.hpp"
 
 using namespace ice;
+using ice::test::Near;
 
 namespace {
 
@@ -39,10 +44,10 @@ TEST_CASE("a deep overlap opens at half a radius in a tenth of a second, at any 
     while (w.time < 0.1 - 0.5 * dt) step(w);
     CAPTURE(size, dt);
     // as far as ten sweeps over the contacts of a face settle
-    CHECK((apart() - before) / radius == Approx(0.5).epsilon(1e-3));
+    CHECK((apart() - before) / radius == Near(0.5).epsilon(1e-3));
     // from half a radius on the rest goes as exp(-t / 0.1 s): what is tolerated is left after 2 s
     while (w.time < 2.0) step(w);
-    CHECK(size - apart() == Approx(kToleratedOverlap * radius).epsilon(0.05));
+    CHECK(size - apart() == Near(kToleratedOverlap * radius).epsilon(0.05));
 }
 
 TEST_CASE("solids in each other are measured exactly where they are convex, seen or not",
@@ -54,7 +59,7 @@ TEST_CASE("solids in each other are measured exactly where they are convex, seen
     // no deeper than half of what the floes share: from there the other faces are nearer
     const double expected = std::min(depth, 0.125);
     CAPTURE(depth);
-    CHECK(found.deepest == Approx(expected).margin(depth < 0.1 ? 1e-12 : 0.05));
+    CHECK(found.deepest == Near(expected).margin(depth < 0.1 ? 1e-12 : 0.05));
     REQUIRE(found.unseen.size() == 1);
     CHECK(found.unseen[0].depth == found.deepest);
     CHECK(std::pair(found.unseen[0].a, found.unseen[0].b) == std::pair(1, 2));
@@ -69,7 +74,7 @@ TEST_CASE("what contacts know of an overlap is not unseen, and crushed ice is no
     contact.b = 2;
     contact.gap = -0.05;
     REQUIRE(look(w, {contact}).unseen.size() == 1);
-    CHECK(look(w, {contact}).unseen[0].depth == Approx(0.01).margin(1e-12));
+    CHECK(look(w, {contact}).unseen[0].depth == Near(0.01).margin(1e-12));
     contact.gap = -0.061;
     CHECK(look(w, {contact}).unseen.empty());
     const Shape& shape = w.scene.shapes[1];
@@ -77,18 +82,18 @@ TEST_CASE("what contacts know of an overlap is not unseen, and crushed ice is no
         if (shape.normal[k].x() > 0.5)  // of the first floe's face towards the second
             w.scene.crushed.crush(1, static_cast<std::int32_t>(k), shape.center.size(),
                                   Vec3(-0.05, 0, 0));
-    CHECK(look(w).deepest == Approx(0.01).margin(1e-6));
+    CHECK(look(w).deepest == Near(0.01).margin(1e-6));
 }
 
 TEST_CASE("floes side by side and corner to corner are in nobody", "[overlaps]") {
-    CHECK(look(two_floes(1.0, 0.01, Vec3(1.0, 0, 0))).deepest == Approx(0.0).margin(1e-12));
+    CHECK(look(two_floes(1.0, 0.01, Vec3(1.0, 0, 0))).deepest == Near(0.0).margin(1e-12));
     const Quaternion turn(Eigen::AngleAxisd(0.7, Vec3(0.2, 0.3, 1).normalized()));
     CHECK(look(two_floes(1.0, 0.01, Vec3(1.25, 0.3, 0.1), turn)).deepest == 0.0);
     // the hull is of no convex form here: a floe inside it is found by winding number and seats
     World w = two_floes(1.0, 0.01, Vec3(5, 0, 0));
     CHECK(look(w).deepest == 0.0);
     w.scene.bodies.position[1] = w.scene.bodies.position[0] + Vec3(0.95, 0, 0);
-    CHECK(look(w).deepest == Approx(0.05).margin(0.01));
+    CHECK(look(w).deepest == Near(0.05).margin(0.01));
 }
 
 TEST_CASE("the part of a hull that no sphere stands for is measured in the belt", "[overlaps]") {
@@ -100,11 +105,11 @@ TEST_CASE("the part of a hull that no sphere stands for is measured in the belt"
     Scene scene = make_scene(build_shape(set, false), Vec3(0, 0, 1), Vec3::Zero());
     const UnfeltHull found = measure_unfelt_hull(scene, 0.8, 1.2);
     // the belt of 0.4 m: two sides and two ends, without deck and bottom
-    CHECK(found.area == Approx(0.4 * (2.0 * (2.0 + more) + 2.0)).epsilon(0.05));
+    CHECK(found.area == Near(0.4 * (2.0 * (2.0 + more) + 2.0)).epsilon(0.05));
     const double unfelt = more > spacing ? 0.4 * (2.0 * (more - spacing) + 1.0) : 0.0;
     CAPTURE(more, found.share * found.area);
     // points are half a spacing apart, on two sides
-    CHECK(found.share * found.area == Approx(unfelt).margin(0.4 * 2.0 * 0.75 * spacing));
+    CHECK(found.share * found.area == Near(unfelt).margin(0.4 * 2.0 * 0.75 * spacing));
     if (more <= spacing) CHECK(found.share == 0.0);
-    if (more > spacing) CHECK(found.distance == Approx(more).epsilon(0.2));
+    if (more > spacing) CHECK(found.distance == Near(more).epsilon(0.2));
 }

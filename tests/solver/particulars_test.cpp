@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Ship, ice and travel in a few numbers.
+//
+// Tolerances: 1e-12 m is rounding of the bisection for a height.
 #include "solver/record/particulars.hpp"
 
 #include <catch2/catch.hpp>
@@ -7,6 +9,7 @@
 
 #include "common/base/units.hpp"
 #include "tests/support/make_worlds.hpp"
+#include "tests/support/tolerance.hpp"
 
 using namespace ice;
 using namespace ice::test;
@@ -56,10 +59,10 @@ TEST_CASE("a pontoon's draught, length, breadth and displacement are those of it
           "[record][analytic]") {
     const World w = pontoon_world(-0.4);
     const ShipParticulars ship = measure_ship(w.scene, w.parameters);
-    CHECK(ship.draught == Approx(0.4));
-    CHECK(ship.length == Approx(12.0));
-    CHECK(ship.breadth == Approx(2.0));
-    CHECK(ship.displacement == Approx(1025.0 * 12 * 2 * 0.4));
+    CHECK(ship.draught == Near(0.4));
+    CHECK(ship.length == Near(12.0));
+    CHECK(ship.breadth == Near(2.0));
+    CHECK(ship.displacement == Near(1025.0 * 12 * 2 * 0.4));
 }
 
 TEST_CASE("a hull's angles and displacement are measured from its mesh", "[record][analytic]") {
@@ -71,20 +74,20 @@ TEST_CASE("a hull's angles and displacement are measured from its mesh", "[recor
     w.scene.bodies.position[kShip] = Vec3(5.0, 0.0, 0.2);  // draught 0.8 m
     const ShipParticulars ship = measure_ship(w.scene, w.parameters);
     const double rake = 1.0 / std::tan(40 * kDegree);
-    CHECK(ship.draught == Approx(0.8));
-    CHECK(ship.length == Approx(30.0 - 0.2 * rake));
-    CHECK(ship.stem_angle_deg == Approx(40.0));
-    CHECK(ship.entrance_angle_deg == Approx(25.0));
+    CHECK(ship.draught == Near(0.8));
+    CHECK(ship.length == Near(30.0 - 0.2 * rake));
+    CHECK(ship.stem_angle_deg == Near(40.0));
+    CHECK(ship.entrance_angle_deg == Near(25.0));
     // the plane's area is linear in z: its middle one times the draught
     const double middle = wedge_plane_area(10.0 - 0.6 * rake);
-    CHECK(ship.displacement == Approx(1025.0 * 0.8 * middle));
+    CHECK(ship.displacement == Near(1025.0 * 0.8 * middle));
 }
 
 TEST_CASE("a hull that does not cross the water has a draught alone", "[record][degenerate]") {
     const double lower_face = GENERATE(0.1, 0.0, -1.5);
     const World w = pontoon_world(lower_face);
     const ShipParticulars ship = measure_ship(w.scene, w.parameters);
-    CHECK(ship.draught == Approx(-lower_face).margin(1e-12));
+    CHECK(ship.draught == Near(-lower_face).margin(1e-12));
     CHECK(std::isnan(ship.length));
     CHECK(std::isnan(ship.displacement));
     Summary summary;
@@ -107,10 +110,10 @@ TEST_CASE("sizes of floes are diameters of circles with their plan area, however
     const IceParticulars ice = measure_ice(w.scene, w.parameters);
     const auto size = [](double area) { return 2.0 * std::sqrt(area / std::numbers::pi); };
     CHECK(ice.floes == 2);
-    CHECK(ice.thickness == Approx(0.3));
-    CHECK(ice.floe_size_min == Approx(size(0.8)));
-    CHECK(ice.floe_size_max == Approx(size(3.0)));
-    CHECK(ice.floe_size_mean == Approx(0.5 * (size(0.8) + size(3.0))));
+    CHECK(ice.thickness == Near(0.3));
+    CHECK(ice.floe_size_min == Near(size(0.8)));
+    CHECK(ice.floe_size_max == Near(size(3.0)));
+    CHECK(ice.floe_size_mean == Near(0.5 * (size(0.8) + size(3.0))));
     CHECK(ice.hold == std::vector<std::string>{"never", "always"});
     CHECK(std::isnan(ice.concentration));
     CHECK(std::isinf(ice.crushing_pressure));
@@ -119,8 +122,8 @@ TEST_CASE("sizes of floes are diameters of circles with their plan area, however
     w.parameters.floes[0].orientation =
         Quaternion(Eigen::AngleAxisd(0.5 * std::numbers::pi, Vec3::UnitY()));
     const IceParticulars upright = measure_ice(w.scene, w.parameters);
-    CHECK(upright.thickness == Approx(1.0));
-    CHECK(upright.floe_size_min == Approx(size(0.24)));
+    CHECK(upright.thickness == Near(1.0));
+    CHECK(upright.floe_size_min == Near(size(0.24)));
 }
 
 TEST_CASE("travel is the integral of the speed table, in metres and ship lengths",
@@ -130,20 +133,20 @@ TEST_CASE("travel is the integral of the speed table, in metres and ship lengths
     // 0 to 10 s: 1 to 3 m/s, then 3 m/s: 20 m and 3 m/s
     p.speed_table = {{0.0, 1.0}, {10.0, 3.0}};
     p.average_from = 5.0;
-    CHECK(p.ship_travel(0.0, 10.0) == Approx(20.0));
-    CHECK(p.ship_travel(0.0, 14.0) == Approx(32.0));
-    CHECK(p.ship_travel(11.0, 12.0) == Approx(3.0));
+    CHECK(p.ship_travel(0.0, 10.0) == Near(20.0));
+    CHECK(p.ship_travel(0.0, 14.0) == Near(32.0));
+    CHECK(p.ship_travel(11.0, 12.0) == Near(3.0));
     CHECK(p.ship_travel(2.0, 2.0) == 0.0);
     Summary summary;
     fill_particulars(w.scene, p, 14.0, summary);
-    CHECK(summary.travel.distance == Approx(32.0));
-    CHECK(summary.travel.lengths == Approx(32.0 / 12.0));
-    CHECK(summary.travel.averaged_lengths == Approx((32.0 - 7.5) / 12.0));
-    CHECK(summary.ship.speed_mean == Approx((32.0 - 7.5) / 9.0));
+    CHECK(summary.travel.distance == Near(32.0));
+    CHECK(summary.travel.lengths == Near(32.0 / 12.0));
+    CHECK(summary.travel.averaged_lengths == Near((32.0 - 7.5) / 12.0));
+    CHECK(summary.ship.speed_mean == Near((32.0 - 7.5) / 9.0));
     // a run that was interrupted before the averages began
     fill_particulars(w.scene, p, 4.0, summary);
     CHECK(summary.travel.averaged_lengths == 0.0);
-    CHECK(summary.ship.speed_mean == Approx(5.6 / 4.0));
+    CHECK(summary.ship.speed_mean == Near(5.6 / 4.0));
 }
 
 TEST_CASE("in 2D floes have a length and the ship no breadth", "[record]") {
@@ -156,9 +159,9 @@ TEST_CASE("in 2D floes have a length and the ship no breadth", "[record]") {
     const auto row = add_shape(w, make_box_set(Vec3(1.5, 1, 0.3), 0.05, 0.1, 2));
     add_floe(w.scene, row, 900.0, Vec3(9, 0, 0), Quaternion::Identity(), 0, false);
     const ShipParticulars ship = measure_ship(w.scene, p);
-    CHECK(ship.draught == Approx(0.4));
-    CHECK(ship.length == Approx(8.0));
+    CHECK(ship.draught == Near(0.4));
+    CHECK(ship.length == Near(8.0));
     CHECK(std::isnan(ship.breadth));
     CHECK(std::isnan(ship.displacement));
-    CHECK(measure_ice(w.scene, p).floe_size_mean == Approx(1.5));
+    CHECK(measure_ice(w.scene, p).floe_size_mean == Near(1.5));
 }

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The section that a face cuts from the piece of surface a sphere stands for.
+//
+// Tolerances: kTouch counts a face that far early; 1e-15 and 1e-14 are rounding of a product, 1e-12
+// that of a sum of many parts.
 #include "solver/narrow/patch.hpp"
 
 #include <catch2/catch.hpp>
@@ -7,7 +10,11 @@
 #include <numbers>
 #include <random>
 
+#include "tests/support/tolerance.hpp"
+
 using namespace ice;
+using ice::test::Near;
+using ice::test::tolerance;
 
 namespace {
 
@@ -50,14 +57,14 @@ double cut_share(double angle, const Patch& patch, double depth) {
 
 TEST_CASE("a wing is as long as its face's half spacing and the way to the point of touch",
           "[narrow][patch][analytic]") {
-    CHECK(flat_patch(0.0).wing == Approx(0.5 * kSide).epsilon(1e-14));
-    CHECK(roof_patch(45.0 * kDeg, 0.0).wing == Approx(0.05 + 0.5 * kSide).epsilon(1e-14));
+    CHECK(flat_patch(0.0).wing == Near(0.5 * kSide).epsilon(1e-14));
+    CHECK(roof_patch(45.0 * kDeg, 0.0).wing == Near(0.05 + 0.5 * kSide).epsilon(1e-14));
 }
 
 TEST_CASE("a flat patch counts whole at the first touch", "[narrow][patch][analytic]") {
     const Patch patch = flat_patch(0.0);
     for (const double depth : {-0.01, 0.0, 1e-6, 0.01, 1.0})
-        CHECK(cut_area(patch, depth) == Approx(kSide * kSide).epsilon(1e-15));
+        CHECK(cut_area(patch, depth) == Near(kSide * kSide).epsilon(1e-15));
 }
 
 TEST_CASE("a leaning flat patch grows linearly to its whole projected area",
@@ -71,7 +78,7 @@ TEST_CASE("a leaning flat patch grows linearly to its whole projected area",
         CAPTURE(part);
         // each half is a touch early or late
         CHECK(cut_area(patch, part * height) ==
-              Approx(std::min(part, 1.0) * whole).margin(kTouch / height * whole));
+              Near(std::min(part, 1.0) * whole).margin(kTouch / height * whole));
     }
 }
 
@@ -85,26 +92,26 @@ TEST_CASE("a roof gives its width at the depth until its wings end", "[narrow][p
     for (const double part : {0.0, 0.1, 0.5, 0.9}) {
         CAPTURE(lean / kDeg, part);
         const double section = kSide * part * end * width;
-        CHECK(cut_area(patch, part * end) == Approx(section).margin(kSide * kTouch * width));
+        CHECK(cut_area(patch, part * end) == Near(section).margin(kSide * kTouch * width));
     }
     // and beyond both wings the whole projected area
     const double whole = patch.share * std::cos(spread) * std::cos(lean);
-    CHECK(cut_area(patch, patch.wing) == Approx(whole).epsilon(1e-14));
-    CHECK(cut_area(patch, 10.0) == Approx(whole).epsilon(1e-14));
+    CHECK(cut_area(patch, patch.wing) == Near(whole).epsilon(1e-14));
+    CHECK(cut_area(patch, 10.0) == Near(whole).epsilon(1e-14));
 }
 
 TEST_CASE("a square roof's whole section is the depth it was cut, twice",
           "[narrow][patch][analytic]") {
     const Patch patch = roof_patch(45.0 * kDeg, 0.0);
-    CHECK(cut_area(patch, 0.03) == Approx(2.0 * 0.03 * kSide).margin(2.0 * kTouch * kSide));
+    CHECK(cut_area(patch, 0.03) == Near(2.0 * 0.03 * kSide).margin(2.0 * kTouch * kSide));
 }
 
 TEST_CASE("an upright patch keeps its twentieth, and so does one that faces backwards",
           "[narrow][patch][analytic]") {
     const Patch patch = flat_patch(kDeg * GENERATE(90.0, 120.0, 180.0));
-    CHECK(cut_area(patch, patch.wing) == Approx(kFloor * patch.share).epsilon(1e-12));
+    CHECK(cut_area(patch, patch.wing) == Near(kFloor * patch.share).epsilon(1e-12));
     const double half = 0.5 * (patch.wing - kTouch);
-    CHECK(cut_area(patch, half) == Approx(0.5 * kFloor * patch.share).epsilon(1e-12));
+    CHECK(cut_area(patch, half) == Near(0.5 * kFloor * patch.share).epsilon(1e-12));
 }
 
 TEST_CASE("no patch gives more than its projected area, and more depth never less",
@@ -119,11 +126,11 @@ TEST_CASE("no patch gives more than its projected area, and more depth never les
         double before = 0.0;
         for (int n = 0; n <= 50; ++n) {
             const double area = cut_area(patch, 0.02 * n * (patch.wing + patch.foot));
-            REQUIRE(area <= most * (1.0 + 1e-14));
-            REQUIRE(area >= before * (1.0 - 1e-14));
+            REQUIRE(area <= most * (1.0 + tolerance(1e-14)));
+            REQUIRE(area >= before * (1.0 - tolerance(1e-14)));
             before = area;
         }
-        REQUIRE(before == Approx(most).epsilon(1e-12));  // all of it in the end
+        REQUIRE(before == Near(most).epsilon(1e-12));  // all of it in the end
     }
 }
 
@@ -149,6 +156,6 @@ TEST_CASE("the section is that of two wings cut strip by strip", "[narrow][patch
         const double floor =
             kFloor * patch.share * std::min(1.0, (depth + kTouch) / (patch.wing + kTouch));
         CAPTURE(spread / kDeg, lean / kDeg, depth, patch.foot);
-        REQUIRE(cut_area(patch, depth) == Approx(std::max(section, floor)).margin(margin));
+        REQUIRE(cut_area(patch, depth) == Near(std::max(section, floor)).margin(margin));
     }
 }

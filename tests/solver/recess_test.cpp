@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Whole contact spheres in a recess that their crushed neighbours' contacts have left.
+//
+// Tolerances: 1e-15 m is rounding of sums of lengths of 0.01 m.
 #include "solver/contact/recess.hpp"
 
 #include <catch2/catch.hpp>
@@ -8,8 +10,11 @@
 #include "solver/scene/build_scene.hpp"
 #include "tests/support/make_sphere_sets.hpp"
 #include "tests/support/make_worlds.hpp"
+#include "tests/support/tolerance.hpp"
 
 using namespace ice;
+using ice::test::Near;
+using ice::test::tolerance;
 
 namespace {
 
@@ -75,11 +80,11 @@ TEST_CASE("a contact that is deep at once is as deep as its neighbour's recess",
     f.meet({depth});
     // what the tolerance does not explain, but no more than the recess
     const double expected = std::clamp(depth - kSlack, 0.0, 0.03);
-    CHECK(f.moved() == Approx(expected).margin(1e-15));
-    CHECK(f.contacts[0].gap == Approx(expected - depth).margin(1e-15));
+    CHECK(f.moved() == Near(expected).margin(1e-15));
+    CHECK(f.contacts[0].gap == Near(expected - depth).margin(1e-15));
     CHECK(f.constraints[0].gap == f.contacts[0].gap);
     // the sphere moves inwards, and nowhere else
-    CHECK(f.w.scene.crushed.displacement_of(1, kSphere).head<2>().norm() < 1e-15);
+    CHECK(f.w.scene.crushed.displacement_of(1, kSphere).head<2>().norm() < tolerance(1e-15));
     // the search for contacts is told
     CHECK(f.w.scene.crushed.recent.size() == (expected > 0.0 ? 1U : 0U));
 }
@@ -89,16 +94,16 @@ TEST_CASE("an overlap that the pair had, or came into within the step, stays",
     Floe f;
     f.meet({0.004, 0.015});
     f.meet({0.018, 0.0});
-    CHECK(f.moved() == Approx(0.018 - 0.015 - kSlack).margin(1e-15));
+    CHECK(f.moved() == Near(0.018 - 0.015 - kSlack).margin(1e-15));
     Floe g;
     g.meet({0.0});
     g.meet({0.02}, 1.5);
-    CHECK(g.moved() == Approx(0.02 - 1.5 * kDt - kSlack).margin(1e-15));
+    CHECK(g.moved() == Near(0.02 - 1.5 * kDt - kSlack).margin(1e-15));
     // bodies that part explain nothing
     Floe h;
     h.meet({0.0});
     h.meet({0.02}, -1.5);
-    CHECK(h.moved() == Approx(0.02 - kSlack).margin(1e-15));
+    CHECK(h.moved() == Near(0.02 - kSlack).margin(1e-15));
 }
 
 TEST_CASE("only neighbours have a common recess, and it is as deep as the deepest of them",
@@ -108,11 +113,11 @@ TEST_CASE("only neighbours have a common recess, and it is as deep as the deepes
     f.crush_beside(kSphere, 0.5, 0.2);
     f.meet({0.0});
     f.meet({0.05});
-    CHECK(f.moved() == Approx(0.03).margin(1e-15));
+    CHECK(f.moved() == Near(0.03).margin(1e-15));
     // it lies as deep as its neighbour now
     f.meet({0.0});
     f.meet({0.05});
-    CHECK(f.moved() == Approx(0.03).margin(1e-15));
+    CHECK(f.moved() == Near(0.03).margin(1e-15));
 }
 
 TEST_CASE("no recess: rigid ice, whole ice, and a first step whose past is not known",
@@ -145,7 +150,7 @@ TEST_CASE("between floes the incident one has the recess", "[contact][crushing][
     f.contacts[0].gap = f.constraints[0].gap = -0.02;
     f.recess.move_spheres(f.w.scene, f.law, kDt, f.contacts, f.constraints);
     // against the normal, which leads from a to b
-    CHECK(f.w.scene.crushed.displacement_of(1, kSphere).z() == Approx(0.02 - kSlack).margin(1e-15));
+    CHECK(f.w.scene.crushed.displacement_of(1, kSphere).z() == Near(0.02 - kSlack).margin(1e-15));
     CHECK(f.w.scene.crushed.is_whole(2));
 }
 
@@ -173,7 +178,7 @@ TEST_CASE("the order of the contacts does not matter, and a recess does not run 
     };
     meet(f, kSphere, far);
     meet(g, far, kSphere);
-    CHECK(f.moved() == Approx(0.02 - kSlack).margin(1e-15));
+    CHECK(f.moved() == Near(0.02 - kSlack).margin(1e-15));
     CHECK(g.moved() == f.moved());
     CHECK(f.w.scene.crushed.displacement_of(1, far).isZero());
     CHECK(g.w.scene.crushed.displacement_of(1, far).isZero());
@@ -187,9 +192,9 @@ TEST_CASE("a sphere of two contacts moves once, and both are less deep",
     for (std::size_t k = 0; k < 2; ++k)
         f.contacts[k].gap = f.constraints[k].gap = k == 0 ? -0.02 : -0.015;
     f.recess.move_spheres(f.w.scene, f.law, kDt, f.contacts, f.constraints);
-    CHECK(f.moved() == Approx(0.02 - kSlack).margin(1e-15));
-    CHECK(f.contacts[0].gap == Approx(-kSlack).margin(1e-15));
-    CHECK(f.contacts[1].gap == Approx(0.005 - kSlack).margin(1e-15));
+    CHECK(f.moved() == Near(0.02 - kSlack).margin(1e-15));
+    CHECK(f.contacts[0].gap == Near(-kSlack).margin(1e-15));
+    CHECK(f.contacts[1].gap == Near(0.005 - kSlack).margin(1e-15));
     CHECK(f.constraints[1].gap == f.contacts[1].gap);
 }
 
@@ -201,5 +206,5 @@ TEST_CASE("contacts of a body that has another form now have no past for one ste
     f.meet({0.02});
     CHECK(f.moved() == 0.0);
     f.meet({0.045});
-    CHECK(f.moved() == Approx(0.025 - kSlack).margin(1e-15));
+    CHECK(f.moved() == Near(0.025 - kSlack).margin(1e-15));
 }

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Statistics, the empirical formula, and the forces a step reports.
+//
+// Tolerances: 0.1 % is a sum of parts worked by hand to three digits; 1e-12 is rounding of a
+// formula; 1e-9 that of sums over contacts, of newtons.
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -13,8 +16,11 @@
 #include "solver/run/run.hpp"
 #include "tests/common/fixtures.hpp"
 #include "tests/support/make_worlds.hpp"
+#include "tests/support/tolerance.hpp"
 
 using namespace ice;
+using ice::test::Near;
+using ice::test::tolerance;
 
 TEST_CASE("Lindqvist's submersion resistance of the paper's ship is 1.4 kN at 0.5 m/s",
           "[record][analytic]") {
@@ -22,11 +28,11 @@ TEST_CASE("Lindqvist's submersion resistance of the paper's ship is 1.4 kN at 0.
     // potential part 597 N, friction 339 N, speed factor 1.47 (worked by hand from the formula)
     const HullForm hull{10.0, 2.0, 1.44, 35 * kDegree, 30 * kDegree};
     const IceConditions ice{0.3, 0.1, 900.0, 1000.0, 9.81, 0.5};
-    CHECK(lindqvist_submersion(hull, ice) == Approx(1381.0).epsilon(0.001));
+    CHECK(lindqvist_submersion(hull, ice) == Near(1381.0).epsilon(0.001));
     IceConditions smooth = ice;
     smooth.friction = smooth.speed = 0.0;
     CHECK(lindqvist_submersion(hull, smooth) ==
-          Approx(100 * 9.81 * 0.3 * 2 * 1.44 * (2 + 1.44) / (2 + 2 * 1.44)).epsilon(1e-12));
+          Near(100 * 9.81 * 0.3 * 2 * 1.44 * (2 + 1.44) / (2 + 2 * 1.44)).epsilon(1e-12));
 }
 
 TEST_CASE("cos psi sqrt(1/sin^2 phi + 1/tan^2 alpha) is 1/tan phi: friction at rest is closed",
@@ -37,7 +43,7 @@ TEST_CASE("cos psi sqrt(1/sin^2 phi + 1/tan^2 alpha) is 1/tan phi: friction at r
     const double friction = lindqvist_submersion(hull, a) - lindqvist_submersion(hull, b);
     const double covered = 0.7 * 12.0 - 1.2 / std::tan(phi) - 3.0 / (4 * std::tan(alpha)) +
                            1.2 * std::cos(phi) / std::tan(phi);
-    CHECK(friction == Approx(100 * 9.81 * 0.3 * 3.0 * 0.2 * covered).epsilon(1e-12));
+    CHECK(friction == Near(100 * 9.81 * 0.3 * 3.0 * 0.2 * covered).epsilon(1e-12));
 }
 
 TEST_CASE("hull angles are measured from the mesh at the waterline", "[record][analytic]") {
@@ -59,14 +65,14 @@ TEST_CASE("hull angles are measured from the mesh at the waterline", "[record][a
     }
     const auto form = measure_hull_form(mesh, 0.0);
     REQUIRE(form);
-    CHECK(form->length == Approx(30.0));
-    CHECK(form->breadth == Approx(2.0));
-    CHECK(form->draught == Approx(1.0));
-    CHECK(form->stem_angle == Approx(40 * kDegree));
-    CHECK(form->entrance_angle == Approx(25 * kDegree));
+    CHECK(form->length == Near(30.0));
+    CHECK(form->breadth == Near(2.0));
+    CHECK(form->draught == Near(1.0));
+    CHECK(form->stem_angle == Near(40 * kDegree));
+    CHECK(form->entrance_angle == Near(25 * kDegree));
     // full breadth counts from 0.99 B on, and the bow's planes end at B
-    CHECK(form->bow_length == Approx(0.99 * run));
-    CHECK(form->parallel_length == Approx(30.0 - 0.99 * run));
+    CHECK(form->bow_length == Near(0.99 * run));
+    CHECK(form->parallel_length == Near(30.0 - 0.99 * run));
     CHECK_FALSE(measure_hull_form(mesh, 5.0));
 }
 
@@ -85,14 +91,16 @@ TEST_CASE("forces are the opposite of what the floe feels, split into normal and
     const StepRecord r = measure_step(w.scene, w.contacts, w.constraints, 0.01);
     const Vec3 change = w.scene.bodies.momentum[i] - before;
     CHECK((r.contact_force + r.friction_force + change / 0.01).norm() <
-          1e-9 * change.norm() / 0.01);
+          tolerance(1e-9) * change.norm() / 0.01);
     CHECK(r.contact_force.z() > 0.0);   // ice from below lifts the ship
     CHECK(r.friction_force.x() < 0.0);  // and holds it back
-    CHECK(r.friction_force.norm() <= 0.1 * r.contact_force.norm() * (1 + 1e-9));
+    CHECK(r.friction_force.norm() <=
+          tolerance(0.1) * r.contact_force.norm() * (1 + tolerance(1e-9)));
     REQUIRE(r.regions.size() == 1);
     CHECK(r.regions[0].floe == 1);
-    CHECK((r.regions[0].impulse / 0.01 - r.contact_force - r.friction_force).norm() < 1e-9);
-    CHECK((r.regions[0].friction / 0.01 - r.friction_force).norm() < 1e-9);
+    CHECK((r.regions[0].impulse / 0.01 - r.contact_force - r.friction_force).norm() <
+          tolerance(1e-9));
+    CHECK((r.regions[0].friction / 0.01 - r.friction_force).norm() < tolerance(1e-9));
 }
 
 TEST_CASE("forces on chosen floes are the impulses of their contacts over the step",
@@ -147,8 +155,9 @@ TEST_CASE("the forces on floes, in rows and in frames, are together those on the
         const TrackRow* const floe[2] = {&data.tracks[1][k], &data.tracks[0][k]};
         const Vec3 contact = floe[0]->contact_force + floe[1]->contact_force;
         const Vec3 friction = floe[0]->friction_force + floe[1]->friction_force;
-        CHECK((contact - row.contact_force).norm() <= kRows * row.contact_force.norm());
-        CHECK((friction - row.friction_force).norm() <= kRows * row.friction_force.norm());
+        CHECK((contact - row.contact_force).norm() <= tolerance(kRows) * row.contact_force.norm());
+        CHECK((friction - row.friction_force).norm() <=
+              tolerance(kRows) * row.friction_force.norm());
         of_friction += 0.05 * row.friction_force.norm();
         for (int n = 0; n < 2; ++n)
             by_rows[n] -= 0.05 * (floe[n]->contact_force + floe[n]->friction_force);
@@ -161,7 +170,7 @@ TEST_CASE("the forces on floes, in rows and in frames, are together those on the
         for (std::size_t k = 1; k < data.frames.size(); ++k)
             by_frames +=
                 (data.frames[k].time - data.frames[k - 1].time) * data.frames[k].contact_force[n];
-        CHECK((by_frames - by_rows[n]).norm() < kFrames * by_rows[n].norm());
+        CHECK((by_frames - by_rows[n]).norm() < tolerance(kFrames) * by_rows[n].norm());
     }
 }
 
@@ -205,11 +214,11 @@ TEST_CASE("hull contacts between two frames add up to the forces of their steps"
         rub -= c.friction_force;
         CHECK(c.floe == 1);
         // on the plate's lower face, in the frame of the ship that has moved on by 0.05 m
-        CHECK(c.point.z() == Approx(-0.2).margin(0.01));
+        CHECK(c.point.z() == Near(-0.2).margin(0.01));
         CHECK(std::abs(c.point.x() + 0.05) < 0.55);
     }
-    CHECK(push.norm() < 1e-9);
-    CHECK(rub.norm() < 1e-9);
+    CHECK(push.norm() < tolerance(1e-9));
+    CHECK(rub.norm() < tolerance(1e-9));
     CHECK(contacts.take(1.0).empty());
 }
 
@@ -223,8 +232,8 @@ TEST_CASE("a touch that lasts is one hit, a second touch another", "[record]") {
     tally.fill(summary);
     CHECK(summary.regions["bow"].hits == 2);
     CHECK(summary.regions["bow"].max_impulse == 2.0);
-    CHECK(summary.regions["bow"].mean[0] == Approx(-6.0 / 0.4));
-    CHECK(summary.regions["bow"].contact_mean[0] == Approx(-4.5 / 0.4));
-    CHECK(summary.regions["bow"].friction_mean[0] == Approx(-1.5 / 0.4));
+    CHECK(summary.regions["bow"].mean[0] == Near(-6.0 / 0.4));
+    CHECK(summary.regions["bow"].contact_mean[0] == Near(-4.5 / 0.4));
+    CHECK(summary.regions["bow"].friction_mean[0] == Near(-1.5 / 0.4));
     CHECK(summary.regions["hull"].hits == 0);
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What contacts respond to impulses: by the bodies' own equations, and bits on every instruction
 // set.
+//
+// Tolerances: 1e-15 is rounding of one sum of three terms.
 #include "solver/contact/responses.hpp"
 
 #include <Eigen/Geometry>
@@ -16,8 +18,11 @@
 #include "tests/support/contact_problem.hpp"
 #include "tests/support/dice.hpp"
 #include "tests/support/every_instruction_set.hpp"
+#include "tests/support/tolerance.hpp"
 
 using namespace ice;
+using ice::test::Near;
+using ice::test::tolerance;
 
 namespace {
 
@@ -109,10 +114,11 @@ TEST_CASE(
                                      get(row.arm_a, lane), get(row.arm_b, lane), impulse);
                 };
                 const Vec3 expected = change(n);
-                CHECK((get(row.response, lane) - expected).norm() <= kRounding * expected.norm());
+                CHECK((get(row.response, lane) - expected).norm() <=
+                      tolerance(kRounding) * expected.norm());
                 const double normal = row.inverse_effective_mass.v[lane];
-                CHECK(normal == Approx(n.dot(expected)).epsilon(kRounding));
-                CHECK(row.effective_mass.v[lane] * normal == Approx(1.0).epsilon(kRounding));
+                CHECK(normal == Near(n.dot(expected)).epsilon(kRounding));
+                CHECK(row.effective_mass.v[lane] * normal == Near(1.0).epsilon(kRounding));
                 // k(t) goes as cos 2 phi round the normal: none of 64 tangents has more, and the
                 // best of them lacks at most 1 - cos(pi / 64) of half of it
                 const Vec3 s = n.unitOrthogonal(), t = n.cross(s);
@@ -123,10 +129,9 @@ TEST_CASE(
                     most = std::max(most, tangent.dot(change(tangent)));
                 }
                 const double tangent = row.tangent_inverse_effective_mass.v[lane];
-                CHECK(most <= tangent * (1.0 + kRounding));
+                CHECK(most <= tangent * (1.0 + tolerance(kRounding)));
                 CHECK(most >= tangent * (1.0 - 0.5 * (1.0 - std::cos(std::numbers::pi / 64.0))));
-                CHECK(row.tangent_effective_mass.v[lane] * tangent ==
-                      Approx(1.0).epsilon(kRounding));
+                CHECK(row.tangent_effective_mass.v[lane] * tangent == Near(1.0).epsilon(kRounding));
             }
         }
     CHECK(seen > 40);
@@ -142,10 +147,10 @@ TEST_CASE("a contact with a body that nothing moves responds by the other's mass
     block.rows[0].arm_b[1].v[2] = -0.2;
     measure_responses(block.pairs, block.inverse_inertias, block.rows);
     CHECK(get(block.rows[0].response, 2) == Vec3(0, 3, 0));
-    CHECK(block.rows[0].inverse_effective_mass.v[2] == Approx(3.0).epsilon(1e-15));
+    CHECK(block.rows[0].inverse_effective_mass.v[2] == Near(3.0).epsilon(1e-15));
     // along the surface it turns as well: 1/m + r^2 / I
     CHECK(block.rows[0].tangent_inverse_effective_mass.v[2] ==
-          Approx(3.0 + 0.04 * 5.0).epsilon(1e-15));
+          Near(3.0 + 0.04 * 5.0).epsilon(1e-15));
     CHECK(block.rows[0].inverse_effective_mass.v[1] == 0.0);
 }
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The separating axes of convex pieces: boxes by hand, random ones against all directions that the
 // meshes have.
+//
+// Tolerances: 1e-15 and 1e-12 m are rounding of products of lengths of a metre; 1e-9 m is that of a
+// normal made of two edges that are almost parallel.
 #include "solver/narrow/separating_axis.hpp"
 
 #include <Eigen/Geometry>
@@ -14,8 +17,11 @@
 
 #include "tests/support/every_instruction_set.hpp"
 #include "tests/support/make_prisms.hpp"
+#include "tests/support/tolerance.hpp"
 
 using namespace ice;
+using ice::test::Near;
+using ice::test::tolerance;
 
 namespace {
 
@@ -98,9 +104,9 @@ TEST_CASE("boxes face to face, and edge across edge, are as far apart as they st
     const double gap = GENERATE(0.3, 0.0, -0.2, -0.7);
     SeparatingAxes axes =
         find_axes(box.piece, box.piece, {Mat3::Identity(), Vec3(2.0 + gap, 0.3, -0.1)}, kAll);
-    CHECK(axes.widest() == Approx(gap).margin(1e-15));
-    CHECK(axes.face_a == Approx(gap).margin(1e-15));
-    CHECK(axes.face_b == Approx(gap).margin(1e-15));
+    CHECK(axes.widest() == Near(gap).margin(1e-15));
+    CHECK(axes.face_a == Near(gap).margin(1e-15));
+    CHECK(axes.face_b == Near(gap).margin(1e-15));
     CHECK((box.piece.normals[static_cast<std::size_t>(axes.plane_a)] - Vec3::UnitX()).norm() == 0);
     CHECK((box.piece.normals[static_cast<std::size_t>(axes.plane_b)] + Vec3::UnitX()).norm() == 0);
 
@@ -112,9 +118,10 @@ TEST_CASE("boxes face to face, and edge across edge, are as far apart as they st
     turn.col(2) = turn.col(0).cross(turn.col(1));
     const RelativePose pose{turn, Vec3(1, 0, 1) + gap * n - turn * Vec3(1, 1, 0)};
     axes = find_axes(box.piece, box.piece, pose, kAll);
-    CHECK(axes.edges == Approx(gap).margin(1e-15));
-    CHECK(axes.edges > std::max(axes.face_a, axes.face_b) - 1e-12);
-    CHECK((edge_axis(box.piece, box.piece, pose, axes.edge_a, axes.edge_b) - n).norm() < 1e-15);
+    CHECK(axes.edges == Near(gap).margin(1e-15));
+    CHECK(axes.edges > std::max(axes.face_a, axes.face_b) - tolerance(1e-12));
+    CHECK((edge_axis(box.piece, box.piece, pose, axes.edge_a, axes.edge_b) - n).norm() <
+          tolerance(1e-15));
 }
 
 TEST_CASE("a hundred thousand random pairs overlap and part as brute force says, to 1e-9 m",
@@ -131,10 +138,10 @@ TEST_CASE("a hundred thousand random pairs overlap and part as brute force says,
         by_edges += axes.edges > std::max(axes.face_a, axes.face_b);
         if (found <= 0.0) {
             ++overlaps;  // no direction parts them sooner
-            REQUIRE(std::abs(found - widest_gap(a, b, pose, false)) < 1e-9);
+            REQUIRE(std::abs(found - widest_gap(a, b, pose, false)) < tolerance(1e-9));
         } else {
             ++parted;
-            REQUIRE(std::abs(found - widest_gap(a, b, pose, true)) < 1e-9);
+            REQUIRE(std::abs(found - widest_gap(a, b, pose, true)) < tolerance(1e-9));
         }
     }
     CHECK(overlaps > 20000);
@@ -159,7 +166,7 @@ TEST_CASE("moved along its axis by the penetration depth a pair just touches",
                 ? a.piece.normals[static_cast<std::size_t>(axes.plane_a)]
                 : Vec3(-(pose.rotation * b.piece.normals[static_cast<std::size_t>(axes.plane_b)]));
         pose.translation += depth * n;
-        REQUIRE(find_axes(a.piece, b.piece, pose, kAll).widest() == Approx(0.0).margin(1e-12));
+        REQUIRE(find_axes(a.piece, b.piece, pose, kAll).widest() == Near(0.0).margin(1e-12));
     }
 }
 

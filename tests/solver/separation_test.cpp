@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Bodies apart, and bodies whose edges cross each other.
+//
+// Tolerances: 1e-12 m is rounding of a few dozen products of lengths of a metre.
 #include "solver/narrow/separation.hpp"
 
 #include <Eigen/Geometry>
@@ -13,6 +15,7 @@
 #include "solver/broad/motion_bounds.hpp"
 #include "solver/narrow/find_contacts.hpp"
 #include "tests/support/make_worlds.hpp"
+#include "tests/support/tolerance.hpp"
 
 using namespace ice;
 using namespace ice::test;
@@ -75,7 +78,7 @@ TEST_CASE("boxes face to face, edge to face and corner to face are apart by the 
     const double half = turn.row(0).cwiseAbs().dot(0.5 * kSize);  // the box's extent along x
     place(w, 2, Vec3(0.5 + gap + half, 0.01, 0.02), Quaternion(turn));
     // lengths of a metre
-    CHECK(separation_now(w) == Approx(gap).margin(1e-15));
+    CHECK(separation_now(w) == Near(gap).margin(1e-15));
 }
 
 TEST_CASE("no body is nearer than its separation says, wherever it is", "[narrow][property]") {
@@ -87,7 +90,7 @@ TEST_CASE("no body is nearer than its separation says, wherever it is", "[narrow
         place(w, 2, 1.2 * dice.vector(), dice.turn(3.0));
         const double separated = separation_now(w);
         apart += separated > 0.0;
-        REQUIRE(distance_of_points(w) >= separated - 1e-12);
+        REQUIRE(distance_of_points(w) >= separated - tolerance(1e-12));
     }
     CHECK(apart > 50);
 }
@@ -110,7 +113,7 @@ TEST_CASE("a separation shrinks by no more than its share of the way that bodies
             place(w, body, w.scene.bodies.position[body] + go,
                   turn * w.scene.bodies.orientation[body]);
         }
-        REQUIRE(separation_now(w) >= before - share * way - 1e-12);
+        REQUIRE(separation_now(w) >= before - share * way - tolerance(1e-12));
     }
 }
 
@@ -152,7 +155,7 @@ TEST_CASE("bounds hold the sharp edges that spheres stand for, where the mesh's 
     // diagonal (1, 1, 1) of an upper corner's sphere leaves it short of the corner, in each axis by
     // inset / (1 + lean)
     const double inset = 0.05 * size.x(), lean = inset / size.z();
-    CHECK(shape.bounds.excess == Approx(std::sqrt(3.0) * inset / (1.0 + lean)).epsilon(1e-12));
+    CHECK(shape.bounds.excess == Near(std::sqrt(3.0) * inset / (1.0 + lean)).epsilon(1e-12));
 }
 
 TEST_CASE("spheres in convex bodies are no nearer than the bodies' separation",
@@ -169,7 +172,7 @@ TEST_CASE("spheres in convex bodies are no nearer than the bodies' separation",
             for (std::int32_t j = 0; j < std::ssize(box.center); ++j)
                 least = std::min(least, (view.center_b(j) - view.center_a(i)).norm() -
                                             (box.radius[i] + box.radius[j]));
-        REQUIRE(least >= separation(view) - 1e-12);
+        REQUIRE(least >= separation(view) - tolerance(1e-12));
     }
 }
 
@@ -215,7 +218,7 @@ TEST_CASE("edges that cross have a contact wherever between their spheres they d
             const auto deepest =
                 std::min_element(contacts.begin(), contacts.end(),
                                  [](const Contact& l, const Contact& r) { return l.gap < r.gap; });
-            CHECK(deepest->gap == Approx(-kDepth).margin(1e-9));
-            CHECK((deepest->normal - n).norm() < 1e-6);  // creases' normals are floats
+            CHECK(deepest->gap == Near(-kDepth).margin(1e-9));
+            CHECK((deepest->normal - n).norm() < tolerance(1e-6));  // creases' normals are floats
         }
 }

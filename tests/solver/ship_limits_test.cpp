@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A ship that answers, in the limits where a ship on its course knows the answer.
+//
+// Tolerances: 1e-6 m is a mass of 4e12 kg in place of an infinite one; 1e-9 is rounding of places
+// of metres, over depths of less than a millimetre.
 #include <catch2/catch.hpp>
 #include <cmath>
 
 #include "solver/run/balance.hpp"
 #include "tests/support/ships_in_ice.hpp"
+#include "tests/support/tolerance.hpp"
 
 using namespace ice;
 using namespace ice::test;
@@ -34,7 +38,7 @@ TEST_CASE("a ship of a thousand million times the mass goes as a captive one", "
     double moved = 0.0;
     for (std::size_t i = 1; i < captive.scene.bodies.size(); ++i) {
         const Vec3 &x = captive.scene.bodies.position[i], &y = heavy.scene.bodies.position[i];
-        CHECK((x - y).norm() < 1e-6);
+        CHECK((x - y).norm() < tolerance(1e-6));
         moved = std::max(moved, captive.scene.bodies.velocity[i].norm());
     }
     CHECK(moved > 0.1);
@@ -58,8 +62,8 @@ TEST_CASE("ice that drifts past a ship at rest is a ship in still ice", "[ship][
         most = std::max(most, normal.norm());
         CAPTURE(k);
         // rounding of places that grow in one world and not in the other
-        REQUIRE((normal - normal_2).norm() <= 1e-9 * (1.0 + most));
-        REQUIRE((tangent - tangent_2).norm() <= 1e-9 * (1.0 + most));
+        REQUIRE((normal - normal_2).norm() <= tolerance(1e-9) * (1.0 + most));
+        REQUIRE((tangent - tangent_2).norm() <= tolerance(1e-9) * (1.0 + most));
     }
     CHECK(most > 10.0);
 }
@@ -89,12 +93,12 @@ TEST_CASE("a heavy ship crushes held ice and jams as a captive one", "[ship][hel
         double moved = 0.0;
         for (std::size_t i = 1; i < captive.scene.bodies.size(); ++i) {
             const Vec3 &x = captive.scene.bodies.position[i], &y = heavy.scene.bodies.position[i];
-            CHECK((x - y).norm() < 1e-6);
+            CHECK((x - y).norm() < tolerance(1e-6));
             moved = std::max(moved, captive.scene.bodies.velocity[i].norm());
         }
         CHECK(moved > 0.1);
         CHECK((captive.scene.bodies.position[kShip] - heavy.scene.bodies.position[kShip]).norm() <
-              1e-6);
+              tolerance(1e-6));
     }
 }
 
@@ -115,8 +119,8 @@ TEST_CASE("held ice that drifts past a ship at rest is a ship in held ice", "[sh
             const auto [normal, tangent] = ship_on_ice(goes);
             const auto [normal_2, tangent_2] = ship_on_ice(rests);
             most = std::max(most, normal.norm());
-            REQUIRE((normal - normal_2).norm() <= 1e-9 * (1.0 + most));
-            REQUIRE((tangent - tangent_2).norm() <= 1e-9 * (1.0 + most));
+            REQUIRE((normal - normal_2).norm() <= tolerance(1e-9) * (1.0 + most));
+            REQUIRE((tangent - tangent_2).norm() <= tolerance(1e-9) * (1.0 + most));
             for (const Constraint& c : rests.constraints)
                 held = held || (c.total_normal() > 0.0 && rests.scene.bodies.held[c.b]);
         }
@@ -124,14 +128,14 @@ TEST_CASE("held ice that drifts past a ship at rest is a ship in held ice", "[sh
         CHECK(most > 10.0);
         const Bodies &a = goes.scene.bodies, &b = rests.scene.bodies;
         for (std::size_t i = 1; i < a.size(); ++i) {
-            CHECK((a.position[i] - b.position[i] - a.position[kShip]).norm() < 1e-9);
-            CHECK((a.velocity[i] - b.velocity[i] - a.velocity[kShip]).norm() < 1e-9);
+            CHECK((a.position[i] - b.position[i] - a.position[kShip]).norm() < tolerance(1e-9));
+            CHECK((a.velocity[i] - b.velocity[i] - a.velocity[kShip]).norm() < tolerance(1e-9));
         }
         // the ship is still: the held ice does the work
         CHECK(rests.ledger.ship_work == 0.0);
         const double potential = potential_energy(rests.scene, rests.parameters);
         CHECK(std::abs(rests.ledger.residual(potential)) <
-              0.005 * std::abs(rests.ledger.drift_work));
+              tolerance(0.005) * std::abs(rests.ledger.drift_work));
     }
 }
 
@@ -154,15 +158,15 @@ TEST_CASE("a ship towed through still ice is a moored one that ice and water dri
         const auto [normal_2, tangent_2] = ship_on_ice(moored);
         most = std::max(most, normal.norm());
         CAPTURE(k);
-        REQUIRE((normal - normal_2).norm() <= 1e-9 * (1.0 + most));
-        REQUIRE((tangent - tangent_2).norm() <= 1e-9 * (1.0 + most));
+        REQUIRE((normal - normal_2).norm() <= tolerance(1e-9) * (1.0 + most));
+        REQUIRE((tangent - tangent_2).norm() <= tolerance(1e-9) * (1.0 + most));
         const double pull = towed.ship.loads().tow.force.x();
-        REQUIRE(pull == Approx(moored.ship.loads().mooring.force.x()).margin(1e-9 * 2e4));
+        REQUIRE(pull == Near(moored.ship.loads().mooring.force.x()).margin(1e-9 * 2e4));
         swing = std::max(swing, std::abs(pull));
     }
     CHECK(most > 10.0);
     CHECK(swing > 10.0);
     const Bodies &a = towed.scene.bodies, &b = moored.scene.bodies;
     for (std::size_t i = 0; i < a.size(); ++i)
-        CHECK((a.velocity[i] - b.velocity[i] - Vec3::UnitX()).norm() < 1e-9);
+        CHECK((a.velocity[i] - b.velocity[i] - Vec3::UnitX()).norm() < tolerance(1e-9));
 }

@@ -12,6 +12,7 @@
 
 #include "solver/narrow/find_contacts.hpp"
 #include "tests/support/make_worlds.hpp"
+#include "tests/support/tolerance.hpp"
 
 using namespace ice;
 using namespace ice::test;
@@ -213,7 +214,7 @@ TEST_CASE("floes past the end of a ship's edges touch nothing", "[narrow][side_p
         REQUIRE_FALSE(contacts.empty());
         // the ship's edge lies on a face that leans so much, 3 cm at most from where they cross
         CHECK(std::all_of(contacts.begin(), contacts.end(), [&](const Contact& c) {
-            return std::abs(c.gap + beyond) < 0.03 * lean &&
+            return std::abs(c.gap + beyond) < tolerance(0.03) * lean &&
                    c.normal.dot(out) > std::cos(1.01 * lean);
         }));
     }

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Meshes as planes, corners and edges.
+//
+// Tolerances: 1e-15 is rounding of a unit vector or of a sum of edges, 1e-12 that of a difference
+// of products of lengths of a metre.
 #include "solver/shape/solid.hpp"
 
 #include <Eigen/Geometry>
@@ -10,8 +13,11 @@
 
 #include "tests/support/make_meshes.hpp"
 #include "tests/support/make_prisms.hpp"
+#include "tests/support/tolerance.hpp"
 
 using namespace ice;
+using ice::test::Near;
+using ice::test::tolerance;
 
 namespace {
 
@@ -29,15 +35,15 @@ std::vector<Vec3> ring(int corners, double radius, double z) {
 void check_consistent(const ConvexPiece& piece) {
     for (std::size_t k = 0; k < piece.plane_count(); ++k) {
         const Vec3 n = piece.normals[k];
-        CHECK(n.norm() == Approx(1.0).epsilon(1e-15));
+        CHECK(n.norm() == Near(1.0).epsilon(1e-15));
         for (std::size_t c = 0; c < piece.corners.size(); ++c)
-            CHECK(n.dot(piece.corners[c]) <= piece.offsets[k] + 1e-12);
+            CHECK(n.dot(piece.corners[c]) <= piece.offsets[k] + tolerance(1e-12));
         const auto& loop = piece.loops[k];
         Vec3 area = Vec3::Zero();
         for (std::size_t c = 0; c < loop.size(); ++c) {
             const Vec3 p = piece.corners[static_cast<std::size_t>(loop[c])],
                        q = piece.corners[static_cast<std::size_t>(loop[(c + 1) % loop.size()])];
-            CHECK(n.dot(p) == Approx(piece.offsets[k]).margin(1e-12));
+            CHECK(n.dot(p) == Near(piece.offsets[k]).margin(1e-12));
             area += 0.5 * p.cross(q);
         }
         CHECK(area.dot(n) > 0.0);
@@ -48,7 +54,7 @@ void check_consistent(const ConvexPiece& piece) {
         CHECK(along.dot(piece.edge_left[k].cross(piece.edge_right[k])) > 0.0);
         CHECK(piece.edge_left[k] == piece.normals[static_cast<std::size_t>(e.left)]);
         CHECK(piece.edge_right[k] == piece.normals[static_cast<std::size_t>(e.right)]);
-        CHECK(std::abs(along.dot(piece.edge_left[k])) < 1e-12);
+        CHECK(std::abs(along.dot(piece.edge_left[k])) < tolerance(1e-12));
         const Vec3 begin = piece.corners[static_cast<std::size_t>(e.begin)],
                    end = piece.corners[static_cast<std::size_t>(e.end)];
         CHECK(piece.edge_middle[k] == 0.5 * (begin + end));
@@ -74,7 +80,7 @@ TEST_CASE("a box has six planes, eight corners and twelve edges", "[shape][analy
         length +=
             2.0 * (box.corners[static_cast<std::size_t>(box.edges[k].end)] - box.edge_middle[k])
                       .dot(box.edge_along[k]);
-    CHECK(length == Approx(4.0 * size.sum()).epsilon(1e-15));
+    CHECK(length == Near(4.0 * size.sum()).epsilon(1e-15));
     // the last block is filled up with what is there
     CHECK(box.normals.blocks()[0].x[7] == box.normals[5].x());
     CHECK(box.offsets.size() == 8);

@@ -7,6 +7,7 @@
 #include "solver/scene/tunnelling_speed.hpp"
 #include "tests/common/fixtures.hpp"
 #include "tests/support/make_worlds.hpp"
+#include "tests/support/tolerance.hpp"
 
 using namespace ice;
 using namespace ice::test;
@@ -53,7 +54,7 @@ TEST_CASE("a floe that reaches into its neighbour is named with the depth", "[st
     CHECK(found[0].a == 1);
     CHECK(found[0].b == 2);
     // as far as they must be moved to part: up, past the floes' 0.4 m, it is farther than back
-    CHECK(found[0].depth == Approx(depth).margin(depth < kRadius ? 1e-6 : 0.5 * kSpacing));
+    CHECK(found[0].depth == Near(depth).margin(depth < kRadius ? 1e-6 : 0.5 * kSpacing));
     const std::string text = error_text([&] { check_start(w, false); });
     CHECK_THAT(text, Catch::StartsWith("case.cfg: floe 1 and floe 2 overlap by") &&
                          Catch::Contains("at the start, at x = ") && Catch::Contains("floes.gap") &&
@@ -123,7 +124,7 @@ TEST_CASE("many overlaps are counted, the deepest five are named", "[step][error
 TEST_CASE("a ship or floe that goes a sphere's diameter in a step is warned of, with the limit",
           "[step]") {
     World w = world_of({Vec3(0, 5, -1)});
-    CHECK(tunnelling_speed(w.scene, 0.01) == Approx(10.0));  // 2 x 0.05 m / 0.01 s
+    CHECK(tunnelling_speed(w.scene, 0.01) == Near(10.0));  // 2 x 0.05 m / 0.01 s
     w.parameters.speed_table = {{0.0, 9.9}};
     CHECK(check_start(w, false).empty());
     w.parameters.duration = 10.0;

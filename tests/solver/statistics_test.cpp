@@ -3,6 +3,9 @@
 // known. Every kind of series is drawn 200 times; 95 % are to be covered, 90 to 98 % may be: that
 // is 3.2 standard deviations of a share of 0.95 among 200 below, and 1.9 above. A swing that the
 // series holds a few times cannot be told from noise as slow, so there all 200 may be covered.
+//
+// Tolerances: 1e-12 to 1e-9 are rounding of sums of many thousand terms; 1e-6 that of a difference
+// of them, or the last digit of t in a table.
 #include "solver/record/statistics.hpp"
 
 #include <algorithm>
@@ -15,8 +18,10 @@
 
 #include "solver/record/long_series.hpp"
 #include "solver/record/periodogram.hpp"
+#include "tests/support/tolerance.hpp"
 
 using namespace ice;
+using ice::test::Near;
 
 namespace {
 
@@ -132,12 +137,12 @@ TEST_CASE("white noise has the classical interval", "[record][analytic]") {
         const Series x = white(random, 2000);
         const MeanInterval m = mean_interval(x);
         const double classical = 1.961 * standard_deviation(x) / std::sqrt(2000.0);
-        CHECK(m.half_width == Approx(classical).epsilon(0.35));  // 3 sqrt(1 / (2 * 111)), J = 111
+        CHECK(m.half_width == Near(classical).epsilon(0.35));  // 3 sqrt(1 / (2 * 111)), J = 111
         ratio += m.half_width / classical / 50.0;
         samples += m.effective_samples / 2000.0 / 50.0;
     }
-    CHECK(ratio == Approx(1.0).epsilon(0.03));    // 3 sqrt(1 / (2 * 111 * 50)), 50 series
-    CHECK(samples == Approx(1.0).epsilon(0.06));  // as the width's square: twice that
+    CHECK(ratio == Near(1.0).epsilon(0.03));    // 3 sqrt(1 / (2 * 111 * 50)), 50 series
+    CHECK(samples == Near(1.0).epsilon(0.06));  // as the width's square: twice that
 }
 
 TEST_CASE("the correlation time of an autoregression is (1 + rho) / (1 - rho)",
@@ -150,7 +155,7 @@ TEST_CASE("the correlation time of an autoregression is (1 + rho) / (1 - rho)",
         for (int k = 0; k < 50; ++k)
             time += mean_interval(autoregression(random, 8000, rho)).correlation_time / 50.0;
         // J = 8000 / (30 tau) ordinates each, 50 series: 5 % of scatter at the most, three times
-        CHECK(time == Approx(expected).epsilon(0.15));
+        CHECK(time == Near(expected).epsilon(0.15));
     }
 }
 
@@ -207,7 +212,7 @@ TEST_CASE("the half width of slow changes under fast noise is that of theory",
     double width = 0.0;
     for (int k = 0; k < 50; ++k) width += mean_interval(drifting(random, 6000, 100.0)).half_width;
     // 50 series, each of 4 ordinates or more: 5 % of scatter, and the few ordinates' Student's t
-    CHECK(width / 50.0 == Approx(1.96 * std::sqrt(19.0 / 6000.0)).epsilon(0.25));
+    CHECK(width / 50.0 == Near(1.96 * std::sqrt(19.0 / 6000.0)).epsilon(0.25));
 }
 
 TEST_CASE("correlation time and effective samples do not depend on how long the series is",
@@ -219,8 +224,8 @@ TEST_CASE("correlation time and effective samples do not depend on how long the 
         // 3 standard deviations of the mean of J = n / 18 ordinates; blocks are 4096 or more
         const auto least = static_cast<double>(std::min<std::size_t>(n, 4096));  // blocks
         const double scatter = 3.0 / std::sqrt(least / 18.0);
-        CHECK(m.correlation_time == Approx(1.0).epsilon(scatter));
-        CHECK(m.effective_samples == Approx(static_cast<double>(n)).epsilon(scatter));
+        CHECK(m.correlation_time == Near(1.0).epsilon(scatter));
+        CHECK(m.effective_samples == Near(static_cast<double>(n)).epsilon(scatter));
     }
 }
 
@@ -246,11 +251,11 @@ TEST_CASE("a long series has the interval of its block means", "[record][propert
         for (std::size_t k = 0; k < 5; ++k) blocks.back() += x[5 * b + k] / 5.0;
     }
     const MeanInterval all = mean_interval(x), of_blocks = mean_interval(blocks);
-    CHECK(all.half_width == Approx(of_blocks.half_width).epsilon(1e-9));
-    CHECK(all.trend == Approx(of_blocks.trend).epsilon(1e-6));
+    CHECK(all.half_width == Near(of_blocks.half_width).epsilon(1e-9));
+    CHECK(all.trend == Near(of_blocks.trend).epsilon(1e-6));
     // and it is not far from theory, S = 1 / (1 - rho)^2: blocks have tau = 19 / 5, so that
     // J = 8192 / (30 tau) = 72, and 3 sqrt(1 / (2 J)) = 0.25
-    CHECK(all.half_width == Approx(1.96 * 10.0 / std::sqrt(5.0 * 8192)).epsilon(0.3));
+    CHECK(all.half_width == Near(1.96 * 10.0 / std::sqrt(5.0 * 8192)).epsilon(0.3));
 }
 
 TEST_CASE("a long series keeps few blocks, and the mean and deviation of all its values",
@@ -273,15 +278,15 @@ TEST_CASE("a long series keeps few blocks, and the mean and deviation of all its
     }
     const MeanInterval blocked = mean_interval(all), exact = mean_interval(x);
     CHECK(blocked.mean == exact.mean);  // the same sum
-    CHECK(all.standard_deviation() == Approx(standard_deviation(x)).epsilon(1e-12));
-    CHECK(blocked.half_width == Approx(exact.half_width).epsilon(0.05));
+    CHECK(all.standard_deviation() == Near(standard_deviation(x)).epsilon(1e-12));
+    CHECK(blocked.half_width == Near(exact.half_width).epsilon(0.05));
     CHECK(all.count() == x.size());
     CHECK(all.block_length() == 8);
     CHECK(all.blocks().size() == x.size() / 8);
     CHECK(most.blocks().size() == x.size() / 8);
     for (const std::size_t block : {std::size_t{0}, std::size_t{777}, x.size() / 8 - 1}) {
         const auto first = x.begin() + static_cast<std::ptrdiff_t>(8 * block);
-        CHECK(all.blocks()[block] == Approx(std::accumulate(first, first + 8, 0.0) / 8.0));
+        CHECK(all.blocks()[block] == Near(std::accumulate(first, first + 8, 0.0) / 8.0));
         CHECK(most.blocks()[block] == *std::max_element(first, first + 8));
     }
     CHECK(all.largest() == *std::max_element(x.begin(), x.end(), [](double l, double r) {
@@ -321,7 +326,7 @@ TEST_CASE("a trend is found in a series that has one, and seldom in one that has
 TEST_CASE("the rise of a straight line is exact", "[record][analytic]") {
     Series line(100);
     for (std::size_t t = 0; t < 100; ++t) line[t] = 3.0 * static_cast<double>(t);
-    CHECK(mean_interval(line).trend == Approx(300.0).epsilon(1e-12));
+    CHECK(mean_interval(line).trend == Near(300.0).epsilon(1e-12));
 }
 
 TEST_CASE("the periodogram's ordinates sum to the variance", "[record][analytic]") {
@@ -333,13 +338,13 @@ TEST_CASE("the periodogram's ordinates sum to the variance", "[record][analytic]
     for (double& value : x) squares += (value -= mean, value * value);
     double sum = 0.0;
     for (const double ordinate : low_periodogram(x, 200)) sum += 2.0 * ordinate;
-    CHECK(sum == Approx(squares).epsilon(1e-10));  // Parseval
+    CHECK(sum == Near(squares).epsilon(1e-10));  // Parseval
 }
 
 TEST_CASE("Student's interval of three values is that of the tables", "[record][analytic]") {
     const Series three{1.0, 2.0, 3.0};
     const MeanInterval m = student_interval(three);
     CHECK(m.mean == 2.0);
-    CHECK(m.half_width == Approx(4.302653 / std::sqrt(3.0)).epsilon(1e-6));  // t(0.975, 2), s = 1
+    CHECK(m.half_width == Near(4.302653 / std::sqrt(3.0)).epsilon(1e-6));  // t(0.975, 2), s = 1
     CHECK(std::isnan(student_interval(Series{1.0}).half_width));
 }

@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Level ice in 2D: the load and the length of a strip, against a beam's on water.
+//
+// Tolerances: 0.05 and 0.005 are half of a last printed digit; 1e-3 of a load is the constant 0.680
+// of (28), cut to three digits, or what one step adds; 1e-6 is a normal stored as a float; 1e-9 is
+// ends on whole multiples of 2^-30 m.
 #include "solver/live_edge/strip.hpp"
 
 #include <catch2/catch.hpp>
@@ -9,6 +13,7 @@
 #include "solver/bending/breaking_load.hpp"
 #include "solver/run/balance.hpp"
 #include "tests/support/make_strips.hpp"
+#include "tests/support/tolerance.hpp"
 
 using namespace ice;
 using namespace ice::test;
@@ -64,9 +69,9 @@ TEST_CASE("a strip bears a beam's load and breaks at a beam's length",
     const IcePlate plate = plate_of(thickness, p);
     const double weight = 1025.0 * 9.81;
     const double closed = 0.680 * 5e5 * std::pow(weight * std::pow(thickness, 5) / modulus, 0.25);
-    CHECK(breaking_load(0.0, thickness, p) == Approx(closed).epsilon(1e-3));
-    CHECK(1e-3 * breaking_load(0.0, thickness, p) == Approx(load).margin(0.05));
-    CHECK(beam_breaking_length(plate) == Approx(length).margin(0.005));
+    CHECK(breaking_load(0.0, thickness, p) == Near(closed).epsilon(1e-3));
+    CHECK(1e-3 * breaking_load(0.0, thickness, p) == Near(load).margin(0.05));
+    CHECK(beam_breaking_length(plate) == Near(length).margin(0.005));
     // the largest moment of the beam under a load at its end, by its slope on both sides
     const double lambda = std::pow(3.0 * weight / (modulus * std::pow(thickness, 3)), 0.25);
     const auto moment = [&](double x) { return std::exp(-lambda * x) * std::sin(lambda * x); };
@@ -75,7 +80,7 @@ TEST_CASE("a strip bears a beam's load and breaks at a beam's length",
     CHECK(moment(at) > moment(at + beside));
     // ... which is the strength there
     CHECK(breaking_load(0.0, thickness, p) / lambda * moment(at) ==
-          Approx(5e5 * thickness * thickness / 6.0).epsilon(1e-12));
+          Near(5e5 * thickness * thickness / 6.0).epsilon(1e-12));
 }
 
 TEST_CASE("a strip breaks in the step in which the stem's load reaches the beam's",
@@ -97,25 +102,25 @@ TEST_CASE("a strip breaks in the step in which the stem's load reaches the beam'
         REQUIRE_NOTHROW(require_balance(momenta, w));
         now = crushing_force(w) * down_share;
         const auto [normal, tangent] = ship_on_ice(w);
-        REQUIRE(-normal.z() - tangent.z() == Approx(now).epsilon(1e-6).margin(1e-6));
+        REQUIRE(-normal.z() - tangent.z() == Near(now).epsilon(1e-6).margin(1e-6));
         if (now < bears) continue;
         // the load is reached: free from the next step on
-        CHECK(before > (1.0 - 1e-3) * bears);
-        CHECK(now < (1.0 + 1e-3) * bears);
+        CHECK(before > (1.0 - tolerance(1e-3)) * bears);
+        CHECK(now < (1.0 + tolerance(1e-3)) * bears);
         // a straight edge cut by a slope: A = depth / cos; faces 0.1 mm apart count as touching
         const double depth = bears * std::cos(slope) / (1e6 * down_share);
-        CHECK(w.time * 1e-3 - 1e-3 - 0.5 * p.level_ice.gap == Approx(depth).margin(2e-4));
+        CHECK(w.time * 1e-3 - 1e-3 - 0.5 * p.level_ice.gap == Near(depth).margin(2e-4));
         step(w);
         REQUIRE(w.edge.broken() == 1);
         break;
     }
     REQUIRE(w.edge.broken() == 1);
     const IcePiece piece = w.edge.pieces()[0];
-    CHECK(piece.load == Approx(now).epsilon(1e-6));
+    CHECK(piece.load == Near(now).epsilon(1e-6));
     const double length = beam_breaking_length(plate_of(1.0, p));
-    CHECK(piece.radius == Approx(length).epsilon(1e-12));
-    CHECK(w.edge.sheet().area() == Approx(200.0 - length).epsilon(1e-9));
-    CHECK(tip_of(w.edge.sheet()) == Approx(length).epsilon(1e-9));
+    CHECK(piece.radius == Near(length).epsilon(1e-12));
+    CHECK(w.edge.sheet().area() == Near(200.0 - length).epsilon(1e-9));
+    CHECK(tip_of(w.edge.sheet()) == Near(length).epsilon(1e-9));
 }
 
 TEST_CASE("a steep stem crushes a strip and never bends it", "[level_ice][strip][step][analytic]") {
@@ -128,7 +133,7 @@ TEST_CASE("a steep stem crushes a strip and never bends it", "[level_ice][strip]
     std::int64_t steps = 0;
     while (w.time < 40.0) {  // 4 m
         step(w);
-        REQUIRE(std::abs(sum_of(w.edge.areas()) - 200.0) <= 1e-9 * 200.0);
+        REQUIRE(std::abs(sum_of(w.edge.areas()) - 200.0) <= tolerance(1e-9) * 200.0);
         if (w.time < 10.0) continue;
         const auto [normal, tangent] = ship_on_ice(w);
         force += normal.x() + tangent.x();
@@ -136,14 +141,14 @@ TEST_CASE("a steep stem crushes a strip and never bends it", "[level_ice][strip]
     }
     CHECK(w.edge.broken() == 0);
     // the stem's foot is where the ice is gone, to what the sheet keeps of crushed ice
-    CHECK(w.edge.areas().crushed == Approx(4.0 - 0.1 - 0.25).margin(0.3));
+    CHECK(w.edge.areas().crushed == Near(4.0 - 0.1 - 0.25).margin(0.3));
     // the whole thickness is crushed at a time, but for the wing of the lower corner's disc, which
     // leans away from the stem; that of the upper one is on the deck as well
     const double mean = force / static_cast<double>(steps), wing = 0.05 + 0.5 * 0.05;
     const double lean = std::sin(slope) + friction * std::cos(slope);
     const double met = (1.0 - wing) * std::sin(slope) + wing * std::cos(slope);
-    CHECK(mean == Approx(1e6 * met * lean).epsilon(2e-3));
-    CHECK(mean == Approx(1e6 / std::sin(slope) * lean).epsilon(0.1));  // 9 %: the wing
+    CHECK(mean == Near(1e6 * met * lean).epsilon(2e-3));
+    CHECK(mean == Near(1e6 / std::sin(slope) * lean).epsilon(0.1));  // 9 %: the wing
 }
 
 TEST_CASE("tiles and windows of a strip are its tip's", "[level_ice][strip]") {
@@ -168,5 +173,5 @@ TEST_CASE("tiles and windows of a strip are its tip's", "[level_ice][strip]") {
     CHECK(windows[0].at == Vec2(3.0, 0.0));
     CHECK(tip_window({loads[1]}, 3.0, 4.0).empty());
     CHECK(strip_bodies(loop_of(strip_extent(1.0, 2.0)), 0.1, 0.95).empty());
-    CHECK(strip_length(strip_bodies(loop_of(strip_extent(1.0, 2.0)), 0.1, 0.5)[0]) == Approx(0.9));
+    CHECK(strip_length(strip_bodies(loop_of(strip_extent(1.0, 2.0)), 0.1, 0.5)[0]) == Near(0.9));
 }

@@ -6,8 +6,10 @@
 #include <random>
 
 #include "tests/support/every_instruction_set.hpp"
+#include "tests/support/tolerance.hpp"
 
 using namespace ice;
+using ice::test::Near;
 
 namespace {
 
@@ -56,7 +58,7 @@ TEST_CASE("listed spheres of radii 100 and 200 touch at 300 and what is allowed 
     TouchingSpheres found;
     find_touching(listed, kPose, 49.0f, found);
     CHECK(found.count == 0);
-    CHECK(found.least == Approx(50.0f));
+    CHECK(found.least == Near(50.0f));
     find_touching(listed, kPose, 51.0f, found);
     REQUIRE(found.count == 1);
     CHECK(found.a[0] == 11);

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Ice that is held until it bends: a leaning plate presses a held piece down until it breaks off.
+//
+// Tolerances: 4 % is a row of spheres, 5 % the product of two such; 1e-12 is rounding of sums over
+// the steps; 0.5 is half of a table's last digit.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <fstream>
@@ -14,8 +17,10 @@
 #include "tests/common/fixtures.hpp"
 #include "tests/support/compare_runs.hpp"
 #include "tests/support/make_worlds.hpp"
+#include "tests/support/tolerance.hpp"
 
 using namespace ice;
+using ice::test::Near;
 
 namespace {
 
@@ -95,15 +100,15 @@ TEST_CASE("a held piece breaks off in the step in which its load is reached",
         now = push_of(w);
         const double normal = crushing_force(w);
         // the plate's normals are floats
-        REQUIRE(now.along == Approx(normal * along_share).epsilon(1e-6));
-        REQUIRE(now.down == Approx(normal * down_share).epsilon(1e-6));
+        REQUIRE(now.along == Near(normal * along_share).epsilon(1e-6));
+        REQUIRE(now.down == Near(normal * down_share).epsilon(1e-6));
         for (const Constraint& c : w.constraints) {
             if (c.total_normal() <= 0.0) continue;
             // with the contact's own normal to the last digits
             const double s = c.normal.x(), k = -c.normal.z();
             const Vec3 push = c.total_normal() * c.normal + c.total_tangent();
-            REQUIRE(push.x() == Approx(c.max_impulse * (s + kFriction * k)).epsilon(1e-9));
-            REQUIRE(-push.z() == Approx(c.max_impulse * (k - kFriction * s)).epsilon(1e-9));
+            REQUIRE(push.x() == Near(c.max_impulse * (s + kFriction * k)).epsilon(1e-9));
+            REQUIRE(-push.z() == Near(c.max_impulse * (k - kFriction * s)).epsilon(1e-9));
         }
         work += now.along * kSpeed * w.parameters.time_step;
         REQUIRE(w.time < 10.0);
@@ -113,15 +118,15 @@ TEST_CASE("a held piece breaks off in the step in which its load is reached",
     // a straight edge cut by a slope: A = depth breadth / cos; the section is cut by spheres 0.1 m
     // apart, of which the outermost stand on the piece's corners
     const double depth = load * cosine / (kPressure * kBreadth * down_share);
-    CHECK(w.time * kSpeed - 1e-3 == Approx(depth).epsilon(0.04));
+    CHECK(w.time * kSpeed - 1e-3 == Near(depth).epsilon(0.04));
     // one step's growth, and a row of spheres that comes in at once
-    CHECK(now.along == Approx(load * along_share / down_share).epsilon(0.04));
+    CHECK(now.along == Near(load * along_share / down_share).epsilon(0.04));
     CHECK(before.along < load * along_share / down_share);
     // half the product of the two, with the errors of both
-    CHECK(work == Approx(0.5 * load * along_share / down_share * depth).epsilon(0.05));
+    CHECK(work == Near(0.5 * load * along_share / down_share * depth).epsilon(0.05));
     // all of it is booked as breaking
-    CHECK(w.ledger.breaking == Approx(work).epsilon(1e-12));
-    CHECK(w.ledger.ship_work == Approx(work).epsilon(1e-12));
+    CHECK(w.ledger.breaking == Near(work).epsilon(1e-12));
+    CHECK(w.ledger.ship_work == Near(work).epsilon(1e-12));
     CHECK(w.ledger.crushing == 0.0);
     CHECK(w.ledger.friction == 0.0);
     CHECK(w.ledger.kinetic_change == 0.0);
@@ -129,7 +134,7 @@ TEST_CASE("a held piece breaks off in the step in which its load is reached",
     step(w);
     CHECK(w.scene.bodies.velocity[1].x() > 0.0);
     CHECK(measure_step(w.scene, w.contacts, w.constraints, 0.01).breaking_x == 0.0);
-    CHECK(w.ledger.breaking == Approx(work).epsilon(1e-12));
+    CHECK(w.ledger.breaking == Near(work).epsilon(1e-12));
 }
 
 TEST_CASE("peak and work before breaking are those of the closed formulas", "[bending][analytic]") {
@@ -140,8 +145,8 @@ TEST_CASE("peak and work before breaking are those of the closed formulas", "[be
     const double down = std::cos(slope) - kFriction * std::sin(slope);
     const double force = load * (std::sin(slope) + kFriction * std::cos(slope)) / down;
     const double depth = load * std::cos(slope) / (1e-3 * kPressure * kBreadth * down);
-    CHECK(force == Approx(peak).margin(0.5));
-    CHECK(0.5 * force * depth == Approx(work).margin(0.5));
+    CHECK(force == Near(peak).margin(0.5));
+    CHECK(0.5 * force * depth == Near(work).margin(0.5));
 }
 
 TEST_CASE("a steep side never bends the ice: it crushes the whole thickness", "[step][bending]") {
@@ -164,7 +169,7 @@ TEST_CASE("a steep side never bends the ice: it crushes the whole thickness", "[
     const double whole = kPressure * section * (std::sin(slope) + kFriction * std::cos(slope));
     CHECK(force / steps > 0.88 * whole);
     CHECK(force / steps < 1.01 * whole);
-    CHECK(w.ledger.breaking == Approx(w.ledger.ship_work).epsilon(1e-12));
+    CHECK(w.ledger.breaking == Near(w.ledger.ship_work).epsilon(1e-12));
 }
 
 TEST_CASE("a side whose friction outweighs its slope lifts the ice", "[step][bending]") {
@@ -331,8 +336,8 @@ TEST_CASE("breaking and submersion add up to the resistance, and forces.csv has 
         ++rows;
     }
     // nine digits of each row
-    CHECK(sum == Approx(s.energy.at("breaking_J")).epsilon(1e-7));
-    CHECK(mean / rows == Approx(*s.resistance.breaking_mean).epsilon(1e-7));
+    CHECK(sum == Near(s.energy.at("breaking_J")).epsilon(1e-7));
+    CHECK(mean / rows == Near(*s.resistance.breaking_mean).epsilon(1e-7));
     const Summary back = read_summary(folder / "run" / "summary.json");
     CHECK(back.resistance.breaking_mean == s.resistance.breaking_mean);
     CHECK(back.resistance.submersion_mean == s.resistance.submersion_mean);

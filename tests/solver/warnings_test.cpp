@@ -9,8 +9,10 @@
 #include "solver/record/run_statistics.hpp"
 #include "solver/step/step.hpp"
 #include "tests/support/make_worlds.hpp"
+#include "tests/support/tolerance.hpp"
 
 using namespace ice;
+using ice::test::Near;
 
 namespace {
 
@@ -50,7 +52,7 @@ TEST_CASE("a run without a fault warns of nothing", "[record]") {
     const Summary s =
         summary_of(RunStatistics(options()), [](int, StepRecord&) { return kNothing; });
     CHECK(s.warnings.empty());
-    CHECK(s.resistance.mean == Approx(100.0));
+    CHECK(s.resistance.mean == Near(100.0));
     CHECK(s.residual_share == 0.0);
 }
 
@@ -62,7 +64,7 @@ TEST_CASE("unconverged steps are warned of when they owe more than 2 % of the im
         });
     };
     const Summary little = owing(0.04);  // of every other step's 2 N s: 1 %
-    CHECK(little.residual_share == Approx(0.01));
+    CHECK(little.residual_share == Near(0.01));
     CHECK(little.unconverged_steps == 550);
     CHECK(little.warnings.empty());
     const Summary much = owing(0.2);
@@ -70,7 +72,7 @@ TEST_CASE("unconverged steps are warned of when they owe more than 2 % of the im
     CHECK_THAT(much.warnings[0].text,
                Catch::Contains("550 of 1100 steps did not reach contact.tolerance"));
     CHECK(much.warnings[0].affects_mean == true);
-    CHECK(much.warnings[0].share.value() == Approx(0.05));
+    CHECK(much.warnings[0].share.value() == Near(0.05));
 }
 
 TEST_CASE("a jam's share of the mean is what the mean loses without its steps",
@@ -86,12 +88,12 @@ TEST_CASE("a jam's share of the mean is what the mean loses without its steps",
     };
     const Summary s = jammed(5000.0, 500);
     const double mean = (990 * 100.0 + 10 * 5000.0) / 1000.0;
-    CHECK(s.resistance.mean == Approx(mean));
+    CHECK(s.resistance.mean == Near(mean));
     REQUIRE_FALSE(s.warnings.empty());
     CHECK_THAT(s.warnings[0].text, Catch::Contains("jam: in 10 of 1100 steps") &&
                                        Catch::Contains("first floe 7 at t = 6.01 s"));
     CHECK(s.warnings[0].affects_mean == true);
-    CHECK(s.warnings[0].share.value() == Approx((mean - 100.0) / mean));
+    CHECK(s.warnings[0].share.value() == Near((mean - 100.0) / mean));
     CHECK(jammed(200.0, 500).warnings.empty());    // 1 % of the mean
     CHECK(jammed(50000.0, -50).warnings.empty());  // before the averaged time
 }
@@ -111,7 +113,7 @@ TEST_CASE("a deep overlap is warned of where opening overlaps put in much of the
     REQUIRE(much.warnings.size() == 1);
     CHECK_THAT(much.warnings[0].text, Catch::Contains("overlap reached 60.0 mm at t = 4.01 s"));
     CHECK(much.warnings[0].affects_mean == true);
-    CHECK(much.warnings[0].share.value() == Approx(0.05));
+    CHECK(much.warnings[0].share.value() == Near(0.05));
     const Summary little = put_in(6.0);
     CHECK(little.warnings.empty());
     CHECK(little.max_overlap == 0.06);  // the report's figure
@@ -127,7 +129,7 @@ TEST_CASE("a mean that few hits decide is warned of, with their share", "[record
                Catch::Contains("1 % of the steps carry 72 % of the force along x"));
     CHECK(s.warnings[0].affects_mean == true);
     CHECK(s.warnings[0].share.value() ==
-          Approx((5 * 50000.0 + 5 * 110.0) / (995 * 100.0 + 5 * 50000.0)).epsilon(1e-3));
+          Near((5 * 50000.0 + 5 * 110.0) / (995 * 100.0 + 5 * 50000.0)).epsilon(1e-3));
     CHECK_THAT(with_verdict(s.warnings[0]), Catch::Contains("affects the mean resistance"));
 }
 
@@ -137,12 +139,12 @@ TEST_CASE("a resistance that rises over the averaged time is warned of with its 
         r.contact_force.x() -= 0.05 * (k - 499.5);  // 50 N over 1000 steps, mean as before
         return kNothing;
     });
-    CHECK(s.resistance.trend == Approx(50.0).epsilon(0.01));
+    CHECK(s.resistance.trend == Near(50.0).epsilon(0.01));
     CHECK(s.resistance.trend_significant == true);
     REQUIRE(s.warnings.size() == 1);
     CHECK_THAT(s.warnings[0].text, Catch::Contains("rises by 50 % of its mean"));
     CHECK(s.warnings[0].affects_mean == true);
-    CHECK(s.warnings[0].share.value() == Approx(0.25).epsilon(0.01));  // of its end, half the rise
+    CHECK(s.warnings[0].share.value() == Near(0.25).epsilon(0.01));  // of its end, half the rise
 }
 
 TEST_CASE("averages over less than a length are warned of with the interval's share of the mean",
@@ -165,7 +167,7 @@ TEST_CASE("averages over less than a length are warned of with the interval's sh
                Catch::StartsWith("forces are averaged over 0.68 ship lengths, less than one, of "
                                  "2.00 travelled"));
     REQUIRE(std::isfinite(few.resistance.ci95));
-    CHECK(few.warnings[0].share.value() == Approx(few.resistance.ci95 / few.resistance.mean));
+    CHECK(few.warnings[0].share.value() == Near(few.resistance.ci95 / few.resistance.mean));
     // the verdict follows the share
     CHECK(few.warnings[0].affects_mean == (*few.warnings[0].share > kMatters));
     const Summary wide = after(0.68, 60.0), narrow = after(0.68, 1.0);  // 4 %, 0.06 %
@@ -226,10 +228,10 @@ TEST_CASE("overlaps that no contact knows are warned of with the loads on the hu
         CHECK(s.warnings[0].affects_mean == true);
         return s.warnings[0].share.value();
     };
-    CHECK(share({{0, 2, 0.06}}) == Approx(0.03));
-    CHECK(share({{1, 2, 0.06}}) == Approx(1.0));
-    CHECK(share({{0, 3, 0.06}}) == Approx(0.5));  // lacks a mean load, 1 to 2 that are there
-    CHECK(share({{0, 2, 0.06}, {0, 3, 0.07}}) == Approx(0.53));
+    CHECK(share({{0, 2, 0.06}}) == Near(0.03));
+    CHECK(share({{1, 2, 0.06}}) == Near(1.0));
+    CHECK(share({{0, 3, 0.06}}) == Near(0.5));  // lacks a mean load, 1 to 2 that are there
+    CHECK(share({{0, 2, 0.06}, {0, 3, 0.07}}) == Near(0.53));
     const Summary behind = overlaps({{3, 4, 0.06}});  // does not touch the hull
     CHECK(behind.warnings.empty());
     CHECK(behind.unseen_overlap == 0.06);  // the report's figure
@@ -279,15 +281,15 @@ TEST_CASE("what a contact owes is the floe's mass times the speed at which it st
     c.max_impulse = std::numeric_limits<double>::infinity();
 
     moving_at(0.2);
-    CHECK(residual_impulse(b, {c}, 0.01) == Approx(0.2 * b.mass[i]));
+    CHECK(residual_impulse(b, {c}, 0.01) == Near(0.2 * b.mass[i]));
     c.gap = 0.001;  // room for 0.1 m/s within the step
-    CHECK(residual_impulse(b, {c}, 0.01) == Approx(0.1 * b.mass[i]));
+    CHECK(residual_impulse(b, {c}, 0.01) == Near(0.1 * b.mass[i]));
     c.gap = 0.0;
     c.max_impulse = c.rest_normal = 3.0;  // it crushes: it may close
     CHECK(residual_impulse(b, {c}, 0.01) == 0.0);
     c.max_impulse = std::numeric_limits<double>::infinity();
     moving_at(-0.2);  // pushed apart by 3 N s where less would do
-    CHECK(residual_impulse(b, {c}, 0.01) == Approx(std::min(3.0, 0.2 * b.mass[i])));
+    CHECK(residual_impulse(b, {c}, 0.01) == Near(std::min(3.0, 0.2 * b.mass[i])));
     c.impact_normal = 1.0;  // unless it rebounds
     CHECK(residual_impulse(b, {c}, 0.01) == 0.0);
     c.can_move = false;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Sums over wetted surfaces: bits on every instruction set, fill without weight, a slow twin.
+//
+// Tolerances: 1e-13 of the largest sum is rounding over some hundred triangles, 1e-16 each.
 #include <array>
 #include <catch2/catch.hpp>
 #include <random>
@@ -11,8 +13,10 @@
 #include "tests/support/every_instruction_set.hpp"
 #include "tests/support/make_sphere_sets.hpp"
 #include "tests/support/same_bits.hpp"
+#include "tests/support/tolerance.hpp"
 
 using namespace ice;
+using ice::test::tolerance;
 using test::same_bits;
 
 namespace {
@@ -178,7 +182,7 @@ TEST_CASE("the submerged part is that of the body cut triangle by triangle", "[w
         const Submerged expected = clip_body(shape, turn, height);
         const Submerged s = measure_submerged(shape, turn, height);
         // a few hundred roundings of moments of the size of the whole body
-        const double slack = 1e-13 * shape.solid.volume;
+        const double slack = tolerance(1e-13) * shape.solid.volume;
         CHECK(std::abs(s.volume - expected.volume) < slack);
         if (expected.volume > slack)
             CHECK((s.centre - expected.centre).norm() * expected.volume < slack);
@@ -244,7 +248,8 @@ TEST_CASE("panel drag is the integral over the wetted surface that the flow meet
         const Loads expected = drag_by_clipping(shape, motion);
         const WaterLoad load = panel_drag(shape, motion, 1.0, 1000.0);
         // a few hundred roundings of parts no larger than whole triangles; lengths within a metre
-        const double slack = 1e-13 * 1000.0 * shape.solid.area * std::pow(v.norm() + w.norm(), 2);
+        const double slack =
+            tolerance(1e-13) * 1000.0 * shape.solid.area * std::pow(v.norm() + w.norm(), 2);
         CHECK((load.force - expected.force).norm() <= slack);
         CHECK((load.moment - expected.moment).norm() <= slack);
         loaded += expected.size > 1e6 * slack;
@@ -267,7 +272,8 @@ TEST_CASE("a mirror image's drag is the mirror image, however the triangles lie"
             panel_drag(shape, {turned, height, flip.cwiseProduct(v), Vec3(-flip.cwiseProduct(w))},
                        1.0, 1000.0);
         // a few hundred roundings of parts no larger than whole triangles; lengths within a metre
-        const double slack = 1e-13 * 1000.0 * shape.solid.area * std::pow(v.norm() + w.norm(), 2);
+        const double slack =
+            tolerance(1e-13) * 1000.0 * shape.solid.area * std::pow(v.norm() + w.norm(), 2);
         CHECK((starboard.force - flip.cwiseProduct(port.force)).norm() <= slack);
         CHECK((starboard.moment + flip.cwiseProduct(port.moment)).norm() <= slack);
     }
@@ -288,9 +294,11 @@ TEST_CASE("projected drag is that of the wetted facets that the flow meets", "[w
         }
         const Vec3 even = projected_drag(shape, motion, 1.0, 1000.0).force;
         // a hundred roundings
-        CHECK((even + 500.0 * area * v.norm() * v).norm() <= 1e-13 * 500.0 * v.squaredNorm());
+        CHECK((even + 500.0 * area * v.norm() * v).norm() <=
+              tolerance(1e-13) * 500.0 * v.squaredNorm());
         // without rotation, both laws are one
         const Vec3 by_panels = panel_drag(shape, motion, 1.0, 1000.0).force;
-        CHECK((even - by_panels).norm() <= 1e-13 * 1000.0 * shape.solid.area * v.squaredNorm());
+        CHECK((even - by_panels).norm() <=
+              tolerance(1e-13) * 1000.0 * shape.solid.area * v.squaredNorm());
     }
 }

@@ -7,8 +7,10 @@
 
 #include "tests/support/make_filled_sets.hpp"
 #include "tests/support/make_worlds.hpp"
+#include "tests/support/tolerance.hpp"
 
 using namespace ice;
+using ice::test::Near;
 
 namespace {
 
@@ -55,7 +57,7 @@ TEST_CASE("a plate driven against a face meets the pressure times the face",
     CAPTURE(radius);
     // 0.8 m x 0.3 m at once; an edge's or corner's share counts in equal parts for its faces, which
     // is true to half a spacing around the face: most where two rows of 0.1 m spheres make the face
-    CHECK(got.force == Approx(kPressure * 0.8 * 0.3).epsilon(radius > 0.05 ? 0.05 : 0.01));
+    CHECK(got.force == Near(kPressure * 0.8 * 0.3).epsilon(radius > 0.05 ? 0.05 : 0.01));
 }
 
 TEST_CASE("a plate driven against an edge meets the pressure times the section of the wedge",
@@ -71,10 +73,10 @@ TEST_CASE("a plate driven against an edge meets the pressure times the section o
     // the edge is cut sphere by sphere: half a row of patches of side `radius` may be missing or
     // too much, on each of the two faces
     const double row = radius * (std::cos(heading) + std::sin(heading)) / 2.0;
-    CHECK(got.force == Approx(kPressure * 0.3 * depth * width).margin(kPressure * 0.3 * row));
+    CHECK(got.force == Near(kPressure * 0.3 * depth * width).margin(kPressure * 0.3 * row));
     // work is the pressure times the volume cut: rows even out over the way. With 0.1 m spheres the
     // whole edge of 0.3 m is two corners, whose third face is taken to give way like the others:
     // 30 % too much.
     const double work = kPressure * 0.3 * 0.5 * depth * depth * width;
-    CHECK(got.work == Approx(work).epsilon(radius > 0.05 ? 0.31 : 0.1));
+    CHECK(got.work == Near(work).epsilon(radius > 0.05 ? 0.31 : 0.1));
 }

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Bodies that are not both convex, however deep they lie in each other.
+//
+// Tolerances: 1e-9 is rounding of a normal or a depth, with a reserve; 1e-6 m is a normal stored as
+// a float.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -9,36 +12,25 @@
 #include "solver/narrow/separating_axis.hpp"
 #include "solver/narrow/solid_contacts.hpp"
 #include "solver/record/solid_overlap.hpp"
+#include "tests/support/make_angle_world.hpp"
 #include "tests/support/make_filled_sets.hpp"
 #include "tests/support/make_prisms.hpp"
 #include "tests/support/make_worlds.hpp"
+#include "tests/support/tolerance.hpp"
 
 using namespace ice;
+using ice::test::Near;
+using ice::test::tolerance;
 
 namespace {
 
 constexpr double kRadius = 0.05;
 constexpr double kSlack = 0.1 * kRadius;  // of deep_seats.hpp
 
-// A prism, 1 m high, over a square of 4 m without its quarter x, y > 0.
-TriangleMesh angle_mesh() {
-    std::vector<Vec3> low, high;
-    for (const auto& [x, y] : {std::pair(0, 0), {0, 2}, {-2, 2}, {-2, -2}, {2, -2}, {2, 0}}) {
-        low.emplace_back(x, y, -0.5);
-        high.emplace_back(x, y, 0.5);
-    }
-    return test::make_ring_mesh(low, high);
-}
-
-// The angle as a hull, and a box of 1.2 x 1 x 0.4 m as a floe in ice that crushes.
+// The angle and the box in ice that crushes.
 World angle_and_box(const Vec3& place, const Quaternion& turn = Quaternion::Identity()) {
-    World w;
-    w.parameters = test::empty_space(0.01);
+    World w = test::angle_and_box(kRadius, place, turn);
     w.parameters.contact.crushing_pressure = 1e6;
-    w.scene = make_scene(build_shape(test::fill_surface(angle_mesh(), kRadius, 0.1), false),
-                         Vec3::Zero(), Vec3::Zero());
-    const auto box = test::add_shape(w, test::fill_box(Vec3(1.2, 1, 0.4), kRadius, 0.1));
-    add_floe(w.scene, box, 900.0, place, turn, 0, false);
     return w;
 }
 
@@ -96,7 +88,7 @@ TEST_CASE("convex solids have a contact as deep as their separating axis says, i
         for (const Contact& c : contacts_of(w)) least = std::min(least, c.gap);
         CAPTURE(k, depth, least);
         // the slack of solid_contacts.hpp; 1e-9 m is rounding
-        CHECK(-least >= depth - 0.02 * kRadius - 1e-9);
+        CHECK(-least >= depth - 0.02 * kRadius - tolerance(1e-9));
         ++(depth < kRadius ? shallow : deep);
     }
     // otherwise the poses show nothing
@@ -114,13 +106,14 @@ TEST_CASE("a floe in a hull that is not convex is felt at every depth, along the
     double least = 0.0;
     for (const Contact& c : contacts) {
         least = std::min(least, c.gap);
-        if (depth < 0.3 && c.key >> 62 == 3) CHECK((c.normal - Vec3::UnitX()).norm() < 1e-9);
+        if (depth < 0.3 && c.key >> 62 == 3)
+            CHECK((c.normal - Vec3::UnitX()).norm() < tolerance(1e-9));
     }
     CAPTURE(depth, contacts.size());
     // seats on the box's face are as deep as the face, or as half of the leg's height, 0.5 m, from
     // which on the leg's upper and lower faces are nearer; they are up to 0.1 m from that middle
-    CHECK(least >= -std::min(depth, 0.5) - 1e-6);
-    CHECK(least <= -std::min(depth, 0.4) + 1e-6);
+    CHECK(least >= -std::min(depth, 0.5) - tolerance(1e-6));
+    CHECK(least <= -std::min(depth, 0.4) + tolerance(1e-6));
     // the finder and the look at the solids agree
     const OverlapFound found = measure_overlaps(w.scene, contacts);
     CHECK(found.deepest <= -least + kSlack);
@@ -165,7 +158,7 @@ TEST_CASE("deep contacts of a solid that is not convex lie in both solids, and n
             deepest = std::max(
                 deepest, in_hull(view.rotation_ab * seat(view.shape_b, n) + view.translation_ab));
         CAPTURE(k, least, deepest);
-        CHECK(-least >= deepest - kSlack - 1e-9);
+        CHECK(-least >= deepest - kSlack - tolerance(1e-9));
     }
     CHECK(deep > 1000);  // otherwise the poses show nothing
 }
@@ -176,8 +169,8 @@ TEST_CASE("nothing is felt in the angle's notch, and contacts within a slack are
     const World w = angle_and_box(Vec3(0.6 - 0.02, 0.72, 0.0));
     for (const Contact& c : contacts_of(w)) {
         CHECK(c.key >> 62 == 0);
-        CHECK((c.normal - Vec3::UnitX()).norm() < 1e-9);
-        CHECK(c.gap == Approx(-0.02).margin(1e-9));
+        CHECK((c.normal - Vec3::UnitX()).norm() < tolerance(1e-9));
+        CHECK(c.gap == Near(-0.02).margin(1e-9));
     }
 }
 

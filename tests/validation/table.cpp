@@ -10,6 +10,8 @@
 #include <fstream>
 #include <vector>
 
+#include "tests/support/tolerance.hpp"
+
 namespace ice::test {
 
 namespace {
@@ -83,12 +85,10 @@ CATCH_REGISTER_LISTENER(TableWriter)
 }  // namespace
 
 void validate(const Comparison& row) {
-    const char* text = std::getenv("ICE_TOLERANCE_SCALE");
-    const double scale = text == nullptr ? 1.0 : std::strtod(text, nullptr);
     const double out = share_of_tolerance(row);
     add(row, out, true);
     CAPTURE(row.name, row.expected, row.got, row.unit);
-    CHECK(out <= scale);
+    CHECK(out <= tolerance_scale());
 }
 
 void show(const Comparison& row) { add(row, std::abs(row.got - row.expected), false); }
