@@ -31,6 +31,7 @@ usage: ./bootstrap.sh COMMAND
   sanitize        the tests of solver and file formats with the address and undefined-behaviour
                   sanitizers
   sanitize-files  those of the file formats alone
+  sanitize-threads  a few steps of each bench scene with the thread sanitizer
   tidy   clang-tidy over every source; the tests run it over a sample of them
 END
 }
@@ -152,6 +153,12 @@ case $1 in
         ;;
     sanitize-files)
         run_sanitized common_tests
+        ;;
+    sanitize-threads)
+        install_packages "${packages[@]}" "${test_packages[@]}" clang-14 libclang-rt-14-dev libomp-14-dev
+        cmake --preset tsan -DICE_TESTS=ON -DICE_PRECOMPILED_HEADERS=ON -DICE_UNITED_SOURCES=ON
+        cmake --build --preset tsan --parallel "$(job_count)" --target icebench
+        run_tests tsan build/tsan -R "^icebench: every scene"
         ;;
     tidy)
         install_packages "${packages[@]}" clang-14 clang-tidy-14 libomp-14-dev
