@@ -86,6 +86,7 @@ Rows travel_rows(const Summary& s, double speed) {
     add(rows, "Simulated", readable(s.simulated_s) + " s");
     add(rows, "Averaged",
         fmt::format("{} to {} s", readable(s.average_from), readable(s.simulated_s)));
+    // summaries of older programs lack the travel
     if (std::isfinite(s.travel.distance))
         add(rows, "Travelled",
             fixed(s.travel.distance, 1, "m") +
