@@ -105,7 +105,7 @@ std::string column(const std::string& heading, const Rows& rows) {
 }  // namespace
 
 double mean_speed(const RunData& run, double from) {
-    // Way over time, not the mean of samples: exact for any motion between the two rows.
+    // Distance over time, not the mean of samples: exact for any motion between the two rows.
     const HistoryRow* first = nullptr;
     for (const HistoryRow& row : run.history)
         if (row.time >= from - 1e-9) {
