@@ -126,6 +126,7 @@ int sweep(const Options& o) {
         ice::say_warning(faults);
     ice::say(fmt::format("wrote {}", file.string()));
     if (!o.svg.empty()) write_sweep_curves(o, runs);
+    // last, and alone on standard output: it can be piped into a document
     if (o.markdown) ice::write_data(ice::sweep::sweep_markdown(runs));
     return 0;
 }

@@ -14,6 +14,7 @@ CLI::Validator quantity(Dimension dimension, bool positive, const std::string& e
         [=](std::string& text) {
             const auto read = parse_quantity(text, dimension);
             if (!read || !std::isfinite(read->value) || (positive && !(read->value > 0.0))) {
+                // the message names the units that are allowed, and an example
                 const std::string unit =
                     has_unit(dimension) ? fmt::format(" in {}", si_unit(dimension)) : std::string();
                 const std::string units = unit_names(dimension);

@@ -17,6 +17,8 @@ namespace ice {
 namespace {
 
 constexpr const char* kCheckpointFormat = "icesolve-checkpoint";
+
+// Version of the format; 1 more when a field changes its meaning. A reader refuses all others.
 constexpr std::int64_t kFormatVersion = 1;
 constexpr const char* kStartAnew = "restart from another checkpoint, or run the case anew";
 

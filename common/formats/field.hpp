@@ -28,7 +28,7 @@ struct Field {
     std::array<double, 4> area{};        ///< x, y of the least and the greatest corner [m]
     double concentration = 0.0;          ///< area of the loose floes over `area`'s [-]
     std::string specification;           ///< the TOML it was made from, verbatim
-    std::int64_t seed = 0;
+    std::int64_t seed = 0;               ///< of the specification
     std::string created_by, command_line;
 
     std::vector<SphereSet> shapes;  ///< [K] body axes: z = 0 halfway up, origin at the centroid

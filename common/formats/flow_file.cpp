@@ -14,6 +14,7 @@ namespace ice {
 namespace {
 
 constexpr const char* kFlowFormat = "icesolve-flow";
+// Version of the format; 1 more when an array changes its meaning. A reader refuses all others.
 constexpr std::int64_t kFlowVersion = 1;
 // Bounds on the memory for a damaged or hostile file. Flows of some 300 000 nodes are usual.
 // Most memory over the file's size. Arrays are not compressed, so that 1 would be enough for a

@@ -108,6 +108,7 @@ void Hdf5File::write_attribute(const std::string& object, const std::string& nam
 void Hdf5File::write_attribute(const std::string& object, const std::string& name,
                                std::int64_t value) {
     const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+    // little-endian in the file on every machine: equal runs give equal bytes
     const Handle attribute(H5Acreate_by_name(id_, object.c_str(), name.c_str(), H5T_STD_I64LE,
                                              space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
                            H5Aclose);

@@ -76,6 +76,7 @@ void to_json(Json& json, const IceParticulars& i) {
 }
 
 void from_json(const Json& json, IceParticulars& i) {
+    // Keys that a file lacks, as one of an older program, leave their members as they are.
     take(json, "thickness_m", i.thickness);
     take(json, "floes", i.floes);
     take(json, "floe_size_min_m", i.floe_size_min);

@@ -16,6 +16,7 @@ namespace ice {
 namespace {
 
 constexpr const char* kSpheresFormat = "icesolve-spheres";
+// Version of the format; 1 more when an array changes its meaning. A reader refuses all others.
 constexpr std::int64_t kSpheresVersion = 1;
 
 std::vector<Vec3> unflatten(const std::vector<double>& flat) {

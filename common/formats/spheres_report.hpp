@@ -57,7 +57,7 @@ struct CutBack {
 /// Certificate of a sphere set (schema spherize/1, docs/contract.md, section 2). Lengths [m], area
 /// [m2], volume [m3], inertia at 1 kg/m3 [kg m2]; in 2D the last three per metre of breadth.
 struct SpheresReport {
-    int dimension = 3;
+    int dimension = 3;                                   ///< 3 or 2
     double radius = 0.0, spacing = 0.0;                  ///< [m]
     std::int64_t spheres = 0, surface_spheres = 0;       ///< counts; all, and those of the surface
     double volume = 0.0, area = 0.0;                     ///< [m3], [m2]

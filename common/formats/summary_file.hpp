@@ -73,13 +73,13 @@ struct FlowSummary {
 struct Summary {
     std::string status = "completed";  ///< completed | interrupted | failed
     std::string title, simd = "scalar";
-    std::int64_t steps = 0;                  ///< count
-    double simulated_s = 0.0, wall_s = 0.0;  ///< [s]
-    int threads = 1, dimension = 3;
-    std::uint64_t state_hash = 0;
-    std::int64_t hull_spheres = 0, ice_spheres = 0;
-    std::int64_t floes_total = 0, floes_moved = 0, floes_behind = 0;
-    double average_from = 0.0;  ///< start of the means [s]
+    std::int64_t steps = 0;                          ///< count
+    double simulated_s = 0.0, wall_s = 0.0;          ///< [s]
+    int threads = 1, dimension = 3;                  ///< count; 3 or 2
+    std::uint64_t state_hash = 0;                    ///< of the bodies at the end, bit by bit
+    std::int64_t hull_spheres = 0, ice_spheres = 0;  ///< counts
+    std::int64_t floes_total = 0, floes_moved = 0, floes_behind = 0;  ///< counts
+    double average_from = 0.0;                                        ///< start of the means [s]
     ShipParticulars ship;
     IceParticulars ice;
     TravelParticulars travel;
@@ -90,7 +90,7 @@ struct Summary {
     double max_overlap = 0.0;                        ///< deepest of a contact [m]
     /// Deepest overlap of two solids less that of their contacts [m]; NaN: not measured.
     double unseen_overlap = std::numeric_limits<double>::quiet_NaN();
-    std::int64_t unconverged_steps = 0;
+    std::int64_t unconverged_steps = 0;  ///< count, of `steps`
     /// Impulses that unconverged steps lack, as a share of all in the averaged time [-]; NaN:
     /// unknown.
     double residual_share = std::numeric_limits<double>::quiet_NaN();

@@ -17,6 +17,8 @@ using Key = std::array<std::uint64_t, 3>;
 /// Mixes all bits of a key.
 struct HashKey {
     std::size_t operator()(const Key& key) const {
+        // FNV's start value and 2^64 over the golden ratio, made odd: any numbers with well mixed
+        // bits would do. They order the table and change no result.
         std::uint64_t value = 0xcbf29ce484222325ull;
         for (const std::uint64_t word : key) {
             value = (value ^ word) * 0x9e3779b97f4a7c15ull;

@@ -41,6 +41,8 @@ WindingNumber::WindingNumber(const TriangleMesh& mesh) {
     centers.reserve(order.size());
     for (std::size_t t = 0; t < order.size(); ++t)
         centers.push_back((mesh.corner(t, 0) + mesh.corner(t, 1) + mesh.corner(t, 2)) / 3.0);
+    // A tree over the centres; triangles are stored in its order, so that those of one node lie
+    // side by side in memory.
     nodes_.reserve(order.size());
     build(mesh, order, centers, 0, static_cast<std::int32_t>(order.size()));
     corners_.reserve(order.size());

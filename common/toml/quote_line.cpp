@@ -57,6 +57,8 @@ std::string_view behind_number(std::string_view text) {
 std::vector<std::string> printable_characters(std::string_view text) {
     std::vector<std::string> out;
     while (!text.empty()) {
+        // Whole characters, not bytes: carets stand below them, and a terminal shows no half of
+        // one. Control characters could write over the message.
         const std::size_t length = sequence_length(text);
         const auto c = static_cast<unsigned char>(text.front());
         if (c == '\t')

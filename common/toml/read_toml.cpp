@@ -43,6 +43,7 @@ public:
             complain_of_syntax(error);
             return {};
         }
+        // One message for a file of another kind, in place of one for each of its keys.
         if (whole && is_another_kind(root)) return {};
         Values values;
         walk(root, "", "", values, groups);

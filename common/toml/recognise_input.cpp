@@ -108,6 +108,7 @@ std::optional<Recognised> recognise_tables(const std::filesystem::path& file,
 }
 
 std::string look_into_folder(const std::filesystem::path& folder, std::string_view ending) {
+    // A folder that cannot be listed gives the plain advice: this text is part of another error.
     std::vector<std::string> found;
     std::error_code error;
     for (const auto& entry : std::filesystem::directory_iterator(folder, error))

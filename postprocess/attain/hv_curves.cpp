@@ -184,6 +184,7 @@ private:
     void add_course(const std::string& label, const Thrust& thrust,
                     const std::map<double, ResistanceFit>& fits) {
         HvCurve curve{Source::fixed_course, label.empty() ? "computed" : label, thrust.name, {}};
+        // One point for each thickness: the map has them in rising order.
         for (const auto& [thickness, fit] : fits)
             curve.points.push_back({thickness, attained_speed(fit, thrust)});
         const auto outside =

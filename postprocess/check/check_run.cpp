@@ -67,6 +67,7 @@ bool all_passed(const std::vector<Verdict>& verdicts) {
 }
 
 std::string verdict_table(const std::vector<Verdict>& verdicts) {
+    // at least as wide as the headings "key" and "expected"
     std::size_t key_width = 3, expected_width = 8;
     for (const Verdict& v : verdicts) {
         key_width = std::max(key_width, v.expected.key.size());

@@ -56,6 +56,7 @@ std::vector<FitPoint> fit_points(const sweep::Sweep& sweep, const std::vector<sw
 
 std::vector<std::string> fit_warnings(const sweep::Sweep& sweep, const SpencerFit& fit) {
     std::vector<std::string> out;
+    // The fit would take the effect of another axis for one of speed or thickness.
     for (const std::string& axis : sweep.axes)
         if (!is_formula_axis(axis))
             out.push_back(

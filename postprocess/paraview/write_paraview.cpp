@@ -266,6 +266,7 @@ private:
     }
 
     void write_shapes() {
+        // In their own axes, for ParaView's glyphs: one shape is drawn at all of its floes' places.
         XdmfFile file;
         for (std::size_t k = 0; k < run_.header.shapes.size(); ++k) {
             const TriangleMesh& mesh = run_.header.shapes[k].mesh;

@@ -95,6 +95,7 @@ std::string draw_legend(const std::vector<Bar>& bars) {
     std::vector<std::string> named;
     for (const Bar& bar : bars)
         for (const auto& [part, force] : bar.parts) {
+            // the run's own bar is named at its left
             if (part == "this run" || std::find(named.begin(), named.end(), part) != named.end())
                 continue;
             named.push_back(part);

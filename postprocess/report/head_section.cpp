@@ -86,6 +86,7 @@ Rows travel_rows(const Summary& s, double speed) {
     add(rows, "Simulated", readable(s.simulated_s) + " s");
     add(rows, "Averaged",
         fmt::format("{} to {} s", readable(s.average_from), readable(s.simulated_s)));
+    // summaries of older programs lack the travel
     if (std::isfinite(s.travel.distance))
         add(rows, "Travelled",
             fixed(s.travel.distance, 1, "m") +
@@ -104,7 +105,7 @@ std::string column(const std::string& heading, const Rows& rows) {
 }  // namespace
 
 double mean_speed(const RunData& run, double from) {
-    // Way over time, not the mean of samples: exact for any motion between the two rows.
+    // Distance over time, not the mean of samples: exact for any motion between the two rows.
     const HistoryRow* first = nullptr;
     for (const HistoryRow& row : run.history)
         if (row.time >= from - 1e-9) {

@@ -61,6 +61,7 @@ namespace {
 std::string axes_note(const RunData& run, const RunFigures& figures) {
     std::string peaks;
     for (const History& h : figures.histories)
+        // largest single hits in words, since the axes leave them out
         if (h.id.starts_with("force-"))
             peaks += fmt::format("{}{} {}", peaks.empty() ? "" : ", ", h.id.back(),
                                  figures.unit.text(h.peak * h.unit.newtons));

@@ -170,7 +170,7 @@ std::string region_table(const Summary& s, const ForceUnit& unit) {
 }
 
 std::string energy_table(const Summary& s) {
-    // in the order of the balance: work done, its destinations, the residual
+    // in the order of the energy ledger: work done, its destinations, the residual
     static const std::vector<std::pair<const char*, const char*>> kRows{
         {"ship_work_J", "Work of the ship"},
         {"separation_J", "Put in by opening overlaps"},

@@ -53,7 +53,7 @@ std::string force_table(const Summary& summary, const ForceUnit& unit);
 /// One row per region of the hull; "" when there are none.
 std::string region_table(const Summary& summary, const ForceUnit& unit);
 /// Where the ship's work went, in joules and as shares of it; "" for a run without an energy
-/// balance.
+/// ledger.
 std::string energy_table(const Summary& summary);
 /// Contacts, overlap, computing time: whether the numbers can be trusted.
 std::string numerics_table(const Summary& summary);

@@ -38,6 +38,8 @@ json pack_curve(const std::string& chart, const History::Curve& curve, Pack& pac
 json pack_history(const History& h, double average_from, Pack& pack) {
     json series = json::array();
     for (const History::Curve& curve : h.curves) series.push_back(pack_curve(h.id, curve, pack));
+    // The viewer draws the same chart as the page's SVG: unit, range and shading come from one
+    // place.
     json chart = {{"id", h.id},
                   {"title", h.title},
                   {"unit", h.y_title},
@@ -52,6 +54,7 @@ json pack_history(const History& h, double average_from, Pack& pack) {
 json pack_coverage(const statistics::BottomCoverage& coverage, Pack& pack) {
     std::vector<float> time(coverage.time.begin(), coverage.time.end()), share;
     for (const double s : coverage.share) share.push_back(static_cast<float>(100.0 * s));
+    // its own times: coverage has one value per frame, histories one per output row
     pack.add("coverage_time", time);
     pack.add("coverage", share);
     const json curve = {{"label", "covered"},

@@ -64,6 +64,7 @@ public:
         add_pieces();
         meta_["hull"] = pack_hull(figures_.load, pack_);
         add_flow();
+        // last, when all arrays have their places
         meta_["arrays"] = pack_.table();
         return {safe_text(meta_.dump()), pack_.text()};
     }

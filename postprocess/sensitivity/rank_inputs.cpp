@@ -64,6 +64,7 @@ std::vector<RankedInput> rank_inputs(const Study& study) {
             out.back().changes.push_back(
                 {value.label, estimate_ensemble(value), estimate_difference(study.base, value)});
     }
+    // stable: equal inputs stay in the plan's order, and the page is the same at each call
     std::stable_sort(out.begin(), out.end(), [](const RankedInput& a, const RankedInput& b) {
         return a.largest() > b.largest();
     });

@@ -55,6 +55,7 @@ public:
 
     std::string draw() const {
         std::string out = views::svg_open(kWidth, bottom_ + kFoot, "What moves the resistance");
+        // SVG paints in order: bands, axes, bars, and the line of the mean over all
         out += band(base_.mean * kModelUncertainty, kModelColor) + band(half_, kIntervalColor);
         out += axes();
         double top = kTop;

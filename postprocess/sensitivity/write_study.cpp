@@ -156,6 +156,7 @@ std::string study_text(const Study& study) {
     out += fmt::format("  {} {} (95 %, {}); {}: \u00b1 {} {}\n\n", r.with_interval(r.base),
                        r.unit.name, sentence_on_seeds(study), model_words(),
                        r.unit.text(kModelUncertainty * std::abs(r.base.mean)), r.unit.name);
+    // the same rows as the page's, with the star in a column of its own
     std::vector<std::vector<std::string>> rows{heads(r)};
     for (const RankedInput& input : r.inputs)
         for (const Change& change : input.changes) {

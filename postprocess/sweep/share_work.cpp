@@ -18,7 +18,7 @@ struct Account {
 // Entries that only runs in moving water, or with pieces held until they bend, have.
 constexpr std::string_view kWaterWork = "water_work_J", kBreaking = "breaking_J";
 
-// Entries of the energy balance (section 8 of docs/method.md) with the sign that makes the first
+// Entries of the energy ledger (section 8 of docs/method.md) with the sign that makes the first
 // one the sum of all others: work of the ship = gains and losses less the energy that opened
 // overlaps and moving water put in.
 constexpr Account kAccounts[]{{"Work per metre", "ship_work_J", 1.0},

@@ -7,7 +7,7 @@
 
 namespace ice::sweep {
 
-/// One entry of the energy balance as a force.
+/// One entry of the energy ledger as a force.
 struct WorkShare {
     const char* title;
     double force;  ///< energy per metre of the ship's travel [N; 2D: N/m], or NaN
@@ -18,7 +18,7 @@ struct WorkShare {
 /// water counts negative. Work per metre is the mean force over the whole run, start-up included,
 /// while the resistance is that from output.average_from on.
 ///
-/// NaN where the runs have no constant speed, or no energy balance.
+/// NaN where the runs have no constant speed, or no energy ledger.
 std::vector<WorkShare> share_work(const Sweep& sweep, const Point& point);
 
 }  // namespace ice::sweep

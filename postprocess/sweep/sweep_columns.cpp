@@ -89,7 +89,7 @@ std::vector<Column> force_columns(const std::vector<Point>& points, const report
 std::vector<Column> work_columns(const Sweep& sweep, const std::vector<Point>& points,
                                  const report::ForceUnit& unit) {
     std::vector<Column> columns;
-    // all points have the same accounts, in the same order
+    // all points have the same entries, in the same order
     for (const auto& [title, force] : share_work(sweep, points.front()))
         columns.push_back({std::string(title) + " [" + unit.name + "]", {}});
     for (const Point& point : points) {
@@ -97,7 +97,7 @@ std::vector<Column> work_columns(const Sweep& sweep, const std::vector<Point>& p
         for (const auto& [title, force] : share_work(sweep, point))
             columns[k++].cells.push_back(unit.text(force));
     }
-    // entries of the balance that no run of the sweep has
+    // entries of the ledger that no run of the sweep has
     drop_empty(columns, 0);
     return columns;
 }

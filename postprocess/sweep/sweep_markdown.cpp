@@ -18,6 +18,7 @@ std::string plain(std::string text) {
 }
 
 std::string table_text(const std::vector<Column>& columns) {
+    // all columns have as many cells: they are made from the same points
     std::string out = "|", rule = "|";
     for (const Column& column : columns) {
         out += " " + plain(column.title) + " |";

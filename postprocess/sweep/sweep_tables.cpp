@@ -123,7 +123,7 @@ std::string work_table(const Sweep& sweep, const std::vector<Point>& points,
                        const report::ForceUnit& unit) {
     ICE_ASSERT(!points.empty());
     const auto axes = axis_columns(sweep, points, true), work = work_columns(sweep, points, unit);
-    // runs of older programs have no energy balance
+    // runs of older programs have no energy ledger
     if (work.empty()) return "";
     std::vector<std::string> names = titles(axes);
     for (const Column& column : work) names.push_back(column.title);

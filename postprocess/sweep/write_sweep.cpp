@@ -155,6 +155,7 @@ std::string fault_list(const Sweep& sweep) {
     texts.insert(texts.end(), sweep.warnings.begin(), sweep.warnings.end());
     if (texts.empty()) return "";
     const std::size_t count = texts.size();
+    // the first ones: they are in the plan's order, and a sweep often fails for one reason
     if (count > kMostNamed) texts.resize(kMostNamed);
     std::string out =
         "<section id=\"faults\" class=\"warnings\">\n<b>Runs without a result, "

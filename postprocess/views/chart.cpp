@@ -34,6 +34,7 @@ std::string dash_attribute(const std::string& dash) {
 
 // A sign of about 8 px at a place.
 std::string draw_mark(char mark, const Vec2& at, const std::string& color) {
+    // r: half the size [px]; all marks have about the same extent, so that none looks heavier
     const double x = at.x(), y = at.y(), r = 4.2;
     const std::string fill = fmt::format("fill=\"{}\"", color);
     if (mark == 'o')
@@ -89,6 +90,7 @@ std::vector<std::vector<Key>> fill_rows(const std::vector<Key>& keys, double wid
 std::string draw_legend(const std::vector<std::vector<Key>>& rows, double left, double y) {
     std::string out;
     for (const auto& row : rows) {
+        // sample, mark and name of each key from the left; rows were filled by key_width() alike
         double x = left;
         for (const Key& key : row) {
             if (key.width > 0.0)

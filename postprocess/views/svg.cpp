@@ -123,6 +123,7 @@ std::string readable(double value) {
     const double size = std::abs(value);
     if (size == 0.0) return "0";
     if (size < 1e-4 || size >= 1e7) return fmt::format("{:.3e}", value);
+    // digits before the point: four digits in all, and zeros at the end are cut
     const int before = static_cast<int>(std::floor(std::log10(size))) + 1;
     std::string text = fmt::format("{:.{}f}", value, std::clamp(4 - before, 0, 7));
     if (text.find('.') != std::string::npos) {

@@ -48,6 +48,7 @@ Probed take_samples(const TriangleMesh& mesh, const std::vector<std::uint8_t>& s
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         sampler.sample(t, samples);
         for (const SurfaceSample& s : samples) {
+            // Triangles that both meshes have lie at distance 0: a search would only confirm it.
             if (shared[t] == 0) {
                 out.probes.push_back({s.point, s.area, 0.0, s.triangle});
                 continue;

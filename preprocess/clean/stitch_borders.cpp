@@ -43,6 +43,8 @@ Borders find_borders(const TriangleMesh& mesh, double tolerance, double of_edge 
     Borders out;
     out.reach.assign(mesh.vertices.size(), 0.0);
     for (const MeshEdge& edge : edge_table(mesh)) {
+        // A border vertex may close a crack up to a share of its shorter open edge: beyond, edges
+        // of the surface itself would be drawn together.
         if (edge.count != 1) continue;
         out.edges.push_back(edge);
         const double most =

@@ -30,6 +30,9 @@ FieldPattern pattern_of(const std::string& name) {
         std::count(kPatterns.begin(), kPatterns.begin() + static_cast<std::ptrdiff_t>(at), '|'));
 }
 
+// Each key: path, kind, dimension, default ("" required, "-" none), bounds in SI, length of a list,
+// choices, text of --explain, and the member that takes the value. All in one row, so that a key
+// cannot have bounds without a text, or be read without a place. Rows are in the order of the help.
 std::vector<FieldKey> common_keys() {
     return {
         {"title", Kind::text, D::none, "\"\"", 0, 0, 0, "", "Title of the field.",
@@ -63,6 +66,8 @@ std::vector<FieldKey> common_keys() {
     };
 }
 
+// Sizes of floes. A key belongs to one pattern or a few (pattern_keys()), so all have the default
+// "-" or one that is harmless to the others.
 std::vector<FieldKey> floe_keys() {
     return {
         {"floes.size", Kind::vector, D::length, "-", kTiny, kFar, 2, "",
@@ -116,6 +121,8 @@ std::vector<FieldKey> floe_keys() {
     };
 }
 
+// Unbroken ice around the field. Without it floes at the border can be pushed away freely, as in a
+// basin that is wider than its ice.
 std::vector<FieldKey> edge_keys() {
     return {
         {"edges.breadth", Kind::number, D::length, "0.0", 0, kFar, 0, "",
@@ -159,6 +166,7 @@ const Schema& field_schema() {
 }
 
 const std::vector<PatternKeys>& pattern_keys() {
+    // name, required keys, further keys; the keys of no pattern belong to all
     static const std::vector<PatternKeys> keys{
         {"grid", {"floes.size", "floes.count"}, {"floes.gap"}},
         {"brick", {"floes.size", "floes.count"}, {"floes.gap"}},

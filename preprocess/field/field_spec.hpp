@@ -18,7 +18,7 @@ enum class FieldPattern { grid, brick, cusps, voronoi, power_law, polygons };
 struct FieldSpec {
     std::string title;
     FieldPattern pattern = FieldPattern::grid;
-    std::int64_t seed = 0;
+    std::int64_t seed = 0;  ///< of the random patterns
 
     double thickness = 0.0, chamfer = 0.0;  ///< [m]
     double radius = 0.0, spacing = 0.0;     ///< of the spheres [m]

@@ -88,6 +88,7 @@ SphereSet fill_strip(double length, const PrismForm& form) {
     options.radius = form.radius;
     options.spacing = form.spacing;
     options.surface_only = form.surface_only;
+    // A rectangle in the x-z plane about the origin, with its outward normals [m].
     const double x = 0.5 * length, z = 0.5 * form.thickness;
     const Vec3 corners[]{{-x, 0, -z}, {x, 0, -z}, {x, 0, z}, {-x, 0, z}};
     const Vec3 normals[]{-Vec3::UnitZ(), Vec3::UnitX(), Vec3::UnitZ(), -Vec3::UnitX()};

@@ -83,6 +83,7 @@ std::vector<Outline> voronoi_floes(const FieldSpec& s, const Rectangle& area, st
     }
     std::vector<Outline> out;
     for (const PowerCell& cell : cells)
+        // every cell by the same share, so that the field has its concentration everywhere
         out.push_back(shrunk(cell.corners, s.concentration * area_of(cell.corners)));
     return out;
 }

@@ -70,6 +70,7 @@ FieldPlan plan_polygons(const FieldSpec& s, std::vector<std::string>& warnings) 
         warnings.push_back(fmt::format("{}: {} holes in polygons are filled: floes are solid",
                                        s.file.string(), holes));
     FieldPlan plan;
+    // The field's area is the box of its floes: polygons state no other.
     for (const NamedOutline& polygon : polygons) {
         plan.loose.push_back(cleaned(s, polygon));
         for (const Vec2& p : plan.loose.back()) plan.area.extend(p);

@@ -44,6 +44,8 @@ private:
     }
 
     void take(const FieldKey& key, FieldSpec& spec) {
+        // A key that was given but is faulty has a message already; "-" is no default but "not
+        // given", and no default at all means required.
         const auto found = values_.find(std::string(key.path));
         if (found == values_.end() && given(key.path)) return;
         if (found == values_.end() && key.default_text == "-") return;

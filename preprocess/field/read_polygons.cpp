@@ -120,6 +120,7 @@ std::vector<NamedOutline> read_polygons(const std::filesystem::path& file, std::
     if (out.empty())
         throw bad_input(file.string(), "holds no polygons",
                         "give GeoJSON polygons, or a .csv file of rows floe, x, y");
+    // once for both formats: no later step compares with a number that is none
     for (const NamedOutline& polygon : out)
         for (const Vec2& p : polygon.corners)
             if (!p.allFinite())

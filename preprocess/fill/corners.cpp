@@ -54,6 +54,7 @@ public:
     bool know(const Seat& corner) const {
         return grid_.any_within(
             corner.center, kSameCorner * set_.spacing, [&](std::int32_t sphere) {
+                // creases are in order of their spheres: those of one are a range
                 const auto at = static_cast<std::size_t>(sphere);
                 const auto normals =
                     std::span(set_.creases).subspan(first_[at], first_[at + 1] - first_[at]);

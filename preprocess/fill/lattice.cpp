@@ -81,6 +81,7 @@ LatticeFill fill_lattice_rows(const TriangleMesh& mesh, const LatticeOptions& o)
 }
 
 void expand(const LatticeFill& fill, std::span<Vec3> out) {
+    // Offsets first: each run then writes its own part of the result, in any order of threads.
     std::vector<std::size_t> offset;
     std::size_t sum = 0;
     for (const LatticeRun& run : fill.runs) {

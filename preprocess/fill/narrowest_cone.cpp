@@ -34,6 +34,7 @@ Vec3 turned_axis(std::span<const Vec3> directions) {
         const Vec3* farthest = &directions.front();
         for (const Vec3& d : directions)
             if (axis.dot(d) < axis.dot(*farthest)) farthest = &d;
+        // steps of 1 / (turn + 1): the error falls with the number of turns
         const Vec3 next = axis + (*farthest - axis) / (turn + 1.0);
         if (next.norm() < 1e-9) break;
         axis = next.normalized();

@@ -124,6 +124,7 @@ private:
 void set_bits(std::uint64_t* row, std::int64_t from, std::int64_t to) {
     if (from >= to) return;
     const std::int64_t first = from >> 6, last = (to - 1) >> 6;
+    // masks of the first and the last word; whole words lie between
     const std::uint64_t head = ~std::uint64_t{0} << (from & 63);
     const std::uint64_t tail = ~std::uint64_t{0} >> (63 - ((to - 1) & 63));
     if (first == last) {

@@ -143,6 +143,8 @@ private:
         };
         for (const auto& [at, k] : index_)
             for (const Seed& seed : tiles_[k].seeds) {
+                // tested before and after settling: settling costs most, and may end beside another
+                // disc
                 if (taken(seed.seat, tree_.normal(seed.triangle))) continue;
                 const auto seat = settle(tree_, seed.seat, o_.radius, seed.triangle);
                 if (!seat || taken(seat->center, seat->normal)) continue;

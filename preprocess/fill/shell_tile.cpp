@@ -97,6 +97,8 @@ bool ShellTile::tried_near(const Seed& seed) {
     for (int d = 0; d < 3; ++d)
         key[static_cast<std::size_t>(d)] =
             static_cast<std::int32_t>(std::floor((seed.seat[d] - box_.min()[d]) / cube));
+    // Alike: in the same small cube, and facing the same of six directions, so that both sides of a
+    // thin plate stay apart.
     int axis = 0;
     normal.cwiseAbs().maxCoeff(&axis);
     key[3] = normal[axis] > 0.0 ? axis : -1 - axis;

@@ -15,8 +15,8 @@ namespace ice {
 
 /// Where a sphere might sit under a surface sample.
 struct Seed {
-    Vec3 seat;  ///< the sample moved inwards by R [m]
-    std::int32_t triangle;
+    Vec3 seat;              ///< the sample moved inwards by R [m]
+    std::int32_t triangle;  ///< row of the mesh
 };
 
 /// The solid as a whole, seen once for all tiles.

@@ -9,10 +9,10 @@ namespace ice {
 
 /// A small piece of the surface.
 struct SurfaceSample {
-    Vec3 point;   ///< its centre [m]
-    Vec3 normal;  ///< outward, unit
-    double area;  ///< [m2]; the samples' areas sum to the surface's
-    std::int32_t triangle;
+    Vec3 point;             ///< its centre [m]
+    Vec3 normal;            ///< outward, unit
+    double area;            ///< [m2]; the samples' areas sum to the surface's
+    std::int32_t triangle;  ///< row of the mesh
 };
 
 /// Cuts triangles into small pieces of about `size` [m], one triangle at a time, so that the

@@ -19,7 +19,7 @@ struct Sight {
     float normal_error = -1.0f;  ///< between the surface's normal and the nearest sphere's [rad];
                                  ///< -1 where none can touch or that sphere is in an edge
     std::int32_t owner = -1;     ///< surface sphere that the sample belongs to
-    std::int32_t triangle = -1;
+    std::int32_t triangle = -1;  ///< row of the mesh; -1: none
     Eigen::Vector3f point = Eigen::Vector3f::Zero();  ///< [m]
 };
 

@@ -15,7 +15,7 @@ struct PointBatch {
     /// Entries from `count` to the next multiple of this are read, and must be finite.
     static constexpr std::size_t kPadding = 8;
 
-    std::array<double, kMost> x, y, z;
+    std::array<double, kMost> x, y, z;  ///< [m]; the first `count` are points
     std::size_t count = 0;
 };
 

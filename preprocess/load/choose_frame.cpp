@@ -96,6 +96,8 @@ private:
     }
 
     void choose_up() {
+        // The user's word, then the file's, then the form; without any z, as in most CAD programs.
+        // Only choices that the user has not made are noted.
         if (options_.up) {
             frame_.up = Direction::from(*options_.up);
         } else if (file_.up) {

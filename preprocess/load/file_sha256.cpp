@@ -18,6 +18,7 @@ std::string file_sha256(const std::filesystem::path& file) {
     const std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context(EVP_MD_CTX_new(),
                                                                           &EVP_MD_CTX_free);
     EVP_DigestInit_ex(context.get(), EVP_sha256(), nullptr);
+    // Blocks of 64 kB: a mesh of gigabytes needs no more memory than that.
     std::array<char, 1 << 16> block;
     while (in.read(block.data(), block.size()) || in.gcount() > 0)
         EVP_DigestUpdate(context.get(), block.data(), static_cast<std::size_t>(in.gcount()));

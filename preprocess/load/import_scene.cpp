@@ -114,6 +114,7 @@ std::string format_name(const std::filesystem::path& file) {
     std::transform(name.begin(), name.end(), name.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     if (!name.empty()) name.erase(0, 1);
+    // "hull.gz" has lost its ending; the bytes of most formats do not tell their kind
     if (name.empty() && is_gzip_name(file))
         throw bad_input(file.string(), "does not say the format inside",
                         "name it like hull.stl.gz");
@@ -182,6 +183,7 @@ void check_faces(const std::filesystem::path& file, const aiScene& scene) {
         const aiMesh& mesh = *scene.mMeshes[m];
         for (unsigned k = 0; k < mesh.mNumFaces; ++k) {
             const aiFace& face = mesh.mFaces[k];
+            // all faces before the first is used: assimp's steps index without a test
             bool good = face.mNumIndices > 0;
             for (unsigned c = 0; c < face.mNumIndices; ++c)
                 good = good && face.mIndices[c] < mesh.mNumVertices;

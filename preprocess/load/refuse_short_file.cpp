@@ -153,6 +153,7 @@ void check_ply(const std::filesystem::path& file, std::ifstream& in) {
         check_text(file, in, promised);
         return;
     }
+    // Rows of lists have no fixed length, so a binary file is walked through row by row.
     const std::string bytes((std::istreambuf_iterator<char>(in)), {});
     std::size_t at = 0;
     for (const Element& element : header.elements) {

@@ -17,7 +17,7 @@ struct RowCrossing {
 /// Rows along one axis, one in each cell of a grid across it. With axis 0, u is y and v is z;
 /// and so on in cyclic order.
 struct RowGrid {
-    int axis = 0;
+    int axis = 0;              ///< 0, 1, 2 for x, y, z
     Vec3 low = Vec3::Zero();   ///< corner of the grid [m]; its component along axis unused
     Vec3 step = Vec3::Ones();  ///< size of the cells [m]
     std::int32_t count_u = 1, count_v = 1;

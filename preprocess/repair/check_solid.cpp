@@ -24,6 +24,7 @@ SolidDiagnosis diagnose_edges(const TriangleMesh& mesh) {
         ++(edge.count == 1   ? out.open_edges
            : edge.count == 2 ? out.inconsistent_edges
                              : out.crowded_edges);
+        // the first fault is the example in the message: one place is enough to find the others
         if (!seen)
             out.example = 0.5 * (mesh.vertices[static_cast<std::size_t>(edge.a)] +
                                  mesh.vertices[static_cast<std::size_t>(edge.b)]);

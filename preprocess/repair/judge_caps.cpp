@@ -117,6 +117,7 @@ public:
             const auto tt = static_cast<std::size_t>(t);
             const Vec3 middle =
                 (mesh_.corner(tt, 0) + mesh_.corner(tt, 1) + mesh_.corner(tt, 2)) / 3.0;
+            // the middle and three places near the corners: a triangle may be covered in part only
             for (const Vec3& p : {middle, Vec3(0.2 * middle + 0.8 * mesh_.corner(tt, 0)),
                                   Vec3(0.2 * middle + 0.8 * mesh_.corner(tt, 1)),
                                   Vec3(0.2 * middle + 0.8 * mesh_.corner(tt, 2))})
@@ -214,6 +215,8 @@ private:
             const auto side = [&](const Vec3& q, const Vec3& r) {
                 return (r.x() - q.x()) * (p.y() - q.y()) - (r.y() - q.y()) * (p.x() - q.x());
             };
+            // barycentric coordinates in the plane z = 0; a triangle seen from its edge or from
+            // below has none
             const double wa = side(b, c), wb = side(c, a), wc = side(a, b), sum = wa + wb + wc;
             if (std::min({wa, wb, wc}) < 0.0 || sum <= 0.0) continue;
             return (wa * a.z() + wb * b.z() + wc * c.z()) / sum;

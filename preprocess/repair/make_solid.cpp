@@ -155,6 +155,8 @@ private:
     Error too_large(const CapVerdict& cap, const ClosedSurface& closed) const {
         const std::string fault =
             fmt::format("{} open edges; {}", open_edges_, fault_of(cap, closed));
+        // The likeliest cause first: a file that may be damaged, borders that fit each other, an
+        // opening that may be meant.
         if (!options_.suspect.empty())
             return refusal(fault + ", and " + options_.suspect, "export or copy the file again");
         if (const std::string cracks = fault_of_cracks(closed.open); !cracks.empty())
@@ -254,6 +256,9 @@ private:
 
     std::optional<TriangleMesh> contour(const TriangleMesh& mesh, const std::string& why) {
         WindingSolid solid = winding_solid(mesh, options_.kind, options_.radius);
+        // Taken only where it can be trusted: the winding number is clear almost everywhere, the
+        // result is a proved solid, and its volume is that of the winding number along rows of the
+        // input; only an envelope, whose voids are filled, may have more.
         if (solid.unclear > kWindingDiffers || solid.mesh.triangles.empty()) return std::nullopt;
         const SolidProof proof = verify_solid(solid.mesh);
         const double expected = measure_rows(mesh, 300)[0].by_winding;
@@ -273,6 +278,7 @@ private:
     // The envelope's flood: parts that enclose a void together are filled, whatever gaps of less
     // than a hundredth of the length are between them.
     TriangleMesh flood(TriangleMesh solid) {
+        // One part has no void between parts; a void of `material` is meant.
         if (options_.kind != SolidKind::envelope || find_parts(solid).count < 2) return solid;
         const EnclosedVoids voids = enclosed_voids(solid);
         const double volume = measure_mass(solid).volume;

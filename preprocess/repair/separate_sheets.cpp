@@ -25,6 +25,7 @@ std::map<EdgeEnds, std::vector<std::int32_t>> find_crowded(const TriangleMesh& m
                                                            const std::vector<MeshEdge>& edges) {
     std::map<EdgeEnds, std::vector<std::int32_t>> crowded;
     for (const MeshEdge& edge : edges)
+        // a place in the map; the triangles follow
         if (edge.count > 2) crowded[{edge.a, edge.b}];
     if (crowded.empty()) return crowded;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t)

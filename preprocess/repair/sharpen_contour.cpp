@@ -133,6 +133,8 @@ private:
         std::vector<Move> out;
         for (std::size_t k = 0; k < around_.size(); ++k) {
             const auto v = static_cast<std::int32_t>(k);
+            // Three vertices with planes that differ pairwise are a corner; the ring is of
+            // neighbours beyond a crease from v.
             std::vector<std::int32_t> ring;
             for (const std::size_t t : around_[k])
                 for (const std::int32_t other : mesh_.triangles[t])
@@ -164,6 +166,7 @@ private:
             mesh_.vertices[v] = move.to;
             moved_[v] = 1;
             const auto& around = around_[v];
+            // a contour with a blunt edge is better than one that is folded
             if (std::any_of(around.begin(), around.end(), [&](std::size_t t) { return is_bad(t); }))
                 mesh_.vertices[v] = before_[v], moved_[v] = 0;
         }
@@ -180,6 +183,7 @@ private:
             const auto of_s = mesh_.triangles[s], of_t = mesh_.triangles[t];
             std::replace(mesh_.triangles[s].begin(), mesh_.triangles[s].end(), e.b, d);
             std::replace(mesh_.triangles[t].begin(), mesh_.triangles[t].end(), e.a, c);
+            // turned back where the new pair is worse
             if (is_bad(s) || is_bad(t))
                 mesh_.triangles[s] = of_s, mesh_.triangles[t] = of_t;
             else
@@ -205,6 +209,7 @@ private:
         std::vector<std::size_t> bad;
         for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
             if (is_bad(t)) bad.push_back(t);
+        // once for all moves: a search after each would take most of the time
         for (const auto& [s, t] : find_self_intersections(mesh_)) bad.insert(bad.end(), {s, t});
         bool any = false;
         for (const std::size_t t : bad)

@@ -23,9 +23,11 @@ TriangleMesh wrap_solid(const TriangleMesh& mesh, double alpha, double offset) {
     TriangleMesh laid = wrap;
     parallel_for(laid.vertices.size(), 100, [&](std::size_t k) {
         const Foot foot = tree.closest(laid.vertices[k]);
+        // farther vertices span an opening of the mesh: there is no surface to lie on
         if (foot.distance < 2.0 * offset)
             laid.vertices[k] += kBack * (foot.point - laid.vertices[k]);
     });
+    // where the surface laid back crosses itself, the wrap stays as it is: it crosses nowhere
     if (find_self_intersections(laid).empty()) wrap = std::move(laid);
     copy_regions(mesh, wrap);
     return wrap;

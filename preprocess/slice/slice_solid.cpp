@@ -32,6 +32,7 @@ std::int32_t region_at(const SurfaceTree& tree, const Vec3& middle, const Vec3& 
                        double extent) {
     std::vector<Foot> feet;
     tree.within(middle, kStraight * extent, feet);
+    // below every cosine
     double best = -2.0;
     std::int32_t chosen = -1;
     for (const Foot& foot : feet) {

@@ -120,7 +120,7 @@ class Scene:
     @property
     def energy(self) -> dict[str, float]:
         """Work of the ship and of the applied loads since the start, and the residual of the
-        energy balance [J; 2D: J/m]."""
+        energy ledger [J; 2D: J/m]."""
         return {"ship_work": self._world.ship_work, "applied_work": self._world.applied_work,
                 "residual": self._world.energy_residual()}
 
