@@ -270,7 +270,7 @@ int run_icesolve(const ice::Options& o, const std::string& command_line) {
             fmt::format("wrote {}: look at the lines marked CHECK, then\n  icesolve {} --check",
                         file.string(), ice::shell_word(file.string())));
     } else if (o.case_file.empty()) {
-        throw ice::bad_input("", "no case file given", "icesolve --help lists what it takes");
+        throw ice::bad_input("", "no case file given", "icesolve --help lists its options");
     } else if (o.seeds > 0 && !o.check) {
         return run_seeds(o, command_line);
     } else {

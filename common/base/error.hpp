@@ -12,11 +12,11 @@ enum class ExitCode { ok = 0, failed = 1, bad_input = 2, interrupted = 130 };
 
 /// Thrown by the libraries; printed only by the programs' main functions.
 ///
-/// `where` is a file, `file:line:column` or a key; `what_happened` one sentence; `remedy` tells the
-/// user what to change. `what()` joins them: "where: what happened\n  remedy".
+/// `where` is a file, `file:line:column` or a key; `fault` one sentence; `remedy` tells the user
+/// what to change. `what()` joins them: "where: fault\n  remedy".
 class Error : public std::runtime_error {
 public:
-    Error(ExitCode code, const std::string& where, const std::string& what_happened,
+    Error(ExitCode code, const std::string& where, const std::string& fault,
           const std::string& remedy);
 
     /// Exit code the program should end with.
@@ -27,11 +27,9 @@ private:
 };
 
 /// Wrong command line, mesh, case or sphere file: exit code 2.
-Error bad_input(const std::string& where, const std::string& what_happened,
-                const std::string& remedy);
+Error bad_input(const std::string& where, const std::string& fault, const std::string& remedy);
 
 /// The run itself failed (disk full, diverged): exit code 1.
-Error run_failed(const std::string& where, const std::string& what_happened,
-                 const std::string& remedy);
+Error run_failed(const std::string& where, const std::string& fault, const std::string& remedy);
 
 }  // namespace ice

@@ -150,7 +150,7 @@ void keep_within(const ReadBounds& bounds) {
     _exit(kSurvived);
 }
 
-std::string what_happened(int status, const ReadBounds& bounds) {
+std::string failure_text(int status, const ReadBounds& bounds) {
     // The cause is told by the way the child ended: its own exit code, a limit's signal, another
     // one.
     std::string memory =
@@ -200,8 +200,9 @@ std::string read_in_child(const std::filesystem::path& file, const ReadBounds& b
     // the Error of the child, thrown again as if it were the caller's
     if (code == kRefused && !message.empty())
         throw Error(static_cast<ExitCode>(message[0]), "", message.substr(1), "");
-    throw bad_input(file.string(), what_happened(status, bounds),
-                    "the file is damaged or not what its name says: make or export it again");
+    throw bad_input(
+        file.string(), failure_text(status, bounds),
+        "the file is damaged or of another kind than its name says: make or export it again");
 }
 
 void rehearse(const std::filesystem::path& file, const ReadBounds& bounds,

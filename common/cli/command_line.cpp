@@ -62,7 +62,7 @@ std::string join_words(const std::vector<std::string>& words) {
 Error usage_error(const CLI::App& app, const CLI::ParseError& error) {
     // In this order: a wrong command hides all else, a word that nobody took hides its value, and
     // the remaining complaints of CLI11 are reworded.
-    const std::string help = full_name(app) + " --help lists what it takes";
+    const std::string help = full_name(app) + " --help lists its options";
     const std::vector<std::string> left = app.remaining(true);
     const std::vector<std::string> commands = command_names(app);
     // A missing or misspelt command first: CLI11 would complain about the arguments behind it.
@@ -87,15 +87,15 @@ Error usage_error(const CLI::App& app, const CLI::ParseError& error) {
                          near.empty() ? help : fmt::format("did you mean '{}'?", near));
     }
     // CLI11 has no error codes for these, only its own English.
-    std::string what = error.what();
-    if (const auto end = what.rfind(" is required"); end != std::string::npos)
-        what = fmt::format("no {} given", what.substr(0, end));
-    else if (const auto colon = what.find(": "); what.ends_with(" missing"))
-        what = what.substr(0, colon) + " needs a value";
-    else if (const auto list = what.find(" not in {"); list != std::string::npos)
-        what =
-            what.substr(0, list) + " is none of " + what.substr(list + 9, what.size() - list - 10);
-    return bad_input("", what, help);
+    std::string text = error.what();
+    if (const auto end = text.rfind(" is required"); end != std::string::npos)
+        text = fmt::format("no {} given", text.substr(0, end));
+    else if (const auto colon = text.find(": "); text.ends_with(" missing"))
+        text = text.substr(0, colon) + " needs a value";
+    else if (const auto list = text.find(" not in {"); list != std::string::npos)
+        text =
+            text.substr(0, list) + " is none of " + text.substr(list + 9, text.size() - list - 10);
+    return bad_input("", text, help);
 }
 
 }  // namespace

@@ -7,9 +7,9 @@ namespace ice {
 
 namespace fs = std::filesystem;
 
-void OutputFiles::protect(const fs::path& input, const std::string& what) {
+void OutputFiles::protect(const fs::path& input, const std::string& name) {
     // Canonical: "a.h5" and "./a.h5" are one file. Weakly: an output need not exist yet.
-    taken_.emplace(fs::weakly_canonical(input), what);
+    taken_.emplace(fs::weakly_canonical(input), name);
 }
 
 void OutputFiles::add(const std::string& option, const fs::path& file) {

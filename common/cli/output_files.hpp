@@ -11,8 +11,8 @@ namespace ice {
 class OutputFiles {
 public:
     /// A file that no output may replace.
-    /// @param what  in messages: "the mesh"
-    void protect(const std::filesystem::path& input, const std::string& what);
+    /// @param name  in messages: "the mesh"
+    void protect(const std::filesystem::path& input, const std::string& name);
 
     /// An output; an empty path is none.
     /// @param option  that names it: "--output"

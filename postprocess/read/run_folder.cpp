@@ -61,7 +61,8 @@ fs::path find_summary(const fs::path& path) {
     if (!fs::exists(folder / "run.h5.part") && !fs::exists(folder / "run.h5"))
         throw bad_input(path.string(), "holds no summary.json and no run.h5", kRemedy);
     // the folder is the right one: the remedy depends on its files
-    std::string remedy = fmt::format("icepost report {} shows what is there", folder.string());
+    std::string remedy =
+        fmt::format("icepost report {} shows the part that is there", folder.string());
     if (fs::exists(folder / "checkpoint.h5"))
         remedy += fmt::format("; icesolve CASE.cfg --restart {} goes on with the run",
                               (folder / "checkpoint.h5").string());

@@ -69,10 +69,9 @@ std::string axes_note(const RunData& run, const RunFigures& figures) {
         "Thick: moving averages, weighted with a bell (Hann's window) that is {} s wide at half "
         "its height, here and in all charts of this page. Thin: samples. The shaded time is the "
         "averaged one. A force is the sum of the impulses of a step divided by the time step, so "
-        "the height of a single hit depends on the step: axes show what 96 % of the averages after "
-        "{} s lie in, hits reach {} {}. The bottom's coverage is the share of the wetted hull, "
-        "seen "
-        "from below, that ice hides.",
+        "the height of a single hit depends on the step: the axes span the middle 96 % of the "
+        "averages after {} s, single hits reach {} {}. The bottom's coverage is the share of the "
+        "wetted hull, seen from below, that ice hides.",
         views::readable(average_window(run.history)), views::readable(figures.average_from), peaks,
         figures.unit.name);
 }

@@ -78,7 +78,7 @@ Study read_study(const std::filesystem::path& folder) {
     // every difference is against the case itself
     if (study.base.resistance.empty())
         throw bad_input(folder.string(), "no run of the case itself has a result",
-                        "let the workflow go on: the same command computes what is missing");
+                        "let the workflow go on: the same command computes the missing runs");
     return study;
 }
 

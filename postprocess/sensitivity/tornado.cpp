@@ -54,7 +54,8 @@ public:
     }
 
     std::string draw() const {
-        std::string out = views::svg_open(kWidth, bottom_ + kFoot, "What moves the resistance");
+        std::string out =
+            views::svg_open(kWidth, bottom_ + kFoot, "Inputs that move the resistance");
         // SVG paints in order: bands, axes, bars, and the line of the mean over all
         out += band(base_.mean * kModelUncertainty, kModelColor) + band(half_, kIntervalColor);
         out += axes();
@@ -184,7 +185,7 @@ private:
                              fmt::format("fill=\"{}\" fill-opacity=\"{}\"", color, opacity)) +
                    text_element(x + 22.0, y + 10.5, text, "start", kSmall);
         };
-        std::string out = text_element(8.0, 18.0, "What moves the resistance", "start",
+        std::string out = text_element(8.0, 18.0, "Inputs that move the resistance", "start",
                                        "font-weight=\"600\" font-size=\"15\"");
         out += text_element(kLeft, 38.0, "one input at a time, against the case", "start", kSmall);
         return out + entry(8.0, kIntervalColor, 1.0, "the case's own interval, 95 %") +

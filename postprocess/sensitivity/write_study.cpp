@@ -172,17 +172,18 @@ std::string study_text(const Study& study) {
 std::string make_study_page(const Study& study) {
     const Result r(study);
     const std::string faults = sweep::list_faults(study.runs);
-    std::string out = report::open_page(study.title) + "<header><div class=\"inner\">\n<h1>" +
-                      escape(study.title) +
-                      "</h1>\n<p>What decides the answer: one input at a time, over the range in "
-                      "which it is not known.</p>\n</div></header>\n<main>\n";
+    std::string out =
+        report::open_page(study.title) + "<header><div class=\"inner\">\n<h1>" +
+        escape(study.title) +
+        "</h1>\n<p>Inputs that decide the answer: one input at a time, over the range in "
+        "which it is not known.</p>\n</div></header>\n<main>\n";
     if (!faults.empty())
         out += "<section id=\"faults\" class=\"warnings\">\n<b>" + escape(faults) +
                "</b>\n</section>\n";
     // The answer first, then the chart, then all numbers, and last where the ranges come from.
     out += cards(study, r);
     out += report::section(
-        "tornado", "What moves the resistance",
+        "tornado", "Inputs that move the resistance",
         "Whiskers: Welch's 95 % interval of the difference from the case, over the seeds; pale "
         "bars "
         "may be no change at all. The interval of the case says how well the mean is known, not "

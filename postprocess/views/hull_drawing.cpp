@@ -79,24 +79,24 @@ std::string silhouette(const TriangleMesh& mesh, const Projection& projection,
     const DepthMap seen(mesh, projection, 600);
     std::string data;
     for (const auto& [a, b] : turning_edges(mesh, projection)) {
-        const Vec2 from = a.head<2>(), way = b.head<2>() - from;
+        const Vec2 from = a.head<2>(), along = b.head<2>() - from;
         // each edge in pieces of some pixels; a piece is outline where one of its sides shows
         // no hull
-        const double length = way.norm();
+        const double length = along.norm();
         const int pieces = std::max(1, static_cast<int>(length * scale.per_metre / kPiece));
         const Vec2 beside =
-            Vec2(-way.y(), way.x()) / std::max(length, 1e-12) * kBeside / scale.per_metre;
+            Vec2(-along.y(), along.x()) / std::max(length, 1e-12) * kBeside / scale.per_metre;
         const auto bare = [&](const Vec2& p) {
             return !std::isfinite(seen.nearness(p.x(), p.y()));
         };
         // pieces in a row are one line
         for (int k = 0, end = 0; k < pieces; k = end) {
             const auto outside = [&](int piece) {
-                const Vec2 middle = from + way * (piece + 0.5) / pieces;
+                const Vec2 middle = from + along * (piece + 0.5) / pieces;
                 return bare(middle + beside) || bare(middle - beside);
             };
             for (end = k; end < pieces && outside(end);) ++end;
-            const Vec2 p = from + way * k / pieces, q = from + way * end / pieces;
+            const Vec2 p = from + along * k / pieces, q = from + along * end / pieces;
             if (end > k)
                 data += path_data({scale.pixel(p.x(), p.y()), scale.pixel(q.x(), q.y())}, false);
             else

@@ -68,7 +68,7 @@ public:
 
     FieldPlan make() {
         if (static_cast<double>(rows_) * across_ > kMostFloes)
-            throw bad_input("floes.breaking_length", "asks for more than a million cusps",
+            throw bad_input("floes.breaking_length", "needs more than a million cusps",
                             "use longer or wider cusps, or a smaller area");
         FieldPlan plan;
         Front behind = front_of(0, ends_of(0, nullptr));

@@ -14,7 +14,7 @@ int pieces_of(const FieldSpec& s, double length) {
     // 1e-9: a length that is a multiple of the piece takes no piece more
     const double count = std::max(1.0, std::ceil(length / s.edge_piece - 1e-9));
     if (count > kMostFloes)
-        throw bad_input("edges.piece", "asks for more than a million pieces", "use longer ones");
+        throw bad_input("edges.piece", "needs more than a million pieces", "use longer ones");
     return static_cast<int>(count);
 }
 

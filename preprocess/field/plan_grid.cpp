@@ -9,7 +9,7 @@ FieldPlan plan_grid(const FieldSpec& s) {
     const auto [columns, rows] = s.count;
     const double length = s.floe_size[0], breadth = s.floe_size[1];
     if (static_cast<double>(columns) * rows > kMostFloes)
-        throw bad_input("floes.count", "asks for more than a million floes", "use fewer");
+        throw bad_input("floes.count", "needs more than a million floes", "use fewer");
     // the field is centred about y = origin; x counts from its leading edge
     const double whole = rows * breadth + (rows - 1) * s.gap[1];
     const double low = s.origin[1] - 0.5 * whole;

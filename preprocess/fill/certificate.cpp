@@ -187,9 +187,9 @@ void measure_cover(const SurfaceTree& tree, const SphereSet& set, const SphereFi
         // A climb in eight directions. Its steps are halved from half the samples' distance down to
         // a twenty-fifth of it. The result holds near the worst samples only: it proves no bound.
         for (double step = 0.5 * size; step > 0.04 * size; step *= 0.5)
-            for (int way = 0; way < (set.dimension == 2 ? 2 : 8); ++way) {
-                const double angle =
-                    set.dimension == 2 ? way * std::numbers::pi : way * std::numbers::pi / 4.0;
+            for (int direction = 0; direction < (set.dimension == 2 ? 2 : 8); ++direction) {
+                const double angle = set.dimension == 2 ? direction * std::numbers::pi
+                                                        : direction * std::numbers::pi / 4.0;
                 const auto seat =
                     settle(tree, at + step * (std::cos(angle) * e1 + std::sin(angle) * e2),
                            set.radius, sight.triangle);

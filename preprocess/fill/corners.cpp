@@ -19,12 +19,12 @@ constexpr double kEdgeReach = 1.01;
 
 // How far a settled sphere may go along a unit vector until it touches one more face [m]; `most`
 // where there is none before.
-double way_to_next(const SurfaceTree& tree, const Vec3& center, const Vec3& along, double radius,
-                   double most) {
-    // Sine between the way and the face [-]: a flatter face is one that the sphere slides along.
+double distance_to_next_face(const SurfaceTree& tree, const Vec3& center, const Vec3& along,
+                             double radius, double most) {
+    // Sine between `along` and the face [-]: a flatter face is one that the sphere slides along.
     constexpr double kLeastRise = 0.1;
     thread_local std::vector<Foot> feet;
-    // The distance to a face shrinks by the cosine of the angle between the way and the face's
+    // The distance to a face shrinks by the cosine of the angle between `along` and the face's
     // direction: the face is touched after (distance - radius) / cosine.
     tree.within(center, radius + most, feet);
     for (const Foot& foot : feet) {
@@ -94,11 +94,11 @@ std::optional<Seat> slide_to_corner(const SurfaceTree& tree, double radius, Seat
                                     const Vec3& along, double most) {
     constexpr int kMostSteps = 8;  // several where the third face is cut into triangles or curved
     for (int step = 0; step < kMostSteps; ++step) {
-        const double way = way_to_next(tree, seat.center, along, radius, most);
-        if (way == most) return std::nullopt;
-        if (way < exact_distance(seat.center, radius)) break;
-        seat.center += way * along;
-        most -= way;
+        const double distance = distance_to_next_face(tree, seat.center, along, radius, most);
+        if (distance == most) return std::nullopt;
+        if (distance < exact_distance(seat.center, radius)) break;
+        seat.center += distance * along;
+        most -= distance;
     }
     find_crease(tree, radius, seat);
     if (!is_corner(seat) ||
@@ -112,8 +112,8 @@ void find_corners_beside(const SurfaceTree& tree, double radius, const Seat& sea
     out.clear();
     if (seat.touches != 2) return;
     const Vec3 along = seat.touch[0].cross(seat.touch[1]).normalized();
-    for (const Vec3& way : {along, Vec3(-along)})
-        if (const auto corner = slide_to_corner(tree, radius, seat, way, most))
+    for (const Vec3& direction : {along, Vec3(-along)})
+        if (const auto corner = slide_to_corner(tree, radius, seat, direction, most))
             out.push_back(*corner);
 }
 

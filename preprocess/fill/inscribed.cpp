@@ -130,9 +130,9 @@ private:
         for (const Cell& cell : cells)
             for (int part = 0; part < 8; ++part) {
                 if (flat_ && (part & 2) != 0) continue;
-                const Vec3 way(part & 1 ? 0.5 : -0.5, flat_ ? 0.0 : (part & 2 ? 0.5 : -0.5),
-                               part & 4 ? 0.5 : -0.5);
-                out.push_back({cell.center + edge_ * way, cell.bound});
+                const Vec3 offset(part & 1 ? 0.5 : -0.5, flat_ ? 0.0 : (part & 2 ? 0.5 : -0.5),
+                                  part & 4 ? 0.5 : -0.5);
+                out.push_back({cell.center + edge_ * offset, cell.bound});
             }
         return out;
     }

@@ -67,9 +67,9 @@ Line drop_near(const Line& starts, double step) {
     return kept;
 }
 
-// Settled centres along an edge, and the way that it goes there.
+// Settled centres along an edge, and the edge's direction at each.
 struct SettledLine {
-    Line centers, ways;
+    Line centers, directions;
 };
 
 // The settled centres of a line of starts, cut where the edge is too sharp for a sphere.
@@ -81,7 +81,7 @@ std::vector<SettledLine> settle_line(const SurfaceTree& tree, const ShellOptions
         const auto& seat = seats[k];
         const Line& line = out.back().centers;
         const double apart = k > 0 ? (starts[k] - starts[k - 1]).norm() : 0.0;
-        // a start that settled on another edge ends the line: the way there is no edge
+        // a start that settled on another edge ends the line: the path there is no edge
         const bool jump = seat && !line.empty() &&
                           (seat->center - line.back()).norm() > std::max(o.spacing, 1.5 * apart);
         if ((!seat || jump) && !line.empty()) out.emplace_back();
@@ -92,19 +92,20 @@ std::vector<SettledLine> settle_line(const SurfaceTree& tree, const ShellOptions
             !present.empty() && (seat->center - present.back()).norm() <= 1e-7 * o.radius;
         if (again) continue;
         out.back().centers.push_back(seat->center);
-        out.back().ways.push_back(starts[std::min(k + 1, starts.size() - 1)] -
-                                  starts[k > 0 ? k - 1 : 0]);
+        out.back().directions.push_back(starts[std::min(k + 1, starts.size() - 1)] -
+                                        starts[k > 0 ? k - 1 : 0]);
     }
     return out;
 }
 
-// Do two of the faces that a seat touches meet in an edge that goes one way or the other?
-bool is_in_edge(const Seat& seat, const Vec3& way) {
-    constexpr double kSameWay = 0.94;  // cosine of 20 degrees: knuckles of one edge
+// Do two of the faces that a seat touches meet in an edge along this direction or against it?
+bool is_in_edge(const Seat& seat, const Vec3& direction) {
+    constexpr double kSameEdge = 0.94;  // cosine of 20 degrees: knuckles of one edge
     for (std::size_t i = 0; i + 1 < static_cast<std::size_t>(seat.touches); ++i)
         for (std::size_t j = i + 1; j < static_cast<std::size_t>(seat.touches); ++j) {
             const Vec3 along = seat.touch[i].cross(seat.touch[j]);
-            if (std::abs(along.dot(way)) >= kSameWay * along.norm() * way.norm()) return true;
+            if (std::abs(along.dot(direction)) >= kSameEdge * along.norm() * direction.norm())
+                return true;
         }
     return false;
 }
@@ -122,11 +123,11 @@ std::optional<Seat> find_corner(const SurfaceTree& tree, double radius, const Se
         Seat seat{centers[k], Vec3::UnitZ(), tree.closest(centers[k]).triangle};
         find_crease(tree, radius, seat);
         // beside a short side the end may have settled in the corner at its other end
-        if (!is_in_edge(seat, line.ways[k])) continue;
+        if (!is_in_edge(seat, line.directions[k])) continue;
         if (is_corner(seat)) return seat;
         if (seat.touches != 2) continue;
         Vec3 along = seat.touch[0].cross(seat.touch[1]).normalized();
-        if (sign * along.dot(line.ways[k]) < 0.0) along = -along;
+        if (sign * along.dot(line.directions[k]) < 0.0) along = -along;
         return slide_to_corner(tree, radius, seat, along, apart + 2.0 * radius);
     }
     return std::nullopt;
@@ -141,7 +142,7 @@ void lead_to_corners(const SurfaceTree& tree, double radius, SettledLine& line,
             found[static_cast<std::size_t>(end)] =
                 find_corner(tree, radius, line, end ? 1.0 : -1.0);
         std::reverse(line.centers.begin(), line.centers.end());
-        std::reverse(line.ways.begin(), line.ways.end());
+        std::reverse(line.directions.begin(), line.directions.end());
     }
     Line& centers = line.centers;
     for (const std::size_t end : {1u, 0u}) {

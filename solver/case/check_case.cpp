@@ -119,8 +119,7 @@ void check_case(Case& checked, std::size_t groups, const Values& values,
     if (checked.duration / checked.time_step > kMostSteps)
         complaints.add_at(
             "simulation.time_step",
-            fmt::format("simulation.duration / time_step asks for more than {:g} steps",
-                        kMostSteps));
+            fmt::format("simulation.duration / time_step needs more than {:g} steps", kMostSteps));
     if (checked.flow_pressure && checked.flow == FlowModel::none)
         complaints.add_at("flow.pressure",
                           "flow.pressure needs a flow: flow.model = \"double-body\" or \"file\"");

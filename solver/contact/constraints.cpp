@@ -26,12 +26,12 @@ Mat3 crossed_twice(const Vec3& r, const Mat3& m) {
 // A ship moves in a few directions only: one in which an impulse turns or shifts it by less than
 // this share [-] of its largest response is one in which it cannot move, and the ice is crushed.
 // Larger takes slow motions for none; smaller takes rounding for a motion, with huge impulses.
-constexpr double kGivesWay = 1e-9;
+constexpr double kLeastResponse = 1e-9;
 
-bool gives_way(const ShipResponse& ship, const Vec3& arm, const Vec3& normal) {
+bool ship_can_move(const ShipResponse& ship, const Vec3& arm, const Vec3& normal) {
     const double most =
         largest_response(ship) + arm.squaredNorm() * ship.inverse_inertia.cwiseAbs().maxCoeff();
-    return ship_response(ship, arm, normal) > kGivesWay * most;
+    return ship_response(ship, arm, normal) > kLeastResponse * most;
 }
 
 // Largest normal impulse [N s], (13): crushing pressure on the section cut half way through the
@@ -80,7 +80,7 @@ void build_constraints(const Bodies& bodies, const std::vector<Contact>& contact
         // between two immovable bodies no impulse changes anything
         c.can_move = bodies.inverse_mass[c.a] + bodies.inverse_mass[c.b] > 0.0 ||
                      (c.a == static_cast<std::int32_t>(kShip) && bodies.ship.free &&
-                      gives_way(bodies.ship, c.arm_a, c.normal));
+                      ship_can_move(bodies.ship, c.arm_a, c.normal));
         c.on_unbent = c.a == static_cast<std::int32_t>(kShip) &&
                       bodies.is_unbent(static_cast<std::size_t>(c.b));
         c.friction =

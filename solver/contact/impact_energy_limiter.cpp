@@ -78,7 +78,7 @@ std::int32_t ImpactEnergyLimiter::island_of(const Bodies& bodies, const ContactR
 void ImpactEnergyLimiter::measure_gains(const Bodies& bodies, const ContactRows& contacts,
                                         const std::vector<Constraint>& constraints,
                                         const State& end, std::vector<double>& out) const {
-    // A contact's work is booked on the island of its free body, so islands may be limited
+    // A contact's work is entered for the island of its free body, so islands may be limited
     // apart.
     out.assign(contacts.bodies().size(), 0.0);
     for (std::size_t n = 0; n < which_.size(); ++n) {

@@ -100,7 +100,7 @@ void Recess::find_moves(const Scene& scene, double dt, const std::vector<Contact
     // A second contact adds to the move only what the first one does not already do along it.
     for (const Move& m : moves_) {
         if (kept > 0 && moves_[kept - 1].place == m.place) {
-            add_along(m.way.norm(), m.way.normalized(), moves_[kept - 1].way);
+            add_along(m.shift.norm(), m.shift.normalized(), moves_[kept - 1].shift);
         } else {
             moves_[kept++] = m;
         }
@@ -118,7 +118,8 @@ void Recess::move_spheres(Scene& scene, const ContactLaw& law, double dt,
     if (started_ != 0) find_moves(scene, dt, contacts, constraints);
     for (const Move& m : moves_) {
         const auto shape = static_cast<std::size_t>(scene.bodies.shape[m.place.body]);
-        scene.crushed.crush(m.place.body, m.place.sphere, scene.shapes[shape].center.size(), m.way);
+        scene.crushed.crush(m.place.body, m.place.sphere, scene.shapes[shape].center.size(),
+                            m.shift);
     }
     // all contacts of a sphere that has moved are less deep
     for (std::size_t k = 0; k < contacts.size() && !moves_.empty(); ++k) {
@@ -127,7 +128,7 @@ void Recess::move_spheres(Scene& scene, const ContactLaw& law, double dt,
             std::lower_bound(moves_.begin(), moves_.end(), place,
                              [](const Move& m, const Place& p) { return m.place < p; });
         if (move == moves_.end() || !(move->place == place)) continue;
-        const Vec3 shift = scene.bodies.rotation[place.body] * move->way;
+        const Vec3 shift = scene.bodies.rotation[place.body] * move->shift;
         const double opened = std::max(0.0, shift.dot(inwards_of(contacts[k])));
         contacts[k].gap += opened;
         constraints[k].gap += opened;

@@ -56,7 +56,7 @@ private:
     struct Move {
         Place place;
         std::size_t contact;  // that needs it
-        Vec3 way;             // shift of the sphere, body axes [m]
+        Vec3 shift;           // of the sphere, body axes [m]
     };
     static Place place_of(const Contact& c);
     bool has_past(const Contact& c) const;

@@ -96,7 +96,7 @@ void fill_row(const Sources& s, const WindingNumber& hull, double water, std::si
               FlowTable& t) {
     const auto nx = static_cast<std::size_t>(t.nodes[0]), ny = static_cast<std::size_t>(t.nodes[1]);
     const std::size_t j = row % ny, k = row / ny;
-    std::vector<Vec3> at(nx), asked(nx);
+    std::vector<Vec3> at(nx), points(nx);
     for (std::size_t i = 0; i < nx; ++i) {
         at[i] = t.origin + t.spacing * Vec3(double(i), double(j), double(k));
         const bool in_box =
@@ -104,9 +104,9 @@ void fill_row(const Sources& s, const WindingNumber& hull, double water, std::si
         // Inside the hull the sources' sum has no meaning; the nearest flow outside keeps the
         // interpolation at the hull right.
         const bool inside = in_box && hull.contains(at[i] + Vec3(0, 0, water));
-        asked[i] = inside ? s.off_surface(at[i], kOffSurface * t.spacing) : at[i];
+        points[i] = inside ? s.off_surface(at[i], kOffSurface * t.spacing) : at[i];
     }
-    const auto flow = s.flow_at(asked);
+    const auto flow = s.flow_at(points);
     for (std::size_t i = 0; i < nx; ++i) {
         const double speed = flow[i].velocity.norm();
         // Faded to zero at the rim, so that a floe that enters the table feels no jump.

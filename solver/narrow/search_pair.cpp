@@ -63,7 +63,7 @@ FloatPose to_floats(const Mat3& turn, const Vec3& shift) {
 
 void PairSearch::pick(const PairView& view, double along, double across,
                       SphereBlocks Shape::*blocks) {
-    const bool few_a = asks_first(view);
+    const bool few_a = a_has_fewer(view);
     const SphereBlocks& few = (few_a ? view.shape_a : view.shape_b).*blocks;
     const SphereBlocks& many = (few_a ? view.shape_b : view.shape_a).*blocks;
     // to and from the axes of the few

@@ -33,7 +33,7 @@ public:
     void for_each_near(const PairView& view, double along, double across, const Visit& visit,
                        SphereBlocks Shape::*blocks = &Shape::blocks) {
         pick(view, along, across, blocks);
-        const bool few_a = asks_first(view);
+        const bool few_a = a_has_fewer(view);
         for (std::size_t first = 0; first < few_.count; first += kRows) {
             const std::size_t last = std::min(first + kRows, few_.count);
             find_near_pairs(few_, first, last, partners_of(first, last), range_, pairs_);
@@ -47,7 +47,7 @@ public:
     }
 
 private:
-    static bool asks_first(const PairView& view) {
+    static bool a_has_fewer(const PairView& view) {
         return view.shape_a.center.size() < view.shape_b.center.size();
     }
     // That many spheres, neighbours, choose together whom they are compared with.

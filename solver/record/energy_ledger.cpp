@@ -17,8 +17,8 @@ namespace {
 constexpr double kWorryingResidual = 0.005;
 
 // Where the work of one contact goes, (19). @param start  velocities at the start of the step
-void book_contact(const Bodies& now, const Constraint& c, const StepStart& start,
-                  EnergyLedger& ledger) {
+void enter_contact(const Bodies& now, const Constraint& c, const StepStart& start,
+                   EnergyLedger& ledger) {
     const Vec3 before = start.velocity[c.b] + start.angular_velocity[c.b].cross(c.arm_b) -
                         start.velocity[c.a] - start.angular_velocity[c.a].cross(c.arm_a);
     // Work of an impulse on the mean of the velocities before and after it, (20): exact, since
@@ -63,13 +63,13 @@ double EnergyLedger::residual(double potential_now) const {
            breaking - drag - buoyancy_moment;
 }
 
-void book_step(const Scene& scene, const Case& parameters,
-               const std::vector<Constraint>& constraints, const std::vector<FloeLoad>& loads,
-               const PositionCorrections& corrections, const StepStart& start,
-               EnergyLedger& ledger) {
+void enter_step(const Scene& scene, const Case& parameters,
+                const std::vector<Constraint>& constraints, const std::vector<FloeLoad>& loads,
+                const PositionCorrections& corrections, const StepStart& start,
+                EnergyLedger& ledger) {
     const Bodies& b = scene.bodies;
     for (const Constraint& c : constraints)
-        if (c.total_normal() > 0.0) book_contact(b, c, start, ledger);
+        if (c.total_normal() > 0.0) enter_contact(b, c, start, ledger);
     const double dt = parameters.time_step;
     const bool unrighted = parameters.buoyancy == BuoyancyModel::centre;
     for (std::size_t k = 0; k < b.moving.size(); ++k) {

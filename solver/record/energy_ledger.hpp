@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// The energy ledger: every joule that the ship gives to the ice is booked once.
+/// The energy ledger: every joule that the ship gives to the ice is entered once.
 #pragma once
 
 #include <optional>
@@ -67,11 +67,11 @@ struct EnergyLedger {
     double residual(double potential_now) const;
 };
 
-/// Books one step. The bodies have their velocities at the step's end and their poses before them.
-void book_step(const Scene& scene, const Case& parameters,
-               const std::vector<Constraint>& constraints, const std::vector<FloeLoad>& loads,
-               const PositionCorrections& corrections, const StepStart& start,
-               EnergyLedger& ledger);
+/// Enters one step. The bodies have their velocities at the step's end and their poses before them.
+void enter_step(const Scene& scene, const Case& parameters,
+                const std::vector<Constraint>& constraints, const std::vector<FloeLoad>& loads,
+                const PositionCorrections& corrections, const StepStart& start,
+                EnergyLedger& ledger);
 
 /// Fills Summary::energy, and warns where more than 0.5 % of the ship's work, or of the losses
 /// where they are larger, is not explained. @param potential_now  at the end [J]

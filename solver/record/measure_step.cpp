@@ -83,11 +83,11 @@ StepRecord measure_step(const Scene& scene, const std::vector<Contact>& contacts
 }
 
 void measure_floe_forces(const std::vector<Constraint>& constraints, double dt,
-                         std::span<const std::int32_t> asked, std::span<FloeForces> out) {
+                         std::span<const std::int32_t> entry_of, std::span<FloeForces> out) {
     std::fill(out.begin(), out.end(), FloeForces{});
     if (out.empty()) return;
     for (const Constraint& c : constraints) {
-        const std::int32_t a = asked[c.a], b = asked[c.b];
+        const std::int32_t a = entry_of[c.a], b = entry_of[c.b];
         if (a < 0 && b < 0) continue;
         // forces on the floe: contact and friction by the ship, `ice` by its neighbours
         const Vec3 push = c.total_normal() / dt * c.normal, rub = c.total_tangent() / dt;

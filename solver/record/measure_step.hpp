@@ -52,10 +52,10 @@ StepRecord measure_step(const Scene& scene, const std::vector<Contact>& contacts
                         const std::vector<Constraint>& constraints, double dt);
 
 /// Forces on tracked floes, by one pass over the constraints.
-/// @param dt     length of the step [s]
-/// @param asked  by body, its entry in `out`; -1 for other floes and the ship
-/// @param out    its old content is dropped
+/// @param dt        length of the step [s]
+/// @param entry_of  by body, its entry in `out`; -1 for other floes and the ship
+/// @param out       its old content is dropped
 void measure_floe_forces(const std::vector<Constraint>& constraints, double dt,
-                         std::span<const std::int32_t> asked, std::span<FloeForces> out);
+                         std::span<const std::int32_t> entry_of, std::span<FloeForces> out);
 
 }  // namespace ice

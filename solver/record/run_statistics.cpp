@@ -120,13 +120,13 @@ void RunStatistics::add_averaged(const StepRecord& record, double dt) {
     breaking_x_ += record.breaking_x;
     const Vec3 force = record.contact_force + record.friction_force;
     for (int d = 0; d < 3; ++d) total_[d].add(force[d]);
-    const auto book = [&](Doubtful& kind) {
+    const auto add_to = [&](Doubtful& kind) {
         kind.force += force.x();
         ++kind.steps;
     };
     // the force of doubtful steps by itself: the warning states the mean without them
-    if (record.jammed_contacts > 0) book(jam_);
-    if (record.closing_speed > options_.tunnelling_speed) book(fast_);
+    if (record.jammed_contacts > 0) add_to(jam_);
+    if (record.closing_speed > options_.tunnelling_speed) add_to(fast_);
 }
 
 void RunStatistics::add_regions(const StepRecord& record, bool averaged) {

@@ -108,7 +108,7 @@ void RunStatistics::warn(Summary& summary) const {
     warn_of_averages(summary);
     if (contacts_max_ == 0.0) {
         Warning nothing;
-        nothing.text = "nothing touched anything: is the hull on its way to the ice?";
+        nothing.text = "nothing touched anything: does the hull reach the ice?";
         nothing.affects_mean = true;
         nothing.share = 1.0;
         warnings.push_back(nothing);
@@ -141,8 +141,8 @@ std::optional<double> RunStatistics::unseen_share() const {
 Warning RunStatistics::warn_of_jam(const Summary& summary) const {
     return judged(
         fmt::format(
-            "jam: in {} of {} steps a floe squeezed between the hull and other ice could not give "
-            "way, first floe {} at t = {:.2f} s, x = {:.2f}, y = {:.2f}, z = {:.2f} m; {}",
+            "jam: in {} of {} steps a floe squeezed between the hull and other ice could not move "
+            "aside, first floe {} at t = {:.2f} s, x = {:.2f}, y = {:.2f}, z = {:.2f} m; {}",
             jammed_steps_, steps_, first_jam_floe_, first_jam_time_, first_jam_point_.x(),
             first_jam_point_.y(), first_jam_point_.z(),
             options_.rigid ? "with rigid contact the force there depends on time_step and "

@@ -25,8 +25,8 @@ constexpr double kMostCells = 4e6;
 // spheres and of its mesh, whose edges reach beyond them where they are sharp.
 class Front {
 public:
-    // @param way  +1 or -1: the ship goes along x or against it
-    Front(const Scene& scene, double way) : way_(way) {
+    // @param direction  +1 or -1: the ship goes along x or against it
+    Front(const Scene& scene, double direction) : direction_(direction) {
         const Shape& hull = scene.shapes[0];
         const Vec3 place = scene.bodies.position[kShip];
         low_ = hull.box.min() + place;
@@ -52,8 +52,8 @@ public:
         for (int k = 0; k < 9; ++k) {
             const int beside = k % 3 - 1, above = k / 3 - 1;
             // nine points of the cube's face that looks at the ship
-            least =
-                std::min(least, distance_to_point(centre + radius * Vec3(-way_, beside, above)));
+            least = std::min(least,
+                             distance_to_point(centre + radius * Vec3(-direction_, beside, above)));
         }
         return least;
     }
@@ -61,7 +61,7 @@ public:
 private:
     void add(const Vec3& p, double ahead) {
         double& x = foremost_[index(at(p.y() - low_.y(), columns_), at(p.z() - low_.z(), rows_))];
-        x = std::max(x, way_ * p.x() + ahead);
+        x = std::max(x, direction_ * p.x() + ahead);
     }
     // Points of a triangle no more than a cell apart: rows from its longest edge to the corner.
     void add_triangle(Vec3 a, Vec3 b, Vec3 c) {
@@ -89,7 +89,7 @@ private:
             const int beside = k % 3 - 1, above = k / 3 - 1;
             x = std::max(x, foremost(column + beside, row + above));
         }
-        const double distance = way_ * p.x() - x;
+        const double distance = direction_ * p.x() - x;
         // beside or behind the ship, whose bodies do not overlap the ice: passed already
         return distance < -2.0 * cell_ ? kNever : std::max(distance, 0.0);
     }
@@ -107,7 +107,7 @@ private:
     }
     std::size_t index(std::size_t column, std::size_t row) const { return row * columns_ + column; }
 
-    double way_, cell_ = 0.0;
+    double direction_, cell_ = 0.0;
     Vec3 low_;
     std::size_t columns_ = 0, rows_ = 0;
     std::vector<double> foremost_;
@@ -148,7 +148,7 @@ void measure_clearance(const World& w, const Front& front, Course& course) {
 }
 
 // How far the ship goes until its foremost point is beyond all loose floes within its breadth.
-double distance_through(const World& w, double way) {
+double distance_through(const World& w, double direction) {
     const Eigen::AlignedBox3d hull = box_of(w.scene, kShip);
     double far = w.edge.lives() ? w.parameters.level_ice.extent[1] : -kNever;
     for (std::size_t i = 1; i < w.scene.bodies.size(); ++i) {
@@ -156,9 +156,9 @@ double distance_through(const World& w, double way) {
         const Eigen::AlignedBox3d box = box_of(w.scene, i);
         // loose floes beside the path are not met
         if (box.max().y() < hull.min().y() || box.min().y() > hull.max().y()) continue;
-        far = std::max(far, way > 0.0 ? box.max().x() : -box.min().x());
+        far = std::max(far, direction > 0.0 ? box.max().x() : -box.min().x());
     }
-    return std::max(far - (way > 0.0 ? hull.max().x() : -hull.min().x()), 0.0);
+    return std::max(far - (direction > 0.0 ? hull.max().x() : -hull.min().x()), 0.0);
 }
 
 bool any_floe_moves(const Bodies& b) {
@@ -171,14 +171,14 @@ void warn_of_meeting(const Case& p, const Course& c, std::vector<Warning>& warni
     // From the gravest to the mildest: a run without ice needs no word about its averages.
     const double averaged = p.duration - p.average_from;
     if (c.clearance == kNever) {
-        warnings.push_back({fmt::format("no ice lies in the ship's way: it moves {:.4g} m and "
+        warnings.push_back({fmt::format("no ice lies on the ship's course: it moves {:.4g} m and "
                                         "meets nothing; put hull.position before the ice, along +x",
                                         c.travel),
                             true, 1.0});
     } else if (c.meets_at == kNever) {
         warnings.push_back(
             {fmt::format("the ship never meets the ice: it moves {:.4g} m, and the first ice on "
-                         "its way is {:.4g} m ahead; move hull.position on, or lengthen "
+                         "its course is {:.4g} m ahead; move hull.position on, or lengthen "
                          "simulation.duration",
                          c.travel, c.clearance),
              true, 1.0});
@@ -211,12 +211,12 @@ void warn_of_meeting(const Case& p, const Course& c, std::vector<Warning>& warni
 Course measure_course(const World& w) {
     const Case& p = w.parameters;
     Course course;
-    const double travel = p.ship_travel(0.0, p.duration), way = travel < 0.0 ? -1.0 : 1.0;
+    const double travel = p.ship_travel(0.0, p.duration), direction = travel < 0.0 ? -1.0 : 1.0;
     course.travel = std::abs(travel);
-    measure_clearance(w, Front(w.scene, way), course);
+    measure_clearance(w, Front(w.scene, direction), course);
     course.meets_at = time_of(p, course.clearance);
     course.hits_fixed_at = time_of(p, course.clearance_fixed);
-    course.through = distance_through(w, way);
+    course.through = distance_through(w, direction);
     course.leaves_at = time_of(p, course.through);
     return course;
 }

@@ -71,7 +71,7 @@ void add_group(Scene& scene, const Case& parameters, std::size_t g, std::int32_t
     // as doubles: the product of two counts may exceed an integer
     const double count = static_cast<double>(group.count[0]) * group.count[1];
     if (count + static_cast<double>(scene.bodies.size()) > kMostFloes)
-        throw bad_input(fmt::format("floes.{}.count", g + 1), "asks for more than 10 million floes",
+        throw bad_input(fmt::format("floes.{}.count", g + 1), "needs more than 10 million floes",
                         "use fewer floes");
 
     const double fraction = parameters.ice_density / parameters.water_density;

@@ -8,7 +8,7 @@
 
 namespace ice {
 
-/// The regions of the faces that surface spheres represent, to book contacts on.
+/// The regions of the faces that surface spheres represent, to enter contacts for.
 ///
 /// Most spheres have one region, that of the mesh around them. One beside a border of regions, in
 /// an edge or near its end, represents faces of both: the contact's normal decides which of them

@@ -133,8 +133,8 @@ void FreeShip::add_damping(const Case& p, Scene& scene) {
     loads_.losses.moment += axes.turn.transpose().inverse() * moment;
 }
 
-void FreeShip::book(const Scene& scene, const std::vector<Constraint>& constraints,
-                    const PositionCorrections& corrections, double dt) {
+void FreeShip::enter_step(const Scene& scene, const std::vector<Constraint>& constraints,
+                          const PositionCorrections& corrections, double dt) {
     if (!answers()) return;
     const Bodies& b = scene.bodies;
     const ShipAxes axes = axes_of(angles_);

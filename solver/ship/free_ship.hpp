@@ -53,9 +53,9 @@ public:
     void start_step(const Case& parameters, Scene& scene, double time);
     /// Loads change the velocity over a time_step. @param time  at the start of the step [s]
     void apply_loads(const Case& parameters, Scene& scene, double time);
-    /// Books a step of dt [s], before the poses advance.
-    void book(const Scene& scene, const std::vector<Constraint>& constraints,
-              const PositionCorrections& corrections, double dt);
+    /// Enters a step of dt [s] in energies(), before the poses advance.
+    void enter_step(const Scene& scene, const std::vector<Constraint>& constraints,
+                    const PositionCorrections& corrections, double dt);
     /// Turns the ship, after its place has advanced with its velocity, and moves it by its position
     /// correction. @param dt  [s]
     void turn(Scene& scene, const PositionCorrections& corrections, double dt);

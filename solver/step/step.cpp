@@ -106,8 +106,8 @@ void step(World& w) {
         w.overlaps.crush(w.scene, w.contacts, w.constraints, law, dt);
     });
     timed(w, Stage::integrate, [&] {  // 9 move
-        book_step(w.scene, w.parameters, w.constraints, w.loads, w.corrections, w.start, w.ledger);
-        w.ship.book(w.scene, w.constraints, w.corrections, dt);
+        enter_step(w.scene, w.parameters, w.constraints, w.loads, w.corrections, w.start, w.ledger);
+        w.ship.enter_step(w.scene, w.constraints, w.corrections, dt);
         advance(w.scene, {w.start.angular_velocity, w.corrections, dt});
         w.ship.turn(w.scene, w.corrections, dt);
         w.ledger.kinetic_change += kinetic_energy(bodies) - w.start.kinetic;

@@ -67,8 +67,8 @@ ICEFIELD=./field-program refuse "no specification channel.toml"
 
 echo "../h.obj -r 0.1" >case/spheres.txt
 refuse "names no output; add -o FILE"
-for way in "-o ../h.h5" "-o /tmp/h.h5" "-o h.h5 --json=/tmp/h.json"; do
-    echo "../h.obj -r 0.1 $way" >case/spheres.txt
+for options in "-o ../h.h5" "-o /tmp/h.h5" "-o h.h5 --json=/tmp/h.json"; do
+    echo "../h.obj -r 0.1 $options" >case/spheres.txt
     refuse "leads out of the case folder"
 done
 echo "../other.obj -o h.h5" >case/spheres.txt

@@ -60,20 +60,20 @@ def main():
     options = parser.parse_args()
     options.bin = options.bin.resolve()
     subprocess.run([ROOT / "cases/prepare.sh", options.case], check=True, capture_output=True)
-    ways = [("one thread", 1, "")] + [(f"all cores {v}".strip(), 0, v)
-                                      for v in ["", *options.waiting]]
+    variants = [("one thread", 1, "")] + [(f"all cores {v}".strip(), 0, v)
+                                          for v in ["", *options.waiting]]
     times = {}
     print(f"{os.cpu_count()} processors, load before: {os.getloadavg()[0]:.2f}")
     with tempfile.TemporaryDirectory() as folder:
         for _ in range(options.rounds):
             for runs in (1, 2):
-                for name, threads, variable in ways:
+                for name, threads, variable in variants:
                     took = seconds(options, folder, runs, threads, variable)
                     times.setdefault((runs, name), []).append(took)
     print("| threads | alone [s] | over one thread | two side by side [s] | over two of one |")
     print("|---|---|---|---|---|")
     median = {key: statistics.median(values) for key, values in times.items()}
-    for name, _, _ in ways:
+    for name, _, _ in variants:
         alone, both = median[1, name], median[2, name]
         print(f"| {name} | {alone:.2f} | {alone / median[1, 'one thread']:.2f} | {both:.2f} | "
               f"{both / median[2, 'one thread']:.2f} |")

@@ -169,7 +169,7 @@ TEST_CASE("more floes than the limit are refused before memory is taken for them
     make_case_3d(w);
     for (const char* count : {"[100000,100000]", "[100000,100]"})
         check_refused(w, {std::string("icesolve case.cfg --check --set floes.count=") + count,
-                          "floes.1.count: asks for more than 10 million floes"});
+                          "floes.1.count: needs more than 10 million floes"});
 }
 
 TEST_CASE("a floe inside the hull at the start is named", "[cli][errors]") {

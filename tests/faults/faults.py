@@ -236,13 +236,13 @@ def unreadable_file(shop, _):
         for name in job.inputs:
             path = os.path.join(shop.inputs, name)
             kept = path + ".kept"
-            for way in ("no permission", "a folder", "missing"):
+            for obstacle in ("no permission", "a folder", "missing"):
                 os.rename(path, kept)
                 try:
-                    if way == "no permission":
+                    if obstacle == "no permission":
                         shutil.copy(kept, path)
                         os.chmod(path, 0)
-                    elif way == "a folder":
+                    elif obstacle == "a folder":
                         os.mkdir(path)
                     folder = shop.new_folder()
                     os.chmod(folder, 0o777)
@@ -258,7 +258,7 @@ def unreadable_file(shop, _):
                 found = shop.faults(job, folder, done)
                 if done.code not in (1, 2) or os.path.basename(name) not in done.message:
                     found.append(f"exit code {done.code} without the file's name: {done.message!r}")
-                wrong += [f"{job.name}, {name}: {way}: {text}" for text in found]
+                wrong += [f"{job.name}, {name}: {obstacle}: {text}" for text in found]
     return wrong
 
 

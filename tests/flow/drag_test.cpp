@@ -189,7 +189,7 @@ TEST_CASE("a table of a ship at rest, and one out of reach, leave the bits of wa
     CHECK_FALSE(same_bits(loads, still));
 }
 
-TEST_CASE("a current brings a floe to its speed as the book says, and its books balance",
+TEST_CASE("a current brings a floe to its speed as the book says, and its ledger balances",
           "[flow][water][analytic]") {
     Case p = water_case(0.01);
     p.gravity = 0.0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Floes that move water along: inertia, impacts, Kirchhoff's equations, books, bits.
+// Floes that move water along: inertia, impacts, Kirchhoff's equations, energy ledger, bits.
 //
 // Tolerances: 1 % and 0.5 % are the step's error, of first order; 1e-12 and 1e-11 are rounding of
 // momenta over the steps.
@@ -210,8 +210,9 @@ TEST_CASE("a current brings a floe and its water to its speed as the book says",
     }
 }
 
-TEST_CASE("floes with their water, pressed under a plate that moves, balance and close their books",
-          "[flow][added-mass][balance][energy]") {
+TEST_CASE(
+    "floes with their water, pressed under a plate that moves, balance and close their ledger",
+    "[flow][added-mass][balance][energy]") {
     Case p = deep_case(0.005);
     p.gravity = 9.81;
     p.buoyancy = BuoyancyModel::distributed;

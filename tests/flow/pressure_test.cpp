@@ -158,7 +158,8 @@ TEST_CASE("the table's pressure pushes a floe: U squared, nothing far off or whe
     CHECK(flow_pressure(w.scene, p, floe).force.norm() == 0.0);
 }
 
-TEST_CASE("what the pressure gives a floe is booked as the water's work", "[flow][water][energy]") {
+TEST_CASE("what the pressure gives a floe is entered as the water's work",
+          "[flow][water][energy]") {
     Case p = deep_case();
     p.speed_table = {{0.0, 1.0}};
     World w = test::plate_world(p, Vec3(1, 1, 1), 0.1, 0.2, 100.0);

@@ -195,7 +195,7 @@ TEST_CASE("fields that cannot be are refused with a remedy", "[field][errors]") 
                       Catch::Contains("a million is the most"));
     CHECK_THROWS_WITH(field_plan("pattern = \"grid\"\n[ice]\nthickness = 1\n[floes]\n"
                                  "size = [1, 1]\ncount = [100000, 100000]\n"),
-                      Catch::Contains("floes.count: asks for more than a million"));
+                      Catch::Contains("floes.count: needs more than a million"));
     CHECK_THROWS_WITH(field_plan("pattern = \"cusps\"\n[ice]\nthickness = 1\n[area]\n"
                                  "size = [1e6, 1e6]\n[floes]\nbreaking_length = 1e-5\n"
                                  "breaking_width = 1e-5\n"),
@@ -203,7 +203,7 @@ TEST_CASE("fields that cannot be are refused with a remedy", "[field][errors]") 
     CHECK_THROWS_WITH(field_plan("pattern = \"grid\"\n[ice]\nthickness = 1\n[floes]\n"
                                  "size = [1e5, 1]\ncount = [1, 1]\n[edges]\nbreadth = 1\n"
                                  "piece = 1e-3\n"),
-                      Catch::Contains("edges.piece: asks for more than a million"));
+                      Catch::Contains("edges.piece: needs more than a million"));
     CHECK_THROWS_WITH(field_plan(power_law("[3, 3]", "concentration = 0.1\n")),
                       Catch::Contains("area.size"));
 }

@@ -95,8 +95,8 @@ class Scenes(unittest.TestCase):
         expected = np.array([30.0, -10.0]) * time / scene.mass[1]
         np.testing.assert_allclose(scene.velocity[1, :2], expected, rtol=1e-12)
         # velocities after steps 1, 2, ... n carry it: n (n + 1) / 2 dt^2 F / m
-        way = expected * scene.time_step * (steps + 1) / 2
-        np.testing.assert_allclose(scene.position[1, :2] - begun[:2], way, rtol=1e-9)
+        distance = expected * scene.time_step * (steps + 1) / 2
+        np.testing.assert_allclose(scene.position[1, :2] - begun[:2], distance, rtol=1e-9)
         self.assertAlmostEqual(scene.energy["applied_work"],
                                0.5 * scene.mass[1] * (expected @ expected), delta=1e-9)
         scene.applied_force[:] = 0.0

@@ -85,8 +85,8 @@ TEST_CASE("loads of zero change no bit, and a load taken back acts no more") {
     with.applied_loads[1].force = Vec3(0.0, 500.0, 0.0);
     go_on(with, 5);
     with.applied_loads[1].force.setZero();
-    const double booked = with.ledger.applied_work;
-    CHECK(booked > 0.0);
+    const double entered = with.ledger.applied_work;
+    CHECK(entered > 0.0);
     go_on(with, 5);
-    CHECK(with.ledger.applied_work == booked);
+    CHECK(with.ledger.applied_work == entered);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which bodies may touch: against the test of all pairs, at once and along a way.
+// Which bodies may touch: against the test of all pairs, at once and along a direction.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <limits>
@@ -37,12 +37,12 @@ TEST_CASE("a list of pairs follows a ship, and a floe let go far from it, throug
     Bodies& b = w.scene.bodies;
     std::fill(b.held.begin() + 1, b.held.end(), std::uint8_t{1});
     list_moving(b);
-    const double way = GENERATE(1.0, -1.0);  // ahead, and astern
-    b.position[kShip].x() = -20.0 * way;
-    b.velocity[kShip] = Vec3(way, 0, 0);
+    const double direction = GENERATE(1.0, -1.0);  // ahead, and astern
+    b.position[kShip].x() = -20.0 * direction;
+    b.velocity[kShip] = Vec3(direction, 0, 0);
     std::size_t far = 1;
     for (std::size_t i = 2; i < b.size(); ++i)
-        if (way * b.position[i].x() > way * b.position[far].x()) far = i;
+        if (direction * b.position[i].x() > direction * b.position[far].x()) far = i;
     const double dt = 0.05, margin = 0.01;
     MotionBounds motion;
     PairList list;
@@ -51,7 +51,7 @@ TEST_CASE("a list of pairs follows a ship, and a floe let go far from it, throug
         if (k == 200) {
             b.held[far] = 0;
             list_moving(b);
-            b.velocity[far] = Vec3(-0.3 * way, 0, 0);
+            b.velocity[far] = Vec3(-0.3 * direction, 0, 0);
         }
         motion.update(w.scene, dt);
         list.update(w.scene, motion, margin);

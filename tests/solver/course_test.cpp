@@ -121,7 +121,7 @@ TEST_CASE("clearance is the way to the first ice that the hull's section meets",
 }
 
 TEST_CASE("a ship that meets no ice, or too late, is warned of with both distances", "[step]") {
-    CHECK_THAT(only_warning(world_of({Vec3(7, 5, -0.1)})), Catch::Contains("no ice lies in the"));
+    CHECK_THAT(only_warning(world_of({Vec3(7, 5, -0.1)})), Catch::Contains("no ice lies on the"));
     World w = world_of({Vec3(40.5, 0, -0.1)});
     CHECK_THAT(only_warning(w), Catch::Contains("never meets the ice: it moves 20 m") &&
                                     Catch::Contains("hull.position"));

@@ -97,7 +97,7 @@ TEST_CASE("weight and distributed buoyancy are the slope of the potential energy
     }
 }
 
-TEST_CASE("an impact books 1 - e^2 of its energy as restitution, for a ship at any speed",
+TEST_CASE("an impact enters 1 - e^2 of its energy as restitution, for a ship at any speed",
           "[energy][analytic]") {
     const double e = GENERATE(0.0, 0.3, 1.0), speed = GENERATE(0.0, 2.0);
     Case p = test::empty_space(0.01);
@@ -112,7 +112,7 @@ TEST_CASE("an impact books 1 - e^2 of its energy as restitution, for a ship at a
     CHECK(residual(w) == Near(0.0).margin(1e-12));
 }
 
-TEST_CASE("an impact that crushes books its energy as crushing", "[energy][analytic]") {
+TEST_CASE("an impact that crushes enters its energy as crushing", "[energy][analytic]") {
     Case p = test::empty_space(0.01);
     p.contact.crushing_pressure = 8000.0;  // takes some steps to stop the ball
     World w = ball_under_plate(p, 0.0);
@@ -142,14 +142,14 @@ TEST_CASE("a ship that drags a floe up to its speed loses as much to friction as
     CHECK(std::abs(residual(w)) < tolerance(1e-6) * gained);
 }
 
-TEST_CASE("a floe at rest under the ship books nothing", "[energy]") {
+TEST_CASE("a floe at rest under the ship enters nothing", "[energy]") {
     Case p = water(0.01);
     p.contact.tolerance = 1e-12;
     World w = pressed_floe(p);
     step(w);  // the first contact stops what one step of buoyancy would have moved
     const EnergyLedger settled = w.ledger;
     for (int k = 0; k < 200; ++k) step(w);
-    // 235 N held for 2 s: any speed of 1e-9 m/s would book 5e-7 J
+    // 235 N held for 2 s: any speed of 1e-9 m/s would enter 5e-7 J
     CHECK(w.ledger.ship_work == settled.ship_work);
     CHECK(std::abs(w.ledger.restitution - settled.restitution) < tolerance(1e-7));
     CHECK(std::abs(w.ledger.friction - settled.friction) < tolerance(1e-7));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which region of the hull a contact is booked on.
+// Which region of the hull a contact is entered for.
 #include "solver/shape/face_regions.hpp"
 
 #include <catch2/catch.hpp>

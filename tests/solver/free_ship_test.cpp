@@ -356,7 +356,7 @@ TEST_CASE("a locked motion stays locked while the others swing", "[ship]") {
     CHECK(std::abs(w.ship.angles()[0]) < 0.3);
 }
 
-TEST_CASE("the energy of a swinging ship is kept, and its losses are booked", "[ship]") {
+TEST_CASE("the energy of a swinging ship is kept, and its losses are entered", "[ship]") {
     Case p = barge_case({heave, roll, pitch, surge});
     p.propulsion.thrust = 3000.0;
     p.ship.damping = {500.0, 0, 0.05, 0.05, 0.05, 0};

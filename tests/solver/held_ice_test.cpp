@@ -69,16 +69,17 @@ TEST_CASE("a ship driven into held ice loses its work to crushing and friction, 
     CAPTURE(rake / kDeg, speeds_up);
     World w = world_with_held_floe(rake, 0.011, {{0.0, 0.5}, {1.0, speeds_up ? 1.0 : 0.5}});
     for (int k = 0; k < 60; ++k) advance_balanced(w);
-    const EnergyLedger& books = w.ledger;
-    REQUIRE(books.crushing > 0.0);
-    CHECK(books.restitution == 0.0);
-    CHECK(books.kinetic_change == 0.0);
+    const EnergyLedger& ledger = w.ledger;
+    REQUIRE(ledger.crushing > 0.0);
+    CHECK(ledger.restitution == 0.0);
+    CHECK(ledger.kinetic_change == 0.0);
     // sums of up to 60 steps with a hundred contacts each, of one sign, each exact to 1e-16
-    CHECK(books.crushing + books.friction == Near(books.ship_work).epsilon(1e-12));
-    CHECK(std::abs(books.residual(*books.potential_start)) <= tolerance(1e-12) * books.ship_work);
+    CHECK(ledger.crushing + ledger.friction == Near(ledger.ship_work).epsilon(1e-12));
+    CHECK(std::abs(ledger.residual(*ledger.potential_start)) <=
+          tolerance(1e-12) * ledger.ship_work);
     // pressed along the front's normal, sliding along its slope: v sin against v cos
-    CHECK(books.friction ==
-          Near(kFriction * std::tan(rake) * books.crushing).margin(1e-6 * books.crushing));
+    CHECK(ledger.friction ==
+          Near(kFriction * std::tan(rake) * ledger.crushing).margin(1e-6 * ledger.crushing));
     CHECK(w.scene.bodies.position[1] == Vec3::Zero());
 }
 

@@ -117,9 +117,9 @@ TEST_CASE("forces on chosen floes are the impulses of their contacts over the st
     // the ship presses floe 1 down, which presses floe 2, which presses floe 3
     const std::vector<Constraint> contacts{touch(0, 1, 3.0, 0.5), touch(1, 2, 2.0, 0.25),
                                            touch(2, 3, 1.0, 0.0)};
-    const std::vector<std::int32_t> asked{-1, 1, -1, 0};
+    const std::vector<std::int32_t> entry_of{-1, 1, -1, 0};
     std::vector<FloeForces> forces(2, {Vec3::Ones(), Vec3::Ones(), Vec3::Ones()});
-    measure_floe_forces(contacts, 0.5, asked, forces);
+    measure_floe_forces(contacts, 0.5, entry_of, forces);
     CHECK(forces[0].contact == Vec3::Zero());
     CHECK(forces[0].ice == Vec3(0, 0, -2.0));
     CHECK(forces[1].contact == Vec3(0, 0, 6.0));

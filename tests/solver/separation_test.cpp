@@ -95,7 +95,7 @@ TEST_CASE("no body is nearer than its separation says, wherever it is", "[narrow
     CHECK(apart > 50);
 }
 
-TEST_CASE("a separation shrinks by no more than its share of the way that bodies go",
+TEST_CASE("a separation shrinks by no more than its share of the moved that bodies go",
           "[narrow][property]") {
     World w = two_boxes();
     Dice dice{std::mt19937(5)};
@@ -104,16 +104,16 @@ TEST_CASE("a separation shrinks by no more than its share of the way that bodies
         place(w, 2, 1.5 * dice.vector().normalized(), dice.turn(3.0));
         const double before = separation_now(w);
         const double share = separation_share(PairView(w.scene, {1, 2}));
-        double way = 0.0;
+        double moved = 0.0;
         for (const std::size_t body : {1u, 2u}) {
             const Vec3 go = 0.05 * dice.vector();
             const double angle = 0.05 * dice();
             const Quaternion turn(Eigen::AngleAxisd(angle, dice.vector().normalized()));
-            way += go.norm() + std::abs(angle) * MotionBounds::lever(w.scene.shapes[1]);
+            moved += go.norm() + std::abs(angle) * MotionBounds::lever(w.scene.shapes[1]);
             place(w, body, w.scene.bodies.position[body] + go,
                   turn * w.scene.bodies.orientation[body]);
         }
-        REQUIRE(separation_now(w) >= before - share * way - tolerance(1e-12));
+        REQUIRE(separation_now(w) >= before - share * moved - tolerance(1e-12));
     }
 }
 

@@ -118,9 +118,9 @@ TEST_CASE("a box's faces and edges end where the box does", "[narrow][side_plane
         const Vec3 tip = shape.center[k] + shape.cone[k].apex_distance * shape.normal[k];
         for (int n = 0; n < 20; ++n) {
             // as far as this the planes around are known, and more than a sphere stands for
-            const Vec3 way =
+            const Vec3 offset =
                 1.7 * shape.patch_radius * Vec3(unit(random), unit(random), unit(random));
-            const Vec3 point = tip + part_within(shape, k, way);
+            const Vec3 point = tip + part_within(shape, k, offset);
             const double past = (point.cwiseAbs() - 0.5 * size).maxCoeff();
             const auto holds = [&](double slack) {
                 const auto row = static_cast<std::int32_t>(k);

@@ -124,7 +124,7 @@ TEST_CASE("a held piece breaks off in the step in which its load is reached",
     CHECK(before.along < load * along_share / down_share);
     // half the product of the two, with the errors of both
     CHECK(work == Near(0.5 * load * along_share / down_share * depth).epsilon(0.05));
-    // all of it is booked as breaking
+    // all of it is entered as breaking
     CHECK(w.ledger.breaking == Near(work).epsilon(1e-12));
     CHECK(w.ledger.ship_work == Near(work).epsilon(1e-12));
     CHECK(w.ledger.crushing == 0.0);

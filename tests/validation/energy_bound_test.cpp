@@ -72,7 +72,7 @@ World stream(double slope, double speed, int pieces, double bottom) {
     return w;
 }
 
-// The books at some travel of the ship.
+// The ledger at some travel of the ship.
 struct Entry {
     EnergyLedger ledger;
     double potential = 0.0, travel = 0.0;

@@ -245,10 +245,11 @@ def check_belt(values, file, report):
         True, True])
     # nothing was repaired: the mesh is its own solid
     for group, name in ((belt, "ice_belt."), (report["source"], "source.")):
-        for way in ("to_solid", "from_solid"):
+        for direction in ("to_solid", "from_solid"):
             for key in ("p50_m", "p99_m", "max_m"):
-                values.equal(REPORT, f"{name}{way}.{key}", group[way][key], 0.0)
-            values.equal(REPORT, f"{name}{way}.at_m", group[way]["at_m"], [0.0, 0.0, 0.0])
+                values.equal(REPORT, f"{name}{direction}.{key}", group[direction][key], 0.0)
+            values.equal(REPORT, f"{name}{direction}.at_m", group[direction]["at_m"],
+                         [0.0, 0.0, 0.0])
     for key in ("caps_m2", "left_out_m2"):
         values.equal(REPORT, "source." + key, report["source"][key], 0.0)
     for key in ("p99", "max"):

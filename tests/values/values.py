@@ -14,14 +14,14 @@ class Values:
 
     def equal(self, form, name, got, want):
         """A text, a count or another exact value."""
-        self._book(form, name)
+        self._record(form, name)
         same = np.array_equal(got, want) if isinstance(want, np.ndarray) else got == want
         if not same:
             self.faults.append(f"{form}: {name} is {got}, should be {want}")
 
     def close(self, form, name, got, want, rel=1e-9, margin=0.0):
         """Numbers or arrays: within `margin`, or `rel` of the largest value, of `want`."""
-        self._book(form, name)
+        self._record(form, name)
         try:
             got, want = np.asarray(got, float), np.asarray(want, float)
             if got.shape != want.shape:
@@ -36,9 +36,9 @@ class Values:
 
     def within(self, form, name, got, low, high):
         """A number of which only bounds are known."""
-        self._book(form, name)
+        self._record(form, name)
         if not np.all((np.asarray(got) >= low) & (np.asarray(got) <= high)):
             self.faults.append(f"{form}: {name} is {got}, should be {low} to {high}")
 
-    def _book(self, form, name):
+    def _record(self, form, name):
         self.seen.setdefault(form, set()).add(name)
