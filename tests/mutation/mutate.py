@@ -4,8 +4,8 @@
 
     python3 tests/mutation/mutate.py --work build/mutation
 
-Faults are those of mutants.toml, which people chose, and as many as --drawn that draw.py takes from
-the sources. Works on a copy of the tree with a build of its own; README.md says more.
+Faults are those of mutants.toml, which people chose, and those of drawn.jsonl, which draw.py took
+from the sources. Works on a copy of the tree with a build of its own; README.md says more.
 """
 import argparse
 import concurrent.futures
@@ -71,14 +71,38 @@ def read_survivors(path):
     return {(e["file"], e["old"], e["new"]): e["why"] for e in entries}
 
 
-def draw_mutants(chosen, count, seed, files):
-    """`count` of them behind the chosen ones, and a third more in reserve for those that do not
-    compile. They are in few files, so that the build is not one of all sources."""
+def text_of(fault):
+    """What a fault is, wherever its file has it."""
+    return tuple(" ".join(part.split()) for part in (fault.file, fault.kind, fault.old, fault.new))
+
+
+def read_drawn(path):
+    """Faults of an earlier draw, those whose text is still there."""
+    with open(path, encoding="utf-8") as file:
+        kept = [tuple(json.loads(line)) for line in file]
+    there = {}
+    for fault in draw.every_fault(ROOT):
+        there.setdefault(text_of(fault), fault)
+    return [there[text] for text in kept if text in there]
+
+
+def write_drawn(path, mutants):
+    with open(path, "w", encoding="utf-8") as file:
+        file.writelines(json.dumps(text_of(m.places[0])) + "\n" for m in mutants if m.drawn)
+
+
+def draw_mutants(chosen, drawn, count, seed, files):
+    """`drawn`, then others up to `count`, and a third more in reserve for those that do not
+    compile; none in the place of another. They are in few files, so that the build is not one of
+    all sources."""
     taken = [place for mutant in chosen for place in mutant.places]
-    free = (f for f in draw.draw(ROOT, seed, files)
-            if all(f.file != t.file or f.end <= t.begin or t.end <= f.begin for t in taken))
-    return [Mutant(len(chosen) + 1 + k, fault.kind, (fault,), True)
-            for k, fault in enumerate(itertools.islice(free, count + count // 3))]
+    out = []
+    for fault in itertools.chain(drawn, draw.draw(ROOT, seed, files)):
+        if len(out) < count + count // 3 and all(
+                fault.file != t.file or fault.end <= t.begin or t.end <= fault.begin for t in taken):
+            out.append(fault)
+            taken.append(fault)
+    return [Mutant(len(chosen) + 1 + k, fault.kind, (fault,), True) for k, fault in enumerate(out)]
 
 
 class Results:
@@ -146,7 +170,8 @@ def parse():
     parser.add_argument("--mutants", default=os.path.join(HERE, "mutants.toml"), metavar="TOML")
     parser.add_argument("--drawn", type=int, default=120, metavar="N",
                         help="how many to draw from the sources (%(default)s)")
-    parser.add_argument("--seed", type=int, default=1, help="of the draw (%(default)s)")
+    parser.add_argument("--seed", type=int, metavar="N",
+                        help="draw all of them by this seed, not those of drawn.jsonl")
     parser.add_argument("--files", type=int, default=45, metavar="N",
                         help="from how many sources to draw them, which are drawn, too "
                         "(%(default)s)")
@@ -179,7 +204,9 @@ def main():
         if options.check:
             check(chosen)
             return 0
-        mutants = chosen + draw_mutants(chosen, options.drawn, options.seed,
+        listed = os.path.join(HERE, "drawn.jsonl")
+        drawn = read_drawn(listed) if options.seed is None else []
+        mutants = chosen + draw_mutants(chosen, drawn, options.drawn, options.seed or 1,
                                         options.files)
         if options.list:
             for m in mutants[:len(chosen) + options.drawn]:
@@ -187,6 +214,8 @@ def main():
             return 0
         tree = Tree(ROOT, os.path.abspath(options.work), options.jobs, options.preset)
         mutants = tree.build(mutants)[:len(chosen) + options.drawn]
+        if options.seed is None and options.drawn >= len(drawn):
+            write_drawn(listed, mutants)  # with those that came in the place of what is gone
         path = os.path.join(tree.work, "results.jsonl")
         if options.anew and os.path.isfile(path):
             os.remove(path)
