@@ -19,9 +19,9 @@ struct ReadBounds {
     static ReadBounds for_size(std::uint64_t size);
 };
 
-/// Does `read` in a child process and returns its bytes; throws where it throws, crashes, never ends
-/// or fills the memory: assimp 5.2 and HDF5 1.10 do so on some damaged files
-/// (tests/fuzz/README.md). The child can grow no file, leaves no core and its stderr is thrown away.
+/// Does `read` in a child process and returns its bytes; throws where it throws, crashes, never
+/// ends or fills the memory: assimp 5.2 and HDF5 1.10 do so on some damaged files
+/// (tests/fuzz/README.md). The child can grow no file, leaves no core; its stderr is thrown away.
 ///
 /// A crash becomes a message. This is no sandbox: a file that takes over the library in the child
 /// would act with the user's rights.

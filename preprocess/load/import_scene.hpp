@@ -26,8 +26,8 @@ struct ImportedMesh {
 ///   - OBJ, STL, PLY, OFF: no units, no axes.
 ///
 /// assimp crashes, or never ends, on some damaged files: it reads them in a child process, which
-/// hands the mesh over (read_in_child()). It opens no file outside the mesh's own folder: a material library elsewhere
-/// is left out, a glTF buffer elsewhere is an error.
+/// hands the mesh over (read_in_child()). It opens no file outside the mesh's own folder: a
+/// material library elsewhere is left out, a glTF buffer elsewhere is an error.
 ///
 /// @throws Error (exit code 2) naming the file, when its name tells no format that is read, when
 ///         assimp or gunzip() cannot read it, when reading it crashes, takes too long or more

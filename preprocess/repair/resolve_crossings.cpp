@@ -7,8 +7,8 @@
 
 #include "common/base/parallel.hpp"
 #include "common/geometry/edge_table.hpp"
-#include "common/geometry/winding_number.hpp"
 #include "common/geometry/find_equal.hpp"
+#include "common/geometry/winding_number.hpp"
 #include "preprocess/clean/keep_triangles.hpp"
 #include "preprocess/repair/cut_faces.hpp"
 #include "preprocess/repair/separate_sheets.hpp"

@@ -25,8 +25,8 @@ inline double tolerance_scale() {
 inline double tolerance(double value) { return value * tolerance_scale(); }
 
 /// A number and how far another may be from it: CHECK(x == Near(2.0).epsilon(1e-12)). The larger of
-/// two bounds holds: margin(), 0 unless given, and epsilon() of the number, kFormula unless either is
-/// given. Catch's Approx keeps its own 1.2e-5 of the number beside a margin, which then bounds
+/// two bounds holds: margin(), 0 unless given, and epsilon() of the number, kFormula unless either
+/// is given. Catch's Approx keeps its own 1.2e-5 of the number beside a margin, which then bounds
 /// nothing.
 class Near {
 public:
