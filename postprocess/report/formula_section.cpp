@@ -19,6 +19,11 @@ namespace {
 // Room for the names, for the number behind the longest bar, and for title and legend; distance of
 // bars and their height [px]. A name longer than kLeft is cut at the picture's edge.
 constexpr double kLeft = 150.0, kRight = 110.0, kTop = 46.0, kRow = 34.0, kBar = 18.0;
+// Baseline of the legend's first row, and distance of its rows [px].
+constexpr double kLegend = 36.0, kLegendRow = 18.0;
+
+// Of this run, beside its breaking.
+constexpr const char* kElse = "submersion and all else";
 
 // A bar: its parts from the left, each a name and a force [N], in 2D [N/m].
 struct Bar {
@@ -35,9 +40,9 @@ struct Bar {
 
 const char* color_of(const std::string& part) {
     static const std::map<std::string, const char*> kColors{
-        {"this run", views::kBlack}, {"submersion", views::kBlue}, {"buoyancy", views::kBlue},
-        {"clearing", views::kGreen}, {"bending", views::kOrange},  {"breaking", views::kOrange},
-        {"crushing", views::kPurple}};
+        {"this run", views::kBlack},  {kElse, views::kBlack},      {"submersion", views::kBlue},
+        {"buoyancy", views::kBlue},   {"clearing", views::kGreen}, {"bending", views::kOrange},
+        {"breaking", views::kOrange}, {"crushing", views::kPurple}};
     const auto found = kColors.find(part);
     return found == kColors.end() ? "#8a949c" : found->second;
 }
@@ -45,7 +50,11 @@ const char* color_of(const std::string& part) {
 // Bars of the run and of the formulas that compare with it, by parts; one sum where parts are
 // unknown.
 std::vector<Bar> make_bars(const Summary& s) {
-    std::vector<Bar> bars{{"this run", {{"this run", s.resistance.mean}}, s.resistance.ci95}};
+    Bar run{"this run", {{"this run", s.resistance.mean}}, s.resistance.ci95};
+    if (s.resistance.breaking_mean && s.resistance.submersion_mean)
+        run.parts = {{kElse, *s.resistance.submersion_mean},
+                     {"breaking", *s.resistance.breaking_mean}};
+    std::vector<Bar> bars{run};
     const auto formulas = formulas_of(s);
     const bool level = is_level_ice(s.ice);
     for (const FormulaValue& sum : comparable_formulas(formulas, level)) {
@@ -88,22 +97,33 @@ std::string draw_bar(const Bar& bar, double y, double per_newton, const ForceUni
     return out + views::text_element(x + 8.0, y + 14.0, unit.text(bar.length()), "start");
 }
 
-// Each part once, in the order in which the bars have them.
-std::string draw_legend(const std::vector<Bar>& bars) {
+// Each part once, in the order in which the bars have them. The run's own bar is named at its left.
+std::vector<std::string> legend_names(const std::vector<Bar>& bars) {
+    std::vector<std::string> out;
+    for (const Bar& bar : bars)
+        for (const auto& [part, force] : bar.parts)
+            if (part != "this run" && std::find(out.begin(), out.end(), part) == out.end())
+                out.push_back(part);
+    return out;
+}
+
+// In rows that fit into `width` [px]; `rows` becomes their number.
+std::string draw_legend(const std::vector<Bar>& bars, double width, int& rows) {
     std::string out;
     double x = kLeft;
-    std::vector<std::string> named;
-    for (const Bar& bar : bars)
-        for (const auto& [part, force] : bar.parts) {
-            // the run's own bar is named at its left
-            if (part == "this run" || std::find(named.begin(), named.end(), part) != named.end())
-                continue;
-            named.push_back(part);
-            out += rectangle(x, 26.0, 12.0, 12.0,
-                             fmt::format("fill=\"{}\" opacity=\"0.85\"", color_of(part)));
-            out += views::text_element(x + 17.0, 36.0, part, "start");
-            x += 17.0 + views::text_width(part) + 14.0;
+    rows = 1;
+    for (const std::string& part : legend_names(bars)) {
+        const double room = 17.0 + views::text_width(part) + 14.0;
+        if (x > kLeft && x + room > width) {
+            x = kLeft;
+            ++rows;
         }
+        const double y = kLegend + kLegendRow * (rows - 1);
+        out += rectangle(x, y - 10.0, 12.0, 12.0,
+                         fmt::format("fill=\"{}\" opacity=\"0.85\"", color_of(part)));
+        out += views::text_element(x + 17.0, y, part, "start");
+        x += room;
+    }
     return out;
 }
 
@@ -115,19 +135,22 @@ std::string draw_formulas(const Summary& s, const ForceUnit& unit, double width)
     for (const Bar& bar : bars) longest = std::max(longest, bar.length() + bar.half);
     if (bars.size() < 2 || !(longest > 0.0)) return "";
     const double per_newton = (width - kLeft - kRight) / longest;
-    const double height = kTop + kRow * static_cast<double>(bars.size()) + 6.0;
+    int rows = 0;
+    const std::string legend = draw_legend(bars, width, rows);
+    const double top = kTop + kLegendRow * (rows - 1);
+    const double height = top + kRow * static_cast<double>(bars.size()) + 6.0;
     const std::string title = "Resistance and formulas [" + unit.name + "]";
     std::string out = views::svg_open(width, height, title) +
                       views::text_element(8.0, 16.0, title, "start", "font-weight=\"600\"");
     const auto band = band_of(comparable_formulas(formulas_of(s), is_level_ice(s.ice)));
     // the band of the comparable formulas, behind the bars
     if (band && band->high > band->low)
-        out += rectangle(kLeft + band->low * per_newton, kTop - 4.0,
-                         (band->high - band->low) * per_newton, height - kTop,
+        out += rectangle(kLeft + band->low * per_newton, top - 4.0,
+                         (band->high - band->low) * per_newton, height - top,
                          "fill=\"#b8c4cc\" opacity=\"0.45\"");
     for (std::size_t k = 0; k < bars.size(); ++k)
-        out += draw_bar(bars[k], kTop + kRow * static_cast<double>(k) + 4.0, per_newton, unit);
-    return out + draw_legend(bars) + "</svg>\n";
+        out += draw_bar(bars[k], top + kRow * static_cast<double>(k) + 4.0, per_newton, unit);
+    return out + legend + "</svg>\n";
 }
 
 std::string formula_footnote(const std::vector<FormulaValue>& formulas) {

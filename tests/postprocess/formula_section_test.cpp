@@ -63,6 +63,15 @@ TEST_CASE("broken ice stands beside submersion and clearing, level ice beside to
     CHECK(count(draw_formulas(s, unit, 600.0), "<rect") ==
           1 + 1 + 3 + 3 + 1 + 7 /* names in the legend */);
 
+    // the run's own parts beside the formulas': 100 of 441 kN broke ice
+    s.resistance.breaking_mean = 100e3;
+    s.resistance.submersion_mean = 341e3;
+    const std::string parts = draw_formulas(s, unit, 440.0);
+    CHECK(count(parts, "<rect") == 1 + 2 + 3 + 3 + 1 + 8);
+    CHECK_THAT(parts, Catch::Contains(">submersion and all else</text>"));
+    // the legend goes on in another row where the picture ends
+    CHECK_THAT(parts, Catch::Contains("y=\"36\"") && Catch::Contains("y=\"54\""));
+
     FormulaOptions strong;
     strong.flexural_strength = 1e6;
     evaluate_run(s, strong);
