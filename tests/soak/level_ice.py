@@ -53,7 +53,7 @@ def memory_of(pid):
 
 
 def last_row(path):
-    """The last whole row of forces.csv by column; none before the first."""
+    """The last whole row of a table by column; none before the first."""
     try:
         lines = path.read_text(encoding="utf-8").split("\n")[:-1]
     except FileNotFoundError:
@@ -81,7 +81,7 @@ def main():
                            "-q"]) as process:
         while process.poll() is None:
             time.sleep(0.2)
-            row, memory = last_row(run / "forces.csv"), memory_of(process.pid)
+            row, memory = last_row(run / "forces.csv.part"), memory_of(process.pid)
             if row and memory and float(row["time_s"]) >= ROW * (len(rows) + 1):
                 rows.append((float(row["time_s"]), memory))
                 print(f"| {rows[-1][0]:.0f} | {row['moving_floes']} | {row['contacts']} | "
