@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <assimp/Importer.hpp>
+#include <bit>
 #include <cctype>
 #include <fstream>
 #include <iterator>
@@ -21,6 +22,7 @@
 
 #include "common/base/error.hpp"
 #include "common/base/rehearse.hpp"
+#include "common/geometry/find_equal.hpp"
 #include "preprocess/load/gunzip.hpp"
 #include "preprocess/load/mesh_bytes.hpp"
 #include "preprocess/load/scene_frame.hpp"
@@ -35,6 +37,17 @@ constexpr std::array<std::string_view, 8> kFormats{"obj", "stl",  "ply", "off",
                                                    "dae", "gltf", "glb", "fbx"};
 constexpr const char* kRemedy =
     "formats are OBJ, STL, PLY, OFF, DAE, glTF, FBX, each also with .gz";
+
+// For each vertex the first one in the same place. Equal floats stay equal in any frame.
+std::vector<std::int32_t> equal_places(const aiMesh& mesh) {
+    const auto bits = [](float x) -> std::uint64_t {
+        return std::bit_cast<std::uint32_t>(x + 0.0f);
+    };
+    return find_first(mesh.mNumVertices, [&](std::size_t k) -> Key {
+        const aiVector3D& v = mesh.mVertices[k];
+        return {bits(v.x), bits(v.y), bits(v.z)};
+    });
+}
 
 // Walks the tree of nodes, since each may turn, scale or mirror the parts below it. assimp's own
 // flattening would apply the root's unit and axes as well, which the command line may replace.
@@ -80,22 +93,31 @@ private:
     }
 
     void add(const aiMesh& mesh, const aiNode& node, const Mat4& here) {
-        const auto first = static_cast<std::int32_t>(out_.vertices.size());
         // a node may mirror its part: its triangles are then inside out
         const bool reflects = here.topLeftCorner<3, 3>().determinant() < 0.0;
-        for (unsigned k = 0; k < mesh.mNumVertices; ++k) {
+        // Each place once: what follows would take six times as long with a corner for each
+        // triangle, as STL has them.
+        const std::vector<std::int32_t> equal = equal_places(mesh);
+        std::vector<std::int32_t> number(mesh.mNumVertices);
+        for (std::size_t k = 0; k < number.size(); ++k) {
+            if (equal[k] != static_cast<std::int32_t>(k)) {
+                number[k] = number[static_cast<std::size_t>(equal[k])];
+                continue;
+            }
             const aiVector3D& v = mesh.mVertices[k];
             const Eigen::Vector4d p =
                 here * Eigen::Vector4d(undo_float(v.x), undo_float(v.y), undo_float(v.z), 1.0);
+            number[k] = static_cast<std::int32_t>(out_.vertices.size());
             out_.vertices.push_back(p.head<3>());
         }
         const std::int32_t region = region_of(mesh, node);
+        out_.triangles.reserve(out_.triangles.size() + mesh.mNumFaces);
+        out_.region.reserve(out_.region.size() + mesh.mNumFaces);
         for (unsigned k = 0; k < mesh.mNumFaces; ++k) {
             const aiFace& face = mesh.mFaces[k];
             if (face.mNumIndices != 3) continue;
             std::array<std::int32_t, 3> t;
-            for (std::size_t c = 0; c < 3; ++c)
-                t[c] = first + static_cast<std::int32_t>(face.mIndices[c]);
+            for (std::size_t c = 0; c < 3; ++c) t[c] = number[face.mIndices[c]];
             if (reflects) std::swap(t[1], t[2]);
             out_.triangles.push_back(t);
             out_.region.push_back(region);
