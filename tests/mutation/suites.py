@@ -45,6 +45,7 @@ class Suites:
     def __init__(self, tree, quick_only=False):
         self.tree, self.quick_only = tree, quick_only
         self.times = {}  # of each program's tests, in seconds
+        self.known = set()  # lists of tests of which the program knows all
 
     def try_on(self, mutant):
         """The test that notices, or None."""
@@ -72,11 +73,24 @@ class Suites:
             return None
         listing = os.path.join(self.tree.work, f"{program}-{number}.txt")
         with open(listing, "w", encoding="utf-8") as file:
-            file.writelines(name + "\n" for name in names)
+            # a comma would end a name of the list
+            file.writelines(name.replace(",", "\\,") + "\n" for name in names)
         try:
+            self.require_known(program, slow, listing, len(names))
             return self.ask(program, number, ["-f", listing])
         finally:
             os.remove(listing)
+
+    def require_known(self, program, slow, listing, count):
+        """A name that the program does not find would be a test that never runs."""
+        if (program, slow) in self.known:
+            return
+        _, text = run([os.path.join(self.tree.folder, "tests", program), "-f", listing,
+                       "--list-test-names-only"], self.tree.folder, 60, self.tree.env)
+        found = len(text.splitlines())
+        if found != count:
+            raise Failure(f"{program}: of {count} tests {found} are found by their names")
+        self.known.add((program, slow))
 
     def measure(self, program):
         """Runs all tests without a fault, once for each build of a program."""
