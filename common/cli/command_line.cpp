@@ -106,9 +106,10 @@ int run_command_line(CLI::App& app, int argc, const char* const* argv,
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
-        if (error.get_exit_code() == 0) return app.exit(error);  // help and version
         // the options that choose colour and silence were not read
         start_messages(Colour::automatic, false);
+        if (error.get_exit_code() == 0)  // help and version
+            return run_program(app.get_name(), [&] { return app.exit(error); });
         return run_program(app.get_name(), [&]() -> int { throw usage_error(app, error); });
     }
     set_typed_program(argv[0]);

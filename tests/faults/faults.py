@@ -185,7 +185,8 @@ def stdout_full(shop, _):
     for words in (["spherize", "../in/floe.obj", "-o", "x.h5"],
                   ["spherize", "../in/floe.obj", "--check"],
                   ["icefield", "--print-defaults"], ["icefield", "../in/field.toml", "-o", "y.h5"],
-                  ["icesolve", "--print-schema"], ["icesolve", "--explain", "hull.speed"],
+                  ["icesolve", "--print-schema"], ["icesolve", "--help"],
+                  ["icesolve", "--explain", "hull.speed"],
                   ["icesolve", "../in/case.cfg", "--json", "-q", "--out", "r", "--no-report"],
                   ["icepost", "check", "../in/run", "../in/expected.toml"],
                   ["icepost", "table", "../in/run"]):
