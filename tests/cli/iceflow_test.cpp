@@ -3,6 +3,8 @@
 //
 // Tolerances: 1 % of a volume is the wetted hull cut and simplified; 5 % of a residual and 0.5 % of
 // a flux are where iceflow warns (solver/flow/flow_table.cpp), 1 % is a smooth hull's residual.
+#include <fmt/format.h>
+
 #include "common/formats/flow_file.hpp"
 #include "common/formats/summary_file.hpp"
 #include "tests/cli/workshop.hpp"
@@ -56,8 +58,13 @@ TEST_CASE("iceflow says a hull's added mass, and leaves little of the flow to pa
         w.run("iceflow hull.spheres.h5 --check --added-mass --panel 0.8 --json a.json");
     CAPTURE(r.err);
     REQUIRE(r.code == 0);
-    CHECK_THAT(r.out, Catch::Contains("added mass        surge 0."));
     const auto json = read_json_numbers(w / "a.json");
+    const auto share = [&](const char* key) {
+        return fmt::format("{:.3f}", json.at(std::string("added_mass.matrix.") + key) /
+                                         json.at("added_mass.displacement_kg"));
+    };
+    CHECK_THAT(r.out, Catch::Contains("added mass        surge " + share("0.0") + ", sway " +
+                                      share("1.1") + ", heave " + share("2.2") + " of"));
     // the wetted hull has 20.21 m3 (meshes/README.md gives the whole)
     CHECK(json.at("added_mass.displacement_kg") == Near(1025.0 * 20.21).epsilon(0.01));
     const auto of = [&](const char* key) {
@@ -95,6 +102,13 @@ TEST_CASE("iceflow refuses with exit code 2 and leaves nothing behind", "[cli][f
     refuses("box.h5 --draught 0.2 --spacing 1e-4", "give a larger one");
     refuses("box.h5 -o box.h5", "--output: would overwrite the hull");
     refuses("box.h5 --export stl", "stl");
+    // one name for each --without: the hull's follows
+    refuses("--check --draught 0.2 --without nobody box.h5", "nobody");
+    REQUIRE(
+        w.run("spherize " ICE_MESHES "/paper-hull-2d.obj --slice y=0 -r 0.2 -q -o flat.h5").code ==
+        0);
+    refuses("flat.h5 --check --added-mass", "needs a hull in 3D");
+    fs::remove(w / "flat.h5");
     CHECK(w.files() == before);
     const Result disk = w.run("iceflow box.h5 -o no/such/folder/x.h5");
     CHECK(disk.code == 1);

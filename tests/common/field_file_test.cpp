@@ -6,6 +6,7 @@
 #include <functional>
 #include <limits>
 
+#include "common/formats/hdf5_file.hpp"
 #include "tests/common/fixtures.hpp"
 #include "tests/support/tolerance.hpp"
 
@@ -145,4 +146,15 @@ TEST_CASE("what is wrong in a field is named with file and dataset", "[formats]"
     CHECK_THAT(spoiled([](Field& f) { f.floes.clear(); }),
                Catch::Contains("/floe/shape: is empty"));
     CHECK_THAT(spoiled([](Field& f) { f.radius = 0.0; }), Catch::Contains("are not positive"));
+}
+
+TEST_CASE("a file of another format, or of none, is said to be no ice field", "[formats]") {
+    const TempFolder folder;
+    const std::string format = GENERATE("", "icesolve-spheres");
+    {
+        Hdf5File file(folder / "field.h5", Hdf5File::Mode::create);
+        if (!format.empty()) file.write_attribute("/", "format", format);
+    }
+    CHECK_THAT(error_text([&] { read_field(folder / "field.h5"); }),
+               Catch::Contains("field.h5: /: is not an ice field"));
 }

@@ -20,8 +20,16 @@ TEST_CASE("bytes that no terminal should get are replaced one by one", "[toml]")
     CHECK(joined("K\xC3\xBCste \xE2\x82\xAC") == "K\xC3\xBCste \xE2\x82\xAC");
     CHECK(printable_characters("K\xC3\xBCste").size() == 5);
     CHECK(joined("a\tb") == "a b");
-    const std::string_view strange[] = {"\xFC",     "\xC3",     "\x1B",         "\x7F",
-                                        "\xC2\x9B", "\xC0\xAF", "\xF5\x80\x80", "\x80"};
+    const std::string_view strange[] = {"\xFC",
+                                        "\xC3",
+                                        "\x1B",
+                                        "\x7F",
+                                        "\xC2\x9B",
+                                        "\xC0\xAF",
+                                        "\xF5\x80\x80",
+                                        "\x80",
+                                        "\xF5\x80\x80\x80",
+                                        "\x80\x80\x80\x80"};
     for (const std::string_view bytes : strange) {
         const std::string shown = joined(bytes);
         CAPTURE(bytes.size(), shown);

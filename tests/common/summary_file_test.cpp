@@ -296,6 +296,9 @@ TEST_CASE("all numbers of a JSON file are found by dotted key", "[formats]") {
     CHECK(numbers.at("regions.bow.mean_N.0") == -900.0);
     CHECK(numbers.at("energy.kinetic_J") == 55.0);
     CHECK(numbers.count("title") == 0);
+    // unknown, but there: make_summary() leaves the parallel part's length out
+    REQUIRE(numbers.count("ship.parallel_length_m") == 1);
+    CHECK(std::isnan(numbers.at("ship.parallel_length_m")));
 }
 
 TEST_CASE("a summary with a missing key or a wrong type names file and key", "[formats]") {

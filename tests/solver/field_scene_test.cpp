@@ -130,4 +130,11 @@ TEST_CASE("a drafted case of a box hull has the numbers that follow by hand", "[
     CHECK(draft.duration == Near(1216 * 0.02).epsilon(1e-12));
     CHECK(draft.average_from == 8.94);
     CHECK(draft.lengths == Near(0.65 * 24.32 / 10.0).epsilon(1e-12));
+    // level ice: a quarter of a length beyond the way of the bow, -0.8 + 0.65 x 24.32 + 2.5 m, and
+    // three half breadths to both sides
+    CHECK(draft.thickness == 0.4);
+    CHECK(draft.ice_from == 0.0);
+    CHECK(draft.ice_to == 18.0);
+    CHECK(draft.ice_starboard == -3.0);
+    CHECK(draft.ice_port == 3.0);
 }
