@@ -248,7 +248,7 @@ TEST_CASE("more than 0.5 % of unexplained work is worth a warning, less is not",
     ledger.friction = 700.0;
     ledger.drag = 194.0;
     ledger.kinetic_change = 2.0;
-    Summary good, bad, idle;
+    Summary good, bad, drifting, idle;
     fill_energy(ledger, 150.0, good);  // 100 J of potential energy gained
     CHECK(good.energy.at("potential_J") == Near(100.0));
     CHECK(good.energy.at("residual_J") == Near(4.0));
@@ -258,6 +258,13 @@ TEST_CASE("more than 0.5 % of unexplained work is worth a warning, less is not",
     fill_energy(ledger, 148.0, bad);
     REQUIRE(bad.warnings.size() == 1);
     CHECK_THAT(bad.warnings[0].text, Catch::Contains("0.6 % of the ship's work"));
+
+    CHECK(good.energy.count("drift_work_J") == 0);  // nothing drifts
+
+    ledger.drift_work = -250.0;  // of the sum of both works the residual is 254 J more
+    fill_energy(ledger, 150.0, drifting);
+    CHECK(drifting.energy.at("drift_work_J") == -250.0);
+    CHECK(drifting.energy.at("residual_share") == Near((4.0 - 250.0) / 1250.0));
 
     fill_energy({}, 0.0, idle);  // a ship that met no ice
     CHECK(idle.warnings.empty());
@@ -281,4 +288,37 @@ TEST_CASE("ice that is held does not spin at the start of a step, whatever it di
     update_derived(b, floe);
     start.take(b);
     CHECK(start.angular_velocity[floe].isZero(0.0));
+}
+
+TEST_CASE("held ice that drifts works on its neighbour by push and friction, on either side",
+          "[energy][analytic]") {
+    World w = test::plate_world(test::empty_space(0.01), Vec3(4, 2, 0.6), 0.1, 0.2, 0.0);
+    const auto shape = test::add_shape(w, test::make_box_set(Vec3(1, 1, 0.5), 0.05, 0.1));
+    // a loose floe and a held one that drifts at (0.3, -0.2) m/s
+    for (const bool held : {false, true})
+        add_floe(w.scene, shape, 900.0, Vec3(9.0 + (held ? 1.0 : 0.0), 0, 0),
+                 Quaternion::Identity(), 0, held);
+    Bodies& b = w.scene.bodies;
+    b.velocity[2] = Vec3(0.3, -0.2, 0.0);
+    StepStart start;
+    start.take(b);
+    PositionCorrections none;
+    none.shift.assign(b.size(), Vec3::Zero());
+    none.turn = none.shift;
+    Constraint c{};
+    c.normal = Vec3::UnitX();
+    c.arm_a = c.arm_b = Vec3::Zero();
+    c.max_impulse = INFINITY;
+    c.rest_normal = 5.0;
+    c.rest_tangent = Vec3(0, 2.0, 0);
+    // impulses (5, 2) on the floe of the larger number, their opposite on the other: the held floe
+    // gives (-5, -2) where it is b, (5, 2) where it is a
+    for (const bool held_is_a : {false, true}) {
+        c.a = held_is_a ? 2 : 1;
+        c.b = held_is_a ? 1 : 2;
+        EnergyLedger ledger;
+        enter_step(w.scene, w.parameters, {c}, std::vector<FloeLoad>(b.moving.size()), none, start,
+                   ledger);
+        CHECK(ledger.drift_work == Near((held_is_a ? 1.0 : -1.0) * (5.0 * 0.3 - 2.0 * 0.2)));
+    }
 }

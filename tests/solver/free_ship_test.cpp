@@ -131,6 +131,7 @@ TEST_CASE("a trimmed ship is put where it floats, and one that would capsize is 
         p.ship.mass = 30000.0;
         const World w = barge_world(p);
         CHECK(w.ship.rig().equilibrium.height == Near(-0.06).epsilon(1e-9));
+        CHECK(w.scene.bodies.position[kShip].z() == Near(-0.06).epsilon(1e-9));
     }
     SECTION("no stability, no water below it") {
         Case p = barge_case({roll});
@@ -144,6 +145,11 @@ TEST_CASE("a trimmed ship is put where it floats, and one that would capsize is 
         Case p = barge_case({surge});
         p.mooring.stiffness[surge] = 1e9;
         CHECK_THROWS_WITH(barge_world(p), Catch::Contains("too long") && Catch::Contains("use"));
+    }
+    SECTION("a damper of the tow that a step is too long for") {
+        Case p = barge_case({surge});
+        p.tow.damping = 1e9;
+        CHECK_THROWS_WITH(barge_world(p), Catch::Contains("in surge, with tow.damping"));
     }
 }
 

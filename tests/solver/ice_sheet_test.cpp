@@ -142,6 +142,23 @@ TEST_CASE("what is too small or too thin for a piece is brash", "[level_ice]") {
     CHECK(sheet.break_off({{-3, 0}, {-1, 0}, {-1, 2}}).pieces.empty());  // beside the ice
 }
 
+TEST_CASE("a piece of exactly the least area is a piece, and equal ones come in one order",
+          "[level_ice][analytic]") {
+    IceSheet sheet(Box(Vec2(0, -20), Vec2(100, 20)), 1.0);
+    auto broken = sheet.break_off({{-1, 0}, {1, 0}, {1, 1}, {-1, 1}});
+    REQUIRE(broken.pieces.size() == 1);
+    CHECK(area_of(broken.pieces[0]) == 1.0);
+    CHECK(broken.brash == 0.0);
+    // open water parts what a crack takes into two equal squares; Clipper names the one at larger y
+    // first, and sorting keeps that
+    sheet.take({{-1, 4}, {2, 4}, {2, 6}, {-1, 6}});
+    broken = sheet.break_off({{-1, 2}, {2, 2}, {2, 8}, {-1, 8}});
+    REQUIRE(broken.pieces.size() == 2);
+    CHECK(area_of(broken.pieces[0]) == area_of(broken.pieces[1]));
+    CHECK(centroid_of(broken.pieces[0]).y() == Near(7.0));
+    CHECK(centroid_of(broken.pieces[1]).y() == Near(3.0));
+}
+
 TEST_CASE("a load inside the ice makes a hole, and a ring around it breaks in two", "[level_ice]") {
     IceSheet sheet = field();
     const Loop square{{40, -2}, {44, -2}, {44, 2}, {40, 2}},

@@ -74,6 +74,12 @@ TEST_CASE("hull angles are measured from the mesh at the waterline", "[record][a
     CHECK(form->bow_length == Near(0.99 * run));
     CHECK(form->parallel_length == Near(30.0 - 0.99 * run));
     CHECK_FALSE(measure_hull_form(mesh, 5.0));
+    // the same form at any size
+    for (Vec3& v : mesh.vertices) v *= 1e-5;
+    const auto small = measure_hull_form(mesh, 0.0);
+    REQUIRE(small);
+    CHECK(small->stem_angle == Near(40 * kDegree));
+    CHECK(small->entrance_angle == Near(25 * kDegree));
 }
 
 TEST_CASE("forces are the opposite of what the floe feels, split into normal and friction",
