@@ -121,6 +121,10 @@ TEST_CASE("four speeds on a parabola are fitted by it, scattered ones by a line"
     CHECK(fit_resistance(curved).coefficient.size() == 3);
     CHECK(fit_resistance(curved).at(2.5) == Near(1e5 + 5e4 + 5e4 * 6.25));
     CHECK(fit_resistance(scattered).coefficient.size() == 2);
+    const ResistanceFit unordered =
+        fit_resistance({{2.0, 6e5, 1e4}, {1.0, 5e5, 1e4}, {3.0, 7e5, 1e4}});
+    CHECK(unordered.slowest == 1.0);
+    CHECK(unordered.fastest == 3.0);
 }
 
 TEST_CASE("thrust curves: the bollard's end, the open-water end, power, a table",

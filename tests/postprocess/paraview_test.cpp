@@ -137,6 +137,16 @@ TEST_CASE("exported corners are position + rotation of the mesh, states and forc
     CHECK(aft == Near(4.0));  // 0 m + 1 m/s * 4 s
     const auto water = array_of<float>(file, grid_at(text, "water", "4"), "<Geometry");
     for (std::size_t k = 2; k < water.size(); k += 3) CHECK(water[k] == 0.0F);
+    // from astern of the ship at the start to ahead of the bow at the end, 4.4 s later
+    CHECK(std::min({water[0], water[3], water[6], water[9]}) < 0.0F);
+    CHECK(std::max({water[0], water[3], water[6], water[9]}) > 12.4F);
+    const auto contacts = array_of<float>(file, grid_at(text, "contacts", "4"), "<Geometry");
+    REQUIRE(contacts.size() == 3 * frame.hull_contacts.size());
+    for (std::size_t k = 0; k < frame.hull_contacts.size(); ++k) {
+        const Vec3 expected = Vec3(4.0, 0.0, 0.0) + frame.hull_contacts[k].point;
+        const float* p = contacts.data() + 3 * k;
+        CHECK((Vec3(p[0], p[1], p[2]) - expected).norm() < tolerance(1e-5));
+    }
 }
 
 TEST_CASE("forces of a 2D run are named per metre of breadth", "[paraview]") {

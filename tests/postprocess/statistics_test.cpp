@@ -203,6 +203,31 @@ TEST_CASE("a couple about the force stays, one across it moves the point of atta
     CHECK_FALSE(find_line_of_action(run, 0.0).center);
     run.history.clear();
     CHECK_FALSE(find_line_of_action(run, 0.0).point);
+    CHECK(find_line_of_action(run, 0.0).force.isZero(0.0));
+}
+
+TEST_CASE("the mean force is that of the rows from a time on, the row at that time among them",
+          "[statistics][analytic]") {
+    RunData run = run_with_contact(Vec3(6, 0, -0.5), Vec3(-100, 0, 0));
+    run.history.resize(3);
+    for (std::size_t k = 0; k < 3; ++k) {
+        run.history[k].time = static_cast<double>(k);
+        run.history[k].contact_force = Vec3(k == 0 ? 1.0 : k == 1 ? 2.0 : 4.0, 0, 0);
+        run.history[k].friction_force = Vec3::Zero();
+    }
+    CHECK(find_line_of_action(run, 1.0).force.x() == Near(3.0));
+}
+
+TEST_CASE("a scale ends at the load of 99 % of the loaded area, rounded up to two digits",
+          "[statistics][analytic]") {
+    LoadMap map;
+    map.mesh = make_box({1.0, 1.0, 1.0});
+    map.load.assign(12, 0.0);
+    CHECK(scale_end(map) == 0.0);
+    map.load[3] = 1234.0;
+    CHECK(scale_end(map) == Near(1300.0));
+    map.load[3] = 0.0450;
+    CHECK(scale_end(map) == Near(0.045));
 }
 
 TEST_CASE("every triangle has the largest pressure of the panel of its nearest sphere",

@@ -33,6 +33,7 @@ TEST_CASE("the page of a sweep has curves, small multiples, tables and CSV", "[s
     CHECK_THAT(page, Catch::Contains("../runs/u0.5m0.1s1/report.html"));
     CHECK_THAT(page, Catch::Contains("rest: hull"));
     CHECK_THAT(page, Catch::Contains("download=\"points.csv\""));
+    CHECK(count(page, "id=\"faults\"") == 0);
 
     const std::string csv = point_csv(sweep, make_points(sweep));
     CHECK(count(csv, "\r\n") == 5);
@@ -84,7 +85,7 @@ TEST_CASE("runs in 3D and in 2D share no chart, no table and no column", "[sweep
     CHECK(count(text, "resistance [N/m] |") == 1);
     const std::string page = make_sweep_page(read_sweep(folder.path()), folder / "sweep.html");
     CHECK(tag_fault(markup_of(page)).empty());
-    for (const char* id : {"curve-2d", "curve-3d", "points-2d", "points-3d"})
+    for (const char* id : {"part-2d", "part-3d", "curve-2d", "curve-3d", "points-2d", "points-3d"})
         CHECK(count(page, fmt::format("id=\"{}\"", id)) == 1);
 }
 

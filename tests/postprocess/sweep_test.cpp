@@ -176,6 +176,15 @@ TEST_CASE("runs that failed, never began or cannot be read become rows with a re
         CHECK(page.find(loading) == std::string::npos);
 }
 
+TEST_CASE("of many runs without a result the first twelve are named", "[sweep]") {
+    Sweep sweep;
+    sweep.runs.resize(15);
+    for (std::size_t k = 0; k < 15; ++k) sweep.runs[k].name = fmt::format("run{}", k + 1);
+    const std::string text = list_faults(sweep);
+    CHECK_THAT(text, Catch::StartsWith("15 of 15 runs have no result: run1; ") &&
+                         Catch::EndsWith("; run12; ..."));
+}
+
 TEST_CASE("members of an ensemble count once, whatever their seeds changed", "[sweep]") {
     const TempFolder folder;
     for (const double speed : {0.5, 1.0}) {
