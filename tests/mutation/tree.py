@@ -87,8 +87,9 @@ class Tree:
         """Numbers of the mutants that the compiler complains about."""
         wrong = set()
         places = [(m.number, place) for m in mutants for place in m.places if m.drawn]
-        for file, line in set(re.findall(r"([\w/.-]+\.(?:cpp|hpp)):(\d+):\d+: (?:fatal )?error",
-                                         text)):
+        # an error in a library's template names the place that asked for it
+        for file, line, why in set(re.findall(r"([\w/.-]+\.(?:cpp|hpp)):(\d+):\d+: +"
+                                              r"((?:fatal )?error|required from here)", text)):
             own = [(n, p) for n, p in places if file.endswith(p.file)]
             with open(os.path.join(self.root, own[0][1].file) if own else os.devnull,
                       encoding="utf-8") as source:
@@ -97,7 +98,7 @@ class Tree:
             there = [n for n, p in own
                      if before.count("\n", 0, p.begin) + 2 <= int(line) <=
                      before.count("\n", 0, p.end) + 2]
-            wrong |= set(there or [n for n, _ in own])
+            wrong |= set(there or [n for n, _ in own if why != "required from here"])
         return wrong
 
     def copy(self, mutants):
