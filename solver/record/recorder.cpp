@@ -347,8 +347,9 @@ void Recorder::finish(const StepView& view, Summary& summary) {
         summary.floes_moved = summary.floes_behind = view.edge->retired();
     }
     for (std::size_t i = 1; i < b.size(); ++i) {
+        const bool of_sheet = view.edge != nullptr && view.edge->has_slot(i) && b.held[i];
         summary.floes_moved += b.held[i] ? 0 : 1;
-        summary.floes_behind += is_behind(view.scene, i) ? 1 : 0;
+        summary.floes_behind += is_behind(view.scene, i) && !of_sheet ? 1 : 0;
         summary.ice_spheres += static_cast<std::int64_t>(
             view.scene.shapes[static_cast<std::size_t>(b.shape[i])].sphere_count);
     }

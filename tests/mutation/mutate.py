@@ -130,13 +130,19 @@ def row(cells):
     return "| " + " | ".join(" ".join(str(c).split()).replace("|", "\\|") for c in cells) + " |"
 
 
-def try_all(mutants, suites, results, jobs):
+def is_known(mutant, survivors):
+    return (mutant.file, mutant.places[0].old, mutant.places[0].new) in survivors
+
+
+def try_all(mutants, suites, results, jobs, survivors):
     """Asks the tests of each mutant's folder first; prints a row for each.
 
-    What a quick run does not notice is not kept: the slow tests may."""
+    Known survivors are not asked: each would cost the time of all tests. What a quick run does not
+    notice is not kept: the slow tests may."""
     print(row(["", "file", "kind", "from", "to", "noticed by"]))
     print(row(["---"] * 6), flush=True)
-    open_ones = [m for m in mutants if results.get(m) == "not tried"]
+    open_ones = [m for m in mutants
+                 if results.get(m) == "not tried" and not is_known(m, survivors)]
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
         for mutant, noticed in zip(open_ones, pool.map(suites.try_on, open_ones)):
             if noticed or not suites.quick_only:
@@ -148,13 +154,11 @@ def try_all(mutants, suites, results, jobs):
 
 def judge(mutants, results, survivors):
     """Prints how many are caught; the exit code."""
-    tried = [m for m in mutants if results.get(m) != "not tried"]
-    known = [m for m in tried if results.get(m) is None and
-             (m.file, m.places[0].old, m.places[0].new) in survivors]
-    counted = [m for m in tried if m not in known]
+    known = [m for m in mutants if is_known(m, survivors)]
+    counted = [m for m in mutants if results.get(m) != "not tried" and m not in known]
     caught = sum(results.get(m) is not None for m in counted)
-    print(f"\n{len(tried)} of {len(mutants)} mutants were tried; {len(known)} of them are known to "
-          f"change nothing (survivors.toml); of the others {caught} of {len(counted)} are caught"
+    print(f"\nof {len(mutants)} mutants {len(known)} are known to change nothing (survivors.toml); "
+          f"of {len(counted)} others that were tried {caught} are caught"
           + (f", {100 * caught / len(counted):.1f} %" if counted else ""))
     for mutant in counted:
         if results.get(mutant) is None:
@@ -222,7 +226,7 @@ def main():
         if options.only:
             mutants = [m for m in mutants if options.only[0] <= m.number <= options.only[1]]
         results = Results(path)
-        try_all(mutants, Suites(tree, options.quick), results, options.jobs)
+        try_all(mutants, Suites(tree, options.quick), results, options.jobs, survivors)
     except Failure as failure:
         print(f"mutate.py: {failure}", file=sys.stderr)
         return 2

@@ -240,6 +240,20 @@ TEST_CASE("level ice goes on from a checkpoint, and by any number of threads, wi
     }
 }
 
+TEST_CASE("the sheet's edge astern of the ship is no floe behind it", "[level_ice][edge]") {
+    const TempFolder folder;
+    Case p = sheet_case(0.0, 0.02);
+    p.hull_position.x() = 20.0;  // within the sheet: edge on all sides of the ship
+    World w = make_world(p);
+    const auto tiles = tiles_of(w.edge, w.scene.bodies);
+    REQUIRE(std::any_of(tiles.begin(), tiles.end(), [&](std::int32_t tile) {
+        return is_behind(w.scene, static_cast<std::size_t>(tile));
+    }));
+    const Summary summary = run(w, {folder / "run", "first"});
+    CHECK(summary.floes_total == 0);
+    CHECK(summary.floes_behind == 0);
+}
+
 namespace {
 
 // Loads that nothing bears, on random corners of random tiles, in random directions.
