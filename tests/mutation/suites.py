@@ -11,8 +11,11 @@ import re
 from tree import Failure, run
 
 QUICK = 1.0  # [s] a test that is asked of every mutant
-SCRIPT = "values"
+# Scripts that are tests, with their arguments: of the files' values, and of what a terminal shows.
+SCRIPTS = {"values": ["tests/values/values_test.py", "{bin}", "{source}", "--stop"],
+           "terminal": ["tests/cli/terminal_test.py", "{bin}/spherize", "{bin}/icesolve", "{source}"]}
 FIRST = {
+    "common/cli": ["terminal"],
     "solver/contact": ["solver_tests [sweep],[contact],[crushing]"],
     "solver/loads": ["solver_tests [integrate]"],
     "solver/integrate": ["solver_tests [integrate]"],
@@ -43,11 +46,11 @@ FIRST = {
     "postprocess/sweep": ["postprocess_tests [sweep]"],
 }
 PROGRAMS = {
-    "solver": ["solver_tests", "flow_tests", "cli_tests", SCRIPT, "validation_tests"],
+    "solver": ["solver_tests", "flow_tests", "cli_tests", "values", "validation_tests"],
     "common": ["common_tests", "solver_tests", "preprocess_tests", "field_tests",
-               "postprocess_tests", "flow_tests", "cli_tests", SCRIPT, "validation_tests"],
-    "postprocess": ["postprocess_tests", "cli_tests", SCRIPT],
-    "preprocess": ["preprocess_tests", "field_tests", "cli_tests", SCRIPT],
+               "postprocess_tests", "flow_tests", "cli_tests", "values", "validation_tests"],
+    "postprocess": ["postprocess_tests", "cli_tests", "values"],
+    "preprocess": ["preprocess_tests", "field_tests", "cli_tests", "values"],
 }
 
 
@@ -61,6 +64,10 @@ class Suites:
         """The test that notices, or None."""
         folder = "/".join(mutant.file.split("/")[:2])
         for choice in FIRST.get(folder, []):
+            if choice in SCRIPTS:
+                if noticed := self.script(choice, mutant.number):
+                    return noticed
+                continue
             program, tags = (choice + " ").split(" ", 1)
             self.measure(program)
             noticed = self.ask(program, mutant.number, [tags.strip()] if tags.strip() else [])
@@ -75,8 +82,8 @@ class Suites:
         return None
 
     def ask_of(self, program, number, slow):
-        if program == SCRIPT:
-            return self.script(number) if not slow else None
+        if program in SCRIPTS:
+            return self.script(program, number) if not slow else None
         self.measure(program)
         names = [n for n, seconds in self.times[program].items() if (seconds > QUICK) == slow]
         if not names:
@@ -104,7 +111,7 @@ class Suites:
 
     def measure(self, program):
         """Runs all tests without a fault, once for each build of a program."""
-        if program in self.times or program == SCRIPT:
+        if program in self.times:
             return
         path = os.path.join(self.tree.folder, "tests", program)
         stamp = os.path.getmtime(path)
@@ -140,16 +147,18 @@ class Suites:
         end = "" if code is not None and code > 0 else " (hangs)" if code is None else " (crash)"
         return f"{program}: {clear(names[-1]) if names else 'before the first test'}{end}"
 
-    def script(self, number):
-        """The values of the programs' files (tests/values)."""
-        script = os.path.join(self.tree.source, "tests", "values", "values_test.py")
+    def script(self, name, number):
+        """A test that is a script: what it says where it notices."""
+        script, *words = SCRIPTS[name]
+        places = {"bin": os.path.join(self.tree.folder, "bin"), "source": self.tree.source}
         environment = dict(self.tree.env, ICE_MUTANT=str(number), OMP_NUM_THREADS="1")
-        code, text = run(["/usr/bin/python3", "-B", script, os.path.join(self.tree.folder, "bin"),
-                          self.tree.source, "--stop"], self.tree.folder, 600, environment)
+        code, text = run(["/usr/bin/python3", "-B", os.path.join(self.tree.source, script),
+                          *(word.format(**places) for word in words)],
+                         self.tree.folder, 600, environment)
         if code in (0, 77):
             return None
         lines = text.strip().splitlines() or ["hangs"]
-        return "values: " + lines[-1 if lines[0].startswith("Traceback") else 0][:150]
+        return f"{name}: " + lines[-1 if lines[0].startswith("Traceback") else 0][:150]
 
 
 def clear(name):

@@ -183,6 +183,9 @@ TEST_CASE("of many runs without a result the first twelve are named", "[sweep]")
     const std::string text = list_faults(sweep);
     CHECK_THAT(text, Catch::StartsWith("15 of 15 runs have no result: run1; ") &&
                          Catch::EndsWith("; run12; ..."));
+    const std::string page = make_sweep_page(sweep, "sweep.html");
+    CHECK_THAT(page, Catch::Contains("<li>run12: ") && !Catch::Contains("<li>run13: ") &&
+                         Catch::Contains("and 3 more: see"));
 }
 
 TEST_CASE("members of an ensemble count once, whatever their seeds changed", "[sweep]") {
