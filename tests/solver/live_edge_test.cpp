@@ -240,6 +240,20 @@ TEST_CASE("level ice goes on from a checkpoint, and by any number of threads, wi
     }
 }
 
+TEST_CASE("there are slots for all pieces and tiles from half a length astern to two radii ahead",
+          "[level_ice][edge][analytic]") {
+    const World w = make_world(sheet_case(0.8, 4.0));
+    // a ship of 12 x 4 m, and three radii on both sides
+    const double r = w.edge.radius();
+    const double along = 12.0 + 6.0 + 2.0 * r, across = 4.0 + 6.0 * r;
+    // pieces of a quarter of half a disc each; tiles, cells of a radius, six and four abreast
+    const double pieces = along * across / (0.25 * 0.5 * kPi * r * r);
+    const double tiles = 6.0 * along / r + 4.0 * across / r;
+    // 0.1 % is pi of three digits
+    CHECK(static_cast<double>(w.scene.bodies.size() - 1) ==
+          Near(pieces + tiles).epsilon(2e-3).margin(1.0));
+}
+
 TEST_CASE("the sheet's edge astern of the ship is no floe behind it", "[level_ice][edge]") {
     const TempFolder folder;
     Case p = sheet_case(0.0, 0.02);
