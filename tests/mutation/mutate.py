@@ -68,12 +68,17 @@ def read_survivors(path):
     """Faults that are known to change nothing that a test could see: their texts and the reason."""
     with open(path, "rb") as file:
         entries = tomllib.load(file).get("survivor", [])
-    return {(e["file"], e["old"], e["new"]): e["why"] for e in entries}
+    return {one_line(e["file"], e["old"], e["new"]): e["why"] for e in entries}
+
+
+def one_line(*texts):
+    """Without line breaks, as mutate.py prints a fault."""
+    return tuple(" ".join(text.split()) for text in texts)
 
 
 def text_of(fault):
     """What a fault is, wherever its file has it."""
-    return tuple(" ".join(part.split()) for part in (fault.file, fault.kind, fault.old, fault.new))
+    return one_line(fault.file, fault.kind, fault.old, fault.new)
 
 
 def read_drawn(path):
@@ -131,7 +136,8 @@ def row(cells):
 
 
 def is_known(mutant, survivors):
-    return (mutant.file, mutant.places[0].old, mutant.places[0].new) in survivors
+    place = mutant.places[0]
+    return one_line(mutant.file, place.old, place.new) in survivors
 
 
 def try_all(mutants, suites, results, jobs, survivors):
