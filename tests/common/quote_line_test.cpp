@@ -60,7 +60,7 @@ TEST_CASE("what TOML does not read is explained where the meaning is plain", "[t
     CHECK(explain_value("share = 80%") == "; write a number with a unit in quotes: \"80%\"");
     CHECK(explain_value("pattern = grid\r") == "; write a text in quotes: \"grid\"");
     for (const char* line : {"speed", "speed =", "speed = 1.2.3", "speed = 1, 2, 3", "x = [1,2",
-                             "x = \"a", "# a = b", "speed = 2,"}) {
+                             "x = \"a", "# a = b", "speed = 2,", "speed = ,5"}) {
         CAPTURE(line);
         CHECK(explain_value(line).empty());
     }
