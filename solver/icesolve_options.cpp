@@ -62,7 +62,7 @@ void declare_messages(CLI::App& app, Options& o) {
 }  // namespace
 
 void declare_options(CLI::App& app, Options& o) {
-    // What runs and where, how, checkpoints, ensembles, looks before a run: the order of --help.
+    // The order of --help: case and folder, settings, checkpoints, ensembles, checks before a run.
     // Options that exclude each other say so here, so that the error names both.
     declare_version(app);
     app.add_option("case", o.case_file, "Case file (TOML)");

@@ -158,7 +158,7 @@ Sweep read_sweep(const fs::path& folder) {
     if (!fs::is_directory(folder)) throw bad_input(folder.string(), "folder not found", kRemedy);
     Sweep sweep;
     sweep.folder = folder;
-    // A plan names its runs, also those that have no folder yet; without one every run below
+    // A plan names its runs, also runs that have no folder yet; without one every run below
     // counts.
     if (fs::exists(folder / "runs.toml")) {
         read_planned(folder / "runs.toml", sweep);

@@ -66,8 +66,8 @@ std::vector<CaseKey> body_keys() {
 
 std::vector<CaseKey> propulsion_keys() {
     return {
-        // Five forms of the thrust, of which a case has one (check_ship.cpp); net thrust is
-        // less the open-water resistance already, the other kinds are gross and may take a
+        // Five forms of the thrust; a case has one (check_ship.cpp). Net thrust is less the
+        // open-water resistance already; the other forms are gross and may take a
         // resistance_table.
         {"propulsion.thrust", Kind::number, D::force, "-", -kHuge, kHuge, 0, "",
          "Constant thrust along the ship; give one of thrust, thrust_table, bollard_pull, power, "

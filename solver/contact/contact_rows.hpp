@@ -117,8 +117,8 @@ public:
 
     /// Notes the ship's motion before a sweep. Nothing to do for a prescribed course.
     void part_ship();
-    /// What the sweep gave to the copies goes to the ship, in the order of the pairs, and all
-    /// copies have its motion.
+    /// Adds the changes of the ship's copies in a sweep to the ship, in the order of the pairs, and
+    /// gives all copies its motion.
     void join_ship();
 
     /// Bodies that take part, by local number; a ship that answers once for each of its pairs.

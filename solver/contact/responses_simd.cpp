@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What contacts respond, as many pairs of a block at a time as the machine has lanes, compiled once
+// Responses of contacts, as many pairs of a block at a time as the machine has lanes, compiled once
 // per instruction set. The mathematics is in responses_reference.cpp.
 #include "solver/contact/responses.hpp"
 

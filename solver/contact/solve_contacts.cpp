@@ -163,7 +163,7 @@ bool ContactSolver::enlist(const Bodies& bodies, const std::vector<Constraint>& 
     double most = 0.0;
     for (std::size_t k = 0; k < constraints.size(); ++k) {
         const Constraint& c = constraints[k];
-        // those that take part already, and those between immovable bodies, are left out
+        // constraints that take part already, or are between immovable bodies, are left out
         if (is_active_[k] || !c.can_move) continue;
         const double closes = closes_by(bodies, c, dt);
         most = std::max(most, closes);

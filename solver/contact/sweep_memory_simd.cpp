@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What conjugate gradients do with rows and motions, as many lanes at a time as the machine has,
-// compiled once per instruction set. The mathematics is in sweep_memory_reference.cpp.
+// Operations of the conjugate gradients on rows and motions, as many lanes at a time as the machine
+// has, compiled once per instruction set. The mathematics is in sweep_memory_reference.cpp.
 #include "solver/contact/sweep_memory.hpp"
 
 #undef HWY_TARGET_INCLUDE

@@ -38,7 +38,7 @@ double round_step(double x) {
     return rounded(decade * (lead >= 5.0 ? 5.0 : lead >= 2.0 ? 2.0 : 1.0), 1);
 }
 
-// What the scene can be built from before draught, place and times are known.
+// A case that can build the scene before draught, place and times are known.
 Case first_case(const std::filesystem::path& hull, const std::filesystem::path& field) {
     Case p;
     p.file = "--new";

@@ -7,7 +7,7 @@
 
 namespace ice {
 
-/// What `icesolve --new HULL [FIELD] [-o CASE]` is given.
+/// Arguments of `icesolve --new HULL [FIELD] [-o CASE]`.
 struct NewCase {
     std::filesystem::path hull;   ///< a mesh, or a sphere set (.h5)
     std::filesystem::path field;  ///< a field (.h5), a specification (.toml), or empty

@@ -38,8 +38,8 @@ struct HullFlow {
 ///         8000 panels or 2e7 nodes; (1) where the flow has no solution
 HullFlow make_hull_flow(const TriangleMesh& hull, int dimension, const FlowOptions& options);
 
-/// What is to be said of a flow: a residual above 5 %, sources that do not add up to 0. Empty for a
-/// flow without faults.
+/// Warnings about a flow: a residual above 5 %, sources that do not add up to 0. Empty for a flow
+/// without faults.
 std::vector<std::string> warnings_of(const HullFlow& flow);
 
 }  // namespace ice

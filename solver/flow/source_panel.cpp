@@ -47,7 +47,8 @@ SourcePanel make_panel(const Vec3& a, const Vec3& b, const Vec3& c) {
 // three points whose mean is exact for quadratic functions of place
 std::array<Vec3, 3> flux_points(const SourcePanel& panel) { return points_at(panel, 2.0 / 3.0); }
 
-// other points than those of the solution: what is left there is the panels' error
+// Points other than those of the solution: the normal velocity that remains there is the panels'
+// error.
 std::array<Vec3, 3> check_points(const SourcePanel& panel) { return points_at(panel, 0.5); }
 
 }  // namespace ice

@@ -27,7 +27,7 @@ struct WettedHull {
 /// none is longer than given; corners on edges of neighbours do not matter to source panels. Meshes
 /// of more triangles than `most` are simplified first (meshoptimizer).
 ///
-/// What lies in the water's surface is left out: the mirror image closes the body.
+/// Faces in the water's surface are left out: the mirror image closes the body.
 /// @param mesh    counter-clockwise seen from the water
 /// @param water   z of the water in the mesh's frame; panels have z = 0 there [m]
 /// @throws Error (exit code 2) where nothing is wet, or edges as short as given make more than

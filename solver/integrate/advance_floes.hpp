@@ -10,7 +10,7 @@
 
 namespace ice {
 
-/// What a step does to floes beside their velocities at its end.
+/// Further inputs of the motion in a step, beside the velocities at its end.
 struct Advance {
     const std::vector<Vec3>& angular_velocity_start;  ///< by body [rad/s]
     const PositionCorrections& corrections;           ///< by body [m], [rad]

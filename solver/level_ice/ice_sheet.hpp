@@ -17,10 +17,10 @@ namespace ice {
 /// times the length of the edges cut.
 class IceSheet {
 public:
-    /// What broke off.
+    /// Ice that broke off.
     struct Broken {
         std::vector<Loop> pieces;  ///< largest first, without holes; none where nothing broke
-        double brash = 0.0;        ///< area of what was too small for a piece [m2]
+        double brash = 0.0;        ///< area of parts too small for a piece [m2]
     };
 
     /// A rectangle. @pre not empty, within 1e6 m of the origin
@@ -28,15 +28,15 @@ public:
     ///                  its square and a mean breadth, 2 area / length around, of a quarter of it
     IceSheet(const Eigen::AlignedBox2d& extent, double smallest);
 
-    /// Cuts the region `crack` out. What of the sheet lies in it breaks off, and what the cut parts
-    /// from the rest of the sheet: the largest part stays, and any of ten times the region's area,
-    /// as the other side of a channel that goes through. Sheet, pieces and brash together keep
-    /// their area. A crack beside the ice breaks nothing off. A ring, as around the hole of a load
-    /// inside the ice, breaks across the hole.
+    /// Cuts the region `crack` out. Ice in the region breaks off, and so does ice that the cut
+    /// parts from the rest of the sheet: the largest part stays, and any of ten times the region's
+    /// area, as the other side of a channel that goes through. Sheet, pieces and brash together
+    /// keep their area. A crack beside the ice breaks nothing off. A ring, as around the hole of a
+    /// load inside the ice, breaks across the hole.
     /// @pre crack is simple
     Broken break_off(const Loop& crack);
 
-    /// Takes a region away: ice that was crushed. What that leaves too small for a piece goes, too.
+    /// Takes a region away: ice that was crushed. Remains too small for a piece go, too.
     /// @return area taken [m2]
     double take(const Loop& region);
 
@@ -66,7 +66,7 @@ private:
 /// Corners of a box, 4, anticlockwise [m].
 Loop loop_of(const Eigen::AlignedBox2d& box);
 
-/// What two loops have in common, and what `loop` has without `region`: outer loops, largest first.
+/// The intersection of two loops, and `loop` less `region`: outer loops, largest first.
 /// Holes are left out: theirs is the area that is missing to the loop's. Empty where there is
 /// nothing.
 std::vector<Loop> common_part(const Loop& loop, const Loop& region);

@@ -6,7 +6,7 @@
 
 namespace ice {
 
-/// What pieces.h5 keeps of an edge: all pieces up to now, and the sheet that is left.
+/// The content of pieces.h5: all pieces up to now, and the sheet that is left.
 PiecesFile record_edge(const LiveEdge& edge);
 
 }  // namespace ice

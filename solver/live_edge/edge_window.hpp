@@ -7,7 +7,7 @@
 
 namespace ice {
 
-/// What one contact gave the edge of the ice in a step.
+/// The impulse of one contact on the edge of the ice in a step.
 struct EdgeLoad {
     Vec2 at;         ///< where [m]
     double down;     ///< impulse downwards, friction included, of (26) [N s]

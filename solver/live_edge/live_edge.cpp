@@ -53,7 +53,7 @@ std::vector<Loop> LiveEdge::hull_in_ice(const Scene& scene) const {
     return out;
 }
 
-// What a crack cuts out.
+// The region that a crack cuts out.
 Loop LiveEdge::region_of(const Vec2& at, const Vec2& inwards, double radius) const {
     return is_strip_ ? strip_crack(at.x(), radius) : crack_outline(at, inwards, radius);
 }
@@ -181,7 +181,8 @@ void LiveEdge::drop_behind(double x) {
             loop_of({extent_.min() - Vec2(1.0, 1.0), Vec2(x, extent_.max().y() + 1.0)}));
 }
 
-// What the hull has gone through at both faces is gone. A strip stays, whose spheres know.
+// Removes ice that the hull has gone through at both faces. A strip stays: its spheres store the
+// crushed depth.
 bool LiveEdge::crush_through(const std::vector<Loop>& hull) {
     if (hull.size() < 2) return false;
     bool any = false;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// The edge of level ice, of which the ship breaks pieces while it goes (docs/method.md, section
-/// 5).
+/// The edge of level ice; the ship breaks pieces off it while it goes (docs/method.md, section 5).
 #pragma once
 
 #include <cstdint>
@@ -96,9 +95,10 @@ public:
     std::int32_t piece_group() const { return piece_group_; }
     std::int32_t tile_group() const { return tile_group_; }
     IceAreas areas() const;
-    /// All that have broken off, by number; those that are gone are read from the disk.
+    /// All pieces that have broken off, by number; pieces that left the scene are read from the
+    /// disk.
     std::vector<IcePiece> pieces() const;
-    /// That those no longer in the scene take on the disk, and in a checkpoint.
+    /// Size of the pieces that left the scene, on the disk and in a checkpoint [bytes].
     std::uint64_t bytes_of_gone() const { return gone_pieces_.bytes(); }
     /// How many have broken off.
     std::int64_t broken() const { return broken_; }

@@ -11,7 +11,7 @@ namespace ice {
 
 namespace {
 
-// What was crushed of a body with `spheres` surface spheres is whole again, and forgotten.
+// Sets the crushed depths of a body with `spheres` surface spheres back to 0.
 void make_whole(CrushedIce& crushed, std::int32_t body, std::size_t spheres) {
     if (crushed.is_whole(body)) return;
     const auto i = static_cast<std::size_t>(body);

@@ -16,9 +16,9 @@ struct PutIce {
 
 /// Gives a body another form and place: afloat level, without spin.
 ///
-/// What was crushed of it is whole again, its moments of inertia are those of the new form. The
-/// body's row of Scene::shapes and its row of inertias must be its own alone. Bodies::moving is
-/// brought up to date.
+/// Its crushed depths are 0 again, its moments of inertia are those of the new form. The body's row
+/// of Scene::shapes and its row of inertias must be its own alone. Bodies::moving is brought up to
+/// date.
 void put_ice(Scene& scene, std::size_t body, Shape shape, const PutIce& as);
 
 /// The form alone, of a body whose pose and momenta are known: for a run that is continued.

@@ -23,8 +23,8 @@ Loop across_strip(Loop outline, double by);
 /// The region that a crack cuts off, `length` [m] from the tip at x = `tip` [m].
 Loop strip_crack(double tip, double length);
 
-/// What presses on the strip within `length` [m] of its tip, as one window there (equation (30a));
-/// none where that does not press downwards.
+/// The load on the strip within `length` [m] of its tip, as one window there (equation (30a)); none
+/// where the load does not press downwards.
 std::vector<EdgeWindow> tip_window(const std::vector<EdgeLoad>& loads, double tip, double length);
 
 /// The ice behind the tip that is contact geometry: to the third corner of cells from x = `origin`

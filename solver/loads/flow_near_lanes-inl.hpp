@@ -40,8 +40,8 @@ HWY_INLINE Vectors WaterAt(const WaterFlow& water, Vectors x) {
     return WaterOf(water, TableFlowAt(water, x));
 }
 
-// What the table has at a form's vertices and, numbered behind them, at the middles of its edges:
-// drag and pressure need each several times. Those beyond the first are looked up each time.
+// The table's values at a form's vertices and, numbered behind them, at the middles of its edges:
+// drag and pressure need each several times. Values beyond the buffer are looked up each time.
 class FlowNear {
 public:
     HWY_INLINE FlowNear(const Afloat& floes, const WaterFlow& water)

@@ -52,7 +52,7 @@ HWY_INLINE Vectors AboutPlane(Vectors moment) {
     return {hn::Zero(Tag()), moment.y, hn::Zero(Tag())};
 }
 
-// What the ship's flow does to floes. @pre scene.water.flows()
+// Loads of the ship's flow on floes. @pre scene.water.flows()
 struct FlowLoads {
     RelativeLoad drag;
     Load pressure;

@@ -42,9 +42,9 @@ struct ContactPolygon {
 /// The axis with the widest gap decides. Where it is a face's, that face is the reference; of the
 /// other piece the face that is turned most against it is the incident one, clipped by the planes
 /// through the reference's borders (Sutherland and Hodgman, Reentrant polygon clipping, CACM 17,
-/// 1974). Two edges meet in one point, midway between them where they are nearest. What has not
-/// touched yet may be past a border by its gap: it may come from beside. No corners where every gap
-/// exceeds `most`.
+/// 1974). Two edges meet in one point, midway between them where they are nearest. A face that has
+/// not touched yet may be past a border by its gap: it may come from beside. No corners where every
+/// gap exceeds `most`.
 /// @param axes  find_axes() of these pieces and this pose, all kinds
 void make_contact_polygon(const ConvexPiece& a, const ConvexPiece& b, const RelativePose& pose,
                           const SeparatingAxes& axes, double most, ContactPolygon& out);

@@ -3,7 +3,7 @@
 
 #include <Eigen/Geometry>
 
-#include "solver/narrow/cone_sides.hpp"
+#include "solver/narrow/edge_crossings.hpp"
 
 namespace ice {
 
@@ -66,16 +66,8 @@ void FeaturePair::list_faces() {
 }
 
 void FeaturePair::list_edge_axes() {
-    const ConeSides sides_a(a_->cone), sides_b(b_->cone);
-    for (int ka = 0; ka < a_->cone.edges(); ++ka) {
-        const Vec3 ea = a_->cone.edge(ka);
-        for (int kb = 0; kb < b_->cone.edges(); ++kb) {
-            // most edges have no axis: that shows soonest here
-            const Vec3 across = ea.cross(b_->cone.edge(kb));
-            if (!sides_a.exclude(across, 0.0) && !sides_b.exclude(across, 0.0))
-                add_edge_axis(ka, kb);
-        }
-    }
+    for_each_crossing(a_->cone, b_->cone, 0.0,
+                      [&](int edge_a, int edge_b) { add_edge_axis(edge_a, edge_b); });
 }
 
 void FeaturePair::add_edge_axis(int edge_a, int edge_b) {

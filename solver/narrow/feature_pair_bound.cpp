@@ -4,7 +4,7 @@
 #include <Eigen/Geometry>
 #include <limits>
 
-#include "solver/narrow/cone_sides.hpp"
+#include "solver/narrow/edge_crossings.hpp"
 
 namespace ice {
 
@@ -48,34 +48,32 @@ void FeaturePairBound::list_faces() {
     for (std::size_t k = 0; k < static_cast<std::size_t>(b_->cone.count); ++k) add(false, k);
 }
 
-// Both edges turn by at most skin.angle, so their cross product turns by at most angle / sine.
+// Both edges turn by at most skin.angle, so their cross product turns by at most angle / sine. Times
+// the product's length this is at most 2 angle; where the product itself is shorter than that, no
+// normal excludes it.
 void FeaturePairBound::list_edge_axes() {
-    const NormalCone &a = a_->cone, &b = b_->cone;
     edge_axes_ = 0;
-    // `turn` times the sine is at most this, or more than any normal's part of the product
-    const double slack = 2.0 * skin_.angle;
-    const ConeSides sides_a(a), sides_b(b);
-    for (int ka = 0; ka < a.edges(); ++ka)
-        for (int kb = 0; kb < b.edges(); ++kb) {
-            const Vec3 ea = a.edge(ka), eb = b.edge(kb), across = ea.cross(eb);
-            // most pairs of edges have no axis: what shows it without a root comes first
-            if (sides_a.exclude(across, slack) || sides_b.exclude(across, slack)) continue;
-            const double sine = across.norm();
-            if (sine <= kParallel - skin_.angle) continue;
-            // nearly parallel edges: their cross product may take any direction within the skin
-            const double turn =
-                sine <= 2.0 * skin_.angle ? kMostTurn : skin_.angle / (sine - skin_.angle);
-            // both apexes one patch radius from the crossing: the sum of two vectors at the
-            // edges' angle is their largest distance
-            const double cosine = std::abs(ea.dot(eb));
-            const double skew = std::sqrt(2.0 + 2.0 * std::min(1.0, cosine + skin_.angle));
-            const Vec3 n = 1.0 / sine * across;
-            const NormalCone::Signs of_a = a.contains_either_sign(n, kSlantOnEdge, turn);
-            const NormalCone::Signs of_b = b.contains_either_sign(n, kSlantOnEdge, turn);
-            const bool forth = of_a.forth && of_b.back, back = of_a.back && of_b.forth;
-            if (back) edge_axis_[edge_axes_++] = {-n, turn, skew, ea};
-            if (forth) edge_axis_[edge_axes_++] = {n, turn, skew, ea};
-        }
+    for_each_crossing(a_->cone, b_->cone, 2.0 * skin_.angle,
+                      [&](int edge_a, int edge_b) { add_edge_axis(edge_a, edge_b); });
+}
+
+void FeaturePairBound::add_edge_axis(int edge_a, int edge_b) {
+    const NormalCone &a = a_->cone, &b = b_->cone;
+    const Vec3 ea = a.edge(edge_a), eb = b.edge(edge_b), across = ea.cross(eb);
+    const double sine = across.norm();
+    if (sine <= kParallel - skin_.angle) return;
+    // nearly parallel edges: their cross product may take any direction within the skin
+    const double turn = sine <= 2.0 * skin_.angle ? kMostTurn : skin_.angle / (sine - skin_.angle);
+    // both apexes one patch radius from the crossing: the sum of two vectors at the edges' angle is
+    // their largest distance
+    const double cosine = std::abs(ea.dot(eb));
+    const double skew = std::sqrt(2.0 + 2.0 * std::min(1.0, cosine + skin_.angle));
+    const Vec3 n = 1.0 / sine * across;
+    const NormalCone::Signs of_a = a.contains_either_sign(n, kSlantOnEdge, turn);
+    const NormalCone::Signs of_b = b.contains_either_sign(n, kSlantOnEdge, turn);
+    const bool forth = of_a.forth && of_b.back, back = of_a.back && of_b.forth;
+    if (back) edge_axis_[edge_axes_++] = {-n, turn, skew, ea};
+    if (forth) edge_axis_[edge_axes_++] = {n, turn, skew, ea};
 }
 
 double FeaturePairBound::least(const Vec3& center_a, const Vec3& center_b) {

@@ -43,6 +43,7 @@ private:
 
     void list_faces();
     void list_edge_axes();
+    void add_edge_axis(int edge_a, int edge_b);
     double least_along(const Vec3& center_a, const Vec3& center_b) const;
     double least_of_edges(const Vec3& center_a, const Vec3& center_b);
     double least_across(const Vec3& d, const Vec3& between);

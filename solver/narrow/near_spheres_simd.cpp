@@ -58,8 +58,7 @@ void FindGroups(const SphereBlocks& spheres, const FloatBox& box, float reach,
     out.resize(spheres.groups.size() + 2 * kBlock);  // full vectors are stored behind the last
     std::size_t found = 0;
     std::int32_t clusters[2 * kBlock];
-    // Two levels: a cluster is 16 groups, of which most are ruled out with one test of 16
-    // boxes.
+    // Two levels: a cluster is 16 groups; one test of 16 boxes rules out most groups.
     for (std::size_t k = 0; k < spheres.clusters.size(); k += kBlock) {
         const std::size_t near = TouchingBoxes(spheres.clusters, k, box, reach, clusters);
         for (std::size_t c = 0; c < near; ++c)

@@ -177,7 +177,7 @@ SeparatingAxes FindAxes(const ConvexPiece& a, const ConvexPiece& b, const Relati
     const Pose pose = Broadcast(relative);
     SeparatingAxes out;
     // From the cheapest test to the dearest: a's planes against b's corners, b's planes against a's
-    // corners, and edges, of which there are pairs. Any gap above `enough` ends the search: the
+    // corners, and all pairs of edges. Any gap above `enough` ends the search: the
     // pair is apart.
     Moved<kMostCorners> moved;
     moved.Place(b.corners, pose);

@@ -16,7 +16,7 @@ namespace {
 // panels.
 constexpr double kSmall = 0.5;
 
-// What a small panel may join: panels whose normals are within 60 degrees (cosine), with centres
+// Panels that a small panel may join: their normals are within 60 degrees (cosine), their centres
 // within two sizes. Grid cells side by side have centres one size apart, or 1.4 across a corner.
 // Looser limits join panels round an edge or far apart; stricter ones leave slivers by themselves.
 constexpr double kSameSide = 0.5, kNeighbours = 2.0;

@@ -18,10 +18,10 @@ double panel_size(const Scene& scene);
 /// for a front, x-y for a bottom), separately for each direction and region. Rows are centred on
 /// the waterline and on the centre line, columns begin at the bow. A panel's area is the sum of its
 /// spheres' shares of the surface, its length along the waterline that area, projected on the
-/// vertical (a bottom: on the horizontal) over `size`. What the hull's edges cut to less than
-/// half of size^2 joins the nearest larger panel of its region that faces within 60 degrees and has
-/// its centre within 2 sizes; where there is none it counts as half a panel.
-/// In 2D a panel is a piece of the section and its length the metre of breadth.
+/// vertical (a bottom: on the horizontal) over `size`. A panel that the hull's edges cut to less
+/// than half of size^2 joins the nearest larger panel of its region that faces within 60 degrees
+/// and has its centre within 2 sizes; where there is none it counts as half a panel. In 2D a panel
+/// is a piece of the section and its length the metre of breadth.
 /// @param size      edge of a panel [m] (panel_size)
 /// @param waterline height of the water in the ship frame [m]
 /// Loads are zero; of a hull without spheres or a size of 0 no panels are made.

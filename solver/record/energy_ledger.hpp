@@ -22,7 +22,7 @@ namespace ice {
 ///         = dK + dU + friction + restitution + crushing + breaking + drag + buoyancy_moment
 ///           + residual.
 ///
-/// What each holds, J_c being the impulse of contact c on body b in a step and
+/// The terms, J_c being the impulse of contact c on body b in a step and
 /// V = (v_r at its start + v_r at its end) / 2 the mean of the contact's relative velocity:
 ///
 ///     ship_work        sum of J_c . v_ship over the ship's contacts; of a ship that answers, the

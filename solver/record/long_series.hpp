@@ -21,7 +21,7 @@ public:
     /// and spectrum and peaks see less of short times; more costs memory.
     static constexpr std::size_t kMost = 65536;
 
-    /// What a block keeps of its values.
+    /// The value that represents a block.
     enum class Join { mean, largest };
 
     explicit LongSeries(Join join = Join::mean) : join_(join) {}

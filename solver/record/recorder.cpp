@@ -22,8 +22,8 @@ namespace ice {
 
 namespace {
 
-// What run.h5 has once: with case, program and forms a report needs no other file, and the run can
-// be made again.
+// The constant part of run.h5: with case, program and forms a report needs no other file, and the
+// run can be made again.
 RunHeader make_header(const Case& parameters, const Scene& scene, const std::string& command) {
     RunHeader header;
     header.dimension = scene.dimension;
@@ -208,8 +208,8 @@ bool Recorder::is_look_due(double time) const {
     return parameters_.normal == NormalRule::surface && std::llround(time / dt_) % kLookEvery == 0;
 }
 
-// The ship's pose is that at the end of a row; thrust and lines' forces are sums, of which
-// flush_history() makes means.
+// The ship's pose is that at the end of a row. Thrust and lines' forces are sums; flush_history()
+// turns them into means.
 void Recorder::add_ship(const StepView& view) {
     const FreeShip& ship = *view.ship;
     ship_statistics_.add(ship, view.scene, parameters_, view.time);

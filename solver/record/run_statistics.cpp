@@ -112,7 +112,7 @@ void RunStatistics::add_unseen_loads(const std::vector<UnseenOverlap>& worrying,
 }
 
 void RunStatistics::add_averaged(const StepRecord& record, double dt) {
-    // sums, of which fill() makes means
+    // sums; fill() divides them by the time
     averaged_time_ += dt;
     impulse_ += record.impulse;
     contact_ += record.contact_force;

@@ -18,7 +18,7 @@ namespace ice {
 
 class CheckpointFile;
 
-/// What RunStatistics needs to know of a run.
+/// Properties of a run that RunStatistics needs.
 struct StatisticsOptions {
     std::vector<std::string> region_names;  ///< of the hull
     double average_from = 0.0;              ///< [s]; means use steps that end at or after it
@@ -34,10 +34,10 @@ public:
     explicit RunStatistics(StatisticsOptions options);
 
     /// @param time      at the end of the step [s] @param dt  its length [s]
-    /// @param residual  residual_impulse() [N s] of a step of which a solver stage did not converge
+    /// @param residual  residual_impulse() [N s] where a solver stage of the step did not converge
     void add(const StepRecord& record, double time, double dt, std::optional<double> residual);
 
-    /// What a look at the solids found at the end of a step, at `time` [s].
+    /// Adds the overlaps of solids found at the end of a step, at `time` [s].
     void add_look(const OverlapFound& found, const StepRecord& record, double time);
 
     /// Fills in forces, regions, contacts, energy and warnings of a summary.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a run's tally warns of. Each warning says how far the mean resistance is affected, from
-// something measured; what neither touches the mean nor the pictures is no warning.
+// Warnings of a run. Each says by how much the mean resistance is affected, from a measured value;
+// an event that affects neither mean nor pictures gives no warning.
 #include <fmt/format.h>
 
 #include <algorithm>

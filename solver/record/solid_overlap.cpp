@@ -60,7 +60,8 @@ std::vector<std::pair<std::int32_t, std::int32_t>> close_pairs(const Scene& scen
     return pairs;
 }
 
-// Is a plane of b's bounds, of which all of its mesh is behind, before all of a's corners?
+// True where a plane of b's bounds, which has all of b's mesh behind it, has all of a's corners
+// before it.
 bool parted_by(const Scene& scene, std::int32_t a, std::int32_t b) {
     const ConvexBounds &of_a = shape_of(scene, a).bounds, &of_b = shape_of(scene, b).bounds;
     if (!of_a.known() || !of_b.known()) return false;

@@ -13,8 +13,8 @@ namespace ice {
 
 namespace {
 
-// Bits of a double that a class leaves out [-]. What stays is its exponent and the first 8 digits
-// of its mantissa: 256 classes between powers of two, so that a quantile is right to 0.2 %. One bit
+// Bits of a double that a class leaves out [-]. Its exponent and the first 8 digits of its mantissa
+// remain: 256 classes between powers of two, so that a quantile is right to 0.2 %. One bit
 // more left out halves classes and memory, and doubles that error.
 constexpr int kDropped = 44;
 

@@ -9,7 +9,7 @@ namespace ice {
 
 class CheckpointFile;
 
-/// Forces of windows, of which a quantile is wanted, in bounded memory.
+/// A quantile of the forces of windows, in bounded memory.
 ///
 /// Up to kExact forces are kept one by one. From then on they are counted in classes, 256 between
 /// two powers of two, so that the quantile is within 0.2 % of the exact one; sum and largest are

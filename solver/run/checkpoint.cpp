@@ -51,7 +51,7 @@ std::uint64_t hash_of(const Shape& shape) {
     return hash.value();
 }
 
-// What may not change between checkpoint and restart. Names of files may; their content may not.
+// Data that must be equal at checkpoint and restart. Names of files may change, their content not.
 Identity identity_of(const World& w) {
     const Bodies& b = w.scene.bodies;
     std::vector<std::uint64_t> of_row;
@@ -72,8 +72,8 @@ void carry(CheckpointFile& file, Identity& identity) {
     file.carry("shapes", identity.shapes);
 }
 
-// Keys of a resolved case with their values as text; groups of floes counted from 1. What may
-// change is left out: the duration, and the sphere files' names, whose content counts.
+// Keys of a resolved case with their values as text; groups of floes counted from 1. Keys
+// that may change are left out: the duration, and the sphere files' names, whose content counts.
 std::map<std::string, std::string> keys_of(const std::string& resolved) {
     std::map<std::string, std::string> keys;
     std::string table;

@@ -69,8 +69,8 @@ void verified_step(World& w, Summary& summary) {
     if (w.ship.answers()) keep("ship", found.ship);
 }
 
-// What the summary states of the program and its run. Wall times differ between equal runs; all
-// else of the summary is the same.
+// The summary's part on the program and its run. Wall times differ between equal runs; all other
+// values are the same.
 void fill_run(const World& w, double wall_seconds, Summary& s) {
     const Case& p = w.parameters;
     s.title = p.title;

@@ -87,7 +87,7 @@ void refuse_ensemble(const fs::path& folder) {
                             "choose another folder with --out, or go on with it: --seeds N");
 }
 
-// The error names what is there and every command that helps: resume, replace, another folder.
+// The error lists the files in the folder and every remedy: resume, replace, another folder.
 void refuse_taken(const fs::path& folder, const FolderCommands& commands) {
     const std::vector<std::string> names = names_in(folder);
     if (names.empty()) return;

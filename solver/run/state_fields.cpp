@@ -43,8 +43,9 @@ void carry(CheckpointFile& file, World& w) {
     file.carry("crushed.recess", w.scene.crushed.displacement);
     file.carry("crushed.deepest", w.scene.crushed.deepest);
 
-    // What only the next step needs: impulses to begin with, and the depths that tell a recess from
-    // a motion. Neighbour lists are left out, because they are made anew with the same contacts.
+    // Data for the next step alone: impulses to begin with, and the depths that distinguish a
+    // recess from a motion. Neighbour lists are left out, because they are made anew with the same
+    // contacts.
     w.warm_start.carry(file);
     w.recess.carry(file);
 

@@ -51,7 +51,7 @@ void for_each_part(const Vec3& a, const Vec3& b, const Vec3& c, double apart, co
     const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
     const int n = static_cast<int>(std::clamp(std::ceil(longest / apart), 1.0, 1.0 * kMostParts));
     const double area = 0.5 * (b - a).cross(c - a).norm() / (n * n);
-    // n x n equal triangles, those that stand upright and those between them upside down
+    // n x n equal triangles: upright ones, and between them ones that are upside down
     const Vec3 u = (b - a) / n, v = (c - a) / n;
     for (int i = 0; i < n; ++i)
         for (int j = 0; j < n - i; ++j) {

@@ -65,8 +65,9 @@ bool hold_all(const TriangleMesh& mesh, const std::vector<Vec3>& corners,
     return true;
 }
 
-// How much of the line from a sphere's centre to its tip is behind all planes. What is beyond them
-// bounds the tip's distance from the corners' hull in every direction, not along normals alone.
+// The share of the line from a sphere's centre to its tip that is behind all planes. The rest of
+// the line bounds the tip's distance from the corners' hull in every direction, not along normals
+// alone.
 double share_within(const ConvexBounds& bounds, const BoundedSphere& s) {
     double share = 1.0;
     for (std::size_t k = 0; k < bounds.normals.size(); ++k) {

@@ -64,6 +64,15 @@ struct NormalCone {
         const auto n = static_cast<std::size_t>(k);
         return count == 2 ? part[2] : Vec3(-per_length[n] * part[n]);
     }
+    /// Sine of the angle between the two faces that meet in edge k: faces 0 and 1 of an edge, all but
+    /// face k of a vertex. 0 where they are parallel.
+    double sine(int k) const {
+        if (count == 2) return std::sqrt(size);
+        const double inverse = per_length[static_cast<std::size_t>(k)];
+        return inverse > 0.0 ? 1.0 / inverse : 0.0;
+    }
+    /// Sine squared of an edge, volume of a vertex' three unit normals; 0: the faces are parallel.
+    double openness() const { return size; }
     /// Do the edges end there, as at a vertex?
     bool ends() const { return count == 3; }
 

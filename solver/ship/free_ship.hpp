@@ -24,7 +24,7 @@ struct ShipEnergies {
     double separation = 0.0;                        ///< put in by the moves that open overlaps
     std::optional<double> kinetic_start, potential_start;  ///< before the first step
 
-    /// What the ledger does not explain [J]. @param gained  dK + dU [J]
+    /// Energy that the ledger does not explain [J]. @param gained  dK + dU [J]
     double residual(double gained) const {
         return thrust + tow + mooring + separation - ice - losses - gained;
     }

@@ -39,7 +39,7 @@ struct ShipState {
     double time = 0.0;                       ///< [s]
 };
 
-/// What loads are measured against and scaled with; constant.
+/// Reference state and scales of the loads; constant.
 struct ShipRig {
     ShipBody body;
     Equilibrium equilibrium;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// What drives a ship and what the open water takes of it (docs/method.md, section 14).
+/// Thrust and open-water resistance of a ship (docs/method.md, section 14).
 #pragma once
 
 #include "solver/case/ship_keys.hpp"

@@ -28,7 +28,7 @@ struct Triangles {
             f[k] = hn::Add(even, Dot(turning, p[k]));
         }
     }
-    // What the cut leaves on the apex' side, with the area of the whole.
+    // The part on the apex' side of the cut, with the area of the whole.
     HWY_INLINE Triangles(const Triangles& t, const Cut& cut, const Tip& tip) {
         const auto from = [&](int a, int b, int c) HWY_ATTR {
             return Choose(cut.first, t.p[a], Choose(cut.second, t.p[b], t.p[c]));

@@ -21,7 +21,7 @@ struct PressedTriangles {
     Lanes pressure[3];
 
     PressedTriangles() = default;
-    // What the cut leaves on the apex' side.
+    // The part on the apex' side of the cut.
     HWY_INLINE PressedTriangles(const PressedTriangles& t, const Cut& cut, const Tip& tip) {
         const auto corner = [&](int a, int b, int c) HWY_ATTR {
             return Choose(cut.first, t.p[a], Choose(cut.second, t.p[b], t.p[c]));

@@ -22,7 +22,7 @@ struct Triangle {
     std::array<double, 3> f;
 };
 
-// What the cut leaves on the apex' side, with the area of the whole.
+// The part on the apex' side of the cut, with the area of the whole.
 Triangle tip_of(const Triangle& t, const Cut& cut) {
     const std::size_t a = cut.apex, b = (a + 1) % 3, c = (a + 2) % 3;
     const double s = cut.part(1), r = cut.part(2);
@@ -72,7 +72,7 @@ Sums integrate_part(const Triangle& t) {
         [](const Triangle& all, const Cut& cut) { return tip_of(all, cut); });
 }
 
-// What the motion is relative to the water at points of the body.
+// The body's velocity relative to the water, at points of the body.
 class Relative {
 public:
     Relative(const Vec3& v, const Vec3& w, const std::function<Vec3(const Vec3&)>& water)
@@ -94,33 +94,36 @@ void add_wetted(const Triangle& t, const std::array<double, 3>& z, Sums& sums) {
     sums.add(h.tip_is_inside() ? size : -size, integrate_part(tip_of(t, h)));
 }
 
-Sums integrate(const Shape& shape, const WaterPlane& plane, const Relative& relative,
-               const std::vector<Vector>& at_vertex) {
+// @param u  relative to the water: at the vertices and, numbered behind them, at the edges' middles
+Sums integrate(const Shape& shape, const WaterPlane& plane, const std::vector<Vector>& u) {
+    const auto height = [&](const Vec3& p) { return dot(get(plane.up), get(p)) + plane.height; };
     Sums sums;
     for (std::size_t n = 0; n < shape.mesh.triangles.size(); ++n) {
+        std::array<std::size_t, 6> place;  // corners, then the middles of the edges behind them
+        std::array<Vec3, 6> p;
+        std::array<double, 6> z, f;
+        for (std::size_t k = 0; k < 3; ++k) {
+            place[k] = static_cast<std::size_t>(shape.mesh.triangles[n][k]);
+            place[3 + k] = shape.mesh.vertices.size() +
+                           static_cast<std::size_t>(shape.edges.of_triangle[n][k]);
+            p[k] = shape.mesh.vertices[place[k]];
+            z[k] = height(p[k]);
+        }
+        if (!wet(z[0]) && !wet(z[1]) && !wet(z[2])) continue;
+        for (std::size_t k = 0; k < 3; ++k) {
+            p[3 + k] = 0.5 * (p[k] + p[(k + 1) % 3]);
+            z[3 + k] = height(p[3 + k]);
+        }
         const FacetBlock& block = shape.facets.blocks[n / FacetBlock::kLanes];
         const std::size_t lane = n % FacetBlock::kLanes;
         // (25): the flow is linear over the quarters that the edges' middles make of a triangle
         const Vector quarter =
             0.25 * Vector{block.area[0][lane], block.area[1][lane], block.area[2][lane]};
-        std::array<Vec3, 6> p;  // corners, then the middles of the edges behind them
-        std::array<Vector, 6> u;
-        std::array<double, 6> z, f;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const auto corner = static_cast<std::size_t>(shape.mesh.triangles[n][k]);
-            p[k] = shape.mesh.vertices[corner];
-            u[k] = at_vertex[corner];
-        }
-        for (std::size_t k = 0; k < 3; ++k) {
-            p[3 + k] = 0.5 * (p[k] + p[(k + 1) % 3]);
-            u[3 + k] = relative.at(p[3 + k]);
-        }
-        for (std::size_t k = 0; k < 6; ++k) {
-            z[k] = dot(get(plane.up), get(p[k])) + plane.height;
-            f[k] = dot(quarter, u[k]);
-        }
+        for (std::size_t k = 0; k < 6; ++k) f[k] = dot(quarter, u[place[k]]);
         for (const auto& [a, b, c] : kQuarters)
-            add_wetted({{get(p[a]), get(p[b]), get(p[c])}, {u[a], u[b], u[c]}, {f[a], f[b], f[c]}},
+            add_wetted({{get(p[a]), get(p[b]), get(p[c])},
+                        {u[place[a]], u[place[b]], u[place[c]]},
+                        {f[a], f[b], f[c]}},
                        {z[a], z[b], z[c]}, sums);
     }
     return sums;
@@ -137,7 +140,8 @@ RelativeDrag relative_drag(const Shape& shape, const Motion& motion,
     static thread_local std::vector<Vector> u;
     u.clear();
     for (const Vec3& vertex : shape.mesh.vertices) u.push_back(relative.at(vertex));
-    const Sums sums = integrate(shape, WaterPlane(motion.rotation, motion.height), relative, u);
+    for (const Vec3& middle : shape.edges.middle) u.push_back(relative.at(middle));
+    const Sums sums = integrate(shape, WaterPlane(motion.rotation, motion.height), u);
     const double factor = -0.5 * water_density * coefficient;
     const Mat3 turn = factor * motion.rotation;
     const Vec3 force(sums.force.x / 12.0, sums.force.y / 12.0, sums.force.z / 12.0);

@@ -22,7 +22,7 @@ struct RelativeTriangles {
     Lanes f[3];
 
     RelativeTriangles() = default;
-    // What the cut leaves on the apex' side, with the area of the whole.
+    // The part on the apex' side of the cut, with the area of the whole.
     HWY_INLINE RelativeTriangles(const RelativeTriangles& t, const Cut& cut, const Tip& tip) {
         const auto part = [&](const Vectors(&of)[3], Vectors(&out)[3]) HWY_ATTR {
             const auto from = [&](int a, int b, int c) HWY_ATTR {

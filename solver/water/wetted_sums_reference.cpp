@@ -64,7 +64,7 @@ Triangle make_triangle(const FacetBlock& block, std::size_t lane, const Vec3& v,
     }
     return out;
 }
-// What the cut leaves on the apex' side, with the area of the whole.
+// The part on the apex' side of the cut, with the area of the whole.
 Triangle tip_of(const Triangle& t, const Cut& cut) {
     const std::size_t a = cut.apex, b = (a + 1) % 3, c = (a + 2) % 3;
     const double s = cut.part(1), u = cut.part(2);
