@@ -11,7 +11,7 @@ namespace ice {
 
 namespace {
 
-// A first case, and what spherize may have to be told of its mesh.
+// A first case, and the options of spherize for its mesh.
 void declare_new(CLI::App& app, Options& o) {
     auto* fresh = app.add_option("--new", o.fresh,
                                  "Write a commented case for a hull (mesh or sphere set) and an "

@@ -134,7 +134,7 @@ std::int32_t fastest_held(const Bodies& b) {
     return found;
 }
 
-// The vicinity is larger than what the moving bodies reach by this [m]. More puts more floes in the
+// The vicinity is larger than the moving bodies' reach by this [m]. More puts more floes in the
 // list's grid, less has all floes looked through more often: with 5 m a ship at 2 m/s every 2.5 s.
 // Only time depends on it. Before, runs with 100 000 held floes took up to three times as long.
 constexpr double kVicinityRoom = 5.0;

@@ -49,7 +49,7 @@ void check_group(FloeGroup& group, std::size_t g, int dimension, const Values& v
     if (dimension == 2) check_plane(group, wrong);
 }
 
-// Ice held until it bends: the load is what crushing lets through.
+// Ice held until it bends: crushing bounds the load.
 // Why each is needed: F of (26) against rigid ice is not finite, l of (28) grows without bound
 // as g goes to zero, and Kashtelyan's form has an opening angle, which a section has not.
 void check_bending(const Case& checked, std::size_t groups, const Complaints& complaints) {

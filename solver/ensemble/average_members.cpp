@@ -105,7 +105,7 @@ void average_counts(const Members& all, Summary& out) {
     const auto mean = [&](auto member) {
         return rounded_mean(all, [&](const Summary& s) { return s.*member; });
     };
-    // Work adds up over the members, what describes one run is averaged, bounds are the worst of
+    // Work adds up over the members, properties of one run are averaged, bounds are the worst of
     // all.
     out.steps = std::llround(sum * mean_over(all, [](const Summary& s) { return s.steps; }));
     out.simulated_s = sum * mean_over(all, [](const Summary& s) { return s.simulated_s; });
@@ -203,7 +203,7 @@ std::map<std::string, double> worst_imbalance(const Members& members) {
 
 Summary average_members(const std::vector<Member>& members) {
     ICE_ASSERT(!members.empty());
-    // starts as the first member's summary: what is not replaced below is the same for all
+    // starts as the first member's summary: values that are not replaced below are equal in all
     Summary out = members.front().summary;
     const double share = 1.0 / static_cast<double>(members.size());
     average_counts(members, out);

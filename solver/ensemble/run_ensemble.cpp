@@ -152,7 +152,7 @@ EnsembleResult run_ensemble(const EnsembleOptions& o) {
             summary = read_summary(folder / "summary.json");
         }
         members.push_back({seed, std::move(*summary)});
-        // after each member: what is there can be read while the next one runs
+        // after each member: the results so far can be read while the next one runs
         write_ensemble(
             o, members,
             members.size() < static_cast<std::size_t>(o.members) ? "interrupted" : "completed",

@@ -15,7 +15,7 @@ struct FlowOptions {
     bool table = true;     ///< else the panels alone are solved
 };
 
-/// A table, and what its maker noticed.
+/// A table, and the warnings of its making.
 struct HullFlow {
     FlowTable table;
     double panel = 0.0;               ///< longest edge of the panels [m]

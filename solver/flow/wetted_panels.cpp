@@ -49,7 +49,7 @@ std::vector<Triangle> cut(const std::vector<Triangle>& from, int axis, double si
                 kept.push_back(p);
             }
         }
-        // a fan: what a plane cuts off a triangle is convex, with four corners at most
+        // a fan: the part of a triangle on one side of a plane is convex, with four corners at most
         for (std::size_t k = 2; k < kept.size(); ++k)
             out.push_back({kept[0], kept[k - 1], kept[k]});
     }

@@ -22,7 +22,7 @@ constexpr double kLattice = 0x1p-30;
 constexpr double kSheet = 10.0;
 
 // Clipper works on whole numbers: a crack cuts the same corners on every machine. A billionth of a
-// metre is far below what any load or area can show.
+// metre is far below the resolution of any load or area.
 cl::Path to_lattice(const Loop& loop) {
     cl::Path out;
     for (const Vec2& p : loop)
@@ -128,7 +128,7 @@ IceSheet::IceSheet(const Eigen::AlignedBox2d& extent, double smallest) : smalles
 }
 
 IceSheet::Broken IceSheet::break_off(const Loop& crack) {
-    // Inside the crack everything is loose. Of what lies outside, the largest part is the
+    // Inside the crack everything is loose. Of the ice outside, the largest part is the
     // sheet, and smaller parts as well if they have ten times the crack's area.
     std::vector<Part> loose = combine(loops_, crack, cl::ctIntersection);
     if (loose.empty()) return {};

@@ -44,7 +44,7 @@ public:
     double area_in(const Loop& region) const;
     /// The ice in a box, as a sheet of its own; empty where there is none.
     IceSheet in_box(const Eigen::AlignedBox2d& box) const;
-    /// The ice in a box, in loops without holes, largest first: what has one is cut in two.
+    /// The ice in a box, in loops without holes, largest first: a loop with a hole is cut in two.
     std::vector<Loop> parts_in(const Eigen::AlignedBox2d& box) const;
 
     /// Outer loops anticlockwise, holes clockwise; the first is the largest. Empty once all is

@@ -7,7 +7,7 @@
 
 namespace ice {
 
-/// Size of cracks and channel beside what is seen on ships, and where the sheet's area went: one
+/// Size of cracks and channel beside published ranges, and where the sheet's area went: one
 /// line each. The ranges are as later papers print them, not read in their sources.
 std::string describe_edge(const LiveEdge& edge);
 

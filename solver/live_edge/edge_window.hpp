@@ -16,7 +16,7 @@ struct EdgeLoad {
     Vec2 push;       ///< normal impulse on the ice, seen from above [N s]
 };
 
-/// A stretch of edge and what presses on it.
+/// A stretch of edge and the load on it.
 struct EdgeWindow {
     Vec2 at;         ///< centre of the downward impulses [m]
     Vec2 inwards;    ///< unit vector along the push

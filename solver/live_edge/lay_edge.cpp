@@ -170,7 +170,7 @@ void LiveEdge::begin(Scene& scene, Case& p) {
     sheet_ = IceSheet(extent_, is_strip_ ? std::sqrt(least) : least);  // as long, 1 m broad
     // the hull lies in the sheet from the start: its own place is taken out
     for (const Loop& loop : hull) gone_.crushed += sheet_.take(loop);
-    if (is_strip_)  // what lies behind the bow has no edge that could be met
+    if (is_strip_)  // ice behind the bow has no edge that could be met
         for (const Loop& loop : hull)
             for (const Vec2& corner : loop) drop_behind(corner.x());
     piece_group_ = add_group(p, Hold::until_bent);
@@ -184,7 +184,7 @@ void LiveEdge::begin(Scene& scene, Case& p) {
     put(scene, 0.0, plan);
 }
 
-// Tiles that stay as they are keep their bodies, and what was crushed of them.
+// Tiles that stay as they are keep their bodies and crushed depths.
 void LiveEdge::lay_tiles(const Scene& scene, Plan& plan) {
     std::vector<Loop> wanted;
     const auto tiles = is_strip_

@@ -201,7 +201,7 @@ bool LiveEdge::crush_through(const std::vector<Loop>& hull) {
 }
 
 // The ice around a crack is laid anew, and the hull's notch in it is gone through all of its
-// thickness: what is laid does not overlap with the hull.
+// thickness: the new tiles do not overlap with the hull.
 void LiveEdge::break_off(const Crack& crack, const std::vector<Loop>& hull, Plan& plan) {
     ++cusp_;
     const Loop outline = region_of(crack.at, crack.inwards, crack.radius);

@@ -60,20 +60,20 @@ public:
 
     /// Does renew() have something to do?
     bool is_due(const Scene& scene) const;
-    /// Breaks off what the last step's loads have broken, takes away what the hull has crushed
-    /// through, lays the edge anew around a ship that has gone on.
+    /// Breaks off the pieces of the last step's cracks, takes away the ice that the hull has
+    /// crushed through, lays the edge anew around a ship that has gone on.
     /// @param time  [s]
     /// @return whether bodies have another form now: those of changed()
     bool renew(Scene& scene, const Case& parameters, double time);
     /// The bodies to which the last renew() gave another form, sorted.
     const std::vector<std::int32_t>& changed() const { return changed_; }
 
-    /// Sums the loads of the step just done and finds what they break.
+    /// Sums the loads of the step just done and finds the cracks that they open.
     /// @pre the constraints hold the step's impulses
     void find(const Case& parameters, const std::vector<Contact>& contacts,
               const std::vector<Constraint>& constraints);
 
-    /// Lays out again what a checkpoint holds. @pre state, poses and momenta are those of the saved
+    /// Lays out the ice of a checkpoint. @pre state, poses and momenta are those of the saved
     /// run; the scene came from begin()
     void restore(Scene& scene, const Case& parameters) const;
 
@@ -127,7 +127,7 @@ private:
         Vec2 at, inwards;     // ice's axes: place [m]; unit vector along the push
         double radius, load;  // [m]; [N], in 2D [N/m]
     };
-    struct Plan;  // what one renewal lays
+    struct Plan;  // the bodies of one renewal
 
     void carry_pieces(CheckpointFile& file);
     void set_up(const Scene& scene, const Case& parameters);

@@ -43,7 +43,7 @@ Loop across_strip(Loop outline, double by) {
     return outline;
 }
 
-// Symmetric about the tip: what is ahead of the tip is water and costs nothing to cut.
+// Symmetric about the tip: ahead of the tip is water, which costs nothing to cut.
 Loop strip_crack(double tip, double length) {
     return loop_of(Box(Vec2(tip - length, -kWide), Vec2(tip + length, kWide)));
 }

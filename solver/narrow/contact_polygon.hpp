@@ -30,7 +30,7 @@ struct PolygonCorner {
     std::uint32_t id;  ///< by the features that meet there: the same corner keeps it in a step
 };
 
-/// Where two pieces meet, and along what.
+/// The corners in which two pieces meet, and their common normal.
 struct ContactPolygon {
     Vec3 normal = Vec3::Zero();  ///< unit, from a to b, a's axes
     std::vector<PolygonCorner> corners;

@@ -109,7 +109,7 @@ Gap FeaturePair::measure_face_axis(const Vec3& center_a, const Vec3& center_b) c
     return {n, gap, at.squaredNorm(), reference_is_a_, true};
 }
 
-// Do the edges meet on what there is of them?
+// Do the edges meet before their ends?
 bool FeaturePair::meet(const EdgeAxis& c, const Vec3& between) const {
     if (!c.ends) return true;
     return !(a_->cone.ends() && c.along_a.dot(between) < -kBeyond * a_->radius) &&

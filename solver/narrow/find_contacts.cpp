@@ -222,7 +222,7 @@ void ContactFinder::find_listed(const Scene& scene, BodyPair pair, std::size_t k
         state = cache_.state(k, scene, pair, motion, within.step, within.margin, false);
         if (state == PairCache::State::separated) return;
     }
-    // a pair too fast for what can be known in advance is searched afresh
+    // a pair too fast for a list is searched afresh
     if (state == PairCache::State::stale)
         search_contacts(view, within.most, work);
     else

@@ -25,8 +25,7 @@ public:
     bool meet(const SpherePair& s) {
         const std::int32_t type_a = view_.shape_a.feature_type[s.a],
                            type_b = view_.shape_b.feature_type[s.b];
-        // Pairs come sorted by feature types: what depends on the types is computed when they
-        // change.
+        // Pairs come sorted by feature types: features are made when the types change.
         if (type_a != type_a_ || type_b != type_b_) {
             if (type_a != type_a_) feature_a_ = view_.sphere_a(s.a);
             if (type_b != type_b_) feature_b_ = view_.sphere_b(s.b);
@@ -79,7 +78,7 @@ bool edges_hold(const PairView& view, std::int32_t i, std::int32_t j, const Gap&
             b_holds(view, j, gap, point_b + at.along_b * edge_b));
 }
 
-// Do spheres i of a and j of b meet on what there is of their faces and edges (SidePlanes)?
+// Do spheres i of a and j of b meet within the borders of their faces and edges (SidePlanes)?
 //
 // Tested is the incident support point on the face, and of two edges the crossing on each. A
 // contact that has not touched yet may lie outside by its gap: it may come from beside.

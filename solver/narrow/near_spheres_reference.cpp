@@ -47,7 +47,7 @@ void pick(const Spheres& from, std::size_t k, const float (&at)[3], const FloatB
     out.id.push_back(from.id[k]);
     ++out.count;
     for (int d = 0; d < 3; ++d) {
-        // the box of what was picked narrows the search in the other body
+        // the box of the picked spheres narrows the search in the other body
         out.box.low[d] = std::min(out.box.low[d], at[d]);
         out.box.high[d] = std::max(out.box.high[d], at[d]);
     }

@@ -9,7 +9,7 @@ namespace ice {
 
 namespace {
 
-// The squared distance of a point from a group's box, less what rounding to floats may add [m2].
+// The squared distance of a point from a group's box, less the largest rounding of floats [m2].
 double distance_sq(const SphereBlocks& blocks, std::size_t g, const Vec3& p, double rounding) {
     double sum = 0.0;
     for (int d = 0; d < 3; ++d) {

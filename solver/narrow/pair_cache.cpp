@@ -122,7 +122,7 @@ double PairCache::room_left(const Row& row, const PairView& view, double apart) 
     // apart: no seat lies inside, and one needs the slack to become deep
     if (apart > 0.0) return deep_slack(view);
     if (row.seat_room < 0.0) return row.seat_room;
-    // what the last search left, less the motion since then
+    // the room after the last search, less the motion since then
     return row.seat_room - relative_motion(view, row.seat_turn, row.seat_shift).distance;
 }
 

@@ -86,7 +86,7 @@ void CsvFile::open(const char* mode) {
     if (!out_)
         throw run_failed(path_.string(), "cannot be written",
                          "check that the folder is writable and the disk is not full");
-    // unbuffered: what `bytes_` counts is in the file, so a checkpoint can name the place
+    // unbuffered: `bytes_` bytes are in the file, so a checkpoint can name the place
     std::setvbuf(out_.get(), nullptr, _IONBF, 0);
 }
 

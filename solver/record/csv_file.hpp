@@ -35,7 +35,7 @@ public:
     /// @param row  a value for each of `columns`, in the unit of its name; the copies per metre are
     ///             added here
     void add(const std::vector<double>& row);
-    /// Writes what is left and renames the file: no add() afterwards.
+    /// Writes the last rows and renames the file: no add() afterwards.
     void finish();
 
 private:

@@ -80,7 +80,7 @@ void enter_step(const Scene& scene, const Case& parameters,
         const Vec3 v = 0.5 * (start.velocity[i] + b.velocity[i]);
         const Vec3 w = 0.5 * (start.angular_velocity[i] + b.angular_velocity[i]);
         ledger.drag -= dt * (load.drag.force.dot(v) + load.drag.moment.dot(w));
-        // of the drag's work the part against the water; the rest is what moving water puts in
+        // of the drag's work the part against the water; the rest comes from the moving water
         ledger.drag += dt * load.water_power;
         ledger.water_work += dt * load.water_power;
         // potential energy includes the moment that buoyancy "centre" leaves out: its work is

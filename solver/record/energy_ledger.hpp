@@ -30,7 +30,7 @@ namespace ice {
 ///     drift_work       sum of J_c . v over the contacts of held ice that drifts at v
 ///     friction         -J_t . V
 ///     crushing         -J_n n . V where the contact is at its bound
-///     restitution      -J_n n . V elsewhere: what a plastic or partly elastic impact takes
+///     restitution      -J_n n . V elsewhere: the loss of a plastic or partly elastic impact
 ///     breaking         -(J_n n + J_t) . V instead of the three where the ship presses on a floe
 ///                      that is held until it bends: crushing and friction before it breaks off
 ///     drag             -(F . v + T . w) dt, v and w the means of start and end, and the first

@@ -21,7 +21,7 @@ constexpr double kHour = 3600.0;  // [s]
 std::vector<double> peaks_above(std::span<const double> series, double level) {
     std::vector<double> peaks;
     // between two up-crossings of the level the largest value counts once
-    bool above = true;  // what begins above the level has no up-crossing
+    bool above = true;  // a series that begins above the level has no up-crossing there
     bool counts = false;
     for (const double value : series) {
         if (value > level && !above) {

@@ -20,7 +20,7 @@ public:
              const std::vector<Constraint>& constraints);
 
     /// The contacts since the last call as mean forces [N] over `span` [s], sorted by floe and
-    /// sphere; what was collected is dropped. Without a span there are none.
+    /// sphere; earlier sums are dropped. Without a span there are none.
     std::vector<HullContact> take(double span);
 
     /// Writes or sets its state, by the file's direction (recorder_state.cpp).

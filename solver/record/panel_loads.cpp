@@ -105,7 +105,7 @@ void PanelLoads::fill(Summary& summary) const {
     for (const PanelLoad& panel : all.panels)
         if (panel.max > 0.0) touched.push_back(panel);
     summary.panels.touched = static_cast<std::int64_t>(touched.size());
-    // by the line load, which is what a frame of the hull has to carry
+    // by the line load, which a frame of the hull has to carry
     std::stable_sort(touched.begin(), touched.end(), [](const PanelLoad& a, const PanelLoad& b) {
         return a.max / a.length > b.max / b.length;
     });

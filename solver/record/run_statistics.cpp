@@ -72,7 +72,7 @@ void RunStatistics::add(const StepRecord& record, double time, double dt,
 }
 
 void RunStatistics::add_look(const OverlapFound& found, const StepRecord& record, double time) {
-    // seldom, as it costs a search in the meshes: what contacts did not know of overlaps
+    // seldom, as it costs a search in the meshes: overlaps beyond those of the contacts
     ++looks_;
     if (found.deepest > max_overlap_) {
         max_overlap_ = found.deepest;

@@ -28,7 +28,7 @@ struct StatisticsOptions {
     bool bends = false;  ///< are there floes held until they bend?
 };
 
-/// Collects what summary.json states, step by step.
+/// Collects the values of summary.json, step by step.
 class RunStatistics {
 public:
     explicit RunStatistics(StatisticsOptions options);

@@ -91,7 +91,7 @@ void ShipStatistics::fill(const FreeShip& ship, const Scene& scene, const Case& 
 
     const ShipEnergies& e = ship.energies();
     auto& energy = summary.energy;
-    // (S3): changes since the start; the residual is what the entries do not explain
+    // (S3): changes since the start; the residual is the rest that no entry explains
     const double kinetic = ship.kinetic_energy(scene.bodies) - e.kinetic_start.value_or(0.0);
     const double potential = ship.potential_energy(scene, p) - e.potential_start.value_or(0.0);
     energy["thrust_work_J"] = e.thrust;

@@ -172,7 +172,7 @@ OverlapFound measure_overlaps(const Scene& scene, const std::vector<Contact>& co
         if (parted_by(scene, a, b) || parted_by(scene, b, a)) continue;
         const std::pair<std::int32_t, std::int32_t> pair(a, b);
         while (contact != contacts.end() && std::pair(contact->a, contact->b) < pair) ++contact;
-        // what the contacts know of this pair; only more counts as unseen
+        // the overlap of this pair's contacts; only more counts as unseen
         double known = 0.0;
         for (auto c = contact; c != contacts.end() && std::pair(c->a, c->b) == pair; ++c)
             known = std::max(known, -c->gap);

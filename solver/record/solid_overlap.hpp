@@ -12,7 +12,7 @@ namespace ice {
 /// A pair that lies deeper in each other than its contacts know.
 struct UnseenOverlap {
     std::int32_t a, b;
-    double depth;  ///< deepest point less what the contacts know [m]
+    double depth;  ///< deepest point less the contacts' own depth [m]
 };
 
 /// Overlaps found between all bodies; crushed ice is gone and no overlap.

@@ -35,7 +35,7 @@ void add_water(Scene& scene, std::size_t body, double water_density) {
         scene.shapes[static_cast<std::size_t>(b.shape[body])].mesh, water_density);
     Inertia& inertia = b.inertias[static_cast<std::size_t>(b.inertia_row[body])];
     inertia.added = of_water.topLeftCorner<3, 3>();
-    // (m + A)^-1 - 1 / m: what the response to an impulse has beyond 1 / m, (P2)
+    // (m + A)^-1 - 1 / m: the response to an impulse beyond 1 / m, (P2)
     inertia.inverse_excess =
         (mass * Mat3::Identity() + inertia.added).inverse() - Mat3::Identity() / mass;
     inertia.body += of_water.bottomRightCorner<3, 3>();

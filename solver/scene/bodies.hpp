@@ -71,8 +71,8 @@ struct Bodies {
     std::vector<Vec3> angular_velocity;       ///< world axes [rad/s]
     std::vector<double> inverse_mass;         ///< [1/kg]; 0 while held
     std::vector<Mat3> inverse_inertia_world;  ///< R I^-1 R^T [1/(kg m2)]; 0 while held
-    /// R ((m + A)^-1 - 1/m) R^T, what added mass takes off inverse_mass [1/kg]; 0 while held. Empty
-    /// where water has no inertia.
+    /// R ((m + A)^-1 - 1/m) R^T, the change of inverse_mass by added mass [1/kg]; 0 while held.
+    /// Empty where water has no inertia.
     std::vector<Mat3> inverse_mass_excess;
 
     ShipResponse ship;  ///< set by solver/ship at the start of a step

@@ -13,7 +13,7 @@ namespace ice {
 
 namespace {
 
-// Least draught, in depths of the hull [-]: what rounding of a mesh makes of a draught of 0. Only
+// Least draught, in depths of the hull [-]: a draught of 0 with a mesh's rounding. Only
 // refusals depend on it.
 constexpr double kLeast = 1e-6;
 

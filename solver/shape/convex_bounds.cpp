@@ -43,9 +43,9 @@ bool list_normals(const TriangleMesh& mesh, std::vector<Vec3>& out) {
     return !out.empty();
 }
 
-// Is no corner before a facet, and no sphere by more than `excess`? Then what is behind all facets
-// is the corners' hull, and a sphere, which is so but for a part of its radius, reaches out of it
-// by that part. Sharp edges between facets only just not in one plane are right to 1e6 kFlat.
+// Is no corner before a facet, and no sphere by more than `excess`? Then the space behind all
+// facets is the corners' hull, and a sphere, which is so but for a part of its radius, reaches out
+// of it by that part. Sharp edges between facets only just not in one plane are right to 1e6 kFlat.
 bool hold_all(const TriangleMesh& mesh, const std::vector<Vec3>& corners,
               std::span<const BoundedSphere> spheres, double excess) {
     // Rounding of a corner's height over a facet of its own face [m]. Larger takes meshes for

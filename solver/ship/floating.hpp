@@ -26,7 +26,7 @@ FloatingForce floating_force(const Shape& hull, const ShipBody& body, const Mat3
 double floating_energy(const Shape& hull, const ShipBody& body, const Mat3& rotation, double height,
                        double water_density, double gravity);
 
-/// Equilibrium of a ship in the motions that are free, and what brings it back there.
+/// Equilibrium of a ship in the free motions, and the restoring forces about it.
 struct Equilibrium {
     double height = 0.0;                     ///< of the mesh's origin [m]
     ShipAngles angles = ShipAngles::Zero();  ///< roll and pitch [rad]
