@@ -50,36 +50,27 @@ Vec3 between(const Vec3& p, double height_p, const Vec3& q, double height_q) {
     return (height_p * q - height_q * p) / (height_p - height_q);
 }
 
-// Keeps the part of a polygon that is at most `offset` along `outward`.
-void clip(const Vec3& outward, double offset, std::uint32_t border, std::vector<Clipped>& polygon,
-          std::vector<Clipped>& rest) {
+// Keeps the part of a polygon within the border, which is `slack` [m] farther out.
+void clip(const FaceBorder& border, double slack, std::uint32_t number,
+          std::vector<Clipped>& polygon, std::vector<Clipped>& rest) {
+    thread_local std::vector<double> height;  // over the border [m]; keeps its memory
+    height.clear();
+    for (const Clipped& corner : polygon)
+        height.push_back(ordered_dot(border.outward, corner.at) - (border.offset + slack));
+    if (std::all_of(height.begin(), height.end(), [](double h) { return h <= 0.0; })) return;
     rest.clear();
     for (std::size_t k = 0; k < polygon.size(); ++k) {
-        const Clipped &from = polygon[k], &to = polygon[(k + 1) % polygon.size()];
-        const double before = ordered_dot(outward, from.at) - offset,
-                     after = ordered_dot(outward, to.at) - offset;
+        const std::size_t next = (k + 1) % polygon.size();
+        const bool inside = height[k] <= 0.0;
         // Sutherland and Hodgman: corners inside stay, and an edge across the border gives a
         // new one. From there the outline follows the border where it goes out, and the same
         // edge where it comes in.
-        if (before <= 0.0) rest.push_back(from);
-        if ((before <= 0.0) == (after <= 0.0)) continue;
-        rest.push_back(
-            {between(from.at, before, to.at, after), before <= 0.0 ? border : from.edge});
+        if (inside) rest.push_back(polygon[k]);
+        if (inside == (height[next] <= 0.0)) continue;
+        rest.push_back({between(polygon[k].at, height[k], polygon[next].at, height[next]),
+                        inside ? number : polygon[k].edge});
     }
     polygon.swap(rest);
-}
-
-// One border of the reference's face: the plane through its k-th side, upright on it.
-struct Border {
-    Vec3 outward;
-    double offset;
-};
-Border border_of(const Meeting& m, std::size_t k) {
-    const std::vector<std::int32_t>& loop = m.reference.loops[m.face];
-    const Vec3 from = m.reference.corners[static_cast<std::size_t>(loop[k])],
-               to = m.reference.corners[static_cast<std::size_t>(loop[(k + 1) % loop.size()])];
-    const Vec3 outward = (to - from).normalized().cross(m.reference.normals[m.face]);
-    return {outward, std::max(ordered_dot(outward, from), ordered_dot(outward, to))};
 }
 
 double slack_of_gap(double gap) { return PolygonTolerances::kBorder + std::max(gap, 0.0); }
@@ -103,11 +94,9 @@ public:
         polygon_.clear();
         for (const Vec3& at : face_)
             polygon_.push_back({at, static_cast<std::uint32_t>(polygon_.size())});
-        for (std::size_t k = 0; k < m.reference.loops[m.face].size() && !polygon_.empty(); ++k) {
-            const Border border = border_of(m, k);
-            clip(border.outward, border.offset + slack, kBorders + static_cast<std::uint32_t>(k),
-                 polygon_, rest_);
-        }
+        const std::vector<FaceBorder>& borders = m.reference.borders[m.face];
+        for (std::size_t k = 0; k < borders.size() && !polygon_.empty(); ++k)
+            clip(borders[k], slack, kBorders + static_cast<std::uint32_t>(k), polygon_, rest_);
     }
 
     // Calls visit(place, id) for each corner, places in the reference's axes.
@@ -129,7 +118,8 @@ private:
             return over_corner(before - kBorders, after - kBorders, clipped);
         // one edge of either face: where the incident edge passes the border
         const std::size_t edge = std::min(before, after);
-        const Border border = border_of(m_, std::max(before, after) - kBorders);
+        const FaceBorder& border =
+            m_.reference.borders[m_.face][std::max(before, after) - kBorders];
         const Vec3 &p = face_[edge], &q = face_[(edge + 1) % face_.size()];
         const double offset = border.offset + slack_;
         return between(p, ordered_dot(border.outward, p) - offset, q,

@@ -45,6 +45,12 @@ struct SolidEdge {
     std::int32_t left, right;  ///< planes; from begin to end it goes along n_left x n_right
 };
 
+/// The border of a face along one of its edges: the plane through the edge, upright on the face.
+struct FaceBorder {
+    Vec3 outward;   ///< unit, out of the face
+    double offset;  ///< outward . x on the border [m]
+};
+
 /// A convex polyhedron: planes, corners and edges; body axes.
 ///
 /// Coplanar triangles of the mesh are one plane. Planes, corners and edges stand in an order that
@@ -63,6 +69,7 @@ struct ConvexPiece {
     VectorBlocks edge_along;             ///< unit vector from begin to end
     VectorBlocks edge_left, edge_right;  ///< normals of the planes left and right
     std::vector<std::vector<std::int32_t>> loops;  ///< corners round each plane, anticlockwise
+    std::vector<std::vector<FaceBorder>> borders;  ///< by plane, from each corner of its loop on
 
     std::size_t plane_count() const { return normals.size(); }
     bool empty() const { return normals.size() == 0; }
