@@ -48,9 +48,9 @@ void FeaturePairBound::list_faces() {
     for (std::size_t k = 0; k < static_cast<std::size_t>(b_->cone.count); ++k) add(false, k);
 }
 
-// Both edges turn by at most skin.angle, so their cross product turns by at most angle / sine. Times
-// the product's length this is at most 2 angle; where the product itself is shorter than that, no
-// normal excludes it.
+// Both edges turn by at most skin.angle, so their cross product turns by at most angle / sine.
+// Times the product's length this is at most 2 angle; where the product itself is shorter than
+// that, no normal excludes it.
 void FeaturePairBound::list_edge_axes() {
     edge_axes_ = 0;
     for_each_crossing(a_->cone, b_->cone, 2.0 * skin_.angle,

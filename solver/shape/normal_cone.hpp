@@ -64,8 +64,8 @@ struct NormalCone {
         const auto n = static_cast<std::size_t>(k);
         return count == 2 ? part[2] : Vec3(-per_length[n] * part[n]);
     }
-    /// Sine of the angle between the two faces that meet in edge k: faces 0 and 1 of an edge, all but
-    /// face k of a vertex. 0 where they are parallel.
+    /// Sine of the angle between the two faces that meet in edge k: faces 0 and 1 of an edge, all
+    /// but face k of a vertex. 0 where they are parallel.
     double sine(int k) const {
         if (count == 2) return std::sqrt(size);
         const double inverse = per_length[static_cast<std::size_t>(k)];
