@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Solids and their places from a run folder's run.h5."""
+"""Solids and their places from a run folder's run.h5 and, of level ice, its pieces.h5."""
 import pathlib
 import sys
 
@@ -19,8 +19,19 @@ class Solid:
         self.samples = None
 
 
+def solids_of(group):
+    """The meshes of a group that lie one after the other."""
+    v, t = group["vertex_offset"][:], group["triangle_offset"][:]
+    vertices, triangles = group["vertices"][:].astype(float), group["triangles"][:]
+    return [Solid(vertices[v[k]:v[k + 1]], triangles[t[k]:t[k + 1]]) for k in range(len(v) - 1)]
+
+
 class Run:
-    """Frames of a run; body 0 is the hull, floes are numbered from 1."""
+    """Frames of a run; body 0 is the hull, floes are numbered from 1.
+
+    In level ice the floes are the pieces that broke off. A piece has no place (NaN) before and after
+    its time; the unbroken sheet is left out.
+    """
 
     def __init__(self, folder):
         path = pathlib.Path(folder)
@@ -28,11 +39,7 @@ class Run:
         with h5py.File(path, "r") as file:
             if file.attrs["dimension"] != 3:
                 sys.exit(f"{path}: a run in 2D; poses are checked in 3D only")
-            shapes = file["shapes"]
-            v, t = shapes["vertex_offset"][:], shapes["triangle_offset"][:]
-            vertices, triangles = shapes["vertices"][:].astype(float), shapes["triangles"][:]
-            self.solids = [Solid(vertices[v[k]:v[k + 1]], triangles[t[k]:t[k + 1]])
-                           for k in range(len(v) - 1)]
+            self.solids = solids_of(file["shapes"])
             frames = file["frames"]
             self.time = frames["frame_time"][:]
             self.shape_of = np.concatenate([[0], frames["body_shape"][:]])
@@ -42,6 +49,22 @@ class Run:
             turn[:, 0, 0] = 1.0
             turn[:, 1:] = frames["orientation"][:]
             self.orientation = turn / np.linalg.norm(turn, axis=2, keepdims=True)
+            bodies = frames["body"][:]
+        pieces = path.with_name("pieces.h5")
+        if pieces.exists():
+            with h5py.File(pieces, "r") as file:
+                self.take_pieces(file["pieces"], bodies)
+
+    def take_pieces(self, pieces, bodies):
+        """Pieces in place of the slots that they take one after another."""
+        column = 1 + np.searchsorted(bodies, pieces["body"][:])  # body 0 is the hull
+        self.solids = [self.solids[0], *solids_of(pieces)]
+        self.shape_of = np.arange(len(self.solids))
+        columns = np.concatenate([[0], column])
+        self.position, self.orientation = self.position[:, columns], self.orientation[:, columns]
+        time = self.time[:, None]
+        there = (pieces["born"][:] <= time) & (time < pieces["gone"][:])
+        self.position[:, 1:][~there] = np.nan
 
     def solid(self, body):
         return self.solids[self.shape_of[body]]

@@ -315,7 +315,7 @@ TEST_CASE("ten thousand loads anywhere on the edge leave a valid sheet",
 }
 
 TEST_CASE("a long way through level ice takes no more memory than what is within reach",
-          "[level_ice][edge][step]") {
+          "[level_ice][edge][step][long]") {
     Case p = sheet_case(1.5, 1e3);
     p.level_ice.extent[1] = 400.0;
     World w = make_world(p);

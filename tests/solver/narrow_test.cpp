@@ -145,7 +145,7 @@ TEST_CASE("the grid finds the contacts that testing every sphere with every othe
 }
 
 TEST_CASE("pairs that are not looked at have no contacts, step after step",
-          "[narrow][equivalence]") {
+          "[narrow][equivalence][long]") {
     const double size = GENERATE(1.0, 10.0);  // spheres of half a metre reach farther
     World w = test::scattered_world(GENERATE(1u, 2u), 60, size);
     w.parameters.normal = GENERATE(NormalRule::centres, NormalRule::surface);

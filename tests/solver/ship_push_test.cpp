@@ -33,7 +33,7 @@ double deepest(const World& w) { return measure_overlaps(w.scene, {}).deepest; }
 }  // namespace
 
 TEST_CASE("fifty floes abreast are pushed for ten minutes by a ship of any mass",
-          "[ship][contact]") {
+          "[ship][contact][long]") {
     constexpr double kPush = 0.01;  // [m/s2], of ship and floes together
     const double share = GENERATE(0.2, 2.0, 20.0);
     const SphereSet block = make_box_set(Vec3(1, 0.9, 1), 0.1, 0.8);

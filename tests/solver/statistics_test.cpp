@@ -189,7 +189,7 @@ TEST_CASE("the 95 % interval covers the mean of periodic and of peaky series 90 
 }
 
 TEST_CASE("the 95 % interval covers the mean 90 times in 100 where fast noise hides slow changes",
-          "[record][property]") {
+          "[record][property][long]") {
     for (const double held : {1.5, 2.5, 3.5, 5.5}) {
         const int covered =
             covered_of_200([=](Random& random) { return swinging(random, 2000, held); });
