@@ -20,15 +20,15 @@ constexpr int kDropped = 44;
 
 // The bits of positive doubles rise with their values, so the leading ones number classes of equal
 // width on each octave: 2^-8 of the value, 0.2 % from a class' middle. No logarithm is needed.
-std::int64_t class_of(double force) {
-    return static_cast<std::int64_t>(std::bit_cast<std::uint64_t>(force) >> kDropped);
+std::int32_t class_of(double force) {
+    return static_cast<std::int32_t>(std::bit_cast<std::uint64_t>(force) >> kDropped);
 }
 
-double lower_bound_of(std::int64_t number) {
+double lower_bound_of(std::int32_t number) {
     return std::bit_cast<double>(static_cast<std::uint64_t>(number) << kDropped);
 }
 
-double middle_of(std::int64_t number) {
+double middle_of(std::int32_t number) {
     return 0.5 * (lower_bound_of(number) + lower_bound_of(number + 1));
 }
 
@@ -68,10 +68,10 @@ void WindowForces::add(double force) {
 }
 
 void WindowForces::count(double force) {
-    const std::int64_t number = class_of(force);
+    const std::int32_t number = class_of(force);
     const auto place =
         std::lower_bound(classes_.begin(), classes_.end(), number,
-                         [](const Class& c, std::int64_t n) { return c.number < n; });
+                         [](const Class& c, std::int32_t n) { return c.number < n; });
     if (place != classes_.end() && place->number == number)
         ++place->count;
     else
@@ -99,7 +99,7 @@ double WindowForces::quantile(double share, std::int64_t windows) const {
 void WindowForces::carry(CheckpointFile& file, const std::string& name,
                          std::vector<WindowForces>& all) {
     std::vector<std::vector<double>> forces;
-    std::vector<std::vector<std::int64_t>> numbers(all.size()), counts(all.size());
+    std::vector<std::vector<std::int32_t>> numbers(all.size()), counts(all.size());
     for (std::size_t k = 0; k < all.size(); ++k) {
         forces.push_back(std::move(all[k].forces_));
         for (const Class& c : all[k].classes_) {

@@ -16,9 +16,9 @@ class CheckpointFile;
 /// exact whatever the number.
 class WindowForces {
 public:
-    /// Forces kept one by one at most [-]: 32 kB, 7 minutes under load in windows of 0.1 s. More
-    /// keeps quantiles exact for longer and costs memory for each panel.
-    static constexpr std::size_t kExact = 4096;
+    /// Forces kept one by one at most [-]: 8 kB, 100 s under load in windows of 0.1 s. More keeps
+    /// quantiles exact for longer and costs memory for each of some thousand panels.
+    static constexpr std::size_t kExact = 1024;
 
     /// @param force  > 0 [N]
     void add(double force);
@@ -37,7 +37,7 @@ public:
 
 private:
     struct Class {
-        std::int64_t number, count;
+        std::int32_t number, count;
     };
     void count(double force);
 

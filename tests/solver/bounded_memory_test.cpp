@@ -74,13 +74,13 @@ TEST_CASE("two million steps of a run take no more memory than 65 536",
     check_growth(before, 2.0 * 2.0 * sizeof(double) * LongSeries::kMost + 4096.0);
 }
 
-TEST_CASE("the forces of a panel take at most 256 kB", "[record][memory][level_ice]") {
+TEST_CASE("the forces of a panel take at most 128 kB", "[record][memory][level_ice]") {
     std::mt19937 random(3);
     std::lognormal_distribution<double> draw(10.0, 2.0);
     const double before = heap();
     WindowForces forces;
     for (int k = 0; k < 300000; ++k) forces.add(draw(random));
-    check_growth(before, 256e3);
+    check_growth(before, 128e3);
 }
 
 TEST_CASE("pieces that are gone take no memory, and come back as they were",
