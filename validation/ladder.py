@@ -96,7 +96,7 @@ def creeping_rows(ladder):
     energy = ladder.of("creeping")["energy"]["potential_J"] / ladder.travel
     return [row("creeping at 0.05 m/s without friction: potential energy gained per metre", f"0 to {bound:.0f} N",
                 f"{energy:.0f} N", "", "(rho_w - rho_i) g h B (T + (1 - rho_i / rho_w) h / 2): every piece in the "
-                "ship's breadth goes under the keel; those that leave at the sides gain less"),
+                "ship's breadth goes under the keel; pieces that leave at the sides gain less"),
             row("creeping at 0.05 m/s without friction: resistance over (rho_w - rho_i) g h B T", "0.5",
                 f"{mean / (density * 9.81 * THICKNESS * BREADTH * DRAUGHT):.2f} +- "
                 f"{half / (density * 9.81 * THICKNESS * BREADTH * DRAUGHT):.2f}", "shown only",

@@ -33,8 +33,8 @@ void add_rows(const std::string& which, const Imbalance& worst) {
                     "", 0.0, worst.linear, bound, "momentum is kept"});
     test::validate({which + ", every step: change of a floe's angular momentum", "", 0.0,
                     worst.angular, bound, "angular momentum is kept"});
-    test::validate({which + ", every step: what the floes gain against the force on the ship", "",
-                    0.0, worst.together, bound, "action and reaction"});
+    test::validate({which + ", every step: the floes' momentum against the ship's force", "", 0.0,
+                    worst.together, bound, "action and reaction"});
 }
 
 }  // namespace

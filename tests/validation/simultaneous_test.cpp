@@ -118,7 +118,7 @@ TEST_CASE("a stack of ten floes under a hull comes to rest, each layer carries t
     const double net = (1000.0 - 900.0) * 9.81 * kFloe.prod();
     for (int k = 0; k < 10; ++k)
         test::validate(
-            {"stack of ten floes under a hull: force in a layer over that of the floes "
+            {"stack of ten floes under a hull: force in a layer over the lift of the floes "
              "below it",
              "", 1.0, force[k + 1] / ((10 - k) * net), test::within_percent(1),
              "(10 - k) (rho_w - rho_i) g V"});
@@ -133,7 +133,7 @@ TEST_CASE("a stack of ten floes under a hull comes to rest, each layer carries t
                     0.0,
                     fastest,
                     {},
-                    "what the solver leaves keeps it creeping"});
+                    "the solver's remaining error keeps it creeping"});
 }
 
 TEST_CASE("a step whose solver did not reach its tolerance says so, with its residual",
