@@ -114,6 +114,7 @@ def write_run(path, centres):
         file["shapes/vertex_offset"], file["shapes/triangle_offset"] = [0, 8, 16], [0, 12, 24]
         n = len(centres)
         file["frames/frame_time"], file["frames/body_shape"] = [1.5], [1] * n
+        file["frames/body"] = list(range(n))
         file["frames/ship_position"] = np.array([[100.0, 0, 0]])
         file["frames/position"] = np.array([centres], dtype=float)
         file["frames/orientation"] = np.tile([1.0, 0, 0, 0], (1, n, 1))
