@@ -279,7 +279,7 @@ int run_spherize(Options& o, const std::string& command_line) {
     set.created_by = fmt::format("spherize {} ({})", ice::version(), ice::git_commit());
     set.command_line = report.command_line = command_line;
     // Last of all measures, as it turns them into warnings.
-    ice::judge_spheres(set, report);
+    ice::judge_spheres(set, o.fill.arrangement, report);
     const auto export_base = std::filesystem::path(out).replace_extension();
     // Refused before anything is written, so that no run leaves half of its files.
     ice::check_exports(set, o.exports, export_base);

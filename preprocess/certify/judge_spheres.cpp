@@ -18,6 +18,9 @@ constexpr double kBelt = 2.0;
 constexpr double kMostProtrusion = 0.01;
 // Covering radius [spacings] worth a warning: a layer's own is 0.61 to 0.66.
 constexpr double kMostCover = 0.75;
+// Share of the surface [-] behind which a lattice has no sphere that is worth a warning: rounded
+// edges have less, a face between two layers of the lattice more.
+constexpr double kMostUnfitted = 0.01;
 
 }  // namespace
 
@@ -48,7 +51,7 @@ void set_ice_belt(const TriangleMesh& solid, std::optional<double> draught,
             fmt::format("{:.3g} m, a tenth of the draught, in the ice belt", belt.thickness);
 }
 
-void judge_spheres(const SphereSet& set, SpheresReport& report) {
+void judge_spheres(const SphereSet& set, Arrangement arrangement, SpheresReport& report) {
     // Each bound has its effect on a run: spheres outside the solid push ice before the hull is
     // there, wide gaps let ice through, parts that are cut back meet it too late.
     std::vector<std::string>& out = report.warnings;
@@ -66,6 +69,12 @@ void judge_spheres(const SphereSet& set, SpheresReport& report) {
             "the nearest, at ({:.4g}, {:.4g}, {:.4g})",
             report.covering_radius, report.covering_radius / set.spacing, report.covering_at[0],
             report.covering_at[1], report.covering_at[2]));
+    if (arrangement == Arrangement::lattice && report.unfitted_share > kMostUnfitted)
+        out.push_back(fmt::format(
+            "the lattice has no sphere at {:.2g} % of the surface, so that bodies enter each other "
+            "by up to {:.2g} m there: give a --radius whose double divides the thickness, or use "
+            "--arrangement conforming",
+            100.0 * report.unfitted_share, report.gap_p99));
     for (const CutBack& cut : report.cut_back)
         // More than a radius, and in the belt alone: elsewhere the hull meets no ice, and below a
         // radius the spheres' own size is coarser.

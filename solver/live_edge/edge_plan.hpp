@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "solver/live_edge/carried_notches.hpp"
 #include "solver/live_edge/live_edge.hpp"
 #include "solver/shape/shape.hpp"
 
@@ -24,6 +25,7 @@ struct LiveEdge::Plan {
     };
     std::vector<Body> bodies;
     std::vector<std::int32_t> changed;
+    CarriedNotches notches;  // of the tiles that go
 };
 
 /// Is there room for a sphere in ice of that outline [m]? @param thickness  [m]

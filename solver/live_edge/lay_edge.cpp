@@ -202,6 +202,7 @@ void LiveEdge::lay_tiles(const Scene& scene, Plan& plan) {
             wanted.erase(same);
             continue;
         }
+        plan.notches.take(scene, static_cast<std::int32_t>(first_ + k));
         slot = {};  // a free one that is not used again is parked by put()
         plan.changed.push_back(static_cast<std::int32_t>(first_ + k));
     }
@@ -228,6 +229,7 @@ void LiveEdge::put(Scene& scene, double time, Plan& plan) {
         b.breaking_load[i] = body.is_tile ? std::numeric_limits<double>::max() : kNever;
         put_ice(scene, i, std::move(*body.shape),
                 {centre + drifted_, drift_, density_, share_, body.is_tile});
+        plan.notches.give(scene, static_cast<std::int32_t>(i));
         if (b.have_added_mass() && !body.is_tile) {
             add_water(scene, i, density_ / share_);
             update_derived(b, i);

@@ -42,6 +42,12 @@ struct CrushedIce {
     }
     /// Moves a sphere of a body with `spheres` surface spheres by `move` [m], body axes.
     void crush(std::int32_t body, std::int32_t sphere, std::size_t spheres, const Vec3& move) {
+        recent.push_back({body, move.norm()});
+        carry_notch(body, sphere, spheres, move);
+    }
+    /// The same for a body that is new in the scene: no surface moved, so no event.
+    void carry_notch(std::int32_t body, std::int32_t sphere, std::size_t spheres,
+                     const Vec3& move) {
         if (static_cast<std::size_t>(body) >= first.size()) {
             first.resize(static_cast<std::size_t>(body) + 1, -1);
             deepest.resize(first.size(), 0.0);
@@ -51,7 +57,6 @@ struct CrushedIce {
             row = static_cast<std::int64_t>(displacement.size());
             displacement.resize(displacement.size() + spheres, Vec3::Zero());
         }
-        recent.push_back({body, move.norm()});
         Vec3& total = displacement[static_cast<std::size_t>(row + sphere)];
         total += move;
         double& most = deepest[static_cast<std::size_t>(body)];

@@ -18,6 +18,7 @@
 #include "tests/preprocess/look_alikes.hpp"
 #include "tests/support/make_hull.hpp"
 #include "tests/support/make_meshes.hpp"
+#include "tests/support/make_sphere_sets.hpp"
 #include "tests/support/tolerance.hpp"
 
 using namespace ice;
@@ -208,7 +209,7 @@ TEST_CASE("the ice belt's line says what the certificate holds", "[certify]") {
     certify_solid("ship.stl", hull, hull, 0.5, false, report);
     const SphereSet set = fill_spheres(hull, {0.5, 0.0, Arrangement::conforming, true}, report);
     find_cut_back(set, report);
-    judge_spheres(set, report);
+    judge_spheres(set, Arrangement::conforming, report);
     const std::string text = ice_belt_text(report);
     CHECK_THAT(text, Catch::Contains("draught 6.2 m, ice 0.6 m") &&
                          Catch::Contains("the surface is the mesh's") &&
@@ -219,6 +220,19 @@ TEST_CASE("the ice belt's line says what the certificate holds", "[certify]") {
     CHECK(warns(report, "in the ice belt the stem is cut back"));
     // of single holes only
     CHECK(report.covering_radius <= 0.66 * set.spacing);
+}
+
+TEST_CASE("a lattice whose layers do not fill the thickness is warned of", "[certify][fill]") {
+    // spheres of 0.05 m: 0.3 m is three layers, 0.35 m leaves half a layer at one face
+    const double thickness = GENERATE(0.3, 0.35);
+    const TriangleMesh box = test::make_box_mesh(Vec3(2, 1.5, thickness));
+    SpheresReport report;
+    set_ice_belt(box, {}, {}, report);
+    certify_solid("floe.obj", box, box, 0.05, false, report);
+    const SphereSet set = fill_spheres(box, {0.05, 0.0, Arrangement::lattice, true}, report);
+    judge_spheres(set, Arrangement::lattice, report);
+    CAPTURE(thickness, report.unfitted_share);
+    CHECK(warns(report, "the lattice has no sphere at") == (thickness > 0.3));
 }
 
 TEST_CASE("no sphere is outside by exact winding number where faces cross", "[certify][fill]") {

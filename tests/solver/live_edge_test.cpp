@@ -5,6 +5,8 @@
 // piece's outline; 1e-12 is rounding of one sum.
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <limits>
 #include <numbers>
 #include <random>
@@ -144,6 +146,42 @@ TEST_CASE("a ship breaks its way, ice is neither lost nor made, and no piece is 
     CHECK(w.edge.areas().brash < 0.1 * w.edge.areas().pieces);
     // a step's way of the ship, and how far the hull's convex outlines stand for it
     CHECK(deepest < 0.02);
+}
+
+TEST_CASE("new ice at the edge is crushed as deep as the ice before it",
+          "[level_ice][edge][step]") {
+    World w = make_world(sheet_case(0.8, 1e3));
+    // the deepest overlap of a piece with tiles or pieces, the hull left out
+    const auto deepest = [&](const std::vector<std::int32_t>& bodies) {
+        double most = 0.0;
+        for (std::size_t i = w.edge.first_body(); i < w.scene.bodies.size(); ++i)
+            for (const std::int32_t k : bodies) {
+                const auto a = static_cast<std::int32_t>(i);
+                const bool held = w.scene.bodies.held[i] && w.scene.bodies.held[std::size_t(k)];
+                if (a != k && !held) most = std::max(most, measure_overlap(w.scene, a, k).depth);
+            }
+        return most;
+    };
+    double before = 0.0, after = 0.0;
+    std::size_t renewals = 0;
+    while (w.time < 10.0) {
+        // the overlaps of the step before: bodies that the next renewal may change are all
+        std::vector<std::int32_t> all;
+        for (std::size_t i = w.edge.first_body(); i < w.scene.bodies.size(); ++i)
+            all.push_back(static_cast<std::int32_t>(i));
+        const bool due = w.edge.is_due(w.scene);
+        const double then = due ? deepest(all) : 0.0;
+        step(w);
+        if (!due || w.edge.changed().empty()) continue;
+        ++renewals;
+        const double now = deepest(w.edge.changed());
+        if (getenv("SHOW")) std::printf("%.2f %.4f %.4f\n", w.time, then, now);
+        before = std::max(before, then);
+        after = std::max(after, now);
+    }
+    CAPTURE(renewals, before, after);
+    CHECK(renewals > 15);
+    CHECK(after < before + 0.02);
 }
 
 TEST_CASE("neighbour lists that outlive a renewal of the edge give the contacts of new ones",

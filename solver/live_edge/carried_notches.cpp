@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/live_edge/carried_notches.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+namespace ice {
+
+namespace {
+
+// Cosine of the angle between the normals of two spheres of one face [-], 8 degrees: an edge and a
+// face beside it differ by 20 and more. With a smaller one, whole spheres of the upper face keep
+// ice in a notch below them; with a larger one, a face that is cut a little askew is crushed a
+// patch radius beyond the notch.
+constexpr double kSameFace = 0.99;
+
+}  // namespace
+
+void CarriedNotches::take(const Scene& scene, std::int32_t tile) {
+    const Bodies& b = scene.bodies;
+    const auto i = static_cast<std::size_t>(tile);
+    const Shape& shape = scene.shapes[static_cast<std::size_t>(b.shape[i])];
+    for (std::size_t k = 0; k < shape.center.size(); ++k)
+        lines_.push_back(
+            {b.position[i] + b.rotation[i] * shape.center[k],
+             b.rotation[i] * scene.crushed.displacement_of(tile, static_cast<std::int32_t>(k)),
+             b.rotation[i] * shape.normal[k]});
+    reach_ = std::max(reach_, shape.patch_radius);
+    has_notch_ = has_notch_ || !scene.crushed.is_whole(tile);
+}
+
+void CarriedNotches::give(Scene& scene, std::int32_t body) const {
+    if (!has_notch_) return;
+    const Bodies& b = scene.bodies;
+    const auto i = static_cast<std::size_t>(body);
+    const Shape& shape = scene.shapes[static_cast<std::size_t>(b.shape[i])];
+    const Mat3 to_body = b.rotation[i].transpose();
+    for (std::size_t k = 0; k < shape.center.size(); ++k) {
+        const Vec3 at = b.position[i] + b.rotation[i] * shape.center[k];
+        const Vec3 normal = b.rotation[i] * shape.normal[k];
+        double nearest = reach_ * reach_, gone = 1.0;
+        Vec3 move = Vec3::Zero();
+        for (const Line& line : lines_) {
+            // The place on the line nearest to the new sphere; the rest of the line is its notch. A
+            // sphere that stays where one was has that one's depth, though other lines pass there.
+            const double length2 = line.move.squaredNorm();
+            if (length2 == 0.0 && line.normal.dot(normal) < kSameFace) continue;
+            const double along =
+                length2 > 0.0 ? std::clamp((at - line.from).dot(line.move) / length2, 0.0, 1.0)
+                              : 0.0;
+            const double distance2 = (line.from + along * line.move - at).squaredNorm();
+            if (std::tie(distance2, along) >= std::tie(nearest, gone)) continue;
+            nearest = distance2;
+            gone = along;
+            move = (1.0 - along) * line.move;
+        }
+        if (!move.isZero(0.0))
+            scene.crushed.carry_notch(body, static_cast<std::int32_t>(k), shape.center.size(),
+                                      to_body * move);
+    }
+}
+
+}  // namespace ice
