@@ -13,12 +13,6 @@ namespace ice {
 
 namespace {
 
-// How deep contact has crushed a sphere along its side's outward direction [m].
-double crushed_depth(const Scene& scene, std::int32_t body, std::int32_t sphere,
-                     const Vec3& outward) {
-    return std::max(0.0, -scene.crushed.displacement_of(body, sphere).dot(outward));
-}
-
 Patch patch_of(const Shape& shape, std::int32_t k, const Vec3& outward) {
     Patch patch;
     patch.share = shape.area[k];
@@ -48,8 +42,8 @@ Patch incident_patch(const PairView& view, const Candidate& c) {
     // Depth counts from the uncrushed surface: in a notch the section and so the bound (13)
     // stay as large as when it was cut.
     patch.depth = -c.gap.gap + (c.gap.reference_is_a || ship
-                                    ? crushed_depth(view.scene, view.pair.b, c.j, out_b)
-                                    : crushed_depth(view.scene, view.pair.a, c.i, out_a));
+                                    ? view.scene.crushed.depth_of(view.pair.b, c.j, out_b)
+                                    : view.scene.crushed.depth_of(view.pair.a, c.i, out_a));
     return patch;
 }
 
@@ -93,7 +87,7 @@ const std::vector<ContactPlace>& places_of(const PairView& view,
 }  // namespace
 
 double crushed_depth(const PairView& view, std::int32_t j, const Vec3& n) {
-    return crushed_depth(view.scene, view.pair.b, j, view.rotation_ab.transpose() * -n);
+    return view.scene.crushed.depth_of(view.pair.b, j, view.rotation_ab.transpose() * -n);
 }
 
 Patch ice_patch(const PairView& view, std::int32_t j, const Vec3& n, double gap) {
@@ -104,7 +98,7 @@ Patch ice_patch(const PairView& view, std::int32_t j, const Vec3& n, double gap)
 
 Patch patch_of_a(const PairView& view, std::int32_t i, const Vec3& n, double gap) {
     Patch patch = patch_of(view.shape_a, i, n);
-    patch.depth = -gap + crushed_depth(view.scene, view.pair.a, i, n);
+    patch.depth = -gap + view.scene.crushed.depth_of(view.pair.a, i, n);
     return patch;
 }
 

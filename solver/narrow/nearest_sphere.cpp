@@ -43,12 +43,4 @@ std::int32_t nearest_sphere(const Shape& shape, const Vec3& point) {
     return std::get<2>(least);
 }
 
-double crushed_near(const Scene& scene, std::int32_t body, const Vec3& point) {
-    if (scene.crushed.is_whole(body)) return 0.0;
-    const Shape& shape = scene.shapes[static_cast<std::size_t>(scene.bodies.shape[body])];
-    // how far the nearest sphere has been driven inwards along its normal
-    const std::int32_t k = nearest_sphere(shape, point);
-    return std::max(0.0, -scene.crushed.displacement_of(body, k).dot(shape.normal[k]));
-}
-
 }  // namespace ice

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 
-#include "solver/scene/bodies.hpp"
 #include "solver/shape/shape.hpp"
 
 namespace ice {
@@ -12,9 +11,5 @@ namespace ice {
 /// axes; of equals the one that comes first in Shape::mirror_rank, then by number. Every shape has
 /// one. Cost: the boxes of all groups of 16, and the spheres of those that may be nearer.
 std::int32_t nearest_sphere(const Shape& shape, const Vec3& point);
-
-/// Depth by which the ice around a point [m] of a body's axes has been crushed: that of the nearest
-/// sphere along its normal [m]; 0 for a whole body.
-double crushed_near(const Scene& scene, std::int32_t body, const Vec3& point);
 
 }  // namespace ice

@@ -36,6 +36,11 @@ struct CrushedIce {
         return displacement[static_cast<std::size_t>(first[static_cast<std::size_t>(body)] +
                                                      sphere)];
     }
+    /// How deep contact has crushed a surface sphere against `outward` [m]: a unit vector in body
+    /// axes, out of the ice.
+    double depth_of(std::int32_t body, std::int32_t sphere, const Vec3& outward) const {
+        return std::max(0.0, -displacement_of(body, sphere).dot(outward));
+    }
     /// Its longest displacement [m]; 0 for a whole body.
     double deepest_of(std::int32_t body) const {
         return is_whole(body) ? 0.0 : deepest[static_cast<std::size_t>(body)];
