@@ -125,11 +125,11 @@ DeepSeat seat_of(const PairView& view, const Side& side, std::int32_t sphere, co
     DeepSeat out;
     out.sphere = sphere;
     out.of_b = side.body == view.pair.b;
-    // Minus the distance to the nearest point of the mesh. The sphere there is the one that the
-    // contact crushes, and the depth to which it has crushed it is gone.
+    // Minus the distance to the nearest point of the mesh. The contact crushes the sphere there:
+    // its notch is gone.
     out.facing = nearest_sphere(side.in, foot.point);
     const Vec3 outward = (foot.point - seat) / foot.distance;  // of the solid
-    out.gap = view.scene.crushed.depth_of(side.other, out.facing, outward) - foot.distance;
+    out.gap = notch_depth(view.scene, side.other, out.facing, outward) - foot.distance;
     const auto in_a = [&](const Vec3& p) {
         return out.of_b ? p : Vec3(view.rotation_ab * p + view.translation_ab);
     };

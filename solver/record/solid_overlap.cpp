@@ -105,9 +105,9 @@ Deepest deepest_point(const Scene& scene, std::int32_t a, std::int32_t b, const 
         shallow = p;
         room = out.depth - depth;
         if (depth <= out.depth) return;
-        // the ice that contacts have crushed there is gone, as for a seat (narrow/deep_seats.cpp)
+        // as for a seat (narrow/deep_seats.cpp), the notch is gone
         const Vec3 outward = (foot.point - p) / depth;
-        depth -= scene.crushed.depth_of(b, nearest_sphere(solid, foot.point), outward);
+        depth -= notch_depth(scene, b, nearest_sphere(solid, foot.point), outward);
         if (depth > out.depth) out = {depth, bodies.position[b] + bodies.rotation[b] * p};
     };
     for (std::int32_t k = 0; k < std::ssize(points.center); ++k) {
