@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <numbers>
+#include <random>
 
 #include "solver/narrow/deep_seats.hpp"
 #include "tests/support/make_angle_world.hpp"
@@ -96,6 +97,43 @@ TEST_CASE("edges that cross are a deep contact where the place between them lies
         REQUIRE(held.size() == 1);
         CHECK(held[0].gap.gap == -depth);
     }
+}
+
+TEST_CASE("a seat is as much less deep as the ice sphere is crushed that it presses on",
+          "[narrow][deep][analytic]") {
+    // Ice 0.12 m thin, its spheres 0.1 m apart and 0.05 m in radius: often one of the opposite side
+    // is nearest to a seat.
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> unit(-1.0, 1.0);
+    constexpr double kCrushed = 0.02;
+    std::size_t seats = 0;
+    for (int pose = 0; pose < 100; ++pose) {
+        World w = test::angle_and_box(kRadius, Vec3::Zero());
+        const auto thin = test::add_shape(w, test::fill_box(Vec3(0.12, 1, 0.4), kRadius, 0.1));
+        const Vec3 at(2.0 + 0.03 * unit(random), -1.0 + 0.3 * unit(random), 0.3 * unit(random));
+        const Quaternion turn(1.0, 0.1 * unit(random), 0.1 * unit(random), 0.1 * unit(random));
+        add_floe(w.scene, thin, 900.0, at, turn.normalized(), 0, false);
+        const PairView view(w.scene, {0, 2});
+        std::vector<DeepSeat> found, again;
+        find_deep_seats(view, {}, found);
+        const std::size_t spheres = view.shape_b.center.size();
+        for (const DeepSeat& seat : found) {
+            if (seat.of_b) continue;  // a seat of the ice moves with its sphere
+            const Vec3 into = view.rotation_ab.transpose() * seat.normal;  // the ice, its axes
+            w.scene.crushed = {};
+            w.scene.crushed.crush(2, seat.facing, spheres, kCrushed * into);
+            find_deep_seats(view, {}, again);
+            const auto same = std::find_if(again.begin(), again.end(), [&](const DeepSeat& s) {
+                return !s.of_b && s.sphere == seat.sphere;
+            });
+            // it may be too shallow now, or lie across the direction of what is now the deepest
+            if (same == again.end()) continue;
+            ++seats;
+            CAPTURE(pose, seat.sphere, seat.facing, seat.gap);
+            CHECK(same->gap == Near(seat.gap + kCrushed).margin(1e-12));
+        }
+    }
+    CHECK(seats > 500);
 }
 
 TEST_CASE("of two convex solids every contact stays as it is", "[narrow][deep]") {
