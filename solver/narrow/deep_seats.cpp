@@ -6,7 +6,7 @@
 #include <tuple>
 
 #include "solver/narrow/make_contacts.hpp"
-#include "solver/narrow/nearest_sphere.hpp"
+#include "solver/narrow/way_out.hpp"
 
 namespace ice {
 
@@ -125,17 +125,16 @@ DeepSeat seat_of(const PairView& view, const Side& side, std::int32_t sphere, co
     DeepSeat out;
     out.sphere = sphere;
     out.of_b = side.body == view.pair.b;
-    // Minus the distance to the nearest point of the mesh. The contact crushes the sphere there:
-    // its notch is gone.
-    out.facing = nearest_sphere(side.in, foot.point);
-    const Vec3 outward = (foot.point - seat) / foot.distance;  // of the solid
-    out.gap = notch_depth(view.scene, side.other, out.facing, outward) - foot.distance;
+    // the sphere on the way out is the one that the contact crushes, if it is ice
+    const WayOut way = way_out(view.scene, side.other, seat, foot);
+    out.facing = way.sphere;
+    out.gap = -way.depth;
     const auto in_a = [&](const Vec3& p) {
         return out.of_b ? p : Vec3(view.rotation_ab * p + view.translation_ab);
     };
     out.seat = in_a(seat);
-    out.foot = in_a(foot.point);
-    out.normal = out.of_b ? outward : Vec3(view.rotation_ab * -outward);
+    out.foot = in_a(way.foot);
+    out.normal = out.of_b ? way.outward : Vec3(view.rotation_ab * -way.outward);
     return out;
 }
 

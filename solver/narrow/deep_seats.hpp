@@ -16,7 +16,7 @@ namespace ice {
 struct DeepSeat {
     std::int32_t sphere;  ///< number of the sphere whose seat it is
     bool of_b;            ///< of b in a's solid; else of a in b's
-    std::int32_t facing;  ///< the other body's sphere nearest to `foot`
+    std::int32_t facing;  ///< the other body's sphere at `foot`
     Vec3 seat, foot;      ///< the seat, and the other surface's point nearest to it; a's axes [m]
     Vec3 normal;          ///< unit, from a to b, along seat - foot; a's axes
     double gap;           ///< minus their distance, plus the other body's depth crushed there [m]

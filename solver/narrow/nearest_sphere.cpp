@@ -43,12 +43,4 @@ std::int32_t nearest_sphere(const Shape& shape, const Vec3& point) {
     return std::get<2>(least);
 }
 
-double notch_depth(const Scene& scene, std::int32_t body, std::int32_t sphere,
-                   const Vec3& outward) {
-    const Shape& shape = scene.shapes[static_cast<std::size_t>(scene.bodies.shape[body])];
-    const Vec3& normal = shape.normal[static_cast<std::size_t>(sphere)];
-    return std::max(scene.crushed.depth_of(body, sphere, outward),
-                    scene.crushed.depth_of(body, sphere, normal));
-}
-
 }  // namespace ice

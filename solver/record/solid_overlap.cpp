@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solver/narrow/nearest_sphere.hpp"
+#include "solver/narrow/way_out.hpp"
 
 namespace ice {
 
@@ -105,9 +105,8 @@ Deepest deepest_point(const Scene& scene, std::int32_t a, std::int32_t b, const 
         shallow = p;
         room = out.depth - depth;
         if (depth <= out.depth) return;
-        // as for a seat (narrow/deep_seats.cpp), the notch is gone
-        const Vec3 outward = (foot.point - p) / depth;
-        depth -= notch_depth(scene, b, nearest_sphere(solid, foot.point), outward);
+        // ice that contacts have crushed there is gone
+        depth = way_out(scene, b, p, foot).depth;
         if (depth > out.depth) out = {depth, bodies.position[b] + bodies.rotation[b] * p};
     };
     for (std::int32_t k = 0; k < std::ssize(points.center); ++k) {
