@@ -19,10 +19,11 @@ WayOut way_out(const Scene& scene, std::int32_t body, const Vec3& point, const F
         const double length = moved.norm();
         if (length == 0.0) continue;
         const Vec3 inwards = moved / length;
-        const Vec3 from = point - shape.center[k] - shape.radius[k] * shape.normal[k];
-        const double along = from.dot(inwards);
-        // before the surface there is no notch; beside the path the ice is another sphere's
-        if (along < 0.0 || (from - along * inwards).squaredNorm() > reach) continue;
+        // depth below the sphere's foremost point, where its face was before it was crushed
+        const Vec3 from = point - shape.center[k];
+        const double behind = from.dot(inwards), along = behind + shape.radius[k];
+        // beside the path the ice is another sphere's
+        if (along < 0.0 || (from - behind * inwards).squaredNorm() > reach) continue;
         const double depth = along - length;
         // of equals the first in mirror rank, as in nearest_sphere()
         if (std::tie(depth, shape.mirror_rank[k]) <
