@@ -102,7 +102,8 @@ void for_each_seat(const PairView& view, const Side& side, const Visit& visit) {
             if (!whole && !side.of.box.contains(at)) continue;  // driven right through its body
             at += side.of.radius[k] * side.of.normal[k];
             const Vec3 seat = side.turn * at + side.shift;
-            if (side.in.box.contains(seat)) visit(k, seat);
+            if (side.in.box.contains(seat) && !lies_in_notch(view.scene, side.body, k))
+                visit(k, seat);
         }
     }
 }

@@ -26,4 +26,8 @@ struct WayOut {
 /// @param foot   of the point on the mesh, at a distance above 0
 WayOut way_out(const Scene& scene, std::int32_t body, const Vec3& point, const Foot& foot);
 
+/// Is the seat of a surface sphere gone with the ice around it? True where the sphere itself was
+/// not crushed and its seat lies in the notch of another sphere of its body.
+bool lies_in_notch(const Scene& scene, std::int32_t body, std::int32_t sphere);
+
 }  // namespace ice

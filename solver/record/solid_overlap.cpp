@@ -113,6 +113,7 @@ Deepest deepest_point(const Scene& scene, std::int32_t a, std::int32_t b, const 
         const Vec3 center = points.center[k] + scene.crushed.displacement_of(a, k);
         // crushing has driven it right through its body
         if (!scene.crushed.is_whole(a) && !points.box.contains(center)) continue;
+        if (lies_in_notch(scene, a, k)) continue;
         look(center + points.radius[k] * points.normal[k]);
     }
     // a vertex of crushed ice may be gone

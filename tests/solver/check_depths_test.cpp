@@ -136,6 +136,37 @@ TEST_CASE("a seat is as much less deep as the ice sphere is crushed that it pres
     CHECK(seats > 500);
 }
 
+TEST_CASE("a seat in a notch has no contact, however near the ice's lower face",
+          "[narrow][deep][analytic]") {
+    // The face x = 2 of the hull's leg, z from -0.5 to 0.5, is 0.25 m deep in the side -x of the
+    // box. The hull's top is 0.1 m above the box's lower face, which is the nearest face of all
+    // seats near that edge.
+    World w = test::angle_and_box(kRadius, Vec3(2.0 + 0.6 - 0.25, -1.0, 0.5 + 0.2 - 0.1));
+    const PairView view(w.scene, {0, 1});
+    std::vector<DeepSeat> seats;
+    find_deep_seats(view, {}, seats);
+    REQUIRE_FALSE(seats.empty());
+    CHECK(std::all_of(seats.begin(), seats.end(), [](const DeepSeat& s) {
+        return std::abs(s.normal.z()) > 1.0 - tolerance(1e-6);
+    }));
+    const double notch = GENERATE(0.3, 0.22);
+    const std::size_t spheres = view.shape_b.center.size();
+    for (std::size_t k = 0; k < spheres; ++k)
+        if (view.shape_b.center[k].x() < -0.6 + 1.5 * kRadius)
+            w.scene.crushed.crush(1, static_cast<std::int32_t>(k), spheres, {notch, 0, 0});
+    find_deep_seats(view, {}, seats);
+    // The rest of 0.25 m is pressed against the bottom of the notch; seats in the hull's edges and
+    // corners are R (1 - sqrt(1/2)) and R (1 - sqrt(1/3)) less deep.
+    CHECK(seats.empty() == (notch > 0.25));
+    double deepest = notch - 0.25;
+    for (const DeepSeat& s : seats) {
+        CHECK(s.normal.x() == Near(1.0).epsilon(1e-6));
+        CHECK(s.gap < notch - 0.25 + 0.43 * kRadius);
+        deepest = std::min(deepest, s.gap);
+    }
+    CHECK(deepest == Near(notch - 0.25).margin(1e-6 * kRadius));
+}
+
 TEST_CASE("of two convex solids every contact stays as it is", "[narrow][deep]") {
     World w;
     w.parameters = test::empty_space(0.01);
