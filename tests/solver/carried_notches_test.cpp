@@ -28,8 +28,8 @@ struct Tiles {
             add_floe(w.scene, shape, 900.0, at, Quaternion::Identity(), 0, true));
     }
     const Shape& shape_of(std::int32_t body) const {
-        return w.scene.shapes[static_cast<std::size_t>(
-            w.scene.bodies.shape[static_cast<std::size_t>(body)])];
+        return w.scene
+            .shapes[static_cast<std::size_t>(w.scene.bodies.shape[static_cast<std::size_t>(body)])];
     }
     Vec3 place_of(std::int32_t body, std::size_t k) const {
         return w.scene.bodies.position[static_cast<std::size_t>(body)] + shape_of(body).center[k];
@@ -101,8 +101,7 @@ TEST_CASE("a crack through a notch has no ice in it", "[level_ice][edge][analyti
     for (std::size_t k = 0; k < t.shape_of(left).center.size(); ++k) {
         const Vec3 at = t.place_of(left, k);
         if (at.y() > 0.1 || at.x() < 0.7) continue;
-        const Vec3 now =
-            at + t.w.scene.crushed.displacement_of(left, static_cast<std::int32_t>(k));
+        const Vec3 now = at + t.w.scene.crushed.displacement_of(left, static_cast<std::int32_t>(k));
         CHECK(now.x() < 1.0 - kNotch);
         ++moved;
     }

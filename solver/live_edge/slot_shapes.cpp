@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/live_edge/slot_shapes.hpp"
+
+#include <algorithm>
+
+#include "common/base/error.hpp"
+#include "preprocess/field/fill_prism.hpp"
+#include "solver/live_edge/edge_plan.hpp"
+#include "solver/live_edge/strip.hpp"
+
+namespace ice {
+
+namespace {
+
+// Radius of the spheres, in thicknesses [-]: icefield's default. Two of them fill the thickness.
+// Smaller gives more spheres to a body, and a longer search; larger ones do not fit.
+constexpr double kRadius = 0.25;
+
+// Ice is filled if something is left of its outline this far inwards, in thicknesses [-]: a radius,
+// and a little more, so that the sphere does not just touch. Larger makes more brash.
+constexpr double kHolds = 0.26;
+
+// From the sheet to slots without ice [m]: beyond every neighbour list. Nothing else depends on it.
+constexpr double kParked = 1000.0;
+
+}  // namespace
+
+PrismForm prism_form(const Case& p) {
+    const LevelIce& ice = p.level_ice;
+    const double radius = kRadius * ice.thickness;
+    // a corner's disc stands for its radius of both faces: finer discs, finer sections
+    return {ice.thickness, 0.0, p.dimension == 2 ? std::min(radius, ice.spacing) : radius,
+            ice.spacing, true};
+}
+
+std::optional<Shape> shape_of(const Loop& outline, const PrismForm& form, bool is_strip) {
+    Loop centred;
+    const Vec2 centre = centroid_of(outline);
+    for (const Vec2& p : outline) centred.push_back(p - centre);
+    try {
+        return build_shape(
+            is_strip ? fill_strip(strip_length(outline), form) : fill_prism(centred, form), true);
+    } catch (const Error&) {
+        return std::nullopt;
+    }
+}
+
+Vec2 parked_at(const Eigen::AlignedBox2d& sheet, double thickness, std::size_t slot) {
+    return {sheet.max().x() + kParked + 2.0 * thickness * static_cast<double>(slot), 0.0};
+}
+
+bool can_be_filled(const Loop& outline, double thickness) {
+    return !shrunk(outline, kHolds * thickness, 0.0).empty();
+}
+
+}  // namespace ice

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// The inside of LiveEdge: forms of tiles and pieces, and the places of slots without ice.
+#pragma once
+
+#include <optional>
+
+#include "preprocess/field/prism.hpp"
+#include "solver/case/case.hpp"
+#include "solver/level_ice/ice_sheet.hpp"
+#include "solver/shape/shape.hpp"
+
+namespace ice {
+
+/// How the ice of a case is filled with spheres.
+PrismForm prism_form(const Case& p);
+
+/// About its centroid; none where no sphere fits, or a corner gets none. An Error there is no fault
+/// of the case: such ice is brash.
+/// @param outline  [m]
+std::optional<Shape> shape_of(const Loop& outline, const PrismForm& form, bool is_strip);
+
+/// Where a slot without ice is: one beside the other, beyond the sheet [m].
+Vec2 parked_at(const Eigen::AlignedBox2d& sheet, double thickness, std::size_t slot);
+
+}  // namespace ice
