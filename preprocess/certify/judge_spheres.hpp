@@ -17,10 +17,10 @@ namespace ice {
 void set_ice_belt(const TriangleMesh& solid, std::optional<double> draught,
                   std::optional<double> ice_thickness, SpheresReport& report);
 
-/// Warnings of the certificate, with their numbers: spheres that reach out by more than
-/// a hundredth of a radius or were dropped as outside; places without one within 0.75 spacings;
-/// a lattice that leaves a face without spheres; a stem or stern cut back by more than a radius in the ice belt; thin parts; wide spacings.
-/// To be called last: it reads all measures of the report.
+/// Warnings of the certificate, with their numbers: spheres that reach out by more than a hundredth
+/// of a radius or were dropped as outside; places without one within 0.75 spacings; a lattice that
+/// leaves a face without spheres; a stem or stern cut back by more than a radius in the ice belt;
+/// thin parts; wide spacings. To be called last: it reads all measures of the report.
 void judge_spheres(const SphereSet& set, Arrangement arrangement, SpheresReport& report);
 
 }  // namespace ice

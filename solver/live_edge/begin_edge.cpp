@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "common/base/error.hpp"
@@ -29,8 +28,6 @@ constexpr double kAhead = 2.0, kAstern = 0.5;
 // Share of half a disc that a piece has, at least, when slots are counted. Less makes more slots,
 // which take memory only; with more, pieces leave the scene early for want of a slot.
 constexpr double kCover = 0.25;
-
-constexpr double kNever = std::numeric_limits<double>::infinity();
 
 std::int32_t add_group(Case& p, Hold hold) {
     FloeGroup group;

@@ -2,6 +2,7 @@
 /// The inside of LiveEdge: the bodies of one renewal. Used by live_edge.cpp and lay_edge.cpp only.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -14,6 +15,9 @@ namespace ice {
 // In the sense of IceSheet, in thicknesses [-]: a piece has at least the area of a square of half a
 // thickness. Larger makes more brash, smaller makes pieces that hold few spheres.
 constexpr double kSmallestPiece = 0.5;
+
+// Breaking load of ice that never bends [N], and the time when a piece leaves that is in the scene [s].
+constexpr double kNever = std::numeric_limits<double>::infinity();
 
 struct LiveEdge::Plan {
     struct Body {

@@ -25,8 +25,6 @@ using Box = Eigen::AlignedBox2d;
 // on it.
 constexpr double kRestLength = 8.0;
 
-constexpr double kNever = std::numeric_limits<double>::infinity();
-
 }  // namespace
 
 // Tiles that stay as they are keep their bodies and crushed depths.

@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "common/base/error.hpp"
-#include "preprocess/field/fill_prism.hpp"
 #include "solver/live_edge/edge_plan.hpp"
 #include "solver/live_edge/strip.hpp"
 

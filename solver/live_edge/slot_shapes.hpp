@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "preprocess/field/prism.hpp"
+#include "preprocess/field/fill_prism.hpp"
 #include "solver/case/case.hpp"
 #include "solver/level_ice/ice_sheet.hpp"
 #include "solver/shape/shape.hpp"
