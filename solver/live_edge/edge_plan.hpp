@@ -16,7 +16,7 @@ namespace ice {
 // thickness. Larger makes more brash, smaller makes pieces that hold few spheres.
 constexpr double kSmallestPiece = 0.5;
 
-// Breaking load of ice that never bends [N], and the time when a piece leaves that is in the scene [s].
+// Breaking load of ice that never bends [N]; time [s] at which a piece in the scene leaves it.
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 struct LiveEdge::Plan {
