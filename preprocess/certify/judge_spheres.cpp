@@ -18,8 +18,8 @@ constexpr double kBelt = 2.0;
 constexpr double kMostProtrusion = 0.01;
 // Covering radius [spacings] worth a warning: a layer's own is 0.61 to 0.66.
 constexpr double kMostCover = 0.75;
-// Share of the surface [-] behind which a lattice has no sphere that is worth a warning: rounded
-// edges have less, a face between two layers of the lattice more.
+// A lattice that leaves more than this share of the surface [-] without a sphere is worth a warning:
+// edges leave less, a face between two layers of the lattice more.
 constexpr double kMostUnfitted = 0.01;
 
 }  // namespace
@@ -72,9 +72,10 @@ void judge_spheres(const SphereSet& set, Arrangement arrangement, SpheresReport&
     if (arrangement == Arrangement::lattice && report.unfitted_share > kMostUnfitted)
         out.push_back(fmt::format(
             "the lattice has no sphere at {:.2g} % of the surface, so that bodies enter each other "
-            "by up to {:.2g} m there: give a --radius whose double divides the thickness, or use "
-            "--arrangement conforming",
-            100.0 * report.unfitted_share, report.gap_p99));
+            "by up to {:.2g} m there: use --arrangement conforming, or, for a plate, a --radius "
+            "whose "
+            "double divides the thickness",
+            100.0 * report.unfitted_share, report.gap_max));
     for (const CutBack& cut : report.cut_back)
         // More than a radius, and in the belt alone: elsewhere the hull meets no ice, and below a
         // radius the spheres' own size is coarser.

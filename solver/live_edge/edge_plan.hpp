@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// The inside of LiveEdge: the bodies of one renewal. Used by live_edge.cpp and lay_edge.cpp only.
+/// The inside of LiveEdge: the bodies of one renewal. Used by sources of this folder only.
 #pragma once
 
 #include <limits>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Tiles and pieces become bodies.
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <utility>
 

@@ -20,8 +20,8 @@ using Box = Eigen::AlignedBox2d;
 
 // Depth to which crushed ice stays in the polygon, in thicknesses [-]: spheres that lie deeper in
 // their body by as much still represent its edge. Where the hull is twice as deep, the ice is taken
-// away. Smaller renews the edge more often, with notches lost each time; larger lets spheres be
-// pushed far into a tile that the polygon still has.
+// away. Smaller renews the edge more often; larger lets spheres be pushed far into a tile that the
+// polygon still has.
 constexpr double kCrushed = 0.125;
 
 // The opening angle of the ice inside a crack [rad]: of the sector with its area, at most that of a

@@ -102,8 +102,7 @@ void for_each_seat(const PairView& view, const Side& side, const Visit& visit) {
             if (!whole && !side.of.box.contains(at)) continue;  // driven right through its body
             at += side.of.radius[k] * side.of.normal[k];
             const Vec3 seat = side.turn * at + side.shift;
-            if (side.in.box.contains(seat) && !lies_in_notch(view.scene, side.body, k))
-                visit(k, seat);
+            if (side.in.box.contains(seat)) visit(k, seat);
         }
     }
 }
@@ -126,7 +125,7 @@ DeepSeat seat_of(const PairView& view, const Side& side, std::int32_t sphere, co
     DeepSeat out;
     out.sphere = sphere;
     out.of_b = side.body == view.pair.b;
-    // the sphere on the way out is the one that the contact crushes, if it is ice
+    // the sphere on the way out; a seat of the hull crushes it
     const WayOut way = way_out(view.scene, side.other, seat, foot);
     out.facing = way.sphere;
     out.gap = -way.depth;
@@ -155,6 +154,8 @@ double add_side(const PairView& view, const Side& side, double slack,
         // the slack or than the deepest so far: it changes neither the list nor the result.
         clear.add(seat, std::min(deepest, slack) - depth);
         if (depth <= slack) return;
+        // It counts in `deepest`: once its sphere is crushed itself, the seat is there again.
+        if (lies_in_notch(view.scene, side.body, sphere)) return;
         const DeepSeat deep = seat_of(view, side, sphere, seat, foot);
         // the spheres' contacts nearby explain the depth up to the slack
         if (deep.gap < -slack - depth_known(view, found, deep.seat)) out.push_back(deep);

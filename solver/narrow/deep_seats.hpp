@@ -17,9 +17,9 @@ struct DeepSeat {
     std::int32_t sphere;  ///< number of the sphere whose seat it is
     bool of_b;            ///< of b in a's solid; else of a in b's
     std::int32_t facing;  ///< the other body's sphere at `foot`
-    Vec3 seat, foot;      ///< the seat, and the other surface's point nearest to it; a's axes [m]
+    Vec3 seat, foot;      ///< the seat, and the end of its way out; a's axes [m]
     Vec3 normal;          ///< unit, from a to b, along seat - foot; a's axes
-    double gap;           ///< minus their distance, plus the other body's depth crushed there [m]
+    double gap;           ///< minus the depth of its way out (way_out.hpp) [m]
 };
 
 /// So deep in the other solid [m] a seat is a contact of its own where its sphere has none.
@@ -31,8 +31,7 @@ double deep_slack(const PairView& view);
 /// Finds the seats of either body that lie in the other's solid by more than deep_slack, where no
 /// contact of a sphere within a patch radius is as deep, less that length.
 ///
-/// Depth and direction are those of the nearest point of the other's mesh: exact for any closed
-/// solid, but the shortest path out is the wrong one for a seat beyond the middle of a body. The
+/// Depth and direction are those of the way out of the other body: exact for any closed solid, but the shortest path out is the wrong one for a seat beyond the middle of a body. The
 /// order of `out` is by place, mirror images about y = 0 alike.
 ///
 /// @param found  contacts that the spheres gave @param out  its old content is dropped

@@ -94,7 +94,7 @@ Deepest deepest_point(const Scene& scene, std::int32_t a, std::int32_t b, const 
     const Eigen::AlignedBox3d seen = box_in(scene, b, a);
     Vec3 shallow = Vec3::Zero();  // a point in b's axes; none within `room` of it is deeper
     double room = 0.0;
-    const auto look = [&](const Vec3& at) {
+    const auto look = [&](const Vec3& at, std::int32_t sphere) {  // -1: a vertex
         // two cheap tests first; a point within `room` of a shallow one is no deeper than the
         // best
         if (!seen.contains(at)) return;
@@ -105,6 +105,7 @@ Deepest deepest_point(const Scene& scene, std::int32_t a, std::int32_t b, const 
         shallow = p;
         room = out.depth - depth;
         if (depth <= out.depth) return;
+        if (sphere >= 0 && lies_in_notch(scene, a, sphere)) return;
         // ice that contacts have crushed there is gone
         depth = way_out(scene, b, p, foot).depth;
         if (depth > out.depth) out = {depth, bodies.position[b] + bodies.rotation[b] * p};
@@ -113,12 +114,11 @@ Deepest deepest_point(const Scene& scene, std::int32_t a, std::int32_t b, const 
         const Vec3 center = points.center[k] + scene.crushed.displacement_of(a, k);
         // crushing has driven it right through its body
         if (!scene.crushed.is_whole(a) && !points.box.contains(center)) continue;
-        if (lies_in_notch(scene, a, k)) continue;
-        look(center + points.radius[k] * points.normal[k]);
+        look(center + points.radius[k] * points.normal[k], k);
     }
     // a vertex of crushed ice may be gone
     if (scene.crushed.is_whole(a) && points.mesh.vertices.size() <= kMostVertices)
-        for (const Vec3& v : points.mesh.vertices) look(v);
+        for (const Vec3& v : points.mesh.vertices) look(v, -1);
     return out;
 }
 

@@ -5,8 +5,6 @@
 // piece's outline; 1e-12 is rounding of one sum.
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <limits>
 #include <numbers>
 #include <random>
@@ -162,7 +160,6 @@ TEST_CASE("new ice at the edge is crushed as deep as the ice before it",
             }
         return most;
     };
-    double before = 0.0, after = 0.0;
     std::size_t renewals = 0;
     while (w.time < 10.0) {
         // the overlaps of the step before: bodies that the next renewal may change are all
@@ -174,14 +171,11 @@ TEST_CASE("new ice at the edge is crushed as deep as the ice before it",
         step(w);
         if (!due || w.edge.changed().empty()) continue;
         ++renewals;
-        const double now = deepest(w.edge.changed());
-        if (getenv("SHOW")) std::printf("%.2f %.4f %.4f\n", w.time, then, now);
-        before = std::max(before, then);
-        after = std::max(after, now);
+        CAPTURE(w.time, then);
+        // a step's way of the ship, 16 mm, and what new spheres differ by from the old ones
+        CHECK(deepest(w.edge.changed()) < then + 0.02);
     }
-    CAPTURE(renewals, before, after);
     CHECK(renewals > 15);
-    CHECK(after < before + 0.02);
 }
 
 TEST_CASE("neighbour lists that outlive a renewal of the edge give the contacts of new ones",
