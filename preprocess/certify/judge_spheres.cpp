@@ -18,8 +18,8 @@ constexpr double kBelt = 2.0;
 constexpr double kMostProtrusion = 0.01;
 // Covering radius [spacings] worth a warning: a layer's own is 0.61 to 0.66.
 constexpr double kMostCover = 0.75;
-// A lattice that leaves more than this share of the surface [-] without a sphere is worth a warning:
-// edges leave less, a face between two layers of the lattice more.
+// A lattice that leaves more than this share of the surface [-] without a sphere is worth a
+// warning: edges leave less, a face between two layers of the lattice more.
 constexpr double kMostUnfitted = 0.01;
 
 }  // namespace

@@ -31,8 +31,9 @@ double deep_slack(const PairView& view);
 /// Finds the seats of either body that lie in the other's solid by more than deep_slack, where no
 /// contact of a sphere within a patch radius is as deep, less that length.
 ///
-/// Depth and direction are those of the way out of the other body: exact for any closed solid, but the shortest path out is the wrong one for a seat beyond the middle of a body. The
-/// order of `out` is by place, mirror images about y = 0 alike.
+/// Depth and direction are those of the way out of the other body: exact for any closed solid, but
+/// the shortest path out is the wrong one for a seat beyond the middle of a body. The order of
+/// `out` is by place, mirror images about y = 0 alike.
 ///
 /// @param found  contacts that the spheres gave @param out  its old content is dropped
 /// @returns how far the bodies may move relative to each other before another seat can lie so deep
