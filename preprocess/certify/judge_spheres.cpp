@@ -73,8 +73,7 @@ void judge_spheres(const SphereSet& set, Arrangement arrangement, SpheresReport&
         out.push_back(fmt::format(
             "the lattice has no sphere at {:.2g} % of the surface, so that bodies enter each other "
             "by up to {:.2g} m there: use --arrangement conforming, or, for a plate, a --radius "
-            "whose "
-            "double divides the thickness",
+            "whose double divides the thickness",
             100.0 * report.unfitted_share, report.gap_max));
     for (const CutBack& cut : report.cut_back)
         // More than a radius, and in the belt alone: elsewhere the hull meets no ice, and below a

@@ -63,8 +63,6 @@ void LiveEdge::set_up(const Scene& scene, const Case& p) {
     astern_ = kAstern * scene.shapes[0].box.sizes().x();
 }
 
-// As many as pieces of a quarter of a half disc can lie in the channel within reach, and the tiles
-// on both sides of it.
 void LiveEdge::add_slots(Scene& scene, const Case& p) {
     // Room for everything that may lie within reach: pieces of a quarter of a half disc, pi / 2
     // R^2, and tiles along the channel's sides and ends.

@@ -32,7 +32,4 @@ struct LiveEdge::Plan {
     CarriedNotches notches;  // of the tiles that go
 };
 
-/// Is there room for a sphere in ice of that outline [m]? @param thickness  [m]
-bool can_be_filled(const Loop& outline, double thickness);
-
 }  // namespace ice

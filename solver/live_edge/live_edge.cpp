@@ -10,6 +10,7 @@
 #include "solver/bending/breaking_load.hpp"
 #include "solver/live_edge/edge_plan.hpp"
 #include "solver/live_edge/hull_outlines.hpp"
+#include "solver/live_edge/slot_shapes.hpp"
 #include "solver/live_edge/strip.hpp"
 
 namespace ice {

@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "common/base/error.hpp"
-#include "solver/live_edge/edge_plan.hpp"
 #include "solver/live_edge/strip.hpp"
 
 namespace ice {

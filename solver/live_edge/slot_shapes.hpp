@@ -19,6 +19,9 @@ PrismForm prism_form(const Case& p);
 /// @param outline  [m]
 std::optional<Shape> shape_of(const Loop& outline, const PrismForm& form, bool is_strip);
 
+/// Is there room for a sphere in ice of that outline [m]? @param thickness  [m]
+bool can_be_filled(const Loop& outline, double thickness);
+
 /// Where a slot without ice is: one beside the other, beyond the sheet [m].
 Vec2 parked_at(const Eigen::AlignedBox2d& sheet, double thickness, std::size_t slot);
 

@@ -126,7 +126,8 @@ TEST_CASE("a seat is as much less deep as the ice sphere is crushed that it pres
             const auto same = std::find_if(again.begin(), again.end(), [&](const DeepSeat& s) {
                 return !s.of_b && s.sphere == seat.sphere;
             });
-            // it may be too shallow now, or lie across the direction of what is now the deepest
+            // The seat may be too shallow now, or another seat is the deepest one and decides the
+            // direction.
             if (same == again.end()) continue;
             ++seats;
             CAPTURE(pose, seat.sphere, seat.facing, seat.gap);
