@@ -7,7 +7,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <random>
 
 #include "common/base/parallel.hpp"
 #include "common/formats/checkpoint_file.hpp"
@@ -20,9 +19,8 @@
 #include "tests/common/fixtures.hpp"
 #include "tests/support/compare_runs.hpp"
 #include "tests/support/edge_checks.hpp"
-#include "tests/support/make_filled_sets.hpp"
-#include "tests/support/make_prisms.hpp"
 #include "tests/support/make_worlds.hpp"
+#include "tests/support/small_icebreaker.hpp"
 #include "tests/support/tolerance.hpp"
 
 using namespace ice;
@@ -32,41 +30,6 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 using Box = Eigen::AlignedBox2d;
-
-// A wedge of a bow that leans forward, 12 m long and 4 m broad on deck.
-SphereSet wedge_ship() {
-    const std::vector<Vec3> low{
-        {-6, -1.4, -0.8}, {0.5, -1.4, -0.8}, {3.2, 0, -0.8}, {0.5, 1.4, -0.8}, {-6, 1.4, -0.8}},
-        high{{-6, -2, 0.6}, {2, -2, 0.6}, {6, 0, 0.6}, {2, 2, 0.6}, {-6, 2, 0.6}};
-    return fill_surface(make_ring_mesh(low, high), 0.15, 0.22);
-}
-
-// Soft ice 0.3 m thick whose cracks are about 1 m from the load.
-Case sheet_case(double speed, double duration) {
-    Case p;
-    p.time_step = 0.02;
-    p.duration = duration;
-    p.average_from = 0.5 * duration;
-    p.speed_table = {{0.0, speed}};
-    p.contact.restitution = 0.1;
-    p.contact.crushing_pressure = 1e6;
-    p.frames_every = 0.5;
-    p.history_every = 0.1;
-    test::lay_weak_ice(p, {0.0, 40.0, -8.0, 8.0}, 0.2);
-    p.hull_position = Vec3(-5.8, 0, 0);
-    p.resolved = "\n[simulation]\nduration = 1.2\n";
-    return p;
-}
-
-World make_world(const Case& p) {
-    static const Shape ship = build_shape(wedge_ship(), false);
-    World w;
-    w.parameters = p;
-    w.scene = make_scene(ship, p.hull_position, Vec3(p.ship_speed(0.0), 0, 0));
-    w.edge.begin(w.scene, w.parameters);
-    if (p.floes_move_water) set_added_mass(w.scene, w.parameters);
-    return w;
-}
 
 }  // namespace
 
@@ -298,108 +261,4 @@ TEST_CASE("the sheet's edge astern of the ship is no floe behind it", "[level_ic
     const Summary summary = run(w, {folder / "run", "first"});
     CHECK(summary.floes_total == 0);
     CHECK(summary.floes_behind == 0);
-}
-
-namespace {
-
-// Loads that nothing bears, on random corners of random tiles, in random directions.
-// @return pieces that broke off
-std::size_t press_at_random(int loads) {
-    std::mt19937 random(12);
-    const auto pick = [&](std::size_t count) {
-        return std::uniform_int_distribution<std::size_t>(0, count - 1)(random);
-    };
-    Case p = sheet_case(0.0, 1e3);
-    p.hull_position.x() = 4.0;  // within the sheet: an edge on all sides of the ship
-    std::size_t pieces = 0;
-    for (int done = 0; done < loads;) {
-        World w = make_world(p);
-        std::size_t seen = 0;
-        for (; done < loads && w.edge.pieces().size() < 100; ++done) {
-            const auto tiles = tiles_of(w.edge, w.scene.bodies);
-            REQUIRE_FALSE(tiles.empty());
-            const std::int32_t tile = tiles[pick(tiles.size())];
-            const double turn = std::uniform_real_distribution<double>(0.0, 2.0 * kPi)(random);
-            const auto shape = w.scene.bodies.shape[static_cast<std::size_t>(tile)];
-            const auto& mesh = w.scene.shapes[static_cast<std::size_t>(shape)].mesh;
-            press_edge(w.edge, w.scene, w.parameters, tile, pick(mesh.vertices.size()), turn);
-            CAPTURE(done, turn);
-            REQUIRE(w.edge.is_due(w.scene));
-            REQUIRE(w.edge.renew(w.scene, w.parameters, 0.01 * done));
-            REQUIRE(edge_fault(w.edge, 40.0 * 16.0, seen, done % 20 == 0) == "");
-            seen = w.edge.pieces().size();
-        }
-        pieces += seen;
-    }
-    return pieces;
-}
-
-}  // namespace
-
-TEST_CASE("loads anywhere on the edge leave a valid sheet and keep its area",
-          "[level_ice][edge][fuzz]") {
-    CHECK(press_at_random(500) > 250);
-}
-
-TEST_CASE("ten thousand loads anywhere on the edge leave a valid sheet",
-          "[.][level_ice][edge][slow]") {
-    CHECK(press_at_random(10000) > 5000);
-}
-
-TEST_CASE("a long way through level ice takes no more memory than what is within reach",
-          "[level_ice][edge][step][long]") {
-    Case p = sheet_case(1.5, 1e3);
-    p.level_ice.extent[1] = 400.0;
-    World w = make_world(p);
-    std::size_t corners = 0, recesses = 0;
-    std::int64_t alive = 0;
-    const auto look = [&](double until) {
-        corners = recesses = 0;
-        alive = 0;
-        while (w.time < until) {
-            step(w);
-            std::size_t now = 0;
-            for (const Loop& loop : w.edge.sheet().loops()) now += loop.size();
-            corners = std::max(corners, now);
-            recesses = std::max(recesses, w.scene.crushed.displacement.size());
-            alive = std::max(alive, w.edge.alive());
-        }
-    };
-    look(20.0);
-    const std::size_t corners_then = corners, recesses_then = recesses;
-    const std::int64_t alive_then = alive;
-    REQUIRE(w.edge.retired() > 0);
-    const std::int64_t gone_then = w.edge.retired();
-    const TempFolder folder;
-    w.edge.keep_gone_in(folder / "");
-    look(40.0);
-    CAPTURE(corners, corners_then, recesses, recesses_then, alive, alive_then);
-    CHECK(static_cast<double>(corners) < 1.5 * static_cast<double>(corners_then));
-    CHECK(static_cast<double>(recesses) < 2.0 * static_cast<double>(recesses_then));
-    CHECK(static_cast<double>(alive) < 1.5 * static_cast<double>(alive_then));
-
-    // those that are gone are on the disk, and a checkpoint holds all
-    REQUIRE(w.edge.retired() > gone_then);
-    const std::vector<IcePiece> pieces = w.edge.pieces();
-    REQUIRE(static_cast<std::int64_t>(pieces.size()) == w.edge.broken());
-    {
-        CheckpointFile file(folder / "edge.h5", CheckpointFile::Direction::write);
-        w.edge.carry(file);
-        file.finish();
-    }
-    World second = make_world(p);
-    CheckpointFile file(folder / "edge.h5", CheckpointFile::Direction::read);
-    second.edge.carry(file);
-    const std::vector<IcePiece> again = second.edge.pieces();
-    REQUIRE(again.size() == pieces.size());
-    std::int64_t gone = 0;
-    for (std::size_t k = 0; k < pieces.size(); ++k) {
-        REQUIRE(pieces[k].number == static_cast<std::int64_t>(k) + 1);
-        REQUIRE(again[k].number == pieces[k].number);
-        REQUIRE(again[k].gone == pieces[k].gone);
-        REQUIRE(again[k].outline == pieces[k].outline);
-        gone += std::isinf(pieces[k].gone) ? 0 : 1;
-    }
-    CHECK(gone == w.edge.retired());
-    CHECK(second.edge.retired() == w.edge.retired());
 }
