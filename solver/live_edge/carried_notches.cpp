@@ -2,7 +2,6 @@
 #include "solver/live_edge/carried_notches.hpp"
 
 #include <algorithm>
-#include <tuple>
 
 namespace ice {
 
@@ -13,6 +12,10 @@ namespace {
 // ice in a notch below them; with a larger one, a face that is cut a little askew is crushed a
 // patch radius beyond the notch.
 constexpr double kSameFace = 0.99;
+
+// Rounding of places in the ice [m]. With 0, which of two lines through one place counts, and
+// whether a face at the bottom of a notch is whole, depend on the last bit.
+constexpr double kRounding = 1e-9;
 
 }  // namespace
 
@@ -29,34 +32,55 @@ void CarriedNotches::take(const Scene& scene, std::int32_t tile) {
     has_notch_ = has_notch_ || !scene.crushed.is_whole(tile);
 }
 
+Vec3 CarriedNotches::move_of(std::span<const Line> lines, const Vec3& at,
+                             const Vec3& normal) const {
+    double nearest = reach_, gone = 1.0;
+    Vec3 move = Vec3::Zero();
+    for (const Line& line : lines) {
+        // The place on the line nearest to the new sphere; the rest of the line is its notch. A
+        // sphere that stays where one was has that one's depth, though other lines pass there.
+        const double length2 = line.move.squaredNorm();
+        if (length2 == 0.0 && line.normal.dot(normal) < kSameFace) continue;
+        const double along =
+            length2 > 0.0 ? std::clamp((at - line.from).dot(line.move) / length2, 0.0, 1.0) : 0.0;
+        const double distance = (line.from + along * line.move - at).norm();
+        if (distance > nearest - kRounding &&
+            (distance > std::min(nearest + kRounding, reach_) || along >= gone))
+            continue;
+        nearest = distance;
+        gone = along;
+        move = (1.0 - along) * line.move;
+    }
+    return move;
+}
+
+std::vector<CarriedNotches::Line> CarriedNotches::lines_near(const Eigen::AlignedBox3d& box) const {
+    std::vector<Line> near;
+    for (const Line& line : lines_) {
+        Eigen::AlignedBox3d path(line.from);
+        path.extend(Vec3(line.from + line.move));
+        if (path.intersects(box)) near.push_back(line);
+    }
+    return near;
+}
+
 void CarriedNotches::give(Scene& scene, std::int32_t body) const {
     if (!has_notch_) return;
     const Bodies& b = scene.bodies;
     const auto i = static_cast<std::size_t>(body);
     const Shape& shape = scene.shapes[static_cast<std::size_t>(b.shape[i])];
-    const Mat3 to_body = b.rotation[i].transpose();
+    const auto place = [&](std::size_t k) {
+        return Vec3(b.position[i] + b.rotation[i] * shape.center[k]);
+    };
+    Eigen::AlignedBox3d box;
+    for (std::size_t k = 0; k < shape.center.size(); ++k) box.extend(place(k));
+    const Vec3 reach = Vec3::Constant(reach_);
+    const std::vector<Line> lines = lines_near({Vec3(box.min() - reach), Vec3(box.max() + reach)});
     for (std::size_t k = 0; k < shape.center.size(); ++k) {
-        const Vec3 at = b.position[i] + b.rotation[i] * shape.center[k];
-        const Vec3 normal = b.rotation[i] * shape.normal[k];
-        double nearest = reach_ * reach_, gone = 1.0;
-        Vec3 move = Vec3::Zero();
-        for (const Line& line : lines_) {
-            // The place on the line nearest to the new sphere; the rest of the line is its notch. A
-            // sphere that stays where one was has that one's depth, though other lines pass there.
-            const double length2 = line.move.squaredNorm();
-            if (length2 == 0.0 && line.normal.dot(normal) < kSameFace) continue;
-            const double along =
-                length2 > 0.0 ? std::clamp((at - line.from).dot(line.move) / length2, 0.0, 1.0)
-                              : 0.0;
-            const double distance2 = (line.from + along * line.move - at).squaredNorm();
-            if (std::tie(distance2, along) >= std::tie(nearest, gone)) continue;
-            nearest = distance2;
-            gone = along;
-            move = (1.0 - along) * line.move;
-        }
-        if (!move.isZero(0.0))
+        const Vec3 move = move_of(lines, place(k), b.rotation[i] * shape.normal[k]);
+        if (move.norm() > kRounding)
             scene.crushed.carry_notch(body, static_cast<std::int32_t>(k), shape.center.size(),
-                                      to_body * move);
+                                      b.rotation[i].transpose() * move);
     }
 }
 

@@ -2,7 +2,9 @@
 /// Notches outlive the tiles that had them (docs/method.md, section 5).
 #pragma once
 
+#include <Eigen/Geometry>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "solver/scene/bodies.hpp"
@@ -31,6 +33,11 @@ private:
     struct Line {
         Vec3 from, move, normal;  // world axes [m]; outward, unit
     };
+    // Of the new sphere at a place with an outward normal, to the bottom of its notch [m].
+    Vec3 move_of(std::span<const Line> lines, const Vec3& at, const Vec3& normal) const;
+    // Those that meet a box.
+    std::vector<Line> lines_near(const Eigen::AlignedBox3d& box) const;
+
     std::vector<Line> lines_;
     double reach_ = 0.0;      // a patch radius [m]
     bool has_notch_ = false;  // else the lines have no length

@@ -10,6 +10,10 @@ namespace ice {
 
 namespace {
 
+// Rounding of places in a solid [m]. With 0, whether a seat on the face of a crushed sphere is in
+// its notch depends on the last bit.
+constexpr double kRounding = 1e-9;
+
 struct Notch {
     double depth;  // of a point behind the notch's bottom [m]; negative in the notch
     Vec3 outward;  // unit
@@ -26,7 +30,7 @@ std::optional<Notch> notch_of(const Shape& shape, std::int32_t k, const Vec3& mo
     const double behind = from.dot(inwards), along = behind + shape.radius[k];
     // beside the path the ice is another sphere's
     const double reach = shape.patch_radius * shape.patch_radius;
-    if (along < 0.0 || (from - behind * inwards).squaredNorm() > reach) return std::nullopt;
+    if (along < -kRounding || (from - behind * inwards).squaredNorm() > reach) return std::nullopt;
     return Notch{along - length, -inwards};
 }
 
@@ -42,6 +46,7 @@ WayOut way_out(const Scene& scene, std::int32_t body, const Vec3& point, const F
                (foot.point - point) / foot.distance, foot.point};
     if (scene.crushed.is_whole(body)) return out;
     out.depth -= scene.crushed.depth_of(body, out.sphere, out.outward);
+    out.foot = point + out.depth * out.outward;
     for (std::int32_t k = 0; k < std::ssize(shape.center); ++k) {
         const auto notch = notch_of(shape, k, scene.crushed.displacement_of(body, k), point);
         // of equals the first in mirror rank, as in nearest_sphere()

@@ -13,7 +13,7 @@ struct WayOut {
     std::int32_t sphere;  ///< which represents the ice there
     double depth;         ///< [m]; negative where that ice has been crushed already
     Vec3 outward;         ///< unit
-    Vec3 foot;            ///< where the whole ice's surface or the notch's bottom is [m]
+    Vec3 foot;            ///< where the ice ends: of whole ice its mesh, of a notch its bottom [m]
 };
 
 /// The shortest way out of a solid that may have notches.
