@@ -76,7 +76,7 @@ const HvCurve& computed(const HvStudy& study) {
 }  // namespace
 
 TEST_CASE("R = a + b V meets a constant thrust at (T - a) / b, a net curve at its quadratic's root",
-          "[hv][analytic]") {
+          "[attain][hv][analytic]") {
     const double a = 2e5, b = 3e5;
     const std::vector<SpeedPoint> points{{1.0, a + b, 1e4}, {3.0, a + 3.0 * b, 1e4}};
     const ResistanceFit fit = fit_resistance(points);
@@ -128,7 +128,7 @@ TEST_CASE("four speeds on a parabola are fitted by it, scattered ones by a line"
 }
 
 TEST_CASE("thrust curves: the bollard's end, the open-water end, power, a table",
-          "[hv][analytic]") {
+          "[attain][hv][analytic]") {
     const Thrust net{"net", 1.2e6, 8.0, {}};
     CHECK(net.at(0.0) == 1.2e6);
     CHECK(net.at(8.0) == Near(0.0).margin(1e-6));
@@ -172,7 +172,7 @@ TEST_CASE("a file of thrust curves, and what is wrong with one", "[hv]") {
 }
 
 TEST_CASE("the h-v curve of a sweep is that of its resistances, formulas beside it",
-          "[hv][analytic]") {
+          "[attain][hv][analytic]") {
     const TempFolder folder;
     write_grid_of_thickness(folder);
     const auto sweep = sweep::read_sweep(folder.path());
@@ -218,7 +218,8 @@ TEST_CASE("free ships have their mean speeds, on one chart with fixed courses", 
     CHECK_NOTHROW(make_hv(sweep, {}, {}));  // no thrust is needed then
 }
 
-TEST_CASE("a formula's h-v curve is where its own resistance meets the thrust", "[hv][analytic]") {
+TEST_CASE("a formula's h-v curve is where its own resistance meets the thrust",
+          "[attain][hv][analytic]") {
     const TempFolder folder;
     write_grid_of_thickness(folder);
     for (const auto& entry : std::filesystem::directory_iterator(folder.path()))

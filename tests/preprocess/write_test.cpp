@@ -40,7 +40,7 @@ SphereSet two_spheres() {
 
 }  // namespace
 
-TEST_CASE("a vtp file holds every sphere's centre, radius and normal", "[write]") {
+TEST_CASE("a vtp file holds every sphere's centre, radius and normal", "[write][analytic]") {
     const SphereSet set = two_spheres();
     const std::string text = text_of([&](const Sink& sink) { write_vtp(set, sink); });
     CHECK_THAT(text, Catch::Contains("NumberOfPoints=\"2\"") &&

@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Which bodies may touch: against the test of all pairs, at once and along a direction.
+//
+// Tolerances: 1e-12 is rounding of lengths of some metres. 2.02 |q - p| is the angle between two
+// quaternions for small angles and at most 2 % more (motion_bounds.cpp).
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <limits>
 
 #include "solver/broad/find_pairs.hpp"
 #include "tests/support/make_worlds.hpp"
+#include "tests/support/tolerance.hpp"
 
 using namespace ice;
+using ice::test::tolerance;
 
 TEST_CASE("the broad phase finds the pairs that testing all finds", "[broad][equivalence]") {
     World w = test::scattered_world(GENERATE(1u, 2u, 3u, 4u), 200);
@@ -108,4 +113,30 @@ TEST_CASE("a body that has another form now begins a path of its own", "[broad]"
     CHECK(motion.path(other) == 0.0);
     CHECK(motion.rotation(other) == 0.0);
     CHECK(motion.path(same) > 0.5);
+}
+
+TEST_CASE("a path is the way of the centre and the angle times the radius and half a metre",
+          "[broad][analytic]") {
+    constexpr double kAngle = 0.2, kTimeStep = 0.01;
+    World w = test::scattered_world(3, 20, 1.0, 10.0);
+    Bodies& b = w.scene.bodies;
+    const std::int32_t body = b.moving[0];
+    const auto i = static_cast<std::size_t>(body);
+    const double lever = w.scene.shapes[static_cast<std::size_t>(b.shape[i])].bounding_radius + 0.5;
+    MotionBounds motion;
+    motion.update(w.scene, kTimeStep);
+    b.position[i] += Vec3(3, 0, 4);
+    motion.update(w.scene, kTimeStep);
+    CHECK(std::abs(motion.path(body) - 5.0) < tolerance(1e-12));
+
+    b.orientation[i] =
+        Quaternion(Eigen::AngleAxisd(kAngle, Vec3(1, 2, 2).normalized())) * b.orientation[i];
+    b.velocity[i] = Vec3(0, 0.6, 0.8);
+    b.angular_velocity[i] = Vec3(0, 0, 2);
+    motion.update(w.scene, kTimeStep);
+    CHECK(motion.rotation(body) >= kAngle);
+    CHECK(motion.rotation(body) < kAngle * (1.0 + tolerance(0.02)));
+    CHECK(std::abs(motion.path(body) - 5.0 - motion.rotation(body) * lever) < tolerance(1e-12));
+    CHECK(std::abs(motion.path_after_step(body) - motion.path(body) -
+                   kTimeStep * (1.0 + 2.0 * lever)) < tolerance(1e-12));
 }

@@ -48,7 +48,7 @@ struct Tiles {
 
 }  // namespace
 
-TEST_CASE("ice of the same form has the same notch", "[level_ice][edge][analytic]") {
+TEST_CASE("ice of the same form has the same notch", "[live_edge][level_ice][edge][analytic]") {
     Tiles t;
     const std::int32_t same = t.add({2, 2, 0.4}, Vec3::Zero());
     t.notches.give(t.w.scene, same);
@@ -59,7 +59,7 @@ TEST_CASE("ice of the same form has the same notch", "[level_ice][edge][analytic
 }
 
 TEST_CASE("of a notch that the new outline is cut back by, the rest is left",
-          "[level_ice][edge][analytic]") {
+          "[live_edge][level_ice][edge][analytic]") {
     // the face is at x = 0.8, a third of the notch is left
     Tiles t;
     const std::int32_t cut = t.add({1.8, 2, 0.4}, {-0.1, 0, 0});
@@ -81,7 +81,7 @@ TEST_CASE("of a notch that the new outline is cut back by, the rest is left",
 }
 
 TEST_CASE("ice cut back to the bottom of a notch, and the face of a crack, are whole",
-          "[level_ice][edge][analytic]") {
+          "[live_edge][level_ice][edge][analytic]") {
     Tiles t;
     // faces at x = 0.7, where the notch ends, and at x = 0
     const std::int32_t cut = t.add({1.7, 2, 0.4}, {-0.15, 0, 0}),
@@ -92,7 +92,7 @@ TEST_CASE("ice cut back to the bottom of a notch, and the face of a crack, are w
     CHECK(t.w.scene.crushed.is_whole(broken));
 }
 
-TEST_CASE("a crack through a notch has no ice in it", "[level_ice][edge][analytic]") {
+TEST_CASE("a crack through a notch has no ice in it", "[live_edge][level_ice][edge][analytic]") {
     // two halves with faces at y = 0: these end at the bottom of the notch
     Tiles t;
     const std::int32_t left = t.add({2, 1, 0.4}, {0, 0.5, 0});
@@ -108,7 +108,7 @@ TEST_CASE("a crack through a notch has no ice in it", "[level_ice][edge][analyti
     CHECK(moved > 5);
 }
 
-TEST_CASE("tiles without notches leave whole ice", "[level_ice][edge]") {
+TEST_CASE("tiles without notches leave whole ice", "[live_edge][level_ice][edge]") {
     Tiles t;
     CarriedNotches none;
     none.give(t.w.scene, t.add({2, 2, 0.4}, Vec3::Zero()));

@@ -49,17 +49,17 @@ std::size_t press_at_random(int loads) {
 }  // namespace
 
 TEST_CASE("loads anywhere on the edge leave a valid sheet and keep its area",
-          "[level_ice][edge][fuzz]") {
+          "[live_edge][level_ice][edge][fuzz]") {
     CHECK(press_at_random(500) > 250);
 }
 
 TEST_CASE("ten thousand loads anywhere on the edge leave a valid sheet",
-          "[.][level_ice][edge][slow]") {
+          "[.][live_edge][level_ice][edge][slow]") {
     CHECK(press_at_random(10000) > 5000);
 }
 
 TEST_CASE("a long way through level ice takes no more memory than what is within reach",
-          "[level_ice][edge][step][long]") {
+          "[live_edge][level_ice][edge][step][long]") {
     Case p = sheet_case(1.5, 1e3);
     p.level_ice.extent[1] = 400.0;
     World w = make_world(p);

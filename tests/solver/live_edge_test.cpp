@@ -33,7 +33,8 @@ using Box = Eigen::AlignedBox2d;
 
 }  // namespace
 
-TEST_CASE("tiles of a straight edge are its cells and those behind", "[level_ice][edge]") {
+TEST_CASE("tiles of a straight edge are its cells and those behind",
+          "[live_edge][level_ice][edge]") {
     const IceSheet sheet(Box(Vec2(0, -10), Vec2(30, 10)), 0.5);
     const auto any = [](const Loop&) { return true; };
     // x of -4 to 2: the cells at the edge; those behind have whole ones all around from x = 2 on
@@ -47,7 +48,8 @@ TEST_CASE("tiles of a straight edge are its cells and those behind", "[level_ice
     CHECK(area == Near(16.0));
 }
 
-TEST_CASE("a strip that the grid cuts off goes to the cell beside it", "[level_ice][edge]") {
+TEST_CASE("a strip that the grid cuts off goes to the cell beside it",
+          "[live_edge][level_ice][edge]") {
     const IceSheet sheet(Box(Vec2(-0.1, -10), Vec2(30, 10)), 0.05);
     const auto broad = [](const Loop& l) { return area_of(l) > 0.5; };
     const Box reach(Vec2(-3, -2.9), Vec2(1, 2.9));
@@ -60,7 +62,8 @@ TEST_CASE("a strip that the grid cuts off goes to the cell beside it", "[level_i
     CHECK(area == Near(2.1 * 8.0));
 }
 
-TEST_CASE("loads on one piece are one window, the heaviest first", "[level_ice][edge][analytic]") {
+TEST_CASE("loads on one piece are one window, the heaviest first",
+          "[live_edge][level_ice][edge][analytic]") {
     const Vec2 along(3, 4);
     const std::vector<EdgeLoad> loads{{{0, 0}, 1.0, 2.0, 2.0, along},
                                       {{1, 0}, 3.0, 2.0, 4.0, along},
@@ -80,7 +83,7 @@ TEST_CASE("loads on one piece are one window, the heaviest first", "[level_ice][
 }
 
 TEST_CASE("a ship breaks its way, ice is neither lost nor made, and no piece is born in another",
-          "[level_ice][edge][step]") {
+          "[live_edge][level_ice][edge][step]") {
     World w = make_world(sheet_case(0.8, 1e3));
     const double whole = 40.0 * 16.0;
     const std::size_t bodies = w.scene.bodies.size();
@@ -110,7 +113,7 @@ TEST_CASE("a ship breaks its way, ice is neither lost nor made, and no piece is 
 }
 
 TEST_CASE("new ice at the edge is crushed as deep as the ice before it",
-          "[level_ice][edge][step]") {
+          "[live_edge][level_ice][edge][step]") {
     World w = make_world(sheet_case(0.8, 1e3));
     // the deepest overlap of a piece with tiles or pieces, the hull left out
     const auto deepest = [&](const std::vector<std::int32_t>& bodies) {
@@ -142,7 +145,7 @@ TEST_CASE("new ice at the edge is crushed as deep as the ice before it",
 }
 
 TEST_CASE("neighbour lists that outlive a renewal of the edge give the contacts of new ones",
-          "[level_ice][edge][step]") {
+          "[live_edge][level_ice][edge][step]") {
     Case p = sheet_case(0.8, 1e3);
     p.drift_velocity = {GENERATE(0.0, -0.2), 0.0};
     World keeps = make_world(p), forgets = make_world(p);
@@ -168,7 +171,7 @@ TEST_CASE("neighbour lists that outlive a renewal of the edge give the contacts 
 }
 
 TEST_CASE("level ice that drifts past a ship is a ship that goes through level ice",
-          "[level_ice][edge][drift]") {
+          "[live_edge][level_ice][edge][drift]") {
     const bool free = GENERATE(false, true);
     Case p = sheet_case(0.8, 1e3);
     p.ship.free[surge] = free;
@@ -202,7 +205,7 @@ TEST_CASE("level ice that drifts past a ship is a ship that goes through level i
 }
 
 TEST_CASE("level ice goes on from a checkpoint, and by any number of threads, with the same bits",
-          "[level_ice][edge][checkpoint]") {
+          "[live_edge][level_ice][edge][checkpoint]") {
     const TempFolder folder;
     Case p = sheet_case(0.8, 4.0);
     p.floes_move_water = GENERATE(false, true);
@@ -236,7 +239,7 @@ TEST_CASE("level ice goes on from a checkpoint, and by any number of threads, wi
 }
 
 TEST_CASE("there are slots for all pieces and tiles from half a length astern to two radii ahead",
-          "[level_ice][edge][analytic]") {
+          "[live_edge][level_ice][edge][analytic]") {
     const World w = make_world(sheet_case(0.8, 4.0));
     // a ship of 12 x 4 m, and three radii on both sides
     const double r = w.edge.radius();
@@ -249,7 +252,8 @@ TEST_CASE("there are slots for all pieces and tiles from half a length astern to
           Near(pieces + tiles).epsilon(2e-3).margin(1.0));
 }
 
-TEST_CASE("the sheet's edge astern of the ship is no floe behind it", "[level_ice][edge]") {
+TEST_CASE("the sheet's edge astern of the ship is no floe behind it",
+          "[live_edge][level_ice][edge]") {
     const TempFolder folder;
     Case p = sheet_case(0.0, 0.02);
     p.hull_position.x() = 20.0;  // within the sheet: edge on all sides of the ship

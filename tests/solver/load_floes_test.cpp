@@ -59,7 +59,8 @@ void check_bits(const World& w, const std::vector<std::int32_t>& floes) {
 
 }  // namespace
 
-TEST_CASE("every instruction set loads floes to the bits of the reference", "[water][simd]") {
+TEST_CASE("every instruction set loads floes to the bits of the reference",
+          "[loads][water][simd]") {
     Case p = test::empty_space(0.01);
     p.gravity = 9.81;
     p.drag_coefficient = 1.0;
@@ -84,7 +85,7 @@ TEST_CASE("every instruction set loads floes to the bits of the reference", "[wa
 
 TEST_CASE(
     "drag turns a floe that moves without turning: the wetted front face's load times its arm",
-    "[water][analytic]") {
+    "[loads][water][analytic]") {
     Case p = test::empty_space(0.01);
     p.drag = DragModel::panel;
     p.drag_coefficient = 1.0;
@@ -106,7 +107,7 @@ TEST_CASE(
 }
 
 TEST_CASE("floes all above, all under or all level with the water have the reference's bits",
-          "[water][simd]") {
+          "[loads][water][simd]") {
     Case p = test::empty_space(0.01);
     p.gravity = 9.81;
     p.drag_coefficient = 1.0;
@@ -126,7 +127,7 @@ TEST_CASE("floes all above, all under or all level with the water have the refer
 }
 
 TEST_CASE("forms of many corners, the last block of facets not full, have the reference's bits",
-          "[water][simd]") {
+          "[loads][water][simd]") {
     // more corners than are asked for their height once, and two facets more than fill blocks
     SphereSet set = test::make_ball_set(0.4);
     set.mesh = test::make_globe(0.4, 7);
