@@ -2,50 +2,74 @@
 #include "solver/narrow/check_depths.hpp"
 
 #include <algorithm>
+#include <numbers>
 
 #include "solver/narrow/deep_seats.hpp"
 #include "solver/narrow/solid_contacts.hpp"
+#include "solver/narrow/way_out.hpp"
 
 namespace ice {
 
 namespace {
 
-Foot foot_in_a(const PairView& view, const Vec3& p) { return view.shape_a.surface->closest(p); }
-Foot foot_in_b(const PairView& view, const Vec3& p) {
-    return view.shape_b.surface->closest(view.to_b(p));
+// Distance of a point behind a right-angled edge from this edge, divided by that from the nearest
+// face [-]. With 1, as for a face, true crossings become shallower by a third; a larger one lets
+// contacts be deeper that edges far apart seem to make.
+constexpr double kBehindEdge = std::numbers::sqrt2;
+
+// Depth of a point in what is left of a body [m]; negative outside and in a notch.
+double depth_in(const PairView& view, std::int32_t body, const Vec3& in_a) {
+    const bool of_b = body == view.pair.b;
+    const Vec3 p = of_b ? view.to_b(in_a) : in_a;
+    const Foot foot = (of_b ? view.shape_b : view.shape_a).surface->closest(p);
+    return foot.inside ? way_out(view.scene, body, p, foot).depth : -foot.distance;
 }
 
-// Midway between the points of the two edges that are nearest to each other, a's axes.
-Vec3 crossing_of(const PairView& view, const Candidate& c) {
+// How deep one body is in the other at the tip of a feature [m]. The tip may be cut off by the mesh
+// or by a notch: the body ends by as much before it.
+// @param tip  of the feature, a's axes
+double depth_at_tip(const PairView& view, std::int32_t of, std::int32_t in, const Vec3& tip) {
+    return depth_in(view, in, tip) + std::min(0.0, depth_in(view, of, tip));
+}
+
+// Where two edges cross: on either one the point nearest to the other, a's axes.
+struct Crossing {
+    Vec3 on_a, on_b;
+};
+
+Crossing crossing_of(const PairView& view, const Candidate& c) {
     // A feature is unbounded along its edges: only the meshes tell whether the two edges still are
     // there where their lines cross.
     const Vec3 a = view.support_a(c.i, c.gap.normal), b = view.support_b(c.j, -c.gap.normal);
     const Vec3 along_a = view.shape_a.cone[c.i].edge(c.gap.edge_a);
     const Vec3 along_b = view.rotation_ab * view.shape_b.cone[c.j].edge(c.gap.edge_b);
     const LineParameters at = closest_on_lines(a, along_a, b, along_b);
-    return 0.5 * (a + at.along_a * along_a + b + at.along_b * along_b);
+    return {a + at.along_a * along_a, b + at.along_b * along_b};
 }
 
 // Bounds a candidate's depth by the meshes; false where its point is not in the other solid (of a
 // crossing: not in both).
 bool hold_to_meshes(const PairView& view, Candidate& c) {
-    // Two edges cross within both solids, or one of them ends before. Where they do, the depth
-    // along the axis stays as it is: it is measured between the edges' own lines. A bound by the
-    // distances of the middle point from both meshes was tried and dropped: overlaps became deeper
-    // (docs/design-notes.md).
+    // A move of a point's depth takes it out of the other solid: the contact is no deeper. It may
+    // be less deep along the normal, so the smaller depth counts. Other points of the bodies may
+    // be deeper: the seats find them.
+    const auto [a, b] = view.pair;
+    double depth = 0.0;
     if (c.gap.crossing) {
-        const Vec3 at = crossing_of(view, c);
-        return foot_in_a(view, at).inside && foot_in_b(view, at).inside;
+        // Two edges cross within both solids, or one of them ends before. The middle is nearer to
+        // both surfaces than the contact is deep, so that it bounds no depth.
+        const Crossing at = crossing_of(view, c);
+        const Vec3 middle = 0.5 * (at.on_a + at.on_b);
+        if (depth_in(view, a, middle) <= 0.0 || depth_in(view, b, middle) <= 0.0) return false;
+        depth = kBehindEdge *
+                std::min(depth_at_tip(view, a, b, at.on_a), depth_at_tip(view, b, a, at.on_b));
+    } else {
+        const Vec3& n = c.gap.normal;
+        depth = c.gap.reference_is_a ? depth_at_tip(view, b, a, view.support_b(c.j, -n))
+                                     : depth_at_tip(view, a, b, view.support_a(c.i, n));
     }
-    const Vec3& n = c.gap.normal;
-    // The incident support point is a point of its body, or the tip of an edge that the mesh may
-    // have cut off. A move of that length, to the nearest point of the other surface, takes this
-    // point out of the other solid: its depth is no larger. It may be smaller along the normal,
-    // so the smaller depth counts. Other points of the bodies may be deeper: the seats find them.
-    const Foot foot = c.gap.reference_is_a ? foot_in_a(view, view.support_b(c.j, -n))
-                                           : foot_in_b(view, view.support_a(c.i, n));
-    c.gap.gap = std::max(c.gap.gap, -foot.distance);
-    return foot.inside;
+    c.gap.gap = std::max(c.gap.gap, -depth);
+    return depth > 0.0;
 }
 
 }  // namespace

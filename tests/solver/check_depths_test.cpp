@@ -95,7 +95,8 @@ TEST_CASE("edges that cross are a deep contact where the place between them lies
         CHECK(held.empty());
     } else {
         REQUIRE(held.size() == 1);
-        CHECK(held[0].gap.gap == -depth);
+        // both edges are right-angled: the points on them bound the depth by itself
+        CHECK(held[0].gap.gap == Near(-depth).epsilon(1e-6));
     }
 }
 
