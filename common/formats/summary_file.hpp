@@ -33,7 +33,7 @@ struct ForceStatistics {
     /// all else; they add up to `mean`.
     std::optional<double> breaking_mean = std::nullopt, submersion_mean = std::nullopt;
     std::optional<bool> trend_significant =
-        std::nullopt;  ///< at 95 %, with effective_samples; none: too short
+        std::nullopt;  ///< at 99 % (kTrendChance); none: too short
 };
 
 /// Loads on one region of the hull.

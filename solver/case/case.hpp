@@ -16,10 +16,10 @@
 
 namespace ice {
 
-enum class Pattern { grid, brick, single, file };
-/// Until when a floe is immovable (infinite mass).
 /// Where a floe group's places come from: rows and columns, columns shifted by half a floe, one
 /// floe, or a field file.
+enum class Pattern { grid, brick, single, file };
+/// Until when a floe is immovable (infinite mass).
 enum class Hold { never, until_hull_contact, until_contact, until_bent, always };
 /// Direction of a contact: that of the surfaces which the spheres represent, or of the centres.
 enum class NormalRule { surface, centres };

@@ -73,7 +73,7 @@ private:
         std::size_t first = 0, count = 0;     // candidates that are contacts
         std::size_t corner = 0, corners = 0;  // or corners of a polygon that are
         std::size_t seat = 0, seats = 0;      // or deep seats
-        Vec3 normal = Vec3::Zero();           // and their normal
+        Vec3 normal = Vec3::Zero();           // the polygon's
         std::size_t sphere = 0, spheres = 0;  // newly listed spheres
         std::size_t contact = 0;              // where they begin among all pairs' contacts
     };
