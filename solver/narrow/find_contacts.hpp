@@ -95,9 +95,9 @@ private:
               std::vector<Contact>& out);
 
     // kept between steps: no allocation once warm
-    std::vector<PairCache::State> states_;  // of all pairs
-    std::vector<std::size_t> awake_;        // rows of the pairs that are measured
-    std::vector<Found> found_;              // of these
+    std::vector<PairCache::State> states_;       // of all pairs
+    std::vector<std::size_t> pairs_to_measure_;  // their rows
+    std::vector<Found> found_;                   // of these
     PairCache cache_;
     CentresFinder centres_;  // instead of all these under the rule "centres"
 };
