@@ -50,7 +50,7 @@ struct FloeGroup {
     Vec3 velocity = Vec3::Zero(), angular_velocity = Vec3::Zero();
 };
 
-/// [bending]: when ice held until it bends is let go (solver/bending).
+/// [bending]: when ice held until it bends is released (solver/bending).
 struct BendingLaw {
     double flexural_strength = 5e5;  ///< [Pa]
     double elastic_modulus = 5e9;    ///< [Pa]

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """free_ship_test.py PROGRAMS [FOLDER]: a ship free in surge, and a captive one in the same ice.
 
-A flared wedge of 6 m goes through rows of floes that let go as it touches them. Held at a speed by its
+A flared wedge of 6 m goes through rows of floes that are released as it touches them. Held at a speed by its
 thrust, the free ship's mean resistance is within the captive ship's interval. The speed to which a net
 thrust brings it is the one at which that thrust meets the captive ships' resistances, within both
 intervals, as `icepost hv` finds them. FOLDER keeps the runs."""

@@ -218,7 +218,7 @@ bool same_bits(const World& l, const World& r) {
 
 }  // namespace
 
-TEST_CASE("ice without strength is let go at the first touch", "[step][bending]") {
+TEST_CASE("ice without strength is released at the first touch", "[step][bending]") {
     World bent = row_of_pieces(Hold::until_bent, 0.0);
     World touched = row_of_pieces(Hold::until_contact, 0.0);
     touched.scene.bodies.breaking_load.clear();
