@@ -2,10 +2,11 @@
 /// Level ice seen from above, of whose edge pieces break off.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <vector>
 
-#include "solver/level_ice/cusp_form.hpp"
+#include "common/geometry/loop_area.hpp"
 
 namespace ice {
 

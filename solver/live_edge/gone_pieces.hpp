@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "solver/level_ice/cusp_form.hpp"
+#include "common/geometry/loop_area.hpp"
 
 namespace ice {
 

@@ -7,6 +7,7 @@
 
 #include "solver/case/case.hpp"
 #include "solver/contact/constraints.hpp"
+#include "solver/level_ice/crack_form.hpp"
 #include "solver/level_ice/ice_sheet.hpp"
 #include "solver/live_edge/edge_window.hpp"
 #include "solver/live_edge/gone_pieces.hpp"
@@ -168,7 +169,7 @@ private:
     std::vector<Crack> cracks_;
     std::vector<IcePiece> pieces_;  // by number: those in the scene, and gone ones without a file
     std::int64_t broken_ = 0;
-    std::uint64_t cusp_ = 0;                                  // number of the next crack
+    std::uint64_t crack_number_ = 0;                          // of the next crack
     IceAreas gone_;                                           // all but `sheet`
     Vec2 laid_at_ = Vec2::Zero(), looked_at_ = Vec2::Zero();  // the ship then
 
