@@ -91,7 +91,7 @@ void Overlaps::correct_positions(const Scene& scene, const std::vector<Constrain
         const Constraint& c = constraints[k];
         const double radius = radius_of(scene, c);
         const double overlap = -gap_after(bodies, c, dt) - kToleratedOverlap * radius;
-        // a ship at prescribed speed and held ice keep theirs
+        // a ship on a prescribed course and held ice keep theirs
         if (overlap <= 0.0 || c.is_at_bound() || !c.can_move) continue;
         pushes_.push_back(push_of(bodies, c, k, share * std::min(overlap, kMostOpened * radius)));
     }

@@ -42,7 +42,8 @@ public:
     /// step, which is slower.
     ///
     /// Contacts at their bound are left alone: that ice is gone. A ship that answers moves by its
-    /// share, of its mass and the water's that moves along; one at prescribed speed does not move.
+    /// share, of its mass and the water's that moves along; one on a prescribed course does not
+    /// move.
     /// @param dt   time step [s]
     /// @param out  resized to all bodies; zero for bodies without overlap. It is that of the last
     ///             step, or empty: only the ship and moving bodies are cleared
