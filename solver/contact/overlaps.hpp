@@ -69,14 +69,15 @@ private:
     // @param target  move along the normal [m]
     static Push push_of(const Bodies& bodies, const Constraint& c, std::size_t row, double target);
 
-    struct CrushEvent {
+    // A sphere that one constraint crushes.
+    struct Crushing {
         std::int32_t body, sphere;
         std::size_t constraint;
         double gap;    // at the end of the step [m]
         Vec3 inwards;  // world axes
     };
     std::vector<Push> pushes_;
-    std::vector<CrushEvent> crush_events_;
+    std::vector<Crushing> crushings_;
 };
 
 }  // namespace ice

@@ -126,7 +126,7 @@ double PairCache::seat_clearance_left(const Row& row, const PairView& view, doub
     return row.seat_clearance - relative_motion(view, row.seat_turn, row.seat_shift).distance;
 }
 
-double PairCache::part_solids(Row& row, const PairView& view, double enough) {
+double PairCache::separation_of_solids(Row& row, const PairView& view, double enough) {
     const ConvexPiece &a = view.shape_a.convex, &b = view.shape_b.convex;
     const RelativePose pose{view.rotation_ab, view.translation_ab};
     // the plane that separated them last mostly still does: one plane instead of all
@@ -154,7 +154,7 @@ PairCache::State PairCache::state(std::size_t k, const Scene& scene, BodyPair pa
     // Second the solids: where they are apart by more than the step can close, the pair is clear
     // until both paths have used up the rest. The separation shrinks by at most separation_share
     // times the path.
-    const double apart = (polygon ? part_solids(row, view, closing + margin)
+    const double apart = (polygon ? separation_of_solids(row, view, closing + margin)
                                   : separation(view, closing + margin, row.axis)) -
                          margin;
     if (apart > closing) {

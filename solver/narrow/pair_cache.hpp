@@ -92,7 +92,7 @@ private:
         double seat_clearance_left = 0.0;  // of it, when last compared [m]
     };
     // A lower bound of the distance of row k's solids; exact where it is at most `enough` [m].
-    static double part_solids(Row& row, const PairView& view, double enough);
+    static double separation_of_solids(Row& row, const PairView& view, double enough);
     static void set_clearances(Row& row, BodyPair pair, const MotionBounds& motion, double gone,
                                double turned);
     // Relative motion of the pair before its seats must be searched [m].

@@ -6,8 +6,9 @@
 namespace ice {
 
 /// How far two bodies are apart at least [m]: the widest gap between them along any normal of
-/// either one's ConvexBounds (separating axes); negative where none parts them, minus infinity
-/// where the bounds of a body are not known. Crushed ice only makes the true distance larger.
+/// either one's ConvexBounds (separating axes); negative where none separates them, minus
+/// infinity where the bounds of a body are not known. Crushed ice only makes the true distance
+/// larger.
 ///
 /// Bodies this far apart have no contact, whatever single spheres measure: a sphere represents its
 /// surface within its shape's patch radius, which near an edge ends beyond the body.
