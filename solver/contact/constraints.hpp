@@ -53,8 +53,8 @@ void build_constraints(const Bodies& bodies, const std::vector<Contact>& contact
 ///
 ///     K j = (1/m_a + 1/m_b) j + (I_a^-1 (r_a x j)) x r_a + (I_b^-1 (r_b x j)) x r_b
 ///
-/// (equation (5)) and k(d) = d . K d [1/kg] for a unit vector d; of bodies with added mass K has
-/// their inverse_mass_excess besides, which this function leaves out. Zero for immovable bodies.
+/// (equation (5)) and k(d) = d . K d [1/kg] for a unit vector d. Without added mass: callers add
+/// inverse_mass_excess. Zero for immovable bodies.
 /// @param inverse_mass  1/m_a + 1/m_b [1/kg]
 /// @param arm_a, arm_b  r_a and r_b, world axes [m]
 /// @param inverse_inertia_a, inverse_inertia_b  I^-1, world axes [1/(kg m2)]

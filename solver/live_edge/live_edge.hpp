@@ -30,11 +30,11 @@ struct IceAreas {
 /// A sheet of level ice whose edge is contact geometry where the ship can meet it.
 ///
 /// The sheet is a polygon. Its edge around the ship is laid out in tiles (edge_tiles), bodies that
-/// are held: the hull crushes them. Where the downward load on a window of the edge (edge_windows)
-/// reaches the load that breaks the piece off which a crack around the load's centre would cut out
-/// (equations (26), (29) and (30)), that piece becomes a floe, the polygon loses it, and the tiles
-/// around are laid anew. Rejected: cracks laid along the course before the run; two pieces then
-/// shared a load between them (docs/design-notes.md).
+/// are held: the hull crushes them. Loads near each other form a window (edge_windows). A crack
+/// around its centre would cut out a piece. When the load reaches that piece's breaking load, the
+/// piece becomes a floe (equations (26), (29) and (30)): the polygon loses it, and the tiles around
+/// are laid anew. Rejected: cracks laid along the course before the run; two pieces then shared a
+/// load between them (docs/design-notes.md).
 ///
 /// Polygon, tiles and cracks are in the ice's own axes, which drift with it: places in the world
 /// are theirs plus drift() times the time. So ice that drifts past a ship is the same to it as a
