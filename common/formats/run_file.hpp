@@ -38,8 +38,8 @@ namespace ice {
 
 /// Bytes of a floe in a frame before it is compressed: 16 floats and its state.
 inline constexpr std::uint64_t kFrameFloeBytes = 16 * sizeof(float) + sizeof(FloeState);
-/// The same, up to whole floats: bounds count with it. The frames of a chunk depend on it, and so
-/// the bytes of a file with many floes.
+/// These bytes, rounded up to whole floats: bounds count with them. The frames of a chunk depend on
+/// it, and so the bytes of a file with many floes.
 inline constexpr std::uint64_t kFrameFloeBound = 17 * sizeof(float);
 
 /// Where a run file stands, for a run that is continued from it.

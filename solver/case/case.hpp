@@ -57,7 +57,7 @@ struct BendingLaw {
     double poisson_ratio = 0.3;      ///< [-]
     BendingModel model = BendingModel::wedge;
     double factor = 1.0;  ///< on the breaking load [-]
-    /// Of a piece [rad], 0 to pi; NaN: from its outline.
+    /// Opening angle of a piece [rad], 0 to pi; NaN: from its outline.
     double opening_angle = std::numeric_limits<double>::quiet_NaN();
     double load_length = 0.0;  ///< over which the load is spread from the edge [m]
     /// Rows (normal speed [m/s], a second factor [-]), speed rising; empty: none.
@@ -68,7 +68,7 @@ struct BendingLaw {
 struct LevelIce {
     double thickness = 0.0;          ///< [m]; 0: none
     std::array<double, 4> extent{};  ///< smallest and largest x, smallest and largest y [m]
-    /// Of contact spheres; between a tile and its neighbours [m].
+    /// Distance of contact spheres [m]; gap between a tile and its neighbours [m].
     double spacing = 0.5, gap = 0.05;
     int seed = 0;  ///< of the cracks' scatter
     /// CrackLaw: C_l [-], C_v [s/m], largest relative deviation [-].

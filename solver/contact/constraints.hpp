@@ -33,7 +33,7 @@ struct Constraint {
     double rest_normal = 0.0;            ///< normal impulse of the rest stage [N s]
     Vec3 rest_tangent = Vec3::Zero();    ///< its friction, across the normal [N s]
 
-    /// Of both stages [N s].
+    /// Normal impulse of both stages [N s].
     double total_normal() const { return impact_normal + rest_normal; }
     /// Friction of both stages, across the normal [N s].
     Vec3 total_tangent() const { return impact_tangent + rest_tangent; }

@@ -51,7 +51,7 @@ public:
     /// Outer loops anticlockwise, holes clockwise; the first is the largest. Empty once all is
     /// gone.
     const std::vector<Loop>& loops() const { return loops_; }
-    /// Of the ice, holes left out [m2]; 0 once all is gone.
+    /// Area of the ice, holes left out [m2]; 0 once all is gone.
     double area() const;
     /// Is the point [m] in the ice? Points on the edge may be either.
     bool contains(const Vec2& point) const;

@@ -80,7 +80,7 @@ public:
 
     const IceSheet& sheet() const { return sheet_; }
     double thickness() const { return thickness_; }  ///< [m]
-    /// Of level ice afloat: its middle's height [m].
+    /// Height of the middle of level ice afloat [m].
     double height() const { return (0.5 - share_) * thickness_; }
     double density() const { return density_; }  ///< [kg/m3]
     double length() const { return length_; }    ///< characteristic length of the plate [m]

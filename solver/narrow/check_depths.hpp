@@ -11,7 +11,7 @@ namespace ice {
 ///
 /// measure_gap_surface knows the faces that meet at two spheres, not the solids: behind two planes
 /// that cross far away a point may seem to be deep although it lies outside, or near another face.
-/// Of each candidate deeper than deep_slack [m]:
+/// For each candidate deeper than deep_slack [m]:
 /// - on a face, the incident support point must lie in the other solid, and is as deep as its
 ///   distance from that surface at most;
 /// - across two edges, the point midway between them must lie in both solids.

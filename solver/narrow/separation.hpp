@@ -14,8 +14,8 @@ namespace ice {
 /// surface within its shape's patch radius, which near an edge ends beyond the body.
 double separation(const PairView& view);
 
-/// The same, or any gap wider than `enough` [m] where there is one: bodies that are apart mostly
-/// stay so along the same normal.
+/// The separation, or any gap wider than `enough` [m] where there is one: bodies that are apart
+/// mostly stay so along the same normal.
 /// @param axis  number of the normal to begin with, a's first, then b's; on return the one along
 ///              which the gap is, where there are any
 double separation(const PairView& view, double enough, std::size_t& axis);

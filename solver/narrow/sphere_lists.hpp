@@ -14,7 +14,7 @@ namespace ice {
 /// bodies move within the skin, and the clearance up to which the pair need not be measured.
 class SphereLists {
 public:
-    /// Of one pair.
+    /// The list of one pair.
     struct Row {
         // when its spheres were listed
         Mat3 turn = Mat3::Zero();   ///< PairView's

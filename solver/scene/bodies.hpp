@@ -34,7 +34,7 @@ struct Inertia {
 struct ShipResponse {
     bool free = false;                    ///< in any motion; then Bodies::velocity is of `centre`
     Mat3 inverse_mass = Mat3::Zero();     ///< of ship and water that moves along [1/kg]
-    Mat3 inverse_inertia = Mat3::Zero();  ///< likewise, about `centre` [1/(kg m2)]
+    Mat3 inverse_inertia = Mat3::Zero();  ///< of the same, about `centre` [1/(kg m2)]
     double least_response = 0.0;          ///< 1 / mass, also of a ship that only turns [1/kg]
     Vec3 centre = Vec3::Zero();           ///< centre of gravity from the mesh's origin [m]; else 0
 };
@@ -139,7 +139,7 @@ constexpr std::size_t kShip = 0;
 /// Rotation, velocities and inverse inertia of body `i` from its momenta, equation (2): v = P / m,
 /// with added mass R (m + A)^-1 R^T P, and w = R I^-1 R^T L. A held body has inverse mass, inverse
 /// inertia and angular velocity zero; its velocity is P / m, which is zero but for ice that drifts.
-/// Of the ship only the rotation is set: its velocity is prescribed or that of FreeShip.
+/// For the ship only the rotation is set: its velocity is prescribed or that of FreeShip.
 void update_derived(Bodies& bodies, std::size_t i);
 
 /// Lets a held floe move from now on, with the momentum that it has.
