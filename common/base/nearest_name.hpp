@@ -11,7 +11,7 @@ namespace ice {
 /// The name that differs from `wrong` by the fewest inserted, removed or changed letters; the first
 /// of equals.
 ///
-/// Of names with dots, a right last part behind a wrong first one counts as one change, so that
+/// In names with dots, a right last part behind a wrong first one counts as one change, so that
 /// "contact.density" finds "ice.density".
 /// @return "" where more than a quarter of the longer name's letters differ (two are always
 ///         allowed), or half of them or more

@@ -17,7 +17,7 @@ public:
         value_ = (value_ ^ word) * 0x100000001b3ull;
         value_ ^= value_ >> 32;
     }
-    /// Of all words so far; the offset basis of FNV without any.
+    /// Hash of all words so far; the offset basis of FNV without any.
     std::uint64_t value() const { return value_; }
 
 private:

@@ -42,7 +42,7 @@ public:
 
     /// A number, or NaN where the file has null.
     double number(const std::string& key) const { return value_or_nan(at(key), key); }
-    /// The same where the file, of an older version, has no such key.
+    /// A number, or NaN where the file, of an older version, has no such key or has null.
     double number_if_there(const std::string& parent, const std::string& name) const;
     /// An object of numbers, or nothing where the file has none.
     std::map<std::string, double> numbers(const std::string& key) const;

@@ -23,10 +23,10 @@ struct ShipParticulars {
     double entrance_angle_deg = kUnknown;  ///< half, of the waterline at the bow [deg]; 3D
     double speed_mean = kUnknown;          ///< over the averaged time [m/s]
     double parallel_length = kUnknown;     ///< of the waterline's full breadth [m]; 3D
-    double bow_length = kUnknown;          ///< of the waterline before it [m]; likewise
-    /// Of a ship that answers: motions and drive by their keys in summary.json; else empty.
+    double bow_length = kUnknown;          ///< of the waterline before it [m]; 3D
+    /// Motions and drive of a ship that answers, by their keys in summary.json; else empty.
     std::vector<std::pair<std::string, double>> motion;
-    std::optional<bool> stuck;  ///< below 0.1 m/s for 10 s on end; likewise
+    std::optional<bool> stuck;  ///< below 0.1 m/s for 10 s on end, of a ship that answers
 };
 
 /// Sizes of the floes that may move, and the case's values for all ice.
@@ -53,7 +53,7 @@ std::string release_rule(const IceParticulars& ice);
 /// How far the ship goes.
 struct TravelParticulars {
     double distance = kUnknown;          ///< [m]
-    double lengths = kUnknown;           ///< the same in lengths of the waterline [-]
+    double lengths = kUnknown;           ///< distance in lengths of the waterline [-]
     double averaged_lengths = kUnknown;  ///< part of it while forces are averaged [-]
 };
 

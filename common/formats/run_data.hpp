@@ -33,7 +33,7 @@ struct RunHeader {
     std::vector<double> body_mass;         ///< [Nb] kg (2D: kg per metre of breadth)
     std::vector<Vec3> body_inertia;        ///< [Nb] diagonal about the mesh's axes [kg m2]
     std::vector<std::int32_t> tracked;     ///< ids of floes with their own histories
-    /// Of runs in level ice, set where pieces are read: when a floe broke off [s], the load that
+    /// In runs in level ice, set where pieces are read: when a floe broke off [s], the load that
     /// broke it off [N]; inf and 0 for floes that did not. Empty in other runs.
     std::vector<double> body_born, body_breaking_load;
     bool ship_answers = false;  ///< the ship moves by forces: rows have its motion

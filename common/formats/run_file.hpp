@@ -28,12 +28,19 @@
 /// `units` and, where the name does not say all, `long_name`; "/" has `average_from` [s].
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 
 #include "common/formats/run_data.hpp"
 
 namespace ice {
+
+/// Bytes of a floe in a frame before it is compressed: 16 floats and its state.
+inline constexpr std::uint64_t kFrameFloeBytes = 16 * sizeof(float) + sizeof(FloeState);
+/// These bytes, rounded up to whole floats: bounds count with them. The frames of a chunk depend on
+/// it, and so the bytes of a file with many floes.
+inline constexpr std::uint64_t kFrameFloeBound = 17 * sizeof(float);
 
 /// Where a run file stands, for a run that is continued from it.
 struct RunPosition {

@@ -33,7 +33,7 @@ struct ForceStatistics {
     /// all else; they add up to `mean`.
     std::optional<double> breaking_mean = std::nullopt, submersion_mean = std::nullopt;
     std::optional<bool> trend_significant =
-        std::nullopt;  ///< at 95 %, with effective_samples; none: too short
+        std::nullopt;  ///< at 99 % (kTrendChance); none: too short
 };
 
 /// Loads on one region of the hull.
@@ -41,8 +41,8 @@ struct RegionStatistics {
     std::int64_t hits = 0;                  ///< count: times a floe began to touch the region
     double max_impulse = 0.0;               ///< largest impulse of one floe in one step [N s]
     std::array<double, 3> mean{};           ///< mean force of the ice on the region, world axes [N]
-    std::array<double, 3> contact_mean{};   ///< of it normal forces; NaN in files without them
-    std::array<double, 3> friction_mean{};  ///< of it friction; likewise
+    std::array<double, 3> contact_mean{};   ///< its normal forces; NaN in files without them
+    std::array<double, 3> friction_mean{};  ///< its friction; NaN in files without it
     /// None in files without them; line_load: of the hardest panel at each instant.
     std::optional<PeakStatistics> force_peaks = std::nullopt, line_load_peaks = std::nullopt;
 };

@@ -12,7 +12,7 @@
 namespace ice {
 
 /// Mistakes found so far, each "file:line:column: error: ..." with the line and a caret under it.
-/// Of a file full of them the first are kept, the others counted.
+/// In a file full of mistakes the first are kept, the others counted.
 struct Mistakes {
     /// Mistakes with a text of their own: a screen full. The others are counted.
     static constexpr std::size_t kMost = 20;

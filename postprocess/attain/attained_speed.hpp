@@ -56,8 +56,8 @@ struct AttainedSpeed {
 /// above 50 m/s, or above Thrust::fastest(), is tried.
 AttainedSpeed attained_speed(const ResistanceFit& fit, const Thrust& thrust);
 
-/// The same for a resistance [N] over the speed [m/s] without interval: [m/s], 0 where the thrust
-/// at rest is not enough, NaN where nothing holds the ship.
+/// The attained speed [m/s] for a resistance [N] over the speed [m/s] without interval: 0 where the
+/// thrust at rest is not enough, NaN where nothing holds the ship.
 double attained_speed(const std::function<double(double)>& resistance, const Thrust& thrust);
 
 }  // namespace ice::attain

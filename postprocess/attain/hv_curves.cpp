@@ -116,7 +116,7 @@ private:
         return true;
     }
 
-    // one value in all runs of free ships and one in all those on rails
+    // one value in all runs of free ships and one in all those on a prescribed course
     bool follows_freedom(const std::string& axis) const {
         if (std::ranges::find(sweep_.axes, kFreedom) == sweep_.axes.end()) return false;
         std::map<std::string, std::string> of_freedom;

@@ -33,7 +33,7 @@ bool all_passed(const std::vector<Verdict>& verdicts);
 /// A table for people: verdict, key, actual number, expectation and why.
 std::string verdict_table(const std::vector<Verdict>& verdicts);
 
-/// The same as JUnit XML, a test case per expectation. @param suite name of the run
+/// The verdicts as JUnit XML, a test case per expectation. @param suite name of the run
 std::string junit_text(const std::vector<Verdict>& verdicts, const std::string& suite);
 
 }  // namespace ice::check

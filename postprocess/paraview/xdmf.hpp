@@ -66,7 +66,7 @@ public:
     /// Adds a grid at a time [s], times rising for each part. A grid without cells is left out:
     /// readers refuse it. The part is not there at that time.
     void add(const std::string& name, double time, const Grid& grid);
-    /// The same without times.
+    /// Adds a grid without a time.
     void add(const std::string& name, const Grid& grid);
     std::string text() const;
 

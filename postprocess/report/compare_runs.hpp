@@ -18,7 +18,7 @@ using NamedSummary = std::pair<std::string, Summary>;  ///< folder as given, sum
 /// a line of headings.
 std::string compare_text(const std::vector<NamedSummary>& runs);
 
-/// The same as CSV (RFC 4180), all digits; missing values are empty.
+/// The comparison as CSV (RFC 4180), all digits; missing values are empty.
 /// @throws Error (exit code 2) for runs in 3D and in 2D, which share no columns
 std::string compare_csv(const std::vector<NamedSummary>& runs);
 

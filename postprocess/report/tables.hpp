@@ -21,7 +21,7 @@ struct ForceUnit {
 /// mean over the second half of the record, with 4 digits.
 ForceUnit page_unit(const read::RunFolder& run);
 
-/// The same times metre. In 2D moments are per metre of breadth, too.
+/// The unit of force times metre. In 2D moments are per metre of breadth, too.
 ForceUnit moment_unit(const ForceUnit& force);
 
 /// @param largest magnitude the unit is chosen for [N]; NaN counts as 0

@@ -15,7 +15,7 @@ std::string make_tornado(const Study& study);
 /// "*" where the interval leaves out zero; then inputs that were left out, with reasons.
 std::string study_text(const Study& study);
 
-/// The same as a page, with the chart and the source of each range. One file without script that
+/// The study as a page, with the chart and the source of each range. One file without script that
 /// loads nothing; valid XML.
 std::string make_study_page(const Study& study);
 

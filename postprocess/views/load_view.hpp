@@ -11,7 +11,7 @@ namespace ice::views {
 /// A scalar on the hull's triangles.
 struct HullLoad {
     const TriangleMesh& hull;         ///< as it is, ship frame: drawn bare below the colours
-    const TriangleMesh& mesh;         ///< the same in small triangles
+    const TriangleMesh& mesh;         ///< the hull in small triangles
     const std::vector<double>& load;  ///< [T] per triangle of `mesh` [Pa]
     double scale_end = 0.0;           ///< load of the darkest colour [Pa]; 0: none is drawn
     double waterline = 0.0;           ///< height of the water in the ship frame [m]

@@ -11,7 +11,7 @@ namespace ice {
 class PlacedVertices {
 public:
     /// @param tolerance  over the diagonal [-]: places that near are one, except where a grid of
-    ///                   twice that width parts them; 0: equal coordinates, bit for bit
+    ///                   twice that width separates them; 0: equal coordinates, bit for bit
     PlacedVertices(const TriangleMesh& mesh, double tolerance);
 
     /// The first vertex at a place; -1 where there is none.

@@ -15,7 +15,7 @@ struct FieldKey : Key {
 /// All keys in the order in which they are shown.
 const std::vector<FieldKey>& field_keys();
 
-/// Of the keys that belong to some patterns only, those of one pattern.
+/// The keys of one pattern, of those that belong to some patterns only.
 struct PatternKeys {
     std::string_view name;
     std::vector<std::string_view> required, optional;

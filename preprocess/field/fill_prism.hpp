@@ -25,7 +25,7 @@ struct PrismForm {
 SphereSet fill_prism(const Outline& outline, const PrismForm& form,
                      std::int64_t* corners = nullptr);
 
-/// The same of a floe in 2D: the section `length` x `form.thickness` [m] filled with discs
+/// The sphere set of a floe in 2D: the section `length` x `form.thickness` [m] filled with discs
 /// (fill_discs), about its centre. The chamfer is left out.
 ///
 /// @throws Error (exit code 2) when no disc fits

@@ -24,7 +24,7 @@ FieldPlan plan_field(const FieldSpec& spec, std::vector<std::string>& warnings);
 /// equal but for their place (to a thousandth of a millimetre) share a shape. Provenance is the
 /// caller's.
 ///
-/// The same bits for any number of threads.
+/// The bits are the same for any number of threads.
 /// @throws Error (exit code 2) when a floe is too small for a sphere, or a corner of one that has
 ///         room for a sphere has none of its own
 Field make_field(const FieldSpec& spec, const FieldPlan& plan, FieldReport& report);

@@ -8,7 +8,6 @@
 
 namespace ice {
 
-using Vec2 = Eigen::Vector2d;
 using Rectangle = Eigen::AlignedBox2d;
 
 /// A floe seen from above: corners in order, anticlockwise, without repeating the first [m].

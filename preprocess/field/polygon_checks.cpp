@@ -27,7 +27,8 @@ std::vector<Triangle> triangles_of(const Outline& outline) {
     return out;
 }
 
-// Separating axes: the least overlap over the normals of all edges; negative where one parts them.
+// Separating axes: the least overlap over the normals of all edges; negative where one separates
+// them.
 double depth_of(const Triangle& a, const Triangle& b) {
     double least = std::numeric_limits<double>::infinity();
     for (const Triangle* t : {&a, &b})

@@ -35,7 +35,9 @@ double distance_to_next_face(const SurfaceTree& tree, const Vec3& center, const 
     return most;
 }
 
-constexpr double kSameNormal = 0.9999;  // cosine: touches 0.01 rad apart are one
+// Cosine of 0.014 rad: touches nearer than that are of one face. A smaller angle makes two corners
+// of one that is reached from two edges, a larger one makes faces one that turn by as little.
+constexpr double kSameNormal = 0.9999;
 
 // The spheres that touch several faces: few of a ship's, and the only ones that can know a corner.
 class CreasedSpheres {
@@ -75,8 +77,9 @@ private:
 }  // namespace
 
 bool is_corner(const Seat& seat) {
-    // Triple product of the three faces' normals: of less, they lie almost in a plane, and the
-    // place is an edge.
+    // Triple product of the three faces' normals [-]: of less, they lie almost in a plane, and the
+    // place is an edge. Smaller takes places of a curved edge for corners, larger misses blunt
+    // corners.
     constexpr double kLeastVolume = 0.1;
     const auto& t = seat.touch;
     return seat.touches == 3 && std::abs(t[0].cross(t[1]).dot(t[2])) >= kLeastVolume;
@@ -92,7 +95,9 @@ bool touch_the_same(const Seat& one, const Seat& other) {
 
 std::optional<Seat> slide_to_corner(const SurfaceTree& tree, double radius, Seat seat,
                                     const Vec3& along, double most) {
-    constexpr int kMostSteps = 8;  // several where the third face is cut into triangles or curved
+    // Steps at most: several where the third face is cut into triangles or curved. Fewer miss
+    // corners in such faces, more only take time.
+    constexpr int kMostSteps = 8;
     for (int step = 0; step < kMostSteps; ++step) {
         const double distance = distance_to_next_face(tree, seat.center, along, radius, most);
         if (distance == most) return std::nullopt;

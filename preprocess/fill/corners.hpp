@@ -18,7 +18,7 @@ constexpr double kSameCorner = 1e-3;
 /// Less is an edge: sides that turn by 6 degrees, with a top, have 0.1.
 bool is_corner(const Seat& seat);
 
-/// True where two settled spheres touch the same faces, three at most, to 0.01 rad.
+/// True where two settled spheres touch the same faces, three at most, to 0.014 rad.
 bool touch_the_same(const Seat& one, const Seat& other);
 
 /// A seat on an edge moved along it, not farther than `most` [m], until it touches a third face.

@@ -47,7 +47,7 @@ struct FillOptions {
 SphereSet fill_spheres(const TriangleMesh& solid, const FillOptions& options,
                        SpheresReport& report);
 
-/// The same for a section: discs in the plane y = 0, everything per metre of breadth.
+/// Fills a section with discs in the plane y = 0; everything is per metre of breadth.
 SphereSet fill_discs(const Section& section, const std::vector<std::string>& region_names,
                      const FillOptions& options, SpheresReport& report);
 

@@ -19,9 +19,13 @@ constexpr int kMostSteps = 40;
 // kExact, so that all faces of a settled crease count; a larger value adds faces that only pass
 // near.
 constexpr double kTouch = 1e-5;
-// The same for a start in a crease, whose point is known to 2 % of the radius only.
+// The same for a start in a crease, whose point is known to 2 % of the radius only; the start is
+// pushed towards the edge by as much. Smaller misses faces that meet there, larger adds faces that
+// only pass near.
 constexpr double kNearCrease = 0.02;
-// Steps along the foot's direction, before creases are thought of: enough on smooth surfaces.
+// Steps along the foot's direction, before creases are searched for: enough on smooth surfaces.
+// With more, a seat that they lead into a crease is taken for one of a smooth surface; with fewer,
+// the conditions of smooth surfaces are solved, too, which takes longer.
 constexpr int kSmoothSteps = 3;
 // Difference from the radius, over the radius [-], at which a distance counts as reached.
 constexpr double kExact = 1e-10;
@@ -32,9 +36,12 @@ constexpr double kRounding = 8.0 * std::numeric_limits<double>::epsilon();
 constexpr std::size_t kMostConditions = 200;
 // Radius over the mesh's mean edge [-] from which the mesh is fine beside the radius.
 constexpr double kFine = 8.0;
-// Directions kept of a sphere that fits a round solid exactly and touches it everywhere.
+// Directions kept of a sphere that fits a round solid exactly and touches it everywhere [-]. Fewer
+// make its normal cone narrower, more take time.
 constexpr std::size_t kMostDirections = 500;
 // Cosine of 1e-3 rad: conditions with nearer directions are one, as those of one face's triangles.
+// With a smaller angle these fill the list; with a larger one, faces that turn by less than it are
+// one condition.
 constexpr double kSameDirection = 0.9999995;
 
 // g . move >= need
@@ -135,8 +142,10 @@ Vec3 smallest_move(const std::vector<Condition>& conditions) {
 // @param nearest  becomes the nearest foot's triangle where there is one
 std::vector<Vec3> near_directions(const SurfaceTree& tree, const Vec3& center, double range,
                                   std::int32_t& nearest) {
-    constexpr double kSameTouch = 0.99995;  // cosine of 0.01 rad
-    thread_local std::vector<Foot> feet;    // keep their memory
+    // Cosine of 0.01 rad: nearer directions count once. With a smaller angle the triangles of one
+    // face count as several, with a larger one faces that turn by less than it are one.
+    constexpr double kSameTouch = 0.99995;
+    thread_local std::vector<Foot> feet;  // keep their memory
     tree.within(center, range, feet);
     // the nearest first: the other triangles of a face have their feet a little aside
     sort_by_distance(feet);

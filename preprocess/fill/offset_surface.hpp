@@ -56,8 +56,8 @@ double exact_distance(const Vec3& center, double radius);
 std::optional<Seat> settle(const SurfaceTree& tree, const Vec3& start, double radius,
                            std::int32_t hint = -1);
 
-/// The same for a start at a sharp edge or corner, within 2 % of the radius of where its sphere
-/// touches all faces met there: it ends up touching them all.
+/// Settles a start at a sharp edge or corner, within 2 % of the radius of where its sphere touches
+/// all faces met there: it ends up touching them all.
 std::optional<Seat> settle_in_crease(const SurfaceTree& tree, const Vec3& start, double radius);
 
 /// The surface normals that a seat represents: its own, or all that meet in its crease. They are

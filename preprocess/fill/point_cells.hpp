@@ -33,7 +33,8 @@ public:
     /// where one is near.
     Nearest nearest(const Vec3& p) const { return nearest(p, {-1, kFar}); }
 
-    /// The same when one point and its distance are known already: only nearer ones are looked for.
+    /// The nearest point when one and its distance are known already: only nearer ones are looked
+    /// for.
     Nearest nearest(const Vec3& p, Nearest known) const;
 
     /// Calls visit(index, distance [m]) for all points within `range` [m] of p, in no particular

@@ -17,13 +17,23 @@ namespace ice {
 
 namespace {
 
-// In units of the spacing. Seats depend on all of them but the last.
-constexpr double kTile = 32.0;             // a tile's edge: a thousand seats of a flat face
-constexpr double kSeedSize = 0.7;          // between the samples that fronts may start from
-constexpr double kLineSize = 0.1;          // the same in 2D, where samples alone close the gaps
-constexpr double kCoveredInPlane = 0.62;   // in 2D a sample that has no seat this near gets one
-constexpr double kDeep = 0.75;             // radii that a seed of use is from the surface
-constexpr std::size_t kManySeeds = 20000;  // count: of fewer seeds one thread is faster
+// Seats depend on all of these but the last.
+
+// A tile's edge [spacings]: a thousand seats of a flat face. Larger tiles leave threads fewer
+// tasks; smaller ones copy more seats of their neighbours. At least 4, or tiles of one colour would
+// meet.
+constexpr double kTile = 32.0;
+// Distance of the samples that fronts may start from [spacings], in 3D and in 2D, where samples
+// alone close the gaps. Smaller settles more seeds; larger may miss places that no front reaches.
+constexpr double kSeedSize = 0.7, kLineSize = 0.1;
+// In 2D a sample that has no seat this near gets one [spacings]. Smaller places more discs, larger
+// leaves wider gaps in the outline.
+constexpr double kCoveredInPlane = 0.62;
+// Depth of a seed of use in a fine mesh [radii]. Smaller settles more seeds for nothing, larger may
+// leave out places where a sphere touches.
+constexpr double kDeep = 0.75;
+// Of fewer seeds than this one thread is faster [-]. Only time depends on it.
+constexpr std::size_t kManySeeds = 20000;
 
 struct Tile {
     std::array<int, 3> at;
@@ -76,8 +86,8 @@ private:
     void make_seeds() {
         const double size = (o_.dimension == 2 ? kLineSize : kSeedSize) * o_.spacing;
         const SurfaceSampler sampler(tree_.mesh(), size, o_.dimension, o_.mirror);
-        // small triangles have many seeds, and one that yields nothing takes long: where a
-        // sphere touches, the sample beside it has its seat beside the sphere's centre, deep inside
+        // Small triangles have many seeds, and settling a useless one is slow. A sphere cannot
+        // touch at a sample whose seat is not deep enough: such a seed is skipped.
         const bool fine = is_fine_for(tree_, o_.radius);
         std::vector<SurfaceSample> samples;
         for (std::size_t t = 0; t < sampler.triangle_count(); ++t) {

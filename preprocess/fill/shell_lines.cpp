@@ -16,10 +16,16 @@ namespace ice {
 
 namespace {
 
-// In units of the spacing.
-constexpr double kEdgeSeparation = 0.5;  // between spheres of different edges
-constexpr double kEdgeRounding = 1e-6;   // by which the separation may be missed
-constexpr double kEdgeMirrorGap = 0.25;  // half of it: a sphere and its image
+// Least distance of spheres of different edges that represent the same faces [spacings]. Smaller
+// places more spheres where edges meet, larger drops those of edges beside each other.
+constexpr double kEdgeSeparation = 0.5;
+// By which the separation may be missed [spacings]: without it rounding decides whether a sphere
+// just that far from a corner stays.
+constexpr double kEdgeRounding = 1e-6;
+// A sphere nearer to the centre plane is moved into it [spacings]: half the separation, as its
+// image is as far on the other side. Larger moves more spheres, smaller lets a sphere and its image
+// come nearer to each other.
+constexpr double kEdgeMirrorGap = 0.25;
 
 using Line = std::vector<Vec3>;
 

@@ -88,15 +88,4 @@ void SurfaceSampler::sample(std::size_t t, std::vector<SurfaceSample>& out) cons
         if (s.point.y() == 0.0) s.area *= 0.5;
 }
 
-std::vector<SurfaceSample> sample_surface(const TriangleMesh& mesh, double size, int dimension,
-                                          bool half) {
-    const SurfaceSampler sampler(mesh, size, dimension, half);
-    std::vector<SurfaceSample> out, part;
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-        sampler.sample(t, part);
-        out.insert(out.end(), part.begin(), part.end());
-    }
-    return out;
-}
-
 }  // namespace ice

@@ -43,8 +43,4 @@ private:
     bool half_;
 };
 
-/// All samples of a mesh in triangle order. For tests: small meshes and few samples.
-std::vector<SurfaceSample> sample_surface(const TriangleMesh& mesh, double size, int dimension,
-                                          bool half = false);
-
 }  // namespace ice

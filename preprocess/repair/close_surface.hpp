@@ -12,8 +12,8 @@ namespace ice {
 /// A surface without boundary, and the caps that it took.
 struct ClosedSurface {
     TriangleMesh mesh;             ///< each edge has two triangles that agree; parts face outwards
-    TriangleMesh open;             ///< the same without its caps
-    TriangleMesh unsure;           ///< the same without the caps that are a guess
+    TriangleMesh open;             ///< the surface without its caps
+    TriangleMesh unsure;           ///< the surface without the caps that are a guess
     std::vector<CapVerdict> caps;  ///< one per hole
     double surface = 0.0;          ///< area without caps [m2]
     double widest = 0.0;           ///< of caps that are a guess: 4 area / perimeter [m]

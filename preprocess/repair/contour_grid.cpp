@@ -59,7 +59,7 @@ private:
     }
 
     void cut_tetrahedron(std::size_t base, const int (&corner)[4]) {
-        // One corner alone is cut off by a triangle; two and two are parted by a quadrilateral.
+        // One corner alone is cut off by a triangle; two and two are separated by a quadrilateral.
         int in[4], out[4], in_count = 0, out_count = 0;
         for (const int c : corner)
             inside_[base + offset_[c]] ? in[in_count++] = c : out[out_count++] = c;

@@ -44,6 +44,10 @@ constexpr double kWrapOffset = 1000.0;     // diagonal over the offset of the wr
 constexpr std::size_t kMostPairs = 50000;  // pairs that are cut: 0.2 ms each, 10 s in all
 constexpr int kRounds = 3;                 // of cutting: rounding may let cut pieces cross again
 constexpr double kCollapsed = 0.5;         // of the volume the winding number gives
+// Rows per side of the box that measure the volume of the winding number, to which a solid is held
+// with kContourError. Fewer make the error of sampling larger (measure_rows), more take time with
+// their square.
+constexpr int kVolumeRows = 300;
 
 const char* const kRemedy =
     "close and orient it in the program that made it, then export again; or try --repair wrap";
@@ -215,7 +219,7 @@ private:
             solid = std::move(*sum);
             left = find_self_intersections(solid);
         }
-        const double expected = measure_rows(mesh, 300)[0].by_winding;
+        const double expected = measure_rows(mesh, kVolumeRows)[0].by_winding;
         const ShellCounts shells = choose_shells(solid, options_.kind);
         const SolidProof proof = verify_solid(solid);
         // the envelope may have gained voids between the parts
@@ -261,7 +265,7 @@ private:
         // input; only an envelope, whose voids are filled, may have more.
         if (solid.unclear > kWindingDiffers || solid.mesh.triangles.empty()) return std::nullopt;
         const SolidProof proof = verify_solid(solid.mesh);
-        const double expected = measure_rows(mesh, 300)[0].by_winding;
+        const double expected = measure_rows(mesh, kVolumeRows)[0].by_winding;
         if (!proof.good || proof.volume < (1.0 - kContourError) * expected) return std::nullopt;
         if (options_.kind == SolidKind::material && proof.volume > (1.0 + kContourError) * expected)
             return std::nullopt;

@@ -31,8 +31,8 @@ double opening_angle(const PieceOutline& piece);
 /// beam's [N/m]. Equations (28) and (29). bending.opening_angle wins over the piece's own angle.
 double breaking_load(const PieceOutline& piece, const Case& parameters);
 
-/// The same of a piece with the opening angle `angle` [rad], unless the case gives an angle; in 2D
-/// the beam's [N/m], whatever the angle.
+/// The breaking load [N] of a piece with the opening angle `angle` [rad], unless the case gives an
+/// angle; in 2D the beam's [N/m], whatever the angle.
 double breaking_load(double angle, double thickness, const Case& parameters);
 
 /// bending.factor_table at a normal speed [m/s], f(v_n) [-]: linear between its rows and constant

@@ -27,7 +27,7 @@ struct BodyPair {
 void find_pairs(const Scene& scene, double margin, std::vector<BodyPair>& out);
 
 namespace reference {
-/// The same by testing all pairs: the definition and the oracle of the tests.
+/// Finds pairs by testing all: the definition and the oracle of the tests.
 void find_pairs(const Scene& scene, double margin, std::vector<BodyPair>& out);
 }  // namespace reference
 

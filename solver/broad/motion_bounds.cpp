@@ -45,7 +45,7 @@ void MotionBounds::update(const Scene& scene, double dt) {
     crushed_.resize(b.size(), 0.0);
     position_.resize(b.size());
     orientation_.resize(b.size());
-    // A path grows by |dx| + theta (R + 0.5 m) in a step (section 9); at the end of the coming
+    // A path grows by |dx| + theta (R + kSurround) in a step (section 9); at the end of the coming
     // step by the present velocities instead of the difference of poses.
     const auto look = [&](std::size_t i) {
         if (i < known) {

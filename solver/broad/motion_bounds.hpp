@@ -11,10 +11,10 @@ namespace ice {
 /// two bodies stays valid until their paths add up to its skin (Verlet, Physical Review 159, 1967;
 /// docs/method.md, section 9).
 ///
-/// From step to step a path grows by |dx| + theta (R + 0.5 m): no point within 0.5 m of the body
-/// moves farther. So two surfaces near each other have moved relative to each other by at most the
-/// sum of both paths. Paths are computed from the poses, so they include every cause of motion, and
-/// of held floes that drift, too. The depth by which the last step crushed a body is added.
+/// From step to step a path grows by |dx| + theta (R + kSurround): no point within kSurround of the
+/// body moves farther. So two surfaces near each other have moved relative to each other by at most
+/// the sum of both paths. Paths are computed from the poses, so they include every cause of motion,
+/// and of held floes that drift, too. The depth by which the last step crushed a body is added.
 class MotionBounds {
 public:
     /// Adds the motion since the last call; bodies that are new begin with a path of 0.
@@ -39,8 +39,13 @@ public:
     /// Bodies that are known.
     std::size_t size() const { return path_.size(); }
 
-    /// R + 0.5 m of a shape: path per angle of rotation [m].
-    static double lever(const Shape& shape) { return shape.bounding_radius + 0.5; }
+    /// Distance from a body up to which its path bounds the motion of points [m]. For surfaces that
+    /// are farther apart the sum of two paths is no bound; larger makes the paths of bodies that
+    /// turn longer, so that their neighbour lists are renewed sooner.
+    static constexpr double kSurround = 0.5;
+
+    /// R + kSurround of a shape: path per angle of rotation [m].
+    static double lever(const Shape& shape) { return shape.bounding_radius + kSurround; }
 
 private:
     std::vector<double> path_, path_after_step_, rotation_, crushed_;

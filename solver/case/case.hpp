@@ -16,10 +16,10 @@
 
 namespace ice {
 
-enum class Pattern { grid, brick, single, file };
-/// Until when a floe is immovable (infinite mass).
 /// Where a floe group's places come from: rows and columns, columns shifted by half a floe, one
 /// floe, or a field file.
+enum class Pattern { grid, brick, single, file };
+/// Until when a floe is immovable (infinite mass).
 enum class Hold { never, until_hull_contact, until_contact, until_bent, always };
 /// Direction of a contact: that of the surfaces which the spheres represent, or of the centres.
 enum class NormalRule { surface, centres };
@@ -50,14 +50,14 @@ struct FloeGroup {
     Vec3 velocity = Vec3::Zero(), angular_velocity = Vec3::Zero();
 };
 
-/// [bending]: when ice held until it bends is let go (solver/bending).
+/// [bending]: when ice held until it bends is released (solver/bending).
 struct BendingLaw {
     double flexural_strength = 5e5;  ///< [Pa]
     double elastic_modulus = 5e9;    ///< [Pa]
     double poisson_ratio = 0.3;      ///< [-]
     BendingModel model = BendingModel::wedge;
     double factor = 1.0;  ///< on the breaking load [-]
-    /// Of a piece [rad], 0 to pi; NaN: from its outline.
+    /// Opening angle of a piece [rad], 0 to pi; NaN: from its outline.
     double opening_angle = std::numeric_limits<double>::quiet_NaN();
     double load_length = 0.0;  ///< over which the load is spread from the edge [m]
     /// Rows (normal speed [m/s], a second factor [-]), speed rising; empty: none.
@@ -68,7 +68,7 @@ struct BendingLaw {
 struct LevelIce {
     double thickness = 0.0;          ///< [m]; 0: none
     std::array<double, 4> extent{};  ///< smallest and largest x, smallest and largest y [m]
-    /// Of contact spheres; between a tile and its neighbours [m].
+    /// Distance of contact spheres [m]; gap between a tile and its neighbours [m].
     double spacing = 0.5, gap = 0.05;
     int seed = 0;  ///< of the cracks' scatter
     /// CrackLaw: C_l [-], C_v [s/m], largest relative deviation [-].

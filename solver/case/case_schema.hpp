@@ -18,7 +18,7 @@ struct CaseKey : Key {
 /// All keys in the order of the contract.
 const std::vector<CaseKey>& case_keys();
 
-/// The same keys for reading and explaining.
+/// The schema of these keys, for reading and explaining.
 const Schema& case_schema();
 
 }  // namespace ice

@@ -30,10 +30,10 @@ struct Constraint {
     double friction;             ///< Coulomb's coefficient [-]
     double impact_normal = 0.0;  ///< normal impulse of the impact stage [N s]
     Vec3 impact_tangent = Vec3::Zero();  ///< its friction, across the normal [N s]
-    double rest_normal = 0.0;            ///< normal impulse of the resting stage [N s]
+    double rest_normal = 0.0;            ///< normal impulse of the rest stage [N s]
     Vec3 rest_tangent = Vec3::Zero();    ///< its friction, across the normal [N s]
 
-    /// Of both stages [N s].
+    /// Normal impulse of both stages [N s].
     double total_normal() const { return impact_normal + rest_normal; }
     /// Friction of both stages, across the normal [N s].
     Vec3 total_tangent() const { return impact_tangent + rest_tangent; }
@@ -53,8 +53,8 @@ void build_constraints(const Bodies& bodies, const std::vector<Contact>& contact
 ///
 ///     K j = (1/m_a + 1/m_b) j + (I_a^-1 (r_a x j)) x r_a + (I_b^-1 (r_b x j)) x r_b
 ///
-/// (equation (5)) and k(d) = d . K d [1/kg] for a unit vector d; of bodies with added mass K has
-/// their inverse_mass_excess besides, which this function leaves out. Zero for immovable bodies.
+/// (equation (5)) and k(d) = d . K d [1/kg] for a unit vector d. Without added mass: callers add
+/// inverse_mass_excess. Zero for immovable bodies.
 /// @param inverse_mass  1/m_a + 1/m_b [1/kg]
 /// @param arm_a, arm_b  r_a and r_b, world axes [m]
 /// @param inverse_inertia_a, inverse_inertia_b  I^-1, world axes [1/(kg m2)]
@@ -73,12 +73,12 @@ void apply_impulse(Bodies& bodies, const Constraint& c, const Vec3& j);
 /// The ship's part of it, for a ship that answers: -j [N s] at its arm. @pre c.a is the ship
 void push_ship(Bodies& bodies, const Constraint& c, const Vec3& j);
 
-/// d . K d of the ship alone for a unit vector d: its k(d) at a point [1/kg]; 0 for a ship at
-/// prescribed speed. @param arm  from its centre of gravity to the point [m]
+/// d . K d of the ship alone for a unit vector d: its k(d) at a point [1/kg]; 0 for a ship on a
+/// prescribed course. @param arm  from its centre of gravity to the point [m]
 double ship_response(const ShipResponse& ship, const Vec3& arm, const Vec3& direction);
 
 /// An upper bound of d . inverse_mass d over all unit vectors d [1/kg]: the largest sum of a row's
-/// amounts. 0 for a ship at prescribed speed.
+/// amounts. 0 for a ship on a prescribed course.
 double largest_response(const ShipResponse& ship);
 
 /// Resting impulses of the last step, found again by (a, b, key): the solver's first guess.
@@ -88,7 +88,7 @@ public:
     /// body can move. The tangential part is projected on the new tangent plane and the new cone.
     /// @pre contacts ordered by (a, b), as ContactFinder gives them
     void recall(const std::vector<Contact>& contacts, std::vector<Constraint>& constraints) const;
-    /// Takes the impulses of the resting stage. @pre as of recall
+    /// Takes the impulses of the rest stage. @pre as of recall
     /// @param which  constraints that took part in it, ascending
     void remember(const std::vector<Contact>& contacts, const std::vector<Constraint>& constraints,
                   const std::vector<std::int32_t>& which);
@@ -100,7 +100,7 @@ private:
     struct Entry {
         std::int32_t a, b;
         std::uint64_t key;
-        double normal;  // impulses of the last resting stage [N s]
+        double normal;  // impulses of the last rest stage [N s]
         Vec3 tangent;
     };
     static bool precedes(const Entry& e, const Contact& c);

@@ -76,9 +76,9 @@ struct alignas(64) BodyMotion {
 ///
 /// A ship that answers would couple all its contacts. Instead each of its n pairs has a copy of it,
 /// n times as light (mass splitting: Tonge, Benevolenski, Voroshilov, ACM TOG 31(4), 2012), and
-/// after a sweep join_ship() makes one of them again. The copies answer along all axes as along
-/// that in which the ship answers most: where nothing changes any more they stand still, so that
-/// their common result is the same, and is that of the ship itself.
+/// after a sweep join_ship() makes one of them again. In a sweep every copy has one inverse mass
+/// for all directions, n times the ship's largest. At the fixed point no copy changes, so the
+/// solution is the ship's own.
 class ContactRows {
 public:
     /// Measures their responses, with the bodies' present poses.

@@ -91,7 +91,7 @@ void Overlaps::correct_positions(const Scene& scene, const std::vector<Constrain
         const Constraint& c = constraints[k];
         const double radius = radius_of(scene, c);
         const double overlap = -gap_after(bodies, c, dt) - kToleratedOverlap * radius;
-        // a ship at prescribed speed and held ice keep theirs
+        // a ship on a prescribed course and held ice keep theirs
         if (overlap <= 0.0 || c.is_at_bound() || !c.can_move) continue;
         pushes_.push_back(push_of(bodies, c, k, share * std::min(overlap, kMostOpened * radius)));
     }
@@ -119,7 +119,7 @@ void Overlaps::crush(Scene& scene, const std::vector<Contact>& contacts,
                      const std::vector<Constraint>& constraints, const ContactLaw& law, double dt) {
     ICE_ASSERT(constraints.size() == contacts.size());
     const Bodies& bodies = scene.bodies;
-    crush_events_.clear();
+    crushings_.clear();
     if (law.is_rigid()) return;
     for (std::size_t k = 0; k < constraints.size(); ++k) {
         const Constraint& c = constraints[k];
@@ -130,23 +130,21 @@ void Overlaps::crush(Scene& scene, const std::vector<Contact>& contacts,
         if (gap >= 0.0) continue;
         const Contact& contact = contacts[k];
         if (contact.crushes_a)
-            crush_events_.push_back({c.a, contact.sphere_a, k, gap, -c.normal});
+            crushings_.push_back({c.a, contact.sphere_a, k, gap, -c.normal});
         else
-            crush_events_.push_back({c.b, contact.sphere_b, k, gap, c.normal});
+            crushings_.push_back({c.b, contact.sphere_b, k, gap, c.normal});
     }
-    std::sort(crush_events_.begin(), crush_events_.end(),
-              [](const CrushEvent& l, const CrushEvent& r) {
-                  return std::tie(l.body, l.sphere, l.constraint) <
-                         std::tie(r.body, r.sphere, r.constraint);
-              });
-    for (std::size_t k = 0; k < crush_events_.size();) {
-        const std::int32_t body = crush_events_[k].body, sphere = crush_events_[k].sphere;
+    std::sort(crushings_.begin(), crushings_.end(), [](const Crushing& l, const Crushing& r) {
+        return std::tie(l.body, l.sphere, l.constraint) < std::tie(r.body, r.sphere, r.constraint);
+    });
+    for (std::size_t k = 0; k < crushings_.size();) {
+        const std::int32_t body = crushings_[k].body, sphere = crushings_[k].sphere;
         // several hull spheres may press on one of the ice's: it is displaced once
         Vec3 move = Vec3::Zero();
-        for (; k < crush_events_.size() && crush_events_[k].body == body &&
-               crush_events_[k].sphere == sphere;
+        for (;
+             k < crushings_.size() && crushings_[k].body == body && crushings_[k].sphere == sphere;
              ++k)
-            add_along(-crush_events_[k].gap, crush_events_[k].inwards, move);
+            add_along(-crushings_[k].gap, crushings_[k].inwards, move);
         // stored in the body's axes: crushed ice moves and turns with its floe
         const Shape& shape = scene.shapes[static_cast<std::size_t>(bodies.shape[body])];
         scene.crushed.crush(body, sphere, shape.center.size(),

@@ -42,7 +42,8 @@ public:
     /// step, which is slower.
     ///
     /// Contacts at their bound are left alone: that ice is gone. A ship that answers moves by its
-    /// share, of its mass and the water's that moves along; one at prescribed speed does not move.
+    /// share, of its mass and the water's that moves along; one on a prescribed course does not
+    /// move.
     /// @param dt   time step [s]
     /// @param out  resized to all bodies; zero for bodies without overlap. It is that of the last
     ///             step, or empty: only the ship and moving bodies are cleared
@@ -68,14 +69,15 @@ private:
     // @param target  move along the normal [m]
     static Push push_of(const Bodies& bodies, const Constraint& c, std::size_t row, double target);
 
-    struct CrushEvent {
+    // A sphere that one constraint crushes.
+    struct Crushing {
         std::int32_t body, sphere;
         std::size_t constraint;
         double gap;    // at the end of the step [m]
         Vec3 inwards;  // world axes
     };
     std::vector<Push> pushes_;
-    std::vector<CrushEvent> crush_events_;
+    std::vector<Crushing> crushings_;
 };
 
 }  // namespace ice

@@ -63,7 +63,7 @@ private:
     // One move for each sphere, sorted; from the depths before any of them.
     void find_moves(const Scene& scene, double dt, const std::vector<Contact>& contacts,
                     const std::vector<Constraint>& constraints);
-    // Of the contact's pair in the last step [m]; `at` is an entry at which to begin.
+    // Depth of the contact's pair in the last step [m]; `at` is an entry at which to begin.
     double last_depth(const Contact& c, std::size_t& at) const;
     void remember(const std::vector<Contact>& contacts);
 

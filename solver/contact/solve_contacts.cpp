@@ -29,7 +29,7 @@ constexpr int kRebounds = 2;
 // take many iterations reach them.
 constexpr int kPlainShare = 3;
 
-// Contacts take part in the resting stage when the loads bring them this near to closing [m]: most
+// Contacts take part in the rest stage when the loads bring them this near to closing [m]: most
 // are near ones that carry nothing. Those that its solution closes all the same then take part too;
 // the residual after so many solutions is an overlap in the next step. Without this margin a step
 // takes 2.6 to 6.5 solutions instead of 1.07 to 1.14; twice as much takes a fifth more contacts.
@@ -78,7 +78,7 @@ SolveReport ContactSolver::iterate(const ContactLaw& law) {
     while (true) {
         ++report.iterations;
         // A free ship is solved as copies, one per pair (section 14), which become one ship
-        // again after each sweep; one at prescribed speed is not touched.
+        // again after each sweep; one on a prescribed course is not touched.
         contacts_.part_ship();
         report.residual =
             sweep(contacts_.blocks, contacts_.rows, contacts_.motion, contacts_.excess);

@@ -40,15 +40,15 @@ public:
     /// Bridson, Fedkiw, ACM TOG 22(3), 2003, section 5).
     ///
     /// Where this would add energy (friction at e near 1) the rebound is weakened: limit_rebound().
-    /// Between a ship at prescribed speed and a held floe no impulse moves anything: with a finite
-    /// crushing pressure an approaching contact carries its bound and friction, without one nothing
-    /// (a jam, see measure_step). Where no contact approaches, the stage does nothing. It starts
-    /// from the impulses that the constraints have, zero after build_constraints.
+    /// Between a ship on a prescribed course and a held floe no impulse moves anything: with a
+    /// finite crushing pressure an approaching contact carries its bound and friction, without one
+    /// nothing (a jam, see measure_step). Where no contact approaches, the stage does nothing. It
+    /// starts from the impulses that the constraints have, zero after build_constraints.
     /// @param dt  time step [s], that of build_constraints
     SolveReport resolve_impacts(Bodies& bodies, std::vector<Constraint>& constraints,
                                 const ContactLaw& law, double dt);
 
-    /// Resting stage, after the loads: no contact closes further than its gap,
+    /// Rest stage, after the loads: no contact closes further than its gap,
     /// v_r . n >= -max(gap, 0) / dt, with what the impact stage left of the bound. Starts from
     /// rest_normal and rest_tangent as given (WarmStart::recall).
     ///
@@ -61,7 +61,7 @@ public:
     /// where nothing can move, no rest_tangent where there is no rest_normal
     SolveReport resolve_rest(Bodies& bodies, std::vector<Constraint>& constraints,
                              const ContactLaw& law, double dt);
-    /// Constraints that took part in the last resting stage, or, where it did not converge, would
+    /// Constraints that took part in the last rest stage, or, where it did not converge, would
     /// have to; ascending. The others carry nothing in it.
     const std::vector<std::int32_t>& resting() const { return active_; }
 
@@ -73,7 +73,7 @@ private:
     SolveReport rebound(Bodies& bodies, std::vector<Constraint>& constraints,
                         const ContactLaw& law);
 
-    // Adds the contacts to active_ that have to take part in the resting stage; are there any new
+    // Adds the contacts to active_ that have to take part in the rest stage; are there any new
     // ones? Once there are some, only a contact that closes brings others.
     bool enlist(const Bodies& bodies, const std::vector<Constraint>& constraints, double tolerance,
                 double dt);

@@ -31,9 +31,10 @@ struct ShipAddedMass {
     std::size_t panels = 0;      ///< that it was computed from
 };
 
-/// Of the wetted part of a closed hull. Surge, sway and yaw are slow: the water's surface is a lid.
-/// Heave, roll and pitch are fast: it yields (phi = 0), the limit of infinite frequency. Terms that
-/// couple the one with the other are 0, as they are for two such surfaces together.
+/// The added mass of the wetted part of a closed hull. Surge, sway and yaw are slow: the water's
+/// surface is a lid. Heave, roll and pitch are fast: it yields (phi = 0), the limit of infinite
+/// frequency. Terms that couple the one with the other are 0, as they are for two such surfaces
+/// together.
 /// @param water  z of the water in the mesh's frame [m]
 /// @param about  in the mesh's frame [m]
 /// @param longest_edge  of a panel [m]; 0: a fifteenth of the wetted length

@@ -36,11 +36,11 @@ constexpr std::size_t kMostPanels = 8000;
 // Residual above which a flow is worth a warning [-]: hulls with sharp edges have 2 to 4 %, smooth
 // ones 1 %. Only the warning depends on it.
 constexpr double kWorryingResidual = 0.05;
-// Net source over the sum of all sources' amounts: above it the hull is not closed, or its panels
-// are too large.
+// Net source over the sum of all sources' amounts [-]: above it the hull is not closed, or its
+// panels are too large. Only the warning depends on it.
 constexpr double kWorryingFlux = 0.005;
-// Nodes in the hull take the flow this far off its surface, in spacings: on the panels themselves
-// it is rough by their edges.
+// Nodes in the hull take the flow this far off its surface [spacings]. Smaller takes it nearer to
+// the panels, where it is rough by their edges; larger takes that of water farther away.
 constexpr double kOffSurface = 0.1;
 
 // The hull as the table sees it.

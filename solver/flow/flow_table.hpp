@@ -28,11 +28,11 @@ struct HullFlow {
 
 /// The flow around a hull, 3D or 2D, from its sources to a table.
 ///
-/// The table reaches a breadth around the hull (2D: a draught), within it the outer third fades
-/// smoothly to 0. Nodes in the hull have the flow of the surface's nearest point. Speeds above 1.2
-/// in the earth frame, which sharp edges make, are lowered to that. The same bits for any number of
-/// threads and any instruction set. options.panel wins over the bound on panels: too many are
-/// refused, never made coarser.
+/// The table reaches a breadth around the hull (2D: two draughts); in the outer third of that the
+/// flow fades smoothly to 0. Nodes in the hull have the flow at a point outside: a tenth of a
+/// spacing from the surface's nearest point. Speeds above 1.2 in the earth frame, which sharp edges
+/// make, are lowered to that. The bits are the same for any number of threads and any instruction
+/// set. options.panel wins over the bound on panels: too many are refused, never made coarser.
 /// @param dimension  3, or 2 for a section
 /// @throws Error (exit code 2) where the hull is not in the water, or the options give more than
 ///         8000 panels or 2e7 nodes; (1) where the flow has no solution

@@ -14,9 +14,12 @@ namespace ice::own {
 
 constexpr double kSqrt2 = std::numbers::sqrt2;
 constexpr double kLn2 = std::numbers::ln2;
-constexpr std::uint64_t kMantissa = (std::uint64_t{1} << 52) - 1;
-constexpr std::uint64_t kOne = std::uint64_t{1023} << 52;         // bits of 1.0
-constexpr std::uint64_t kTwo52 = std::uint64_t{1023 + 52} << 52;  // of 2^52
+// The format of a double: 52 bits of mantissa, and an exponent of which 1023 stands for 0. Other
+// values give wrong logarithms.
+constexpr std::uint64_t kMantissa = (std::uint64_t{1} << 52) - 1;  // mask of its bits
+constexpr std::uint64_t kOne = std::uint64_t{1023} << 52;          // bits of 1.0
+constexpr std::uint64_t kTwo52 = std::uint64_t{1023 + 52} << 52;   // bits of 2^52
+// 2^52 + 1023 [-]. With a stored exponent as its last bits, 2^52 becomes 2^52 + 1023 + exponent.
 constexpr double kTwo52AndBias = 4503599627370496.0 + 1023.0;
 
 // 1 / (2 k + 1): atanh's series, and with turns of sign atan's. The next term is below 1e-17 of the

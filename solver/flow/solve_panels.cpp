@@ -109,15 +109,6 @@ PanelFlow solve_panels(PanelBody body, const Vec3& direction) {
     return flow;
 }
 
-double added_mass_coefficient(const PanelFlow& flow, double volume) {
-    double moment = 0.0;
-    for (std::size_t j = 0; j < flow.body.panels.size(); ++j)
-        // Green's theorem: the added mass in surge is the dipole moment of the sources less the
-        // displaced water.
-        moment += flow.strength[j] * flow.body.panels[j].area * flow.body.panels[j].centre.x();
-    return (flow.body.symmetric ? 2.0 : 1.0) * moment / volume - 1.0;
-}
-
 std::vector<FlowSample> flow_at(const PanelFlow& flow, std::span<const Vec3> points) {
     std::vector<FlowSample> out(points.size());
     parallel_tasks((points.size() + kPoints - 1) / kPoints, true, [&](std::size_t k) {

@@ -37,11 +37,6 @@ PanelFlow solve_panels(PanelBody body, const Vec3& direction = Vec3::UnitX());
 Eigen::MatrixXd solve_strengths(const PanelBody& body, const Eigen::MatrixXd& wanted,
                                 int* iterations = nullptr);
 
-/// Added mass over that of the displaced water for motion along x, from the sources' dipole moment:
-/// sum of s A x = V (1 + C_a); C_a is dimensionless. A check of the strengths, for tests;
-/// added_mass.hpp has the matrix. @param volume  of the body [m3]
-double added_mass_coefficient(const PanelFlow& flow, double volume);
-
 /// Flow at points [m], on all threads; the same bits for any number. None for no points.
 std::vector<FlowSample> flow_at(const PanelFlow& flow, std::span<const Vec3> points);
 

@@ -134,10 +134,10 @@ IceSheet::Broken IceSheet::break_off(const Loop& crack) {
     if (loose.empty()) return {};
     std::vector<Part> rest = combine(loops_, crack, cl::ctDifference);
     const double sheet = kSheet * area_of(crack);
-    const auto parted = std::find_if(rest.begin() + (rest.empty() ? 0 : 1), rest.end(),
-                                     [&](const Part& p) { return p.area < sheet; });
-    std::move(parted, rest.end(), std::back_inserter(loose));
-    rest.erase(parted, rest.end());
+    const auto small = std::find_if(rest.begin() + (rest.empty() ? 0 : 1), rest.end(),
+                                    [&](const Part& p) { return p.area < sheet; });
+    std::move(small, rest.end(), std::back_inserter(loose));
+    rest.erase(small, rest.end());
     // A ring around an earlier hole is no outline of a prism: it is cut open.
     std::vector<Part> whole;
     for (Part& part : loose)

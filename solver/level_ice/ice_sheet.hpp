@@ -2,10 +2,11 @@
 /// Level ice seen from above, of whose edge pieces break off.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <vector>
 
-#include "solver/level_ice/cusp_form.hpp"
+#include "common/geometry/loop_area.hpp"
 
 namespace ice {
 
@@ -29,10 +30,10 @@ public:
     IceSheet(const Eigen::AlignedBox2d& extent, double smallest);
 
     /// Cuts the region `crack` out. Ice in the region breaks off, and so does ice that the cut
-    /// parts from the rest of the sheet: the largest part stays, and any of ten times the region's
-    /// area, as the other side of a channel that goes through. Sheet, pieces and brash together
-    /// keep their area. A crack beside the ice breaks nothing off. A ring, as around the hole of a
-    /// load inside the ice, breaks across the hole.
+    /// separates from the rest of the sheet: the largest part stays, and any of ten times the
+    /// region's area, as the other side of a channel that goes through. Sheet, pieces and brash
+    /// together keep their area. A crack beside the ice breaks nothing off. A ring, as around the
+    /// hole of a load inside the ice, breaks across the hole.
     /// @pre crack is simple
     Broken break_off(const Loop& crack);
 
@@ -50,7 +51,7 @@ public:
     /// Outer loops anticlockwise, holes clockwise; the first is the largest. Empty once all is
     /// gone.
     const std::vector<Loop>& loops() const { return loops_; }
-    /// Of the ice, holes left out [m2]; 0 once all is gone.
+    /// Area of the ice, holes left out [m2]; 0 once all is gone.
     double area() const;
     /// Is the point [m] in the ice? Points on the edge may be either.
     bool contains(const Vec2& point) const;
@@ -75,8 +76,9 @@ std::vector<Loop> without(const Loop& loop, const Loop& region);
 /// Two loops that share an edge as one; empty where they do not become one without a hole.
 Loop joined(const Loop& a, const Loop& b);
 
-/// A loop moved inwards by `by` [m], which may part it: parts of at least `smallest` in the sense
-/// of IceSheet [m], without corners nearer to each other than 1 mm; none where nothing is left.
+/// A loop moved inwards by `by` [m], which may separate it: parts of at least `smallest` in the
+/// sense of IceSheet [m], without corners nearer to each other than 1 mm; none where nothing is
+/// left.
 std::vector<Loop> shrunk(const Loop& loop, double by, double smallest);
 
 }  // namespace ice

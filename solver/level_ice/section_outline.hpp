@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "common/geometry/loop_area.hpp"
 #include "common/geometry/triangle_mesh.hpp"
-#include "solver/level_ice/cusp_form.hpp"
 
 namespace ice {
 

@@ -28,6 +28,18 @@ constexpr double kAhead = 2.0, kAstern = 0.5;
 // Share of half a disc that a piece has, at least, when slots are counted. Less makes more slots,
 // which take memory only; with more, pieces leave the scene early for want of a slot.
 constexpr double kCover = 0.25;
+// Area of half a disc over its radius squared [-], pi / 2 rounded: the number of slots depends on
+// these digits.
+constexpr double kHalfDisc = 1.57;
+// Slots for tiles: so many per radius of a crack at rest, along the box and across it [-]. More
+// take memory only; with fewer, pieces leave the scene early, and at last a tile has no slot, which
+// ends the run.
+constexpr double kTilesAlong = 6.0, kTilesAcross = 4.0;
+
+// Weight of level_ice.seed beside simulation.seed in the seed of the cracks' scatter [-]: larger
+// than simulation.seed mostly is, so that two pairs of seeds rarely give the same sum. Another one
+// gives other random radii of the same law.
+constexpr std::uint64_t kSeedWeight = 1000003;
 
 std::int32_t add_group(Case& p, Hold hold) {
     FloeGroup group;
@@ -49,8 +61,9 @@ void LiveEdge::set_up(const Scene& scene, const Case& p) {
     density_ = p.ice_density;
     share_ = p.ice_density / p.water_density;
     extent_ = {Vec2(ice.extent[0], ice.extent[2]), Vec2(ice.extent[1], ice.extent[3])};
-    law_ = {ice.length_factor, ice.speed_factor, ice.scatter,
-            static_cast<std::uint64_t>(ice.seed) * 1000003u + static_cast<std::uint64_t>(p.seed)};
+    const std::uint64_t seed =
+        static_cast<std::uint64_t>(ice.seed) * kSeedWeight + static_cast<std::uint64_t>(p.seed);
+    law_ = {ice.length_factor, ice.speed_factor, ice.scatter, seed};
     if (is_strip_) {
         // (30a) is (30) with C_l l = pi / (4 lambda), the length of a beam, and C_v = 0
         extent_ = strip_extent(ice.extent[0], ice.extent[1]);
@@ -64,11 +77,11 @@ void LiveEdge::set_up(const Scene& scene, const Case& p) {
 }
 
 void LiveEdge::add_slots(Scene& scene, const Case& p) {
-    // Room for everything that may lie within reach: pieces of a quarter of a half disc, pi / 2
-    // R^2, and tiles along the channel's sides and ends.
+    // For everything that may lie within reach: pieces of a share of a half disc, and tiles along
+    // the channel's sides and ends.
     const Vec2 size = reach(scene).sizes();
-    const double pieces = size.x() * size.y() / (kCover * 1.57 * radius_ * radius_);
-    const double tiles = 6.0 * size.x() / radius_ + 4.0 * size.y() / radius_;
+    const double pieces = size.x() * size.y() / (kCover * kHalfDisc * radius_ * radius_);
+    const double tiles = kTilesAlong * size.x() / radius_ + kTilesAcross * size.y() / radius_;
     const double half = 0.5 * thickness_;
     const Loop square = loop_of(Box(Vec2(-half, -half), Vec2(half, half)));
     if (std::optional<Shape> shape = shape_of(square, prism_form(p), is_strip_))

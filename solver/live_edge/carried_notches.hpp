@@ -33,9 +33,9 @@ private:
     struct Line {
         Vec3 from, move, normal;  // world axes [m]; outward, unit
     };
-    // Of the new sphere at a place with an outward normal, to the bottom of its notch [m].
+    // Move of the new sphere at a place with an outward normal, to the bottom of its notch [m].
     Vec3 move_of(std::span<const Line> lines, const Vec3& at, const Vec3& normal) const;
-    // Those that meet a box.
+    // The lines that meet a box.
     std::vector<Line> lines_near(const Eigen::AlignedBox3d& box) const;
 
     std::vector<Line> lines_;

@@ -91,7 +91,7 @@ void LiveEdge::carry(CheckpointFile& file) {
     carry_points(file, "edge.crack_at", cracks_, &Crack::at);
     carry_points(file, "edge.crack_inwards", cracks_, &Crack::inwards);
     carry_pieces(file);
-    file.carry("edge.cusp", cusp_);
+    file.carry("edge.cusp", crack_number_);  // the name that files have had
     file.carry("edge.pieces_area", gone_.pieces);
     file.carry("edge.crushed_area", gone_.crushed);
     file.carry("edge.brash_area", gone_.brash);

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "solver/level_ice/cusp_form.hpp"
+#include "common/geometry/loop_area.hpp"
 
 namespace ice {
 
@@ -12,7 +12,7 @@ struct EdgeLoad {
     Vec2 at;         ///< where [m]
     double down;     ///< impulse downwards, friction included, of (26) [N s]
     double normal;   ///< normal impulse [N s]
-    double closing;  ///< the same times the closing speed [N m]
+    double closing;  ///< normal impulse times closing speed [N m]
     Vec2 push;       ///< normal impulse on the ice, seen from above [N s]
 };
 
@@ -22,15 +22,16 @@ struct EdgeWindow {
     Vec2 inwards;    ///< unit vector along the push
     double down;     ///< impulse downwards [N s], > 0
     double closing;  ///< mean closing speed along the contacts' normals [m/s]
-    /// The same along their level parts, a ship's along its outline's normal [m/s].
+    /// Mean closing speed along the level parts of the normals, a ship's along its outline's normal
+    /// [m/s].
     double normal_speed;
 };
 
 /// Loads that act on one piece of ice together, the heaviest first. None for no loads.
 ///
-/// A window holds all loads within `radius` [m] of one of them: of that with the largest sum
-/// downwards, the first of equal ones. Its loads are left out of the next one. Windows that do not
-/// press downwards, and those whose push has no direction seen from above, are none.
+/// Around each load the loads within `radius` [m] are summed. The largest sum is the first window;
+/// ties go to the earlier load. Its loads are left out of the next one. Windows that do not press
+/// downwards, and those whose push has no direction seen from above, are none.
 std::vector<EdgeWindow> edge_windows(std::vector<EdgeLoad> loads, double radius);
 
 }  // namespace ice

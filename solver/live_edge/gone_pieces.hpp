@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "solver/level_ice/cusp_form.hpp"
+#include "common/geometry/loop_area.hpp"
 
 namespace ice {
 
@@ -38,7 +38,7 @@ public:
     ~GonePieces() = default;
 
     bool is_open() const { return file_ != nullptr; }
-    /// Of the file; a checkpoint holds as many.
+    /// Bytes of the file; a checkpoint holds as many.
     std::uint64_t bytes() const { return bytes_; }
     /// @throws Error (exit code 1) naming the folder where no file can be created in it
     void open(const std::filesystem::path& folder);

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "solver/level_ice/cusp_form.hpp"
+#include "common/geometry/loop_area.hpp"
 #include "solver/scene/bodies.hpp"
 
 namespace ice {

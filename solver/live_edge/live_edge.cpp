@@ -127,7 +127,7 @@ void LiveEdge::find(const Case& parameters, const std::vector<Contact>& contacts
     // step.
     for (const EdgeWindow& window : windows) {
         const double radius =
-            crack_size(law_, length_, window.normal_speed, cusp_ + cracks_.size());
+            crack_size(law_, length_, window.normal_speed, crack_number_ + cracks_.size());
         const double area = sheet_.area_in(region_of(window.at, window.inwards, radius));
         const double bears = breaking_load(angle_of(area, radius), thickness_, parameters) *
                              speed_factor(parameters.bending, window.closing);
@@ -204,7 +204,7 @@ bool LiveEdge::crush_through(const std::vector<Loop>& hull) {
 // The ice around a crack is laid anew, and the hull's notch in it is gone through all of its
 // thickness: the new tiles do not overlap with the hull.
 void LiveEdge::break_off(const Crack& crack, const std::vector<Loop>& hull, Plan& plan) {
-    ++cusp_;
+    ++crack_number_;
     const Loop outline = region_of(crack.at, crack.inwards, crack.radius);
     const IceSheet::Broken broken = sheet_.break_off(outline);
     gone_.brash += broken.brash;

@@ -7,6 +7,7 @@
 
 #include "solver/case/case.hpp"
 #include "solver/contact/constraints.hpp"
+#include "solver/level_ice/crack_form.hpp"
 #include "solver/level_ice/ice_sheet.hpp"
 #include "solver/live_edge/edge_window.hpp"
 #include "solver/live_edge/gone_pieces.hpp"
@@ -29,11 +30,11 @@ struct IceAreas {
 /// A sheet of level ice whose edge is contact geometry where the ship can meet it.
 ///
 /// The sheet is a polygon. Its edge around the ship is laid out in tiles (edge_tiles), bodies that
-/// are held: the hull crushes them. Where the downward load on a window of the edge (edge_windows)
-/// reaches the load that breaks the piece off which a crack around the load's centre would cut out
-/// (equations (26), (29) and (30)), that piece becomes a floe, the polygon loses it, and the tiles
-/// around are laid anew. Rejected: cracks laid along the course before the run; two pieces then
-/// shared a load between them (docs/design-notes.md).
+/// are held: the hull crushes them. Loads near each other form a window (edge_windows). A crack
+/// around its centre would cut out a piece. When the load reaches that piece's breaking load, the
+/// piece becomes a floe (equations (26), (29) and (30)): the polygon loses it, and the tiles around
+/// are laid anew. Rejected: cracks laid along the course before the run; two pieces then shared a
+/// load between them (docs/design-notes.md).
 ///
 /// Polygon, tiles and cracks are in the ice's own axes, which drift with it: places in the world
 /// are theirs plus drift() times the time. So ice that drifts past a ship is the same to it as a
@@ -79,7 +80,7 @@ public:
 
     const IceSheet& sheet() const { return sheet_; }
     double thickness() const { return thickness_; }  ///< [m]
-    /// Of level ice afloat: its middle's height [m].
+    /// Height of the middle of level ice afloat [m].
     double height() const { return (0.5 - share_) * thickness_; }
     double density() const { return density_; }  ///< [kg/m3]
     double length() const { return length_; }    ///< characteristic length of the plate [m]
@@ -168,7 +169,7 @@ private:
     std::vector<Crack> cracks_;
     std::vector<IcePiece> pieces_;  // by number: those in the scene, and gone ones without a file
     std::int64_t broken_ = 0;
-    std::uint64_t cusp_ = 0;                                  // number of the next crack
+    std::uint64_t crack_number_ = 0;                          // of the next crack
     IceAreas gone_;                                           // all but `sheet`
     Vec2 laid_at_ = Vec2::Zero(), looked_at_ = Vec2::Zero();  // the ship then
 

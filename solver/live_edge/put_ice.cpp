@@ -45,7 +45,7 @@ void put_ice(Scene& scene, std::size_t body, Shape shape, const PutIce& as) {
     b.orientation[body] = Quaternion::Identity();
     b.momentum[body] = b.mass[body] * Vec3(as.velocity.x(), as.velocity.y(), 0.0);
     b.angular_momentum[body].setZero();
-    b.held[body] = as.held ? 1 : 0;
+    b.held[body] = as.held ? Bodies::kHeld : Bodies::kFree;
     update_derived(b, body);
     // Moving bodies are listed in ascending order, which is that of all sums over them.
     const auto number = static_cast<std::int32_t>(body);

@@ -55,7 +55,7 @@ HWY_INLINE Load ProjectedDrag(const Afloat& floes, const Case& p, Vectors u) {
     return {Only(drags, Scale(factor, u)), Zero()};
 }
 
-// panel_drag() likewise
+// panel_drag() in lanes
 HWY_INLINE Load PanelDrag(const Afloat& floes, const Case& p, Vectors u) {
     const Mask moves = hn::Or(NotZero(u), NotZero(floes.angular_velocity));
     const Mask drags = hn::AndNot(floes.Clear(), moves);

@@ -50,8 +50,8 @@ constexpr std::size_t kSerialLists = 128;
 constexpr double kListLookAhead = 5.0;                         // steps [-]
 constexpr double kLeastListShare = 0.6, kMostListShare = 0.8;  // of the ice's radius
 
-// Generous bound of the rounding error of a separation [m]. Smaller could let a pair sleep while it
-// touches; larger wakes pairs a little sooner.
+// Generous bound of the rounding error of a separation [m]. Smaller could leave out a pair that
+// touches; with a larger one pairs are measured a little sooner.
 constexpr double kRounding = 1e-6;
 
 // Finds the spheres whose gap is at most `range` [m], and others.
@@ -146,10 +146,10 @@ CentresFinder::Found CentresFinder::look(std::size_t k, BodyPair pair, const Ste
     // needs those up to `most`: where that is more, the list is renewed.
     if (gone + most > row.range) {
         const double apart = separation(view, most, row.axis);
-        // Solids this far apart need no list. The pair sleeps until both bodies' paths have
+        // Solids this far apart need no list. The pair is clear until both bodies' paths have
         // used up the distance.
         if (apart > most) {
-            lists_.wake(k) =
+            lists_.clearance(k) =
                 path + (apart - kRounding - margin) / (held ? 1.0 : separation_share(view));
             return found;
         }
@@ -176,10 +176,10 @@ CentresFinder::Found CentresFinder::look(std::size_t k, BodyPair pair, const Ste
     const FloatPose pose =
         to_floats(view.rotation_ab, (view.translation_ab - row.shift) / row.unit);
     find_touching(listed, pose, static_cast<float>((most + unsure) / row.unit), batch.touching);
-    // Two things can end the pair's sleep: the nearest listed spheres come within the margin,
-    // or spheres that were not listed, all beyond row.range then, may have done so.
+    // Two things can end the pair's clearance: the nearest listed spheres come within the
+    // margin, or spheres that were not listed, all beyond row.range then, may have done so.
     const double least = batch.touching.least * row.unit;
-    lists_.wake(k) = path + std::min(least - unsure - margin, row.range - margin - gone);
+    lists_.clearance(k) = path + std::min(least - unsure - margin, row.range - margin - gone);
     measure(view, batch.touching, most, batch.candidates);
     found.count = batch.candidates.size() - found.first;
     // A sphere represents surface beyond its body's rim, but bodies that are apart have no
@@ -196,34 +196,34 @@ void CentresFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
                          std::vector<Contact>& out) {
     const std::uint64_t call = next_call();
     lists_.match(pairs);
-    // A look at the wake-up path costs a comparison; only the pairs whose bodies have used it
-    // up are measured.
-    awake_.resize(pairs.size());
+    // To check a clearance costs a comparison; only the pairs whose bodies have used theirs up
+    // are measured.
+    pairs_to_measure_.resize(pairs.size());
     std::size_t count = 0;
     for (std::size_t k = 0; k < pairs.size(); ++k) {
-        awake_[count] = k;  // without an unpredictable branch; a not-a-number is awake
-        count +=
-            motion.path_after_step(pairs[k].a) + motion.path_after_step(pairs[k].b) < lists_.wake(k)
-                ? 0
-                : 1;
+        pairs_to_measure_[count] = k;  // no unpredictable branch; a not-a-number is measured
+        count += motion.path_after_step(pairs[k].a) + motion.path_after_step(pairs[k].b) <
+                         lists_.clearance(k)
+                     ? 0
+                     : 1;
     }
-    awake_.resize(count);
-    found_.resize(awake_.size());
-    parallel_for(awake_.size(), kSerialLists, [&](std::size_t n) {
-        found_[n] =
-            look(awake_[n], pairs[awake_[n]], {scene, motion, dt, margin}, batch_of<Batch>(call));
+    pairs_to_measure_.resize(count);
+    found_.resize(pairs_to_measure_.size());
+    parallel_for(pairs_to_measure_.size(), kSerialLists, [&](std::size_t n) {
+        found_[n] = look(pairs_to_measure_[n], pairs[pairs_to_measure_[n]],
+                         {scene, motion, dt, margin}, batch_of<Batch>(call));
     });
     touching_.clear();
     // Gathered in the order of the pairs: the contacts do not depend on which thread found
     // them.
     std::size_t contacts = 0;
-    for (std::size_t n = 0; n < awake_.size(); ++n) {
+    for (std::size_t n = 0; n < pairs_to_measure_.size(); ++n) {
         const Found& found = found_[n];
         if (found.anew)
-            lists_.keep(awake_[n],
+            lists_.keep(pairs_to_measure_[n],
                         std::span(found.batch->listed).subspan(found.block, found.blocks));
         if (found.count == 0) continue;
-        touching_.push_back({pairs[awake_[n]], n, contacts});
+        touching_.push_back({pairs[pairs_to_measure_[n]], n, contacts});
         contacts += found.count;
     }
     out.resize(contacts);

@@ -48,8 +48,8 @@ private:
 
     // kept between steps: no allocation once warm
     SphereLists lists_;
-    std::vector<std::size_t> awake_;  // rows of the pairs that are measured
-    std::vector<Found> found_;        // of these
+    std::vector<std::size_t> pairs_to_measure_;  // their rows
+    std::vector<Found> found_;                   // of these
     std::vector<Touching> touching_;
 };
 

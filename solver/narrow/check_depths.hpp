@@ -11,7 +11,7 @@ namespace ice {
 ///
 /// measure_gap_surface knows the faces that meet at two spheres, not the solids: behind two planes
 /// that cross far away a point may seem to be deep although it lies outside, or near another face.
-/// Of each candidate deeper than deep_slack [m]:
+/// For each candidate deeper than deep_slack [m]:
 /// - on a face, the incident support point is as deep in the other body as its shortest way out of
 ///   that body's ice is long (way_out), less its own distance outside of its own body: a mesh or a
 ///   notch cuts off tips of edges and corners. The contact is no deeper;

@@ -58,25 +58,25 @@ bool group_meets(const SphereBlocks& blocks, std::size_t g, const Eigen::Aligned
 }
 
 // Points around which no seat can be deep: a seat is as deep as another one plus their distance at
-// most, so around one that lies outside, or less deep, there is room.
+// most, so one that lies outside, or less deep, has a clearance.
 class Clearings {
 public:
-    // @param room  the radius in which no seat is of use [m]
-    void add(const Vec3& at, double room) {
-        if (room <= 0.0) return;
-        places_[next_] = {at, room * room};
+    // @param clearance  the radius in which no seat is of use [m]
+    void add(const Vec3& at, double clearance) {
+        if (clearance <= 0.0) return;
+        places_[next_] = {at, clearance * clearance};
         next_ = (next_ + 1) % places_.size();
     }
     bool hold(const Vec3& p) const {
         return std::any_of(places_.begin(), places_.end(), [&](const Place& place) {
-            return (p - place.at).squaredNorm() < place.room_sq;
+            return (p - place.at).squaredNorm() < place.clearance_sq;
         });
     }
 
 private:
     struct Place {
         Vec3 at = Vec3::Zero();
-        double room_sq = 0.0;
+        double clearance_sq = 0.0;
     };
     std::array<Place, 4> places_;
     std::size_t next_ = 0;
@@ -150,7 +150,7 @@ double add_side(const PairView& view, const Side& side, double slack,
         const Foot foot = side.in.surface->closest(seat);
         const double depth = foot.inside ? foot.distance : -foot.distance;
         deepest = std::max(deepest, depth);
-        // A seat at the distance s is at most s deeper. Within this room none is deeper than
+        // A seat at the distance s is at most s deeper. Within the clearance none is deeper than
         // the slack or than the deepest so far: it changes neither the list nor the result.
         clear.add(seat, std::min(deepest, slack) - depth);
         if (depth <= slack) return;

@@ -22,14 +22,15 @@ struct DeepSeat {
     double gap;           ///< minus the depth of its way out (way_out.hpp) [m]
 };
 
-/// So deep in the other solid [m] a seat is a contact of its own where its sphere has none.
+/// Depth [m] from which a seat without a contact near it becomes a contact.
 ///
 /// A tenth of the largest radius of b's spheres. Contacts that are found at this depth are pushed
 /// out of it and lost again: with half a radius pairs trembled at that depth for seconds.
 double deep_slack(const PairView& view);
 
-/// Finds the seats of either body that lie in the other's solid by more than deep_slack, where no
-/// contact of a sphere within a patch radius is as deep, less that length.
+/// Finds the seats of either body that lie in the other's solid and are deeper than every contact
+/// within a patch radius by more than deep_slack. Seats whose direction differs from the deepest
+/// one's by more than 60 degrees are left out.
 ///
 /// Depth and direction are those of the way out of the other body: exact for any closed solid, but
 /// the shortest path out is the wrong one for a seat beyond the middle of a body. The order of

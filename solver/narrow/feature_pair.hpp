@@ -73,9 +73,10 @@ private:
     template <class Visit>
     void for_each_across(const Vec3& d, const Vec3& between, const double& least,
                          const Visit& visit) const;
-    // The one with the largest gap above `least`; none: null.
+    // The axis with the largest gap above `least`; none: null.
     DirectedEdgeAxis best_edge_axis(const Vec3& d, const Vec3& between, double least) const;
-    // Of the edges that cross nearest to the two spheres, within both patch radii; none: null.
+    // The axis of the edges that cross nearest to the two spheres, within both patch radii; none:
+    // null.
     DirectedEdgeAxis nearest_edge_axis(const Vec3& d, const Vec3& between) const;
     Gap gap_across(const DirectedEdgeAxis& across, const Vec3& between) const;
     bool meet(const EdgeAxis& c, const Vec3& between) const;

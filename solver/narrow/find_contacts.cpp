@@ -139,8 +139,8 @@ void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
         return CentresFinder().find(scene, pairs, motion, dt, margin, out);
     }
     // without lists every pair is measured, for worlds of one step and for tests
-    awake_.resize(pairs.size());
-    std::iota(awake_.begin(), awake_.end(), std::size_t{0});
+    pairs_to_measure_.resize(pairs.size());
+    std::iota(pairs_to_measure_.begin(), pairs_to_measure_.end(), std::size_t{0});
     found_.assign(pairs.size(), Found{});
     const std::uint64_t call = next_call();
     parallel_for(pairs.size(), kSerialPairs, [&](std::size_t k) {
@@ -178,13 +178,13 @@ void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
         states_[k] = cache_.state(k, scene, pairs[k], motion, dt, margin,
                                   meets_in_polygon(scene, pairs[k], rule));
     });
-    awake_.clear();
+    pairs_to_measure_.clear();
     for (std::size_t k = 0; k < pairs.size(); ++k)
-        if (states_[k] != PairCache::State::separated) awake_.push_back(k);
-    found_.assign(awake_.size(), Found{});
+        if (states_[k] != PairCache::State::separated) pairs_to_measure_.push_back(k);
+    found_.assign(pairs_to_measure_.size(), Found{});
     const std::uint64_t call = next_call();
-    parallel_for(awake_.size(), kSerialPairs, [&](std::size_t n) {
-        const std::size_t k = awake_[n];
+    parallel_for(pairs_to_measure_.size(), kSerialPairs, [&](std::size_t n) {
+        const std::size_t k = pairs_to_measure_[n];
         FoundBatch& batch = batch_of<FoundBatch>(call);
         found_[n].batch = &batch;
         found_[n].sphere = batch.spheres.size();
@@ -196,10 +196,10 @@ void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
     });
     // Lists are stored by one thread, in the order of the pairs: their places do not depend on the
     // threads.
-    for (std::size_t n = 0; n < awake_.size(); ++n) {
+    for (std::size_t n = 0; n < pairs_to_measure_.size(); ++n) {
         const Found& found = found_[n];
-        if (states_[awake_[n]] == PairCache::State::stale)
-            cache_.keep(awake_[n],
+        if (states_[pairs_to_measure_[n]] == PairCache::State::stale)
+            cache_.keep(pairs_to_measure_[n],
                         std::span(found.batch->spheres).subspan(found.sphere, found.spheres));
     }
     emit(scene, pairs, rule, out);
@@ -233,7 +233,7 @@ void ContactFinder::find_listed(const Scene& scene, BodyPair pair, std::size_t k
     if (!cache_.may_be_deep(k)) return;
     if (is_convex_pair(view))
         return keep_polygon(find_lost_polygon(view, work.candidates, within.most), found, batch);
-    cache_.set_room(k, view, find_deep_seats(view, work.candidates, work.seats));
+    cache_.set_seat_clearance(k, view, find_deep_seats(view, work.candidates, work.seats));
     keep_seats(work.seats, found, batch);
 }
 
@@ -256,15 +256,15 @@ void ContactFinder::emit(const Scene& scene, const std::vector<BodyPair>& pairs,
     parallel_for(found_.size(), kSerialPairs, [&](std::size_t n) {
         const Found& found = found_[n];
         if (found.corners > 0)
-            emit_polygon(PairView(scene, pairs[awake_[n]]), rule, found.normal,
+            emit_polygon(PairView(scene, pairs[pairs_to_measure_[n]]), rule, found.normal,
                          std::span(found.batch->corners).subspan(found.corner, found.corners),
                          out.data() + found.contact + found.count);
         if (found.seats > 0)
-            emit_deep_seats(PairView(scene, pairs[awake_[n]]), rule,
+            emit_deep_seats(PairView(scene, pairs[pairs_to_measure_[n]]), rule,
                             std::span(found.batch->seats).subspan(found.seat, found.seats),
                             out.data() + found.contact + found.count);
         if (found.count > 0)
-            make_contacts(PairView(scene, pairs[awake_[n]]),
+            make_contacts(PairView(scene, pairs[pairs_to_measure_[n]]),
                           std::span(found.batch->candidates).subspan(found.first, found.count),
                           out.data() + found.contact);
     });

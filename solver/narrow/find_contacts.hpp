@@ -73,7 +73,7 @@ private:
         std::size_t first = 0, count = 0;     // candidates that are contacts
         std::size_t corner = 0, corners = 0;  // or corners of a polygon that are
         std::size_t seat = 0, seats = 0;      // or deep seats
-        Vec3 normal = Vec3::Zero();           // and their normal
+        Vec3 normal = Vec3::Zero();           // the polygon's
         std::size_t sphere = 0, spheres = 0;  // newly listed spheres
         std::size_t contact = 0;              // where they begin among all pairs' contacts
     };
@@ -95,9 +95,9 @@ private:
               std::vector<Contact>& out);
 
     // kept between steps: no allocation once warm
-    std::vector<PairCache::State> states_;  // of all pairs
-    std::vector<std::size_t> awake_;        // rows of the pairs that are measured
-    std::vector<Found> found_;              // of these
+    std::vector<PairCache::State> states_;       // of all pairs
+    std::vector<std::size_t> pairs_to_measure_;  // their rows
+    std::vector<Found> found_;                   // of these
     PairCache cache_;
     CentresFinder centres_;  // instead of all these under the rule "centres"
 };

@@ -23,7 +23,7 @@ double crushed_depth(const PairView& view, std::int32_t j, const Vec3& n);
 /// The patch of b's sphere j behind a contact along n with this gap [m]. Its depth counts from the
 /// uncrushed surface, so that a notch keeps its resistance.
 Patch ice_patch(const PairView& view, std::int32_t j, const Vec3& n, double gap);
-/// The same of a's sphere i, a being a floe.
+/// The patch of a's sphere i, a being a floe.
 Patch patch_of_a(const PairView& view, std::int32_t i, const Vec3& n, double gap);
 
 }  // namespace ice

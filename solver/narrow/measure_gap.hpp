@@ -32,9 +32,9 @@ struct Gap {
     bool valid;             ///< false where the spheres do not face each other
     bool crossing = false;  ///< two edges meet across each other, neither on the other's face
     std::int8_t edge_a = -1, edge_b = -1;  ///< which of the spheres' NormalCone::edge these are
-    /// Of two edges reference_offset_sq is measured along the reference edge and this along the
-    /// incident one [m2], each from its sphere's apex: a sphere represents its edge half way to the
-    /// next.
+    /// Where two edges meet, reference_offset_sq is measured along the reference edge and this
+    /// along the incident one [m2], each from its sphere's apex: a sphere represents its edge half
+    /// way to the next.
     double incident_offset_sq = 0.0;
 };
 
@@ -53,7 +53,8 @@ LineParameters closest_on_lines(const Vec3& pa, const Vec3& ea, const Vec3& pb, 
 /// its own foremost point.
 Vec3 support_point(const Feature& s, const Vec3& n);
 
-/// The same less the centre [m], of a sphere with these faces, radius [m] and middle normal.
+/// The support point less the centre [m], of a sphere with these faces, radius [m] and middle
+/// normal.
 inline Vec3 support_offset(const NormalCone& faces, double radius, const Vec3& middle,
                            const Vec3& n) {
     return faces.count == 0 ? Vec3(radius * n) : Vec3(faces.apex_distance * middle);

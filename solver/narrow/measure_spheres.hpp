@@ -40,7 +40,7 @@ private:
     }
 };
 
-/// Of a ship's face on a floe's, the ship's gives the normal (measure_gap_surface).
+/// Where a ship's face meets a floe's, the ship's gives the normal (measure_gap_surface).
 inline bool prefers_reference_a(const PairView& view) {
     return view.pair.a == static_cast<std::int32_t>(kShip);
 }

@@ -53,7 +53,7 @@ void find_groups(const SphereBlocks& spheres, const FloatBox& box, float reach,
 void pick_spheres(const SphereBlocks& spheres, const std::vector<std::int32_t>& groups,
                   const FloatPose& pose, const FloatBox& box, float grow, NearSpheres& out);
 
-/// The same from spheres that have been picked already.
+/// Picks from spheres that have been picked already.
 void pick_spheres(const NearSpheres& from, const FloatBox& box, float grow, NearSpheres& out);
 
 /// For rows f = first .. last - 1 of `few` finds all spheres of `many` with

@@ -89,19 +89,19 @@ void PairCache::renew(std::size_t k, const PairView& view, const MotionBounds& m
     row.crushed = motion.crushed(view.pair.a) + motion.crushed(view.pair.b);
     row.clearance = clearance;
     row.skin = skin;
-    set_wakeups(row, view.pair, motion, 0.0, 0.0);
+    set_clearances(row, view.pair, motion, 0.0, 0.0);
 }
 
-// Turns the unused part of the skin into wake-up thresholds: until the sum of both bodies' paths
-// reaches them, their poses need not be compared. `gone` and `turned` are the relative motion since
-// the row was renewed.
-void PairCache::set_wakeups(Row& row, BodyPair pair, const MotionBounds& motion, double gone,
-                            double turned) {
+// Turns the unused parts of the clearance and of the skin into sums of both bodies' paths: up to
+// these their poses need not be compared. `gone` and `turned` are the relative motion since the row
+// was renewed.
+void PairCache::set_clearances(Row& row, BodyPair pair, const MotionBounds& motion, double gone,
+                               double turned) {
     const double now = motion.path(pair.a) + motion.path(pair.b);
     // solids deep in each other have contacts even where no spheres may touch: always
     // measured
-    row.path_wake = row.deep ? -std::numeric_limits<double>::infinity()
-                             : now + std::min(row.clearance - gone, row.room);
+    row.path_clearance = row.deep ? -std::numeric_limits<double>::infinity()
+                                  : now + std::min(row.clearance - gone, row.seat_clearance_left);
     // Stale where the relative motion may exceed the skin: as the sum of paths bounds the
     // motion, the rest of the skin may be spent on it.
     row.path_stale = now + row.skin.distance - gone;
@@ -109,24 +109,24 @@ void PairCache::set_wakeups(Row& row, BodyPair pair, const MotionBounds& motion,
         motion.rotation(pair.a) + motion.rotation(pair.b) + row.skin.angle - turned;
 }
 
-void PairCache::set_room(std::size_t k, const PairView& view, double room) {
+void PairCache::set_seat_clearance(std::size_t k, const PairView& view, double clearance) {
     Row& row = rows_[k];
     row.seat_turn = view.rotation_ab;
     row.seat_shift = view.translation_ab;
-    row.seat_room = room;
+    row.seat_clearance = clearance;
 }
 
-double PairCache::room_left(const Row& row, const PairView& view, double apart) {
+double PairCache::seat_clearance_left(const Row& row, const PairView& view, double apart) {
     if (view.shape_a.dimension == 2 || is_convex_pair(view))
         return std::numeric_limits<double>::infinity();  // their axis tells the depth of solids
     // apart: no seat lies inside, and one needs the slack to become deep
     if (apart > 0.0) return deep_slack(view);
-    if (row.seat_room < 0.0) return row.seat_room;
-    // the room after the last search, less the motion since then
-    return row.seat_room - relative_motion(view, row.seat_turn, row.seat_shift).distance;
+    if (row.seat_clearance < 0.0) return row.seat_clearance;
+    // the clearance after the last search, less the motion since then
+    return row.seat_clearance - relative_motion(view, row.seat_turn, row.seat_shift).distance;
 }
 
-double PairCache::part_solids(Row& row, const PairView& view, double enough) {
+double PairCache::separation_of_solids(Row& row, const PairView& view, double enough) {
     const ConvexPiece &a = view.shape_a.convex, &b = view.shape_b.convex;
     const RelativePose pose{view.rotation_ab, view.translation_ab};
     // the plane that separated them last mostly still does: one plane instead of all
@@ -146,30 +146,31 @@ PairCache::State PairCache::state(std::size_t k, const Scene& scene, BodyPair pa
     Row& row = rows_[k];
     // First without poses: the paths bound the motion since the last comparison.
     const double path = motion.path_after_step(pair.a) + motion.path_after_step(pair.b);
-    if (path < std::min(row.path_wake, row.path_stale) &&
+    if (path < std::min(row.path_clearance, row.path_stale) &&
         motion.rotation(pair.a) + motion.rotation(pair.b) < row.rotation_stale)
         return State::separated;
     const PairView view(scene, pair);
     const double closing = dt * closing_speed(scene, pair);
-    // Second the solids: where they are apart by more than the step can close, sleep until both
-    // paths have used up the rest. The separation shrinks by at most separation_share times the
-    // path.
-    const double apart = (polygon ? part_solids(row, view, closing + margin)
+    // Second the solids: where they are apart by more than the step can close, the pair is clear
+    // until both paths have used up the rest. The separation shrinks by at most separation_share
+    // times the path.
+    const double apart = (polygon ? separation_of_solids(row, view, closing + margin)
                                   : separation(view, closing + margin, row.axis)) -
                          margin;
     if (apart > closing) {
-        row.path_wake = motion.path(pair.a) + motion.path(pair.b) + apart / separation_share(view);
+        row.path_clearance =
+            motion.path(pair.a) + motion.path(pair.b) + apart / separation_share(view);
         row.path_stale = row.rotation_stale = std::numeric_limits<double>::infinity();
         return State::separated;
     }
     // Polygons have no list to become stale: they are measured anew in each step.
     if (polygon) {
         row.path_stale = row.rotation_stale = std::numeric_limits<double>::infinity();
-        row.path_wake = -row.path_stale;
+        row.path_clearance = -row.path_stale;
         return State::polygon;
     }
-    row.room = room_left(row, view, apart + margin);
-    row.deep = is_deep(view, apart + margin) || row.room <= 0.0;
+    row.seat_clearance_left = seat_clearance_left(row, view, apart + margin);
+    row.deep = is_deep(view, apart + margin) || row.seat_clearance_left <= 0.0;
     if (row.skin.distance < 0.0) return State::stale;  // never settled
     // Third the skin: how much of it has the motion used up? Crushing moves spheres as motion
     // does.
@@ -177,7 +178,7 @@ PairCache::State PairCache::state(std::size_t k, const Scene& scene, BodyPair pa
     const double gone = moved + motion.crushed(pair.a) + motion.crushed(pair.b) - row.crushed;
     const double then = gone + closing;
     if (then >= row.skin.distance || turned >= row.skin.angle) return State::stale;
-    set_wakeups(row, pair, motion, gone, turned);
+    set_clearances(row, pair, motion, gone, turned);
     // within the clearance no listed spheres can touch yet
     return row.deep || then >= row.clearance ? State::listed : State::separated;
 }

@@ -55,9 +55,9 @@ public:
     /// @pre state() returned State::listed or State::stale
     bool may_be_deep(std::size_t k) const { return rows_[k].deep; }
 
-    /// No seat of row k lies deep before its bodies have moved `room` [m] relative to each other
-    /// (find_deep_seats). Different rows may be set at the same time.
-    void set_room(std::size_t k, const PairView& view, double room);
+    /// No seat of row k lies deep before its bodies have moved by `clearance` [m] relative to each
+    /// other (find_deep_seats). Different rows may be set at the same time.
+    void set_seat_clearance(std::size_t k, const PairView& view, double clearance);
 
     /// Starts a new list of row k: valid within `skin`; its bodies cannot touch before they have
     /// moved by `clearance` [m] relative to each other. Different rows may be renewed at the same
@@ -79,24 +79,24 @@ private:
         // Sums of both bodies' paths and rotations up to which their poses need not be compared:
         // the relative motion is at most that sum. Until the pair may touch [m]; until it is stale
         // [m], [rad].
-        double path_wake = 0.0, path_stale = 0.0, rotation_stale = 0.0;
-        double room = 0.0;     // motion before seats can lie deep, when last compared [m]
-        std::size_t axis = 0;  // of separation(), when last compared
-        SeparatingAxes axes;   // instead of it where the solids meet in a polygon
+        double path_clearance = 0.0, path_stale = 0.0, rotation_stale = 0.0;
+        std::size_t axis = 0;              // of separation(), when last compared
+        SeparatingAxes axes;               // instead of it where the solids meet in a polygon
         std::size_t first = 0, count = 0;  // of listed_
         bool deep = false;
-        // pose of b when its seats were last searched, and the motion allowed since then [m];
-        // negative: they must be searched in any case
+        // Pose of b when its seats were last searched, and the relative motion from there before
+        // one can lie deep [m]; negative: they must be searched in any case.
         Mat3 seat_turn = Mat3::Zero();
         Vec3 seat_shift = Vec3::Zero();
-        double seat_room = -1.0;
+        double seat_clearance = -1.0;
+        double seat_clearance_left = 0.0;  // of it, when last compared [m]
     };
     // A lower bound of the distance of row k's solids; exact where it is at most `enough` [m].
-    static double part_solids(Row& row, const PairView& view, double enough);
-    static void set_wakeups(Row& row, BodyPair pair, const MotionBounds& motion, double gone,
-                            double turned);
-    // Motion of the pair before its seats must be searched [m].
-    static double room_left(const Row& row, const PairView& view, double apart);
+    static double separation_of_solids(Row& row, const PairView& view, double enough);
+    static void set_clearances(Row& row, BodyPair pair, const MotionBounds& motion, double gone,
+                               double turned);
+    // Relative motion of the pair before its seats must be searched [m].
+    static double seat_clearance_left(const Row& row, const PairView& view, double apart);
     void close_gaps();
 
     std::vector<BodyPair> pairs_;

@@ -14,10 +14,9 @@ FloatPose to_floats(const Mat3& turn, const Vec3& shift);
 /// Finds the spheres of two bodies that are near each other; keeps its memory between pairs.
 ///
 /// Picks the groups, then the spheres of the body with more spheres that are near the other body's
-/// box; of that body the spheres near the picked ones; and compares these all with all. Crushed
-/// spheres are picked at their places before the crushing, in a range wider by its depth, and
-/// compared at their present ones. NearSpheres::box of what was picked stays that of the places
-/// before the crushing: from there on rows are compared by boxes of their present places.
+/// box; of the other body the spheres near the picked ones; and compares these all with all.
+/// Crushed spheres are picked by their original places, in a wider range, and compared at their
+/// present places. NearSpheres::box refers to the original ones.
 class PairSearch {
 public:
     /// Calls visit(i, j) for all spheres i of a and j of b with

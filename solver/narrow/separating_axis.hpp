@@ -24,7 +24,8 @@ struct RelativePose {
 /// of b's); the gap is then that of their two lines. The faces of the Minkowski difference b - a
 /// are these three kinds and no others, so the widest gap
 ///
-///   * is minus the penetration depth where the pieces overlap: the shortest shift that parts them;
+///   * is minus the penetration depth where the pieces overlap: the shortest shift that separates
+///     them;
 ///   * is at most their distance where they do not, and equal to it where a face or two edges are
 ///     nearest.
 ///
@@ -52,7 +53,7 @@ Vec3 edge_axis(const ConvexPiece& a, const ConvexPiece& b, const RelativePose& p
                std::int32_t edge_a, std::int32_t edge_b);
 
 /// The gap [m] along one plane of a (or, where plane_a < 0, of b): a cheap first test of the axis
-/// that parted the pieces in the last step. Same bits as find_axes gives.
+/// that separated the pieces in the last step. Same bits as find_axes gives.
 double gap_along_plane(const ConvexPiece& a, const ConvexPiece& b, const RelativePose& pose,
                        std::int32_t plane_a, std::int32_t plane_b);
 

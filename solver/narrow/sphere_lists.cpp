@@ -16,8 +16,8 @@ constexpr std::size_t kFewest = 256;
 void SphereLists::match(const std::vector<BodyPair>& pairs) {
     if (pairs == pairs_) return;
     moved_rows_.assign(pairs.size(), Row{});
-    // a pair without a row never sleeps: its wake-up path is minus infinity
-    moved_wake_.assign(pairs.size(), -std::numeric_limits<double>::infinity());
+    // a pair without a row is always measured: its clearance is minus infinity
+    moved_clearance_.assign(pairs.size(), -std::numeric_limits<double>::infinity());
     kept_ = 0;
     // both lists are sorted: one walk finds the rows that stay
     std::size_t old = 0;
@@ -26,11 +26,11 @@ void SphereLists::match(const std::vector<BodyPair>& pairs) {
         if (old == pairs_.size()) break;
         if (pairs_[old] != pairs[k]) continue;
         moved_rows_[k] = rows_[old];
-        moved_wake_[k] = wake_[old];
+        moved_clearance_[k] = clearance_[old];
         kept_ += rows_[old].count;
     }
     rows_.swap(moved_rows_);
-    wake_.swap(moved_wake_);
+    clearance_.swap(moved_clearance_);
     pairs_ = pairs;
 }
 

@@ -11,10 +11,10 @@
 namespace ice {
 
 /// Neighbour lists of the rule "centres": the spheres of a pair of bodies that may touch while the
-/// bodies move within the skin, and the paths up to which the pair need not be measured at all.
+/// bodies move within the skin, and the clearance up to which the pair need not be measured.
 class SphereLists {
 public:
-    /// Of one pair.
+    /// The list of one pair.
     struct Row {
         // when its spheres were listed
         Mat3 turn = Mat3::Zero();   ///< PairView's
@@ -38,7 +38,7 @@ public:
 
     /// Pair k has no contact while the sum of its bodies' MotionBounds::path_after_step is less
     /// than this [m].
-    double& wake(std::size_t k) { return wake_[k]; }
+    double& clearance(std::size_t k) { return clearance_[k]; }
 
     /// Spheres of pair k that may touch; good until the next keep() or match().
     std::span<const ListedSpheres> listed(std::size_t k) const {
@@ -51,8 +51,8 @@ private:
     void close_gaps();
 
     std::vector<BodyPair> pairs_;
-    std::vector<double> wake_, moved_wake_;  // by pair; all of them are read in every step
-    std::vector<Row> rows_, moved_rows_;     // by pair
+    std::vector<double> clearance_, moved_clearance_;  // by pair; all are read in every step
+    std::vector<Row> rows_, moved_rows_;               // by pair
     std::vector<ListedSpheres> blocks_, moved_blocks_;
     std::size_t kept_ = 0;  // of blocks_ that rows use
 };

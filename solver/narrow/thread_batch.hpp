@@ -13,9 +13,8 @@ inline std::uint64_t next_call() {
     return ++calls;
 }
 
-/// Results of the calling thread in this call so far; it keeps its memory. By thread, not by pair:
-/// a pair's row changes from step to step, so lists by row would all grow to the size that the
-/// largest pair ever needed. @param call  of next_call() @tparam Batch  has forget()
+/// Results of this thread in this call; their memory is kept. Stored by thread: lists by pair would
+/// all grow to the largest pair's size. @param call  of next_call() @tparam Batch  has forget()
 template <class Batch>
 Batch& batch_of(std::uint64_t call) {
     thread_local std::uint64_t filled_in = 0;

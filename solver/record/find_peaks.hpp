@@ -19,7 +19,7 @@ class LongSeries;
 /// Levels are those of the peaks at ranks 1, 2, 3, ... and then ever farther apart, with the last.
 /// @param window time per value [s]
 PeakStatistics find_peaks(std::span<const double> series, double window);
-/// The same of a long series, of whose windows the largest in each block are kept: peaks less than
+/// The peaks of a long series, of whose windows the largest in each block are kept: peaks less than
 /// two blocks apart may be one, and the percentile is that of the blocks. Mean and maximum are
 /// exact. @param window  time per single value [s]
 PeakStatistics find_peaks(const LongSeries& series, double window);

@@ -94,7 +94,7 @@ private:
     Case parameters_;
     double dt_;                       ///< time step [s]
     std::filesystem::path folder_;    ///< from open() or resume() on
-    std::optional<RunWriter> run_;    ///< likewise
+    std::optional<RunWriter> run_;    ///< from open() or resume() on
     std::vector<CsvFile> csv_files_;  ///< forces.csv, then the tracked floes'
     RunStatistics statistics_;
     PanelLoads panel_loads_;

@@ -16,7 +16,7 @@ namespace ice {
 ///
 /// -u / k(n) where the contact still closes, u < 0, and is not at its bound; u / k(n), at most
 /// the impulse it has, where a resting impulse pushes it apart, u > 0, and no impact did.
-/// 0 when all conditions of the resting stage hold. Contacts that nothing can move are left out.
+/// 0 when all conditions of the rest stage hold. Contacts that nothing can move are left out.
 ///
 /// (docs/method.md, section 4, on the stopping test.)
 ///

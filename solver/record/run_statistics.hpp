@@ -55,7 +55,10 @@ private:
         Vec3 friction = Vec3::Zero();  ///< the part of friction in it
     };
 
-    bool is_averaged(double time) const { return time >= options_.average_from - 1e-9; }
+    // Rounding of a time that is a sum of steps [s]: with 0, a step that ends at average_from may
+    // be left out; with a step's length or more, the step before counts, too.
+    static constexpr double kTimeRounding = 1e-9;
+    bool is_averaged(double time) const { return time >= options_.average_from - kTimeRounding; }
 
     /// Averaged steps of a doubtful kind.
     struct Doubtful {

@@ -24,7 +24,7 @@ public:
     void add(double force);
 
     bool empty() const { return largest_ == 0.0; }
-    /// Of all forces added [N]; 0 for none.
+    /// Sum of all forces added [N]; 0 for none.
     double sum() const { return sum_; }
     double largest() const { return largest_; }  ///< [N]; 0 for none
     /// The force [N] below which `share` [-] of `windows` windows lie: those added, and zeros.

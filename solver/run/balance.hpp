@@ -23,7 +23,7 @@ struct Momenta {
 /// How far a step was from balance, as a share of the magnitudes that should cancel [-].
 struct Imbalance {
     double linear = 0.0;    ///< of the worst floe: change of P against loads and contact impulses
-    double angular = 0.0;   ///< of the worst floe: change of L likewise
+    double angular = 0.0;   ///< of the worst floe: change of L against the moments
     double together = 0.0;  ///< momentum that all floes gained beyond the loads, against what the
                             ///< forces reported for the ship and the impulses on held floes say
     double ship = 0.0;      ///< momentum that a ship that answers gained beyond its own loads,
@@ -61,7 +61,7 @@ Momenta momenta_of(const World& world);
 /// moment about y only.
 Imbalance measure_imbalance(const Momenta& before, const World& after);
 
-/// The same, and stops the run when it is beyond kBalanceTolerance.
+/// Measures the imbalance, and stops the run when it is beyond kBalanceTolerance.
 /// @throws Error (exit code 1) naming step and floe
 Imbalance require_balance(const Momenta& before, const World& after);
 

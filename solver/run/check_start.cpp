@@ -78,8 +78,8 @@ std::string describe(const std::vector<StartOverlap>& overlaps, const char* sepa
     return text;
 }
 
-// How to part them; for a hull in loose ice, whose bow may lie before all of it, with the place.
-// first what a user can do at once: with the bow before the ice nothing overlaps
+// How to separate them. First what a user can do at once: for a hull in loose ice, the place at
+// which its bow lies before all of it.
 std::string remedy(const World& w, const std::vector<StartOverlap>& overlaps) {
     std::string move = "move the hull (hull.position)";
     const Eigen::AlignedBox2d& ice = w.scene.start.loose;

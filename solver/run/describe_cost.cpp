@@ -10,15 +10,16 @@
 
 #include "common/base/error.hpp"
 #include "common/base/timer.hpp"
+#include "common/formats/run_file.hpp"
 
 namespace ice {
 
 namespace {
 
 // Bytes of run.h5: a row of the ship's history has 25 numbers, one of a tracked floe 22, one of a
-// region 6 floats, a floe in a frame 16 floats and its state. A number in a table takes some 12
-// bytes of text. Every step's forces stay in memory for the statistics (record/run_statistics.hpp).
-constexpr double kShipRow = 25 * 8, kTrackRow = 22 * 8, kRegionRow = 6 * 4, kFrameFloe = 65;
+// region 6 floats. A number in a table takes some 12 bytes of text. Every step's forces stay in
+// memory for the statistics (record/run_statistics.hpp).
+constexpr double kShipRow = 25 * 8, kTrackRow = 22 * 8, kRegionRow = 6 * 4;
 constexpr double kShipText = 11 * 12, kTrackText = 23 * 12, kStepMemory = 64;
 
 // Files that HDF5, the log, the libraries and the terminal keep open.
@@ -54,7 +55,8 @@ RunCost run_cost(const Case& p, std::size_t floes, std::size_t regions) {
     const auto rows = static_cast<double>(out.rows), tracked = static_cast<double>(p.track.size());
     out.run_file =
         rows * (kShipRow + kTrackRow * tracked + kRegionRow * static_cast<double>(regions)) +
-        static_cast<double>(out.frames) * kFrameFloe * static_cast<double>(floes);
+        static_cast<double>(out.frames) * static_cast<double>(kFrameFloeBytes) *
+            static_cast<double>(floes);
     out.tables = rows * (kShipText + kTrackText * tracked);
     out.memory = kStepMemory * static_cast<double>(out.steps);
     return out;

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "common/formats/run_file.hpp"
 #include "solver/record/long_series.hpp"
 
 namespace ice {
@@ -27,7 +28,6 @@ constexpr std::uint64_t kEnd = 1 << 19;
 constexpr std::uint64_t kFields = 1 << 16, kPerBody = 400, kPerContact = 400;
 // Bytes per step: statistics remember forces of LongSeries::kMost steps.
 constexpr std::uint64_t kPerStep = 64;
-constexpr std::uint64_t kFrameBytes = 68;  // bytes per floe in a frame of run.h5
 // Rows in the CSV files between two looks: text takes at most 25 bytes for the 8 of a number, and
 // the streams buffer some.
 constexpr std::uint64_t kTextStride = 4 * kStride, kTextBuffer = 1 << 14;
@@ -147,7 +147,8 @@ bool DiskRoom::is_short(const Recorder& recorder, const World& world, bool saves
     const std::uint64_t checkpoint = kFields + kPerBody * bodies +
                                      kPerContact * world.constraints.size() + kPerStep * kept +
                                      world.edge.bytes_of_gone();
-    const std::uint64_t more = waiting + 2 * kStride + kFrameBytes * bodies;  // at the next look
+    const std::uint64_t more =
+        waiting + 2 * kStride + kFrameFloeBound * bodies;  // at the next look
     // a checkpoint comes with a copy of the rows since the last one
     const std::uint64_t file = bytes_of(folder_ / kRows);
     const std::uint64_t copy = saves ? file - std::min(file, saved_bytes_) + kEnd : 0;

@@ -28,7 +28,8 @@ struct RunOptions {
     std::function<bool(double, const World&)> keep_going = [](double, const World&) {
         return true;
     };
-    /// Of check_course(), for the summary: of this duration, so that no checkpoint carries them.
+    /// Warnings of check_course(), for the summary: of this duration, so that no checkpoint carries
+    /// them.
     std::vector<Warning> course_warnings = {};
     double checkpoint_wall_seconds = 300.0;  ///< [s], where checkpoint_every is 0
 };

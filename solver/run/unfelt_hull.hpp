@@ -15,9 +15,9 @@ struct UnfeltHull {
 
 /// Looks at the hull's mesh between two heights, at points half a spacing apart.
 ///
-/// A sphere represents the surface around its seat, half to two thirds of a spacing far, and for
-/// the sharp tip of the edge or corner that it touches all faces of. A part thinner than a sphere
-/// (a stem, a fin) has none. A hull outside the belt has no area and no share.
+/// A sphere represents the surface around its seat, half to two thirds of a spacing far, and the
+/// tip of an edge or corner, if the sphere touches all its faces. A part thinner than a sphere (a
+/// stem, a fin) has none. A hull outside the belt has no area and no share.
 /// @param low, high  world heights of the belt [m]
 UnfeltHull measure_unfelt_hull(const Scene& scene, double low, double high);
 

@@ -20,8 +20,9 @@ void set_added_mass(Scene& scene, const Case& parameters);
 /// Its momenta are not touched. @param water_density  [kg/m3]
 void add_water(Scene& scene, std::size_t body, double water_density);
 
-/// Of one form in deep water about its origin, from some 400 panels or as many as its mesh has
-/// triangles: [kg] and [kg m2] (added_mass()). @param mesh  closed, about the centre of mass [m]
+/// Added mass of one form in deep water about its origin, from some 400 panels or as many as its
+/// mesh has triangles: [kg] and [kg m2] (added_mass()).
+/// @param mesh  closed, about the centre of mass [m]
 /// @param water_density  [kg/m3]
 Mat6 added_mass_of_form(const TriangleMesh& mesh, double water_density);
 

@@ -35,7 +35,7 @@ void update_derived(Bodies& bodies, std::size_t i) {
 }
 
 void release(Bodies& bodies, std::size_t i) {
-    bodies.held[i] = 0;
+    bodies.held[i] = Bodies::kFree;
     update_derived(bodies, i);
     // In ascending order, which is that of all sums over moving floes.
     const auto number = static_cast<std::int32_t>(i);

@@ -34,7 +34,7 @@ struct Inertia {
 struct ShipResponse {
     bool free = false;                    ///< in any motion; then Bodies::velocity is of `centre`
     Mat3 inverse_mass = Mat3::Zero();     ///< of ship and water that moves along [1/kg]
-    Mat3 inverse_inertia = Mat3::Zero();  ///< likewise, about `centre` [1/(kg m2)]
+    Mat3 inverse_inertia = Mat3::Zero();  ///< of the same, about `centre` [1/(kg m2)]
     double least_response = 0.0;          ///< 1 / mass, also of a ship that only turns [1/kg]
     Vec3 centre = Vec3::Zero();           ///< centre of gravity from the mesh's origin [m]; else 0
 };
@@ -57,12 +57,16 @@ struct Bodies {
     /// all others. Empty where there are no such floes.
     std::vector<double> breaking_load;
 
+    /// Values of `held`, in checkpoints too: free; immovable until it is released; bent, which is
+    /// immovable for the rest of the step, and free with the next one.
+    static constexpr std::uint8_t kFree = 0, kHeld = 1, kBent = 2;
+
     // the state, advanced by integrate/
     std::vector<Vec3> position;           ///< centre of mass; ship: mesh origin [m]
     std::vector<Quaternion> orientation;  ///< body to world
     std::vector<Vec3> momentum;           ///< [kg m/s]
     std::vector<Vec3> angular_momentum;   ///< about the centre of mass, world axes [kg m2/s]
-    std::vector<std::uint8_t> held;       ///< 1: immovable until released; 2: bent, is released
+    std::vector<std::uint8_t> held;       ///< kFree, kHeld or kBent
     std::vector<std::int32_t> moving;     ///< floes that are not held, ascending
 
     // derived by update_derived(), changed together by the contact solver
@@ -83,7 +87,9 @@ struct Bodies {
         return breaking_load.empty() ? std::numeric_limits<double>::infinity() : breaking_load[i];
     }
     /// Is it held until it bends?
-    bool is_unbent(std::size_t i) const { return !std::isinf(breaking_load_of(i)) && held[i] == 1; }
+    bool is_unbent(std::size_t i) const {
+        return !std::isinf(breaking_load_of(i)) && held[i] == kHeld;
+    }
     /// Lever arm [m] of a point in world axes, from the point whose velocity velocity[i] is.
     Vec3 arm(std::int32_t i, const Vec3& point) const {
         const Vec3 from_position = point - position[static_cast<std::size_t>(i)];
@@ -133,7 +139,7 @@ constexpr std::size_t kShip = 0;
 /// Rotation, velocities and inverse inertia of body `i` from its momenta, equation (2): v = P / m,
 /// with added mass R (m + A)^-1 R^T P, and w = R I^-1 R^T L. A held body has inverse mass, inverse
 /// inertia and angular velocity zero; its velocity is P / m, which is zero but for ice that drifts.
-/// Of the ship only the rotation is set: its velocity is prescribed or that of FreeShip.
+/// For the ship only the rotation is set: its velocity is prescribed or that of FreeShip.
 void update_derived(Bodies& bodies, std::size_t i);
 
 /// Lets a held floe move from now on, with the momentum that it has.

@@ -179,7 +179,7 @@ Scene make_scene(Shape hull, const Vec3& position, const Vec3& velocity) {
     b.orientation.push_back(Quaternion::Identity());
     b.momentum.push_back(Vec3::Zero());
     b.angular_momentum.push_back(Vec3::Zero());
-    b.held.push_back(0);
+    b.held.push_back(Bodies::kFree);
     b.rotation.push_back(Mat3::Identity());
     b.velocity.push_back(velocity);
     b.angular_velocity.push_back(Vec3::Zero());
@@ -204,7 +204,7 @@ std::size_t add_floe(Scene& scene, std::int32_t shape_row, double density, const
     b.orientation.push_back(start.orientation);
     b.momentum.push_back(Vec3::Zero());
     b.angular_momentum.push_back(Vec3::Zero());
-    b.held.push_back(held ? 1 : 0);
+    b.held.push_back(held ? Bodies::kHeld : Bodies::kFree);
     b.rotation.push_back(Mat3::Identity());
     b.velocity.push_back(Vec3::Zero());
     b.angular_velocity.push_back(Vec3::Zero());

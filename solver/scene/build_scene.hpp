@@ -21,7 +21,7 @@ Scene build_scene(const Case& parameters);
 
 /// How a floe begins.
 struct FloeStart {
-    /// Of its centre of mass [m]; z is floating equilibrium unless given.
+    /// Position of its centre of mass [m]; z is floating equilibrium unless given.
     Vec3 position{0.0, 0.0, std::numeric_limits<double>::quiet_NaN()};
     Quaternion orientation = Quaternion::Identity();  ///< body to world, unit
     Vec3 velocity = Vec3::Zero();                     ///< [m/s]

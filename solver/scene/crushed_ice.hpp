@@ -50,7 +50,7 @@ struct CrushedIce {
         recent.push_back({body, move.norm()});
         carry_notch(body, sphere, spheres, move);
     }
-    /// The same for a body that is new in the scene: no surface moved, so no event.
+    /// Moves a sphere of a body that is new in the scene: no surface moved, so no event.
     void carry_notch(std::int32_t body, std::int32_t sphere, std::size_t spheres,
                      const Vec3& move) {
         if (static_cast<std::size_t>(body) >= first.size()) {

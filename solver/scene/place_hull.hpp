@@ -11,7 +11,7 @@ namespace ice {
 /// of hull_position, which means nothing then: read the height here, or from the scene.
 Vec3 hull_place(const Case& parameters, const TriangleMesh& hull);
 
-/// The same for a ship on water [m].
+/// The place of a ship's hull that floats on water [m].
 /// @throws Error (exit code 2) with the numbers where no ship floats so: a draught that is not
 ///         above 0, or a hull wholly under water
 Vec3 place_hull(const Case& parameters, const TriangleMesh& hull);

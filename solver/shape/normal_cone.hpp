@@ -24,7 +24,7 @@ struct NormalCone {
     /// left 0.
     static NormalCone meeting(std::span<const Vec3> normals);
 
-    /// The same in other axes.
+    /// The cone in other axes.
     NormalCone turned(const Mat3& turn) const;
 
     /// Is n, a unit vector, in the cone: are its components along the faces' normals positive, to

@@ -46,10 +46,10 @@ struct Shape {
     ConvexBounds bounds;           ///< of mesh and spheres
     ConvexPiece convex;            ///< the mesh where it is convex, else empty; 2D: empty
     SphereBlocks blocks;           ///< of `center`, for the search
-    SphereBlocks balls;            ///< the same without their faces, for the rule "centres"
+    SphereBlocks balls;            ///< the spheres without their faces, for the rule "centres"
     double largest_radius = 0.0;   ///< [m]
     double spacing = 0.0;          ///< nominal distance of the surface spheres [m]
-    /// Of each sphere: it represents the surface that near its centre, 0.75 spacings [m].
+    /// Distance from its centre up to which a sphere represents the surface, 0.75 spacings [m].
     double patch_radius = 0.0;
     SidePlanes side_planes;  ///< at which the faces end within it
 

@@ -52,7 +52,7 @@ struct SphereBlocks {
     std::size_t count = 0;  ///< spheres
     std::size_t group_count = 0;
     FloatBox box{};  ///< of all centres
-    /// Of all spheres [m].
+    /// Largest extents of all spheres [m].
     float largest_normal_extent = 0.0f, largest_tangent_extent = 0.0f, largest_own = 0.0f;
     float size = 0.0f;  ///< largest coordinate of a centre [m]
 

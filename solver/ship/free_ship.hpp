@@ -61,15 +61,17 @@ public:
     void turn(Scene& scene, const PositionCorrections& corrections, double dt);
 
     const ShipLoads& loads() const { return loads_; }  ///< of the last step
-    /// Roll, pitch and yaw now [rad]; zero at prescribed speed.
+    /// Roll, pitch and yaw now [rad]; zero on a prescribed course.
     const ShipAngles& angles() const { return angles_; }
     const ShipEnergies& energies() const { return energies_; }
-    /// Of the centre of gravity [m/s] and about it [rad/s], at the start of the last step.
+    /// Velocity of the centre of gravity [m/s] and spin about it [rad/s], at the start of the last
+    /// step.
     const Vec3& velocity_start() const { return velocity_start_; }
     const Vec3& spin_start() const { return spin_start_; }
-    /// In the free motions, of ship and added mass [J]; 0 at prescribed speed.
+    /// Kinetic energy of ship and added mass in the free motions [J]; 0 on a prescribed course.
     double kinetic_energy(const Bodies& bodies) const;
-    /// Of weight and water; 0 where the ship is held upright and at its height [J].
+    /// Potential energy of weight and water [J]; 0 where the ship is held upright and at its
+    /// height.
     double potential_energy(const Scene& scene, const Case& parameters) const;
 
     /// Writes or sets its state, by the file's direction.

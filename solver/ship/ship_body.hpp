@@ -18,7 +18,7 @@ struct ShipBody {
     double mass = 0.0;            ///< [kg], 2D per metre of breadth
     Vec3 inertia = Vec3::Zero();  ///< about the centre of gravity, ship axes [kg m2]
     SixNumbers added{};           ///< added mass [kg] and inertia [kg m2], ship axes
-    SixNumbers water_damping{};   ///< of ship.matrix, likewise [N s/m], [N m s]
+    SixNumbers water_damping{};   ///< of ship.matrix, ship axes [N s/m], [N m s]
     double coupling = 0.0;  ///< largest_coupling() of mass and ship.matrix, which is left out [-]
     Vec3 centre_of_gravity = Vec3::Zero();  ///< ship frame [m]
     Vec3 gyration = Vec3::Zero();           ///< radii about the ship's x, y, z [m]

@@ -8,8 +8,8 @@
 
 namespace ice {
 
-/// Of surge, sway, heave along x, y, z and roll, pitch, yaw about axes through `about`, in the hull
-/// mesh's axes.
+/// Matrices of surge, sway, heave along x, y, z and roll, pitch, yaw about axes through `about`, in
+/// the hull mesh's axes.
 struct ShipMatrix {
     Mat6 added = Mat6::Zero();    ///< [kg], [kg m], [kg m2]
     Mat6 damping = Mat6::Zero();  ///< [N s/m], [N s], [N m s]

@@ -8,18 +8,10 @@
 
 namespace ice {
 
-namespace {
-
-// Still held for the rest of the step, whose impulses were computed with a floe that cannot move;
-// free with the next one.
-constexpr std::uint8_t kBent = 2;  // value of Bodies::held [-]
-
-}  // namespace
-
 void release_bent(Bodies& bodies) {
     if (bodies.breaking_load.empty()) return;
     for (std::size_t i = kShip + 1; i < bodies.size(); ++i)
-        if (bodies.held[i] == kBent) release(bodies, i);
+        if (bodies.held[i] == Bodies::kBent) release(bodies, i);
 }
 
 void BentFloes::add(std::int32_t floe, double up, const Constraint& c) {
@@ -51,7 +43,8 @@ void BentFloes::find(Scene& scene, const Case& parameters,
         // weighted by normal impulse.
         const double bears =
             b.breaking_load[i] * speed_factor(parameters.bending, load.closing / load.normal);
-        if (load.down >= bears * parameters.time_step) b.held[i] = kBent;
+        // held for the rest of the step, whose impulses were computed with a floe that cannot move
+        if (load.down >= bears * parameters.time_step) b.held[i] = Bodies::kBent;
     }
     pressed_.clear();
 }

@@ -17,8 +17,9 @@ bool touches(const Bodies& b, const Contact& c, double dt) {
     return c.gap + dt * std::min(approach, 0.0) <= 0.0;
 }
 
-// May `touched` be let go by a contact with `other`?
-bool lets_go(const Scene& scene, const Case& parameters, std::int32_t touched, std::int32_t other) {
+// May `touched` be released by a contact with `other`?
+bool may_release(const Scene& scene, const Case& parameters, std::int32_t touched,
+                 std::int32_t other) {
     const Bodies& b = scene.bodies;
     if (touched == static_cast<std::int32_t>(kShip) || !b.held[touched]) return false;
     const bool ship = other == static_cast<std::int32_t>(kShip);
@@ -41,13 +42,13 @@ bool lets_go(const Scene& scene, const Case& parameters, std::int32_t touched, s
 
 bool release_touched(Scene& scene, const Case& parameters, const std::vector<Contact>& contacts) {
     if (scene.bodies.moving.size() + 1 == scene.bodies.size()) return false;  // none is held
-    // The caller searches contacts again while floes are released: a floe let go may press on the
+    // The caller searches contacts again while floes are released: a released floe may press on the
     // next.
     bool any = false;
     for (const Contact& c : contacts) {
         // either body may be held by the rule of its own group
-        const bool a = lets_go(scene, parameters, c.a, c.b);
-        const bool b = lets_go(scene, parameters, c.b, c.a);
+        const bool a = may_release(scene, parameters, c.a, c.b);
+        const bool b = may_release(scene, parameters, c.b, c.a);
         if ((!a && !b) || !touches(scene.bodies, c, parameters.time_step)) continue;
         if (a) release(scene.bodies, c.a);
         if (b) release(scene.bodies, c.b);

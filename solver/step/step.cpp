@@ -26,8 +26,9 @@ void timed(World& w, Stage stage, const Work& work) {
     w.stage_seconds[static_cast<std::size_t>(stage)] += timer.seconds();
 }
 
-// ... and as far as buoyancy moves a floe under water within the step [m], or a fifth of gravity. A
-// floe that begins to fall through air is met when it has begun: 0.3 mm deep at steps of 0.01 s.
+// kMargin, plus the distance that buoyancy moves a floe in the step, or a fifth of gravity if that
+// is more [m]. A floe that begins to fall through air moves farther: at steps of 0.01 s its contact
+// is found when it is 0.3 mm deep.
 double contact_margin(const Case& p) {
     const double lift = std::max(p.water_density / p.ice_density - 1.0, 0.2);
     return kMargin + lift * p.gravity * p.time_step * p.time_step;
@@ -67,7 +68,7 @@ void step(World& w) {
     w.ship.start_step(w.parameters, w.scene, w.time);
     w.scene.water.follow(bodies.position[kShip], w.scene.ship_velocity);
 
-    // 2 to 4 broad, narrow, release: a floe let go may touch neighbours that were held with it
+    // 2 to 4 broad, narrow, release: a released floe may touch neighbours that were held with it
     do {
         timed(w, Stage::broad, [&] {
             w.motion.update(w.scene, dt);

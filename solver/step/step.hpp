@@ -57,7 +57,7 @@ struct World {
     std::array<double, static_cast<std::size_t>(Stage::count)> stage_seconds{};
 };
 
-/// Lets go the floes that the last step's loads broke, and renews the edge of level ice, where
+/// Releases the floes that the last step's loads broke, and renews the edge of level ice, where
 /// bodies change their form. step() begins with it; where it was called before, nothing is left.
 void begin_step(World& world);
 

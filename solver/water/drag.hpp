@@ -33,8 +33,8 @@ struct Motion {
 WaterLoad projected_drag(const Shape& shape, const Motion& motion, double coefficient,
                          double water_density);
 
-/// The same law for every piece of the wetted surface with its own velocity u = v + w x r, so that
-/// rotation is damped too:
+/// Drag of every piece of the wetted surface with its own velocity u = v + w x r, so that rotation
+/// is damped too:
 ///
 ///     F = -1/2 rho_w C_d int max(0, n . u / |u|) |u| u dA,   moment = int r x dF,
 ///

@@ -102,7 +102,7 @@ HWY_INLINE Mask CountsWhole(const Cut& cut, const Tip& tip) {
     return hn::Or(hn::AndNot(cut.any, cut.in0), hn::AndNot(tip.inside, cut.any));
 }
 
-// Of the three corners.
+// Heights of the three corners.
 struct Heights {
     Lanes z0, z1, z2;
 };

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a free ship costs beside one on rails, as processor time of the pre-sawn channel's run:
+"""What a free ship costs beside one on a prescribed course: processor time of the pre-sawn channel.
 
     python3 tests/bench/ship_cost.py [build/release/bin] [--rounds N]
 
@@ -19,7 +19,7 @@ ROOT = Path(__file__).resolve().parents[2]
 CASE = ROOT / "cases/presawn-channel"
 SIX = '["surge", "sway", "heave", "roll", "pitch", "yaw"]'
 HELD = ["propulsion.hold_speed=0.5"]
-SHIPS = {"on rails": [],
+SHIPS = {"on a prescribed course": [],
          "free in surge, a thousand times its mass": ['ship.free=["surge"]',
                                                       "ship.mass='27000000 kg'", *HELD],
          "free in heave, pitch and roll": ['ship.free=["heave", "pitch", "roll"]'],
@@ -49,8 +49,8 @@ def main():
             for name, settings in SHIPS.items():
                 times[name].append(cpu_seconds(options.bin.resolve() / "icesolve", settings,
                                                f"{folder}/{list(SHIPS).index(name)}"))
-    base = statistics.median(times["on rails"])
-    print("| the ship | cpu s | over on rails |\n|---|---|---|")
+    base = statistics.median(times["on a prescribed course"])
+    print("| the ship | cpu s | over a prescribed course |\n|---|---|---|")
     for name, values in times.items():
         print(f"| {name} | {statistics.median(values):.2f} | {statistics.median(values) / base:.3f} |")
 

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """free_ship_test.py PROGRAMS [FOLDER]: a ship free in surge, and a captive one in the same ice.
 
-A flared wedge of 6 m goes through rows of floes that let go as it touches them. Held at a speed by its
+A flared wedge of 6 m goes through rows of floes that are released as it touches them. Held at a speed by its
 thrust, the free ship's mean resistance is within the captive ship's interval. The speed to which a net
 thrust brings it is the one at which that thrust meets the captive ships' resistances, within both
 intervals, as `icepost hv` finds them. FOLDER keeps the runs."""
@@ -89,17 +89,17 @@ def check(folder):
     captive = {u: solve(folder, f"runs/captive-{u}", u) for u in SPEEDS}
     held = solve(folder, "held", SPEED, surge, f"propulsion.hold_speed={SPEED}")
 
-    on_rails, steered = captive[SPEED]["resistance"], held["resistance"]
-    print(f"{SPEED} m/s: captive {on_rails['mean_N']:.1f} +- {on_rails['ci95_N']:.1f} N, held "
+    on_course, steered = captive[SPEED]["resistance"], held["resistance"]
+    print(f"{SPEED} m/s: captive {on_course['mean_N']:.1f} +- {on_course['ci95_N']:.1f} N, held "
           f"{steered['mean_N']:.1f} +- {steered['ci95_N']:.1f} N")
-    assert abs(steered["mean_N"] - on_rails["mean_N"]) <= on_rails["ci95_N"]
-    assert on_rails["ci95_N"] < 0.1 * on_rails["mean_N"]
+    assert abs(steered["mean_N"] - on_course["mean_N"]) <= on_course["ci95_N"]
+    assert on_course["ci95_N"] < 0.1 * on_course["mean_N"]
     # what the thrust gives, the ice takes
     assert abs(held["ship"]["speed_mean"] - SPEED) < 0.02, held["ship"]["speed_mean"]
     assert abs(held["ship"]["thrust_mean_N"] - steered["mean_N"]) < 0.03 * steered["mean_N"]
 
     # a thrust that meets the captive ship's resistance at its speed
-    pull = on_rails["mean_N"] / (1 - SPEED / OPEN_WATER / 3 - 2 / 3 * (SPEED / OPEN_WATER)**2)
+    pull = on_course["mean_N"] / (1 - SPEED / OPEN_WATER / 3 - 2 / 3 * (SPEED / OPEN_WATER)**2)
     solve(folder, "runs/free", SPEED, surge, f"propulsion.bollard_pull={pull}",
           f"propulsion.open_water_speed={OPEN_WATER}")
     (folder / "thrust.toml").write_text(f"[[thrust]]\nname = 'net'\nbollard_pull = {pull}\n"

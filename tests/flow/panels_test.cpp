@@ -55,6 +55,15 @@ double sphere_error(const PanelFlow& flow, double radius) {
     return area_rms(flow, error);
 }
 
+// Added mass over that of the displaced water for motion along x [-]. By Green's theorem the
+// sources' dipole moment is sum of s A x = V (1 + C_a). @param volume  of the body [m3]
+double added_mass_coefficient(const PanelFlow& flow, double volume) {
+    double moment = 0.0;
+    for (std::size_t j = 0; j < flow.body.panels.size(); ++j)
+        moment += flow.strength[j] * flow.body.panels[j].area * flow.body.panels[j].centre.x();
+    return (flow.body.symmetric ? 2.0 : 1.0) * moment / volume - 1.0;
+}
+
 std::vector<Vec3> points_around(const WettedHull& hull, std::size_t count, unsigned seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> share(-0.3, 1.3);

@@ -91,7 +91,7 @@ private:
         bodies_[i]->SetMassData(&mass);
     }
 
-    void let_go(std::size_t i) override {
+    void release_floe(std::size_t i) override {
         bodies_[i]->SetType(b2_dynamicBody);
         set_mass(i);
     }

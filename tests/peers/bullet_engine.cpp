@@ -113,7 +113,7 @@ private:
         body.setAngularVelocity(btVector3(0.0, 0.0, start.turn));
     }
 
-    void let_go(std::size_t i) override {
+    void release_floe(std::size_t i) override {
         bullet_.removeRigidBody(bodies_[i].get());
         make_free(i);
         bullet_.addRigidBody(bodies_[i].get());

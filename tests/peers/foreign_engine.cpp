@@ -67,7 +67,7 @@ void ForeignEngine::release_near_ship() {
         const Polygon& form = outlines_[static_cast<std::size_t>(b.shape[i])];
         if (distance(hull, place(form, b.rotation[i], b.position[i])) > reach) continue;
         release(b, i);
-        let_go(i);
+        release_floe(i);
     }
 }
 

@@ -33,7 +33,7 @@ protected:
         Vec2 on_held = Vec2::Zero();  ///< of the free floes on the held ones
     };
 
-    virtual void let_go(std::size_t floe) = 0;
+    virtual void release_floe(std::size_t floe) = 0;
     virtual void push(std::size_t floe, const Vec2& force, double moment) = 0;
     /// Advances by dt; the ship starts at its place in world() and goes with its velocity.
     virtual Impulses solve(double dt) = 0;

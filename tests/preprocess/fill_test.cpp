@@ -11,11 +11,11 @@
 #include "preprocess/fill/fill_spheres.hpp"
 #include "preprocess/fill/lattice.hpp"
 #include "preprocess/fill/shell_tile.hpp"
-#include "preprocess/fill/surface_samples.hpp"
 #include "tests/preprocess/check_shares.hpp"
 #include "tests/preprocess/fill_options.hpp"
 #include "tests/preprocess/solid_oracle.hpp"
 #include "tests/support/make_meshes.hpp"
+#include "tests/support/sample_surface.hpp"
 #include "tests/support/tolerance.hpp"
 
 using namespace ice;
@@ -90,7 +90,7 @@ TEST_CASE("the covering radius is that of a dense search", "[fill][equivalence]"
     const SphereSet set = fill_spheres(mesh, options(0.1), report);
     const SurfaceTree tree(mesh);
     double worst = 0.0;
-    for (const SurfaceSample& sample : sample_surface(mesh, 0.04 * set.spacing, 3)) {
+    for (const SurfaceSample& sample : test::sample_surface(mesh, 0.04 * set.spacing)) {
         const Vec3 seat = sample.point - set.radius * sample.normal;
         if (!tree.is_clear(seat, set.radius * (1 - 1e-6))) continue;
         double nearest = 1e300;

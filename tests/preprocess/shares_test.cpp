@@ -9,8 +9,8 @@
 #include "preprocess/fill/fill_spheres.hpp"
 #include "preprocess/fill/narrowest_cone.hpp"
 #include "preprocess/fill/point_cells.hpp"
-#include "preprocess/fill/surface_samples.hpp"
 #include "tests/support/make_meshes.hpp"
+#include "tests/support/sample_surface.hpp"
 #include "tests/support/tolerance.hpp"
 
 using namespace ice;
@@ -179,7 +179,7 @@ TEST_CASE("surface samples sum to the area, stand in the triangles' middles and 
     mesh.region = {0, 0};
     double area = 0.0;
     Vec3 first = Vec3::Zero();
-    const auto samples = sample_surface(mesh, 0.1, 3);
+    const auto samples = test::sample_surface(mesh, 0.1);
     for (const SurfaceSample& s : samples) {
         area += s.area;
         first += s.area * s.point;

@@ -35,9 +35,9 @@ TEST_CASE("no floe, one floe and two held floes make no ice-ice pair", "[broad][
     CHECK(pairs.empty());
 }
 
-TEST_CASE("a list of pairs follows a ship, and a floe let go far from it, through held floes",
+TEST_CASE("a list of pairs follows a ship, and a floe released far from it, through held floes",
           "[broad][equivalence]") {
-    // the ship goes 40 m through held floes; meanwhile one at the other end is let go and goes 9 m
+    // the ship goes 40 m through held floes; meanwhile one at the other end is released, goes 9 m
     World w = test::scattered_world(5, 600, 1.0, 30.0);
     Bodies& b = w.scene.bodies;
     std::fill(b.held.begin() + 1, b.held.end(), std::uint8_t{1});

@@ -198,7 +198,7 @@ TEST_CASE("deep pairs part, step by step, whether their ice can be crushed or no
     const Bodies& b = w.scene.bodies;
     const Vec3 apart = b.rotation[1].transpose() * (b.position[2] - b.position[1]);
     if (std::isinf(pressure)) CHECK(apart.z() > 1.0 - 0.01);
-    // crushed or parted, nothing is left that the finder would still have to push out
+    // crushed or separated, nothing is left that the finder would still have to push out
     std::vector<Contact> contacts;
     ContactFinder().find(w.scene, {{1, 2}}, ContactRule(w.parameters), 0.0, 0.0, contacts);
     CHECK(deepest(contacts) > -0.01);

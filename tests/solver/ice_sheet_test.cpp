@@ -11,6 +11,7 @@
 #include <numbers>
 #include <random>
 
+#include "solver/level_ice/crack_form.hpp"
 #include "solver/level_ice/section_outline.hpp"
 #include "tests/support/edge_checks.hpp"
 #include "tests/support/make_sphere_sets.hpp"
@@ -75,9 +76,9 @@ TEST_CASE("the radius has the law's length, speed and scatter", "[level_ice]") {
     CHECK(crack_size(law, 14.6, 50.0, 1) == Near(0.2 * 0.32 * 14.6));
     law.scatter = 0.25;
     double low = 1e9, high = 0.0;
-    for (std::uint64_t cusp = 0; cusp < 1000; ++cusp) {
-        const double radius = crack_size(law, 14.6, 0.0, cusp);
-        CHECK(radius == crack_size(law, 14.6, 0.0, cusp));
+    for (std::uint64_t number = 0; number < 1000; ++number) {
+        const double radius = crack_size(law, 14.6, 0.0, number);
+        CHECK(radius == crack_size(law, 14.6, 0.0, number));
         low = std::min(low, radius);
         high = std::max(high, radius);
     }

@@ -91,7 +91,7 @@ TEST_CASE("a floe without a height floats at rest") {
     CHECK(w.scene.bodies.velocity[floe].norm() < tolerance(1e-9));
 }
 
-TEST_CASE("floes made in code are held and let go as a case's") {
+TEST_CASE("floes made in code are held and released as a case's") {
     World w = make_world(good_case(), kHull);
     const auto form = add_floe_shape(w, kFloe);
     const auto wall = add_floe(w, form, {.position = {2.6, 0.9, -0.1}, .hold = Hold::always});

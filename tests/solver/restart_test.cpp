@@ -21,8 +21,9 @@ constexpr std::int64_t kSteps = 120;
 // Pressure [Pa] low enough that the plate's impacts crush what they hit.
 constexpr double kSoft = 5e3;
 
-// A plate drives over a row of floes that buoyancy presses against it; the first floe is let go at
-// once, the next ones when touched. Rows and frames are no multiples of each other or of the step.
+// A plate drives over a row of floes that buoyancy presses against it; the first floe is released
+// at once, the next ones when touched. Rows and frames are no multiples of each other or of the
+// step.
 Case pressed_row(double crushing_pressure) {
     Case p;
     p.time_step = 0.01;

@@ -124,11 +124,11 @@ TEST_CASE("boxes face to face, and edge across edge, are as far apart as they st
           tolerance(1e-15));
 }
 
-TEST_CASE("a hundred thousand random pairs overlap and part as brute force says, to 1e-9 m",
+TEST_CASE("a hundred thousand random pairs overlap and separate as brute force says, to 1e-9 m",
           "[narrow][equivalence]") {
     const std::vector<Body> bodies = random_bodies(11, 60);
     test::Dice dice{std::mt19937(12)};
-    int overlaps = 0, parted = 0, by_edges = 0;
+    int overlaps = 0, separate = 0, by_edges = 0;
     for (int k = 0; k < 100000; ++k) {
         const Body& a = bodies[static_cast<std::size_t>(k) % bodies.size()];
         const Body& b = bodies[static_cast<std::size_t>(k / 7 + 3 * k) % bodies.size()];
@@ -137,15 +137,15 @@ TEST_CASE("a hundred thousand random pairs overlap and part as brute force says,
         const double found = axes.widest();
         by_edges += axes.edges > std::max(axes.face_a, axes.face_b);
         if (found <= 0.0) {
-            ++overlaps;  // no direction parts them sooner
+            ++overlaps;  // no direction separates them sooner
             REQUIRE(std::abs(found - widest_gap(a, b, pose, false)) < tolerance(1e-9));
         } else {
-            ++parted;
+            ++separate;
             REQUIRE(std::abs(found - widest_gap(a, b, pose, true)) < tolerance(1e-9));
         }
     }
     CHECK(overlaps > 20000);
-    CHECK(parted > 20000);
+    CHECK(separate > 20000);
     CHECK(by_edges > 10000);
 }
 

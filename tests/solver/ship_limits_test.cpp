@@ -69,7 +69,7 @@ TEST_CASE("ice that drifts past a ship at rest is a ship in still ice", "[ship][
 }
 
 TEST_CASE("a heavy ship crushes held ice and jams as a captive one", "[ship][held]") {
-    // held before the bow, behind the first row, and let go by the hull's touch
+    // held before the bow, behind the first row, and released by the hull's touch
     for (const auto& [row, hold] :
          {std::pair(0, Hold::always), {1, Hold::always}, {1, Hold::until_hull_contact}}) {
         World captive = rough_ride(4000.0, {}, 6, row);

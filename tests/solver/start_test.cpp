@@ -53,7 +53,8 @@ TEST_CASE("a floe that reaches into its neighbour is named with the depth", "[st
     REQUIRE(found.size() == 1);
     CHECK(found[0].a == 1);
     CHECK(found[0].b == 2);
-    // as far as they must be moved to part: up, past the floes' 0.4 m, it is farther than back
+    // as far as they must be moved until they are separate: up, past the floes' 0.4 m, it is
+    // farther than back
     CHECK(found[0].depth == Near(depth).margin(depth < kRadius ? 1e-6 : 0.5 * kSpacing));
     const std::string text = error_text([&] { check_start(w, false); });
     CHECK_THAT(text, Catch::StartsWith("case.cfg: floe 1 and floe 2 overlap by") &&

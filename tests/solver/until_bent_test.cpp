@@ -92,7 +92,7 @@ TEST_CASE("a held piece breaks off in the step in which its load is reached",
     const double down_share = cosine - kFriction * sine, along_share = sine + kFriction * cosine;
     Push before{0.0, 0.0}, now{0.0, 0.0};
     double work = 0.0;
-    while (w.scene.bodies.held[1] == 1) {
+    while (w.scene.bodies.held[1] == Bodies::kHeld) {
         before = now;
         const Momenta momenta = momenta_of(w);
         step(w);
@@ -157,7 +157,7 @@ TEST_CASE("a steep side never bends the ice: it crushes the whole thickness", "[
     int steps = 0;
     while (w.time * kSpeed < through) {
         step(w);
-        REQUIRE(w.scene.bodies.held[1] == 1);
+        REQUIRE(w.scene.bodies.held[1] == Bodies::kHeld);
         most = std::max(most, push_of(w).down);
         if (w.time * kSpeed < kThickness / std::tan(slope) + 0.2) continue;
         force += push_of(w).along;
@@ -178,7 +178,7 @@ TEST_CASE("a side whose friction outweighs its slope lifts the ice", "[step][ben
     for (int k = 0; k < 50; ++k) {
         step(w);
         REQUIRE(push_of(w).down <= 0.0);
-        REQUIRE(w.scene.bodies.held[1] == 1);
+        REQUIRE(w.scene.bodies.held[1] == Bodies::kHeld);
     }
     CHECK(push_of(w).along > 0.0);
 }
@@ -188,11 +188,11 @@ TEST_CASE("the factor's table holds at the normal speed of hull and ice", "[step
     World plain = leaning_plate(slope, 0.2e6), fast = leaning_plate(slope, 0.1e6);
     // twice the load at the speed at which the slope meets the ice
     fast.parameters.bending.factor_table = {{0.0, 1.0}, {2.0 * kSpeed * std::sin(slope), 3.0}};
-    while (plain.scene.bodies.held[1] == 1) {
+    while (plain.scene.bodies.held[1] == Bodies::kHeld) {
         step(plain);
         step(fast);
     }
-    CHECK(fast.scene.bodies.held[1] == 2);
+    CHECK(fast.scene.bodies.held[1] == Bodies::kBent);
     CHECK(plain.steps > 20);
 }
 
@@ -218,7 +218,7 @@ bool same_bits(const World& l, const World& r) {
 
 }  // namespace
 
-TEST_CASE("ice without strength is let go at the first touch", "[step][bending]") {
+TEST_CASE("ice without strength is released at the first touch", "[step][bending]") {
     World bent = row_of_pieces(Hold::until_bent, 0.0);
     World touched = row_of_pieces(Hold::until_contact, 0.0);
     touched.scene.bodies.breaking_load.clear();
@@ -289,7 +289,7 @@ World row_world() {
 TEST_CASE("a run continued while its ice bends ends with the same bits and files",
           "[step][bending][checkpoint]") {
     World probe = row_world();
-    while (probe.scene.bodies.held[1] == 1) step(probe);
+    while (probe.scene.bodies.held[1] == Bodies::kHeld) step(probe);
     // before the piece breaks off, in the step in which it does, and afterwards
     const std::int64_t stop = probe.steps + GENERATE(-2, 0, 1, 60);
     CAPTURE(stop);

@@ -274,5 +274,5 @@ TEST_CASE("a floe turning freely keeps its angular momentum and energy",
                     (b.angular_momentum[1] - momentum).norm() / momentum.norm(),
                     test::within(1e-13), "it is the state"});
     test::validate({"torque-free rotation, 10000 steps of w dt = 0.05: energy", "", 0.0, worst,
-                    test::within(1e-6), "a midpoint rule keeps it to second order"});
+                    test::within(1e-6), "rule (18) keeps it to fourth order"});
 }

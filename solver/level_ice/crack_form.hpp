@@ -1,23 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Size and outline of the piece that breaks off the edge of level ice.
+/// Size and outline of a crack at the edge of level ice.
 #pragma once
 
-#include <Eigen/Geometry>
 #include <cstdint>
-#include <vector>
 
 #include "common/geometry/loop_area.hpp"
 
 namespace ice {
 
-using Vec2 = Eigen::Vector2d;
-
-/// Corners in order, anticlockwise around ice, without repeating the first [m].
-using Loop = std::vector<Vec2>;
-
 /// How far from a load the ice cracks.
 ///
-///     R = C_l l (1 + C_v v_n) (1 + scatter u),    u uniform in [-1, 1) by seed and cusp
+///     R = C_l l (1 + C_v v_n) (1 + scatter u),    u uniform in [-1, 1) by seed and crack
 ///
 /// (equation (30)) with l the characteristic length [m] and v_n the normal speed of hull and ice
 /// [m/s]. Source of form and constants: Wang 2001 as used by Su, Riska, Moan, Cold Regions Science
@@ -29,13 +22,14 @@ struct CrackLaw {
     std::uint64_t seed = 0;        ///< of u: another seed gives other radii of the same law
 };
 
-/// R of a law [m], for the cusp of a number. The factor 1 + C_v v_n is at least a fifth, which
+/// R of a law [m], for the crack of a number. The factor 1 + C_v v_n is at least a fifth, which
 /// bounds it above 5.6 m/s with the usual C_v; the scatter comes on top, so R is at least
 /// C_l l (1 - scatter) / 5, which is above 0.
 /// @param length        characteristic length l [m], > 0
 /// @param normal_speed  v_n of hull and ice along the hull's horizontal normal [m/s]
-/// @param cusp          number of the crack: each has its own u, the same on every machine
-double crack_size(const CrackLaw& law, double length, double normal_speed, std::uint64_t cusp);
+/// @param crack_number  each has its own u, the same on every machine
+double crack_size(const CrackLaw& law, double length, double normal_speed,
+                  std::uint64_t crack_number);
 
 /// The region that a crack cuts out: a half disc about the load, and seawards of its straight side
 /// a strip of half a radius, for ice that stands out beside the load.
@@ -45,8 +39,5 @@ double crack_size(const CrackLaw& law, double length, double normal_speed, std::
 /// @param radius   of the half disc [m], > 0
 /// @return anticlockwise, 21 corners: one every 10 degrees of the arc, two of the strip
 Loop crack_outline(const Vec2& at, const Vec2& inwards, double radius);
-
-/// Length all around [m]; 0 for no corners, twice the distance for two.
-double length_of(const Loop& loop);
 
 }  // namespace ice

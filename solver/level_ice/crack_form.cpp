@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "solver/level_ice/cusp_form.hpp"
+#include "solver/level_ice/crack_form.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -23,12 +23,13 @@ constexpr double kLeast = 0.2;
 
 }  // namespace
 
-double crack_size(const CrackLaw& law, double length, double normal_speed, std::uint64_t cusp) {
+double crack_size(const CrackLaw& law, double length, double normal_speed,
+                  std::uint64_t crack_number) {
     // (30). C_v is below 0: a fast load breaks shorter pieces. The bound of a fifth keeps the
     // radius positive at any speed.
     const double rest = law.length_factor * length;
     return rest * std::max(kLeast, 1.0 + law.speed_factor * normal_speed) *
-           (1.0 + law.scatter * random_offset(law.seed, cusp));
+           (1.0 + law.scatter * random_offset(law.seed, crack_number));
 }
 
 Loop crack_outline(const Vec2& at, const Vec2& inwards, double radius) {
@@ -42,13 +43,6 @@ Loop crack_outline(const Vec2& at, const Vec2& inwards, double radius) {
         out.push_back(place(radius * std::cos(turn), radius * std::sin(turn)));
     }
     return out;
-}
-
-double length_of(const Loop& loop) {
-    double sum = 0.0;
-    for (std::size_t k = 0; k < loop.size(); ++k)
-        sum += (loop[(k + 1) % loop.size()] - loop[k]).norm();
-    return sum;
 }
 
 }  // namespace ice
