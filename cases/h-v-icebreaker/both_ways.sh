@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Computes the runs of this case: cases/h-v-icebreaker/both_ways.sh [RESULTS_DIR]
 #
-# At each thickness the ship once driven by its propellers (case.cfg), then on rails at speeds around
-# the one that it attains (captive.cfg). Every run goes 190 m of the field's 215 and averages over the
-# last 95 m, the length that the ice takes along the hull. ICESOLVE names another program; CORES, how
-# many run at a time.
+# At each thickness the ship once driven by its propellers (case.cfg), then on rails at speeds
+# around the one that it attains (captive.cfg). Every run goes 190 m of the field's 215 and averages
+# over the last 95 m, the length that the ice takes along the hull. ICESOLVE names another program;
+# CORES, how many run at a time.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 export icesolve=${ICESOLVE:-build/release/bin/icesolve} results=${1:-results/h-v}

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# site_test.sh SOURCE WORK: docs/build_html.sh makes all pages and a search index, and refuses a link
-# to a page or a heading that does not exist. Skipped (exit code 77) without Sphinx and MyST.
+# site_test.sh SOURCE WORK: docs/build_html.sh makes all pages and a search index, and refuses a
+# link to a page or a heading that does not exist. Skipped (exit code 77) without Sphinx and MyST.
 set -euo pipefail
 source=$1 work=$2 tree=$2/tree suffix=md
 rm -rf "$work"
@@ -15,10 +15,12 @@ fail() {
     exit 1
 }
 [[ $status -eq 0 ]] || fail "exit code $status"
-for page in index README docs/your-own-ship docs/icesolve docs/case-keys docs/method workflow/README; do
+for page in index README docs/your-own-ship docs/icesolve docs/case-keys docs/method \
+    workflow/README; do
     [[ -f $work/html/$page.html ]] || fail "no page $page.html"
 done
-grep -F crush "$work/html/searchindex.js" >/dev/null || fail "the search index does not know 'crush'"
+grep -F crush "$work/html/searchindex.js" >/dev/null ||
+    fail "the search index does not know 'crush'"
 
 # the same pages with two links that lead nowhere
 cd "$source"
