@@ -206,7 +206,7 @@ def main():
             command.add_argument("--tests", help="comma-separated names; default: all")
     command = commands.add_parser("page")
     command.set_defaults(function=page)
-    command.add_argument("--page", default=str(ROOT / "docs" / "validation-measured.md"))
+    command.add_argument("--page", default=str(ROOT / "docs/validation-measured.md"))
     arguments = parser.parse_args()
     arguments.function(arguments)
 

@@ -55,8 +55,8 @@ set(many_lines 300) # listed, not refused
 function(find_sources out)
   set(found "")
   foreach(kind IN LISTS ARGN)
-    foreach(folder IN ITEMS cases common docs examples meshes packaging postprocess preprocess
-        solver tests workflow)
+    foreach(folder IN ITEMS cases cmake common docs examples meshes packaging postprocess
+        preprocess python solver tests validation workflow)
       file(GLOB_RECURSE part RELATIVE ${ROOT} ${ROOT}/${folder}/*.${kind})
       list(APPEND found ${part})
     endforeach()
