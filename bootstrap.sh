@@ -5,19 +5,19 @@ set -euo pipefail
 
 readonly packages=(
     build-essential cmake ninja-build git ca-certificates
-    libeigen3-dev libboost-dev libcgal-dev libassimp-dev catch2 libhwy-dev libtomlplusplus-dev libcli11-dev
-    libmeshoptimizer-dev libpolyclipping-dev libfmt-dev libspdlog-dev libhdf5-dev libssl-dev nlohmann-json3-dev zlib1g-dev python3 python3-h5py help2man
-    librsvg2-bin)
+    libeigen3-dev libboost-dev libcgal-dev libassimp-dev catch2 libhwy-dev libtomlplusplus-dev
+    libcli11-dev libmeshoptimizer-dev libpolyclipping-dev libfmt-dev libspdlog-dev libhdf5-dev
+    libssl-dev nlohmann-json3-dev zlib1g-dev python3 python3-h5py help2man librsvg2-bin)
 
-# only the tests use these: the report in a browser, its page built again, run.h5 in xarray, fuzzing,
-# the documents as a site
+# only the tests use these: the report in a browser, its page built again, run.h5 in xarray,
+# fuzzing, the documents as a site
 readonly test_packages=(chromium chromium-driver python3-selenium python3-pil python3-xarray
-    python3-h5netcdf python3-jsonschema python3-sphinx python3-myst-parser lintian snakemake clang-14
-    clang-format-14 clang-tidy-14 libclang-rt-14-dev libomp-14-dev)
+    python3-h5netcdf python3-jsonschema python3-sphinx python3-myst-parser lintian snakemake
+    clang-14 clang-format-14 clang-tidy-14 libclang-rt-14-dev libomp-14-dev)
 
 # import icesolve, and its module that steps a scene
-readonly python_packages=(pybind11-dev python3-dev python3-h5py python3-h5netcdf python3-jsonschema python3-matplotlib python3-numpy
-    python3-scipy python3-tomli-w python3-xarray)
+readonly python_packages=(pybind11-dev python3-dev python3-h5py python3-h5netcdf python3-jsonschema
+    python3-matplotlib python3-numpy python3-scipy python3-tomli-w python3-xarray)
 
 usage() {
     cat <<'END'
@@ -94,7 +94,8 @@ build_programs() {
 # $1: preset, $2: its build folder, then further options of ctest
 run_tests() {
     local log=$2/ctest.log status=0
-    ctest --preset "$1" --parallel "$(nproc)" --no-tests=error "${@:3}" 2>&1 | tee "$log" || status=$?
+    ctest --preset "$1" --parallel "$(nproc)" --no-tests=error "${@:3}" 2>&1 | tee "$log" ||
+        status=$?
 
     # "98% tests passed, 2 tests failed out of 120": count what ran, from ctest's own words
     local total failed skipped
@@ -106,8 +107,8 @@ run_tests() {
     return "$status"
 }
 
-# Tests of these programs with the sanitizers; preconditions are alive here, too. Precompiled headers
-# and united sources take two thirds off the compile time.
+# Tests of these programs with the sanitizers; preconditions are alive here, too. Precompiled
+# headers and united sources take two thirds off the compile time.
 run_sanitized() {
     local names
     names=$(IFS='|' && echo "$*")
@@ -155,7 +156,8 @@ case $1 in
         run_sanitized common_tests
         ;;
     sanitize-threads)
-        install_packages "${packages[@]}" "${test_packages[@]}" clang-14 libclang-rt-14-dev libomp-14-dev
+        install_packages "${packages[@]}" "${test_packages[@]}" clang-14 libclang-rt-14-dev \
+            libomp-14-dev
         cmake --preset tsan -DICE_TESTS=ON -DICE_PRECOMPILED_HEADERS=ON -DICE_UNITED_SOURCES=ON
         cmake --build --preset tsan --parallel "$(job_count)" --target icebench
         run_tests tsan build/tsan -R "^icebench: every scene"

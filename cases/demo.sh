@@ -24,7 +24,8 @@ export SPHERIZE=$bin/spherize bin seed=${2:-1}
 
 # Runs of the table, one each line, the longest first: folder; case; speed [m/s]; the times [s] in
 # which the ship goes 24 m (the paper's field: 21 m), to the end, and 12 m (10 m), from where pieces
-# lie along the whole hull; further options. Pieces moved by up to 3 mm take other ways: that makes the seeds.
+# lie along the whole hull; further options. Pieces moved by up to 3 mm take other ways: that makes
+# the seeds.
 readonly runs="\
 '$out/speed-0.5' paper-3d-defaults 0.5 48 24 --seeds 3 --set simulation.jitter=0.003
 '$out/speed-0.75' paper-3d-defaults 0.75 32 16 --seeds 3 --set simulation.jitter=0.003

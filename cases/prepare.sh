@@ -2,11 +2,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Makes the sphere sets and ice fields of a case: cases/prepare.sh CASE_DIR
 #
-# Each line of CASE_DIR/spheres.txt is the arguments of one spherize call, "MESH [option]... -o FILE",
-# or of one icefield call, "SPECIFICATION.toml [option]... -o FILE", with paths relative to the case
-# folder, which all outputs stay in; "#" starts a comment line. An output newer than its input,
-# spheres.txt and the program is kept. The programs are SPHERIZE and ICEFIELD where set, else those in build/release/bin, else the
-# installed ones.
+# Each line of CASE_DIR/spheres.txt is the arguments of one spherize call, "MESH [option]... -o
+# FILE", or of one icefield call, "SPECIFICATION.toml [option]... -o FILE", with paths relative to
+# the case folder, which all outputs stay in; "#" starts a comment line. An output newer than its
+# input, spheres.txt and the program is kept. The programs are SPHERIZE and ICEFIELD where set, else
+# those in build/release/bin, else the installed ones.
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -24,7 +24,8 @@ fail() {
 }
 
 [[ $# -eq 1 ]] || fail "usage: cases/prepare.sh CASE_DIR"
-[[ -f $1/spheres.txt ]] || fail "no file $1/spheres.txt; it lists the calls that make the sets of a case"
+[[ -f $1/spheres.txt ]] ||
+    fail "no file $1/spheres.txt; it lists the calls that make the sets of a case"
 cd "$1"
 
 mapfile -t lines <spheres.txt

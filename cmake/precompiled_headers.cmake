@@ -4,8 +4,8 @@
 # CLI11 is not among them: its objects would be compiled again in each file.
 #
 # A build with tests by hand goes without: it shows every include that a file forgot and the
-# precompiled headers hide, and working copies share its objects through ccache, which they cannot do
-# where each makes a precompiled header of its own. `./bootstrap.sh test` goes with them.
+# precompiled headers hide, and working copies share its objects through ccache, which they cannot
+# do where each makes a precompiled header of its own. `./bootstrap.sh test` goes with them.
 set(default ON)
 if(ICE_TESTS)
   set(default OFF)

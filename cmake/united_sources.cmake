@@ -7,7 +7,8 @@
 # `./bootstrap.sh` switches it on for all its commands, so that its tests see what its users
 # compile. Off in a build by hand: a change costs one file there, ccache shares it, and the compiler
 # shows missing includes. 174 s for the demo's programs on two cores without ccache.
-option(ICE_UNITED_SOURCES "Compile small sources of a folder together (needs precompiled headers)" OFF)
+option(ICE_UNITED_SOURCES
+  "Compile small sources of a folder together (needs precompiled headers)" OFF)
 set(most_bytes 30000)
 
 function(ice_unite target)

@@ -44,7 +44,8 @@ def cell(runs):
     text = f"{mean:.0f}"
     if len(means) > 1:
         spread = math.fsum((m - mean) ** 2 for m in means) / (len(means) - 1)
-        text += f" ± {STUDENT[min(len(means) - 1, len(STUDENT)) - 1] * math.sqrt(spread / len(means)):.0f}"
+        student = STUDENT[min(len(means) - 1, len(STUDENT)) - 1]
+        text += f" ± {student * math.sqrt(spread / len(means)):.0f}"
     return text + (f" ({mean / lindqvist:.2f})" if lindqvist else "")
 
 

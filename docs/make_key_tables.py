@@ -16,11 +16,15 @@ HEAD = """\
 <!-- Written by docs/make_key_tables.py from cases/*.schema.json; `ninja schemas` renews it. -->
 # Keys of case files and field specifications
 
-Both files are TOML. Numbers are SI; a text may carry a unit: `"2 kn"`, `"80 mm"`, `"1.5 MPa"`, `"20 %"`. Paths are relative to
-the file. Unknown keys, wrong types or units and values out of range are errors with line and column, all at once.
+Both files are TOML. Numbers are SI; a text may carry a unit: `"2 kn"`, `"80 mm"`, `"1.5 MPa"`, \
+`"20 %"`. Paths are relative to
+the file. Unknown keys, wrong types or units and values out of range are errors with line and \
+column, all at once.
 
-`icesolve --explain KEY` prints one key, `icesolve --print-defaults` all of them, `icesolve --print-schema` the JSON schema;
-`icefield` has the same options for specifications. A first line `#:schema ../case.schema.json` gives editors completion and
+`icesolve --explain KEY` prints one key, `icesolve --print-defaults` all of them, \
+`icesolve --print-schema` the JSON schema;
+`icefield` has the same options for specifications. A first line `#:schema ../case.schema.json` \
+gives editors completion and
 checks. The manual pages icesolve-case(5) and icefield-specification(5) have the same tables.
 """
 FILES = {"case": ("Case file", "A case is one run of [icesolve](icesolve.md)."),
@@ -95,7 +99,8 @@ def tables(schema):
         repeated = "properties" in sub.get("items", {})
         table = sub["items"] if repeated else sub
         if "properties" in table:
-            nested[name] = (f"`[[{name}]]`, one for each group" if repeated else f"`[{name}]`", table)
+            nested[name] = (f"`[[{name}]]`, one for each group" if repeated else f"`[{name}]`",
+                            table)
     top = {n: s for n, s in schema["properties"].items() if n not in nested}
     yield "Top level", "", {"properties": top, "required": schema.get("required", [])}
     for name, (heading, table) in nested.items():

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Pictures of README and docs, from the run that ./bootstrap.sh demo makes: docs/make_pictures.sh [RUN]
+# Pictures of README and docs, from the run that ./bootstrap.sh demo makes:
+#   docs/make_pictures.sh [RUN]
 # Needs Chromium (apt-get install chromium). --field makes only the one of icefield.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."

@@ -2,15 +2,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """flow_from_vti.py FIELD.vti HULL.spheres.h5 --speed U [-o HULL.flow.h5]: a flow from elsewhere.
 
-Takes water velocities that another program computed around the same hull, as VTK image data (ParaView:
-filter "Resample To Image", then save as .vti), and writes the table that a case reads with
-flow.model = "file". Velocities are divided by the speed U that the field was computed for.
+Takes water velocities that another program computed around the same hull, as VTK image data
+(ParaView: filter "Resample To Image", then save as .vti), and writes the table that a case reads
+with flow.model = "file". Velocities are divided by the speed U that the field was computed for.
 
-The field's axes are those of the hull's mesh with z = 0 in the water's surface; --aft turns a field whose
-ship points to -x. By default velocities are those that the ship sees (far away -U); --frame earth: those
-in water at rest far away. Points in the hull (vtkValidPointMask 0) move with the ship. The table is laid
-with one spacing along all axes, linear between the field's points; its last two cells fade to 0, because
-beyond it the water is at rest. Debian: python3-h5py, python3-numpy."""
+The field's axes are those of the hull's mesh with z = 0 in the water's surface; --aft turns a field
+whose ship points to -x. By default velocities are those that the ship sees (far away -U); --frame
+earth: those in water at rest far away. Points in the hull (vtkValidPointMask 0) move with the ship.
+The table is laid with one spacing along all axes, linear between the field's points; its last two
+cells fade to 0, because beyond it the water is at rest. Debian: python3-h5py, python3-numpy."""
 import argparse
 import base64
 import pathlib
@@ -22,8 +22,8 @@ import zlib
 import h5py
 import numpy
 
-NUMBERS = {"Float32": "f4", "Float64": "f8", "Int8": "i1", "UInt8": "u1", "Int32": "i4", "UInt32": "u4",
-           "Int64": "i8", "UInt64": "u8"}
+NUMBERS = {"Float32": "f4", "Float64": "f8", "Int8": "i1", "UInt8": "u1", "Int32": "i4",
+           "UInt32": "u4", "Int64": "i8", "UInt64": "u8"}
 MOST_NODES = 20_000_000
 
 
@@ -68,7 +68,8 @@ class Image:
             fail(f"{path}: is no grid in space")
         self.axes = [origin[k] + spacing[k] * (extent[2 * k] + numpy.arange(self.count[k]))
                      for k in range(3)]
-        self.arrays = {array.get("Name"): array for array in pieces[0].findall("PointData/DataArray")}
+        self.arrays = {array.get("Name"): array
+                       for array in pieces[0].findall("PointData/DataArray")}
         self.path = path
 
     def read(self, name):
@@ -82,7 +83,8 @@ class Image:
         elif how == "binary":
             values = self.unpack(array.text.strip().encode(), "base64", kind)
         else:
-            values = self.unpack(self.appended[int(array.get("offset")):], self.appended_encoding, kind)
+            values = self.unpack(self.appended[int(array.get("offset")):], self.appended_encoding,
+                                 kind)
         size = self.count[0] * self.count[1] * self.count[2] * parts
         if values.size != size:
             fail(f"{self.path}: {name} has {values.size} numbers, not {size}")
@@ -143,10 +145,11 @@ def fade(count, ends):
 
 
 def resample(image, field, spacing, symmetric):
-    """(origin, field) on nodes with one spacing; the topmost at z = 0, of half a flow the first at y = 0."""
+    """(origin, field) on nodes with one spacing; topmost at z = 0, of half a flow first y = 0."""
     x, y, z = image.axes
     if not z[0] < 0.0 or z[-1] < -spacing:
-        fail(f"{image.path}: lies from z = {z[0]:g} to {z[-1]:g} m; the water's surface z = 0 must be in it")
+        fail(f"{image.path}: lies from z = {z[0]:g} to {z[-1]:g} m; the water's surface z = 0 "
+             "must be in it")
     low_y = 0.0 if symmetric else y[0]
     if symmetric and not y[0] <= spacing:
         fail(f"{image.path}: has no points at y = 0")
@@ -160,7 +163,8 @@ def resample(image, field, spacing, symmetric):
     for axis, (old, new) in enumerate(((z, new_z), (y, new_y), (x, new_x))):
         field = along(old, new, field, axis)
     rim = fade(count[2], (True, False))[:, None, None] * \
-        fade(count[1], (not symmetric, True))[None, :, None] * fade(count[0], (True, True))[None, None, :]
+        fade(count[1], (not symmetric, True))[None, :, None] * \
+        fade(count[0], (True, True))[None, None, :]
     return numpy.array([new_x[0], new_y[0], new_z[0]]), field * rim[..., None]
 
 
@@ -168,15 +172,18 @@ def arguments():
     parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
     parser.add_argument("field", type=pathlib.Path)
     parser.add_argument("hull", type=pathlib.Path, help="sphere set of the hull, made by spherize")
-    parser.add_argument("--speed", type=float, required=True, help="for which the field was computed [m/s]")
+    parser.add_argument("--speed", type=float, required=True,
+                        help="for which the field was computed [m/s]")
     parser.add_argument("-o", "--output", type=pathlib.Path, help="default <hull stem>.flow.h5")
-    parser.add_argument("--array", help="name of the velocities (default: the one with 3 components)")
+    parser.add_argument("--array",
+                        help="name of the velocities (default: the one with 3 components)")
     parser.add_argument("--frame", choices=("ship", "earth"), default="ship")
     parser.add_argument("--aft", action="store_true", help="the field's ship points to -x")
     parser.add_argument("--shift", type=float, nargs=3, default=(0, 0, 0), metavar=("X", "Y", "Z"),
                         help="of the field into the hull's axes [m]")
     parser.add_argument("--draught", type=float, help="water over the hull's lowest point [m]")
-    parser.add_argument("--spacing", type=float, help="of the table's nodes [m] (default: the field's least)")
+    parser.add_argument("--spacing", type=float,
+                        help="of the table's nodes [m] (default: the field's least)")
     parser.add_argument("--symmetric", action="store_true", help="keep y >= 0 and mirror it")
     return parser.parse_args()
 
@@ -186,9 +193,12 @@ def velocities(image, options):
     names = [name for name, array in image.arrays.items() if array.get("NumberOfComponents") == "3"]
     name = options.array or (names[0] if len(names) == 1 else "")
     if name not in names:
-        fail(f"{image.path}: has the velocities {', '.join(names) or 'none'}; name one with --array")
+        fail(f"{image.path}: has the velocities {', '.join(names) or 'none'}; "
+             "name one with --array")
     field = image.read(name)
-    inside = image.read("vtkValidPointMask")[..., 0] == 0 if "vtkValidPointMask" in image.arrays else None
+    inside = None
+    if "vtkValidPointMask" in image.arrays:
+        inside = image.read("vtkValidPointMask")[..., 0] == 0
     if options.aft:
         field = turned(image, field)
         inside = inside[:, ::-1, ::-1] if inside is not None else None
@@ -222,13 +232,15 @@ def main():
     with h5py.File(part, "w") as file:
         file.attrs.update({
             "format": "icesolve-flow", "format_version": 1, "units": "SI", "origin": origin,
-            "spacing": spacing, "draught": options.draught or -low, "symmetric": int(options.symmetric),
-            "source_sha256": sha256, "panels": 0, "residual": 0.0, "reference_speed": options.speed,
-            "created_by": "flow_from_vti.py", "command_line": " ".join(sys.argv)})
+            "spacing": spacing, "draught": options.draught or -low,
+            "symmetric": int(options.symmetric), "source_sha256": sha256, "panels": 0,
+            "residual": 0.0, "reference_speed": options.speed, "created_by": "flow_from_vti.py",
+            "command_line": " ".join(sys.argv)})
         file["velocity"] = field.astype("f4")
         file["potential"] = numpy.zeros(field.shape[:3], "f4")  # not known, and not asked for
     part.replace(out)
-    print(f"wrote {out}: {' x '.join(str(n) for n in field.shape[2::-1])} nodes every {spacing:g} m")
+    count = " x ".join(str(n) for n in field.shape[2::-1])
+    print(f"wrote {out}: {count} nodes every {spacing:g} m")
 
 
 if __name__ == "__main__":

@@ -1,17 +1,18 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""ship_matrix.py FILE --about X Y Z [--centre-of-gravity X Y Z] > ship.toml: added mass and damping that
-another program computed, as the file that a case's ship.matrix names.
+"""ship_matrix.py FILE --about X Y Z [--centre-of-gravity X Y Z] > ship.toml: added mass and damping
+that another program computed, as the file that a case's ship.matrix names.
 
-FILE is the radiation problem of one ship, with the axes of its mesh (x forward, z up): Capytaine's data
-set (.nc, variables added_mass and radiation_damping) or WAMIT's numerical output of added mass (.1).
+FILE is the radiation problem of one ship, with the axes of its mesh (x forward, z up): Capytaine's
+data set (.nc, variables added_mass and radiation_damping) or WAMIT's numerical output (.1) of added
+mass.
 
---about is the point that the program took moments about, in the axes of the hull's mesh [m]. icesolve
-moves the matrices to the ship's centre of gravity; name it here, too, if it is another point and low and
-high frequencies differ much, as both are moved before they are joined. Surge, sway and yaw are taken at the
-frequency --slow (default: the lowest in the file), heave, roll and pitch at --fast (default: the
-highest), both in rad/s, the nearest one in the file; what couples the one with the other is left out.
-Damping by waves is 0 at both limits: --damping W takes it at W.
+--about is the point that the program took moments about, in the axes of the hull's mesh [m].
+icesolve moves the matrices to the ship's centre of gravity; name it here, too, if it is another
+point and low and high frequencies differ much, as both are moved before they are joined. Surge,
+sway and yaw are taken at the frequency --slow (default: the lowest in the file), heave, roll and
+pitch at --fast (default: the highest), both in rad/s, the nearest one in the file; what couples the
+one with the other is left out. Damping by waves is 0 at both limits: --damping W takes it at W.
 
 Numbers of a .1 are shares of water_density L^k, k = 3 to 5, and of the frequency: --length L [m]
 (ULEN of WAMIT) and --density [kg/m3] are needed. A period below 0 in it means the frequency 0, a
@@ -46,7 +47,8 @@ def read_capytaine(path):
     places = {d.lower(): k for k, d in enumerate(dofs)}
     missing = [m for m in MOTIONS if m not in places]
     if missing:
-        fail(f"{path}: has no motion {missing[0]}, only {', '.join(dofs)}; solve all six of one body")
+        fail(f"{path}: has no motion {missing[0]}, only {', '.join(dofs)}; "
+             "solve all six of one body")
     order = [dofs[places[m]] for m in MOTIONS]
 
     def matrix(name):
@@ -125,7 +127,8 @@ def joined(slow, fast, arm):
 
 
 def table(name, matrix):
-    rows = (f"{m} = [{', '.join(repr(float(v)) for v in row)}]\n" for m, row in zip(MOTIONS, matrix))
+    rows = (f"{m} = [{', '.join(repr(float(v)) for v in row)}]\n"
+            for m, row in zip(MOTIONS, matrix))
     return f"[{name}]\n{''.join(rows)}"
 
 
@@ -134,7 +137,8 @@ def main():
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("file", type=pathlib.Path)
     for name in ("--about", "--centre-of-gravity"):
-        parser.add_argument(name, nargs=3, type=float, required=name == "--about", metavar=("X", "Y", "Z"))
+        parser.add_argument(name, nargs=3, type=float, required=name == "--about",
+                            metavar=("X", "Y", "Z"))
     for name in ("--slow", "--fast", "--damping", "--length", "--density"):
         parser.add_argument(name, type=float)
     options = parser.parse_args()
@@ -150,10 +154,11 @@ def main():
     arm = numpy.subtract(point, options.about)
     water = joined(added[slow], added[fast], arm)
     if not (numpy.isfinite(water).all() and (numpy.diag(water) >= 0.0).all()):
-        fail(f"{options.file}: has no added mass of 0 or more at {omegas[slow]:g} and {omegas[fast]:g} "
-             f"rad/s; name other frequencies")
-    text = (f"# Of {options.file.name}: surge, sway, yaw at {omegas[slow]:g} rad/s, heave, roll, pitch at "
-            f"{omegas[fast]:g} rad/s; kg, kg m, kg m2\nabout = {[float(x) for x in point]}\n" +
+        fail(f"{options.file}: has no added mass of 0 or more at {omegas[slow]:g} and "
+             f"{omegas[fast]:g} rad/s; name other frequencies")
+    text = (f"# Of {options.file.name}: surge, sway, yaw at {omegas[slow]:g} rad/s, "
+            f"heave, roll, pitch at {omegas[fast]:g} rad/s; kg, kg m, kg m2\n"
+            f"about = {[float(x) for x in point]}\n" +
             table("added_mass", water))
     if options.damping is not None:
         at = nearest(omegas, options.damping)

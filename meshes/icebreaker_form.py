@@ -126,7 +126,7 @@ def half_breadth(x, z):
     return midship(z) * bow * run
 
 
-# --- areas and volumes, without a mesh --------------------------------------------------------------
+# --- areas and volumes, without a mesh ------------------------------------------------------------
 
 def missing_part(power, extra, rest):
     """Integral of (1 - s)^power (1 + extra s) over s from 1 - rest to 1."""

@@ -9,11 +9,11 @@
 An STL file is as a CAD program exports it: millimetres, z = 0 at the keel, no groups.
 
 The form is that of icebreaker_form.py; this script cuts it into triangles. The port half is a row
-of frames x = const; a frame runs from the keel over bilge, water line and deck edge to the centre of
-the deck. Each piece of a frame gets as many points as its length needs, and neighbouring frames are
-stitched piece by piece, so the bow closes in a point without slivers and the limits of the regions
-are edges of the mesh. The transom is cut into upright columns and stitched in the same way. The
-starboard half is the mirror image.
+of frames x = const; a frame runs from the keel over bilge, water line and deck edge to the centre
+of the deck. Each piece of a frame gets as many points as its length needs, and neighbouring frames
+are stitched piece by piece, so the bow closes in a point without slivers and the limits of the
+regions are edges of the mesh. The transom is cut into upright columns and stitched in the same way.
+The starboard half is the mirror image.
 
 Coordinates are whole multiples of 10 micrometres before any comparison is made, so that the same
 arguments give the same bytes on every machine.
@@ -140,7 +140,7 @@ def points_of(curves, edge):
 
 
 def transom(frame, edge):
-    """Upright columns of the flat transom, from its centre to its corner, where a column is a point.
+    """Upright columns of the flat transom, from its centre to its corner, where one is a point.
 
     The frame's points on the deck are moved to the tops of the columns, so that both agree.
     """
@@ -158,7 +158,7 @@ def transom(frame, edge):
 # --- triangles ------------------------------------------------------------------------------------
 
 def stitch(aft, fore):
-    """Triangles between two rows of points, outward on the port side: the shorter diagonal first."""
+    """Triangles between two rows of points, outward on the port side: shorter diagonal first."""
     i = j = 0
     triangles = []
     while i + 1 < len(aft) or j + 1 < len(fore):
@@ -210,7 +210,7 @@ def obj_text(name, mesh):
 
 
 def stl_text(name, mesh):
-    """The mesh as ASCII STL in millimetres, its lowest point at z = 0. Readers ignore the normals."""
+    """The mesh as ASCII STL in millimetres, lowest point at z = 0. Readers ignore the normals."""
     keel = min(point[2] for _, triangle in mesh for point in triangle)
     per_millimetre = UNITS_PER_METRE / 1000
     lines = [f"solid {name}"]

@@ -59,7 +59,7 @@ def floe(length, breadth, thickness):
 
 
 def hull_profile(length, depth, draught, stem_deg, bottom_end, slope_end, counter_end):
-    """Corners (x, z) from the deck tip over bow, bottom, propeller slope and counter to the transom."""
+    """Corners (x, z) from the deck tip over bow, bottom, propeller slope, counter to transom."""
     deck, keel = depth - draught, -draught
     stem_foot = length - depth / math.tan(math.radians(stem_deg))
     return [(length, deck), (stem_foot, keel), (bottom_end, keel), slope_end,
@@ -125,7 +125,7 @@ def triangulate(corners):
 
 
 def ear_quality(corners, k, normal):
-    """Sine of the smallest angle of the ear at corner k, or -1 where it is not inside the polygon."""
+    """Sine of the smallest angle of the ear at corner k, -1 where it is not inside the polygon."""
     ear = (corners[k - 1], corners[k], corners[(k + 1) % len(corners)])
     if dot(area_vector(ear), normal) <= 0:
         return -1.0

@@ -93,7 +93,8 @@ def bash(name, options, subcommands):
     every = options + [option for _, _, found in subcommands for option in found]
     return f"""# bash completion of {name}, made from its --help
 _{name}() {{
-    local word=${{COMP_WORDS[COMP_CWORD]}} last=${{COMP_WORDS[COMP_CWORD - 1]}} command='' words='' part
+    local word=${{COMP_WORDS[COMP_CWORD]}} last=${{COMP_WORDS[COMP_CWORD - 1]}}
+    local command='' words='' part
     local options='{own}' subcommands='{subs}'
     for part in "${{COMP_WORDS[@]:1:COMP_CWORD-1}}"; do
         [[ -z $command && " $subcommands " == *" $part "* ]] && command=$part

@@ -4,11 +4,11 @@
 
     python3 validation/compare.py run uikku            # all tests: validation/uikku/computed.csv
     python3 validation/compare.py sensitivity uikku    # one input at a time: sensitivity.csv
-    python3 validation/compare.py page                 # docs/validation-measured.md from those files
+    python3 validation/compare.py page                 # docs/validation-measured.md from the files
 
-A data set is a folder with set.toml (which column of data.csv sets which key of the case, how far the
-ship goes, which inputs are uncertain), data.csv (the published numbers and their source), case.cfg and
-make_hull.py. Only the standard library is needed.
+A data set is a folder with set.toml (which column of data.csv sets which key of the case, how far
+the ship goes, which inputs are uncertain), data.csv (the published numbers and their source),
+case.cfg and make_hull.py. Only the standard library is needed.
 """
 import argparse
 import concurrent.futures
@@ -84,7 +84,8 @@ def run_case(folder, out, name, settings, programs):
     case = out / f"{name}.cfg"
     case.write_text((folder / "case.cfg").read_text(encoding="utf-8").replace(
         "../../cases/", str(ROOT / "cases") + "/"), encoding="utf-8")
-    command = [program("icesolve", programs), str(case), "--out", str(out / name), "--overwrite", "-q"]
+    command = [program("icesolve", programs), str(case), "--out", str(out / name), "--overwrite",
+               "-q"]
     for key, value in settings.items():
         command += ["--set", f"{key}={value}"]
     done = subprocess.run(command, env={**os.environ, "OMP_NUM_THREADS": "1"}, check=False,
@@ -108,13 +109,14 @@ def row_of(test, summary):
     values = {"mean": r["mean_N"], "ci95": r["ci95_N"], "breaking": r["breaking_mean_N"],
               "submersion": r["submersion_mean_N"], "std": r["std_N"], "max": r["max_N"]}
     # a run too short for an interval has none
-    return {"test": test, **{f"{k}_kN": "" if v is None else f"{v / 1e3:.1f}" for k, v in values.items()},
+    return {"test": test,
+            **{f"{k}_kN": "" if v is None else f"{v / 1e3:.1f}" for k, v in values.items()},
             "lindqvist_kN": total_of(summary, "Lindqvist"), "riska_kN": total_of(summary, "Riska"),
             "jeong_kN": total_of(summary, "Jeong"), "commit": summary["git_commit"]}
 
 
 def run_all(jobs, compute, what, target, columns, remark):
-    """Rows of `compute` for all of `what`; the table is written after each, so that none is lost."""
+    """Rows of `compute` for all of `what`; the table is written after each: none gets lost."""
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
         futures = [pool.submit(compute, one) for one in what]
         for _ in concurrent.futures.as_completed(futures):
@@ -160,13 +162,15 @@ def sensitivity(arguments):
         settings = dict(base)
         if "hull_option" in entry:
             where = out / f"hull-{number}"
-            make_hull(folder, where, data_set, arguments.programs, [entry["hull_option"], str(value)])
+            make_hull(folder, where, data_set, arguments.programs,
+                      [entry["hull_option"], str(value)])
         elif entry.get("relative"):
             settings[entry["key"]] = base[entry["key"]] * value
         else:
             settings[entry["key"]] = value
         r = run_case(folder, where, name, settings, arguments.programs)["resistance"]
-        return {"input": entry["key"], "value": value, "relative": int(entry.get("relative", False)),
+        return {"input": entry["key"], "value": value,
+                "relative": int(entry.get("relative", False)),
                 "mean_kN": f"{r['mean_N'] / 1e3:.1f}", "ci95_kN": f"{r['ci95_N'] / 1e3:.1f}"}
 
     make_hull(folder, out, data_set, arguments.programs)
@@ -184,22 +188,25 @@ def page(arguments):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawTextHelpFormatter)
     commands = parser.add_subparsers(required=True)
     for name, function in (("run", run), ("sensitivity", sensitivity)):
         command = commands.add_parser(name)
         command.set_defaults(function=function)
         command.add_argument("set", help="folder of validation/, as uikku")
         command.add_argument("--jobs", type=int, default=os.cpu_count(), help="runs side by side")
-        command.add_argument("--distance", type=float, help="way of the ship [m], shorter for a trial")
-        command.add_argument("--out", default=str(ROOT / "results" / "validation"), help="run folders")
+        command.add_argument("--distance", type=float,
+                             help="way of the ship [m], shorter for a trial")
+        command.add_argument("--out", default=str(ROOT / "results" / "validation"),
+                             help="run folders")
         command.add_argument("--table", help="the CSV file instead of the data set's own")
         command.add_argument("--programs", default=str(ROOT / "build" / "release" / "bin"))
         if name == "run":
             command.add_argument("--tests", help="comma-separated names; default: all")
     command = commands.add_parser("page")
     command.set_defaults(function=page)
-    command.add_argument("--page", default=str(ROOT / "docs" / "validation-measured.md"))
+    command.add_argument("--page", default=str(ROOT / "docs/validation-measured.md"))
     arguments = parser.parse_args()
     arguments.function(arguments)
 

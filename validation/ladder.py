@@ -24,7 +24,8 @@ CASE = ROOT / "cases" / "paper-3d-defaults" / "case.cfg"
 MESHES = ROOT / "meshes"
 TRAVEL = 24.0                         # [m], averaged over the second half, as in the demo
 BREADTH, DRAUGHT, THICKNESS = 2.0, 1.44, 0.3
-THICKNESSES = 0.2, 0.4                # whole layers of the lattice of spheres of 0.1 m: between them a face has none
+# whole layers of the lattice of spheres of 0.1 m: between them a face has none
+THICKNESSES = 0.2, 0.4
 FROUDE = 10.0                         # of lengths
 COLUMNS = ["check", "expected", "got", "within", "why"]
 
@@ -36,7 +37,7 @@ class Ladder:
         self.pool = concurrent.futures.ThreadPoolExecutor(jobs)
 
     def spheres(self, folder, thickness, scale):
-        """Sphere sets of hull and floe in a folder of their own, the lengths `scale` times as large."""
+        """Sphere sets of hull and floe in a folder of their own, lengths `scale` times as large."""
         folder.mkdir(parents=True, exist_ok=True)
         floe = folder / "floe.obj"
         floe.write_text(make_meshes.obj_text("floe", make_meshes.floe(1.0, 0.8, thickness)),
@@ -52,8 +53,9 @@ class Ladder:
                 "gap = [0.1, 0.1]", f"gap = [{0.1 * scale}, {0.1 * scale}]"), encoding="utf-8")
 
     def start(self, name, speed, settings=(), thickness=THICKNESS, scale=1.0):
-        """Runs the case at a speed of the small ship [m/s]; `scale` enlarges all by Froude's law."""
-        self.runs[name] = self.pool.submit(self.compute, name, speed, dict(settings), thickness, scale)
+        """Runs the case at a speed of the small ship [m/s]; `scale` enlarges all (Froude's law)."""
+        self.runs[name] = self.pool.submit(self.compute, name, speed, dict(settings), thickness,
+                                           scale)
 
     def compute(self, name, speed, settings, thickness, scale):
         folder = self.out / name
@@ -94,11 +96,12 @@ def creeping_rows(ladder):
     bound = density * 9.81 * THICKNESS * BREADTH * (DRAUGHT + 0.1 * THICKNESS / 2)
     mean, half = ladder.mean("creeping"), ladder.half("creeping")
     energy = ladder.of("creeping")["energy"]["potential_J"] / ladder.travel
-    return [row("creeping at 0.05 m/s without friction: potential energy gained per metre", f"0 to {bound:.0f} N",
-                f"{energy:.0f} N", "", "(rho_w - rho_i) g h B (T + (1 - rho_i / rho_w) h / 2): every piece in the "
-                "ship's breadth goes under the keel; pieces that leave at the sides gain less"),
-            row("creeping at 0.05 m/s without friction: resistance over (rho_w - rho_i) g h B T", "0.5",
-                f"{mean / (density * 9.81 * THICKNESS * BREADTH * DRAUGHT):.2f} +- "
+    return [row("creeping at 0.05 m/s without friction: potential energy gained per metre",
+                f"0 to {bound:.0f} N", f"{energy:.0f} N", "",
+                "(rho_w - rho_i) g h B (T + (1 - rho_i / rho_w) h / 2): every piece in the ship's "
+                "breadth goes under the keel; pieces that leave at the sides gain less"),
+            row("creeping at 0.05 m/s without friction: resistance over (rho_w - rho_i) g h B T",
+                "0.5", f"{mean / (density * 9.81 * THICKNESS * BREADTH * DRAUGHT):.2f} +- "
                 f"{half / (density * 9.81 * THICKNESS * BREADTH * DRAUGHT):.2f}", "shown only",
                 "Jeong's C_B of measured ships; their pieces rub")]
 
@@ -107,10 +110,11 @@ def friction_rows(ladder):
     base, one, two = (ladder.mean(f"friction {mu}") for mu in (0.0, 0.1, 0.2))
     half = 2 * (ladder.half("friction 0.1") + ladder.half("friction 0.0")) / (one - base)
     lindqvist = {mu: ladder.of(f"friction {mu}")["lindqvist_submersion_N"] for mu in (0.0, 0.1)}
-    return [row("friction 0.2 over 0.1: growth over that without friction", "2", f"{(two - base) / (one - base):.2f}",
-                f"{half:.2f}", "friction is proportional to the coefficient while the pieces' ways do not change"),
-            row("friction 0.1 over none: resistance", f"{lindqvist[0.1] / lindqvist[0.0]:.2f}", f"{one / base:.2f}",
-                "shown only", "Lindqvist's submersion term")]
+    return [row("friction 0.2 over 0.1: growth over that without friction", "2",
+                f"{(two - base) / (one - base):.2f}", f"{half:.2f}",
+                "friction is proportional to the coefficient while the pieces' ways do not change"),
+            row("friction 0.1 over none: resistance", f"{lindqvist[0.1] / lindqvist[0.0]:.2f}",
+                f"{one / base:.2f}", "shown only", "Lindqvist's submersion term")]
 
 
 def speed_rows(ladder):
@@ -118,16 +122,18 @@ def speed_rows(ladder):
     formula = {v: ladder.of(f"speed {v}")["lindqvist_submersion_N"] for v in (0.25, 1.0)}
     for flow in ("", " with flow"):
         got = ladder.mean(f"speed 1.0{flow}") / ladder.mean(f"speed 0.25{flow}")
-        rows.append(row(f"speed 1 over 0.25 m/s{flow}: resistance", f"{formula[1.0] / formula[0.25]:.2f}", f"{got:.2f}",
-                        "shown only", "Lindqvist's submersion term"))
+        rows.append(row(f"speed 1 over 0.25 m/s{flow}: resistance",
+                        f"{formula[1.0] / formula[0.25]:.2f}", f"{got:.2f}", "shown only",
+                        "Lindqvist's submersion term"))
     return rows
 
 
 def thickness_rows(ladder):
     thin, thick = THICKNESSES
-    exponent = math.log(ladder.mean(f"thickness {thick}") / ladder.mean(f"thickness {thin}")) / math.log(thick / thin)
-    return [row(f"thickness {thin} to {thick} m: exponent of the resistance", "1 to 2", f"{exponent:.2f}", "",
-                "buoyancy grows with h, breaking up of jams faster")]
+    ratio = ladder.mean(f"thickness {thick}") / ladder.mean(f"thickness {thin}")
+    exponent = math.log(ratio) / math.log(thick / thin)
+    return [row(f"thickness {thin} to {thick} m: exponent of the resistance", "1 to 2",
+                f"{exponent:.2f}", "", "buoyancy grows with h, breaking up of jams faster")]
 
 
 def froude_rows(ladder):
@@ -135,9 +141,11 @@ def froude_rows(ladder):
     for speed in (0.25, 0.5, 1.0):
         small, large = f"speed {speed}", f"speed {speed} x 10"
         ratio = ladder.mean(large) / ladder.mean(small) / FROUDE ** 3
-        spread = math.hypot(ladder.half(small) / ladder.mean(small), ladder.half(large) / ladder.mean(large))
-        rows.append(row(f"lengths x 10, speed x sqrt 10, pressure x 10, from {speed} m/s: force over 1000 times that",
-                        "1", f"{ratio:.3f}", f"{spread:.3f}", "Froude's law: every force is a weight"))
+        spread = math.hypot(ladder.half(small) / ladder.mean(small),
+                            ladder.half(large) / ladder.mean(large))
+        rows.append(row(f"lengths x 10, speed x sqrt 10, pressure x 10, from {speed} m/s: "
+                        "force over 1000 times that", "1", f"{ratio:.3f}", f"{spread:.3f}",
+                        "Froude's law: every force is a weight"))
     return rows
 
 
@@ -146,14 +154,16 @@ def energy_rows(ladder):
     for name in ("speed 0.25", "speed 0.5", "speed 1.0"):
         energy = ladder.of(name)["energy"]
         gained = (energy["potential_J"] + energy["kinetic_change_J"]) / energy["ship_work_J"]
-        rows.append(row(f"{name} m/s: energy that the ice has gained over the ship's work", "0 to 1", f"{gained:.2f}",
-                        "", "the rest is lost to water, friction, impacts and crushing"))
+        rows.append(row(f"{name} m/s: energy that the ice has gained over the ship's work",
+                        "0 to 1", f"{gained:.2f}", "",
+                        "the rest is lost to water, friction, impacts and crushing"))
     return rows
 
 
 def start_all(ladder):
     still = {"contact.friction_ship_ice": 0.0}
-    ladder.start("creeping", 0.05, {**still, "contact.friction_ice_ice": 0.0, "simulation.time_step": 0.02})
+    ladder.start("creeping", 0.05, {**still, "contact.friction_ice_ice": 0.0,
+                                    "simulation.time_step": 0.02})
     for mu in (0.0, 0.1, 0.2):
         ladder.start(f"friction {mu}", 0.5, {"contact.friction_ship_ice": mu})
     for speed in (0.25, 0.5, 1.0):
@@ -168,19 +178,20 @@ def start_all(ladder):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="runs side by side")
-    parser.add_argument("--travel", type=float, default=TRAVEL, help="way of the ship [m], shorter for a trial")
+    parser.add_argument("--travel", type=float, default=TRAVEL,
+                        help="way of the ship [m], shorter for a trial")
     parser.add_argument("--out", default=str(ROOT / "results" / "ladder"), help="run folders")
     parser.add_argument("--programs", default=str(ROOT / "build" / "release" / "bin"))
     parser.add_argument("--table", default=str(HERE / "ladder.csv"))
     arguments = parser.parse_args()
     ladder = Ladder(arguments.out, arguments.programs, arguments.jobs, arguments.travel)
     start_all(ladder)
-    rows = [row for part in (froude_rows, energy_rows, creeping_rows, friction_rows, speed_rows, thickness_rows)
-            for row in part(ladder)]
+    parts = (froude_rows, energy_rows, creeping_rows, friction_rows, speed_rows, thickness_rows)
+    rows = [row for part in parts for row in part(ladder)]
     commit = ladder.of("creeping")["git_commit"]
+    travel = "" if arguments.travel == TRAVEL else f" --travel {arguments.travel:g}"
     compare.write_table(pathlib.Path(arguments.table), COLUMNS, rows,
-                        "python3 validation/ladder.py" + ("" if arguments.travel == TRAVEL else f" --travel {arguments.travel:g}")
-                        + f", commit {commit}")
+                        f"python3 validation/ladder.py{travel}, commit {commit}")
     print(arguments.table)
 
 

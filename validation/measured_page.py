@@ -9,8 +9,10 @@ HEAD = """# Compared with measurements
 
 <!-- written by python3 validation/compare.py page; do not edit -->
 
-Each data set is a folder of `validation/`: the published numbers with their source (`data.csv`), the case, what is known and what
-is assumed (`README.md`), and what the programs computed (`computed.csv`). One command computes a set anew, a second one writes
+Each data set is a folder of `validation/`: the published numbers with their source (`data.csv`), \
+the case, what is known and what
+is assumed (`README.md`), and what the programs computed (`computed.csv`). One command computes a \
+set anew, a second one writes
 this page:
 
 ```
@@ -18,7 +20,8 @@ python3 validation/compare.py run uikku && python3 validation/compare.py sensiti
 python3 validation/compare.py page
 ```
 
-The error is computed minus measured, over measured. The interval is that of the computed mean (95 %); that of the measured mean
+The error is computed minus measured, over measured. The interval is that of the computed mean \
+(95 %); that of the measured mean
 is not published. Rows are sorted by error, the
 largest first.
 """
@@ -63,17 +66,19 @@ def points(tests, computed):
     rows = []
     for test, got in found:
         mean, measured = number(got, "mean_kN"), number(test, "mean_kN")
-        rows.append([test["test"], test["sheet"], test["thickness_m"], test["flexural_strength_kPa"], test["speed_m_s"],
-                     f"{measured:.0f}", f"{mean:.0f} +- {number(got, 'ci95_kN'):.0f}",
+        rows.append([test["test"], test["sheet"], test["thickness_m"],
+                     test["flexural_strength_kPa"], test["speed_m_s"], f"{measured:.0f}",
+                     f"{mean:.0f} +- {number(got, 'ci95_kN'):.0f}",
                      f"{100 * (mean / measured - 1):+.0f}", cell(number(got, "breaking_kN")),
                      cell(number(got, "submersion_kN")), band(test),
                      cell(number(test, "std_kN") / measured, "{:.2f}"),
                      cell(number(got, "std_kN") / mean, "{:.2f}"),
                      cell(number(test, "max_kN") / measured, "{:.1f}"),
                      cell(number(got, "max_kN") / mean, "{:.1f}")])
-    return found, table(["test", "sheet", "h [m]", "sigma_f [kPa]", "V [m/s]", "measured [kN]", "computed [kN]",
-                         "error [%]", "breaking [kN]", "all else [kN]", "formulas as published [kN]",
-                         "std / mean, measured", "computed", "max / mean, measured", "computed"], rows)
+    return found, table(["test", "sheet", "h [m]", "sigma_f [kPa]", "V [m/s]", "measured [kN]",
+                         "computed [kN]", "error [%]", "breaking [kN]", "all else [kN]",
+                         "formulas as published [kN]", "std / mean, measured", "computed",
+                         "max / mean, measured", "computed"], rows)
 
 
 def judgement(found, group):
@@ -82,7 +87,8 @@ def judgement(found, group):
     found = [(t, c) for t, c in found
              if (not sheets or t["sheet"] in sheets) and (not names or t["test"] in names)]
     measured = [number(t, "mean_kN") for t, _ in found]
-    rows = [["this program", *summary_of(errors(measured, [number(c, "mean_kN") for _, c in found]))]]
+    computed = [number(c, "mean_kN") for _, c in found]
+    rows = [["this program", *summary_of(errors(measured, computed))]]
     for column, name in FORMULAS:
         rows.append([f"{name}, as published with the tests",
                      *summary_of(errors(measured, [number(t, column) for t, _ in found]))])
@@ -129,7 +135,8 @@ def section(folder, read_set, read_table):
           for group in data_set["groups"]),
         "Trends:\n", trends(found, data_set["trends"]),
         f"One input at a time, test {data_set['base_test']}"
-        + (f" ({number(base, 'mean_kN'):.0f} +- {number(base, 'ci95_kN'):.0f} kN)" if base else "") + ":\n",
+        + (f" ({number(base, 'mean_kN'):.0f} +- {number(base, 'ci95_kN'):.0f} kN)" if base else "")
+        + ":\n",
         sensitivity(data_set, read_table(folder / "sensitivity.csv"), base),
         f"Computed by commit {commits}; inputs and assumptions: "
         f"[`validation/{folder.name}`](../validation/{folder.name}/README.md).\n"])
@@ -141,7 +148,9 @@ def misses(check):
     if " to " in check["expected"]:
         low, high = (float(bound.split()[0]) for bound in check["expected"].split(" to "))
         return not low <= got <= high
-    return check["within"] not in ("", "shown only") and abs(got - float(check["expected"])) > float(check["within"])
+    if check["within"] in ("", "shown only"):
+        return False
+    return abs(got - float(check["expected"])) > float(check["within"])
 
 
 def met(check):
@@ -154,7 +163,8 @@ def ladder(rows):
     """The checks without a table, those that miss their bound first."""
     head = """## A ladder of checks that need no table
 
-The paper's ship and pieces with the project's defaults (`cases/paper-3d-defaults`). `python3 validation/ladder.py` computes
+The paper's ship and pieces with the project's defaults (`cases/paper-3d-defaults`). \
+`python3 validation/ladder.py` computes
 them.
 """
     rows = sorted(rows, key=lambda check: not misses(check))

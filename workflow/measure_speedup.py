@@ -7,7 +7,7 @@ Computes the sweep on one core and again on CORES (2), into a temporary folder, 
     time on CORES / sum over the runs of their wall time on one core
 
 of which 1 / CORES is the least. Snakemake's own time and the page are part of the numerator, sphere
-sets are made before. Only a machine without other load gives the figure; the script prints the load.
+sets are made before. Only a machine without other load gives the figure: the script prints it.
 """
 import json
 import os
@@ -38,8 +38,8 @@ def main():
             with open(f"{folder}/alone/runs/{name}/summary.json", encoding="utf-8") as file:
                 walls.append(json.load(file)["wall_s"])
         together = run(sweep, f"{folder}/together", cores)
-    print(f"{len(walls)} runs: {sum(walls):.1f} s summed, {alone:.1f} s on one core with Snakemake, "
-          f"{together:.1f} s on {cores} cores: {together / sum(walls):.3f} of the sum")
+    print(f"{len(walls)} runs: {sum(walls):.1f} s summed, {alone:.1f} s on one core with "
+          f"Snakemake, {together:.1f} s on {cores} cores: {together / sum(walls):.3f} of the sum")
 
 
 main()

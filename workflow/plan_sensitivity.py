@@ -195,7 +195,7 @@ class StudyPlanner(Planner):
         return ranges
 
     def members(self):
-        """Settings of each seed, those of icesolve --seeds: offsets, or a random field made anew."""
+        """Settings of each seed, those of icesolve --seeds: offsets, or a random field, anew."""
         members = [{SEED: k} for k in range(1, self.get("seeds", int, SEEDS) + 1)]
         if self.specification().get("pattern") in RANDOM_FIELDS:
             return [{**member, FIELD_SEED: member[SEED]} for member in members]

@@ -68,8 +68,8 @@ def find_programs(folder):
                 found[name] = os.path.realpath(program)
                 break
         else:
-            raise SweepError(f"no program {name} in {folder or 'build/release/bin or the PATH'}; run "
-                             "./bootstrap.sh build or give --config bin=DIR")
+            raise SweepError(f"no program {name} in {folder or 'build/release/bin or the PATH'}; "
+                             "run ./bootstrap.sh build or give --config bin=DIR")
     return found
 
 

@@ -56,8 +56,9 @@ def link_documents(folder, text):
 
 
 def contents():
-    blocks = [f"```{{toctree}}\n:hidden:\n:caption: {caption}\n\n" + "\n".join(f"/{p}" for p in pages)
-              + "\n```\n" for caption, pages in CONTENTS.items()]
+    blocks = [f"```{{toctree}}\n:hidden:\n:caption: {caption}\n\n"
+              + "\n".join(f"/{p}" for p in pages) + "\n```\n"
+              for caption, pages in CONTENTS.items()]
     return "\n" + "\n".join(blocks)
 
 

@@ -4,7 +4,8 @@
     import icesolve
     hull = icesolve.spherize("hull.stl", radius=0.1)
     floe = icesolve.spherize("floe.stl", radius=0.05)
-    icesolve.write_case("first.cfg", {"hull": {"spheres": hull, "draught": 1.44, "speed": 0.5}, ...})
+    icesolve.write_case("first.cfg", {"hull": {"spheres": hull, "draught": 1.44, "speed": 0.5},
+                                      ...})
     run = icesolve.run("first.cfg", seeds=3)
     print(run.resistance)
     scene = icesolve.Scene("first.cfg")                     # stepped from here

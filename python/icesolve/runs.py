@@ -127,8 +127,8 @@ def open_run(folder: str | Path) -> Run:
     """
     folder = Path(folder)
     if not (folder / "summary.json").exists():
-        raise FileNotFoundError(f"{folder} has no summary.json: it is no run folder, or the run has "
-                                "not ended")
+        raise FileNotFoundError(f"{folder} has no summary.json: it is no run folder, "
+                                "or the run has not ended")
     ensemble = _json(folder / "summary.json").get("ensemble")
     if not ensemble:
         return Run(folder)

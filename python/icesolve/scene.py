@@ -30,11 +30,11 @@ class Scene:
     | array | shape | content |
     |---|---|---|
     | `position` | (N, 3) | centre of mass, of the ship the mesh's origin [m] |
-    | `orientation_xyzw` | (N, 4) | unit quaternion, body to world, in the order of scipy's Rotation |
+    | `orientation_xyzw` | (N, 4) | unit quaternion, body to world, ordered as scipy's Rotation |
     | `velocity`, `angular_velocity` | (N, 3) | [m/s], [rad/s], world axes |
     | `mass` | (N,) | [kg], in 2D [kg/m]; 0 for the ship |
     | `held` | (N,) | 1: part of the unbroken ice until it is released; 2: bent, is released next |
-    | `applied_force`, `applied_moment` | (N, 3) | to be written: [N], [N m] about the centre of mass |
+    | `applied_force`, `applied_moment` | (N, 3) | to write: [N], [N m] about the centre of mass |
 
     @param case      a case file
     @param settings  keys of it to override
@@ -147,5 +147,5 @@ def _module():
             spec.loader.exec_module(module)
             sys.modules[name] = module
             return module
-    raise ImportError("icesolve.Scene needs the compiled module _world: ./bootstrap.sh python builds "
-                      "it")
+    raise ImportError("icesolve.Scene needs the compiled module _world: "
+                      "./bootstrap.sh python builds it")

@@ -3,16 +3,16 @@
 # The faults it reports must be exactly the lines of SAMPLE/expected.txt, in any order.
 cmake_minimum_required(VERSION 3.25)
 
-# a copy, in which one file gets 501 lines, and functions of another one 60 and 61: too long by one,
-# and too dull to keep
+# a copy, in which one file gets 501 lines, and functions of another one 60 and 61 with signature
+# and closing brace: too long by one, and too dull to keep
 file(REMOVE_RECURSE ${WORK})
 file(COPY ${SAMPLE}/ DESTINATION ${WORK})
 if(EXISTS ${WORK}/solver/step/too_long.cpp)
   string(REPEAT "// one more line\n" 500 rest)
   file(APPEND ${WORK}/solver/step/too_long.cpp "${rest}")
   file(READ ${WORK}/solver/step/long_functions.cpp text)
-  string(REPEAT "  // one more line\n" 59 rest)
-  string(REPLACE "  // 59 more lines\n" "${rest}" text "${text}")
+  string(REPEAT "  // one more line\n" 58 rest)
+  string(REPLACE "  // 58 more lines\n" "${rest}" text "${text}")
   file(WRITE ${WORK}/solver/step/long_functions.cpp "${text}")
 endif()
 

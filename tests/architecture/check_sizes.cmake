@@ -1,4 +1,4 @@
-# No line over 100 columns, no function over 60 lines, no file over 500; files over 300 lines are
+# No line over 100 columns, no file over 500 lines, no C++ function over 60; files over 300 are
 # listed. clang-tidy counts functions, too, but only those of the programs.
 #   cmake -DROOT=<repository> -P tests/architecture/check_sizes.cmake
 cmake_minimum_required(VERSION 3.25)
@@ -14,43 +14,60 @@ function(count_columns line out)
   set(${out} ${length} PARENT_SCOPE)
 endfunction()
 
-# A function of a namespace or a class: from the first line that ends with an opening brace to the
-# line that has nothing but the closing one, in the same column. Formatted sources have it so.
+# A function of a namespace or a class: from the first line of its signature, that of template<>
+# included, to the line that has nothing but the closing brace, in the same column. Formatted
+# sources have it so. A signature begins behind a line that ends a statement, a comment or a block.
 macro(find_function)
   if("${line}" MATCHES "^(    )?([^ ].*)$")
     string(LENGTH "${CMAKE_MATCH_1}" column)
     if(CMAKE_MATCH_2 STREQUAL "}")
-      if(begin_${column})
-        math(EXPR length "${count} - ${begin_${column}}")
+      if(open_${column})
+        math(EXPR length "${count} - ${begin_${column}} + 1")
         if(length GREATER max_function)
-          fault("${source}:${begin_${column}} has a function of ${length} lines, ${max_function} are allowed")
+          fault("${source}:${begin_${column}} has a function of ${length} lines, \
+${max_function} are allowed")
         endif()
       endif()
-      set(begin_${column} 0)
+      set(open_${column} OFF)
       set(waits_${column} OFF)
     elseif(NOT CMAKE_MATCH_2 MATCHES "^[#/}]")
-      set(begin_${column} 0)
+      if(ended)
+        set(begin_${column} ${count})
+      endif()
+      set(open_${column} OFF)
       set(waits_${column} ON)
     endif()
   endif()
   if("${line}" MATCHES "{$")
     foreach(column IN ITEMS 0 4)
       if(waits_${column})
-        set(begin_${column} ${count})
+        set(open_${column} ON)
         set(waits_${column} OFF)
       endif()
     endforeach()
   endif()
+  set(ended OFF)
+  # read_lines() writes _ for the semicolon
+  if("${line}" MATCHES "(^|[_{}:]|[_{}] +//.*)$|^ *(//|#|\\*)")
+    set(ended ON)
+  endif()
 endmacro()
 
-find_sources(sources hpp cpp js mjs)
+# of text files only CMake's
+find_sources(sources hpp cpp js mjs py sh cmake txt)
+set(texts ${sources})
+list(FILTER texts INCLUDE REGEX "\\.txt$")
+list(FILTER texts EXCLUDE REGEX "(^|/)CMakeLists\\.txt$")
+list(REMOVE_ITEM sources ${texts})
 foreach(source IN LISTS sources)
   read_lines(${source} lines)
   set(count 0)
   foreach(column IN ITEMS 0 4)
     set(begin_${column} 0)
+    set(open_${column} OFF)
     set(waits_${column} OFF)
   endforeach()
+  set(ended ON)
   foreach(line IN LISTS lines)
     math(EXPR count "${count} + 1")
     if(source MATCHES "pp$")

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The table "Where the equations are" of docs/method.md: every numbered equation of the page has a
-row, no number stands for two equations, and the files of a row have its functions."""
+row, no number stands for two equations, each file of a row is a link to it, and the files have the
+functions of the row."""
 import pathlib
 import re
 import unittest
@@ -13,23 +14,25 @@ LABEL = r"(?:[A-Z]?\d+[a-z]?)"
 
 
 def rows():
-    """(labels, files, names) of each row; a file without a folder lies in that of the file before."""
+    """(labels, files, names) of each row, files as (name, link). A file without a folder lies in
+    that of the file before."""
     for line in TABLE.splitlines():
         if not line.startswith("| ("):
             continue
         equation, files, names = (cell.strip() for cell in line.strip("|").split(" | "))
-        folder, paths = None, []
-        for name in re.findall("`([^`]+)`", files):
-            folder = pathlib.Path(name).parent if "/" in name else folder
-            paths.append(ROOT / folder / pathlib.Path(name).name)
-        yield labels_of(equation), paths, re.findall("`([^`]+)`", names)
+        folder, links = None, []
+        for name, link in re.findall(r"\[?`([^`]+)`(?:\]\(([^)]*)\))?", files):
+            folder = pathlib.PurePosixPath(name).parent if "/" in name else folder
+            links.append((folder / pathlib.PurePosixPath(name).name, link))
+        yield labels_of(equation), links, re.findall("`([^`]+)`", names)
 
 
 def labels_of(text):
     """(14), (15) or (F1) to (F3) as a list of labels."""
     found = re.findall(rf"\(({LABEL})\)", text)
     if " to (" in text:
-        kind, first, last = found[0].rstrip("0123456789"), *(int(re.sub(r"\D", "", f)) for f in found)
+        kind = found[0].rstrip("0123456789")
+        first, last = (int(re.sub(r"\D", "", f)) for f in found)
         return [f"{kind}{k}" for k in range(first, last + 1)]
     return found
 
@@ -42,11 +45,19 @@ class Equations(unittest.TestCase):
         self.assertEqual(sorted(numbers), sorted(set(numbers)))
         self.assertEqual(sorted(set(numbers)), sorted(k for labels, _, _ in rows() for k in labels))
 
+    def test_each_file_is_a_link_to_it(self):
+        for labels, links, _ in rows():
+            self.assertTrue(links, labels)
+            for name, link in links:
+                self.assertEqual(link, f"../{name}", labels)  # from docs/
+                self.assertTrue((ROOT / name).is_file(), f"{labels}: {name}")
+
     def test_the_files_have_the_functions(self):
-        for labels, paths, names in rows():
-            text = "".join(path.read_text(encoding="utf-8") for path in paths)
+        for labels, links, names in rows():
+            text = "".join((ROOT / name).read_text(encoding="utf-8") for name, _ in links)
             for name in names:
-                self.assertRegex(text, rf"\b{re.escape(name.split('::')[-1])}\b", f"{labels}: {name}")
+                last = name.split("::")[-1]
+                self.assertRegex(text, rf"\b{re.escape(last)}\b", f"{labels}: {name}")
 
 
 if __name__ == "__main__":

@@ -16,7 +16,8 @@ while [[ $1 != -o ]]; do shift; done
 touch "$2"
 END
 chmod +x program
-printf '# hull and floe\n\n../h.obj -r 0.1 -o h.h5\n../f.obj -r 0.05 --slice y=0 -o f.h5' >case/spheres.txt
+printf '# hull and floe\n\n%s\n%s' '../h.obj -r 0.1 -o h.h5' \
+    '../f.obj -r 0.05 --slice y=0 -o f.h5' >case/spheres.txt
 touch h.obj f.obj
 touch -d '1 hour ago' program h.obj f.obj case/spheres.txt
 

@@ -7,20 +7,24 @@ set(order_common common/base common/toml common/geometry common/math common/form
   common/cli)
 set(order_preprocess preprocess/load preprocess/clean preprocess/measure preprocess/repair
   preprocess/slice preprocess/fill preprocess/certify preprocess/field preprocess/write preprocess)
-set(order_solver solver/case solver/shape solver/bending solver/level_ice solver/flow solver/water solver/scene
-  solver/broad solver/narrow solver/contact solver/live_edge solver/loads solver/integrate solver/ship
-  solver/record solver/step solver/run solver/draft solver/ensemble solver)
+set(order_solver solver/case solver/shape solver/bending solver/level_ice solver/flow solver/water
+  solver/scene solver/broad solver/narrow solver/contact solver/live_edge solver/loads
+  solver/integrate solver/ship solver/record solver/step solver/run solver/draft
+  solver/ensemble solver)
 set(order_postprocess postprocess/read postprocess/views postprocess/statistics postprocess/report
-  postprocess/sweep postprocess/fit postprocess/attain postprocess/sensitivity postprocess/paraview postprocess/check postprocess)
+  postprocess/sweep postprocess/fit postprocess/attain postprocess/sensitivity
+  postprocess/paraview postprocess/check postprocess)
 set(tools preprocess solver postprocess)
 
 # One tool may look into another here alone: a folder and the header. Level ice is cut and filled
 # while the solver runs.
-set(bridges "solver/live_edge preprocess/field/fill_prism.hpp" "solver/live_edge preprocess/field/prism.hpp")
+set(bridges "solver/live_edge preprocess/field/fill_prism.hpp"
+  "solver/live_edge preprocess/field/prism.hpp")
 
 # Third-party headers and the files that may include them: pairs of regular expressions. Tests may
 # include all of them but those whose home is in tests/: OpenVDB is no dependency of the project,
-# only something bench_peers measures where it happens to be installed. So are Box2D, Bullet and ODE.
+# only something bench_peers measures where it happens to be installed. So are Box2D, Bullet and
+# ODE.
 set(quarantine
   "<assimp/"         "^preprocess/load/"
   "<CGAL/"           "^preprocess/(clean|measure|repair|slice|field)/"
@@ -31,7 +35,8 @@ set(quarantine
   "<hwy/"            "(_simd\\.cpp|_lanes-inl\\.hpp)$"
   "<omp\\.h>"        "^common/base/parallel\\.hpp$"
   "<spdlog/"         "^common/cli/"
-  "<CLI/"            "^(common/cli/|(preprocess/(spherize|icefield)|solver/(icesolve(_options)?|iceflow)|postprocess/icepost(_options)?)\\.[ch]pp$)"
+  "<CLI/"            "^(common/cli/|(preprocess/(spherize|icefield)|\
+solver/(icesolve(_options)?|iceflow)|postprocess/icepost(_options)?)\\.[ch]pp$)"
   "<meshoptimizer"   "^(postprocess/views|solver/flow)/"
   "<polyclipping/"   "^solver/level_ice/"
   "<(zlib|zconf)\\." "^(preprocess/load|postprocess/(paraview|report))/"
@@ -50,8 +55,8 @@ set(many_lines 300) # listed, not refused
 function(find_sources out)
   set(found "")
   foreach(kind IN LISTS ARGN)
-    foreach(folder IN ITEMS cases common docs examples meshes packaging postprocess preprocess solver tests
-        workflow)
+    foreach(folder IN ITEMS cases cmake common docs examples meshes packaging postprocess
+        preprocess python solver tests validation workflow)
       file(GLOB_RECURSE part RELATIVE ${ROOT} ${ROOT}/${folder}/*.${kind})
       list(APPEND found ${part})
     endforeach()

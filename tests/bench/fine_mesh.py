@@ -64,7 +64,8 @@ def main():
     parser.add_argument("bin", nargs="?", type=Path, default=ROOT / "build/release/bin")
     parser.add_argument("--radii", type=float, nargs="*", metavar="M",
                         default=[0.2, 1.0, 2.5, 3.1, 50.0], help="[m] (%(default)s)")
-    parser.add_argument("--along", type=int, default=2500, help="cells along the hull (%(default)s)")
+    parser.add_argument("--along", type=int, default=2500,
+                        help="cells along the hull (%(default)s)")
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         mesh, out = Path(folder) / "wigley.stl", Path(folder) / "out.h5"

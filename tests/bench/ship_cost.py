@@ -3,9 +3,9 @@
 
     python3 tests/bench/ship_cost.py [build/release/bin] [--rounds N]
 
-One thread. Of a round all ships run one after the other, so that other load of the machine meets all
-alike; printed are the medians. The contacts differ a little where the ship heaves or pitches, as it
-gives way.
+One thread. Of a round all ships run one after the other, so that other load of the machine meets
+all alike; printed are the medians. The contacts differ a little where the ship heaves or pitches,
+as it gives way.
 """
 import argparse
 import os
@@ -52,7 +52,8 @@ def main():
     base = statistics.median(times["on a prescribed course"])
     print("| the ship | cpu s | over a prescribed course |\n|---|---|---|")
     for name, values in times.items():
-        print(f"| {name} | {statistics.median(values):.2f} | {statistics.median(values) / base:.3f} |")
+        middle = statistics.median(values)
+        print(f"| {name} | {middle:.2f} | {middle / base:.3f} |")
 
 
 if __name__ == "__main__":

@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """free_ship_test.py PROGRAMS [FOLDER]: a ship free in surge, and a captive one in the same ice.
 
-A flared wedge of 6 m goes through rows of floes that are released as it touches them. Held at a speed by its
-thrust, the free ship's mean resistance is within the captive ship's interval. The speed to which a net
-thrust brings it is the one at which that thrust meets the captive ships' resistances, within both
-intervals, as `icepost hv` finds them. FOLDER keeps the runs."""
+A flared wedge of 6 m goes through rows of floes that are released as it touches them. Held at a
+speed by its thrust, the free ship's mean resistance is within the captive ship's interval. The
+speed to which a net thrust brings it is the one at which that thrust meets the captive ships'
+resistances, within both intervals, as `icepost hv` finds them. FOLDER keeps the runs."""
 import csv
 import json
 import pathlib
@@ -50,11 +50,13 @@ def write_prism(path, low, high, z):
     faces += [(k, (k + 1) % n, n + (k + 1) % n, n + k) for k in range(n)]
     triangles = [(f[0], f[k], f[k + 1]) for f in faces for k in range(1, len(f) - 1)]
     path.write_text("".join(f"v {x} {y} {z}\n" for x, y, z in corners) +
-                    "".join(f"f {a + 1} {b + 1} {c + 1}\n" for a, b, c in triangles), encoding="utf-8")
+                    "".join(f"f {a + 1} {b + 1} {c + 1}\n" for a, b, c in triangles),
+                    encoding="utf-8")
 
 
 def run(folder, *words):
-    done = subprocess.run([str(w) for w in words], cwd=folder, capture_output=True, text=True, check=False)
+    done = subprocess.run([str(w) for w in words], cwd=folder, capture_output=True, text=True,
+                          check=False)
     assert done.returncode == 0, f"{words}: {done.stderr}"
 
 
@@ -62,13 +64,15 @@ def solve(folder, name, speed, *settings):
     sets = [f"hull.speed={speed}", f"simulation.duration={WAY / speed}",
             f"output.average_from={AVERAGED_FROM / speed}", *settings]
     words = [word for s in sets for word in ("--set", s)]
-    run(folder, PROGRAMS / "icesolve", "case.cfg", "--out", name, "-q", "--no-report", "--verify", *words)
+    run(folder, PROGRAMS / "icesolve", "case.cfg", "--out", name, "-q", "--no-report", "--verify",
+        *words)
     return json.loads((folder / name / "summary.json").read_text(encoding="utf-8"))
 
 
 def speeds_of(folder):
     """Speed with its interval by both ways, as icepost hv finds them."""
-    run(folder, PROGRAMS / "icepost", "hv", "runs", "--thrust", "thrust.toml", "-o", "hv.html", "--csv", "hv.csv")
+    run(folder, PROGRAMS / "icepost", "hv", "runs", "--thrust", "thrust.toml", "-o", "hv.html",
+        "--csv", "hv.csv")
     found = {}
     for row in csv.DictReader((folder / "hv.csv").open(encoding="utf-8", newline="")):
         if row["source"] in ("fixed course", "free ship"):

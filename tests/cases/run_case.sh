@@ -9,5 +9,6 @@ shift 6
 mkdir -p "$runs/$case-tree/cases"
 cp -r "$source/meshes" "$runs/$case-tree/"
 cp -r "$source/cases/prepare.sh" "$source/cases/$case" "$runs/$case-tree/cases/"
-SPHERIZE=$spherize ICEFIELD=$icefield "$runs/$case-tree/cases/prepare.sh" "$runs/$case-tree/cases/$case"
+SPHERIZE=$spherize ICEFIELD=$icefield "$runs/$case-tree/cases/prepare.sh" \
+    "$runs/$case-tree/cases/$case"
 "$icesolve" "$runs/$case-tree/cases/$case/case.cfg" --out "$runs/$case" --overwrite "$@"

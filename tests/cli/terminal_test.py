@@ -40,8 +40,8 @@ def on_terminal(*words, width=0, **more):
 
 
 def elsewhere(*words, **more):
-    run = subprocess.run([icesolve, "case.cfg", "--overwrite", "--no-report", *words], capture_output=True,
-                         text=True, check=True, env=environment(**more))
+    run = subprocess.run([icesolve, "case.cfg", "--overwrite", "--no-report", *words],
+                         capture_output=True, text=True, check=True, env=environment(**more))
     assert run.stdout == "", run.stdout
     return run.stderr
 
@@ -60,7 +60,8 @@ with tempfile.TemporaryDirectory() as folder:
     assert bar.search(shown), shown
     assert "100 %" in shown and "warning" in shown and "\033[33m" in shown, shown
     plain = on_terminal(NO_COLOR="1")
-    assert bar.search(plain) and "warning" in plain and not re.search(r"\033\[[0-9;]*m", plain), plain
+    assert bar.search(plain) and "warning" in plain, plain
+    assert not re.search(r"\033\[[0-9;]*m", plain), plain
     assert on_terminal("-q") == ""
     assert "\r" not in on_terminal(CI="true").replace("\r\n", "\n")
     dumb = on_terminal(TERM="dumb").replace("\r\n", "\n")
@@ -78,7 +79,8 @@ with tempfile.TemporaryDirectory() as folder:
     assert "left" not in first, first
 
     log = elsewhere()
-    tenths = re.findall(r"^icesolve +(\d+) %(?:, \d+ s left)?, [\d.]+x real time$", log, re.MULTILINE)
+    tenths = re.findall(r"^icesolve +(\d+) %(?:, \d+ s left)?, [\d.]+x real time$", log,
+                        re.MULTILINE)
     assert tenths == [str(10 * k) for k in range(11)], tenths
     assert "\033" not in log and "\r" not in log, log
     assert elsewhere("-q") == ""

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""coverage.py SOURCE BUILD [ctest option]...: runs the suite in BUILD, made with the preset "coverage", and prints
-the lines that it reached, per folder. Ends with 1 where a part of the project has less than 90 %.
+"""coverage.py SOURCE BUILD [ctest option]...: runs the suite in BUILD, made with the preset
+"coverage", and prints the lines that it reached, per folder. Ends with 1 where a part of the
+project has less than 90 %.
 
 coverage.py --table SUMMARY.json prints the table of what gcovr wrote before."""
 import collections
@@ -16,7 +17,8 @@ BOUND = 0.90
 def measure(source, build, options):
     """gcovr's summary of a run of the suite. A test that fails does not stop the count."""
     subprocess.run(["find", build, "-name", "*.gcda", "-delete"], check=True)
-    tests = subprocess.run(["ctest", "--test-dir", build, "--timeout", "3600", *options], check=False)
+    tests = subprocess.run(["ctest", "--test-dir", build, "--timeout", "3600", *options],
+                           check=False)
     if tests.returncode:
         print("coverage.py: some tests failed, see above", file=sys.stderr)
     summary = f"{build}/coverage.json"

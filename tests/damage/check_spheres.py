@@ -76,5 +76,6 @@ def judge(path, truth, radius):
         outer &= winding_numbers(points, corners) < 0.5
     off = numpy.where(outer, off, 0.0)
     if off.max() > radius:
-        return "far", f"the solid is {off.max():.3g} m from {points[off.argmax()]}, R {radius:.3g} m"
+        return "far", (f"the solid is {off.max():.3g} m from {points[off.argmax()]}, "
+                       f"R {radius:.3g} m")
     return None

@@ -106,7 +106,8 @@ class Trial:
         spheres = copy + ".h5"
         code, message, report = ask(
             self.options.spherize, copy, self.options.timeout,
-            ["-r", repr(self.radius), "-o", spheres, "--up", "z", "--forward", "+x", "--units", "m"])
+            ["-r", repr(self.radius), "-o", spheres,
+             "--up", "z", "--forward", "+x", "--units", "m"])
         if code == 2:
             return "refused", message.strip().splitlines()[0]
         if code != 0:
@@ -167,7 +168,8 @@ def parse_options():
     parser.add_argument("--kinds", nargs="+", choices=damage_mesh.KINDS, metavar="KIND",
                         default=damage_mesh.KINDS, help="only these of the copies")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="runs at a time")
-    parser.add_argument("--timeout", type=float, default=60.0, help="seconds per copy (%(default)s)")
+    parser.add_argument("--timeout", type=float, default=60.0,
+                        help="seconds per copy (%(default)s)")
     parser.add_argument("--at-least", type=float, default=99.0, metavar="PERCENT",
                         help="of the repairable copies to be good (%(default)s)")
     parser.add_argument("--places-every", type=int, default=10, metavar="N",

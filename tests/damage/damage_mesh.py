@@ -67,7 +67,7 @@ class Dice:
         return order[:count]
 
 
-# --- kinds of damage: mesh and dice in, the mesh changed -------------------------------------------
+# --- kinds of damage: mesh and dice in, the mesh changed ------------------------------------------
 
 def keep(mesh, wanted):
     mesh.triangles = [t for k, t in enumerate(mesh.triangles) if wanted(k)]

@@ -177,7 +177,7 @@ def domain(mesh, dice):
 
 
 def patches(mesh, dice, split):
-    """Parts by random planes, open edges split here and there, each part moved by 1e-4 L at most."""
+    """Parts by random planes, open edges split here and there, each part moved 1e-4 L at most."""
     split(mesh, dice)
     low, high = box_of(mesh.vertices)
     length = max(b - a for a, b in zip(low, high))

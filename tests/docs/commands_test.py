@@ -23,7 +23,8 @@ ELSEWHERE = {  # beginning of a command -> test that runs it, and that test's fi
     "./bootstrap.sh demo": ('"cases: run the demo"', "tests/cases/CMakeLists.txt"),
     "./bootstrap.sh test": ("./bootstrap.sh test", ".ci/run"),
     # where ParaView is installed
-    "paraview --script": ("ParaView reads and draws the exported run", "tests/postprocess/CMakeLists.txt"),
+    "paraview --script": ("ParaView reads and draws the exported run",
+                          "tests/postprocess/CMakeLists.txt"),
     "pvpython run/paraview": ("ParaView reads and draws the exported run",
                               "tests/postprocess/CMakeLists.txt"),
     "build/release/tests/bench_flow": ("bench_flow: finer panels leave the channel's loads",
@@ -33,11 +34,17 @@ ELSEWHERE = {  # beginning of a command -> test that runs it, and that test's fi
 }
 SHORTENED = f"""#!/usr/bin/env bash
 for word in "$@"; do
-    case $word in --new | --check | --explain | --print-* | --help) exec '{BIN}/icesolve' "$@" ;; esac
+    case $word in
+        --new | --check | --explain | --print-* | --help) exec '{BIN}/icesolve' "$@" ;;
+    esac
 done
 words=()
 while (($#)); do
-    if [[ $1 == --set && $2 =~ ^(simulation.duration|output.average_from)= ]]; then shift; else words+=("$1"); fi
+    if [[ $1 == --set && $2 =~ ^(simulation.duration|output.average_from)= ]]; then
+        shift
+    else
+        words+=("$1")
+    fi
     shift
 done
 exec '{BIN}/icesolve' "${{words[@]}}" --set simulation.duration={SECONDS} \\
@@ -63,7 +70,8 @@ def make_workshop(folder):
     if "docs/your-own-ship.md" not in PAGES:  # which makes it
         subprocess.run([sys.executable, "-B", SOURCE / "meshes/make_icebreaker.py", "--triangles",
                         "2000", "--out", folder / "myship.stl"], check=True)
-    return {**os.environ, "PATH": f"{programs}:{os.environ['PATH']}", "PYTHONDONTWRITEBYTECODE": "1"}
+    return {**os.environ, "PATH": f"{programs}:{os.environ['PATH']}",
+            "PYTHONDONTWRITEBYTECODE": "1"}
 
 
 def blocks(page):

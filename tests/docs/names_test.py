@@ -66,7 +66,8 @@ expected, got = ruled(), listed()
 if len(expected) < 30:
     faults.append(f"hardly any folders in rules.cmake: {expected}")
 if expected != got:
-    faults.append("CONTRIBUTING.md, 'Where things are', and tests/architecture/rules.cmake differ:\n"
+    faults.append("CONTRIBUTING.md, 'Where things are', and tests/architecture/rules.cmake "
+                  "differ:\n"
                   f"  missing: {[n for n in expected if n not in got]}\n"
                   f"  unknown: {[n for n in got if n not in expected]}\n"
                   f"  the order of rules.cmake: {' '.join(expected)}")

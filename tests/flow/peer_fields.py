@@ -2,14 +2,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """peer_fields.py > peer_fields.csv: flows around two bodies by other ways than panels.
 
-Bodies at 1 m/s along +x in water without a surface, which is the double body of a ship. Velocities of
-the water in the earth frame at places off the body, from
+Bodies at 1 m/s along +x in water without a surface, which is the double body of a ship. Velocities
+of the water in the earth frame at places off the body, from
 
 ellipsoid  Lamb, Hydrodynamics, art. 114, exact: with a, b, c = 5, 1, 0.7 and l the positive root of
            sum x_i^2 / (a_i^2 + l) = 1,  phi = -abc / (2 - alpha_0) x int_l^inf ds / ((a^2 + s) D),
            D^2 = product of (a_i^2 + s), alpha_0 = abc times that integral from 0
-wigley_k   Michell's thin ship, to first order in breadth over length: sources of -2 df/dx per area on
-           the middle plane of y = f = B/2 (1 - (2x/L)^2) (1 - (z/T)^2), L = 10, T = 1; B = 1 and 0.5
+wigley_k   Michell's thin ship, to first order in breadth over length: sources of -2 df/dx per area
+           on the middle plane of y = f = B/2 (1 - (2x/L)^2) (1 - (z/T)^2), L = 10, T = 1; B = 1
+           and 0.5
 
 Columns: body, x, y, z [m], u, v, w [m/s]. Needs NumPy.
 """

@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """ship_matrix_test.py SOURCE BIN: examples/ship_matrix.py with small files made here.
 
-Matrices written as Capytaine and as WAMIT write them come out as they went in, about the centre of gravity,
-and icesolve takes the file. Skipped (exit code 77) without numpy, of Capytaine's without xarray and h5netcdf."""
+Matrices written as Capytaine and as WAMIT write them come out as they went in, about the centre of
+gravity, and icesolve takes the file. Skipped (exit code 77) without numpy, of Capytaine's without
+xarray and h5netcdf."""
 import json
 import pathlib
 import subprocess
@@ -62,14 +63,16 @@ def matrix_of(table):
 
 
 def about_centre(matrix, about):
-    """About the centre of gravity, by the kinetic energy of unit velocities there, one and two at a time."""
+    """About the centre of gravity, by the energy of unit velocities there, one or two at a time."""
     def energy(motion):
         turn = motion[3:]
-        old = numpy.concatenate([motion[:3] + numpy.cross(turn, numpy.subtract(about, CENTRE)), turn])
+        old = numpy.concatenate([motion[:3] + numpy.cross(turn, numpy.subtract(about, CENTRE)),
+                                 turn])
         return old @ matrix @ old
 
     unit = numpy.eye(6)
-    return numpy.array([[0.5 * (energy(i + j) - energy(i) - energy(j)) for j in unit] for i in unit])
+    return numpy.array([[0.5 * (energy(i + j) - energy(i) - energy(j)) for j in unit]
+                        for i in unit])
 
 
 def expected(slow, fast, about):
@@ -109,7 +112,8 @@ class Files(unittest.TestCase):
 
 
 def same(found, matrix, digits):
-    numpy.testing.assert_allclose(matrix_of(found), matrix, rtol=0, atol=digits * numpy.abs(matrix).max())
+    numpy.testing.assert_allclose(matrix_of(found), matrix, rtol=0,
+                                  atol=digits * numpy.abs(matrix).max())
 
 
 class Converter(Files):
@@ -125,8 +129,8 @@ class Converter(Files):
 
     def test_wamit_with_its_units(self):
         self.write_wamit()
-        words = ("ship.1", "--about", "0", "0", "0", "--length", str(LENGTH), "--density", str(DENSITY),
-                 "--centre-of-gravity", *map(str, CENTRE))
+        words = ("ship.1", "--about", "0", "0", "0", "--length", str(LENGTH),
+                 "--density", str(DENSITY), "--centre-of-gravity", *map(str, CENTRE))
         found = convert(self.path, *words, "--fast", "1", "--damping", "20")
         # fifteen digits in the file
         same(found["added_mass"], expected(ADDED[0], ADDED[1], (0, 0, 0)), 1e-11)
@@ -134,8 +138,8 @@ class Converter(Files):
 
     def test_wamit_s_limits(self):
         self.write_wamit(periods=(-1.0, 2 * numpy.pi, 0.0))
-        found = convert(self.path, "ship.1", "--about", *map(str, CENTRE), "--length", str(LENGTH), "--density",
-                        str(DENSITY))
+        found = convert(self.path, "ship.1", "--about", *map(str, CENTRE), "--length", str(LENGTH),
+                        "--density", str(DENSITY))
         same(found["added_mass"], expected(ADDED[0], ADDED[2], CENTRE), 1e-11)
         self.assertNotIn("damping", found)
 
@@ -144,7 +148,8 @@ class Converter(Files):
         (self.path / "broken.1").write_text("1.0 1 1 0.5 0.1\nnonsense\n")
         faults = [(("ship.1", "--about", "0", "0", "0"), "--length and --density"),
                   (("none.1", "--about", "0", "0", "0"), "not found"),
-                  (("broken.1", "--about", "0", "0", "0", "--length", "1", "--density", "1"), "broken.1:2")]
+                  (("broken.1", "--about", "0", "0", "0", "--length", "1", "--density", "1"),
+                   "broken.1:2")]
         if xarray is not None:
             self.write_capytaine(motions=("Surge", "Sway", "Heave", "Roll", "Pitch"))
             faults.append((("ship.nc", "--about", "0", "0", "0"), "no motion yaw"))
@@ -160,11 +165,12 @@ class Solver(Files):
     def setUp(self):
         super().setUp()
         box = [(x, y, z) for x in (-5, 5) for y in (-1, 1) for z in (-1.44, 1.44)]
-        faces = ((0, 1, 3), (0, 3, 2), (4, 6, 7), (4, 7, 5), (0, 4, 5), (0, 5, 1), (2, 3, 7), (2, 7, 6),
-                 (0, 2, 6), (0, 6, 4), (1, 5, 7), (1, 7, 3))
+        faces = ((0, 1, 3), (0, 3, 2), (4, 6, 7), (4, 7, 5), (0, 4, 5), (0, 5, 1), (2, 3, 7),
+                 (2, 7, 6), (0, 2, 6), (0, 6, 4), (1, 5, 7), (1, 7, 3))
         (self.path / "box.obj").write_text("".join(f"v {x} {y} {z}\n" for x, y, z in box) + "".join(
             f"f {a + 1} {b + 1} {c + 1}\n" for a, b, c in faces))
-        self.assertEqual(*self.run_program("spherize", "box.obj", "--radius", "0.2", "-o", "box.spheres.h5"))
+        self.assertEqual(*self.run_program("spherize", "box.obj", "--radius", "0.2",
+                                           "-o", "box.spheres.h5"))
         (self.path / "case.cfg").write_text(CASE)
         self.write_wamit()
         convert(self.path, "ship.1", "--about", "0", "0", "0", "--length", str(LENGTH), "--density",
@@ -176,11 +182,13 @@ class Solver(Files):
         # F = (m + A) dv/dt + D v from rest; eleven digits in the file
         mass, damping = MASS + ADDED[0][0][0], DAMPING[1][0][0]
         # the mean over the steps that end at 1 s or later, each with its speed
-        speeds = 3600.0 / damping * (1 - numpy.exp(-damping / mass * numpy.arange(1.0, 2.005, 0.01)))
+        times = numpy.arange(1.0, 2.005, 0.01)
+        speeds = 3600.0 / damping * (1 - numpy.exp(-damping / mass * times))
         self.assertAlmostEqual(ship["speed_mean"] / speeds.mean(), 1.0, delta=1e-5)
 
     def test_couplings_that_are_left_out_are_named(self):
-        code, _, text = self.run_program("icesolve", "case.cfg", "--check", "--set", "ship.free=['surge','sway']")
+        code, _, text = self.run_program("icesolve", "case.cfg", "--check",
+                                         "--set", "ship.free=['surge','sway']")
         self.assertEqual(code, 0)
         self.assertIn("couples motions by up to", text)
 
@@ -191,7 +199,8 @@ class Solver(Files):
                 (text.replace("about = ", "abuot = "), "did you mean 'about'"),
                 (text.replace("surge = [", "surge = [1.0, ", 1), f"ship.toml:{line}"),
                 (text.replace("yaw = ", "# ", 1), "required key 'added_mass.yaw' is missing"),
-                (text.replace("[damping]\nsurge = ", "[damping]\n# "), "required key 'damping.surge'"),
+                (text.replace("[damping]\nsurge = ", "[damping]\n# "),
+                 "required key 'damping.surge'"),
                 (text.replace("[added_mass]\nsurge = [", "[added_mass]\nsurge = [-"), "below 0")):
             self.assertNotEqual(fault, text)
             (self.path / "ship.toml").write_text(fault)

@@ -4,13 +4,20 @@
 # be built, from its seeds. Findings and new inputs go to build/fuzz/TARGET.
 set -euo pipefail
 
-[[ $# -ge 2 ]] || { echo "usage: run_fuzz.sh case|field_spec|mesh|spheres|flow|thrust|live_edge SECONDS [OPTION]..." >&2; exit 2; }
+[[ $# -ge 2 ]] || {
+    echo "usage: run_fuzz.sh case|field_spec|mesh|spheres|flow|thrust|live_edge SECONDS" \
+        "[OPTION]..." >&2
+    exit 2
+}
 target=$1 seconds=$2
 shift 2
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 build=$here/../../build/fuzz
 program=$build/fuzz/fuzz_$target
-[[ -x $program ]] || { echo "run_fuzz.sh: no program $program; cmake --build --preset fuzz makes it" >&2; exit 2; }
+[[ -x $program ]] || {
+    echo "run_fuzz.sh: no program $program; cmake --build --preset fuzz makes it" >&2
+    exit 2
+}
 work=$build/$target
 mkdir -p "$work/new" "$work/findings"
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Makes each mistake of mistakes.toml with the built programs; exit code 1 if one is not answered so.
+"""Makes each mistake of mistakes.toml with the programs; exit code 1 if one is not answered so.
 
     python3 tests/mistakes/mistakes.py --bin build/release/bin [--row 15]... [--show] [--all]
 
@@ -215,7 +215,8 @@ def check_table(rows):
     assert len(names) == len(set(names)), "a row is given twice"
     for row in rows:
         assert not row.keys() - KEYS, f"row {row['row']}: {row.keys() - KEYS}"
-        assert row.get("says") or row.get("lacks") or row["code"] == 0, f"row {row['row']} asks nothing"
+        asked = row.get("says") or row.get("lacks") or row["code"] == 0
+        assert asked, f"row {row['row']} asks nothing"
 
 
 def main():

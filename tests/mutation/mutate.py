@@ -104,7 +104,8 @@ def draw_mutants(chosen, drawn, count, seed, files):
     out = []
     for fault in itertools.chain(drawn, draw.draw(ROOT, seed, files)):
         if len(out) < count + count // 3 and all(
-                fault.file != t.file or fault.end <= t.begin or t.end <= fault.begin for t in taken):
+                fault.file != t.file or fault.end <= t.begin or t.end <= fault.begin
+                for t in taken):
             out.append(fault)
             taken.append(fault)
     return [Mutant(len(chosen) + 1 + k, fault.kind, (fault,), True) for k, fault in enumerate(out)]

@@ -13,7 +13,8 @@ from tree import Failure, run
 QUICK = 1.0  # [s] a test that is asked of every mutant
 # Scripts that are tests, with their arguments: of the files' values, and of what a terminal shows.
 SCRIPTS = {"values": ["tests/values/values_test.py", "{bin}", "{source}", "--stop"],
-           "terminal": ["tests/cli/terminal_test.py", "{bin}/spherize", "{bin}/icesolve", "{source}"]}
+           "terminal": ["tests/cli/terminal_test.py", "{bin}/spherize", "{bin}/icesolve",
+                        "{source}"]}
 FIRST = {
     "common/cli": ["terminal"],
     "solver/contact": ["solver_tests [sweep],[contact],[crushing]"],

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # clean_root.sh BUILD [ROOT]: the package in a Debian 12 that has nothing else: install, mesh to
-# result, a program against the libraries, remove. As root, with debootstrap and a network; ROOT is an
-# empty root to use instead of making one (debootstrap --variant=minbase bookworm ROOT).
+# result, a program against the libraries, remove. As root, with debootstrap and a network; ROOT is
+# an empty root to use instead of making one (debootstrap --variant=minbase bookworm ROOT).
 set -euo pipefail
 build=$(realpath "$1") root=${2:-} made=
 
@@ -26,7 +26,10 @@ trap 'umount "$root/proc"; [[ -z $made ]] || rm -rf --one-file-system "$made"' E
 cpack --config "$build/CPackConfig.cmake" -G DEB -B "$build/packages" >/dev/null
 cp "$build"/packages/icesolve_*.deb "$root/tmp/icesolve.deb"
 [[ -e $root/dev/null && -c $root/dev/null ]] || fail "$root has no /dev/null"
-within() { chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin DEBIAN_FRONTEND=noninteractive HOME=/root "$@"; }
+within() {
+    chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin DEBIAN_FRONTEND=noninteractive \
+        HOME=/root "$@"
+}
 within apt-get -qq update
 echo "== install" >&2
 within apt-get -qq install --yes --no-install-recommends /tmp/icesolve.deb >/dev/null
@@ -36,7 +39,8 @@ within bash -euc '
     cp -r /usr/share/icesolve/. /tmp/trial
     cd /tmp/trial
     cases/prepare.sh cases/paper-2d-u0.5
-    icesolve cases/paper-2d-u0.5/case.cfg --out run -q --set simulation.duration=5 --set output.average_from=2
+    icesolve cases/paper-2d-u0.5/case.cfg --out run -q --set simulation.duration=5 \
+        --set output.average_from=2
     icepost table run
     test -s run/report.html'
 if [[ -z ${ICE_WITHOUT_LIBRARY:-} ]]; then
@@ -51,7 +55,8 @@ fi
 echo "== remove" >&2
 within apt-get -qq purge --yes icesolve >/dev/null
 within rm -rf /tmp/trial /tmp/icesolve.deb
-left=$(within find / -xdev \( -name '*icesolve*' -o -name '*spherize*' -o -name '*icepost*' -o -name '*icefield*' -o -name '*iceflow*' \) \
+left=$(within find / -xdev \( -name '*icesolve*' -o -name '*spherize*' -o -name '*icepost*' \
+    -o -name '*icefield*' -o -name '*iceflow*' \) \
     -not -path '/var/log/*' -not -path '/proc/*')
 [[ -z $left ]] || fail "left behind: $left"
 echo "installed, ran and removed in a clean root: nothing is left" >&2

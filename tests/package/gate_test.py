@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""gate_test.py SOURCE BIN: the run steps of examples/ci/hull-gate.yml let a hull pass, and stop another
-whose stem is too steep. Only the step that installs the package is left out."""
+"""gate_test.py SOURCE BIN: the run steps of examples/ci/hull-gate.yml let a hull pass, and stop
+another whose stem is too steep. Only the step that installs the package is left out."""
 import os
 import pathlib
 import re

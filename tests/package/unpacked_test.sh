@@ -13,7 +13,8 @@ fail() {
 rm -rf "$work"
 mkdir -p "$work"
 cd "$work"
-cpack --config "$build/CPackConfig.cmake" -G DEB -B "$work/packed" >cpack.log || fail "$(cat cpack.log)"
+cpack --config "$build/CPackConfig.cmake" -G DEB -B "$work/packed" >cpack.log ||
+    fail "$(cat cpack.log)"
 package=$(ls packed/icesolve_*.deb)
 python_package=$(ls packed/python3-icesolve_*.deb)
 dpkg-deb -x "$package" "$root"
@@ -23,29 +24,36 @@ field() { dpkg-deb -f "$package" "$1"; }
 for name in Package Version Architecture Maintainer Depends Description Section; do
     [[ -n $(field $name) ]] || fail "no $name in the control file"
 done
-[[ $(field Depends) == *libhdf5-103*libspdlog* ]] || fail "dependencies lack libraries: $(field Depends)"
+[[ $(field Depends) == *libhdf5-103*libspdlog* ]] ||
+    fail "dependencies lack libraries: $(field Depends)"
 [[ $(field Depends) != *-dev* ]] || fail "the programs should not depend on development packages"
 doc=$root/usr/share/doc/icesolve
 [[ -f $doc/copyright ]] || fail "no copyright"
 gzip -t "$doc/changelog.gz" "$doc/changelog.Debian.gz"
 [[ $(field Maintainer) == *" <"*@*">" ]] || fail "no address in $(field Maintainer)"
-[[ $(field Maintainer) != *example* ]] || fail "a placeholder maintains the package: $(field Maintainer)"
+[[ $(field Maintainer) != *example* ]] ||
+    fail "a placeholder maintains the package: $(field Maintainer)"
 if command -v lintian >/dev/null; then
     complaints=$(lintian --allow-root "$package" "$python_package" 2>/dev/null || true)
     [[ -z $complaints ]] || fail "lintian: $complaints"
 fi
 # the Python package: its own files only, and it needs the programs
-[[ $(dpkg-deb -f "$python_package" Depends) == *"icesolve (="*python3-xarray* ]] || fail "python3-icesolve lacks dependencies"
-dpkg-deb -c "$python_package" | grep -F ./usr/lib/python3/dist-packages/icesolve/runs.py >/dev/null ||
+[[ $(dpkg-deb -f "$python_package" Depends) == *"icesolve (="*python3-xarray* ]] ||
+    fail "python3-icesolve lacks dependencies"
+dpkg-deb -c "$python_package" |
+    grep -F ./usr/lib/python3/dist-packages/icesolve/runs.py >/dev/null ||
     fail "python3-icesolve has no package"
 if grep -q '^ICE_PYTHON_MODULE:BOOL=ON' "$build/CMakeCache.txt"; then
-    dpkg-deb -c "$python_package" | grep -F /icesolve/_world. >/dev/null || fail "python3-icesolve has no module"
+    dpkg-deb -c "$python_package" | grep -F /icesolve/_world. >/dev/null ||
+        fail "python3-icesolve has no module"
 fi
-dpkg-deb -c "$package" | grep -F dist-packages >/dev/null && fail "icesolve holds Python's package, too"
+dpkg-deb -c "$package" | grep -F dist-packages >/dev/null &&
+    fail "icesolve holds Python's package, too"
 # what the documents link to, and the READMEs that they name, are beside them
 while IFS=: read -r file link; do
     [[ -e $(dirname "$file")/$link ]] || fail "$file links to $link, which is not there"
-done < <(cd "$doc" && grep -oE '\]\([^)#:]+\)' -r --include=*.md . | sed -E 's/\]\((.*)\)/\1/; s|^|'"$doc"'/|')
+done < <(cd "$doc" && grep -oE '\]\([^)#:]+\)' -r --include=*.md . |
+    sed -E 's/\]\((.*)\)/\1/; s|^|'"$doc"'/|')
 for name in $(grep -oE '`[a-z/]+/README.md`' "$doc/README.md" | tr -d '`'); do
     [[ $name == tests/* || -f $doc/$name ]] || fail "README.md names $name, which is not there"
 done
@@ -56,17 +64,21 @@ grep -rqF "$build" "$root/usr/lib/"*/icesolve "$root/usr/lib/cmake" 2>/dev/null 
 
 # every page has examples and tells where to go on; what they name exists; nothing is ill-formed
 for page in "$root"/usr/share/man/man?/*.gz; do
-    [[ -z $(zcat "$page" | man --warnings -E UTF-8 -l -Tutf8 -Z - 2>&1 >/dev/null) ]] || fail "$page is ill-formed"
+    [[ -z $(zcat "$page" | man --warnings -E UTF-8 -l -Tutf8 -Z - 2>&1 >/dev/null) ]] ||
+        fail "$page is ill-formed"
     for part in NAME EXAMPLES 'SEE ALSO'; do
         [[ -n $(zcat "$page" | grep -E "^\.SH \"?$part") ]] || fail "$page has no $part"
     done
-    for other in $(zcat "$page" | sed -nE 's/^\.BR ((ice|spherize)[a-z-]*) \(([15])\).*/\1.\3/p'); do
-        [[ -f $root/usr/share/man/man${other##*.}/$other.gz ]] || fail "$page names $other, which is not there"
+    for other in $(zcat "$page" |
+        sed -nE 's/^\.BR ((ice|spherize)[a-z-]*) \(([15])\).*/\1.\3/p'); do
+        [[ -f $root/usr/share/man/man${other##*.}/$other.gz ]] ||
+            fail "$page names $other, which is not there"
     done
 done
 [[ $(find "$root"/usr/share/man -name '*.gz' | wc -l) -ge 14 ]] || fail "pages are missing"
 for key in average_from crushing_pressure concentration breaking_length; do
-    [[ -n $(zcat "$root"/usr/share/man/man5/*.gz | grep "^\.B $key") ]] || fail "no page explains $key"
+    [[ -n $(zcat "$root"/usr/share/man/man5/*.gz | grep "^\.B $key") ]] ||
+        fail "no page explains $key"
 done
 
 for program in spherize icefield iceflow icesolve icepost; do
@@ -76,9 +88,11 @@ for program in spherize icefield iceflow icesolve icepost; do
     page=$root/usr/share/man/man1/$program.1.gz
     zcat "$page" | grep '^\.SH NAME' >/dev/null || fail "no man page of $program"
     # every long option that --help knows stands in the man page and in the three completions
-    for option in $("$root/usr/bin/$program" --help | grep -oE '^  (-.,)?--[a-z-]+' | grep -oE -- '--[a-z-]+'); do
+    for option in $("$root/usr/bin/$program" --help | grep -oE '^  (-.,)?--[a-z-]+' |
+        grep -oE -- '--[a-z-]+'); do
         # not grep -q: it would leave before the whole page is through the pipe, which is a failure
-        zcat "$page" | sed 's/\\-/-/g' | grep -F -- "$option" >/dev/null || fail "$program.1 lacks $option"
+        zcat "$page" | sed 's/\\-/-/g' | grep -F -- "$option" >/dev/null ||
+            fail "$program.1 lacks $option"
         for file in bash-completion/completions/$program zsh/vendor-completions/_$program; do
             grep -qF -- "$option" "$root/usr/share/$file" || fail "$file lacks $option"
         done
@@ -99,7 +113,8 @@ complete_words() {
 expect() {
     local want=$1
     shift
-    [[ $(complete_words "$@") == "$want" ]] || fail "'$*' completes to '$(complete_words "$@")', not '$want'"
+    [[ $(complete_words "$@") == "$want" ]] ||
+        fail "'$*' completes to '$(complete_words "$@")', not '$want'"
 }
 expect "conforming lattice" spherize --arrangement ""
 expect "--radius --repair" spherize --r
@@ -117,23 +132,28 @@ expect "a mesh.obj" spherize "a m"
 cp -r "$root/usr/share/icesolve/." .
 export PATH=$root/usr/bin:$PATH
 cases/prepare.sh cases/paper-2d-u0.5 >prepare.log 2>&1 || fail "$(cat prepare.log)"
-icesolve cases/paper-2d-u0.5/case.cfg --out run -q --set simulation.duration=2 --set output.average_from=1
+icesolve cases/paper-2d-u0.5/case.cfg --out run -q --set simulation.duration=2 \
+    --set output.average_from=1
 [[ -f run/report.html ]] || fail "the run has no report"
 
 # a sweep with the workflow that the package brings, of a case that lies elsewhere
 if command -v snakemake >/dev/null; then
     printf '%s\n' 'case = "cases/paper-2d-u0.5/case.cfg"' 'report = false' '[set]' \
-        'simulation.duration = 2.0' 'output.average_from = 1.0' '[axes]' 'hull.speed = [0.5, 1.0]' >own.toml
+        'simulation.duration = 2.0' 'output.average_from = 1.0' '[axes]' \
+        'hull.speed = [0.5, 1.0]' >own.toml
     snakemake -s "$root/usr/share/icesolve/workflow/Snakefile" \
-        --profile "$root/usr/share/icesolve/workflow/local" --cores 1 --config sweep=own.toml >sweep.log 2>&1 ||
+        --profile "$root/usr/share/icesolve/workflow/local" --cores 1 \
+        --config sweep=own.toml >sweep.log 2>&1 ||
         fail "$(cat sweep.log)"
     [[ -f results/own/sweep.html ]] || fail "the sweep has no page"
-    [[ -z $(find "$root/usr/share" -name __pycache__) ]] || fail "the workflow leaves files where it is installed"
+    [[ -z $(find "$root/usr/share" -name __pycache__) ]] ||
+        fail "the workflow leaves files where it is installed"
 fi
 
 # a program of one's own against the package
 cmake -S "$doc/examples/library" -B two_floes -G Ninja -DCMAKE_PREFIX_PATH="$root/usr" \
-    -DCMAKE_BUILD_TYPE=Release >own.log && cmake --build two_floes >>own.log || fail "$(cat own.log)"
+    -DCMAKE_BUILD_TYPE=Release >own.log && cmake --build two_floes >>own.log ||
+        fail "$(cat own.log)"
 python3 -B "$source/tests/library/example_test.py" two_floes/two_floes "$doc/docs/library.md"
 
 # the headers that docs/library.md names are there and compile

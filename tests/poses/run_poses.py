@@ -29,8 +29,8 @@ def solids_of(group):
 class Run:
     """Frames of a run; body 0 is the hull, floes are numbered from 1.
 
-    In level ice the floes are the pieces that broke off. A piece has no place (NaN) before and after
-    its time; the unbroken sheet is left out.
+    In level ice the floes are the pieces that broke off. A piece has no place (NaN) before and
+    after its time; the unbroken sheet is left out.
     """
 
     def __init__(self, folder):

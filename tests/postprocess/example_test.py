@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""example_test.py SPHERIZE ICESOLVE ICEPOST SOURCE: examples/read_run.py and icepost read a finished
-run and one that was killed (SIGKILL) on its way. Skipped (exit code 77) without h5py and xarray."""
+"""example_test.py SPHERIZE ICESOLVE ICEPOST SOURCE: examples/read_run.py and icepost read a
+finished run and one that was killed (SIGKILL) on its way. Skipped (exit code 77) without h5py and
+xarray."""
 import json
 import os
 import random

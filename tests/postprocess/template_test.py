@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """template_test.py WEB: the committed page is, byte by byte, what its sources give.
 
-Builds the page in a copy of postprocess/report/web. Skipped (exit code 77), and says so, where there
-is no Node or npm cannot fetch the packages that package-lock.json names.
+Builds the page in a copy of postprocess/report/web. Skipped (exit code 77), and says so, where
+there is no Node or npm cannot fetch the packages that package-lock.json names.
 """
 import os
 import shutil
@@ -29,7 +29,8 @@ with tempfile.TemporaryDirectory() as folder:
         print(fault[-500:])
         sys.exit(77)
     subprocess.run(["node", "build.mjs"], cwd=copy, check=True)
-    with open(built, "rb") as old, open(os.path.join(copy, "dist/report_template.html"), "rb") as new:
+    anew = os.path.join(copy, "dist/report_template.html")
+    with open(built, "rb") as old, open(anew, "rb") as new:
         same = old.read() == new.read()
 if not same:
     print(f"{built} is not what its sources give: run 'npm ci --ignore-scripts && node build.mjs' "

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""scene_test.py SOURCE BIN MODULE: scenes stepped from Python, with the compiled module of MODULE."""
+"""scene_test.py SOURCE BIN MODULE: scenes stepped from Python, with the compiled module MODULE."""
 import os
 import sys
 import tempfile
@@ -72,7 +72,8 @@ class Scenes(unittest.TestCase):
         scene.step(20)
         self.assertIs(scene.position, position)
         self.assertAlmostEqual(position[0, 0] - before[0, 0], 20 * scene.time_step, delta=1e-12)
-        for name in ("position", "orientation_xyzw", "velocity", "angular_velocity", "mass", "held"):
+        for name in ("position", "orientation_xyzw", "velocity", "angular_velocity", "mass",
+                     "held"):
             with self.assertRaises(ValueError):
                 getattr(scene, name)[0] = 1.0
         np.testing.assert_allclose(np.linalg.norm(scene.orientation_xyzw, axis=1), 1.0, atol=1e-12)
@@ -110,7 +111,8 @@ class Scenes(unittest.TestCase):
             scene.step()
         contacts = scene.contacts
         of_ship = contacts[contacts["a"] == 0]
-        impulse = of_ship["normal"] * of_ship["normal_impulse"][:, None] + of_ship["friction_impulse"]
+        along = of_ship["normal"] * of_ship["normal_impulse"][:, None]
+        impulse = along + of_ship["friction_impulse"]
         # sums of a few hundred terms in another order
         np.testing.assert_allclose(-impulse.sum(axis=0) / scene.time_step, scene.force,
                                    atol=1e-9 * np.abs(scene.force).max())

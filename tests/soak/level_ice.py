@@ -4,8 +4,8 @@
 
     python3 tests/soak/level_ice.py build/release/bin build/release/tests/soak/level-ice
 
-Prints a row for each 300 s of simulated time; exit code 1 if the memory of the process grows by more
-than 5 % in the second half (docs/soak.md). --duration N runs N seconds.
+Prints a row for each 300 s of simulated time; exit code 1 if the memory of the process grows by
+more than 5 % in the second half (docs/soak.md). --duration N runs N seconds.
 """
 import argparse
 import os
@@ -77,8 +77,8 @@ def main():
     run = options.out / "run"
     print("| t [s] | pieces moving | contacts | memory [MB] |\n|---|---|---|---|", flush=True)
     rows = []
-    with subprocess.Popen([options.bin / "icesolve", case, "--out", run, "--overwrite", "--no-report",
-                           "-q"]) as process:
+    with subprocess.Popen([options.bin / "icesolve", case, "--out", run, "--overwrite",
+                           "--no-report", "-q"]) as process:
         while process.poll() is None:
             time.sleep(0.2)
             row, memory = last_row(run / "forces.csv.part"), memory_of(process.pid)

@@ -1,9 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Writes a stand-in for MT Uikku's hull: python3 validation/uikku/make_hull.py [--stem DEG] [--entrance DEG] --out FILE.obj
+"""Writes a stand-in for MT Uikku's hull.
 
-The ship's lines are not public. This hull has her length, breadth and draught on the water line and a bow of two planes with the
-two angles that the resistance formulas know: the stem from the horizontal and the half entrance angle, the same at every height.
+    python3 validation/uikku/make_hull.py [--stem DEG] [--entrance DEG] --out FILE.obj
+
+The ship's lines are not public. This hull has her length, breadth and draught on the water line and
+a bow of two planes with the two angles that the resistance formulas know: the stem from the
+horizontal and the half entrance angle, the same at every height.
 """
 import argparse
 import math
@@ -20,8 +23,9 @@ STEM_DEG, ENTRANCE_DEG = 30.0, 21.0
 
 def hull(stem_deg=STEM_DEG, entrance_deg=ENTRANCE_DEG):
     over_all = LENGTH + FREEBOARD / math.tan(math.radians(stem_deg))
-    return make_meshes.hull_3d(over_all, BREADTH, DRAUGHT + FREEBOARD, DRAUGHT, stem_deg, entrance_deg,
-                               bottom_end=36.0, slope_end=(12.0, -4.0), counter_end=-1.0)
+    return make_meshes.hull_3d(over_all, BREADTH, DRAUGHT + FREEBOARD, DRAUGHT, stem_deg,
+                               entrance_deg, bottom_end=36.0, slope_end=(12.0, -4.0),
+                               counter_end=-1.0)
 
 
 def main():

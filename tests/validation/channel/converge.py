@@ -62,7 +62,8 @@ def run(options, pressure, name, seed):
         keys |= {"simulation.duration": options.duration, "output.average_from": 0.0}
     if not is_done(out):
         command = [options.bin / "icesolve", folder / "case.cfg", "--out", out, "--overwrite",
-                   "--threads", "1", "-q", *(part for k, v in keys.items() for part in ("--set", f"{k}={v}"))]
+                   "--threads", "1", "-q",
+                   *(part for k, v in keys.items() for part in ("--set", f"{k}={v}"))]
         subprocess.run(command, check=True)
     return json.loads((out / "summary.json").read_text())
 
@@ -101,7 +102,8 @@ def main():
                 runs = [task.result() for task in tasks[name]]
                 mean, half = interval([r["resistance"]["mean_N"] for r in runs])
                 base = base or mean
-                late = statistics.mean(r["contacts"]["unconverged_steps"] / r["steps"] for r in runs)
+                late = statistics.mean(r["contacts"]["unconverged_steps"] / r["steps"]
+                                       for r in runs)
                 deep = max(r["contacts"]["max_overlap_m"] for r in runs)
                 print(f"| {pressure} | {name} | {mean:.0f} | {half:.0f} | "
                       f"{100 * (mean / base - 1):+.1f} | {100 * late:.0f} | {1e3 * deep:.0f} |",

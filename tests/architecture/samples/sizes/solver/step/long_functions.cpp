@@ -2,20 +2,28 @@
 namespace ice {
 
 int of_sixty_lines() {
-  // 59 more lines
+  // 58 more lines
 }
 
-int of_sixty_one(int a,
-                 int b) {
-  // 59 more lines
-    return a + b;
+// its signature has two lines
+void of_sixty_one(int a,
+                  int b) {
+  // 58 more lines
+}
+template <typename T>
+void of_sixty_one_too(T) {
+  // 58 more lines
 }
 
 class Long {
 public:
-    Long() : a_(0) {
-  // 59 more lines
-        a_ = 1;
+    // of sixty lines
+    void add(int a) {
+  // 58 more lines
+    }
+    Long()
+        : a_(0) {
+  // 58 more lines
     }
 
 private:
