@@ -114,6 +114,62 @@ double sphere_spacing(const RunShape& hull, double area) {
     return std::sqrt(2.0 / std::sqrt(3.0) * area / static_cast<double>(hull.centers.size()));
 }
 
+// Cuts each edge longer than `longest` [m] in two; false where none is.
+bool split_once(const TriangleMesh& fine, double longest, TriangleMesh& next) {
+    next.vertices = fine.vertices;
+    next.region_names = fine.region_names;
+    std::map<Edge, std::int32_t> middles;
+    const auto middle = [&](std::int32_t a, std::int32_t b) {
+        const auto row = static_cast<std::int32_t>(next.vertices.size());
+        const auto [place, is_new] = middles.emplace(Edge(std::min(a, b), std::max(a, b)), row);
+        if (is_new)
+            next.vertices.emplace_back(0.5 * (fine.vertices[static_cast<std::size_t>(a)] +
+                                              fine.vertices[static_cast<std::size_t>(b)]));
+        return place->second;
+    };
+    bool changed = false;
+    for (std::size_t t = 0; t < fine.triangles.size(); ++t) {
+        std::array<double, 3> length{};
+        for (int k = 0; k < 3; ++k)
+            length[static_cast<std::size_t>(k)] =
+                (fine.corner(t, (k + 1) % 3) - fine.corner(t, k)).norm();
+        // the longest edge a-b first: the cuts from its middle leave no needles
+        const std::size_t first = static_cast<std::size_t>(
+            std::max_element(length.begin(), length.end()) - length.begin());
+        if (length[first] <= longest) {
+            next.triangles.push_back(fine.triangles[t]);
+            next.region.push_back(fine.region[t]);
+            continue;
+        }
+        changed = true;
+        const auto corner = [&](std::size_t k) { return fine.triangles[t][(first + k) % 3]; };
+        const auto add = [&](std::int32_t a, std::int32_t b, std::int32_t c) {
+            next.triangles.push_back({a, b, c});
+            next.region.push_back(fine.region[t]);
+        };
+        const std::int32_t a = corner(0), b = corner(1), c = corner(2), ab = middle(a, b);
+        // Edges are cut by their length alone, which both neighbours see alike: no vertex lies
+        // within a neighbour's edge.
+        const bool long_bc = length[(first + 1) % 3] > longest;
+        const bool long_ca = length[(first + 2) % 3] > longest;
+        if (long_bc) {
+            const std::int32_t bc = middle(b, c);
+            add(ab, b, bc);
+            add(ab, bc, c);
+        } else {
+            add(ab, b, c);
+        }
+        if (long_ca) {
+            const std::int32_t ca = middle(c, a);
+            add(ab, c, ca);
+            add(ab, ca, a);
+        } else {
+            add(ab, c, a);
+        }
+    }
+    return changed;
+}
+
 }  // namespace
 
 TriangleMesh refine_mesh(const TriangleMesh& mesh, double longest, std::size_t most) {
@@ -121,59 +177,8 @@ TriangleMesh refine_mesh(const TriangleMesh& mesh, double longest, std::size_t m
     if (fine.region.size() != fine.triangles.size()) fine.region.assign(fine.triangles.size(), 0);
     while (true) {
         TriangleMesh next;
-        next.vertices = fine.vertices;
-        next.region_names = fine.region_names;
-        std::map<Edge, std::int32_t> middles;
-        const auto middle = [&](std::int32_t a, std::int32_t b) {
-            const auto row = static_cast<std::int32_t>(next.vertices.size());
-            const auto [place, is_new] = middles.emplace(Edge(std::min(a, b), std::max(a, b)), row);
-            if (is_new)
-                next.vertices.emplace_back(0.5 * (fine.vertices[static_cast<std::size_t>(a)] +
-                                                  fine.vertices[static_cast<std::size_t>(b)]));
-            return place->second;
-        };
-        bool changed = false;
-        for (std::size_t t = 0; t < fine.triangles.size(); ++t) {
-            std::array<double, 3> length{};
-            for (int k = 0; k < 3; ++k)
-                length[static_cast<std::size_t>(k)] =
-                    (fine.corner(t, (k + 1) % 3) - fine.corner(t, k)).norm();
-            // the longest edge a-b first: the cuts from its middle leave no needles
-            const std::size_t first = static_cast<std::size_t>(
-                std::max_element(length.begin(), length.end()) - length.begin());
-            if (length[first] <= longest) {
-                next.triangles.push_back(fine.triangles[t]);
-                next.region.push_back(fine.region[t]);
-                continue;
-            }
-            changed = true;
-            const auto corner = [&](std::size_t k) { return fine.triangles[t][(first + k) % 3]; };
-            const auto add = [&](std::int32_t a, std::int32_t b, std::int32_t c) {
-                next.triangles.push_back({a, b, c});
-                next.region.push_back(fine.region[t]);
-            };
-            const std::int32_t a = corner(0), b = corner(1), c = corner(2), ab = middle(a, b);
-            // Edges are cut by their length alone, which both neighbours see alike: no vertex lies
-            // within a neighbour's edge.
-            const bool long_bc = length[(first + 1) % 3] > longest;
-            const bool long_ca = length[(first + 2) % 3] > longest;
-            if (long_bc) {
-                const std::int32_t bc = middle(b, c);
-                add(ab, b, bc);
-                add(ab, bc, c);
-            } else {
-                add(ab, b, c);
-            }
-            if (long_ca) {
-                const std::int32_t ca = middle(c, a);
-                add(ab, c, ca);
-                add(ab, ca, a);
-            } else {
-                add(ab, c, a);
-            }
-        }
         // The last mesh within the bound: a half-refined mesh would show panels of two sizes.
-        if (!changed || next.triangles.size() > most) return fine;
+        if (!split_once(fine, longest, next) || next.triangles.size() > most) return fine;
         fine = std::move(next);
     }
 }

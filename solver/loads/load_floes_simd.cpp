@@ -68,6 +68,28 @@ HWY_INLINE FlowLoads LoadsInFlow(const Scene& scene, const Case& p, const Afloat
     return out;
 }
 
+// From one register per component to one vector per floe, as the ledger reads them.
+// @param righting  moment of buoyancy
+HWY_INLINE void StoreLoads(const Load& all, const Load& drag, const Load& pressure,
+                           const Vectors& righting, Lanes water_power, std::span<FloeLoad> out) {
+    const Tag d;
+    const Vectors parts[7] = {all.force, all.moment,     drag.force,     drag.moment,
+                              righting,  pressure.force, pressure.moment};
+    HWY_ALIGN double value[7][3 * kMostLanes];
+    for (int k = 0; k < 7; ++k)
+        hn::StoreInterleaved3(parts[k].x, parts[k].y, parts[k].z, d, value[k]);
+    HWY_ALIGN double power[kMostLanes];
+    hn::Store(water_power, d, power);
+    for (std::size_t k = 0; k < out.size(); ++k) {
+        out[k].water_power = power[k];
+        Vec3* const of_floe[7] = {&out[k].force,          &out[k].moment,   &out[k].drag.force,
+                                  &out[k].drag.moment,    &out[k].righting, &out[k].pressure.force,
+                                  &out[k].pressure.moment};
+        for (int n = 0; n < 7; ++n)
+            std::memcpy(of_floe[n]->data(), value[n] + 3 * k, 3 * sizeof(double));
+    }
+}
+
 // Of no more floes than there are lanes, all of one form.
 void LoadPart(const Scene& scene, const Case& p, std::span<const std::int32_t> ids,
               std::span<FloeLoad> out) {
@@ -114,22 +136,7 @@ void LoadPart(const Scene& scene, const Case& p, std::span<const std::int32_t> i
 
     if (scene.water.presses)
         all = {Add(all.force, pressure.force), Add(all.moment, pressure.moment)};
-    const Vectors parts[7] = {all.force, all.moment,     drag.force,     drag.moment,
-                              righting,  pressure.force, pressure.moment};
-    // from one register per component to one vector per floe, as the ledger reads them
-    HWY_ALIGN double value[7][3 * kMostLanes];
-    for (int k = 0; k < 7; ++k)
-        hn::StoreInterleaved3(parts[k].x, parts[k].y, parts[k].z, d, value[k]);
-    HWY_ALIGN double power[kMostLanes];
-    hn::Store(water_power, d, power);
-    for (std::size_t k = 0; k < ids.size(); ++k) {
-        out[k].water_power = power[k];
-        Vec3* const of_floe[7] = {&out[k].force,          &out[k].moment,   &out[k].drag.force,
-                                  &out[k].drag.moment,    &out[k].righting, &out[k].pressure.force,
-                                  &out[k].pressure.moment};
-        for (int n = 0; n < 7; ++n)
-            std::memcpy(of_floe[n]->data(), value[n] + 3 * k, 3 * sizeof(double));
-    }
+    StoreLoads(all, drag, pressure, righting, water_power, out);
 }
 
 void LoadFloes(const Scene& scene, const Case& parameters, std::span<const std::int32_t> floes,

@@ -49,6 +49,21 @@ void renew_edge(World& w) {
     w.finder.forget(w.edge.changed());
 }
 
+// The contacts of the step; a released floe may touch neighbours that were held with it.
+void find_and_release(World& w) {
+    const Case& p = w.parameters;
+    do {
+        timed(w, Stage::broad, [&] {
+            w.motion.update(w.scene, p.time_step);
+            w.pairs.update(w.scene, w.motion, contact_margin(p));
+        });
+        timed(w, Stage::narrow, [&] {
+            w.finder.find(w.scene, w.pairs.pairs(), w.motion, ContactRule(p), p.time_step,
+                          contact_margin(p), w.contacts);
+        });
+    } while (release_touched(w.scene, p, w.contacts));
+}
+
 }  // namespace
 
 void begin_step(World& w) {
@@ -68,17 +83,7 @@ void step(World& w) {
     w.ship.start_step(w.parameters, w.scene, w.time);
     w.scene.water.follow(bodies.position[kShip], w.scene.ship_velocity);
 
-    // 2 to 4 broad, narrow, release: a released floe may touch neighbours that were held with it
-    do {
-        timed(w, Stage::broad, [&] {
-            w.motion.update(w.scene, dt);
-            w.pairs.update(w.scene, w.motion, contact_margin(w.parameters));
-        });
-        timed(w, Stage::narrow, [&] {
-            w.finder.find(w.scene, w.pairs.pairs(), w.motion, ContactRule(w.parameters), dt,
-                          contact_margin(w.parameters), w.contacts);
-        });
-    } while (release_touched(w.scene, w.parameters, w.contacts));
+    find_and_release(w);  // 2 broad, 3 narrow, 4 release
     w.start.take(bodies);
     // 4a recess, 5 impacts: on the velocities before the loads, so that ice at rest does not bounce
     timed(w, Stage::contact, [&] {
