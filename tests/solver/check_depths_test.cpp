@@ -64,6 +64,34 @@ TEST_CASE("a deep point in the other solid is as deep as its distance from that 
     CHECK(checked(w, face_on_face(w, -0.03)).at(0).gap.gap == -0.03);
 }
 
+TEST_CASE("in a notch of the other body a point is as deep as what is left of the ice",
+          "[narrow][deep][notch][analytic]") {
+    // the hull's face lies 0.05 m behind the floe's, which has been crushed by `depth`
+    const double depth = GENERATE(0.02, 0.06);
+    World w = test::angle_and_box(kRadius, Vec3(2.0 + 0.6 - 0.05, -1.0, 0.0));
+    const Shape& floe = w.scene.shapes[1];
+    for (std::int32_t k = 0; k < std::ssize(floe.center); ++k)
+        if (floe.normal[k].x() < -0.99)
+            w.scene.crushed.crush(1, k, floe.center.size(), Vec3(depth, 0, 0));
+    Candidate candidate = face_on_face(w, -0.3);
+    candidate.gap.reference_is_a = false;
+    const auto held = checked(w, candidate);
+    REQUIRE(held.size() == (depth > 0.05 ? 0 : 1));
+    if (held.empty()) return;
+    CHECK(held[0].gap.gap == Near(-0.03).epsilon(1e-6));
+}
+
+TEST_CASE("a tip outside of its own body is less deep by its distance from it",
+          "[narrow][deep][analytic]") {
+    // the floe's face is 0.05 m deep; the sphere's point is 0.04 m before it, 0.09 m deep
+    World w = test::angle_and_box(kRadius, Vec3(2.0 + 0.6 - 0.05, -1.0, 0.0));
+    const Candidate candidate = face_on_face(w, -0.3);
+    w.scene.crushed.crush(1, candidate.j, w.scene.shapes[1].center.size(), Vec3(-0.04, 0, 0));
+    const auto held = checked(w, candidate);
+    REQUIRE(held.size() == 1);
+    CHECK(held[0].gap.gap == Near(-0.05).epsilon(1e-6));
+}
+
 TEST_CASE("a point deep behind two planes and outside the solid is no contact",
           "[narrow][deep][analytic]") {
     // in the missing quarter: 1.7 m behind the plane x = 2 of one leg, 1.1 m behind y = 2
