@@ -152,20 +152,14 @@ bool split_once(const TriangleMesh& fine, double longest, TriangleMesh& next) {
         // within a neighbour's edge.
         const bool long_bc = length[(first + 1) % 3] > longest;
         const bool long_ca = length[(first + 2) % 3] > longest;
-        if (long_bc) {
-            const std::int32_t bc = middle(b, c);
-            add(ab, b, bc);
-            add(ab, bc, c);
-        } else {
-            add(ab, b, c);
-        }
-        if (long_ca) {
-            const std::int32_t ca = middle(c, a);
-            add(ab, c, ca);
-            add(ab, ca, a);
-        } else {
-            add(ab, c, a);
-        }
+        const auto add_side = [&](std::int32_t from, std::int32_t to, bool is_long) {
+            if (!is_long) return add(ab, from, to);
+            const std::int32_t half_way = middle(from, to);
+            add(ab, from, half_way);
+            add(ab, half_way, to);
+        };
+        add_side(b, c, long_bc);
+        add_side(c, a, long_ca);
     }
     return changed;
 }

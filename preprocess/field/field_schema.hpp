@@ -15,7 +15,7 @@ struct FieldKey : Key {
 /// All keys in the order in which they are shown.
 const std::vector<FieldKey>& field_keys();
 
-/// The keys of one pattern, of those that belong to some patterns only.
+/// The keys of one pattern. Keys that all patterns have are not among them.
 struct PatternKeys {
     std::string_view name;
     std::vector<std::string_view> required, optional;

@@ -14,8 +14,8 @@ namespace ice::own {
 
 constexpr double kSqrt2 = std::numbers::sqrt2;
 constexpr double kLn2 = std::numbers::ln2;
-// The format of a double: 52 bits of mantissa, and an exponent of which 1023 stands for 0. Other
-// values give wrong logarithms.
+// The format of a double: 52 bits of mantissa, and an exponent that is stored with 1023 added.
+// Other values give wrong logarithms.
 constexpr std::uint64_t kMantissa = (std::uint64_t{1} << 52) - 1;  // mask of its bits
 constexpr std::uint64_t kOne = std::uint64_t{1023} << 52;          // bits of 1.0
 constexpr std::uint64_t kTwo52 = std::uint64_t{1023 + 52} << 52;   // bits of 2^52

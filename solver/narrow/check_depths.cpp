@@ -17,7 +17,7 @@ namespace {
 // contacts be deeper that edges far apart seem to make.
 constexpr double kBehindEdge = std::numbers::sqrt2;
 
-// Depth of a point in what is left of a body [m]; negative outside and in a notch.
+// Depth of a point in the ice that is left of a body [m]; negative outside and in a notch.
 double depth_in(const PairView& view, std::int32_t body, const Vec3& in_a) {
     const bool of_b = body == view.pair.b;
     const Vec3 p = of_b ? view.to_b(in_a) : in_a;

@@ -59,8 +59,8 @@ struct MeanInterval {
 /// A constant series has half width 0. Fewer than 40 samples, or fewer than 2 W: half width,
 /// correlation time and samples are NaN, with none the mean too: unknown, not zero.
 MeanInterval mean_interval(std::span<const double> series);
-/// The interval of a long series: mean, count and deviation are those of all single values, the
-/// spectrum is that of the series' blocks.
+/// The interval of a long series: mean, count and deviation are computed from all single values,
+/// the spectrum from the blocks of the series.
 MeanInterval mean_interval(const LongSeries& series);
 
 /// Mean of independent values with Student's 95 % interval, in their unit; for fewer than two the

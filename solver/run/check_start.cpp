@@ -78,7 +78,7 @@ std::string describe(const std::vector<StartOverlap>& overlaps, const char* sepa
     return text;
 }
 
-// How to separate them. First what a user can do at once: for a hull in loose ice, the place at
+// How to separate them. The first remedy needs no new field: for a hull in loose ice, the place at
 // which its bow lies before all of it.
 std::string remedy(const World& w, const std::vector<StartOverlap>& overlaps) {
     std::string move = "move the hull (hull.position)";
