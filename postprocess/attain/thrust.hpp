@@ -31,7 +31,8 @@ struct Thrust {
 ///
 ///     T_B = K_e (P_D D)^(2/3),   kN, kW and m;   K_e = 0.78, 0.98, 1.12 for 1, 2, 3 propellers
 ///
-/// Numbers K_e [-] are recalled; one publication prints 0.728 for a single screw.
+/// The numbers K_e [kN / (kW m)^(2/3)] were read in one open program (solver/ship/thrust.hpp); one
+/// publication prints 0.728 for a single screw.
 /// @param power  delivered, of all propellers [W]; @param diameter  of one propeller [m]
 /// @pre 1 to 3 propellers; another number ends the program with an assertion
 double bollard_pull(double power, double diameter, int propellers);

@@ -6,10 +6,11 @@
 
 namespace ice {
 
-/// An even current c, and the flow that the ship makes in it: with U the ship's speed along x
-/// through that water and g the table's flow at the place in the ship's frame,
+/// An even current c, and the flow that the ship makes in it. With U the ship's speed over ground
+/// along x and grad phi the flow in the table, at the place in the ship's frame, the velocity of
+/// the water is
 ///
-///     w(x, t) = c + U(t) g(x - x_ship(t))
+///     v_w(x, t) = c + (U(t) - c_x) grad phi(x - x_ship(t))
 ///
 /// (equation (24)).
 /// The table has no flow of a current athwart the ship: there the water goes through the hull.
@@ -42,7 +43,7 @@ struct WaterFlow {
 };
 
 namespace reference {
-/// w of (24) at a place x [m], world axes [m/s].
+/// v_w of (24) at a place x [m], world axes [m/s].
 inline Vec3 water_at(const WaterFlow& water, const Vec3& x) {
     if (!water.flows()) return water.current;
     const Vec3 v =
@@ -53,7 +54,7 @@ inline Vec3 water_at(const WaterFlow& water, const Vec3& x) {
 }
 
 /// Dynamic pressure at a place, over the water's density [m2/s2]: Bernoulli's for a ship at
-/// constant speed, p / rho = U (w_x - c_x) - |w - c|^2 / 2 (equation (P1)), 0 far away.
+/// constant speed, p / rho = (U - c_x) (v_w - c)_x - |v_w - c|^2 / 2 (equation (P1)), 0 far away.
 inline double pressure_at(const WaterFlow& water, const Vec3& x) {
     if (!water.flows()) return 0.0;
     const Vec3 g =

@@ -10,15 +10,17 @@
 namespace ice {
 
 /// Adds to floes' loads what their added mass A (world axes) has besides its inertia. With the
-/// velocity through the water u = v - w, w being the water's at the centre of mass,
+/// velocity through the water u = v - v_w, v_w being the water's at the centre of mass, and the
+/// floe's angular velocity w,
 ///
 ///     T = -u x A u                                  (the Munk moment)
-///     F = (dA/dt) w + A Dw/Dt,   dA/dt w = w_floe x (A w) - A (w_floe x w)
+///     F = (dA/dt) v_w + A Dv_w/Dt,   (dA/dt) v_w = w x (A v_w) - A (w x v_w)
 ///
 /// (equation (P3), Kirchhoff's equations), of first order in dt.
 ///
-/// A Dw/Dt only where the flow's pressure acts (flow.pressure), whose force is rho V Dw/Dt. What
-/// comes of the water's own motion is part of FloeLoad::pressure, and so the water's work.
+/// A Dv_w/Dt only where the flow's pressure acts (flow.pressure), whose force is rho V Dv_w/Dt. The
+/// loads that the water's own motion causes are part of FloeLoad::pressure, and so of the water's
+/// work.
 /// @param loads  of load_floes(), as many
 /// @pre bodies.have_added_mass()
 void add_water_inertia(const Scene& scene, const Case& parameters,

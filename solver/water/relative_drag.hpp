@@ -15,7 +15,7 @@ struct RelativeDrag : WaterLoad {
                         ///< the water
 };
 
-/// panel_drag() with the velocity relative to water that moves, u = v + w x r - w_water, linear
+/// panel_drag() with the velocity relative to water that moves, u = v + w x r - v_w, linear
 /// over the quarters of each triangle that its edges' middles make, exactly:
 ///
 ///     F = -1/2 rho_w C_d int max(0, n . u) u dA,   T = int r x dF

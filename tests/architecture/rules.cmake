@@ -8,8 +8,8 @@ set(order_common common/base common/toml common/geometry common/math common/form
 set(order_preprocess preprocess/load preprocess/clean preprocess/measure preprocess/repair
   preprocess/slice preprocess/fill preprocess/certify preprocess/field preprocess/write preprocess)
 set(order_solver solver/case solver/shape solver/bending solver/level_ice solver/flow solver/water
-  solver/scene solver/broad solver/narrow solver/contact solver/live_edge solver/loads
-  solver/integrate solver/ship solver/record solver/step solver/run solver/draft
+  solver/scene solver/broad solver/narrow solver/contact solver/loads solver/integrate
+  solver/ship solver/live_edge solver/record solver/step solver/run solver/draft
   solver/ensemble solver)
 set(order_postprocess postprocess/read postprocess/views postprocess/statistics postprocess/report
   postprocess/sweep postprocess/fit postprocess/attain postprocess/sensitivity
