@@ -8,11 +8,11 @@
 #include <cstddef>
 #include <exception>
 #include <mutex>
+#include <vector>
 
 namespace ice {
 
-/// Number of threads used by parallel_for from now on; 0 leaves OpenMP's own choice. They stay the
-/// same ones: a thread's results in one region are read in the next.
+/// Number of threads used by parallel_for from now on; 0 leaves OpenMP's own choice.
 inline void set_thread_count(int threads) {
     omp_set_dynamic(0);
     if (threads > 0) omp_set_num_threads(threads);
@@ -20,6 +20,33 @@ inline void set_thread_count(int threads) {
 
 /// Threads of the next parallel region, at least 1.
 inline int thread_count() { return omp_get_max_threads(); }
+
+/// One T for each thread, such as its results or its work memory. They last until this object ends,
+/// and the calling thread may read all of them between parallel regions.
+template <class T>
+class PerThread {
+public:
+    /// Makes room for the threads of the next parallel region. The T that are there stay.
+    void prepare() {
+        const auto threads = static_cast<std::size_t>(thread_count());
+        if (slots_.size() < threads) slots_.resize(threads);
+    }
+    /// The calling thread's. @pre prepare() since the last set_thread_count()
+    T& own() { return slots_[static_cast<std::size_t>(omp_get_thread_num())].value; }
+    /// Calls visit(T&) for every thread's.
+    template <class Visit>
+    void for_each(const Visit& visit) {
+        for (Slot& slot : slots_) visit(slot.value);
+    }
+
+private:
+    // a cache line of its own [bytes]: threads that write side by side would else wait for each
+    // other
+    struct alignas(64) Slot {
+        T value;
+    };
+    std::vector<Slot> slots_;
+};
 
 /// Takes exceptions out of a parallel region, which none may leave by itself: of those thrown the
 /// one with the lowest index, so that the caller sees the same whatever the number of threads.

@@ -5,39 +5,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "common/base/parallel.hpp"
 #include "solver/narrow/make_centre_contacts.hpp"
-#include "solver/narrow/search_pair.hpp"
 #include "solver/narrow/separation.hpp"
-#include "solver/narrow/thread_batch.hpp"
 
 namespace ice {
-
-namespace {
-
-// Two spheres that are to be listed.
-struct Near {
-    Vec3 a, b;     // their centres, each in its own body's axes, a's from the list's origin [m]
-    double radii;  // sum [m]
-    std::int32_t i, j;
-};
-
-}  // namespace
-
-struct CentresFinder::Batch {
-    std::vector<Candidate> candidates;
-    std::vector<ListedSpheres> listed;
-
-    void forget() {
-        candidates.clear();
-        listed.clear();
-    }
-
-    // of the pair at hand
-    PairSearch search;
-    std::vector<Near> near;
-    TouchingSpheres touching;
-};
 
 namespace {
 
@@ -54,9 +25,37 @@ constexpr double kLeastListShare = 0.6, kMostListShare = 0.8;  // of the ice's r
 // touches; with a larger one pairs are measured a little sooner.
 constexpr double kRounding = 1e-6;
 
+// How far a sphere of b may have gone relative to one of a since they were listed [m]: two
+// rotations differ by sqrt(8) sin(angle / 2), and a point at 1 goes 2 sin(angle / 2).
+double gone_since(const SphereLists::Row& row, const PairView& view, double crushed) {
+    return (view.translation_ab - row.shift).norm() + crushed +
+           view.shape_b.bounding_radius * (view.rotation_ab - row.turn).norm() /
+               std::numbers::sqrt2;
+}
+
+// Measures the spheres that touch in whole units; appends the candidates.
+void measure(const PairView& view, const TouchingSpheres& touching, double most,
+             std::vector<Candidate>& out) {
+    for (std::size_t k = 0; k < touching.count; ++k) {
+        const std::int32_t i = touching.a[k], j = touching.b[k];
+        const Gap gap = measure_gap_centres(view.center_a(i), view.shape_a.radius[i],
+                                            view.center_b(j), view.shape_b.radius[j]);
+        if (gap.valid && gap.gap <= most && !view.is_gone_a(i) && !view.is_gone_b(j))
+            out.push_back({i, j, gap});
+    }
+}
+
+// Is no sphere of one body nearer to the other than their separation()?
+bool are_held(const PairView& view) {
+    return view.shape_a.bounds.hold_spheres && view.shape_b.bounds.hold_spheres &&
+           view.scene.crushed.is_whole(view.pair.a) && view.scene.crushed.is_whole(view.pair.b);
+}
+
+}  // namespace
+
 // Finds the spheres whose gap is at most `range` [m], and others.
-void find_near_centres(const PairView& view, double range, PairSearch& search,
-                       std::vector<Near>& out) {
+void CentresFinder::find_near(const PairView& view, double range, PairSearch& search,
+                              std::vector<Near>& out) {
     out.clear();
     search.for_each_near(
         view, range, 0.0,
@@ -70,7 +69,7 @@ void find_near_centres(const PairView& view, double range, PairSearch& search,
 }
 
 // Makes a list of spheres in units as small as the farthest of them allows [m]; returns the unit.
-double list_spheres(const std::vector<Near>& near, std::vector<ListedSpheres>& out) {
+double CentresFinder::list_spheres(const std::vector<Near>& near, std::vector<ListedSpheres>& out) {
     constexpr std::size_t kPairs = ListedSpheres::kPairs;
     double farthest = 0.0;
     for (const Near& n : near)
@@ -101,34 +100,6 @@ double list_spheres(const std::vector<Near>& near, std::vector<ListedSpheres>& o
     }
     return unit;
 }
-
-// How far a sphere of b may have gone relative to one of a since they were listed [m]: two
-// rotations differ by sqrt(8) sin(angle / 2), and a point at 1 goes 2 sin(angle / 2).
-double gone_since(const SphereLists::Row& row, const PairView& view, double crushed) {
-    return (view.translation_ab - row.shift).norm() + crushed +
-           view.shape_b.bounding_radius * (view.rotation_ab - row.turn).norm() /
-               std::numbers::sqrt2;
-}
-
-// Measures the spheres that touch in whole units; appends the candidates.
-void measure(const PairView& view, const TouchingSpheres& touching, double most,
-             std::vector<Candidate>& out) {
-    for (std::size_t k = 0; k < touching.count; ++k) {
-        const std::int32_t i = touching.a[k], j = touching.b[k];
-        const Gap gap = measure_gap_centres(view.center_a(i), view.shape_a.radius[i],
-                                            view.center_b(j), view.shape_b.radius[j]);
-        if (gap.valid && gap.gap <= most && !view.is_gone_a(i) && !view.is_gone_b(j))
-            out.push_back({i, j, gap});
-    }
-}
-
-// Is no sphere of one body nearer to the other than their separation()?
-bool are_held(const PairView& view) {
-    return view.shape_a.bounds.hold_spheres && view.shape_b.bounds.hold_spheres &&
-           view.scene.crushed.is_whole(view.pair.a) && view.scene.crushed.is_whole(view.pair.b);
-}
-
-}  // namespace
 
 CentresFinder::Found CentresFinder::look(std::size_t k, BodyPair pair, const Step& step,
                                          Batch& batch) {
@@ -163,7 +134,7 @@ CentresFinder::Found CentresFinder::look(std::size_t k, BodyPair pair, const Ste
         row.shift = view.translation_ab;
         row.crushed = crushed;
         gone = 0.0;
-        find_near_centres(view, row.range, batch.search, batch.near);
+        find_near(view, row.range, batch.search, batch.near);
         row.unit = list_spheres(batch.near, batch.listed);
         found.anew = true;
         found.blocks = batch.listed.size() - found.block;
@@ -194,7 +165,11 @@ CentresFinder::Found CentresFinder::look(std::size_t k, BodyPair pair, const Ste
 void CentresFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
                          const MotionBounds& motion, double dt, double margin,
                          std::vector<Contact>& out) {
-    const std::uint64_t call = next_call();
+    batches_.prepare();
+    batches_.for_each([](Batch& batch) {
+        batch.candidates.clear();
+        batch.listed.clear();
+    });
     lists_.match(pairs);
     // To check a clearance costs a comparison; only the pairs whose bodies have used theirs up
     // are measured.
@@ -211,7 +186,7 @@ void CentresFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
     found_.resize(pairs_to_measure_.size());
     parallel_for(pairs_to_measure_.size(), kSerialLists, [&](std::size_t n) {
         found_[n] = look(pairs_to_measure_[n], pairs[pairs_to_measure_[n]],
-                         {scene, motion, dt, margin}, batch_of<Batch>(call));
+                         {scene, motion, dt, margin}, batches_.own());
     });
     touching_.clear();
     // Gathered in the order of the pairs: the contacts do not depend on which thread found

@@ -5,8 +5,11 @@
 #include <cstdint>
 #include <vector>
 
+#include "common/base/parallel.hpp"
 #include "solver/narrow/contact.hpp"
+#include "solver/narrow/search_pair.hpp"
 #include "solver/narrow/sphere_lists.hpp"
+#include "solver/narrow/touching_spheres.hpp"
 #include "solver/scene/bodies.hpp"
 
 namespace ice {
@@ -25,8 +28,21 @@ public:
               double dt, double margin, std::vector<Contact>& out);
 
 private:
-    // Results of one thread for its pairs, one after the other; valid within find() only.
-    struct Batch;
+    // Two spheres that are to be listed.
+    struct Near {
+        Vec3 a, b;     // their centres, each in its own body's axes, a's from the list's origin [m]
+        double radii;  // sum [m]
+        std::int32_t i, j;
+    };
+    // What one thread finds for its pairs, one pair after the other, and its work memory.
+    struct Batch {
+        std::vector<Candidate> candidates;
+        std::vector<ListedSpheres> listed;
+        // of the pair at hand
+        PairSearch search;
+        std::vector<Near> near;
+        TouchingSpheres touching;
+    };
     // Results of a pair: a part of one thread's results.
     struct Found {
         Batch* batch = nullptr;
@@ -44,6 +60,9 @@ private:
         const MotionBounds& motion;
         double dt, margin;
     };
+    static void find_near(const PairView& view, double range, PairSearch& search,
+                          std::vector<Near>& out);
+    static double list_spheres(const std::vector<Near>& near, std::vector<ListedSpheres>& out);
     Found look(std::size_t k, BodyPair pair, const Step& step, Batch& batch);
 
     // kept between steps: no allocation once warm
@@ -51,6 +70,7 @@ private:
     std::vector<std::size_t> pairs_to_measure_;  // their rows
     std::vector<Found> found_;                   // of these
     std::vector<Touching> touching_;
+    PerThread<Batch> batches_;
 };
 
 }  // namespace ice

@@ -6,7 +6,6 @@
 #include <limits>
 #include <numeric>
 
-#include "common/base/parallel.hpp"
 #include "solver/narrow/check_depths.hpp"
 #include "solver/narrow/deep_seats.hpp"
 #include "solver/narrow/make_centre_contacts.hpp"
@@ -16,23 +15,8 @@
 #include "solver/narrow/search_pair.hpp"
 #include "solver/narrow/separation.hpp"
 #include "solver/narrow/solid_contacts.hpp"
-#include "solver/narrow/thread_batch.hpp"
 
 namespace ice {
-
-struct FoundBatch {
-    std::vector<Candidate> candidates;  // that are contacts
-    std::vector<SpherePair> spheres;
-    std::vector<PolygonCorner> corners;
-    std::vector<DeepSeat> seats;
-
-    void forget() {
-        candidates.clear();
-        corners.clear();
-        seats.clear();
-        spheres.clear();
-    }
-};
 
 namespace {
 
@@ -41,35 +25,27 @@ namespace {
 // scene's narrow phase. Results do not depend on it.
 constexpr std::size_t kSerialPairs = 64, kSerialLooks = 1024;
 
-// Work memory for the search of a pair; kept between pairs.
-struct Workspace {
-    PairSearch search;
-    std::vector<SpherePair> spheres;
-    std::vector<Candidate> candidates;
-    std::vector<DeepSeat> seats;
-};
-
-// Sets work.candidates to the contacts of a pair.
+// Sets pair.candidates to the contacts of a pair.
 // @pre the bodies are apart (separation) by no more than the margin
-void search_contacts(const PairView& view, double margin, Workspace& work) {
+void search_contacts(const PairView& view, double margin, FoundBatch::Pair& pair) {
     // search in floats, measurement in doubles, meshes for deep ones, then reduction
     const SphereRange range(view, margin);
-    work.spheres.clear();
-    work.search.for_each_near(view, range.margin, range.reach, [&](std::int32_t i, std::int32_t j) {
-        work.spheres.push_back({i, j});
+    pair.spheres.clear();
+    pair.search.for_each_near(view, range.margin, range.reach, [&](std::int32_t i, std::int32_t j) {
+        pair.spheres.push_back({i, j});
     });
-    group_by_types(view, work.spheres);
-    measure_spheres(view, range, work.spheres, work.candidates);
-    check_depths(view, work.candidates);
-    reduce_manifold(view, margin, work.candidates);
+    group_by_types(view, pair.spheres);
+    measure_spheres(view, range, pair.spheres, pair.candidates);
+    check_depths(view, pair.candidates);
+    reduce_manifold(view, margin, pair.candidates);
 }
 
 // The same for spheres that are known to be near.
 void measure_known(const PairView& view, double margin, std::span<const SpherePair> near,
-                   Workspace& work) {
-    measure_spheres(view, SphereRange(view, margin), near, work.candidates);
-    check_depths(view, work.candidates);
-    reduce_manifold(view, margin, work.candidates);
+                   std::vector<Candidate>& out) {
+    measure_spheres(view, SphereRange(view, margin), near, out);
+    check_depths(view, out);
+    reduce_manifold(view, margin, out);
 }
 
 // The spheres that may be candidates while the pair moves within `skin`, and the least gap that
@@ -86,13 +62,14 @@ double find_near(const PairView& view, double margin, const Skin& skin, PairSear
 }
 
 // Spheres of deep bodies have passed each other: their solids tell which contacts are lost. Those
-// of two convex ones are a polygon's corners (null: none is lost), of others their deep seats.
-const ContactPolygon* find_lost(const PairView& view, double apart, double most,
-                                const std::vector<Candidate>& found, std::vector<DeepSeat>& seats) {
-    seats.clear();
-    if (is_deep(view, apart)) return find_lost_polygon(view, found, most);
-    if (has_deep_seats(view, apart)) find_deep_seats(view, found, seats);
-    return nullptr;
+// of two convex ones are the polygon's corners, of others their deep seats.
+void find_lost(const PairView& view, double apart, double most, FoundBatch::Pair& pair) {
+    pair.polygon.corners.clear();
+    pair.seats.clear();
+    if (is_deep(view, apart))
+        find_lost_polygon(view, pair.candidates, most, pair.polygon);
+    else if (has_deep_seats(view, apart))
+        find_deep_seats(view, pair.candidates, pair.seats);
 }
 
 // The exact axes of two convex solids; early out where they are farther apart than `enough` [m].
@@ -103,29 +80,36 @@ SeparatingAxes axes_of(const PairView& view, double enough) {
 
 }  // namespace
 
+void ContactFinder::begin_batches() {
+    batches_.prepare();
+    batches_.for_each([](FoundBatch& batch) { batch.clear(); });
+}
+
 // Keeps the corners of the polygon in which two solids meet, if they do.
 void ContactFinder::meet(const PairView& view, const SeparatingAxes& axes, double most,
                          Found& found, FoundBatch& batch) {
-    if (axes.widest() <= most) keep_polygon(&find_polygon(view, axes, most), found, batch);
+    if (axes.widest() > most) return;
+    find_polygon(view, axes, most, batch.pair.polygon);
+    keep_polygon(found, batch);
 }
 
-void ContactFinder::keep_polygon(const ContactPolygon* polygon, Found& found, FoundBatch& batch) {
-    if (polygon == nullptr) return;
+void ContactFinder::keep_polygon(Found& found, FoundBatch& batch) {
+    const auto& [normal, corners] = batch.pair.polygon;
     found.corner = batch.corners.size();
-    found.corners = polygon->corners.size();
-    found.normal = polygon->normal;
-    batch.corners.insert(batch.corners.end(), polygon->corners.begin(), polygon->corners.end());
+    found.corners = corners.size();
+    found.normal = normal;
+    batch.corners.insert(batch.corners.end(), corners.begin(), corners.end());
 }
 
-void ContactFinder::keep_seats(const std::vector<DeepSeat>& seats, Found& found,
-                               FoundBatch& batch) {
+void ContactFinder::keep_seats(Found& found, FoundBatch& batch) {
+    const std::vector<DeepSeat>& seats = batch.pair.seats;
     found.seat = batch.seats.size();
     found.seats = seats.size();
     batch.seats.insert(batch.seats.end(), seats.begin(), seats.end());
 }
 
-void ContactFinder::keep_candidates(const std::vector<Candidate>& candidates, Found& found,
-                                    FoundBatch& batch) {
+void ContactFinder::keep_candidates(Found& found, FoundBatch& batch) {
+    const std::vector<Candidate>& candidates = batch.pair.candidates;
     found.first = batch.candidates.size();
     found.count = candidates.size();
     batch.candidates.insert(batch.candidates.end(), candidates.begin(), candidates.end());
@@ -142,10 +126,9 @@ void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
     pairs_to_measure_.resize(pairs.size());
     std::iota(pairs_to_measure_.begin(), pairs_to_measure_.end(), std::size_t{0});
     found_.assign(pairs.size(), Found{});
-    const std::uint64_t call = next_call();
+    begin_batches();
     parallel_for(pairs.size(), kSerialPairs, [&](std::size_t k) {
-        thread_local Workspace work;  // keeps its memory between pairs
-        FoundBatch& batch = batch_of<FoundBatch>(call);
+        FoundBatch& batch = batches_.own();
         // Contacts are wanted up to the distance that the pair can close in the step (section
         // 2, margin).
         const double most = dt * closing_speed(scene, pairs[k]) + margin;
@@ -155,12 +138,13 @@ void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
             meet(view, axes_of(view, most), most, found_[k], batch);
             return;
         }
-        work.candidates.clear();
+        batch.pair.candidates.clear();
         const double apart = separation(view);
-        if (apart <= most) search_contacts(view, most, work);
-        keep_candidates(work.candidates, found_[k], batch);
-        keep_polygon(find_lost(view, apart, most, work.candidates, work.seats), found_[k], batch);
-        keep_seats(work.seats, found_[k], batch);
+        if (apart <= most) search_contacts(view, most, batch.pair);
+        find_lost(view, apart, most, batch.pair);
+        keep_candidates(found_[k], batch);
+        keep_polygon(found_[k], batch);
+        keep_seats(found_[k], batch);
     });
     emit(scene, pairs, rule, out);
 }
@@ -182,10 +166,10 @@ void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
     for (std::size_t k = 0; k < pairs.size(); ++k)
         if (states_[k] != PairCache::State::separated) pairs_to_measure_.push_back(k);
     found_.assign(pairs_to_measure_.size(), Found{});
-    const std::uint64_t call = next_call();
+    begin_batches();
     parallel_for(pairs_to_measure_.size(), kSerialPairs, [&](std::size_t n) {
         const std::size_t k = pairs_to_measure_[n];
-        FoundBatch& batch = batch_of<FoundBatch>(call);
+        FoundBatch& batch = batches_.own();
         found_[n].batch = &batch;
         found_[n].sphere = batch.spheres.size();
         const double most = dt * closing_speed(scene, pairs[k]) + margin;
@@ -208,14 +192,13 @@ void ContactFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
 void ContactFinder::find_listed(const Scene& scene, BodyPair pair, std::size_t k,
                                 const MotionBounds& motion, const Within& within, Found& found,
                                 FoundBatch& batch) {
-    thread_local Workspace work;
     const PairView view(scene, pair);
     auto state = states_[k];
     std::span<const SpherePair> near = cache_.listed(k);
     if (state == PairCache::State::stale) {
         // the skin is used up: a new list, with a skin that lasts for some steps
         const Skin skin = skin_of(scene, pair, within.step);
-        const double least = find_near(view, within.margin, skin, work.search, batch.spheres);
+        const double least = find_near(view, within.margin, skin, batch.pair.search, batch.spheres);
         near = std::span(batch.spheres).subspan(found.sphere);
         found.spheres = near.size();
         cache_.renew(k, view, motion, skin, std::min(least - within.margin, skin.distance));
@@ -224,17 +207,20 @@ void ContactFinder::find_listed(const Scene& scene, BodyPair pair, std::size_t k
     }
     // a pair too fast for a list is searched afresh
     if (state == PairCache::State::stale)
-        search_contacts(view, within.most, work);
+        search_contacts(view, within.most, batch.pair);
     else
-        measure_known(view, within.most, near, work);
-    keep_candidates(work.candidates, found, batch);
+        measure_known(view, within.most, near, batch.pair.candidates);
+    keep_candidates(found, batch);
     // As find_lost, where the cache cannot rule it out: for seats it also keeps how far the bodies
     // may move before one can be deep.
     if (!cache_.may_be_deep(k)) return;
-    if (is_convex_pair(view))
-        return keep_polygon(find_lost_polygon(view, work.candidates, within.most), found, batch);
-    cache_.set_seat_clearance(k, view, find_deep_seats(view, work.candidates, work.seats));
-    keep_seats(work.seats, found, batch);
+    if (is_convex_pair(view)) {
+        find_lost_polygon(view, batch.pair.candidates, within.most, batch.pair.polygon);
+        return keep_polygon(found, batch);
+    }
+    cache_.set_seat_clearance(k, view,
+                              find_deep_seats(view, batch.pair.candidates, batch.pair.seats));
+    keep_seats(found, batch);
 }
 
 // Lists of "centres" are dropped as a whole: they cannot drop single rows.
@@ -275,20 +261,22 @@ namespace reference {
 void find_contacts(const Scene& scene, BodyPair pair, ContactRule how, double margin,
                    std::vector<Contact>& out) {
     const PairView view(scene, pair);
-    const auto append = [&](const ContactPolygon& polygon) {
-        out.resize(out.size() + polygon.corners.size());
-        emit_polygon(view, how, polygon.normal, polygon.corners,
-                     out.data() + (out.size() - polygon.corners.size()));
+    FoundBatch::Pair found;
+    const auto append_polygon = [&] {
+        const std::vector<PolygonCorner>& corners = found.polygon.corners;
+        out.resize(out.size() + corners.size());
+        emit_polygon(view, how, found.polygon.normal, corners,
+                     out.data() + (out.size() - corners.size()));
     };
     if (meets_in_polygon(scene, pair, how)) {
         const SeparatingAxes axes = axes_of(view, margin);
-        if (axes.widest() <= margin) append(find_polygon(view, axes, margin));
-        return;
+        if (axes.widest() <= margin) find_polygon(view, axes, margin, found.polygon);
+        return append_polygon();
     }
     const double apart = separation(view);
     if (apart > margin) return;
     const bool centres = how.normal == NormalRule::centres;
-    std::vector<Candidate> candidates;
+    std::vector<Candidate>& candidates = found.candidates;
     // by brute force: every sphere of one body with every sphere of the other
     for (std::int32_t i = 0; i < std::ssize(view.shape_a.center); ++i)
         for (std::int32_t j = 0; j < std::ssize(view.shape_b.center); ++j) {
@@ -311,11 +299,10 @@ void find_contacts(const Scene& scene, BodyPair pair, ContactRule how, double ma
             : make_contacts(view, candidates, first);
     // Under "centres" bodies are their spheres: no solid can be deeper than these tell.
     if (centres) return;
-    std::vector<DeepSeat> seats;
-    if (const ContactPolygon* polygon = find_lost(view, apart, margin, candidates, seats))
-        append(*polygon);
-    out.resize(out.size() + seats.size());
-    emit_deep_seats(view, how, seats, out.data() + (out.size() - seats.size()));
+    find_lost(view, apart, margin, found);
+    append_polygon();
+    out.resize(out.size() + found.seats.size());
+    emit_deep_seats(view, how, found.seats, out.data() + (out.size() - found.seats.size()));
 }
 
 }  // namespace reference

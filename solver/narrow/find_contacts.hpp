@@ -5,20 +5,17 @@
 #include <cstdint>
 #include <vector>
 
+#include "common/base/parallel.hpp"
 #include "solver/broad/find_pairs.hpp"
 #include "solver/case/case.hpp"
 #include "solver/narrow/centres_finder.hpp"
 #include "solver/narrow/contact.hpp"
-#include "solver/narrow/contact_polygon.hpp"
 #include "solver/narrow/contact_rule.hpp"
-#include "solver/narrow/deep_seats.hpp"
+#include "solver/narrow/found_batch.hpp"
 #include "solver/narrow/pair_cache.hpp"
 #include "solver/scene/bodies.hpp"
 
 namespace ice {
-
-/// Results of one thread for its pairs, one after the other; valid within find() only.
-struct FoundBatch;
 
 /// Finds the contacts of all pairs, in pair order; threads share the pairs, not a pair.
 ///
@@ -81,15 +78,17 @@ private:
     struct Within {
         double step, margin, most;
     };
+    // Empties the threads' results.
+    void begin_batches();
     static void meet(const PairView& view, const SeparatingAxes& axes, double most, Found& found,
                      FoundBatch& batch);
     // Contacts of row k from its neighbour list, which is made anew where its skin is used up.
     void find_listed(const Scene& scene, BodyPair pair, std::size_t k, const MotionBounds& motion,
                      const Within& within, Found& found, FoundBatch& batch);
-    static void keep_polygon(const ContactPolygon* polygon, Found& found, FoundBatch& batch);
-    static void keep_seats(const std::vector<DeepSeat>& seats, Found& found, FoundBatch& batch);
-    static void keep_candidates(const std::vector<Candidate>& candidates, Found& found,
-                                FoundBatch& batch);
+    // These append the contacts of the pair at hand to the thread's results.
+    static void keep_polygon(Found& found, FoundBatch& batch);
+    static void keep_seats(Found& found, FoundBatch& batch);
+    static void keep_candidates(Found& found, FoundBatch& batch);
     // Makes the contacts of all rows of found_.
     void emit(const Scene& scene, const std::vector<BodyPair>& pairs, ContactRule rule,
               std::vector<Contact>& out);
@@ -98,6 +97,7 @@ private:
     std::vector<PairCache::State> states_;       // of all pairs
     std::vector<std::size_t> pairs_to_measure_;  // their rows
     std::vector<Found> found_;                   // of these
+    PerThread<FoundBatch> batches_;
     PairCache cache_;
     CentresFinder centres_;  // instead of all these under the rule "centres"
 };

@@ -66,10 +66,9 @@ Vec3 meeting_point(const PairView& view, const Candidate& c) {
     return surface + 0.5 * c.gap.gap * outward;
 }
 
-// The candidates' places, with the keys of their contacts, sorted.
-const std::vector<ContactPlace>& places_of(const PairView& view,
-                                           std::span<const Candidate> candidates) {
-    thread_local std::vector<ContactPlace> places;  // keeps its memory
+// Sets `places` to those of the candidates, with the keys of their contacts, sorted.
+void find_places(const PairView& view, std::span<const Candidate> candidates,
+                 std::vector<ContactPlace>& places) {
     places.clear();
     std::int32_t last_incident = -1, face = 0;
     for (const Candidate& c : candidates) {
@@ -81,7 +80,6 @@ const std::vector<ContactPlace>& places_of(const PairView& view,
         places.push_back(place_of(view, c, std::uint64_t(incident) << 32 | std::uint64_t(face)));
     }
     sort_places(places);
-    return places;
 }
 
 }  // namespace
@@ -104,7 +102,8 @@ Patch patch_of_a(const PairView& view, std::int32_t i, const Vec3& n, double gap
 
 void make_contacts(const PairView& view, std::span<const Candidate> candidates, Contact* out) {
     const bool ship = view.pair.a == static_cast<std::int32_t>(kShip);
-    const std::vector<ContactPlace>& places = places_of(view, candidates);
+    thread_local std::vector<ContactPlace> places;  // keeps its memory
+    find_places(view, candidates, places);
     Contact* contact = out;
     for (const ContactPlace& place : places) {
         const Candidate& c = *place.candidate;

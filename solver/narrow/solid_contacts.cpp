@@ -31,8 +31,8 @@ bool meets_in_polygon(const Scene& scene, BodyPair pair, const ContactRule& rule
     return convex(pair.a) && convex(pair.b);
 }
 
-const ContactPolygon& find_polygon(const PairView& view, const SeparatingAxes& axes, double most) {
-    thread_local ContactPolygon polygon;  // keeps its memory
+void find_polygon(const PairView& view, const SeparatingAxes& axes, double most,
+                  ContactPolygon& polygon) {
     make_contact_polygon(view.shape_a.convex, view.shape_b.convex,
                          {view.rotation_ab, view.translation_ab}, axes, most, polygon);
     reduce_polygon(kManifoldCorners, polygon);
@@ -45,7 +45,6 @@ const ContactPolygon& find_polygon(const PairView& view, const SeparatingAxes& a
                   };
                   return key(l) < key(r);
               });
-    return polygon;
 }
 
 void emit_polygon(const PairView& view, const ContactRule& rule, const Vec3& normal,
@@ -81,8 +80,9 @@ bool is_deep(const PairView& view, double apart) {
     return is_convex_pair(view) && apart < -lost_slack(view);
 }
 
-const ContactPolygon* find_lost_polygon(const PairView& view, std::span<const Candidate> found,
-                                        double most) {
+void find_lost_polygon(const PairView& view, std::span<const Candidate> found, double most,
+                       ContactPolygon& polygon) {
+    polygon.corners.clear();
     // 0 as `enough`: the solids overlap, and of these all axes are measured
     const SeparatingAxes axes = find_axes(view.shape_a.convex, view.shape_b.convex,
                                           {view.rotation_ab, view.translation_ab}, 0.0);
@@ -92,9 +92,7 @@ const ContactPolygon* find_lost_polygon(const PairView& view, std::span<const Ca
     for (const Candidate& c : found) least = std::min(least, c.gap.gap);
     const double crushed =
         view.scene.crushed.deepest_of(view.pair.a) + view.scene.crushed.deepest_of(view.pair.b);
-    if (axes.widest() + crushed + lost_slack(view) >= least) return nullptr;
-    const ContactPolygon& polygon = find_polygon(view, axes, most);
-    return polygon.corners.empty() ? nullptr : &polygon;
+    if (axes.widest() + crushed + lost_slack(view) < least) find_polygon(view, axes, most, polygon);
 }
 
 }  // namespace ice

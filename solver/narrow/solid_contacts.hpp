@@ -16,9 +16,11 @@ namespace ice {
 /// that are convex and cannot be crushed: then no contact needs a sphere's share of the surface.
 bool meets_in_polygon(const Scene& scene, BodyPair pair, const ContactRule& rule);
 
-/// Finds their contacts within `most` [m]; valid until the thread's next call.
-/// @pre meets_in_polygon @param axes  of the two solids, all kinds
-const ContactPolygon& find_polygon(const PairView& view, const SeparatingAxes& axes, double most);
+/// Finds their contacts within `most` [m], at most four; no corners where every gap is wider.
+/// @pre both convex @param axes  of the two solids, all kinds
+/// @param polygon  its old content is dropped, its memory kept
+void find_polygon(const PairView& view, const SeparatingAxes& axes, double most,
+                  ContactPolygon& polygon);
 
 /// Makes contacts of a polygon's corners, in their order. Between floes that cannot be crushed they
 /// have no spheres and no share; else those of the nearest spheres, b's ice being crushed.
@@ -46,9 +48,10 @@ bool is_deep(const PairView& view, double apart);
 
 /// The polygon in which a deep pair meets, within `most` [m], where no contact of its spheres is as
 /// deep: the least of their gaps is more than the separation by a fiftieth of a radius, crushed ice
-/// left out; null otherwise. Valid until the thread's next question.
+/// left out; no corners otherwise.
 /// @pre is_deep() @param found  the contacts of the spheres
-const ContactPolygon* find_lost_polygon(const PairView& view, std::span<const Candidate> found,
-                                        double most);
+/// @param polygon  its old content is dropped, its memory kept
+void find_lost_polygon(const PairView& view, std::span<const Candidate> found, double most,
+                       ContactPolygon& polygon);
 
 }  // namespace ice
