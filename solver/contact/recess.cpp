@@ -58,7 +58,10 @@ double Recess::last_depth(const Contact& c, std::size_t& at) const {
     return known ? entries_[at].depth : 0.0;
 }
 
-void Recess::forget(const std::vector<std::int32_t>& bodies) { unknown_ = bodies; }
+void Recess::forget(const std::vector<std::int32_t>& bodies) {
+    ICE_ASSERT(std::is_sorted(bodies.begin(), bodies.end()));
+    unknown_ = bodies;
+}
 
 bool Recess::has_past(const Contact& c) const {
     return !std::binary_search(unknown_.begin(), unknown_.end(), c.a) &&

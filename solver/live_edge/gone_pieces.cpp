@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "common/base/assert.hpp"
 #include "common/base/error.hpp"
 
 namespace ice {
@@ -60,6 +61,7 @@ void GonePieces::open(const std::filesystem::path& folder) {
 }
 
 void GonePieces::add(const IcePiece& piece) {
+    ICE_ASSERT(is_open());
     // written at once: a run that ends by a full disk says so in the step that lost a piece
     std::vector<double> row{static_cast<double>(piece.number),
                             static_cast<double>(piece.body),

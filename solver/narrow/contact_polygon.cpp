@@ -6,6 +6,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "common/base/assert.hpp"
 #include "common/math/ordered_products.hpp"
 
 namespace ice {
@@ -239,6 +240,7 @@ void make_contact_polygon(const ConvexPiece& a, const ConvexPiece& b, const Rela
 }
 
 void reduce_polygon(std::size_t count, ContactPolygon& polygon) {
+    ICE_ASSERT(count > 2);
     std::vector<PolygonCorner>& corners = polygon.corners;
     while (corners.size() > count) {
         // The deepest corner stays, as it bounds the overlap; of the others the one goes whose

@@ -2,6 +2,7 @@
 #include "solver/narrow/deep_seats.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <tuple>
 

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "common/base/assert.hpp"
 #include "solver/narrow/deep_seats.hpp"
 #include "solver/narrow/separation.hpp"
 #include "solver/narrow/solid_contacts.hpp"
@@ -50,6 +51,7 @@ void PairCache::carry_over(const std::vector<BodyPair>& pairs) {
 }
 
 void PairCache::forget(const std::vector<std::int32_t>& bodies) {
+    ICE_ASSERT(std::is_sorted(bodies.begin(), bodies.end()));
     const auto is_one = [&](std::int32_t body) {
         return std::binary_search(bodies.begin(), bodies.end(), body);
     };

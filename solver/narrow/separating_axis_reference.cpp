@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "common/base/assert.hpp"
 #include "common/math/ordered_products.hpp"
 #include "solver/narrow/separating_axis.hpp"
 
@@ -79,6 +80,7 @@ namespace reference {
 
 SeparatingAxes find_axes(const ConvexPiece& a, const ConvexPiece& b, const RelativePose& pose,
                          double enough) {
+    ICE_ASSERT(!a.empty() && !b.empty());
     SeparatingAxes out;
     // a's planes against b's corners
     for (std::size_t k = 0; k < a.normals.size(); ++k) {

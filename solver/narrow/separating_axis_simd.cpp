@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Separating axes, as many planes or edges of a piece at a time as the machine has lanes, compiled
 // once per instruction set. The mathematics is in separating_axis_reference.cpp.
+#include "common/base/assert.hpp"
 #include "solver/narrow/separating_axis.hpp"
 
 #undef HWY_TARGET_INCLUDE
@@ -211,6 +212,7 @@ HWY_EXPORT(FindAxes);
 
 SeparatingAxes find_axes(const ConvexPiece& a, const ConvexPiece& b, const RelativePose& pose,
                          double enough) {
+    ICE_ASSERT(!a.empty() && !b.empty());
     return HWY_DYNAMIC_DISPATCH(FindAxes)(a, b, pose, enough);
 }
 }  // namespace ice

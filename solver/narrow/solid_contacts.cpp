@@ -5,6 +5,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "common/base/assert.hpp"
 #include "solver/narrow/make_contacts.hpp"
 #include "solver/narrow/nearest_sphere.hpp"
 
@@ -33,6 +34,7 @@ bool meets_in_polygon(const Scene& scene, BodyPair pair, const ContactRule& rule
 
 void find_polygon(const PairView& view, const SeparatingAxes& axes, double most,
                   ContactPolygon& polygon) {
+    ICE_ASSERT(is_convex_pair(view));
     make_contact_polygon(view.shape_a.convex, view.shape_b.convex,
                          {view.rotation_ab, view.translation_ab}, axes, most, polygon);
     reduce_polygon(kManifoldCorners, polygon);
@@ -82,6 +84,7 @@ bool is_deep(const PairView& view, double apart) {
 
 void find_lost_polygon(const PairView& view, std::span<const Candidate> found, double most,
                        ContactPolygon& polygon) {
+    ICE_ASSERT(is_convex_pair(view));
     polygon.corners.clear();
     // 0 as `enough`: the solids overlap, and of these all axes are measured
     const SeparatingAxes axes = find_axes(view.shape_a.convex, view.shape_b.convex,

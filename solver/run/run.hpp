@@ -34,7 +34,8 @@ struct RunOptions {
     double checkpoint_wall_seconds = 300.0;  ///< [s], where checkpoint_every is 0
 };
 
-/// A case made ready: sphere sets read, floes placed.
+/// Makes a case ready: reads its sphere sets and fields, places hull and floes.
+/// @throws Error (exit code 1 or 2) for files that are missing, faulty or do not fit the case
 World build_world(const Case& parameters);
 
 /// Runs a world to its case's duration and writes the run folder.

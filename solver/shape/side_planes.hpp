@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "common/base/assert.hpp"
 #include "common/geometry/triangle_mesh.hpp"
 
 namespace ice {
@@ -37,6 +38,7 @@ public:
     /// Is a point of the face's plane or the edge's line inside all side planes, to `slack` [m]?
     /// @pre has(k) @param point  body axes [m]
     bool contain(std::int32_t k, const Vec3& point, double slack) const {
+        ICE_ASSERT(has(k));
         const auto n = static_cast<std::size_t>(k);
         return std::all_of(planes_.begin() + first_[n], planes_.begin() + first_[n + 1],
                            [&](const Plane& p) { return p.normal.dot(point) <= p.offset + slack; });
