@@ -52,7 +52,7 @@ constexpr double kLeastListShare = 0.6, kMostListShare = 0.8;  // of the ice's r
 
 // Generous bound of the rounding error of a separation [m]. Smaller could leave out a pair that
 // touches; with a larger one pairs are measured a little sooner.
-constexpr double kRounding = 1e-6;
+constexpr double kSeparationRounding = 1e-6;
 
 // Finds the spheres whose gap is at most `range` [m], and others.
 void find_near_centres(const PairView& view, double range, PairSearch& search,
@@ -149,8 +149,8 @@ CentresFinder::Found CentresFinder::look(std::size_t k, BodyPair pair, const Ste
         // Solids this far apart need no list. The pair is clear until both bodies' paths have
         // used up the distance.
         if (apart > most) {
-            lists_.clearance(k) =
-                path + (apart - kRounding - margin) / (held ? 1.0 : separation_share(view));
+            lists_.clearance(k) = path + (apart - kSeparationRounding - margin) /
+                                             (held ? 1.0 : separation_share(view));
             return found;
         }
         // The list reaches as far as the pair closes in some steps, at least as far as in this
@@ -185,7 +185,7 @@ CentresFinder::Found CentresFinder::look(std::size_t k, BodyPair pair, const Ste
     // A sphere represents surface beyond its body's rim, but bodies that are apart have no
     // contact. Where spheres stay within their hulls the touching spheres already prove that
     // the hulls are near enough, and the separation need not be computed.
-    if (found.count > 0 && !(held && least + rounding + kRounding <= most) &&
+    if (found.count > 0 && !(held && least + rounding + kSeparationRounding <= most) &&
         separation(view, most, row.axis) > most)
         found.count = 0;
     return found;
