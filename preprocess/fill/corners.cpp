@@ -14,14 +14,16 @@ namespace ice {
 namespace {
 
 // Length of an edge [spacings] that is searched from a sphere: an edge has a sphere in every
-// spacing, and a hundredth is for rounding.
+// spacing, and a hundredth is for rounding. A smaller value misses corners, a larger one takes
+// longer.
 constexpr double kEdgeReach = 1.01;
 
 // How far a settled sphere may go along a unit vector until it touches one more face [m]; `most`
 // where there is none before.
 double distance_to_next_face(const SurfaceTree& tree, const Vec3& center, const Vec3& along,
                              double radius, double most) {
-    // Sine between `along` and the face [-]: a flatter face is one that the sphere slides along.
+    // Sine between `along` and the face [-]: a flatter face is one that the sphere slides along. A
+    // larger value misses blunt corners, a smaller one takes the edge's own faces for new ones.
     constexpr double kLeastRise = 0.1;
     thread_local std::vector<Foot> feet;
     // The distance to a face shrinks by the cosine of the angle between `along` and the face's

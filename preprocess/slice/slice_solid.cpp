@@ -13,7 +13,8 @@ namespace ice {
 
 namespace {
 
-// Points closer than this share of the loop's extent [-] are one: rounding of the cut.
+// Points closer than this share of the loop's extent [-] are one: rounding of the cut. A larger
+// value drops short edges, a smaller one keeps edges that rounding made.
 constexpr double kSame = 1e-9;
 
 // Sine of the angle below which two edges count as one straight line. Larger values join facets of
