@@ -23,6 +23,8 @@ constexpr std::uint64_t kContactChunk = 64;
 
 // Frames per chunk of a run with so many floes: of a million floes 20 frames would take 1.4 GB.
 inline std::uint64_t frames_per_chunk(std::uint64_t floes) {
+    // Frames of a chunk at most [bytes]. A larger value needs more memory, a smaller one compresses
+    // less.
     constexpr std::uint64_t kBytes = 32 << 20;
     return std::clamp<std::uint64_t>(kBytes / (kFrameFloeBound * std::max<std::uint64_t>(floes, 1)),
                                      1, kMostFrames);
