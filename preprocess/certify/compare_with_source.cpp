@@ -17,8 +17,8 @@ namespace ice {
 
 namespace {
 
-// Samples beyond one per triangle at most: the 99th percentile needs no more. More find a larger
-// maximum on coarse triangles and take longer.
+// Samples beyond one per triangle at most [-]: the 99th percentile needs no more. More find a
+// larger maximum on coarse triangles and take longer.
 constexpr double kMostSamples = 4e5;
 // Distance over the size [-] up to which a vertex is on the surface: weld() merges such vertices. A
 // larger value takes more of the solid's triangles for caps of holes; with a smaller one, caps

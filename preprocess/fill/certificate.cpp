@@ -47,7 +47,8 @@ public:
     }
 
 private:
-    // a percentile is within 1 / 65536 of the largest value; the memory is half a megabyte
+    // a percentile is within 1 / 65536 of the largest value [-], and the memory is half a megabyte;
+    // more bins are finer and larger
     static constexpr std::size_t kBins = 1 << 16;
     double most_, total_ = 0.0;
     std::vector<double> weight_;

@@ -37,8 +37,9 @@ double distance_to_next_face(const SurfaceTree& tree, const Vec3& center, const 
     return most;
 }
 
-// Cosine of 0.014 rad: touches nearer than that are of one face. A smaller angle makes two corners
-// of one that is reached from two edges, a larger one makes faces one that turn by as little.
+// Cosine of 0.014 rad [-]: touches nearer than that are of one face. A smaller angle makes two
+// corners of one that is reached from two edges, a larger one makes faces one that turn by as
+// little.
 constexpr double kSameNormal = 0.9999;
 
 // The spheres that touch several faces: few of a ship's, and the only ones that can know a corner.
@@ -97,7 +98,7 @@ bool touch_the_same(const Seat& one, const Seat& other) {
 
 std::optional<Seat> slide_to_corner(const SurfaceTree& tree, double radius, Seat seat,
                                     const Vec3& along, double most) {
-    // Steps at most: several where the third face is cut into triangles or curved. Fewer miss
+    // Steps at most [-]: several where the third face is cut into triangles or curved. Fewer miss
     // corners in such faces, more only take time.
     constexpr int kMostSteps = 8;
     for (int step = 0; step < kMostSteps; ++step) {

@@ -25,7 +25,8 @@ namespace ice {
 namespace {
 
 // Distance of the volume shares' centroid from the solid's [radii] that is worth a warning: above
-// rounding, far below any effect on a moment.
+// rounding, far below any effect on a moment. A larger value leaves wrong shares unsaid, a smaller
+// one warns of rounding.
 constexpr double kCentroidMiss = 1e-6;
 // Between the points that edges are followed by [spacings]. Curved edges need several per sphere;
 // more take longer.

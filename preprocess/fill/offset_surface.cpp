@@ -147,8 +147,8 @@ Vec3 smallest_move(const std::vector<Condition>& conditions) {
 // @param nearest  becomes the nearest foot's triangle where there is one
 std::vector<Vec3> near_directions(const SurfaceTree& tree, const Vec3& center, double range,
                                   std::int32_t& nearest) {
-    // Cosine of 0.01 rad: nearer directions count once. With a smaller angle the triangles of one
-    // face count as several, with a larger one faces that turn by less than it are one.
+    // Cosine of 0.01 rad [-]: nearer directions count once. With a smaller angle the triangles of
+    // one face count as several, with a larger one faces that turn by less than it are one.
     constexpr double kSameTouch = 0.99995;
     thread_local std::vector<Foot> feet;  // keep their memory
     tree.within(center, range, feet);

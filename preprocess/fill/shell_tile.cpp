@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-// All in units of the spacing. In a layer of perfect hexagons the neighbours of a seat lie at 1,
+// All in spacings [-]. In a layer of perfect hexagons the neighbours of a seat lie at 1,
 // the next ones at sqrt(3) = 1.73, and the middles of its holes, corners of the Voronoi cells, at 1
 // / sqrt(3) = 0.577 from the nearest seats. The certificate's covering radius is the largest such
 // distance in the layer: it can be no less than 0.577, and kGap and kCovered lie just above. Lower

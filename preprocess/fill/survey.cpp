@@ -132,7 +132,8 @@ std::vector<Sight> survey_surface(const SurfaceTree& tree, const SphereSet& set,
                                   const SphereFinder& finder, bool half, bool shares_only) {
     const double size = shares_only ? kShareSize * set.spacing : survey_size(set, half);
     const SurfaceSampler sampler(tree.mesh(), size, set.dimension, half);
-    // triangles by the block, so that the blocks' sights join in order
+    // triangles by the block [-], so that the blocks' sights join in order. Its size sets the time
+    // alone.
     constexpr std::size_t kBlock = 64;
     const std::size_t blocks = (sampler.triangle_count() + kBlock - 1) / kBlock;
     std::vector<std::vector<Sight>> found(blocks);

@@ -13,8 +13,8 @@ namespace ice {
 
 namespace {
 
-// Cosine of the angle between two faces from which on they make a crease, 30 degrees. Lower angles
-// would move vertices of smooth bilges, higher ones leave chines cut off.
+// Cosine of the angle between two faces [-] from which on they make a crease, 30 degrees. Lower
+// angles would move vertices of smooth bilges, higher ones leave chines cut off.
 constexpr double kCosine = 0.866;
 // Distance over a cell [-] within which a place is on the source. A larger value sharpens edges
 // where the contour has closed gaps of the source, a smaller one leaves edges cut off.

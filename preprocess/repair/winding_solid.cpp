@@ -14,7 +14,7 @@ namespace ice {
 
 namespace {
 
-// Cells along the longest side: half a metre on a ship of 100 m. More keep finer parts and take
+// Cells along the longest side [-]: half a metre on a ship of 100 m. More keep finer parts and take
 // time and memory with their cube.
 constexpr double kCells = 200.0;
 // Most nodes of the grid [-], else cells grow: about a second. A larger value keeps finer parts and
