@@ -41,7 +41,8 @@ struct CentresFinder::Batch {
 
 namespace {
 
-// A pair takes about a microsecond: below this many, waking threads costs more than they save.
+// A pair takes about a microsecond: below this many [-], waking threads costs more than they save.
+// Results do not depend on it.
 constexpr std::size_t kSerialLists = 128;
 
 // A pair's spheres are listed as far ahead as it goes in so many steps, within these bounds: more

@@ -16,9 +16,9 @@ namespace ice {
 
 namespace {
 
-// Rows of run.h5 [bytes]: one of the ship's history has 25 numbers, one of a tracked floe 22, one of
-// a region 6 floats. A number in a table takes some 12 bytes of text. Every step's forces stay in
-// memory for the statistics (record/run_statistics.hpp). Larger values announce larger files and
+// Rows of run.h5 [bytes]: one of the ship's history has 25 numbers, one of a tracked floe 22, one
+// of a region 6 floats. A number in a table takes some 12 bytes of text. Every step's forces stay
+// in memory for the statistics (record/run_statistics.hpp). Larger values announce larger files and
 // more memory; the run is the same.
 constexpr double kShipRow = 25 * 8, kTrackRow = 22 * 8, kRegionRow = 6 * 4;
 constexpr double kShipText = 11 * 12, kTrackText = 23 * 12, kStepMemory = 64;
