@@ -19,7 +19,7 @@ namespace {
 
 constexpr const char* kRegion = "ice";
 
-// Most bytes in memory per byte in the file: 3 are usual where most spheres are inside, without
+// Most bytes in memory per byte in the file [-]: 3 are usual where most spheres are inside, without
 // rows of their own. A lower bound refuses sound fields, a higher one lets a damaged file take more
 // memory before it is refused.
 constexpr std::uint64_t kMostTimesField = 16;

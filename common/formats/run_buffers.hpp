@@ -11,7 +11,7 @@
 namespace ice {
 
 namespace run_parts {
-// Rows per chunk. Chunks are compressed, so that one written again with more rows has another
+// Rows per chunk [-]. Chunks are compressed, so that one written again with more rows has another
 // length and place; a kill in between leaves a file whose last chunk cannot be read (1 of 6
 // kills of a run that flushes ten times a second). Hence only whole chunks are written while the
 // run continues.
