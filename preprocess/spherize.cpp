@@ -231,7 +231,8 @@ ice::SphereSet fill_solid(const Options& o, const ice::TriangleMesh& mesh,
 
 // A line on stderr every few seconds while a step takes long.
 void tell_progress(ice::FillOptions& fill) {
-    // [s] between two lines: short runs print none, long ones do not fill a log
+    // Time between two lines [s]: short runs print none, long ones do not fill a log. A smaller
+    // value prints more lines, a larger one lets the user wait.
     constexpr double kEvery = 3.0;
     fill.progress = [timer = ice::Timer(), next = kEvery](const std::string& step,
                                                           double share) mutable {

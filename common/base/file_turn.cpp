@@ -11,8 +11,8 @@ namespace ice {
 
 namespace {
 
-// Between two attempts to take the lock. Short beside the write of a chunk, so that a reader loses
-// little time; a shorter pause would only ask the system more often.
+// Time between two attempts to take the lock [ms]. It is short beside the write of a chunk: a
+// longer one lets readers wait, a shorter one only calls the system more often.
 constexpr auto kPause = std::chrono::milliseconds(1);
 
 }  // namespace

@@ -22,8 +22,8 @@ std::string time_left(double fraction, double elapsed) {
 
 // On one line of the terminal: the bar gets the columns beside the words, the words lose their end.
 std::string bar_line(const std::string& label, double fraction, const std::string& words) {
-    // Columns of the bar: at most 30, so that a step of it is about 3 %; below 5 it says nothing,
-    // and the words alone are shown.
+    // Columns of the bar [-]: at most 30, so that a step of it is about 3 %; below 5 it says
+    // nothing, and the words alone are shown. A longer bar leaves less room for the words.
     constexpr int kBar = 30, kShortestBar = 5;
     const int width = std::max(terminal_width() - 1, 1);  // in the last column some terminals wrap
     const int taken = static_cast<int>(label.size() + words.size()) + 4;  // blanks and brackets

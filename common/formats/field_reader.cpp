@@ -19,7 +19,7 @@ namespace {
 
 constexpr const char* kRegion = "ice";
 
-// Most bytes in memory per byte in the file: 3 are usual where most spheres are inside, without
+// Most bytes in memory per byte in the file [-]: 3 are usual where most spheres are inside, without
 // rows of their own. A lower bound refuses sound fields, a higher one lets a damaged file take more
 // memory before it is refused.
 constexpr std::uint64_t kMostTimesField = 16;
@@ -96,8 +96,9 @@ private:
     // rows of each shape in an array, and their sum
     std::size_t read_counts(const std::string& name, std::int64_t least,
                             std::vector<std::int64_t>& counts) const {
-        // Rows of a shape: indices into them are 32 bits wide. It also keeps the sum from
-        // overflowing.
+        // Rows of a shape, at most [-]: indices into them are 32 bits wide. It also keeps the sum
+        // from overflowing. A larger value lets indices overflow, a smaller one refuses large
+        // shapes.
         constexpr std::int64_t kMost = std::int64_t{1} << 31;
         counts = file_.read<std::int64_t>(name);
         std::int64_t sum = 0;

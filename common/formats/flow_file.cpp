@@ -17,13 +17,16 @@ constexpr const char* kFlowFormat = "icesolve-flow";
 // Version of the format; 1 more when an array changes its meaning. A reader refuses all others.
 constexpr std::int64_t kFlowVersion = 1;
 // Bounds on the memory for a damaged or hostile file. Flows of some 300 000 nodes are usual.
-// Most memory over the file's size. Arrays are not compressed, so that 1 would be enough for a
-// sound file; 16 leaves room for files packed by other tools.
+// Most memory over the file's size [-]. Arrays are not compressed, so that 1 would be enough for a
+// sound file; 16 leaves room for files packed by other tools. A larger value lets a hostile file
+// take more memory, a smaller one refuses files packed well.
 constexpr std::uint64_t kMostTimesFlow = 16;
-// Most nodes along an axis; the product of three of them fits into 64 bits.
+// Most nodes along an axis [-]; the product of three of them fits into 64 bits. A much larger value
+// lets it overflow, a smaller one refuses fine tables.
 constexpr std::uint64_t kMostAlong = 100000;
-// Largest distance of the topmost nodes from z = 0, as a share of the spacing: rounding of origin
-// and spacing. Larger would pass a table whose surface is elsewhere.
+// Largest distance of the topmost nodes from z = 0, as a share of the spacing [-]: rounding of
+// origin and spacing. Larger would pass a table whose surface is elsewhere; smaller refuses sound
+// tables by rounding.
 constexpr double kSurface = 1e-6;
 
 class FlowReader {

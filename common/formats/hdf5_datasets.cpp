@@ -100,8 +100,8 @@ template <class T>
 void Hdf5File::write_rows(const std::string& name, const T* rows,
                           const std::vector<std::uint64_t>& shape, std::uint64_t count, T rest) {
     if (count == shape[0]) return write(name, rows, shape);
-    // Rows of a chunk, 256 kB for one double each. Smaller chunks cost an entry each in the file's
-    // index; larger ones store more rows of fill values beside the last row written.
+    // Rows of a chunk [-], 256 kB for one double each. Smaller chunks cost an entry each in the
+    // file's index; larger ones store more rows of fill values beside the last row written.
     constexpr hsize_t kRowsPerChunk = 1 << 15;
     // chunks, so that rows that were never written take no room: they read as `rest`
     auto dims = to_hsize(shape), chunk = dims, block = dims;

@@ -24,7 +24,8 @@ void set_up_library() {
     // the same data again. All files are closed by then, so that there is nothing to tidy up.
     static const herr_t untidy = H5dont_atexit();
     // HDF5 keeps up to 21 MB of freed memory for later files, and a long run with checkpoints comes
-    // to hold all of it. 1 MiB of each kind is enough, 64 KiB of each size.
+    // to hold all of it. Memory that is kept [bytes]: 1 MiB of each kind is enough, 64 KiB of each
+    // size. More is held in vain, less is asked for again.
     constexpr int kOfKind = 1 << 20, kOfSize = 1 << 16;
     static const herr_t limited =
         H5set_free_list_limits(kOfKind, kOfSize, kOfKind, kOfSize, kOfKind, kOfSize);
@@ -146,8 +147,9 @@ std::string Hdf5File::read_text_attribute(const std::string& object,
         H5free_memory(text);
         return result;
     }
-    // [bytes]: the longest text of a sound file is a case or a certificate, some hundred kilobytes.
-    // It bounds the memory that a damaged width takes.
+    // Bytes of a text at most [bytes]: the longest text of a sound file is a case or a certificate,
+    // some hundred kilobytes. A larger value lets a damaged width take more memory, a smaller one
+    // refuses long cases.
     constexpr std::size_t kLongestText = 16u << 20;
     const std::size_t width = H5Tget_size(type);
     if (width > kLongestText) throw fail();

@@ -11,8 +11,8 @@ std::string release_rule(const IceParticulars& ice) {
 }
 
 bool is_short(double averaged_lengths) {
-    // Ship lengths: the least number that two decimals show as 1.00. A text "1.00, less than one"
-    // would contradict itself.
+    // Ship lengths [-]: the least number that two decimals show as 1.00. A text "1.00, less than
+    // one" would contradict itself.
     constexpr double kOne = 0.995;
     return averaged_lengths < kOne;
 }

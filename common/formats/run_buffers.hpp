@@ -11,7 +11,7 @@
 namespace ice {
 
 namespace run_parts {
-// Rows per chunk. Chunks are compressed, so that one written again with more rows has another
+// Rows per chunk [-]. Chunks are compressed, so that one written again with more rows has another
 // length and place; a kill in between leaves a file whose last chunk cannot be read (1 of 6
 // kills of a run that flushes ten times a second). Hence only whole chunks are written while the
 // run continues.
@@ -23,6 +23,8 @@ constexpr std::uint64_t kContactChunk = 64;
 
 // Frames per chunk of a run with so many floes: of a million floes 20 frames would take 1.4 GB.
 inline std::uint64_t frames_per_chunk(std::uint64_t floes) {
+    // Frames of a chunk at most [bytes]. A larger value needs more memory, a smaller one compresses
+    // less.
     constexpr std::uint64_t kBytes = 32 << 20;
     return std::clamp<std::uint64_t>(kBytes / (kFrameFloeBound * std::max<std::uint64_t>(floes, 1)),
                                      1, kMostFrames);

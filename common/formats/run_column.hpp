@@ -14,8 +14,9 @@
 
 namespace ice::run_parts {
 
-// Values that copy() holds at a time, 1 MiB of doubles: it bounds the memory, not the result. HDF5
-// takes as much again as the values for the list of their chunks.
+// Values that copy() holds at a time [-], 1 MiB of doubles: it bounds the memory, not the result.
+// HDF5 takes as much again as the values for the list of their chunks. More need more memory, fewer
+// make more calls.
 constexpr std::uint64_t kValuesPerCopy = 1 << 17;
 
 /// A dataset that grows and the rows of it that are not on disk yet.

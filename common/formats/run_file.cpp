@@ -15,8 +15,8 @@ namespace ice {
 
 namespace {
 
-// Rows of history that may wait in memory: of a run that stores few frames a kill loses no more.
-// About 3 MB, and more with regions and tracked floes; fewer rows mean more waits for readers
+// Rows of history that may wait in memory [-]: of a run that stores few frames a kill loses no
+// more. About 3 MB, and more with regions and tracked floes; fewer rows mean more waits for readers
 // (FileTurn).
 constexpr std::uint64_t kHistoryPerFlush = 16384;
 

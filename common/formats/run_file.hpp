@@ -36,7 +36,7 @@
 
 namespace ice {
 
-/// Bytes of a floe in a frame before it is compressed: 16 floats and its state.
+/// Floe in a frame before it is compressed [bytes]: 16 floats and its state.
 inline constexpr std::uint64_t kFrameFloeBytes = 16 * sizeof(float) + sizeof(FloeState);
 /// These bytes, rounded up to whole floats: bounds count with them. The frames of a chunk depend on
 /// it, and so the bytes of a file with many floes.

@@ -15,8 +15,8 @@ namespace ice {
 
 namespace {
 
-// Hexadecimal digits of a hash of 64 bits, behind the data: HDF5 does not read beyond its own end
-// of file, so a sealed file is still one of HDF5.
+// Hexadecimal digits of a hash of 64 bits [-], behind the data: another number is another format.
+// HDF5 does not read beyond its own end of file, so a sealed file is still one of HDF5.
 constexpr std::uintmax_t kLength = 16;
 
 // Hash of the first `length` bytes, 8 at a time, the last ones padded with zeros.

@@ -14,13 +14,13 @@ namespace ice {
 
 namespace {
 
-// Largest relative difference of the set's integrals from its mesh's. Integrals over the same mesh
-// in another order of its triangles differ by 1e-12 at most; 1e-6 also passes sets of programs that
-// compute in single precision. A larger value passes a set of another mesh.
+// Largest relative difference of the set's integrals from its mesh's [-]. Integrals over the same
+// mesh in another order of its triangles differ by 1e-12 at most; 1e-6 also passes sets of programs
+// that compute in single precision. A larger value passes a set of another mesh.
 constexpr double kSame = 1e-6;
 
-// Spheres whose centres must lie in the mesh. More find a smaller share of wrong spheres and take
-// as much more time: each costs O(log T).
+// Spheres whose centres must lie in the mesh [-]. More find a smaller share of wrong spheres and
+// take as much more time: each costs O(log T).
 constexpr std::size_t kMostCentres = 32;
 
 // The mesh of a 2D set is the prism over one metre of breadth, with two sides that are no surface.

@@ -48,7 +48,7 @@ void write_mesh(Hdf5File& file, const TriangleMesh& mesh) {
     file.write("/mesh/region", mesh.region);
 }
 
-// Most bytes in memory per byte in the file: 3 are usual where most spheres are inside, without
+// Most bytes in memory per byte in the file [-]: 3 are usual where most spheres are inside, without
 // rows of their own. A lower bound refuses sound sets, a higher one lets a damaged file take more
 // memory before it is refused.
 constexpr std::uint64_t kMostTimesSpheres = 16;

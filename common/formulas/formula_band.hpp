@@ -12,7 +12,8 @@ namespace ice {
 
 /// Properties of ice that a case does not state: contract values, stated wherever they are used.
 /// Lindqvist's crushing part is proportional to the strength, his bending part to the strength over
-/// the root of the modulus.
+/// the root of the modulus. A larger Poisson's ratio makes the bending part a little smaller. A
+/// larger strength also makes Jeong's breaking part larger; Riska's formula has none of the three.
 inline constexpr double kFlexuralStrength = 5e5;  ///< [Pa]
 inline constexpr double kElasticModulus = 5e9;    ///< [Pa]
 inline constexpr double kPoissonRatio = 0.3;      ///< [-]

@@ -47,8 +47,8 @@ MassProperties measure_mass(const TriangleMesh& mesh) {
 }
 
 std::string fault_of(const MassProperties& solid) {
-    // Of the largest entry, and of the trace: rounding of the sums over a fine mesh is below 1e-12.
-    // A smaller value refuses plates, a larger one passes tensors with a wrong digit.
+    // Of the largest entry, and of the trace [-]: rounding of the sums over a fine mesh is below
+    // 1e-12. A smaller value refuses plates, a larger one passes tensors with a wrong digit.
     constexpr double kRounding = 1e-9;
     const auto positive = [](double x) { return x > 0.0 && std::isfinite(x); };
     if (!positive(solid.volume)) return fmt::format("a volume of {:g} m3", solid.volume);

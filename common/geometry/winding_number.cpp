@@ -11,9 +11,9 @@ namespace ice {
 
 namespace {
 
-// Triangles of a leaf, whose solid angles are added up. It moves the time only.
+// Triangles of a leaf [-], whose solid angles are added up. It moves the time only.
 constexpr std::int32_t kLeafSize = 6;
-// Bound of the error of at(), times beta squared: 0.16 was measured, and a quarter is added. A
+// Bound of the error of at(), times beta squared [-]: 0.16 was measured, and a quarter is added. A
 // smaller bound saves time and risks a wrong side near openings.
 constexpr double kError = 0.2;
 // Accuracies that contains() tries in turn: errors of 0.05, 0.003 and 0.0002. Points away from

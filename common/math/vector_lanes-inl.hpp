@@ -23,7 +23,8 @@ using Tag = hn::CappedTag<double, 8>;
 using Lanes = hn::Vec<Tag>;
 using Mask = hn::Mask<Tag>;
 
-// Lanes of the widest build: the size of arrays on the stack. 8 doubles fill an AVX-512 register.
+// Lanes of the widest build [-]: the size of arrays on the stack. 8 doubles fill an AVX-512
+// register.
 constexpr std::size_t kMostLanes = hn::MaxLanes(Tag());
 
 // One vector per lane, in the unit of the caller.

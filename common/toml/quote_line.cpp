@@ -11,8 +11,8 @@ namespace ice {
 
 namespace {
 
-// Characters of a line that a message shows: one or two rows of a terminal. Fewer hide the context
-// of a mistake, more let a generated file's line fill the screen.
+// Characters of a line that a message shows [-]: one or two rows of a terminal. Fewer hide the
+// context of a mistake, more let a generated file's line fill the screen.
 constexpr std::size_t kMostOfLine = 120;
 // U+FFFD, the character that takes the place of an unreadable one, as UTF-8.
 const char* const kReplacement = "\xEF\xBF\xBD";

@@ -18,8 +18,9 @@ namespace ice {
 
 namespace {
 
-// Characters of an unknown key up to which a near name is searched for: the search takes the
-// product of both lengths, and no real key has a third of this.
+// Length of an unknown key [characters] up to which a near name is searched for: the search takes
+// the product of both lengths, and no real key has a third of this. A larger value takes longer on
+// files of noise, a smaller one suggests nothing for long keys.
 constexpr std::size_t kMostOfKey = 120;
 // Repeated tables ([[floes]]). A case has a handful; more would be a generated file whose floes
 // belong in a field file. A higher bound costs memory and a slower start.

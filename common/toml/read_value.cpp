@@ -14,8 +14,8 @@ namespace ice {
 
 namespace {
 
-// Characters of a message that may quote a faulty value: about four rows of a terminal. Fewer cut
-// messages that list all choices of a key.
+// Characters of a message that may quote a faulty value [-]: about four rows of a terminal. Fewer
+// cut messages that list all choices of a key.
 constexpr std::size_t kMostWords = 360;
 
 // Reads one node by the kind of its key. Each reader complains at the node itself and returns

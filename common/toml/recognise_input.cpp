@@ -51,7 +51,7 @@ constexpr std::array kFormats{
     Format{"", "an HDF5 file", "give a text file; icepost reads the run folder of a run.h5"},
 };
 
-// File names that a message lists: more hide the advice among names.
+// File names that a message lists [-]: more hide the advice among names.
 constexpr std::size_t kMostNames = 5;
 
 std::string with_name(std::string_view remedy, const std::filesystem::path& file) {

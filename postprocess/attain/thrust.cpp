@@ -17,7 +17,7 @@ namespace ice::attain {
 namespace {
 
 // Bounds of the file's numbers [N, W, m, m/s], far beyond any ship: they only refuse signs and
-// powers of ten that are surely wrong.
+// powers of ten that are surely wrong. A wider range lets such numbers pass.
 constexpr double kMost = 1e12;
 constexpr double kLeast = 1e-9;
 
@@ -153,8 +153,9 @@ double Thrust::fastest() const {
 
 double bollard_pull(double power, double diameter, int propellers) {
     ICE_ASSERT(propellers >= 1 && propellers <= 3);
-    // T_B = K (P D)^(2/3) in kN, kW, m: K = 0.78, 0.98, 1.12 for one, two, three screws (text below
-    // (S2) of docs/method.md). K comes from an open program; another text has 0.728 for one screw.
+    // T_B = K (P D)^(2/3) in kN, kW, m: K = 0.78, 0.98, 1.12 kN / (kW m)^(2/3) for one, two, three
+    // screws (text below (S2) of docs/method.md). K comes from an open program; another text has
+    // 0.728 for one screw. The bollard pull is proportional to K.
     constexpr std::array<double, 3> kFactor{0.78, 0.98, 1.12};
     const double factor = kFactor[static_cast<std::size_t>(propellers - 1)];
     return 1e3 * factor * std::pow(1e-3 * power * diameter, 2.0 / 3.0);

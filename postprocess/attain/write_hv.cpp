@@ -19,7 +19,8 @@ namespace {
 using views::escape;
 using views::Vec2;
 
-// Widths of the chart [px]: the page's text, and a phone held upright.
+// Widths of the chart [px]: the page's text, and a phone held upright. Larger ones leave the page,
+// smaller ones leave less room between labels.
 constexpr double kWide = 860.0, kPhone = 400.0;
 
 const char* name_of(Source source) {

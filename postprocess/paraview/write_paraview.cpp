@@ -18,7 +18,8 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kFiles[] = {"run.xdmf", "shapes.xdmf", "arrays.h5", "view.py"};
-// The water's plane reaches this far beyond ice and ship [m]: enough to see that it goes on.
+// The water's plane reaches this far beyond ice and ship [m]: enough to see that it goes on. A
+// larger value makes ship and ice small beside the water.
 constexpr double kRoom = 2.0;
 
 void add_point(std::vector<float>& list, const Vec3& p) {

@@ -14,7 +14,7 @@ namespace ice::report {
 
 namespace {
 
-// Charts side by side: with two, a picture on A4 still has readable text.
+// Charts side by side [-]: with two, a picture on A4 still has readable text.
 constexpr int kColumns = 2;
 
 // paths of the tracked floes, x to the right and another axis up

@@ -14,10 +14,10 @@ namespace ice::report {
 
 namespace {
 
-// Bins of a curve, each with its lowest and highest sample: about two per pixel of a wide chart.
-// The page's size grows in proportion.
+// Bins of a curve [-], each with its lowest and highest sample: about two per pixel of a wide
+// chart. The page's size grows in proportion.
 constexpr std::size_t kBins = 1000;
-// Bins of each tracked floe's curves, which are many and small.
+// Bins of each tracked floe's curves [-], which are many and small.
 constexpr std::size_t kTrackBins = 120;
 // Share of the averages that lie inside the axis [-]: the start and single jams may leave it. With
 // 1 one jam flattens the rest of the curve.

@@ -14,7 +14,7 @@ using views::Curve;
 
 namespace {
 
-// Bins of a drawn curve: one in two pixels of a chart of 480 px. The viewer has kBins of
+// Bins of a drawn curve [-]: one in two pixels of a chart of 480 px. The viewer has kBins of
 // histories.cpp; with as many here the charts would take the room of the drawings.
 constexpr std::size_t kDrawnBins = 250;
 

@@ -19,7 +19,8 @@ using views::readable;
 
 namespace {
 
-// Rows of the panels' table: the hardest ones. summary.json and run.h5 have more.
+// Rows of the panels' table [-]: the hardest ones. summary.json and run.h5 have more. More make the
+// page longer.
 constexpr std::size_t kMostRows = 10;
 constexpr const char* kCurveColours[] = {views::kBlue,   views::kOrange, views::kGreen,
                                          views::kPurple, views::kBlack,  "#e69f00",

@@ -12,7 +12,7 @@ namespace ice::report {
 
 namespace {
 
-// Decimals of a place in metres: a centimetre is below the distance of the hull's spheres. More
+// Decimals of a place in metres [-]: a centimetre is below the distance of the hull's spheres. More
 // would show digits without meaning.
 constexpr int kDecimals = 2;
 

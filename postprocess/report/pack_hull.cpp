@@ -16,7 +16,7 @@ using nlohmann::json;
 
 namespace {
 
-// Largest number that 16 bits hold: hulls of more vertices have 32 bits for each corner, twice the
+// Largest number in 16 bits [-]: hulls of more vertices have 32 bits for each corner, twice the
 // bytes.
 constexpr std::size_t kLargest16 = 0xffff;
 

@@ -23,13 +23,14 @@ using views::readable;
 namespace {
 
 // Size of the page that drawn views may fill up [bytes]: the page stays below 2 MB and can be
-// mailed.
+// mailed. A larger value draws more views.
 constexpr std::size_t kPageSize = 1950000;
 // Least and most that the drawn views take [bytes]: about one view in a page that is full already,
 // and no more than a reader looks at. A page of much data exceeds 2 MB by the least.
 constexpr std::size_t kLeastBudget = 150000;
 constexpr std::size_t kMostBudget = 500000;
-// Tracked floes with charts of their own; each takes some 20 kB. run.h5 has all of them.
+// Tracked floes with charts of their own [-]; each takes some 20 kB of the page. run.h5 has all of
+// them.
 constexpr std::size_t kMostTracked = 12;
 // Part of the case that is shown [bytes]: a case with many [[floes]] may be longer than the report.
 constexpr std::size_t kMostCaseText = 200000;

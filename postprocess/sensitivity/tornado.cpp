@@ -18,7 +18,8 @@ using views::text_element;
 
 namespace {
 
-// Width of the chart and ends of its axis [px]: names of inputs stand left of kLeft.
+// Width of the chart and ends of its axis [px]: names of inputs stand left of kLeft. Larger ones
+// leave the page, smaller ones cut long names.
 constexpr double kWidth = 860.0, kLeft = 236.0, kRight = 846.0;
 // Top of the plot, height of a bar, distance between inputs, room for axis and legend below [px].
 constexpr double kTop = 66.0, kBar = 20.0, kBetween = 12.0, kFoot = 76.0;

@@ -12,8 +12,8 @@ namespace ice::statistics {
 
 namespace {
 
-// Cells along the hull: a hull of usual proportions then has some 10 000 wet cells, so steps of the
-// share are 0.01 %. Twice as many take four times as long.
+// Cells along the hull [-]: a hull of usual proportions then has some 10 000 wet cells, so steps of
+// the share are 0.01 %. Twice as many take four times as long.
 constexpr int kColumns = 300;
 
 // Heights of the wetted hull on a grid over its plan, ship frame.

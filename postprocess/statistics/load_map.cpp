@@ -13,8 +13,8 @@ namespace ice::statistics {
 
 namespace {
 
-// Triangles of the load map; the refined mesh may have twice as many. A picture shows no more, and
-// the report stays small: each triangle adds about 10 bytes before compression.
+// Triangles of the load map [-]; the refined mesh may have twice as many. A picture shows no more,
+// and the report stays small: each triangle adds about 10 bytes before compression.
 constexpr std::size_t kMostTriangles = 12000;
 
 using Edge = std::pair<std::int32_t, std::int32_t>;

@@ -181,8 +181,8 @@ std::string other_axis(const Sweep& sweep) {
 // the values of the only other axis, whose name goes into the title, or letters.
 std::vector<std::string> name_curves(const Sweep& sweep, const std::vector<Curve>& curves,
                                      bool& valued) {
-    // Letters of a legend that fit one row of a chart 860 px wide, names with their samples. Longer
-    // names would take a row for each curve and shrink the plot.
+    // Letters of a legend [-] that fit one row of a chart 860 px wide, names with their samples.
+    // Longer names would take a row for each curve and shrink the plot.
     constexpr std::size_t kMostLetters = 75;
     std::vector<std::string> names;
     std::size_t length = 0;

@@ -24,10 +24,10 @@ using views::escape;
 
 namespace {
 
-// Runs without numbers that a message names: more do not fit a terminal or the head of a page.
+// Runs without numbers that a message names [-]: more do not fit a terminal or the head of a page.
 constexpr std::size_t kMostNamed = 12;
-// Small charts drawn at most, one per combination; each adds to the page's size. The table has all
-// points.
+// Small charts drawn at most [-], one per combination; each adds to the page's size. The table has
+// all points.
 constexpr std::size_t kMostPanels = 200;
 // Widths of charts [px]: the page's text, about two thirds of it for the small charts, and a phone
 // held upright.

@@ -14,11 +14,11 @@ namespace ice::views {
 
 namespace {
 
-// Triangles of the hull drawn in one picture: a picture of 560 px shows no more. Each is about 30
-// bytes of the page, so twice as many would take the room of a view.
+// Triangles of the hull drawn in one picture [-]: a picture of 560 px shows no more. Each is about
+// 30 bytes of the page, so twice as many would take the room of a view.
 constexpr std::size_t kMostTriangles = 3000;
-// Up to this number of visible faces their edges are drawn; of more, edges would only blacken the
-// hull.
+// Up to this number of visible faces [-] their edges are drawn; of more, edges would only blacken
+// the hull.
 constexpr std::size_t kEdgesShown = 400;
 
 struct Painted {

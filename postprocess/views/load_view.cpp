@@ -17,8 +17,8 @@ namespace ice::views {
 
 namespace {
 
-// Steps of the colour scale from 0 to its end: more steps cannot be told apart by eye and add paths
-// to the page.
+// Steps of the colour scale from 0 to its end [-]: more steps cannot be told apart by eye and add
+// paths to the page.
 constexpr int kSteps = 20;
 // Least cosine between a face's normal and the way to the viewer [-]: faces that are turned away by
 // more than 87 degrees are left bare. Smaller, they fleck the outline; larger, the ship's sides

@@ -15,12 +15,17 @@ namespace ice {
 
 namespace {
 
-// Least extent over the length [-] up to which a mesh is flat: rounding of its coordinates.
+// Least extent over the length [-] up to which a mesh is flat: rounding of its coordinates. A
+// larger value refuses thin plates as flat; with a smaller one the message for a flat mesh is about
+// the radius.
 constexpr double kFlat = 1e-9;
-// Size of a repaired solid over the mesh's [-], at most: a shrink wrap lies outside. It keeps the
-// early refusal from a radius that the wrap has room for.
+// Size of a repaired solid over the mesh's [-], at most: a shrink wrap lies outside. With 1 the
+// early refusal would refuse a radius that the wrap has room for; a larger value refuses fewer
+// radii early, and their repair takes its time in vain.
 constexpr double kRepaired = 1.01;
-// Share of the surface [-] in parts that were left out that is worth a warning.
+// A warning names the parts of the mesh that were left out of the solid where they have more than
+// this share of the mesh's area [-]. A larger value leaves lost parts unsaid, a smaller one warns
+// of scraps; the solid is the same.
 constexpr double kWorthSaying = 1e-3;
 
 std::string place(const std::array<double, 3>& at) {

@@ -17,14 +17,19 @@ namespace ice {
 
 namespace {
 
-// Samples beyond one per triangle at most: the 99th percentile needs no more. More find a larger
-// maximum on coarse triangles and take longer.
+// Samples beyond one per triangle at most [-]: the 99th percentile needs no more. More find a
+// larger maximum on coarse triangles and take longer.
 constexpr double kMostSamples = 4e5;
-// Distance over the size [-] up to which a vertex is on the surface: weld() merges such vertices.
+// Distance over the size [-] up to which a vertex is on the surface: weld() merges such vertices. A
+// larger value takes more of the solid's triangles for caps of holes; with a smaller one, caps
+// whose vertices were merged count as distance from the mesh.
 constexpr double kOnSurface = 1e-6;
-// Distance over the size [-] that counts as zero: coordinates that were computed.
+// Distance over the size [-] that counts as zero: rounding of computed coordinates. A larger value
+// hides true distances; with a smaller one, rounding is reported as a distance.
 constexpr double kRounding = 1e-12;
-// Share of a part's area [-] away from the solid from which the part bounds nothing of it.
+// Share of a part's area [-] away from the solid from which the part bounds nothing of it. A larger
+// value leaves fewer parts out of the comparison, so that its largest distance grows; a smaller one
+// leaves out parts of which the solid has most.
 constexpr double kMostlyAway = 0.5;
 
 // A piece of one surface and how far the other is.

@@ -9,11 +9,14 @@ namespace ice {
 
 namespace {
 
-// Cut [radii] that is worth a line of the report: a right-angled edge loses 0.41.
+// Cut [radii] that is worth a line of the report: a right-angled edge loses 0.41. A smaller value
+// reports every sharp edge, a larger one leaves shorter cuts unsaid.
 constexpr double kDepthWorthSaying = 0.5;
-// Distance of levels [radii], at least: several in each sphere, so that no dip is missed.
+// Distance of levels [radii], at least: several in each sphere, so that no dip is missed. A larger
+// value misses short cuts, a smaller one takes longer.
 constexpr double kStep = 0.25;
-// Levels at most, which bounds the time on a fine set of a large hull: every triangle meets many.
+// Levels at most [-], which bounds the time on a fine set of a large hull: every triangle meets
+// many. Fewer have larger distances and miss short cuts there.
 constexpr int kMostLevels = 2000;
 // Extent of a section that nothing reaches.
 constexpr double kNone = std::numeric_limits<double>::infinity();

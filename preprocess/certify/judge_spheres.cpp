@@ -10,16 +10,20 @@ namespace ice {
 
 namespace {
 
-// Thickness of the ice over the draught [-] where none is given: 0.8 m for 8 m.
+// Thickness of the ice over the draught [-] where none is given: 0.8 m for 8 m. A larger value
+// makes the guessed ice belt higher.
 constexpr double kIceOfDraught = 0.1;
 // Half height of the ice belt [ice thicknesses]. A higher belt judges more of the hull strictly.
 constexpr double kBelt = 2.0;
-// Protrusion [radii] worth a warning: rounding has 1e-9, a sphere on the wrong side 2.
+// Protrusion [radii] worth a warning: rounding has 1e-9, a sphere on the wrong side 2. A larger
+// value leaves spheres unsaid that reach out, a smaller one warns of rounding.
 constexpr double kMostProtrusion = 0.01;
-// Covering radius [spacings] worth a warning: a layer's own is 0.61 to 0.66.
+// Covering radius [spacings] worth a warning: a layer's own is 0.61 to 0.66. A smaller value warns
+// of ordinary layers, a larger one leaves holes unsaid.
 constexpr double kMostCover = 0.75;
 // A lattice that leaves more than this share of the surface [-] without a sphere is worth a
-// warning: edges leave less, a face between two layers of the lattice more.
+// warning: edges leave less, a face between two layers of the lattice more. A smaller value warns
+// of edges, a larger one leaves small faces unsaid.
 constexpr double kMostUnfitted = 0.01;
 
 }  // namespace

@@ -13,16 +13,21 @@ namespace ice {
 
 namespace {
 
-// Extent over a part's diagonal [-] that counts as none.
+// Extent over a part's diagonal [-] that counts as none: rounding of its coordinates. A larger
+// value takes thin bodies for sheets; with a smaller one, rounded sheets and boxes stay.
 constexpr double kFlat = 1e-6;
-// Extent over that of the parts within [-], in two directions at least, from which a box is a flow
-// solver's domain: usual ones are several times as large. A casing around all parts has about 1.
+// A box is a flow solver's domain if, in two directions at least, its extent is this many times [-]
+// that of all parts that are neither boxes nor flat sheets. Domains are usually several times as
+// large, and a casing around all parts has about 1: a smaller value drops casings, a larger one
+// keeps small domains.
 constexpr double kBoxBeyond = 1.5;
-// The same over boxes within, in all directions: a barge is a box with boxes (tanks) inside, so
-// that more is demanded.
+// In a file of boxes alone, the largest box is a domain if its extent is this many times [-] that
+// of all other boxes in every direction. A barge is a box with boxes (tanks) inside it, so that the
+// value is above kBoxBeyond: a smaller one drops barges, a larger one keeps small domains.
 constexpr double kBoxBeyondBoxes = 3.0;
-// The same of a flat sheet over the parts beside it, in both directions: a deck has 1. Lower values
-// would drop decks that overhang, higher ones keep small sea planes.
+// A flat sheet is a sea plane if, in both of its directions, its extent is this many times [-] that
+// of the parts that are not flat. A deck has 1. A smaller value drops decks that overhang, a larger
+// one keeps small sea planes.
 constexpr double kFlatBeyond = 1.2;
 
 using Box = Eigen::AlignedBox3d;

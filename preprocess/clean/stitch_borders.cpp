@@ -15,7 +15,8 @@ namespace ice {
 namespace {
 
 // Widths of cracks that are stitched, over the diagonal [-]: 3 cm and 10 cm on a ship of 100 m, as
-// coarse tessellations of curved patches leave them. Wider ones would close real gaps.
+// coarse tessellations of curved patches leave them. Larger values would close real gaps, smaller
+// ones leave such cracks open.
 constexpr double kStitchTolerances[] = {3e-4, 1e-3};
 // Width of a crack over the length of an open edge beside it [-], at most. Of more an edge could
 // collapse when its ends move.
@@ -23,8 +24,8 @@ constexpr double kOfEdge = 1.0 / 3.0;
 // Distance over an open edge's length [-] within which another border runs beside it: of a hole the
 // next edge that is not a vertex's own begins a whole length away.
 constexpr double kBeside = 0.9;
-// Rounds of splitting and merging at most: each stitch makes room for the next one, and a round
-// without a split ends them.
+// Rounds of splitting and merging at most [-]: each stitch makes room for the next one, and a round
+// without a split ends them. Fewer leave cracks open, more take longer.
 constexpr int kRounds = 4;
 
 using Triple = std::array<std::int32_t, 3>;

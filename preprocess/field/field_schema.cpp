@@ -8,6 +8,7 @@ namespace ice {
 namespace {
 
 // Bounds of lengths [m] in a specification: a micrometre and 1000 km. Beyond them a unit is wrong.
+// A wider range lets wrong units pass.
 constexpr double kTiny = 1e-6;
 constexpr double kFar = 1e6;
 

@@ -13,16 +13,15 @@ namespace ice {
 
 namespace {
 
-// Places that differ by less are equal [m]: a micrometre, far below any floe's edge.
-constexpr double kEqual = 1e-6;
-// Cosine of 6.3 degrees: the sides of an arc meet in edges and corners, too. Without them no sphere
-// has the normals between two sides, and another piece's edge goes in there.
+// Cosine of 6.3 degrees [-]: the sides of an arc meet in edges and corners, too. Without them no
+// sphere has the normals between two sides, and another piece's edge goes in there. A larger value
+// puts spheres into flatter edges, a smaller one leaves more edges of arcs without.
 constexpr double kSharp = 0.994;
 
 bool is_mirror_symmetric(const Outline& outline) {
     return std::all_of(outline.begin(), outline.end(), [&](const Vec2& p) {
         return std::any_of(outline.begin(), outline.end(), [&](const Vec2& q) {
-            return (q - Vec2(p.x(), -p.y())).norm() < kEqual;
+            return (q - Vec2(p.x(), -p.y())).norm() < kEqualCorners;
         });
     });
 }

@@ -9,9 +9,12 @@ namespace ice {
 
 namespace {
 
-// Newton steps at most, and the shortest share of a step that is tried [-]. Near the solution full
-// steps square the error; where 60 do not reach it, the cells stay as near as they came.
+// Newton steps at most [-]. Near the solution full steps square the error; where 60 do not reach
+// it, the cells stay as near as they came. Fewer leave more fits unfinished, more take longer where
+// none is found.
 constexpr int kMostSteps = 60;
+// Shortest share of a Newton step that is tried [-]; the fit ends where it brings nothing. A larger
+// value ends difficult fits early, a smaller one tries more cells in vain.
 constexpr double kSmallestStep = 1e-4;
 
 struct State {

@@ -20,10 +20,8 @@ namespace ice {
 
 namespace {
 
-// Corners that differ by less are equal [m], a micrometre: floes then share a shape. A larger value
-// would move corners by as much.
-constexpr double kEqual = 1e-6;
-// Spheres of all shapes together at most: 100 bytes each in the file, 20 GB.
+// Spheres of all shapes together at most [-]: 100 bytes each in the file, 20 GB. A larger value
+// begins fills that run out of memory after hours, a smaller one refuses fields that have room.
 constexpr double kMostSpheres = 2e8;
 
 // Outlines about their centroids, each form once, and which of them every floe has.
@@ -42,7 +40,7 @@ public:
         for (const Vec2& corner : outline) {
             form.push_back(corner - centre);
             // to a micrometre: forms that differ by rounding are one
-            for (int d = 0; d < 2; ++d) key.push_back(std::llround(form.back()[d] / kEqual));
+            for (int d = 0; d < 2; ++d) key.push_back(std::llround(form.back()[d] / kEqualCorners));
         }
         const auto [found, fresh] =
             rows_.try_emplace(key, static_cast<std::int32_t>(forms_.outlines.size()));

@@ -35,7 +35,9 @@ bool is_convex(const Outline& outline) {
 }
 
 Outline without_straight_corners(const Outline& outline) {
-    // Sine of the turn up to which a corner goes straight on: rounding of its coordinates.
+    // Sine of the turn [-] up to which a corner goes straight on: rounding of its coordinates. A
+    // larger value takes corners out of round outlines, a smaller one keeps corners that rounding
+    // made.
     constexpr double kStraight = 1e-9;
     Outline out;
     for (std::size_t k = 0; k < outline.size(); ++k) {

@@ -13,8 +13,13 @@ using Rectangle = Eigen::AlignedBox2d;
 /// A floe seen from above: corners in order, anticlockwise, without repeating the first [m].
 using Outline = std::vector<Vec2>;
 
-/// More floes than this (a count) are a wrong unit more often than a wish.
+/// More floes than this [-] are a wrong unit more often than a wish. A larger value begins fields
+/// that take long and much memory, a smaller one refuses fields that can be made.
 constexpr double kMostFloes = 1e6;
+
+/// Corners that differ by less are equal [m], a micrometre, far below any floe's edge: floes then
+/// share a shape, or are mirror images. A larger value moves corners by as much.
+constexpr double kEqualCorners = 1e-6;
 
 /// All floes of a field before they become solids.
 struct FieldPlan {

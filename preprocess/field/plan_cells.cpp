@@ -16,12 +16,16 @@ namespace ice {
 namespace {
 
 // Area of the floes over the field's at most [-]: shrunk() drops short edges, which needs some
-// water.
+// water. A larger value lets floes reach beyond their cells, into each other; a smaller one refuses
+// fields that have room.
 constexpr double kDensest = 0.975;
 // Length over a cell's size [-] up to which an edge ends in one corner: spheres have no room on
-// shorter ones.
+// shorter ones. A larger value leaves floes with fewer corners, a smaller one keeps edges without a
+// sphere of their own.
 constexpr double kShortEdge = 0.02;
-// Miss of the mean size [-] beyond which the count of floes is corrected, once.
+// Miss of the mean size [-] beyond which the count of floes is corrected, once. A larger value
+// leaves the mean farther from the one wanted; a smaller one plans the floes a second time more
+// often.
 constexpr double kSizeMiss = 0.005;
 // Error of an area over the smallest area [-]: while sites still move, and of the final cells.
 // Smaller ones take more Newton steps.

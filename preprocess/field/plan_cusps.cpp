@@ -11,7 +11,7 @@ namespace ice {
 
 namespace {
 
-// Straight pieces of an arc over a whole breaking width: each turns by a few degrees. More give
+// Straight pieces of an arc over a whole breaking width [-]: each turns by a few degrees. More give
 // smoother cusps with more corners, hence more spheres.
 constexpr int kPieces = 8;
 // Distance over the width [-] up to which a cusp's end is moved to a knot: edges shorter than that

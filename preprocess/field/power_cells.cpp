@@ -25,7 +25,9 @@ using Regular = CGAL::Regular_triangulation_2<
 // Distance from a side [mean site distances] within which sites have images. Fewer images make the
 // first try fail more often, more cost time; the cells are the same.
 constexpr double kMargin = 6.0;
-// Distance beyond the rectangle over its size [-] that is rounding.
+// Distance beyond the rectangle over its size [-] that is rounding. A smaller value makes the cells
+// once more with all images for rounding alone; a larger one takes cells for whole that lack an
+// image.
 constexpr double kOutside = 1e-6;
 
 // The sites, and images of those within `margin` of a side.

@@ -20,7 +20,9 @@ namespace {
 // Gap [radii] from which a place is thin: sharp convex edges of 60 degrees lose 1, of 40 degrees
 // 1.9, so that ordinary edges are none. A smaller value reports edges as thin parts.
 constexpr double kThinGap = 2.5;
-// Distance [spacings] by which the nearest sphere may stand aside: the layer's covering radius.
+// Distance [spacings] by which the nearest sphere may lie aside of a place: the layer's covering
+// radius. A larger value counts fewer places as thin or without a sphere, a smaller one counts
+// ordinary holes of the layer as such places.
 constexpr double kAside = 0.65;
 // Places whose cover is measured by a climb: the worst samples. More may find a worse place and
 // take as much longer.
@@ -45,7 +47,8 @@ public:
     }
 
 private:
-    // a percentile is within 1 / 65536 of the largest value; the memory is half a megabyte
+    // a percentile is within 1 / 65536 of the largest value [-], and the memory is half a megabyte;
+    // more bins are finer and larger
     static constexpr std::size_t kBins = 1 << 16;
     double most_, total_ = 0.0;
     std::vector<double> weight_;

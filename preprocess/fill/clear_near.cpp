@@ -13,10 +13,10 @@ namespace ice {
 namespace {
 
 // None of these numbers changes a bit of the result; they set the time alone.
-constexpr std::size_t kSerialClearing = 1000;  // triangles: of fewer, waking threads costs more
-constexpr std::size_t kGroup = 16;             // triangles worked at together
-constexpr double kPiece = 32.0;                // pitches: longer triangles visit in pieces
-constexpr double kMostPieces = 1000.0;         // along the box: of a coarse mesh in a fine lattice
+constexpr std::size_t kSerialClearing = 1000;  // triangles [-]: of fewer, waking threads costs more
+constexpr std::size_t kGroup = 16;             // triangles worked at together [-]
+constexpr double kPiece = 32.0;                // [pitches]: longer triangles visit in pieces
+constexpr double kMostPieces = 1000.0;  // along the box [-]: of a coarse mesh in a fine lattice
 using detail::Corners;
 using detail::Range;
 using Near = detail::NearTriangle;

@@ -14,14 +14,16 @@ namespace ice {
 namespace {
 
 // Length of an edge [spacings] that is searched from a sphere: an edge has a sphere in every
-// spacing, and a hundredth is for rounding.
+// spacing, and a hundredth is for rounding. A smaller value misses corners, a larger one takes
+// longer.
 constexpr double kEdgeReach = 1.01;
 
 // How far a settled sphere may go along a unit vector until it touches one more face [m]; `most`
 // where there is none before.
 double distance_to_next_face(const SurfaceTree& tree, const Vec3& center, const Vec3& along,
                              double radius, double most) {
-    // Sine between `along` and the face [-]: a flatter face is one that the sphere slides along.
+    // Sine between `along` and the face [-]: a flatter face is one that the sphere slides along. A
+    // larger value misses blunt corners, a smaller one takes the edge's own faces for new ones.
     constexpr double kLeastRise = 0.1;
     thread_local std::vector<Foot> feet;
     // The distance to a face shrinks by the cosine of the angle between `along` and the face's
@@ -35,8 +37,9 @@ double distance_to_next_face(const SurfaceTree& tree, const Vec3& center, const 
     return most;
 }
 
-// Cosine of 0.014 rad: touches nearer than that are of one face. A smaller angle makes two corners
-// of one that is reached from two edges, a larger one makes faces one that turn by as little.
+// Cosine of 0.014 rad [-]: touches nearer than that are of one face. A smaller angle makes two
+// corners of one that is reached from two edges, a larger one makes faces one that turn by as
+// little.
 constexpr double kSameNormal = 0.9999;
 
 // The spheres that touch several faces: few of a ship's, and the only ones that can know a corner.
@@ -95,7 +98,7 @@ bool touch_the_same(const Seat& one, const Seat& other) {
 
 std::optional<Seat> slide_to_corner(const SurfaceTree& tree, double radius, Seat seat,
                                     const Vec3& along, double most) {
-    // Steps at most: several where the third face is cut into triangles or curved. Fewer miss
+    // Steps at most [-]: several where the third face is cut into triangles or curved. Fewer miss
     // corners in such faces, more only take time.
     constexpr int kMostSteps = 8;
     for (int step = 0; step < kMostSteps; ++step) {

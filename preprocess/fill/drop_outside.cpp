@@ -95,7 +95,9 @@ public:
     }
 
 private:
-    static constexpr int kDigits = 21;  // 2 million cubes along each axis
+    // Bits of a cube's number along an axis, 2 million cubes [-]: three of them fit into 64 bits,
+    // so that no larger value is possible; a smaller one would give far cubes one number.
+    static constexpr int kDigits = 21;
 
     std::size_t point(std::size_t k) const { return static_cast<std::size_t>(order_[k].second); }
 
@@ -140,7 +142,9 @@ Heaps find_heaps(const Cubes& cubes) {
 
 // Winding numbers of a half or more at a few points, or at many.
 std::vector<std::uint8_t> are_inside(const TriangleMesh& solid, const std::vector<Vec3>& points) {
-    constexpr std::size_t kFew = 20;  // for which adding up all solid angles costs less than a tree
+    // Points [-] up to which adding up all solid angles costs less than a tree. It changes the time
+    // alone.
+    constexpr std::size_t kFew = 20;
     std::vector<std::uint8_t> inside(points.size(), 0);
     if (points.size() <= kFew) {
         parallel_tasks(points.size(), true, [&](std::size_t k) {

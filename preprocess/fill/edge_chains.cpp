@@ -11,8 +11,9 @@ namespace ice {
 
 namespace {
 
-// Cosine of the turn at a vertex of a settled polyline, 20 degrees, above which it goes straight
-// on. Lower values would lose corners, higher ones put a sphere into each knuckle of a curved edge.
+// Cosine of the turn [-] at a vertex of a settled polyline, 20 degrees, above which it goes
+// straight on. Lower values would lose corners, higher ones put a sphere into each knuckle of a
+// curved edge.
 constexpr double kStraightCos = 0.94;
 
 struct SharpEdge {
@@ -86,8 +87,9 @@ Vec3 meeting_shift(const Vec3& one, const Vec3& other) {
 // its own shift overlap, or gape: points would go back and forth, and miss the corner in which a
 // sphere touches both. They meet where both shifts are done, unless the corner is sharp.
 std::vector<Vec3> walk(const std::vector<ChainPiece>& pieces, bool closed, double step) {
-    constexpr double kSharpTurn =
-        0.2;  // cosine between shifts: sharper corners are left to settling
+    // Cosine between shifts [-], 78 degrees: sharper corners are left to settling. A smaller value
+    // moves the starts of sharp corners far inwards, a larger one leaves more corners to settling.
+    constexpr double kSharpTurn = 0.2;
     std::vector<Vec3> out;
     const std::size_t count = pieces.size();
     const auto shift_between = [&](std::size_t k, std::size_t other, bool has_other) {

@@ -25,18 +25,22 @@ namespace ice {
 namespace {
 
 // Distance of the volume shares' centroid from the solid's [radii] that is worth a warning: above
-// rounding, far below any effect on a moment.
+// rounding, far below any effect on a moment. A larger value leaves wrong shares unsaid, a smaller
+// one warns of rounding.
 constexpr double kCentroidMiss = 1e-6;
 // Between the points that edges are followed by [spacings]. Curved edges need several per sphere;
 // more take longer.
 constexpr double kLineStep = 0.2;
-// The same for floes by the thousand (FillOptions::quick), whose edges are straight.
+// The same for floes by the thousand (FillOptions::quick), whose edges are straight. A larger value
+// follows the arcs of cusps less closely, a smaller one takes longer for each floe.
 constexpr double kQuickStep = 0.5;
 // Share of the radius [-] by which the largest sphere inside may be smaller: a sphere that just
-// fits is found to rounding only.
+// fits is found to rounding only. A larger value begins fills in which no sphere fits, a smaller
+// one refuses a sphere that just does.
 constexpr double kSettled = 1e-6;
-// Spheres of a set at most: 250 bytes each while they are made, 7.5 GB. More is a wrong unit more
-// often than a wish.
+// Spheres of a set at most [-]: 250 bytes each while they are made, 7.5 GB. More is a wrong unit
+// more often than a wish. A larger value may run out of memory, a smaller one refuses fine sets
+// that have room.
 constexpr double kMostSpheres = 3e7;
 
 void tell(const FillOptions& o, const char* step, double share = 0.0) {

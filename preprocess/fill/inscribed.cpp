@@ -10,12 +10,13 @@ namespace ice {
 
 namespace {
 
-// Cells at the beginning, at most. More split a slender box finer and cost a query each.
+// Cells at the beginning, at most [-]. More split a slender box finer and cost a query each.
 constexpr double kMostCells = 4096.0;
-// Closest-point queries at most. Beyond them bound and radius stay apart: a flat plate's deepest
-// points fill a plane.
+// Closest-point queries at most [-]. Beyond them bound and radius stay apart: a flat plate's
+// deepest points fill a plane. More narrow them a little and take longer.
 constexpr std::size_t kMostQuestions = 1000000;
-// Relative accuracy of the largest radius [-]: messages state three digits.
+// Relative accuracy of the largest radius [-]: messages state three digits. A smaller value takes
+// more queries.
 constexpr double kKnown = 0.01;
 
 struct Cell {

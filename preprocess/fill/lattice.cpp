@@ -10,8 +10,9 @@ namespace ice {
 
 namespace {
 
-// Share of the clearance [-] by which a point may be nearer: spheres then may touch flat faces.
-constexpr double kRounding = 1e-9;
+// Share of the clearance [-] by which a point may be nearer: spheres then may touch flat faces. A
+// larger value lets spheres reach out by as much, a smaller one drops spheres that touch.
+constexpr double kClearanceRounding = 1e-9;
 // Layers along z, and runs of some hundred spheres each, below which waking threads costs more than
 // it saves. They change the time alone.
 constexpr std::size_t kSerialLayers = 16;
@@ -64,7 +65,7 @@ LatticeFill fill_lattice_rows(const TriangleMesh& mesh, const LatticeOptions& o)
     // near to the surface.
     out.frame = place_lattice(mesh, o.kind, o.radius, o.dimension, o.mirror);
     out.bits = rows_inside(mesh, out.frame);
-    clear_near(mesh, out.frame, o.clearance * (1.0 - kRounding), out.bits);
+    clear_near(mesh, out.frame, o.clearance * (1.0 - kClearanceRounding), out.bits);
 
     std::vector<std::vector<LatticeRun>> layers(static_cast<std::size_t>(out.frame.count[2]));
     parallel_for(layers.size(), kSerialLayers, [&](std::size_t k) {

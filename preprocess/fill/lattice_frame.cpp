@@ -16,13 +16,18 @@ namespace ice {
 
 namespace {
 
-// Share of the pitch [-] by which an extent may miss a multiple of it: rounding of decimal sizes.
+// Share of the pitch [-] by which an extent may miss a multiple of it: rounding of decimal sizes. A
+// larger value adds rows that do not fit, a smaller one loses the last row to rounding.
 constexpr double kMultiple = 1e-9;
-// Rest over the pitch [-] up to which both ends count as tangent.
+// Rest over the pitch [-] up to which both ends count as tangent. With a larger value spheres stay
+// away from a flat face by half of the rest, with a smaller one rounding decides which end they
+// touch.
 constexpr double kNoRest = 1e-6;
-// Sine of the tilt below which a face is square to an axis: single-precision files have 1e-7.
+// Sine of the tilt [-] below which a face is square to an axis: single-precision files have 1e-7. A
+// larger value lets rows begin at faces that are tilted, a smaller one misses faces in such files.
 constexpr double kSquare = 1e-6;
-// Lattice points of the box at most: one bit each, 125 MB.
+// Lattice points of the box at most [-]: one bit each, 125 MB. A larger value takes more memory and
+// time, a smaller one refuses fine lattices that have room.
 constexpr double kMostPoints = 1e9;
 
 // The flat faces square to an axis that lie at one height of it, together.
@@ -56,7 +61,7 @@ void add_flat_faces(const TriangleMesh& mesh, std::size_t from, std::size_t to, 
 
 // Faces square to x, y, z, heights nearer than the grain taken for one.
 std::array<FlatFaces, 3> flat_faces(const TriangleMesh& mesh, const Vec3& low, double grain) {
-    // triangles summed together, in a fixed order: another size changes the last digits of the
+    // triangles summed together [-], in a fixed order: another size changes the last digits of the
     // areas
     constexpr std::size_t kChunk = 1024;
     std::vector<std::array<FlatFaces, 3>> chunks((mesh.triangles.size() + kChunk - 1) / kChunk);

@@ -7,7 +7,8 @@ namespace ice {
 
 namespace {
 
-// Newton steps at most. Where more are needed, faces alternate and no sphere fits in the plane.
+// Newton steps at most [-]. Where more are needed, faces alternate and no sphere fits in the plane.
+// Fewer lose seats in the centre plane, more take longer where none is.
 constexpr int kMostMirrorSteps = 40;
 
 // Newton on the distance, along its gradient within the centre plane.

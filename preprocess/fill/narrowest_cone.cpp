@@ -9,14 +9,16 @@ namespace ice {
 namespace {
 
 // Cosines that differ by less are equal [-]: of equally narrow cones the first counts, so that the
-// result does not depend on rounding.
+// result does not depend on rounding. A larger value leaves cones wider by as much.
 constexpr double kTie = 1e-12;
-// Directions up to which all triples are tried, 2024 of them: the time grows with the fourth
-// power of their number.
+// Directions up to which all triples are tried [-], 2024 of them: the time grows with the fourth
+// power of their number. A smaller value leaves more cones wider than the narrowest one.
 constexpr std::size_t kMostTriples = 24;
-// Directions up to which all pairs are tried.
+// Directions up to which all pairs are tried [-]; their time grows with the third power. A smaller
+// value leaves more cones to the iteration, which misses the narrowest one by a little.
 constexpr std::size_t kMostPairs = 200;
-// Turns of the iteration beyond: the angle is then within about 1 % of itself.
+// Turns of the iteration beyond [-]: the angle is then within about 1 % of itself. More come nearer
+// to the narrowest cone and take longer.
 constexpr int kTurns = 300;
 
 double least_cosine(const Vec3& axis, std::span<const Vec3> directions) {

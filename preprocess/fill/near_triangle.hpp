@@ -15,10 +15,12 @@ namespace ice::detail {
 // rounding of measure_distances(). A larger value decides more points again, one by one.
 inline constexpr double kDoubt = 1e-5;
 // |n_x| of a unit normal [-] from which a plane cuts a row within reach; flatter planes would
-// divide by almost nothing.
+// divide by almost nothing. A larger value measures more points of rows along flat planes, a
+// smaller one lets rounding move the cut by more.
 inline constexpr double kSteep = 1e-3;
-inline constexpr double kRounding =
-    1e-15;  // of a cross product's factors: a few units in the last place
+// Rounding of a normal over the square of the longest side [-]: a few units in the last place. A
+// larger value leaves more slivers to the exact answer, a smaller one trusts normals of rounding.
+inline constexpr double kNormalRounding = 1e-15;
 
 using Corners = std::array<Vec3, 3>;
 
@@ -42,7 +44,7 @@ public:
             longest_sq = std::max(longest_sq, length_sq);
         }
         // the normal of a sliver is rounding: then only the exact answer counts
-        const double turn = kRounding * longest_sq, most = 0.1 * kSlack * distance;
+        const double turn = kNormalRounding * longest_sq, most = 0.1 * kSlack * distance;
         has_plane_ = turn * turn * (longest_sq + 4.0 * distance * distance) < most * most * area_sq;
         far_side_ = near_side_ = Vec3::Constant(distance * (1.0 + kSlack));
         if (!has_plane_) return;

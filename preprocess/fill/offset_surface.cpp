@@ -13,7 +13,8 @@ namespace ice {
 
 namespace {
 
-// Newton steps at most. Where more are needed, faces alternate and no sphere fits.
+// Newton steps at most [-]. Where more are needed, faces alternate and no sphere fits. Fewer lose
+// seats in narrow creases, more take longer where none is.
 constexpr int kMostSteps = 40;
 // Distance beyond the radius, over the radius [-], within which a face is touched. Far above
 // kExact, so that all faces of a settled crease count; a larger value adds faces that only pass
@@ -27,14 +28,18 @@ constexpr double kNearCrease = 0.02;
 // With more, a seat that they lead into a crease is taken for one of a smooth surface; with fewer,
 // the conditions of smooth surfaces are solved, too, which takes longer.
 constexpr int kSmoothSteps = 3;
-// Difference from the radius, over the radius [-], at which a distance counts as reached.
+// Difference from the radius, over the radius [-], at which a distance counts as reached. A larger
+// value lets spheres reach out by as much, a smaller one takes more Newton steps.
 constexpr double kExact = 1e-10;
 // The same over the coordinates [-], some units in the last place: far from the origin no step can
-// do better.
-constexpr double kRounding = 8.0 * std::numeric_limits<double>::epsilon();
-// Conditions that are compared: the worst of them decide, and in a fine mesh thousands are near.
+// do better. A smaller value loses seats there, a larger one places them less exactly.
+constexpr double kCoordinateRounding = 8.0 * std::numeric_limits<double>::epsilon();
+// Conditions that are compared [-]: the worst of them decide, and in a fine mesh thousands are
+// near. Fewer may miss a face that a seat then reaches into, more take longer.
 constexpr std::size_t kMostConditions = 200;
-// Radius over the mesh's mean edge [-] from which the mesh is fine beside the radius.
+// Radius over the mesh's mean edge [-] from which the mesh is fine beside the radius: seeds that
+// are alike are then tried once, and conditions are searched for near the closest triangle first. A
+// larger value takes longer on fine meshes, a smaller one tries fewer seeds on coarse ones.
 constexpr double kFine = 8.0;
 // Directions kept of a sphere that fits a round solid exactly and touches it everywhere [-]. Fewer
 // make its normal cone narrower, more take time.
@@ -142,8 +147,8 @@ Vec3 smallest_move(const std::vector<Condition>& conditions) {
 // @param nearest  becomes the nearest foot's triangle where there is one
 std::vector<Vec3> near_directions(const SurfaceTree& tree, const Vec3& center, double range,
                                   std::int32_t& nearest) {
-    // Cosine of 0.01 rad: nearer directions count once. With a smaller angle the triangles of one
-    // face count as several, with a larger one faces that turn by less than it are one.
+    // Cosine of 0.01 rad [-]: nearer directions count once. With a smaller angle the triangles of
+    // one face count as several, with a larger one faces that turn by less than it are one.
     constexpr double kSameTouch = 0.99995;
     thread_local std::vector<Foot> feet;  // keep their memory
     tree.within(center, range, feet);
@@ -203,7 +208,7 @@ bool is_fine_for(const SurfaceTree& tree, double radius) {
 }
 
 double exact_distance(const Vec3& center, double radius) {
-    return std::max(kExact * radius, kRounding * center.cwiseAbs().maxCoeff());
+    return std::max(kExact * radius, kCoordinateRounding * center.cwiseAbs().maxCoeff());
 }
 
 std::optional<Seat> settle(const SurfaceTree& tree, const Vec3& start, double radius,

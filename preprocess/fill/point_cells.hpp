@@ -61,11 +61,12 @@ private:
         std::size_t first, last;
     };
 
-    // Points of a block, and rings of cubes that are searched before blocks are: they set the time,
-    // not the answers.
-    static constexpr std::size_t kBlock = 64;
     static constexpr double kFar = std::numeric_limits<double>::infinity();
-    static constexpr int kMostRings = 12;  ///< farther away, blocks are searched
+    // Points of a block, and rings of cubes that are searched before blocks are [-]: they set the
+    // time, not the answers. Larger blocks measure more points in vain, smaller ones are more boxes
+    // to test; more rings visit more empty cubes, fewer test all blocks for nearer points.
+    static constexpr std::size_t kBlock = 64;
+    static constexpr int kMostRings = 12;
 
     void number_cubes(std::span<const Vec3> points);
     void hash_cubes(std::span<const Vec3> points);

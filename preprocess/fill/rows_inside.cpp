@@ -13,7 +13,7 @@ namespace {
 
 using detail::Range;
 
-// Triangles that share a list of crossings, and triangles below which waking threads costs more
+// Triangles that share a list of crossings [-], and triangles below which waking threads costs more
 // than it saves. They change the time alone.
 constexpr std::size_t kChunk = 256;
 constexpr std::size_t kSerialTriangles = 4000;

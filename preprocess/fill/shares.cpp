@@ -15,11 +15,12 @@ namespace ice {
 
 namespace {
 
-// Passes of the moments at most: two where no share comes near zero. Where 50 are not enough, no
-// positive shares have the centroid.
+// Passes of the moments at most [-]: two where no share comes near zero. Where 50 are not enough,
+// no positive shares have the centroid. Fewer give up on sets that have such shares.
 constexpr int kMostPasses = 50;
 // Least share of the volume [-] that interior cells leave to the surface spheres: their shares must
-// be positive.
+// be positive. A larger value makes the cells of thin solids smaller, a smaller one leaves the
+// surface spheres there almost no volume.
 constexpr double kLeastRest = 0.02;
 
 // The directions in which a sphere touches; never empty.
@@ -46,7 +47,7 @@ std::vector<Vec3> directions_of(const SurfaceTree& tree, const SphereSet& set, s
 // Sum of value(k) over [from, to), by blocks: the same bits for any number of threads.
 template <class Sum, class Value>
 Sum sum_of(std::size_t from, std::size_t to, Sum zero, const Value& value) {
-    // shares added up in one go: another size changes the last digits of the sum
+    // shares added up in one go [-]: another size changes the last digits of the sum
     constexpr std::size_t kBlock = 1 << 16;
     std::vector<Sum> parts((to - from + kBlock - 1) / kBlock, zero);
     parallel_tasks(parts.size(), true, [&](std::size_t b) {

@@ -20,7 +20,7 @@ namespace {
 // places more spheres where edges meet, larger drops those of edges beside each other.
 constexpr double kEdgeSeparation = 0.5;
 // By which the separation may be missed [spacings]: without it rounding decides whether a sphere
-// just that far from a corner stays.
+// just that far from a corner stays. A larger value places spheres nearer by as much.
 constexpr double kEdgeRounding = 1e-6;
 // A sphere nearer to the centre plane is moved into it [spacings]: half the separation, as its
 // image is as far on the other side. Larger moves more spheres, smaller lets a sphere and its image
@@ -106,7 +106,9 @@ std::vector<SettledLine> settle_line(const SurfaceTree& tree, const ShellOptions
 
 // Do two of the faces that a seat touches meet in an edge along this direction or against it?
 bool is_in_edge(const Seat& seat, const Vec3& direction) {
-    constexpr double kSameEdge = 0.94;  // cosine of 20 degrees: knuckles of one edge
+    // Cosine of 20 degrees [-]: knuckles of one edge. A larger value ends lines at knuckles, a
+    // smaller one takes an edge that crosses for the line's own.
+    constexpr double kSameEdge = 0.94;
     for (std::size_t i = 0; i + 1 < static_cast<std::size_t>(seat.touches); ++i)
         for (std::size_t j = i + 1; j < static_cast<std::size_t>(seat.touches); ++j) {
             const Vec3 along = seat.touch[i].cross(seat.touch[j]);
@@ -121,7 +123,9 @@ bool is_in_edge(const Seat& seat, const Vec3& direction) {
 // other edges. So from the first centre on, seen from the end, that is in the line's own edge.
 std::optional<Seat> find_corner(const SurfaceTree& tree, double radius, const SettledLine& line,
                                 double sign) {
-    constexpr double kStray = 3.0;  // radii from the end that centres may be out of line
+    // How far from the end centres may be out of line [radii]. A larger value searches longer, a
+    // smaller one misses corners beside wide chamfers.
+    constexpr double kStray = 3.0;
     const Line& centers = line.centers;
     for (std::size_t k = centers.size(); k-- > 0;) {
         const double apart = (centers.back() - centers[k]).norm();

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-// All in units of the spacing. In a layer of perfect hexagons the neighbours of a seat lie at 1,
+// All in spacings [-]. In a layer of perfect hexagons the neighbours of a seat lie at 1,
 // the next ones at sqrt(3) = 1.73, and the middles of its holes, corners of the Voronoi cells, at 1
 // / sqrt(3) = 0.577 from the nearest seats. The certificate's covering radius is the largest such
 // distance in the layer: it can be no less than 0.577, and kGap and kCovered lie just above. Lower
@@ -40,9 +40,15 @@ constexpr double kCellReach = 1.75;       // neighbours that bound a Voronoi cel
 constexpr double kCellSize = 0.9;         // half the edge of the square a cell starts as
 constexpr double kOutside = 0.02;         // beyond a plane: not settled in a convex solid
 
-constexpr std::size_t kFewFine = 16;  // seats of a fine mesh that one thread settles alone
-constexpr std::size_t kMostConvexTests = 10000;  // faces times vertices: floes, not hulls
-constexpr double kFlat = 1e-9;                   // of the largest extent: faces of one plane
+// Seats of a fine mesh [-] below which one thread settles them alone: waking others costs more. It
+// changes the time alone.
+constexpr std::size_t kFewFine = 16;
+// Faces times vertices [-] up to which a mesh is tested for being convex: floes are, hulls are not.
+// A larger value tests more meshes in vain, a smaller one settles starts outside convex solids.
+constexpr std::size_t kMostConvexTests = 10000;
+// Height over the largest extent [-] up to which vertices lie in a face's plane. A larger value
+// takes hollow solids for convex ones, a smaller one convex solids for hollow ones by rounding.
+constexpr double kFlat = 1e-9;
 
 Eigen::AlignedBox3d around(const Eigen::AlignedBox3d& box, double halo) {
     return {box.min() - Vec3::Constant(halo), box.max() + Vec3::Constant(halo)};

@@ -13,16 +13,22 @@ namespace ice {
 
 namespace {
 
-// Samples of a survey, about, at most: 60 MB. Percentiles need no more.
+// Samples of a survey, about, at most [-]: 60 MB. Percentiles need no more; more find deeper gaps
+// of fine sets and take longer.
 constexpr double kMostSamples = 1.5e6;
-// Size of a sample [spacings] where only shares are needed: about nine samples for each sphere.
+// Size of a sample [spacings] where only shares are needed: about nine samples for each sphere. A
+// larger value makes the areas of equal spheres differ, a smaller one takes longer.
 constexpr double kShareSize = 1.0 / 3.0;
-// Share of the radius [-] by which the other side may be nearer: rounding of settled seats.
+// Share of the radius [-] by which the other side may be nearer: rounding of settled seats. A
+// larger value counts places that no sphere fits as places without cover, a smaller one leaves such
+// that one just fits out.
 constexpr double kReachable = 1e-6;
 // Distance to the nearest sphere [spacings] from which a part has no spheres and is represented by
-// none. Larger values only make the search longer there.
+// none. A larger value only makes the search longer there.
 constexpr double kFar = 8.0;
-// Spread [rad], 5 degrees, beyond which a sphere is in an edge and has no normal of a face.
+// Spread [rad], 5 degrees, beyond which a sphere is in an edge and has no normal of a face. A
+// larger value adds the normals of edges to the normal errors, a smaller one leaves curved faces
+// out of them.
 constexpr double kFaceSpread = 0.087;
 
 // `last` is the sphere that the sample before was near to: likely a neighbour.
@@ -80,8 +86,9 @@ PointCells::Nearest SphereFinder::nearest(const Vec3& p, std::int32_t known) con
 }
 
 bool SphereFinder::covers(std::int32_t sphere, const Vec3& normal) const {
-    // [rad] a right angle and a little: the faces of a box cover each other's edges despite
-    // rounding
+    // a right angle and a little [rad]: the faces of a box cover each other's edges despite
+    // rounding; a larger value lets spheres cover faces that turn away from them, a smaller one
+    // leaves edges of boxes uncovered
     constexpr double kRightAngle = 0.5 * std::numbers::pi + 0.01;
     const auto k = static_cast<std::size_t>(sphere);
     const double most = std::min(set_.normal_spread[k] + kRightAngle, std::numbers::pi);
@@ -125,7 +132,8 @@ std::vector<Sight> survey_surface(const SurfaceTree& tree, const SphereSet& set,
                                   const SphereFinder& finder, bool half, bool shares_only) {
     const double size = shares_only ? kShareSize * set.spacing : survey_size(set, half);
     const SurfaceSampler sampler(tree.mesh(), size, set.dimension, half);
-    // triangles by the block, so that the blocks' sights join in order
+    // triangles by the block [-], so that the blocks' sights join in order. Its size sets the time
+    // alone.
     constexpr std::size_t kBlock = 64;
     const std::size_t blocks = (sampler.triangle_count() + kBlock - 1) / kBlock;
     std::vector<std::vector<Sight>> found(blocks);

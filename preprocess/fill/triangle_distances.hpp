@@ -10,9 +10,10 @@ namespace ice {
 
 /// Points beside each other in memory, so that several are measured at a time [m].
 struct PointBatch {
-    /// Points of a batch: four vectors of AVX-512, 768 bytes on the stack.
+    /// Points of a batch [-]: four vectors of AVX-512, 768 bytes on the stack. It sets the time
+    /// alone.
     static constexpr std::size_t kMost = 32;
-    /// Entries from `count` to the next multiple of this are read, and must be finite.
+    /// Entries from `count` to the next multiple of this [-] are read, and must be finite.
     static constexpr std::size_t kPadding = 8;
 
     std::array<double, kMost> x, y, z;  ///< [m]; the first `count` are points

@@ -16,10 +16,12 @@ namespace ice {
 namespace {
 
 // Lengths of ships and floes [m]: a model floe and the longest ships (458 m). Lengths outside get a
-// warning, and 1000 to 600 000 file units are read as millimetres.
+// warning, and 1000 to 600 000 file units are read as millimetres. A wider range warns of fewer
+// wrong units; a greater longest length takes more meshes for millimetres.
 constexpr double kShortest = 0.05, kLongest = 600.0;
 // Length [file units] from which a mesh in metres may as well be a model in millimetres: the report
-// then states both. It changes no number.
+// then states both. It changes no number: a smaller value states both more often, a larger one says
+// nothing of small models.
 constexpr double kModelInMillimetres = 100.0;
 // Longest extent over that along forward [-], from which the axes are doubted in a warning. Hulls
 // are 1.5 times as long as broad and more (half_hull.hpp); lower values would doubt floes.

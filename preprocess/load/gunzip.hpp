@@ -9,7 +9,8 @@
 namespace ice {
 
 /// The most that gunzip() unpacks [bytes]: 1 GiB, some 20 million triangles of binary STL. A gzip
-/// file can be a thousandth of its content, so a small one could otherwise fill the memory.
+/// file can be a thousandth of its content, so a small one could otherwise fill the memory. A
+/// larger value lets such a file take more, a smaller one refuses large meshes.
 inline constexpr std::uint64_t kUnpackedLimit = std::uint64_t{1} << 30;
 
 /// Whether the file's name ends in ".gz", in small or capital letters.

@@ -12,7 +12,8 @@ namespace ice {
 namespace {
 
 // Least extent of a part over its diagonal [-] up to which it is a flat sheet: far above rounding,
-// far below the thickness of a plate.
+// far below the thickness of a plate. A larger value takes plates for sheets, a smaller one sheets
+// with rounded corners for bodies.
 constexpr double kFlat = 1e-6;
 // Share of the diagonal [-] by which a sheet may reach beyond the rest: a deck with a rail does, a
 // sea plane reaches many times farther.

@@ -30,8 +30,8 @@ struct Element {
     long count = 0;
     std::vector<Property> properties;
 };
-// Rows of an element that are believed: no file has as many, and the sum over some thousand
-// elements still fits into 64 bits.
+// Rows of an element that are believed [-]: no file has as many, and the sum over some thousand
+// elements still fits into 64 bits. A larger value lets the sum overflow.
 constexpr long kMostRows = 1L << 48;
 struct PlyHeader {
     bool text = false, swapped = false;

@@ -16,8 +16,9 @@ namespace {
 using Key = std::pair<std::int32_t, std::int32_t>;
 using Triple = std::array<std::int32_t, 3>;
 
-// Corners of a hole from which the triangulation in plan is tried, too: a deck has dozens. Smaller
-// holes give the same patch by both, and the second would cost time only.
+// Corners of a hole [-] from which the triangulation in plan is tried, too: a deck has dozens.
+// Smaller holes give the same patch by both, and the second would cost time only. A larger value
+// may miss decks of few corners.
 constexpr std::size_t kDeckCorners = 8;
 
 Key edge_key(std::int32_t a, std::int32_t b) { return std::minmax(a, b); }

@@ -12,11 +12,12 @@ namespace ice {
 namespace {
 
 // Area of one cap over the surface [-] that is worth a warning. These bounds choose texts alone; no
-// mesh is changed or refused by them.
+// mesh is changed or refused by them. Larger ones leave more unsaid, smaller ones say what changes
+// nothing.
 constexpr double kWorthWarning = 0.002;
 // Volume in doubt over the whole [-], by all caps together, that is worth a warning.
 constexpr double kDoubtWorthWarning = 0.005;
-// Openings named one by one; the others are counted.
+// Openings named one by one [-]; the others are counted. A larger value makes longer reports.
 constexpr std::size_t kMostNamed = 5;
 // Share of the open edges' vertices that lie beside another border [-], from which on the openings
 // are told as cracks. Of a hole none do.

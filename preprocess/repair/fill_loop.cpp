@@ -16,7 +16,7 @@ namespace {
 using LoopKernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Triple = std::array<std::int32_t, 3>;
 
-// Corners of a loop up to which CGAL's complete search is used: it is cubic and takes below a
+// Corners of a loop [-] up to which CGAL's complete search is used: it is cubic and takes below a
 // second for 400. More would find smoother caps of long loops in minutes.
 constexpr std::size_t kCubic = 400;
 

@@ -22,22 +22,34 @@ constexpr double kSuspect = 0.005;  // of the surface: largest cap in a file tha
 constexpr double kContinued = 0.2;  // of the surface: all continued faces together
 constexpr double kLoose = 0.05;     // of the surface: all small caps together
 constexpr double kEnd = 0.0005;     // of the surface: largest cap of guessed form at an end
-// Edges round a face or two, or round one vertex, that are missing: such a hole has a known form.
+// Edges round a face or two, or round one vertex, that are missing [-]: such a hole has a known
+// form. A larger value takes open ends of coarse meshes for such holes, a smaller one refuses
+// meshes that lack a face at an end.
 constexpr std::size_t kFewEdges = 8;
 
-// In doubt by one cap, of the volume: below it the kind does not matter and is not found out, which
-// saves time only.
+// Volume in doubt by one cap over the whole [-]: below it the kind does not matter and is not found
+// out, which saves time only.
 constexpr double kTrifle = 0.0005;
 
-// tan a of the turn at a rim is computed with a cosine of at least this, that of 85 degrees: an
-// upright wall would put an infinite volume in doubt.
+// tan a of the turn at a rim is computed with a cosine of at least this [-], that of 85 degrees: an
+// upright wall would put an infinite volume in doubt. A larger value puts less volume in doubt at
+// steep rims, a smaller one more.
 constexpr double kSteepest = 0.0872;
 
 // Lengths and angles that count as none: far above the rounding of coordinates with six digits.
-constexpr double kAtEnd = 1e-3;        // of the length: an opening this near to an end is at it
-constexpr double kStep = 1e-3;         // of the diagonal: a step in the rim of a deck
-constexpr double kJustOutside = 1e-4;  // of the diagonal: from a cap to the point of evaluation
-const double kFlat = std::cos(std::numbers::pi / 180.0);  // one degree: faces of one plane
+
+// Distance of an opening from an end over the length [-] up to which it is at the end. A larger
+// value refuses more caps, a smaller one passes missing stems by rounding.
+constexpr double kAtEnd = 1e-3;
+// Rise of a rim's edge over the diagonal [-] from which it is a step, which no deck has. A larger
+// value takes jagged ends of a surface for decks, a smaller one refuses decks for rounding.
+constexpr double kStep = 1e-3;
+// From a cap to the point of evaluation, over the diagonal [-]. A larger value may lie in another
+// part beside the cap, a smaller one so near to the cap that rounding decides.
+constexpr double kJustOutside = 1e-4;
+// Cosine of one degree [-]: faces of one plane. A larger angle takes curved surfaces for flat ones,
+// a smaller one faces of one plane for several.
+const double kFlat = std::cos(std::numbers::pi / 180.0);
 
 struct Plane {
     Vec3 normal;

@@ -13,23 +13,27 @@ namespace ice {
 
 namespace {
 
-// Cosine of the angle between two faces from which on they make a crease, 30 degrees. Lower angles
-// would move vertices of smooth bilges, higher ones leave chines cut off.
+// Cosine of the angle between two faces [-] from which on they make a crease, 30 degrees. Lower
+// angles would move vertices of smooth bilges, higher ones leave chines cut off.
 constexpr double kCosine = 0.866;
-// Distance over a cell [-] within which a place is on the source.
+// Distance over a cell [-] within which a place is on the source. A larger value sharpens edges
+// where the contour has closed gaps of the source, a smaller one leaves edges cut off.
 constexpr double kOnSurface = 0.05;
 // Eigenvalue of the planes' normals over the largest [-] below which a direction is not determined
-// by them: the vertex then keeps its place along it.
+// by them: the vertex then keeps its place along it. A larger value leaves blunt corners cut off, a
+// smaller one moves vertices far along planes that are almost parallel.
 constexpr double kFlatPart = 0.05;
-// Twice the area of the least triangle, over a cell's area [-]. Smaller ones have no reliable
-// normal.
+// Twice the area of the least triangle, over a cell's area [-]. Smaller triangles have no reliable
+// normal. A larger value takes back more moves, a smaller one keeps slivers.
 constexpr double kSliver = 0.02;
 // Longest move [cells]; the longest edge of a contour has 1.7, so that a vertex stays beside its
-// cell.
+// cell. A larger value folds more triangles, a smaller one leaves sharp edges cut off.
 constexpr double kLongest = 1.5;
-// Passes over the creases: an edge that was turned makes room for further moves.
+// Passes over the creases [-]: an edge that was turned makes room for further moves. Fewer leave
+// more of the creases cut off, more take longer.
 constexpr int kPasses = 2;
-// Rounds of taking bad moves back; where they do not end, all moves are taken back.
+// Rounds of taking bad moves back [-]; where they do not end, all moves are taken back. Fewer leave
+// more contours blunt, more take longer.
 constexpr int kMostTakenBack = 4;
 
 // The plane of the source at a vertex of the contour.

@@ -76,8 +76,8 @@ SolidProof verify_solid(const TriangleMesh& mesh, double overlap_allowed) {
 }
 
 WindingComparison compare_windings(const TriangleMesh& open, const TriangleMesh& closed) {
-    // Places of a Halton sequence: their error falls faster than that of random ones, and they are
-    // the same in every run. 20 000 places give a volume within about 1 %; more take longer.
+    // Places of a Halton sequence [-]: their error falls faster than that of random ones, and they
+    // are the same in every run. 20 000 places give a volume within about 1 %; more take longer.
     constexpr std::size_t kPlaces = 20000;
     const WindingNumber first(open), second(closed);
     Eigen::AlignedBox3d box;

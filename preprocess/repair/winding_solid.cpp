@@ -14,22 +14,27 @@ namespace ice {
 
 namespace {
 
-// Cells along the longest side: half a metre on a ship of 100 m. More keep finer parts and take
+// Cells along the longest side [-]: half a metre on a ship of 100 m. More keep finer parts and take
 // time and memory with their cube.
 constexpr double kCells = 200.0;
-// Most nodes of the grid, else cells grow: about a second.
+// Most nodes of the grid [-], else cells grow: about a second. A larger value keeps finer parts and
+// takes longer.
 constexpr double kNodes = 2.0e6;
-// Most nodes for the finer cells of a caller, which are no larger than the spheres' radius.
+// Most nodes for the finer cells of a caller [-], which are no larger than the spheres' radius. A
+// larger value keeps finer parts and takes longer.
 constexpr double kFinestNodes = 8.0e6;
-// Cells along the longest side in the search for voids. It sets the widest gap that counts as
-// closed, a hundredth of the length.
+// Cells along the longest side [-] in the search for voids. It sets the widest gap that counts as
+// closed, a hundredth of the length. A larger value closes narrower gaps only and takes longer.
 constexpr double kCoarse = 100.0;
 // Distance to the surface over a cell [-] within which a node is no way out: a passage must be
-// wider than 1.2 cells.
+// wider than 1.2 cells. A larger value takes wider passages for closed, a smaller one lets narrower
+// ones drain a void.
 constexpr double kSealed = 0.6;
-// Steps towards the surface at most; each is as long as the distance left.
+// Steps towards the surface at most [-]; each is as long as the distance left. Fewer end before
+// slanted faces, more take longer.
 constexpr int kSteps = 16;
-// Distance over a cell [-] at which the surface counts as reached.
+// Distance over a cell [-] at which the surface counts as reached. A larger value leaves the
+// contour off the surface by as much, a smaller one takes more steps.
 constexpr double kReached = 1.0 / 256;
 
 Grid make_grid(const TriangleMesh& mesh, double cells, double finest) {

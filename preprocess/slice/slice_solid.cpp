@@ -13,11 +13,12 @@ namespace ice {
 
 namespace {
 
-// Points closer than this share of the loop's extent [-] are one: rounding of the cut.
+// Points closer than this share of the loop's extent [-] are one: rounding of the cut. A larger
+// value drops short edges, a smaller one keeps edges that rounding made.
 constexpr double kSame = 1e-9;
 
-// Sine of the angle below which two edges count as one straight line. Larger values join facets of
-// a bilge, smaller ones leave the cuts of coplanar triangles apart.
+// Sine of the angle [-] below which two edges count as one straight line. Larger values join facets
+// of a bilge, smaller ones leave the cuts of coplanar triangles apart.
 constexpr double kStraight = 1e-6;
 
 Vec3 outward_normal(const Vec3& a, const Vec3& b) {

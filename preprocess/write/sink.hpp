@@ -24,8 +24,8 @@ using Sink = std::function<void(std::string_view)>;
 /// of threads. Memory is bounded by 32 blocks of 16 384 rows. row must not throw.
 template <class Row>
 void write_rows(const Sink& sink, std::size_t count, const Row& row) {
-    // Rows of a block and blocks in memory: about 1 MB of text each. They bound the memory and give
-    // each thread a long piece of work; the bytes do not depend on them.
+    // Rows of a block and blocks in memory [-]: about 1 MB of text each. They bound the memory and
+    // give each thread a long piece of work; the bytes do not depend on them.
     constexpr std::size_t kRows = 16384, kBlocks = 32;
     std::vector<fmt::memory_buffer> blocks(std::min(kBlocks, (count + kRows - 1) / kRows));
     for (std::size_t first = 0; first < count; first += kRows * kBlocks) {

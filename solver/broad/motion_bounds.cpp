@@ -13,7 +13,8 @@ namespace {
 // fast; a step turns a floe by far less.
 constexpr double kLargeTurn = 0.5;
 
-// Farther than any two bodies are apart [m]: a path of that length makes every list stale.
+// Farther than any two bodies are apart [m]: a path of that length makes every list stale. Any
+// larger value gives the same.
 constexpr double kAnywhere = 1e9;
 
 // An upper bound of the angle of the turn from p to q [rad]: |q - p| is 2 sin(angle / 4) for the

@@ -11,7 +11,8 @@ namespace ice {
 namespace {
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
-// Least value of a number that has to be above 0, in its SI unit: 0 itself is refused.
+// Least value of a number that has to be above 0, in its SI unit: 0 itself is refused. A larger
+// value refuses small models, a smaller one lets rounded zeros pass.
 constexpr double kTiny = 1e-9;
 
 // Words of a choice in the order of their enumerators (stored::choice).

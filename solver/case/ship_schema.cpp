@@ -16,7 +16,7 @@ constexpr std::string_view kFreedomNames = "surge|sway|heave|roll|pitch|yaw";
 constexpr std::string_view kAddedMasses = "none|computed";
 constexpr std::string_view kHeadings = "free|hold";
 // Largest mass, force, stiffness or damping, in its SI unit: no ship has as much, so that a larger
-// number is a lost unit.
+// number is a lost unit. A larger value lets such numbers pass.
 constexpr double kHuge = 1e15;
 
 std::vector<CaseKey> body_keys() {

@@ -28,6 +28,9 @@ Mat3 crossed_twice(const Vec3& r, const Mat3& m) {
 // Larger takes slow motions for none; smaller takes rounding for a motion, with huge impulses.
 constexpr double kLeastResponse = 1e-9;
 
+// Contacts below which waking threads costs more than they save [-]. It changes the time alone.
+constexpr std::size_t kSerialContacts = 1024;
+
 bool ship_can_move(const ShipResponse& ship, const Vec3& arm, const Vec3& normal) {
     const double most =
         largest_response(ship) + arm.squaredNorm() * ship.inverse_inertia.cwiseAbs().maxCoeff();
@@ -69,7 +72,7 @@ double ship_response(const ShipResponse& ship, const Vec3& arm, const Vec3& dire
 void build_constraints(const Bodies& bodies, const std::vector<Contact>& contacts,
                        const ContactLaw& law, double dt, std::vector<Constraint>& out) {
     out.resize(contacts.size());
-    parallel_for(contacts.size(), 1024, [&](std::size_t k) {
+    parallel_for(contacts.size(), kSerialContacts, [&](std::size_t k) {
         const Contact& contact = contacts[k];
         Constraint c;
         c.a = contact.a;

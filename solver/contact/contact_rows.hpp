@@ -12,7 +12,7 @@
 
 namespace ice {
 
-/// Body pairs in a block; fixed, so that the arithmetic's order depends on no instruction set.
+/// Body pairs in a block [-]; fixed, so that the arithmetic's order depends on no instruction set.
 /// Eight doubles are the widest vector in use; another number gives other last digits.
 constexpr std::size_t kLanes = 8;
 

@@ -20,13 +20,25 @@ namespace {
 
 // Guesses that a drafted case begins with; the user changes them in its text, so that each affects
 // the draft alone.
-constexpr double kWaterDensity = 1025.0;  // sea water [kg/m3]
-constexpr double kDraughtShare = 0.6;     // of the depth [-]
-constexpr double kFroude = 0.0657;        // 4 kn at 100 m: V / sqrt(g L) [-]
-constexpr double kLengths = 1.5;          // of travel, in ship's lengths [-]; longer: better means
-constexpr double kStepShare = 0.2;        // of a sphere's radius, travelled in a step [-]
-constexpr double kFieldShare = 0.95;      // of the path through the field [-]
-constexpr double kFewest = 0.1;           // lengths of travel that make a run [-]
+
+// Density of sea water [kg/m3]. A larger value makes buoyancy and drag larger.
+constexpr double kWaterDensity = 1025.0;
+// Draught over the hull's depth [-]. A larger value lets more of the hull meet ice and water.
+constexpr double kDraughtShare = 0.6;
+// Froude number V / sqrt(g L) [-]: 4 kn at 100 m. A larger value makes the ship faster and steps
+// shorter; waves, which are not modelled, begin to matter.
+constexpr double kFroude = 0.0657;
+// Travel after the first ice in ship's lengths [-]. More gives better means and takes longer.
+constexpr double kLengths = 1.5;
+// Travel in a step over the smallest radius [-]. A larger value takes fewer steps, and bodies enter
+// each other more deeply; a smaller one takes longer.
+constexpr double kStepShare = 0.2;
+// Travel over the path through the field at most [-]. With 1 and more the hull leaves the ice, a
+// smaller value uses less of the field.
+constexpr double kFieldShare = 0.95;
+// Travel in ship's lengths [-] below which no case is drafted. A larger value refuses more fields,
+// a smaller one drafts runs whose means say little.
+constexpr double kFewest = 0.1;
 
 // The number rounded to a count of digits.
 double rounded(double x, int digits) { return std::stod(fmt::format("{:.{}g}", x, digits)); }

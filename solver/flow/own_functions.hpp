@@ -22,8 +22,9 @@ constexpr std::uint64_t kTwo52 = std::uint64_t{1023 + 52} << 52;   // bits of 2^
 // 2^52 + 1023 [-]. With a stored exponent as its last bits, 2^52 becomes 2^52 + 1023 + exponent.
 constexpr double kTwo52AndBias = 4503599627370496.0 + 1023.0;
 
-// 1 / (2 k + 1): atanh's series, and with turns of sign atan's. The next term is below 1e-17 of the
-// sum where |t| <= 0.199, to which both are reduced. Fewer terms lose digits, more cost time.
+// Terms [-] of 1 / (2 k + 1): atanh's series, and with turns of sign atan's. The next term is below
+// 1e-17 of the sum where |t| <= 0.199, to which both are reduced. Fewer terms lose digits, more
+// cost time.
 constexpr int kTerms = 11;
 
 /// atanh(t) / t from t^2 [-], for |t| <= 0.199; atan(t) / t from -t^2.

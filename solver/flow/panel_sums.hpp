@@ -12,6 +12,10 @@ namespace ice {
 /// Flow at unit distance from a source of strength and area 1: 1 / (4 pi) [-].
 constexpr double kPerSphere = 0.25 / std::numbers::pi;
 
+/// Least denominator r_k + r_(k+1) - l_k of L_k over l_k [-]: there the logarithm is 33. A larger
+/// value lowers the speed on an edge, where it is no number of the flow in any case.
+constexpr double kLeastGap = 1e-14;
+
 /// The flow at a point, for a ship at 1 m/s along +x.
 struct FlowSample {
     Vec3 velocity = Vec3::Zero();  ///< [m/s], in the earth frame

@@ -10,10 +10,6 @@ namespace ice::reference {
 
 namespace {
 
-// Of the least distance from an edge's line, in the edge's length [-]: there a logarithm is 32.
-// Larger lowers the speed on an edge, where it is no number of the flow in any case.
-constexpr double kLeastGap = 1e-14;
-
 struct Flow {
     double x = 0.0, y = 0.0, z = 0.0, phi = 0.0;
 

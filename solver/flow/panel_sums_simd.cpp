@@ -15,8 +15,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace ice::HWY_NAMESPACE {
 
-constexpr double kLeastGap = 1e-14;  // panel_sums_reference.cpp
-
 HWY_INLINE Lanes All(double value) { return hn::Set(Tag(), value); }
 
 HWY_INLINE Lanes AtanhSeries(Lanes square) {

@@ -15,8 +15,8 @@ namespace {
 
 using Triangle = std::array<Vec3, 3>;
 
-// Of the hull's length: vertices so near to a cutting plane lie in it, and mirrored vertices so
-// near to each other are one. Larger moves corners, smaller sees slivers at the water.
+// Share of the hull's length [-]: vertices so near to a cutting plane lie in it, and mirrored
+// vertices so near to each other are one. Larger moves corners, smaller sees slivers at the water.
 constexpr double kSame = 1e-6;
 
 // A hull of this many panels along its length [-] has its flow to 1 % of the speed. Twice as many

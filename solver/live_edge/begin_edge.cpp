@@ -20,13 +20,13 @@ namespace {
 using Box = Eigen::AlignedBox2d;
 
 // The box in which there are tiles and pieces: so far ahead of the hull, in radii of a crack at
-// rest, and so far astern, in the hull's lengths. A larger box has more bodies and more slots. With
-// a shorter one ahead, cracks reach ice without tiles; with a shorter one astern, pieces leave the
-// scene that may still touch the hull.
+// rest [-], and so far astern, in the hull's lengths [-]. A larger box has more bodies and more
+// slots. With a shorter one ahead, cracks reach ice without tiles; with a shorter one astern,
+// pieces leave the scene that may still touch the hull.
 constexpr double kAhead = 2.0, kAstern = 0.5;
 
-// Share of half a disc that a piece has, at least, when slots are counted. Less makes more slots,
-// which take memory only; with more, pieces leave the scene early for want of a slot.
+// Share of half a disc that a piece has, at least [-], when slots are counted. Less makes more
+// slots, which take memory only; with more, pieces leave the scene early for want of a slot.
 constexpr double kCover = 0.25;
 // Area of half a disc over its radius squared [-], pi / 2 rounded: the number of slots depends on
 // these digits.

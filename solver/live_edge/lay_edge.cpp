@@ -21,7 +21,7 @@ namespace {
 using Box = Eigen::AlignedBox2d;
 
 // Length of the parts in which the rest of the sheet is drawn, in radii [-]. Only pictures depend
-// on it.
+// on it. A larger value draws fewer, longer parts.
 constexpr double kRestLength = 8.0;
 
 }  // namespace

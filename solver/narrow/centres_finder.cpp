@@ -12,7 +12,8 @@ namespace ice {
 
 namespace {
 
-// A pair takes about a microsecond: below this many, waking threads costs more than they save.
+// A pair takes about a microsecond: below this many [-], waking threads costs more than they save.
+// Results do not depend on it.
 constexpr std::size_t kSerialLists = 128;
 
 // A pair's spheres are listed as far ahead as it goes in so many steps, within these bounds: more
@@ -23,7 +24,7 @@ constexpr double kLeastListShare = 0.6, kMostListShare = 0.8;  // of the ice's r
 
 // Generous bound of the rounding error of a separation [m]. Smaller could leave out a pair that
 // touches; with a larger one pairs are measured a little sooner.
-constexpr double kRounding = 1e-6;
+constexpr double kSeparationRounding = 1e-6;
 
 // How far a sphere of b may have gone relative to one of a since they were listed [m]: two
 // rotations differ by sqrt(8) sin(angle / 2), and a point at 1 goes 2 sin(angle / 2).
@@ -120,8 +121,8 @@ CentresFinder::Found CentresFinder::look(std::size_t k, BodyPair pair, const Ste
         // Solids this far apart need no list. The pair is clear until both bodies' paths have
         // used up the distance.
         if (apart > most) {
-            lists_.clearance(k) =
-                path + (apart - kRounding - margin) / (held ? 1.0 : separation_share(view));
+            lists_.clearance(k) = path + (apart - kSeparationRounding - margin) /
+                                             (held ? 1.0 : separation_share(view));
             return found;
         }
         // The list reaches as far as the pair closes in some steps, at least as far as in this
@@ -156,7 +157,7 @@ CentresFinder::Found CentresFinder::look(std::size_t k, BodyPair pair, const Ste
     // A sphere represents surface beyond its body's rim, but bodies that are apart have no
     // contact. Where spheres stay within their hulls the touching spheres already prove that
     // the hulls are near enough, and the separation need not be computed.
-    if (found.count > 0 && !(held && least + rounding + kRounding <= most) &&
+    if (found.count > 0 && !(held && least + rounding + kSeparationRounding <= most) &&
         separation(view, most, row.axis) > most)
         found.count = 0;
     return found;

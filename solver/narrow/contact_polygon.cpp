@@ -19,7 +19,8 @@ struct Clipped {
     Vec3 at;
     std::uint32_t edge;
 };
-// Room for a face's borders in a corner's id [-]: at least as many as a piece has planes.
+// Room for a face's borders in a corner's id [-]: at least as many as a piece has planes. A smaller
+// number would give two corners one id.
 constexpr std::uint32_t kBorders = 64;
 static_assert(ConvexPiece::kMost <= kBorders);
 

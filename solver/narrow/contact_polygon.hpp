@@ -54,8 +54,8 @@ void make_contact_polygon(const ConvexPiece& a, const ConvexPiece& b, const Rela
 Vec3 axis_normal(const ConvexPiece& a, const ConvexPiece& b, const RelativePose& pose,
                  const SeparatingAxes& axes);
 
-/// This many corners carry nearly the same forces and moments as a polygon with more. Three carry
-/// no load outside their triangle; each further one costs a row in the contact solver.
+/// This many corners [-] carry nearly the same forces and moments as a polygon with more. Three
+/// carry no load outside their triangle; each further one costs a row in the contact solver.
 constexpr std::size_t kManifoldCorners = 4;
 
 /// Leaves at most `count` corners: those go whose loss takes the least of the polygon's area, the

@@ -18,9 +18,9 @@ namespace {
 // meshes.
 constexpr double kDeepShare = 0.1;
 
-// cos 60 degrees: a seat whose direction out of the solid differs more from the deepest one's leads
-// to another face. Larger drops seats of curved faces; without it seats near a floe's rim, nearer
-// to its upper face than to its side, pushed the other floe down.
+// cos 60 degrees [-]: a seat whose direction out of the solid differs more from the deepest one's
+// leads to another face. Larger drops seats of curved faces; without it seats near a floe's rim,
+// nearer to its upper face than to its side, pushed the other floe down.
 constexpr double kSameDirection = 0.5;
 
 // One body's seats, seen from the other's solid.

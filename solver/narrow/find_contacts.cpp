@@ -20,7 +20,7 @@ namespace ice {
 
 namespace {
 
-// A pair takes some microseconds, a look at one a twentieth of that: below this many, waking
+// A pair takes some microseconds, a look at one a twentieth of that: below this many [-], waking
 // threads costs more than they save. With 256 one of two threads waited for a fifth of the packed
 // scene's narrow phase. Results do not depend on it.
 constexpr std::size_t kSerialPairs = 64, kSerialLooks = 1024;

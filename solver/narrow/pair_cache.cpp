@@ -22,7 +22,8 @@ constexpr double kLookAhead = 5.0;                          // steps [-]
 constexpr double kLeastAngle = 0.0075, kMostAngle = 0.015;  // [rad]
 constexpr double kLeastShare = 0.3, kMostShare = 0.6;       // of the ice's radius
 
-// Below this many entries, rows that are no longer in use cost less than closing the gaps.
+// Below this many entries [-], rows that are no longer in use cost less than closing the gaps. Only
+// the time depends on it.
 constexpr std::size_t kFewestListed = 4096;
 
 // Relative motion and rotation [rad] of a pair since b had the pose (turn, shift) in a's axes.

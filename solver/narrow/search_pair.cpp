@@ -7,8 +7,8 @@ namespace ice {
 
 namespace {
 
-// Up to so many it costs less to compare with all than to pick the nearer ones. Only time depends
-// on it: the same pairs are found.
+// Up to so many spheres [-] it costs less to compare with all than to pick the nearer ones. Only
+// time depends on it: the same pairs are found.
 constexpr std::size_t kAllAtOnce = 64;
 
 // The box around a box that was moved by p' = turn p + shift.

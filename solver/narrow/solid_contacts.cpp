@@ -15,9 +15,9 @@ namespace {
 
 // Solids meet in their polygon, too, where they overlap by so much more than any contact of their
 // spheres tells. The separating axis is exact: this is the depth that a hull's edge may reach in a
-// floe's face between two spheres, 1 mm with spheres of 0.05 m. With half a radius a knuckle cut
-// 26 mm into a floe unseen (docs/design-notes.md); less gives polygons where spheres will do.
-constexpr double kLostShare = 0.02;  // of the ice's radius
+// floe's face between two spheres, 1 mm with spheres of 0.05 m. With half a radius a knuckle cut 26
+// mm into a floe unseen (docs/design-notes.md); less gives polygons where spheres will do.
+constexpr double kLostShare = 0.02;  // of the ice's radius [-]
 
 double lost_slack(const PairView& view) { return kLostShare * view.shape_b.largest_radius; }
 

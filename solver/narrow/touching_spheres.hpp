@@ -26,7 +26,7 @@ struct alignas(64) ListedSpheres {
     std::int16_t radii[kPairs];                       ///< sum of both radii; -kMost - 1 in the fill
 
     /// Largest number of units [-], that of 16 bits: the unit of a list is its largest coordinate
-    /// over this.
+    /// over this. With fewer units, more spheres are measured in vain.
     static constexpr int kMost = 32767;
     /// Largest error of a gap, in units: 0.5 (2 sqrt(3) + 1) = 2.24 by rounding to units, 0.1 by
     /// floats. Larger lists more spheres, smaller would miss touching ones.

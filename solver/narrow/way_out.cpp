@@ -11,8 +11,8 @@ namespace ice {
 namespace {
 
 // Rounding of places in a solid [m]. With 0, whether a seat on the face of a crushed sphere is in
-// its notch depends on the last bit.
-constexpr double kRounding = 1e-9;
+// its notch depends on the last bit; a larger value makes notches longer by as much.
+constexpr double kPlaceRounding = 1e-9;
 
 struct Notch {
     double depth;  // of a point behind the notch's bottom [m]; negative in the notch
@@ -30,7 +30,8 @@ std::optional<Notch> notch_of(const Shape& shape, std::int32_t k, const Vec3& mo
     const double behind = from.dot(inwards), along = behind + shape.radius[k];
     // beside the path the ice is another sphere's
     const double reach = shape.patch_radius * shape.patch_radius;
-    if (along < -kRounding || (from - behind * inwards).squaredNorm() > reach) return std::nullopt;
+    if (along < -kPlaceRounding || (from - behind * inwards).squaredNorm() > reach)
+        return std::nullopt;
     return Notch{along - length, -inwards};
 }
 

@@ -106,7 +106,7 @@ std::int64_t CsvFile::flush() {
 }
 
 void CsvFile::add(const std::vector<double>& row) {
-    // Bytes at a time: fewer write more often, more lose more rows to a kill.
+    // Written at a time [bytes]: fewer write more often, more lose more rows to a kill.
     constexpr std::size_t kEnough = 8192;
     // nine digits give every float back; run.h5 has the doubles
     std::string line;

@@ -11,14 +11,15 @@ namespace ice {
 
 namespace {
 
-// Panels below this share of size^2 join others, or count as that large where none is near: a
+// Panels below this share of size^2 [-] join others, or count as that large where none is near: a
 // line load or pressure on a sliver would be large without meaning. Larger makes fewer, more uneven
 // panels.
 constexpr double kSmall = 0.5;
 
-// Panels that a small panel may join: their normals are within 60 degrees (cosine), their centres
-// within two sizes. Grid cells side by side have centres one size apart, or 1.4 across a corner.
-// Looser limits join panels round an edge or far apart; stricter ones leave slivers by themselves.
+// Panels that a small panel may join: their normals are within 60 degrees (cosine [-]), their
+// centres within two sizes [-]. Grid cells side by side have centres one size apart, or 1.4 across
+// a corner. Looser limits join panels round an edge or far apart; stricter ones leave slivers by
+// themselves.
 constexpr double kSameSide = 0.5, kNeighbours = 2.0;
 
 // Least area of a sphere's share, of a panel: spheres without area have a place, too, and no mean

@@ -12,12 +12,13 @@ namespace ice {
 namespace {
 
 // Places on the water, and cells along the hull, before some are left out [-]: as many as a picture
-// can show.
+// can show. More hide each other, fewer leave parts of the flow out.
 constexpr double kOnSurface = 1200.0, kAlong = 25.0;
-// Least speed of an arrow, in ship speeds [-]: shorter ones are not seen.
+// Least speed of an arrow, in ship speeds [-]: shorter ones are not seen. A larger value leaves out
+// slow flow, a smaller one draws dots.
 constexpr double kLeast = 0.01;
-// Pieces of the wetted surface, from which cells are drawn, at most [-]. All of these matter to
-// pictures alone.
+// Pieces of the wetted surface, from which cells are drawn, at most [-]: a hull that takes more has
+// no arrows along it. More take longer. All of these matter to pictures alone.
 constexpr std::size_t kMostPieces = 20000;
 
 class Sampler {

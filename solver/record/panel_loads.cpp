@@ -13,9 +13,11 @@ namespace {
 // Time of a window whose mean force counts [s]. A shorter one shows single hits, which depend on
 // the step; a longer one averages pushes out of the peaks.
 constexpr double kPanelWindow = 0.1;
-// Steps of a window at least [-]: a window of fewer would still be single hits.
+// Steps of a window at least [-]: a window of fewer would still be single hits. More average pushes
+// out of the peaks at long steps.
 constexpr std::int64_t kLeastSteps = 5;
-// Panels in summary.json at most [-], beside the hardest of each region; run.h5 has all.
+// Panels in summary.json at most [-], beside the hardest of each region; run.h5 has all. A larger
+// value makes the file longer, a smaller one leaves out hard hits.
 constexpr std::size_t kMostPanels = 40;
 
 }  // namespace

@@ -16,8 +16,12 @@ namespace ice {
 
 namespace {
 
-constexpr double kKilo = 1e4;    // from here on in kN [N], kJ [J]
-constexpr double kShown = 0.01;  // share of the work from which an entry is printed [-]
+// From here on values are printed in kN and kJ [N, J]. A larger bound prints longer numbers, a
+// smaller one more digits after the point.
+constexpr double kKilo = 1e4;
+// Share of the ship's work [-] from which an entry of the energy ledger is printed. A larger value
+// leaves entries unsaid, a smaller one hides the large ones among small ones.
+constexpr double kShown = 0.01;
 
 // Numbers in one unit and to one digit: a value, its interval and its parts then compare at a
 // glance. More digits than the interval is worth would look like knowledge.

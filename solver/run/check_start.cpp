@@ -20,11 +20,13 @@ namespace ice {
 namespace {
 
 // A part of the hull in the ice belt that is worth a warning when no sphere stands for it: the
-// edges of a deck or a transom in full-bodied hulls stay below it. A share of the area [-]; only
-// the warning depends on it.
+// edges of a deck or a transom in full-bodied hulls stay below it. A share of the area [-]: a
+// larger one leaves such parts unsaid, a smaller one warns of edges; only the warning depends on
+// it.
 constexpr double kWorryingUnfelt = 0.005;
 
-constexpr std::size_t kMostNamed = 5;  // pairs in a message
+// Pairs that a message names [-]. More hide the advice.
+constexpr std::size_t kMostNamed = 5;
 
 const Shape& shape_of(const Scene& scene, std::int32_t body) {
     return scene.shapes[static_cast<std::size_t>(scene.bodies.shape[body])];

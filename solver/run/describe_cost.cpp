@@ -16,16 +16,19 @@ namespace ice {
 
 namespace {
 
-// Bytes of run.h5: a row of the ship's history has 25 numbers, one of a tracked floe 22, one of a
-// region 6 floats. A number in a table takes some 12 bytes of text. Every step's forces stay in
-// memory for the statistics (record/run_statistics.hpp).
+// Rows of run.h5 [bytes]: one of the ship's history has 25 numbers, one of a tracked floe 22, one
+// of a region 6 floats. A number in a table takes some 12 bytes of text. Every step's forces stay
+// in memory for the statistics (record/run_statistics.hpp). Larger values announce larger files and
+// more memory; the run is the same.
 constexpr double kShipRow = 25 * 8, kTrackRow = 22 * 8, kRegionRow = 6 * 4;
 constexpr double kShipText = 11 * 12, kTrackText = 23 * 12, kStepMemory = 64;
 
-// Files that HDF5, the log, the libraries and the terminal keep open.
+// Files that HDF5, the log, the libraries and the terminal keep open [-]. A larger value raises the
+// limit of open files earlier; with too small a one, files of tracked floes cannot be opened.
 constexpr rlim_t kOtherFiles = 32;
 
-// Trial steps that the time of a step is measured by: at most so many, begun within this time [s].
+// Trial steps that the time of a step is measured by [-]: at most so many, begun within this time
+// [s]. Larger values measure it better and make the start later.
 constexpr int kMostSteps = 50;
 constexpr double kMostSeconds = 0.5;
 

@@ -19,17 +19,18 @@ namespace ice {
 
 namespace {
 
-// Bytes of rows between two looks. More holds as much more room, less looks at the disk more often.
+// Rows between two looks at the disk [bytes]. A larger value reserves as much more room, a smaller
+// one looks at the disk more often.
 constexpr std::uint64_t kStride = 1 << 16;
-// Bytes for HDF5's blocks and indices, summary.json and run.log. All bounds here are generous: too
-// much stops a run a little early, too little leaves a file cut.
+// HDF5's blocks and indices, summary.json and run.log [bytes]. All bounds here are generous: a
+// larger value stops a run a little early, a smaller one leaves a file cut.
 constexpr std::uint64_t kEnd = 1 << 19;
-// Bytes of a checkpoint: a run of 5 floes has one of 53 kB.
+// A checkpoint [bytes], of it per body and per contact: a run of 5 floes has one of 53 kB.
 constexpr std::uint64_t kFields = 1 << 16, kPerBody = 400, kPerContact = 400;
-// Bytes per step: statistics remember forces of LongSeries::kMost steps.
+// Of a checkpoint per step [bytes]: statistics remember forces of LongSeries::kMost steps.
 constexpr std::uint64_t kPerStep = 64;
-// Rows in the CSV files between two looks: text takes at most 25 bytes for the 8 of a number, and
-// the streams buffer some.
+// Rows in the CSV files between two looks [bytes]: text takes at most 25 bytes for the 8 of a
+// number, and the streams buffer some.
 constexpr std::uint64_t kTextStride = 4 * kStride, kTextBuffer = 1 << 14;
 constexpr const char* kRows = "run.h5.part";
 

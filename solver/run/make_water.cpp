@@ -20,19 +20,22 @@ namespace ice {
 
 namespace {
 
-// Of the tables' content: to be raised where equal hulls get other tables, so that old ones are not
-// read.
+// Version of the tables' content [-]: to be raised where equal hulls get other tables, so that old
+// ones are not read.
 constexpr std::uint64_t kTables = 1;
 
 // Largest difference of a file's draught from the case's, as its share [-]. Larger takes the flow
 // of another wetted hull; smaller refuses draughts that were rounded.
 constexpr double kSameDraught = 0.01;
 // Froude number above which the flat surface is worth a warning [-]: waves change the flow by its
-// square, 4 % here.
+// square, 4 % here. A smaller value warns at speeds without waves that matter, a larger one leaves
+// waves unsaid.
 constexpr double kMostFroude = 0.2;
-// Residual of the flow that is worth a warning [-]: hulls with sharp edges have 0.02 to 0.04.
+// Residual of the flow that is worth a warning [-]: hulls with sharp edges have 0.02 to 0.04. A
+// smaller value warns of such hulls, a larger one leaves flows with large errors unsaid.
 constexpr double kMostResidual = 0.05;
-// The longest that this program waits for the flow that another one makes.
+// The longest that this program waits for the flow that another one makes [min]. A shorter time
+// computes tables twice, a longer one waits for a program that has stopped.
 constexpr auto kOthersWork = std::chrono::minutes(10);
 // Change of a mean resistance per change of the flow [-]: 1 % of the flow is a quarter of a per
 // cent of a channel's resistance. It scales a warning's share alone.

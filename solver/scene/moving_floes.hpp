@@ -11,7 +11,7 @@
 
 namespace ice {
 
-/// Below this many bodies waking threads costs more than they save. Only time depends on it.
+/// Below this many bodies [-] waking threads costs more than they save. Only time depends on it.
 constexpr std::size_t kSerialBodies = 512;
 
 /// Calls body(i, k) for every floe i that is not held, the k-th of them.

@@ -10,12 +10,12 @@ namespace ice {
 
 namespace {
 
-// Normals of one region this near (cosine; 2.6 degrees) are one face's: curved hulls have many.
+// Normals of one region this near (cosine [-]; 2.6 degrees) are one face's: curved hulls have many.
 // Larger stores more faces for a sphere, with the same answers; smaller may miss a border.
 constexpr double kSameRegionNormal = 0.999;
 
-// A face whose normal is nearer by less than this (cosine) lies in the same plane: the nearer face
-// counts. Smaller lets rounding choose between two regions of a flat side.
+// A face whose normal is nearer by less than this (cosine [-]) lies in the same plane: the nearer
+// face counts. Smaller lets rounding choose between two regions of a flat side.
 constexpr double kSameRegionPlane = 1e-6;
 
 struct NearFace {

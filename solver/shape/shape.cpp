@@ -14,9 +14,9 @@ namespace ice {
 
 namespace {
 
-// Faces whose normals are this far apart (cosine) meet in a knife edge of less than 20
-// degrees, or are the two sides of a plate as thin as the sphere: that is left round. A tip at
-// r / cos of the half angle would lie far outside the sphere. Nearer to -1 keeps sharper tips.
+// Faces whose normals are this far apart (cosine [-]) meet in a knife edge of less than 20 degrees,
+// or are the two sides of a plate as thin as the sphere: that is left round. A tip at r / cos of
+// the half angle would lie far outside the sphere. Nearer to -1 keeps sharper tips.
 constexpr double kKnife = -0.94;
 
 // Normals whose box product with two others is below this [-], 6 degrees where those are square,

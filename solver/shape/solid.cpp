@@ -11,9 +11,9 @@ namespace ice {
 
 namespace {
 
-// Facets whose normals are this near (cosine: 1e-5 rad) lie in one plane: vertices of a file are
-// often floats. A larger angle joins facets of gently curved faces, a smaller one makes two planes
-// of one.
+// Facets whose normals are this near (cosine [-]; 1e-5 rad) lie in one plane: vertices of a file
+// are often floats. A larger angle joins facets of gently curved faces, a smaller one makes two
+// planes of one.
 constexpr double kSameNormal = 1.0 - 5e-11;
 
 // Lengths below this share of the mesh's size [-] are rounding of its vertices. Larger takes hulls

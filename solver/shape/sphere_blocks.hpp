@@ -34,8 +34,8 @@ struct BoxRows {
 /// Floats: the search may find too much, never too little, so its user adds the error of rounding
 /// to floats (kFloatShare) to all distances; the pairs found are measured in double precision.
 struct SphereBlocks {
-    /// Spheres in a group: the lanes of the widest vector of floats. Smaller groups have tighter
-    /// boxes, and more of them to test.
+    /// Spheres in a group [-]: the lanes of the widest vector of floats. Smaller groups have
+    /// tighter boxes, and more of them to test.
     static constexpr std::size_t kGroup = 16;
     /// Distances between floats are right to this share [-] of the coordinates' size, some ten
     /// units in the last place. Less could miss contacts, more finds spheres in vain.

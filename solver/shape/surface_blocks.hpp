@@ -21,8 +21,8 @@ Facet make_facet(const Vec3& a, const Vec3& b, const Vec3& c);
 
 /// Eight facets, by component. The fill of the last block lies on the last facet, with no area.
 struct alignas(64) FacetBlock {
-    /// Fixed, so that the order of sums depends on no instruction set. Another number gives loads
-    /// with other last digits.
+    /// Triangles in a block [-]. Fixed, so that the order of sums depends on no instruction set.
+    /// Another number gives loads with other last digits.
     static constexpr std::size_t kLanes = 8;
 
     double area[3][kLanes];       ///< component, lane [m2]

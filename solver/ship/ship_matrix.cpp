@@ -12,7 +12,8 @@ namespace ice {
 
 namespace {
 
-// Largest number in a file, in its SI unit: no ship has so much, so more is a mistake.
+// Largest number in a file, in its SI unit: no ship has so much, so more is a mistake. A larger
+// value lets mistakes pass.
 constexpr double kMost = 1e18;
 
 const Schema& matrix_schema() {
