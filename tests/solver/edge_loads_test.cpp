@@ -49,7 +49,7 @@ std::size_t press_at_random(int loads) {
 }  // namespace
 
 TEST_CASE("loads anywhere on the edge leave a valid sheet and keep its area",
-          "[live_edge][level_ice][edge][fuzz]") {
+          "[live_edge][level_ice][edge][fuzz][long]") {
     CHECK(press_at_random(500) > 250);
 }
 

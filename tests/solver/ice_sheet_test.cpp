@@ -190,7 +190,7 @@ TEST_CASE("a ring with two holes breaks in parts without any", "[level_ice]") {
 }
 
 TEST_CASE("random breaks keep the area, the polygon and a least size of pieces",
-          "[level_ice][fuzz]") {
+          "[level_ice][fuzz][long]") {
     std::mt19937 random(29);
     std::uniform_real_distribution<double> unit(0.0, 1.0);
     IceSheet sheet = field(), twin = field();

@@ -193,7 +193,7 @@ TEST_CASE("floes past the end of a ship's edges touch nothing", "[narrow][side_p
     };
     std::mt19937 random(7);
     std::uniform_real_distribution<double> unit(0.0, 1.0);
-    for (int n = 0; n < 200; ++n) {
+    for (int n = 0; n < 50; ++n) {
         // a floe's edge slants across the line of the edge between side, y = 1, and bottom,
         // z = -0.5, and is beyond it, but ahead of the bow, x = 2, as is all of the floe
         const double lean = 0.005 + 0.01 * unit(random), ahead = 0.001 + 0.01 * unit(random);
