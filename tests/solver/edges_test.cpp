@@ -211,7 +211,7 @@ TEST_CASE("an edge on a face's corner, between two of its spheres, crosses the f
     CHECK_FALSE(measure_gap_surface(edge, corner, true).crossing);
 }
 
-TEST_CASE("an edge that leans a little on a face is met where it crosses the face's border",
+TEST_CASE("an edge that leans a little on a face is met where it crosses the face's side plane",
           "[narrow][edges][analytic]") {
     // Lower edges of two boxes cross at the origin, at 10 degrees, the second box tilted so that
     // its lower edge is foremost. The spheres are 5 cm from there, where the second edge is over
