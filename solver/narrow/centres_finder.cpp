@@ -105,8 +105,8 @@ double list_spheres(const std::vector<Near>& near, std::vector<ListedSpheres>& o
 // How far a sphere of b may have gone relative to one of a since they were listed [m]: two
 // rotations differ by sqrt(8) sin(angle / 2), and a point at 1 goes 2 sin(angle / 2).
 double gone_since(const SphereLists::Row& row, const PairView& view, double crushed) {
-    return (view.translation_ab - row.shift).norm() + crushed +
-           view.shape_b.bounding_radius * (view.rotation_ab - row.turn).norm() /
+    return (view.translation_ab - row.translation).norm() + crushed +
+           view.shape_b.bounding_radius * (view.rotation_ab - row.rotation).norm() /
                std::numbers::sqrt2;
 }
 
@@ -159,8 +159,8 @@ CentresFinder::Found CentresFinder::look(std::size_t k, BodyPair pair, const Ste
         const double ahead =
             std::clamp(kListLookAhead * closing, kLeastListShare * radius, kMostListShare * radius);
         row.range = margin + std::max(ahead, closing);
-        row.turn = view.rotation_ab;
-        row.shift = view.translation_ab;
+        row.rotation = view.rotation_ab;
+        row.translation = view.translation_ab;
         row.crushed = crushed;
         gone = 0.0;
         find_near_centres(view, row.range, batch.search, batch.near);
@@ -174,7 +174,7 @@ CentresFinder::Found CentresFinder::look(std::size_t k, BodyPair pair, const Ste
     const double rounding = ListedSpheres::kError * row.unit;
     const double unsure = rounding + crushed - row.crushed;
     const FloatPose pose =
-        to_floats(view.rotation_ab, (view.translation_ab - row.shift) / row.unit);
+        to_floats(view.rotation_ab, (view.translation_ab - row.translation) / row.unit);
     find_touching(listed, pose, static_cast<float>((most + unsure) / row.unit), batch.touching);
     // Two things can end the pair's clearance: the nearest listed spheres come within the
     // margin, or spheres that were not listed, all beyond row.range then, may have done so.

@@ -27,8 +27,8 @@ struct Side {
     const Shape& of;           // whose seats
     const Shape& in;           // whose solid
     std::int32_t body, other;  // of both
-    Mat3 turn;                 // from the seats' axes to the solid's
-    Vec3 shift;                // [m]
+    Mat3 rotation;             // from the seats' axes to the solid's
+    Vec3 translation;          // [m]
 };
 
 Side side_of_b(const PairView& v) {
@@ -42,8 +42,8 @@ Side side_of_a(const PairView& v) {
 
 // The box of the solid in the seats' axes, where the groups of spheres lie.
 Eigen::AlignedBox3d box_of_solid(const Side& side) {
-    const Mat3 back = side.turn.transpose();
-    const Vec3 middle = back * (side.in.box.center() - side.shift);
+    const Mat3 back = side.rotation.transpose();
+    const Vec3 middle = back * (side.in.box.center() - side.translation);
     const Vec3 half = back.cwiseAbs() * (0.5 * side.in.box.sizes());
     return {Vec3(middle - half), Vec3(middle + half)};
 }
@@ -101,7 +101,7 @@ void for_each_seat(const PairView& view, const Side& side, const Visit& visit) {
             if (!whole) at += view.scene.crushed.displacement_of(side.body, k);
             if (!whole && !side.of.box.contains(at)) continue;  // driven right through its body
             at += side.of.radius[k] * side.of.normal[k];
-            const Vec3 seat = side.turn * at + side.shift;
+            const Vec3 seat = side.rotation * at + side.translation;
             if (side.in.box.contains(seat)) visit(k, seat);
         }
     }

@@ -17,11 +17,11 @@ public:
     /// The list of one pair.
     struct Row {
         // when its spheres were listed
-        Mat3 turn = Mat3::Zero();   ///< PairView's
-        Vec3 shift = Vec3::Zero();  ///< PairView's, the list's origin [m]
-        double crushed = 0.0;       ///< MotionBounds::crushed of both bodies [m]
-        double range = -1.0;        ///< all whose gap was at most this are listed [m]; < 0: none
-        double unit = 1.0;          ///< of the list [m]
+        Mat3 rotation = Mat3::Zero();     ///< PairView's
+        Vec3 translation = Vec3::Zero();  ///< PairView's, the list's origin [m]
+        double crushed = 0.0;             ///< MotionBounds::crushed of both bodies [m]
+        double range = -1.0;  ///< all whose gap was at most this are listed [m]; < 0: none
+        double unit = 1.0;    ///< of the list [m]
 
         std::size_t axis = 0;  ///< of separation(), when last measured
 
