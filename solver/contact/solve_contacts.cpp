@@ -52,8 +52,9 @@ void drive_through(Bodies& bodies, Constraint& c) {
     if (speed > 0.0) c.impact_tangent = -(c.friction * c.max_impulse / speed) * sliding;
     // A ship that answers in some direction is slowed down by the friction, not turned round.
     if (c.a != static_cast<std::int32_t>(kShip) || !bodies.ship.free || speed == 0.0) return;
-    const double yields = ship_response(bodies.ship, c.arm_a, sliding / speed);
-    if (yields * c.friction * c.max_impulse > speed) c.impact_tangent = -1.0 / yields * sliding;
+    const double inverse_effective_mass = ship_response(bodies.ship, c.arm_a, sliding / speed);
+    if (inverse_effective_mass * c.friction * c.max_impulse > speed)
+        c.impact_tangent = -1.0 / inverse_effective_mass * sliding;
     push_ship(bodies, c, c.impact_tangent);
 }
 

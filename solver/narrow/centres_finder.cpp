@@ -76,7 +76,7 @@ double list_spheres(const std::vector<Near>& near, std::vector<ListedSpheres>& o
     for (const Near& n : near)
         farthest =
             std::max({farthest, n.a.cwiseAbs().maxCoeff(), n.b.cwiseAbs().maxCoeff(), n.radii});
-    // Sixteen bits per number halve the memory that a look at the list reads. Their rounding is a
+    // Sixteen bits per number halve the memory that a pass over the list reads. Their rounding is a
     // known share of the unit, by which the caller widens its range.
     const double unit = near.empty() ? 1.0 : farthest / ListedSpheres::kMost;
     const auto in_units = [&](double length) {
@@ -123,15 +123,15 @@ void measure(const PairView& view, const TouchingSpheres& touching, double most,
 }
 
 // Is no sphere of one body nearer to the other than their separation()?
-bool are_held(const PairView& view) {
-    return view.shape_a.bounds.hold_spheres && view.shape_b.bounds.hold_spheres &&
+bool enclose_spheres(const PairView& view) {
+    return view.shape_a.bounds.enclose_spheres && view.shape_b.bounds.enclose_spheres &&
            view.scene.crushed.is_whole(view.pair.a) && view.scene.crushed.is_whole(view.pair.b);
 }
 
 }  // namespace
 
-CentresFinder::Found CentresFinder::look(std::size_t k, BodyPair pair, const Step& step,
-                                         Batch& batch) {
+CentresFinder::Found CentresFinder::measure_pair(std::size_t k, BodyPair pair, const Step& step,
+                                                 Batch& batch) {
     const auto& [scene, motion, dt, margin] = step;
     Found found{&batch, batch.candidates.size(), 0, batch.listed.size(), 0, false};
     const PairView view(scene, pair);
@@ -141,7 +141,7 @@ CentresFinder::Found CentresFinder::look(std::size_t k, BodyPair pair, const Ste
     const double crushed = motion.crushed(pair.a) + motion.crushed(pair.b);
     double gone = gone_since(row, view, crushed - row.crushed);
     std::span<const ListedSpheres> listed = lists_.listed(k);
-    const bool held = are_held(view);
+    const bool enclosed = enclose_spheres(view);
     // A gap shrinks by at most `gone`, so the list holds all gaps up to range - gone. The step
     // needs those up to `most`: where that is more, the list is renewed.
     if (gone + most > row.range) {
@@ -150,7 +150,7 @@ CentresFinder::Found CentresFinder::look(std::size_t k, BodyPair pair, const Ste
         // used up the distance.
         if (apart > most) {
             lists_.clearance(k) =
-                path + (apart - kRounding - margin) / (held ? 1.0 : separation_share(view));
+                path + (apart - kRounding - margin) / (enclosed ? 1.0 : separation_share(view));
             return found;
         }
         // The list reaches as far as the pair closes in some steps, at least as far as in this
@@ -185,7 +185,7 @@ CentresFinder::Found CentresFinder::look(std::size_t k, BodyPair pair, const Ste
     // A sphere represents surface beyond its body's rim, but bodies that are apart have no
     // contact. Where spheres stay within their hulls the touching spheres already prove that
     // the hulls are near enough, and the separation need not be computed.
-    if (found.count > 0 && !(held && least + rounding + kRounding <= most) &&
+    if (found.count > 0 && !(enclosed && least + rounding + kRounding <= most) &&
         separation(view, most, row.axis) > most)
         found.count = 0;
     return found;
@@ -195,7 +195,7 @@ void CentresFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
                          const MotionBounds& motion, double dt, double margin,
                          std::vector<Contact>& out) {
     const std::uint64_t call = next_call();
-    lists_.match(pairs);
+    lists_.carry_over(pairs);
     // To check a clearance costs a comparison; only the pairs whose bodies have used theirs up
     // are measured.
     pairs_to_measure_.resize(pairs.size());
@@ -210,8 +210,8 @@ void CentresFinder::find(const Scene& scene, const std::vector<BodyPair>& pairs,
     pairs_to_measure_.resize(count);
     found_.resize(pairs_to_measure_.size());
     parallel_for(pairs_to_measure_.size(), kSerialLists, [&](std::size_t n) {
-        found_[n] = look(pairs_to_measure_[n], pairs[pairs_to_measure_[n]],
-                         {scene, motion, dt, margin}, batch_of<Batch>(call));
+        found_[n] = measure_pair(pairs_to_measure_[n], pairs[pairs_to_measure_[n]],
+                                 {scene, motion, dt, margin}, batch_of<Batch>(call));
     });
     touching_.clear();
     // Gathered in the order of the pairs: the contacts do not depend on which thread found

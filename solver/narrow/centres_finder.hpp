@@ -44,7 +44,7 @@ private:
         const MotionBounds& motion;
         double dt, margin;
     };
-    Found look(std::size_t k, BodyPair pair, const Step& step, Batch& batch);
+    Found measure_pair(std::size_t k, BodyPair pair, const Step& step, Batch& batch);
 
     // kept between steps: no allocation once warm
     SphereLists lists_;

@@ -67,7 +67,7 @@ public:
         places_[next_] = {at, clearance * clearance};
         next_ = (next_ + 1) % places_.size();
     }
-    bool hold(const Vec3& p) const {
+    bool contain(const Vec3& p) const {
         return std::any_of(places_.begin(), places_.end(), [&](const Place& place) {
             return (p - place.at).squaredNorm() < place.clearance_sq;
         });
@@ -146,7 +146,7 @@ double add_side(const PairView& view, const Side& side, double slack,
     for_each_seat(view, side, [&](std::int32_t sphere, const Vec3& seat) {
         // Depth changes by at most the distance of two seats: most seats of a side that lies
         // outside are ruled out by the last few nearest points.
-        if (clear.hold(seat)) return;
+        if (clear.contain(seat)) return;
         const Foot foot = side.in.surface->closest(seat);
         const double depth = foot.inside ? foot.distance : -foot.distance;
         deepest = std::max(deepest, depth);

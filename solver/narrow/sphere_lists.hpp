@@ -31,16 +31,16 @@ public:
     };
 
     /// Keeps the rows of pairs that are in the new list, too; both lists are sorted.
-    void match(const std::vector<BodyPair>& pairs);
+    void carry_over(const std::vector<BodyPair>& pairs);
 
-    /// Row of the k-th pair of the last match().
+    /// Row of the k-th pair of the last carry_over().
     Row& row(std::size_t k) { return rows_[k]; }
 
     /// Pair k has no contact while the sum of its bodies' MotionBounds::path_after_step is less
     /// than this [m].
     double& clearance(std::size_t k) { return clearance_[k]; }
 
-    /// Spheres of pair k that may touch; good until the next keep() or match().
+    /// Spheres of pair k that may touch; valid until the next keep() or carry_over().
     std::span<const ListedSpheres> listed(std::size_t k) const {
         return {blocks_.data() + rows_[k].first, rows_[k].count};
     }

@@ -117,8 +117,8 @@ void RunStatistics::carry(CheckpointFile& file) {
     file.carry("tally.contacts", contacts_);
     file.carry("tally.contacts_max", contacts_max_);
     file.carry("tally.max_overlap", max_overlap_);
-    file.carry("tally.looks", looks_);
-    file.carry("tally.doubtful_looks", doubtful_looks_);
+    file.carry("tally.looks", checks_);
+    file.carry("tally.doubtful_looks", doubtful_checks_);
     file.carry("tally.unseen_overlap", unseen_overlap_);
     file.carry("tally.unseen_time", unseen_time_);
     file.carry("tally.unseen_a", unseen_a_);

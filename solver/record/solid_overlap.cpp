@@ -11,7 +11,7 @@ namespace ice {
 namespace {
 
 // With more vertices than this [-] the seats stand for them: those of a fine hull are as close as
-// its seats. More takes longer for each look; fewer may miss corners of coarse hulls.
+// its seats. More takes longer for each check; fewer may miss corners of coarse hulls.
 constexpr std::size_t kMostVertices = 1000;
 
 // A point this near to a surface is on it, and in the body [m]: rounding. Larger counts bodies that
@@ -96,7 +96,7 @@ Deepest deepest_point(const Scene& scene, std::int32_t a, std::int32_t b, const 
     const Eigen::AlignedBox3d seen = box_in(scene, b, a);
     Vec3 shallow = Vec3::Zero();  // a point in b's axes; none within `room` of it is deeper
     double room = 0.0;
-    const auto look = [&](const Vec3& at, std::int32_t sphere) {  // -1: a vertex
+    const auto add_point = [&](const Vec3& at, std::int32_t sphere) {  // -1: a vertex
         // two cheap tests first; a point within `room` of a shallow one is no deeper than the
         // best
         if (!seen.contains(at)) return;
@@ -116,11 +116,11 @@ Deepest deepest_point(const Scene& scene, std::int32_t a, std::int32_t b, const 
         const Vec3 center = points.center[k] + scene.crushed.displacement_of(a, k);
         // crushing has driven it right through its body
         if (!scene.crushed.is_whole(a) && !points.box.contains(center)) continue;
-        look(center + points.radius[k] * points.normal[k], k);
+        add_point(center + points.radius[k] * points.normal[k], k);
     }
     // a vertex of crushed ice may be gone
     if (scene.crushed.is_whole(a) && points.mesh.vertices.size() <= kMostVertices)
-        for (const Vec3& v : points.mesh.vertices) look(v, -1);
+        for (const Vec3& v : points.mesh.vertices) add_point(v, -1);
     return out;
 }
 

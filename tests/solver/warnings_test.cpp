@@ -216,8 +216,8 @@ TEST_CASE("overlaps that no contact knows are warned of with the loads on the hu
         for (int k = 0; k < 10; ++k) {
             StepRecord r;
             r.regions = {{1, 0, Vec3(-97, 0, 0)}, {2, 0, Vec3(-3, 5, 0)}};
-            tally.add_look({0.04, pairs}, r, 2.0 + k);
-            tally.add_look({0.04, {{0, 1, 0.03}}}, r, 0.5);  // before: of no effect on the mean
+            tally.add_check({0.04, pairs}, r, 2.0 + k);
+            tally.add_check({0.04, {{0, 1, 0.03}}}, r, 0.5);  // before: of no effect on the mean
         }
         return summary_of(tally, [](int, StepRecord&) { return kNothing; });
     };
@@ -244,7 +244,7 @@ TEST_CASE("what was warned of at the start gets the verdict of what the run meas
         RunStatistics tally(options());
         StepRecord r = step_of(100.0);
         r.regions = {{1, 0, Vec3(-97, 0, 0)}, {2, 0, Vec3(-3, 0, 0)}};
-        tally.add_look({0.06, pairs}, r, 2.0);
+        tally.add_check({0.06, pairs}, r, 2.0);
         for (int k = 0; k < 1000; ++k) tally.add(r, 2.0 + 0.01 * k, 0.01, {});
         Summary s;
         s.warnings = {{"spheres are far apart"}, {"the ship meets the ice late", true, 0.3}};
