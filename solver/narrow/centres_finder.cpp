@@ -44,8 +44,8 @@ namespace {
 // A pair takes about a microsecond: below this many, waking threads costs more than they save.
 constexpr std::size_t kSerialLists = 128;
 
-// A pair's spheres are listed as far ahead as it goes in so many steps, within these bounds: more
-// keeps more spheres, less has to be found anew sooner. Tried: 0.15, 0.3 and 0.4 radii (15, 4 and
+// A pair's list covers its motion in so many steps, within these bounds: a longer one has more
+// spheres to measure, a shorter one is renewed sooner. Tried: 0.15, 0.3 and 0.4 radii (15, 4 and
 // 7 % slower), more than 0.8 (no gain). Contacts are the same.
 constexpr double kListLookAhead = 5.0;                         // steps [-]
 constexpr double kLeastListShare = 0.6, kMostListShare = 0.8;  // of the ice's radius

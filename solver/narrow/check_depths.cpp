@@ -50,9 +50,9 @@ Crossing crossing_of(const PairView& view, const Candidate& c) {
 // Bounds a candidate's depth by the meshes; false where its point is not in the other solid (of a
 // crossing: not in both).
 bool bound_by_meshes(const PairView& view, Candidate& c) {
-    // A move of a point's depth takes it out of the other solid: the contact is no deeper. It may
-    // be less deep along the normal, so the smaller depth counts. Other points of the bodies may
-    // be deeper: the seats find them.
+    // A point that moves by its depth along its way out has left the other solid, so the contact
+    // is at most as deep; along the normal it may be less deep. The bodies may be deeper at other
+    // points: the seats find those.
     const auto [a, b] = view.pair;
     double depth = 0.0;
     if (c.gap.crossing) {

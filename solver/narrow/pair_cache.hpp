@@ -89,7 +89,7 @@ private:
         Mat3 seat_rotation = Mat3::Zero();
         Vec3 seat_translation = Vec3::Zero();
         double seat_clearance = -1.0;
-        double seat_clearance_left = 0.0;  // of it, when last compared [m]
+        double seat_clearance_left = 0.0;  // what was left of it when last compared [m]
     };
     // A lower bound of the distance of row k's solids; exact where it is at most `enough` [m].
     static double separation_of_solids(Row& row, const PairView& view, double enough);
