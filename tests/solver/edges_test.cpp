@@ -206,7 +206,7 @@ TEST_CASE("an edge on a face's corner, between two of its spheres, crosses the f
           Near(0.06 * 0.06));
     CHECK((found.reference_is_a ? found.incident_offset_sq : found.reference_offset_sq) ==
           Near(2 * 0.03 * 0.03));
-    // where the corner is over all that the edge's sphere stands for it is the probe
+    // where the corner is over all that the edge's sphere stands for it is the incident one
     edge.patch_radius = corner.patch_radius = 0.1;
     CHECK_FALSE(measure_gap_surface(edge, corner, true).crossing);
 }

@@ -176,7 +176,7 @@ TEST_CASE("spheres in convex bodies are no nearer than the bodies' separation",
     }
 }
 
-TEST_CASE("a form with a dent, or whose spheres reach far out of it, holds none",
+TEST_CASE("a form with a dent, or whose spheres reach far out of it, encloses no spheres",
           "[narrow][degenerate]") {
     SphereSet set = test::make_box_set(kSize, 0.05, 0.1);
     REQUIRE(build_shape(set, false).bounds.enclose_spheres);
