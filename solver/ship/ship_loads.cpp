@@ -108,13 +108,12 @@ void add_mooring(const Case& p, const ShipRig& rig, const ShipState& s, const Ma
     const ShipAngles turned = s.angles - rig.anchor_angles;
     Vec3 along;  // the motions' generalised moments
     for (int k = 0; k < 3; ++k) {
-        const auto translation = static_cast<std::size_t>(k), rotation = translation + 3;
-        out.mooring.force[k] =
-            p.mooring.pretension[translation] - p.mooring.stiffness[translation] * off[k];
-        along[k] = p.mooring.pretension[rotation] - p.mooring.stiffness[rotation] * turned[k];
+        const auto linear = static_cast<std::size_t>(k), angular = linear + 3;
+        out.mooring.force[k] = p.mooring.pretension[linear] - p.mooring.stiffness[linear] * off[k];
+        along[k] = p.mooring.pretension[angular] - p.mooring.stiffness[angular] * turned[k];
     }
     // The angles are no components of one rotation. M is the moment whose parts along the three
-    // axes of the angles are the generalised moments, rotation^T M = along.
+    // axes of the angles are the generalised moments, axes.rotation^T M = along.
     if (!along.isZero(0.0)) out.mooring.moment = axes.rotation.transpose().inverse() * along;
 }
 
